@@ -1,0 +1,15 @@
+# Everything elastogear links, as imported targets; used by the build and by the installed package.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET GLOBAL petsc>=3.18)
+pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET GLOBAL slepc>=3.18)
+find_package(MPI REQUIRED COMPONENTS C)
+set(HDF5_PREFER_PARALLEL ON)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+if(NOT TARGET METIS::METIS)
+  find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
+  find_library(METIS_LIBRARY metis REQUIRED)
+  add_library(METIS::METIS UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(METIS::METIS PROPERTIES IMPORTED_LOCATION "${METIS_LIBRARY}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${METIS_INCLUDE_DIR}")
+endif()

@@ -1,0 +1,31 @@
+#pragma once
+// The one exception a user can cause, and the check that throws it.
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace elastogear {
+
+/// What a user can cause: says what, where, which value, and what is allowed.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws Error with the parts streamed into one message.
+template <class... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+  std::ostringstream message;
+  message.precision(10);
+  (message << ... << parts);
+  throw Error(message.str());
+}
+
+/// Throws Error unless `condition` holds. The parts are only formatted on failure.
+template <class... Parts>
+void require(bool condition, const Parts&... parts) {
+  if (!condition) fail(parts...);
+}
+
+}  // namespace elastogear

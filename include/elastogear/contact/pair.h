@@ -1,0 +1,72 @@
+#pragma once
+// Contact of two deformed surfaces: coarse search (k-DOP trees), fine search (closest point, one winner per
+// slave node), penalty forces and their consistent tangent.
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::contact {
+
+enum class Update {
+  refit,
+  realign
+};  ///< how trees follow the motion: leaf-up from the deformed surface, or k-DOPs rotated by hull points
+enum class Penalty { per_node, per_area };
+
+struct Settings {
+  int k = 24;  ///< k-DOP directions: 6, 14, 18, 24, 26
+  Update update = Update::refit;
+  Penalty penalty = Penalty::per_area;
+  double stiffness =
+      0;  ///< per_node: N/m, per_area: Pa/m; 0 = from material and cell size (c_f of both sides in series)
+  int slave = 0;              ///< which of the two surfaces gives the slave nodes
+  bool two_pass = false;      ///< swap the roles in a second pass, half the stiffness each
+  double depth = 0;           ///< m, deepest penetration still taken for contact; 0 = from the face size
+  double normal_angle = 100;  ///< deg, slave and master normals must be at least this far apart
+  bool full_tangent = true;   ///< with the geometric part; false: normal part only
+};
+
+/// Deformed surface of one body: node positions in the BRF and the BRF's placement.
+struct SurfaceState {
+  Eigen::Matrix3Xd x_B;  ///< 3 x n_s, m, X + Phi q in the BRF
+  Eigen::Vector3d r_WB;  ///< m
+  Eigen::Matrix3d R_WB;
+};
+
+/// One active contact. Local vectors have 15 rows: slave node, then the four master nodes (x y z each, world
+/// frame). Local force F = -c_p g_n [n; -N_i n]; tangent dF = -W k W' dx.
+struct ContactPoint {
+  int slave_side = 0;
+  int slave_node = 0;
+  int face = 0;
+  Eigen::Vector4i master_node;
+  Eigen::Vector4d N;  ///< master shape functions at the closest point
+  double xi = 0, eta = 0;
+  Eigen::Vector3d n;  ///< outward master normal, world frame
+  double g_n = 0;     ///< m, < 0
+  Eigen::Vector3d f;  ///< N, force on the slave node, world frame
+  double energy = 0;  ///< J, c_p g_n^2 / 2
+  Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, 5> W;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5> k;  ///< symmetric, N/m
+};
+
+/// Two surfaces in contact, with their trees and the faces found last. The surfaces must outlive the pair.
+class Pair {
+ public:
+  Pair(const model::Surface& a, const model::Surface& b, const Settings& settings);
+  ~Pair();
+  Pair(Pair&&) noexcept;
+
+  /// Active contacts in the given configuration, ordered by pass and slave node (deterministic).
+  /// Throws Error when a surface has non-finite positions.
+  std::vector<ContactPoint> detect(const SurfaceState& a, const SurfaceState& b);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace elastogear::contact

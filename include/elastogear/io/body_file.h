@@ -1,0 +1,44 @@
+#pragma once
+// The body file (HDF5, docs/file_format.md): written by reduction, read by dynamics and recovery.
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/model/elastic_body.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::io {
+
+/// What a body file holds beside the ElasticBody: all that whole-field recovery needs.
+struct BodySource {
+  mesh::Mesh mesh;
+  std::vector<model::MaterialRegion> regions;
+  model::Element element = model::Element::incompatible;
+  std::vector<int> free_dof;  ///< n_free, ascending: dof 3 node + direction that is not restrained
+};
+
+/// Writes a body file under a temporary name beside `path`; finish() renames it. Destroyed unfinished:
+/// nothing stays.
+class BodyWriter {
+ public:
+  BodyWriter(const std::string& path, int n_nodes, int n_modes);
+  ~BodyWriter();
+  /// Full displacement vector of one mode, 3 n_nodes (node-major), stored as row `index` of /modes/Phi.
+  void write_mode(int index, const Eigen::VectorXd& phi);
+  void finish(const model::ElasticBody& body, const BodySource& source);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// Reads and validates; throws Error naming the file and what is wrong with it.
+model::ElasticBody read_body(const std::string& path);
+BodySource read_body_source(const std::string& path);
+/// Whole-body displacement Phi q, 3 x n_nodes, m, BRF. Streams /modes/Phi (modal) or scatters q (full).
+Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q);
+
+}  // namespace elastogear::io

@@ -1,0 +1,80 @@
+#pragma once
+// What a body file means: everything that dynamics, contact and recovery need to know of one elastic body.
+// Immutable once built. SI units; all vectors in the body reference frame (BRF), which is the mesh's frame.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace elastogear::model {
+
+/// modal: eigenmodes of the restrained body. full: unit basis, every free finite-element degree of freedom.
+enum class Basis { modal, full };
+
+/// Rows of a basis at selected nodes, blocks of 3 (Phi: x y z) or 6 (Psi: xx yy zz xy yz xz) per node.
+using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using BasisRows = std::variant<DenseRows, SparseRows>;  ///< dense: reduced bases, sparse: full basis
+
+Eigen::Index row_count(const BasisRows& rows);
+/// rows * q
+Eigen::VectorXd multiply(const BasisRows& rows, const Eigen::VectorXd& q);
+/// (Phi q) at one node: rows 3 node .. 3 node + 2
+Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q);
+/// h += Phi(node)' f
+void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h);
+
+/// Inertia of the free node cloud, from the consistent mass M_f (restrained nodes carry mass too).
+/// S_t, S_r: rigid unit translations and rotations about the BRF origin.
+struct Inertia {
+  double m = 0;                                  ///< kg, m I = S_t' M_f S_t
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();   ///< m, centre of mass
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();   ///< kg m^2, about the BRF origin, S_r' M_f S_r
+  Eigen::Matrix<double, Eigen::Dynamic, 3> C_l;  ///< n_q x 3, Phi' M_f S_t
+  Eigen::Matrix<double, Eigen::Dynamic, 3> C_r;  ///< n_q x 3, Phi' M_f S_r
+  Eigen::Matrix<double, 9, Eigen::Dynamic> S_1;  ///< 9 x n_q, row 3a+b: integral of rho X_a phi_b dV
+};
+
+/// First-order change of J with the elastic coordinate k: J(q) = J + sum_k q_k J_1(k), from S_1.
+Eigen::Matrix3d J_1(const Inertia& inertia, int k);
+
+struct Surface {
+  std::vector<int> node;   ///< n_s, mesh numbers of the surface's nodes, ascending
+  Eigen::Matrix3Xd X;      ///< 3 x n_s, m
+  Eigen::Matrix4Xi face;   ///< 4 x n_f, local node numbers (0..n_s-1), counter-clockwise from outside;
+                           ///< a triangle repeats its third node
+  std::vector<int> group;  ///< n_f, index into group_name
+  std::vector<std::string> group_name;  ///< face sets ("tooth_07_left"): the "areas of contact"
+  Eigen::VectorXd c_f;                  ///< n_f, Pa/m, stiffness E A / V of the cell behind each face
+  BasisRows Phi;                        ///< 3 n_s x n_q
+};
+
+struct Stress {
+  std::vector<int> node;                         ///< n_e, mesh numbers of the evaluation nodes, ascending
+  Eigen::Matrix3Xd X;                            ///< 3 x n_e, m
+  std::map<std::string, std::vector<int>> sets;  ///< name -> local numbers (0..n_e-1)
+  BasisRows Psi;                                 ///< 6 n_e x n_q, Pa per q, order xx yy zz xy yz xz
+};
+
+struct ElasticBody {
+  std::string name;
+  Basis basis = Basis::modal;
+  Inertia inertia;
+  Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending; empty for full
+  Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2)
+  double alpha = 0, beta = 0;            ///< 1/s, s: D_r = alpha M_r + beta K_r
+  Surface surface;
+  Stress stress;
+  std::map<std::string, std::string> provenance;  ///< options in force, program and library versions
+
+  Eigen::Index n_q() const { return K_r.rows(); }
+};
+
+/// Throws Error naming `source` when shapes disagree, numbers are not finite, the inertia is not positive or
+/// node numbers are out of range.
+void validate(const ElasticBody& body, const std::string& source);
+
+}  // namespace elastogear::model

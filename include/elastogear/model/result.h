@@ -1,0 +1,68 @@
+#pragma once
+// What a result file means: the state of all bodies, contact pairs and energies at one time. SI units.
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace elastogear::model {
+
+struct BodyState {
+  Eigen::Vector3d r_WB;  ///< m, BRF origin in the world
+  Eigen::Matrix3d R_WB;  ///< body to world
+  Eigen::VectorXd s, s_dot,
+      s_ddot;  ///< joint coordinates (revolute: angle in rad) and their rates; empty when fixed
+  Eigen::VectorXd q, q_dot, q_ddot;  ///< n_q, elastic coordinates and their rates
+};
+
+/// One active contact of a pair.
+struct ContactRecord {
+  int slave_side = 0;      ///< which of the pair's two surfaces owns the slave node (0 or 1)
+  int slave_node = 0;      ///< local number in that surface
+  int face = 0;            ///< master face, local number in the other surface
+  double xi = 0, eta = 0;  ///< closest point on the master face
+  double g_n = 0;          ///< m, negative = penetration
+  Eigen::Vector3d f;       ///< N, force on the slave node, world frame
+};
+
+/// One contact pair a:b. Forces are those on body b; body a receives the opposite.
+struct PairState {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N, world frame
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, about the world origin
+  int count = 0;                                     ///< number of active contacts
+  double penetration = 0;                            ///< m, largest (>= 0)
+  std::vector<Eigen::Vector3d>
+      group_force[2];  ///< N, force on body b through each face group of surface a, b
+  std::vector<ContactRecord> contacts;
+};
+
+struct Energies {
+  double kinetic = 0, elastic = 0, contact = 0;  ///< J, stored
+  double dissipated = 0, work = 0;               ///< J, since the start: by damping; by loads
+  double balance = 0;                            ///< J, stored + dissipated - work - stored at the start
+};
+
+struct Snapshot {
+  double time = 0;  ///< s
+  std::vector<BodyState> bodies;
+  std::vector<PairState> pairs;
+  Energies energy;
+};
+
+/// What does not change over a run.
+struct ResultHeader {
+  struct Body {
+    std::string name, file, joint;  ///< file: the body file as given by the user
+  };
+  struct Pair {
+    std::string name;                        ///< "worm:wheel"
+    int body[2] = {0, 1};                    ///< indices into bodies
+    std::vector<std::string> group_name[2];  ///< face groups of both surfaces
+  };
+  std::vector<Body> bodies;
+  std::vector<Pair> pairs;
+  std::map<std::string, std::string> provenance;
+};
+
+}  // namespace elastogear::model

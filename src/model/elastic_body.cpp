@@ -1,0 +1,101 @@
+#include "elastogear/model/elastic_body.h"
+
+#include <algorithm>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::model {
+namespace {
+
+template <class Rows>
+bool finite(const Rows& rows) {
+  if constexpr (std::is_same_v<Rows, DenseRows>) {
+    return rows.allFinite();
+  } else {
+    return Eigen::Map<const Eigen::VectorXd>(rows.valuePtr(), rows.nonZeros()).allFinite();
+  }
+}
+
+bool finite(const BasisRows& rows) {
+  return std::visit([](const auto& r) { return finite(r); }, rows);
+}
+
+bool in_range(const std::vector<int>& numbers, int n) {
+  return std::all_of(numbers.begin(), numbers.end(), [n](int i) { return i >= 0 && i < n; });
+}
+
+void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::string& source) {
+  require(std::isfinite(inertia.m) && inertia.m > 0, source, ": mass is ", inertia.m,
+          " kg, must be positive");
+  require(inertia.c.allFinite() && inertia.J.allFinite(), source,
+          ": centre of mass or inertia is not finite");
+  require(inertia.C_l.rows() == n_q && inertia.C_r.rows() == n_q && inertia.S_1.cols() == n_q, source,
+          ": C_l, C_r, S_1 do not have n_q = ", n_q, " entries");
+  require(inertia.C_l.allFinite() && inertia.C_r.allFinite() && inertia.S_1.allFinite(), source,
+          ": inertia coupling terms are not finite");
+}
+
+void validate_surface(const Surface& surface, Eigen::Index n_q, const std::string& source) {
+  const auto n_s = static_cast<int>(surface.node.size());
+  const auto n_f = surface.face.cols();
+  require(surface.X.cols() == n_s && row_count(surface.Phi) == 3 * n_s, source,
+          ": surface arrays do not all have ", n_s, " nodes");
+  require(std::visit([](const auto& r) { return r.cols(); }, surface.Phi) == n_q || n_s == 0, source,
+          ": surface basis does not have n_q = ", n_q, " columns");
+  require(n_f == 0 || (surface.face.minCoeff() >= 0 && surface.face.maxCoeff() < n_s), source,
+          ": surface face names a node outside 0..", n_s - 1);
+  require(static_cast<Eigen::Index>(surface.group.size()) == n_f && surface.c_f.size() == n_f, source,
+          ": surface groups or stiffnesses do not have ", n_f, " entries");
+  require(in_range(surface.group, static_cast<int>(surface.group_name.size())), source,
+          ": surface group number out of range");
+  require(surface.X.allFinite() && surface.c_f.allFinite() && finite(surface.Phi), source,
+          ": surface data is not finite");
+}
+
+void validate_stress(const Stress& stress, Eigen::Index n_q, const std::string& source) {
+  const auto n_e = static_cast<int>(stress.node.size());
+  require(stress.X.cols() == n_e && row_count(stress.Psi) == 6 * n_e, source,
+          ": stress arrays do not all have ", n_e, " nodes");
+  require(std::visit([](const auto& r) { return r.cols(); }, stress.Psi) == n_q || n_e == 0, source,
+          ": stress modes do not have n_q = ", n_q, " columns");
+  require(finite(stress.Psi), source, ": stress modes are not finite");
+  for (const auto& [name, members] : stress.sets)
+    require(in_range(members, n_e), source, ": stress set '", name, "' names a node outside 0..", n_e - 1);
+}
+
+}  // namespace
+
+Eigen::Index row_count(const BasisRows& rows) {
+  return std::visit([](const auto& r) { return r.rows(); }, rows);
+}
+
+Eigen::VectorXd multiply(const BasisRows& rows, const Eigen::VectorXd& q) {
+  return std::visit([&](const auto& r) -> Eigen::VectorXd { return r * q; }, rows);
+}
+
+Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q) {
+  return std::visit([&](const auto& r) -> Eigen::Vector3d { return r.middleRows(3 * node, 3) * q; }, Phi);
+}
+
+void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
+  std::visit([&](const auto& r) { h += r.middleRows(3 * node, 3).transpose() * f; }, Phi);
+}
+
+Eigen::Matrix3d J_1(const Inertia& inertia, int k) {
+  // S(a, b) = integral of rho X_a phi_b dV;  J_1 = 2 tr(S) I - S - S'
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> S(inertia.S_1.col(k).data());
+  return 2 * S.trace() * Eigen::Matrix3d::Identity() - S - S.transpose();
+}
+
+void validate(const ElasticBody& body, const std::string& source) {
+  const Eigen::Index n_q = body.n_q();
+  require(n_q >= 0 && body.K_r.cols() == n_q && body.M_r.rows() == n_q && body.M_r.cols() == n_q, source,
+          ": reduced matrices are not square of size n_q = ", n_q);
+  require(body.alpha >= 0 && body.beta >= 0, source, ": damping alpha = ", body.alpha, ", beta = ", body.beta,
+          " must not be negative");
+  validate_inertia(body.inertia, n_q, source);
+  validate_surface(body.surface, n_q, source);
+  validate_stress(body.stress, n_q, source);
+}
+
+}  // namespace elastogear::model
