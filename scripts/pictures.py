@@ -1,0 +1,226 @@
+#!/usr/bin/python3
+"""Pictures drawn by VTK, without a screen:
+
+  pictures.py stress FIELD.vtu --out PICTURE.png
+      von Mises stress on the deformed body, whole and around the largest stress
+  pictures.py boxes --surfaces A.vtu B.vtu --boxes A.vtp B.vtp --levels 1 5 leaf --out PICTURE.png
+      bodies with the k-DOPs of some tree levels, whole and where the bodies meet; all files in one frame
+"""
+import argparse
+import os
+import sys
+
+import numpy as np
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+import scene
+
+BODY_COLOURS = ("#D55E00", "#0072B2")  # vermillion and blue, told apart by colour-blind readers too
+WARP_SHARE = 0.04  # of the body's size: how large the largest displacement is drawn
+ZOOM_SHARE = 0.09  # of the body's size: half height of the enlarged view
+SHOWN_QUANTILE = 0.999  # colours end there, so that a few contact nodes do not hide the roots
+MARGIN = 1.1  # around a whole body
+BOX_HEIGHT, BOX_ASPECT = 675, 1.1  # of one panel with boxes: pixels, width/height
+GAP = 0.004  # between panels, of the picture's width
+
+
+def read(path):
+    """The data set of a .vtu or .vtp file; exits with a message when it cannot be read."""
+    readers = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".vtp": vtk.vtkXMLPolyDataReader}
+    extension = os.path.splitext(path)[1]
+    if extension not in readers or not os.path.isfile(path):
+        sys.exit(f"{path}: expected an existing .vtu or .vtp file")
+    reader = readers[extension]()
+    reader.SetFileName(path)
+    reader.Update()
+    if reader.GetOutput().GetNumberOfPoints() == 0:
+        sys.exit(f"{path}: holds no points")
+    return reader.GetOutput()
+
+
+def array(attributes, name, path):
+    found = attributes.GetArray(name)
+    if found is None:
+        sys.exit(f"{path}: has no data array '{name}'")
+    return vtk_to_numpy(found)
+
+
+def surface_of(data):
+    """Outer surface of a volume mesh, with its point data."""
+    extract = vtk.vtkDataSetSurfaceFilter()
+    extract.SetInputData(data)
+    extract.Update()
+    return extract.GetOutput()
+
+
+def points_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData())
+
+
+def diagonal(points):
+    return float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
+def unit(vector):
+    return vector / np.linalg.norm(vector)
+
+
+def round_down(value):
+    """Largest 1, 2 or 5 times a power of ten that is not above `value`."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(power * max(digit for digit in (1, 2, 5) if digit * power <= value))
+
+
+def warp_scale(displacement, size):
+    """Enlargement with which the largest displacement is drawn at about WARP_SHARE of the body's size."""
+    largest = np.linalg.norm(displacement, axis=1).max()
+    return round_down(WARP_SHARE * size / largest) if largest > 0 else 1.0
+
+
+def move_points(surface, displacement):
+    moved = points_of(surface) + displacement
+    surface.GetPoints().SetData(numpy_to_vtk(moved, deep=True))
+
+
+def colour_by(surface, values):
+    scalars = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    surface.GetPointData().SetScalars(scalars)
+
+
+def colour_range(stress):
+    """Where the colours end: a round number beyond all but the few largest stresses."""
+    shown = float(np.quantile(stress, SHOWN_QUANTILE))
+    step = round_down(shown / 5) if shown > 0 else 0.2
+    return step * np.ceil(shown / step)
+
+
+def axis_of(points):
+    """Axis of a worm (its longest) or of a wheel (its shortest principal direction)."""
+    variance, direction = np.linalg.eigh(np.cov(points.T))
+    return direction[:, 2 if variance[2] - variance[1] > variance[1] - variance[0] else 0]
+
+
+def fitted_view(points, direction, up, aspect):
+    """View that shows all points in a panel of this width/height ratio."""
+    right = unit(np.cross(up, direction))
+    frame = np.array([right, np.cross(direction, right), direction])
+    seen = points @ frame.T
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    half_height = MARGIN * max(high[1] - low[1], (high[0] - low[0]) / aspect) / 2
+    return scene.View((low + high) / 2 @ frame, diagonal(points) * direction, up, half_height)
+
+
+def stress_views(points, hot, aspect):
+    """Whole body and hot spot, seen from outside, obliquely to the axis, which lies horizontally."""
+    axis = axis_of(points)
+    offset = hot - (points.max(axis=0) + points.min(axis=0)) / 2
+    axis = axis if axis @ offset >= 0 else -axis
+    radial = unit(offset - (axis @ offset) * axis)
+    direction = unit(radial + 0.45 * axis)
+    up = unit(np.cross(direction, axis))
+    whole = fitted_view(points, direction, up, aspect)
+    return whole, scene.View(hot, diagonal(points) * direction, up, ZOOM_SHARE * diagonal(points))
+
+
+def draw_stress(options):
+    surface = surface_of(read(options.field))
+    stress = array(surface.GetPointData(), "von_mises", options.field) / 1e6
+    displacement = array(surface.GetPointData(), "displacement", options.field)
+    scale = options.scale or warp_scale(displacement, diagonal(points_of(surface)))
+    move_points(surface, scale * displacement)
+    colour_by(surface, stress)
+    table = scene.colour_table(colour_range(stress))
+    views = stress_views(points_of(surface), points_of(surface)[stress.argmax()], aspect=1.2)
+    name = options.title or os.path.splitext(os.path.basename(options.field))[0].replace("_", " ")
+    picture = scene.Picture(1800, 1000)
+    picture.panel((0, 0.16, 0.5, 0.92), [scene.scalar_actor(surface, table, edges=False)], views[0])
+    picture.panel((0.5, 0.16, 1, 0.92), [scene.scalar_actor(surface, table, edges=True)], views[1])
+    picture.panel((0, 0.92, 1, 1), [scene.text_actor(f"{name}: deformation x {scale:g}", 0.5, 0.5, 32)])
+    label = f"von Mises stress in MPa (largest: {stress.max():.3g} MPa)"
+    picture.panel((0, 0, 1, 0.16), [scene.text_actor(label, 0.5, 0.8, 28), scene.colour_bar(table)])
+    picture.save(options.out)
+
+
+def boxes_of_level(boxes, level, path):
+    """The polytopes of one tree level; level "leaf" stands for the deepest one in the file."""
+    levels = array(boxes.GetCellData(), "level", path)
+    wanted = levels.max() if level == "leaf" else int(level)
+    if wanted not in levels:
+        sys.exit(f"{path}: has no boxes of level {wanted}, only of {', '.join(map(str, np.unique(levels)))}")
+    select = vtk.vtkThreshold()
+    select.SetInputData(boxes)
+    select.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "level")
+    select.SetLowerThreshold(wanted)
+    select.SetUpperThreshold(wanted)
+    select.Update()
+    return surface_of(select.GetOutput())
+
+
+def meeting_point(surfaces):
+    """Centre of the region that the bounding boxes of all surfaces share."""
+    low = np.max([points_of(surface).min(axis=0) for surface in surfaces], axis=0)
+    high = np.min([points_of(surface).max(axis=0) for surface in surfaces], axis=0)
+    return (low + high) / 2
+
+
+def box_views(surfaces, boxes, direction, aspect):
+    points = np.vstack([points_of(data) for data in surfaces + boxes])
+    up, distance = np.array([0.0, 0.0, 1.0]), diagonal(points) * direction
+    zoom = scene.View(meeting_point(surfaces), distance, up, ZOOM_SHARE * diagonal(points))
+    return fitted_view(points, direction, up, aspect), zoom
+
+
+def box_legend(paths):
+    names = [os.path.splitext(os.path.basename(path))[0].replace("_", " ") for path in paths]
+    places = np.linspace(0, 1, len(names) + 2)[1:-1]
+    return [scene.text_actor(name, x, 0.5, 34, colour) for name, x, colour in zip(names, places, BODY_COLOURS)]
+
+
+def draw_boxes(options):
+    surfaces = [surface_of(read(path)) for path in options.surfaces]
+    trees = [read(path) for path in options.boxes]
+    views = box_views(surfaces, trees, unit(np.array(options.view)), aspect=BOX_ASPECT)
+    picture = scene.Picture(round(BOX_HEIGHT * BOX_ASPECT * len(options.levels)), round(BOX_HEIGHT / 0.45))
+    for i, level in enumerate(options.levels):
+        left, right = i / len(options.levels), (i + 1) / len(options.levels)
+        actors = [scene.plain_actor(surface, scene.GREY, 0.45) for surface in surfaces]
+        for boxes, path, colour in zip(trees, options.boxes, BODY_COLOURS):
+            actors.append(scene.box_actor(boxes_of_level(boxes, level, path), colour, 0.25))
+        picture.panel((left, 0.5, right, 0.95), actors, views[0])
+        picture.panel((left + GAP, 0.05, right - GAP, 0.5), actors, views[1])
+        title = "leaves" if level == "leaf" else f"level {level}"
+        picture.panel((left, 0.95, right, 1), [scene.text_actor("k-DOPs, " + title, 0.5, 0.5, 34)])
+    picture.panel((0, 0, 1, 0.05), box_legend(options.boxes))
+    picture.save(options.out)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    stress = commands.add_parser("stress", help="von Mises stress on the deformed body")
+    stress.add_argument("field", help=".vtu with point data displacement (m) and von_mises (Pa)")
+    stress.add_argument("--scale", type=float, default=0, help="enlargement of the displacement; default: automatic")
+    stress.add_argument("--title", help="default: the file name")
+    stress.set_defaults(draw=draw_stress)
+    boxes = commands.add_parser("boxes", help="bodies with their k-DOPs")
+    boxes.add_argument("--surfaces", nargs="+", required=True, metavar="FILE", help=".vtu or .vtp of each body")
+    boxes.add_argument("--boxes", nargs="+", required=True, metavar="FILE", help=".vtp with cell data level")
+    boxes.add_argument("--levels", nargs="+", default=["1", "5", "leaf"], help="tree levels, root 0; leaf: the deepest")
+    boxes.add_argument("--view", nargs=3, type=float, default=(0.35, 0.75, 0.55), metavar=("X", "Y", "Z"),
+                       help="from where to look")
+    boxes.set_defaults(draw=draw_boxes)
+    for command in (stress, boxes):
+        command.add_argument("--out", required=True, help="PNG file to write")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    if not os.environ.get("DISPLAY"):  # VTK 9.1 draws off screen only beside a display server
+        os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, *sys.argv])
+    options.draw(options)
+
+
+if __name__ == "__main__":
+    main()

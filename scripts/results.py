@@ -1,0 +1,87 @@
+"""Reads what the plots and the summary need from elastogear's result, stress and body files (docs/file_format.md)."""
+import sys
+
+import h5py
+import numpy as np
+
+COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
+
+
+def open_file(path, kind):
+    """Opens an HDF5 file whose root attribute `format` is "elastogear <kind>"; exits with a message otherwise."""
+    try:
+        file = h5py.File(path, "r")
+    except OSError as error:
+        sys.exit(f"{path}: cannot be read as HDF5: {error}")
+    found = text(file.attrs.get("format", "nothing"))
+    if found != f"elastogear {kind}":
+        sys.exit(f"{path}: holds {found}, expected an elastogear {kind} file")
+    return file
+
+
+def text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def key_values(items, option):
+    """["worm=a", "wheel=b"] -> {"worm": "a", "wheel": "b"}."""
+    for item in items:
+        if "=" not in item:
+            sys.exit(f"{option} {item}: expected <body>=<value>")
+    return dict(item.split("=", 1) for item in items)
+
+
+def group_forces(pair, side="b"):
+    """Magnitude of the contact force over time (N) for each face group of one surface: {name: n_t}."""
+    group = pair[f"groups/{side}"]
+    magnitude = np.linalg.norm(group["force"][:], axis=2)
+    return {text(name): magnitude[:, i] for i, name in enumerate(group["name"][:])}
+
+
+def total_force(pair):
+    """Magnitude of a pair's resulting contact force over time, N."""
+    return np.linalg.norm(pair["force"][:], axis=1)
+
+
+class NodeStress:
+    """Stress history of one node of one body, Pa: tensor (n_t x 6, order COMPONENTS), von_mises, rankine."""
+
+    def __init__(self, group, body, set_name, row):
+        self.body, self.set, self.node = body, set_name, int(group["nodes"][row])
+        self.tensor = group["stress"][:, row, :]
+        self.von_mises = group["von_mises"][:, row]
+        self.rankine = group["rankine"][:, row]
+
+
+def stress_sets(file):
+    """Yields (body, set, group) for every evaluated node set of a stress file."""
+    for body in file:
+        if isinstance(file[body], h5py.Group):
+            for name, group in file[body].items():
+                if isinstance(group, h5py.Group) and "stress" in group:
+                    yield body, name, group
+
+
+def most_stressed_nodes(file):
+    """For each body the node with the largest von Mises peak: {body: NodeStress}."""
+    best = {}
+    for body, name, group in stress_sets(file):
+        peaks = group["von_mises"][:].max(axis=0)
+        row = int(peaks.argmax())
+        if body not in best or peaks[row] > best[body][0]:
+            best[body] = (peaks[row], NodeStress(group, body, name, row))
+    return {body: entry[1] for body, entry in best.items()}
+
+
+def chosen_node(file, body, node):
+    """NodeStress of mesh node number `node`; exits with a message when it was not evaluated."""
+    for owner, name, group in stress_sets(file):
+        rows = np.flatnonzero(group["nodes"][:] == node)
+        if owner == body and rows.size:
+            return NodeStress(group, body, name, int(rows[0]))
+    sys.exit(f"{file.filename}: body '{body}' has no stress at node {node}")
+
+
+def mode_count(body_file):
+    """Number of modes of a body file, 0 for the full basis."""
+    return len(body_file["modes/frequency"]) if "modes/frequency" in body_file else 0
