@@ -1,0 +1,36 @@
+#pragma once
+// Stress from reduced coordinates: sigma = Psi q (paper Eq. 12), and the equivalent stresses engineers read.
+// Components in the body frame, Pa, order xx yy zz xy yz xz.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::recovery {
+
+using StressVector = Eigen::Matrix<double, 6, 1>;
+
+/// sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + yz^2 + xz^2)), Pa.
+double von_mises(const StressVector& sigma);
+
+/// Largest principal stress (Rankine), Pa.
+double rankine(const StressVector& sigma);
+
+/// Histories at n nodes over n_t times.
+struct StressHistory {
+  std::vector<int> node;      ///< n, mesh numbers
+  Eigen::MatrixXd stress;     ///< 6 n x n_t, Pa
+  Eigen::MatrixXd von_mises;  ///< n x n_t, Pa
+  Eigen::MatrixXd rankine;    ///< n x n_t, Pa
+};
+
+/// Equivalent stresses, n x n_t, of a 6 n x n_t history.
+Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress);
+Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress);
+
+/// sigma(t) = Psi q(t) at the evaluation nodes `members` (local numbers in stress.node); q: n_q x n_t.
+StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,
+                             const Eigen::MatrixXd& q);
+
+}  // namespace elastogear::recovery

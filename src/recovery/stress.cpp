@@ -1,0 +1,48 @@
+#include "elastogear/recovery/stress.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace elastogear::recovery {
+namespace {
+
+Eigen::MatrixXd for_each_tensor(const Eigen::MatrixXd& stress, double (*scalar)(const StressVector&)) {
+  Eigen::MatrixXd result(stress.rows() / 6, stress.cols());
+  for (Eigen::Index t = 0; t < result.cols(); ++t)
+    for (Eigen::Index i = 0; i < result.rows(); ++i) result(i, t) = scalar(stress.col(t).segment<6>(6 * i));
+  return result;
+}
+
+}  // namespace
+
+double von_mises(const StressVector& s) {
+  const double normal = std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2);
+  const double shear = s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+  return std::sqrt(normal / 2 + 3 * shear);
+}
+
+double rankine(const StressVector& s) {
+  Eigen::Matrix3d tensor;
+  tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
+Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, von_mises); }
+Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, rankine); }
+
+StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,
+                             const Eigen::MatrixXd& q) {
+  StressHistory history;
+  history.stress.resize(6 * static_cast<Eigen::Index>(members.size()), q.cols());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    history.node.push_back(stress.node[members[i]]);
+    std::visit(
+        [&](const auto& Psi) { history.stress.middleRows<6>(6 * i) = Psi.middleRows(6 * members[i], 6) * q; },
+        stress.Psi);
+  }
+  history.von_mises = von_mises(history.stress);
+  history.rankine = rankine(history.stress);
+  return history;
+}
+
+}  // namespace elastogear::recovery
