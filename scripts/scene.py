@@ -144,6 +144,7 @@ class Picture:
         grab = vtk.vtkWindowToImageFilter()
         grab.SetInput(self.window)
         grab.ReadFrontBufferOff()
+        grab.ShouldRerenderOff()
         writer = vtk.vtkPNGWriter()
         writer.SetFileName(path)
         writer.SetInputConnection(grab.GetOutputPort())
