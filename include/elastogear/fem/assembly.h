@@ -1,0 +1,22 @@
+#pragma once
+// Distributed stiffness K and consistent mass M over the free displacements, block size 3.
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/base/progress.h"
+#include "elastogear/fem/share.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::fem {
+
+/// K in N/m, M in kg, both symmetric positive definite when the restraint holds the body, and of one
+/// sparsity. Only the upper triangle is stored (MATSBAIJ) unless `-mat_type` says otherwise.
+struct Matrices {
+  UniqueMat K, M;
+};
+
+/// Restraint by elimination: restrained displacements have no rows. Collective. The share's regions index
+/// `regions`; Jacobians must be positive (require_positive_jacobians).
+Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::MaterialRegion>& regions,
+                  model::Element element, const Progress& progress = {});
+
+}  // namespace elastogear::fem
