@@ -1,0 +1,23 @@
+#pragma once
+// Mesh files by their extension: Gmsh 4.1 (.msh) and Abaqus/CalculiX (.inp).
+
+#include <string>
+#include <vector>
+
+#include "elastogear/mesh/mesh.h"
+
+namespace elastogear::mesh {
+
+/// What a reader left out, one line each, e.g. "*MATERIAL (line 12)". Nothing is dropped without an entry.
+struct ReadReport {
+  std::vector<std::string> ignored;
+};
+
+/// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm).
+/// Error naming file and place for anything that is not a complete mesh of 8-node hexahedra.
+Mesh read_mesh(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
+
+/// Validates and writes (binary for .msh), coordinates in m; the file appears only when complete.
+void write_mesh(const std::string& path, const Mesh& mesh);
+
+}  // namespace elastogear::mesh

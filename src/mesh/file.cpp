@@ -1,0 +1,36 @@
+#include "elastogear/mesh/file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "elastogear/base/error.h"
+#include "elastogear/mesh/inp.h"
+#include "elastogear/mesh/msh.h"
+
+namespace elastogear::mesh {
+namespace {
+
+std::string extension(const std::string& path) {
+  std::string text = std::filesystem::path(path).extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  require(text == ".msh" || text == ".inp", path, ": unknown mesh format '", text,
+          "', allowed are .msh (Gmsh 4.1) and .inp (Abaqus/CalculiX)");
+  return text;
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report) {
+  require(std::isfinite(unit_in_m) && unit_in_m > 0, path, ": unit of length is ", unit_in_m,
+          " m, must be positive");
+  return extension(path) == ".msh" ? read_msh(path, unit_in_m, report) : read_inp(path, unit_in_m, report);
+}
+
+void write_mesh(const std::string& path, const Mesh& mesh) {
+  if (extension(path) == ".msh") return write_msh(path, mesh);
+  write_inp(path, mesh);
+}
+
+}  // namespace elastogear::mesh

@@ -1,0 +1,129 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "box_mesh.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/mesh/inp.h"
+
+using namespace elastogear;
+using namespace elastogear::mesh;
+using testing::HasSubstr;
+
+namespace {
+
+const std::string kCube = R"(*Heading
+ one cube
+** a comment
+*Node, nset=All
+ 10, 0., 0., 0.
+ 11, 1., 0., 0.
+ 12, 1., 1., 0.
+ 13, 0, 1, 0
+ 20, +0, 0, 1.0D+0
+ 21, 1, 0, 1
+ 22, 1, 1, 1
+ 23, 0, 1, 1
+*Element, type=C3D8R,
+ elset=Body
+ 5, 10, 11, 12, 13,
+ 20, 21, 22, 23
+*Nset, nset=Mixed
+ Bottom, 23
+*Nset, nset=bottom, generate
+ 10, 13, 1
+*Nset, nset=odd, generate
+ 11, 13, 2
+*Elset, elset=again
+ BODY
+*Surface, name=skin
+ body, S1
+ 5, s6
+*Material, name=steel
+*Elastic
+ 2.1e11, 0.3
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+struct Inp : testing::Test {
+  Folder folder{"inp"};
+  std::string path = folder / "cube.inp";
+
+  Mesh read(const std::string& content, ReadReport* report = nullptr) const {
+    write_file(path, content);
+    return read_inp(path, 1, report);
+  }
+  std::string error(const std::string& from, const std::string& to) const {
+    try {
+      read(replaced(kCube, from, to));
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+};
+
+TEST_F(Inp, reads_nodes_elements_and_sets) {
+  const Mesh mesh = read(kCube);
+  ASSERT_EQ(mesh.n_nodes(), 8);
+  EXPECT_EQ(mesh.X.col(4), Eigen::Vector3d(0, 0, 1));
+  ASSERT_EQ(mesh.cells.size(), 1);
+  EXPECT_THAT(mesh.cells[0], testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+  EXPECT_THAT(mesh.node_sets.at("All"), testing::SizeIs(8));
+  EXPECT_EQ(mesh.node_sets.at("bottom"), (std::vector{0, 1, 2, 3}));
+  EXPECT_EQ(mesh.node_sets.at("odd"), (std::vector{1, 3}));
+  EXPECT_EQ(mesh.node_sets.at("Mixed"), (std::vector{0, 1, 2, 3, 7}));
+  EXPECT_EQ(mesh.cell_sets.at("again"), std::vector{0});
+  EXPECT_EQ(mesh.face_sets.at("skin"), (std::vector<Face>{{0, 3, 2, 1}, {3, 0, 4, 7}}));
+}
+
+TEST_F(Inp, reports_every_keyword_it_ignores) {
+  ReadReport report;
+  read(kCube, &report);
+  EXPECT_THAT(report.ignored,
+              testing::ElementsAre("*HEADING (line 1)", "*MATERIAL (line 28)", "*ELASTIC (line 29)"));
+}
+
+TEST_F(Inp, tells_that_the_last_line_may_be_cut) {
+  ReadReport report;
+  read(kCube.substr(0, kCube.size() - 1), &report);
+  EXPECT_THAT(report.ignored.front(), HasSubstr("truncated?"));
+}
+
+TEST_F(Inp, names_line_and_value_of_hostile_input) {
+  EXPECT_THAT(error(" 11, 1., 0., 0.", " 11, nan, 0., 0."), HasSubstr("line 6: a coordinate is nan"));
+  EXPECT_THAT(error(" 11, 1., 0., 0.", " 11, 1e999, 0., 0."), HasSubstr("a coordinate is '1e999'"));
+  EXPECT_THAT(error(" 11, 1., 0., 0.", " 11, 1., 0."), HasSubstr("line 6"));
+  EXPECT_THAT(error(" 11, 1., 0., 0.", " 12, 1., 0., 0."), HasSubstr("node 12 is defined twice"));
+  EXPECT_THAT(error(" 11, 1., 0., 0.", " -11, 1., 0., 0."), HasSubstr("node number -11"));
+  EXPECT_THAT(error("20, 21, 22, 23", "20, 21, 22, 24"), HasSubstr("element 5 names node 24"));
+  EXPECT_THAT(error("20, 21, 22, 23", "20, 21, 22"), HasSubstr("has 7 nodes"));
+  EXPECT_THAT(error("20, 21, 22, 23", "20, 21, 22, 23, 24"), HasSubstr("has 9 nodes"));
+  EXPECT_THAT(error("C3D8R", "C3D10"), HasSubstr("element type 'C3D10'"));
+  EXPECT_THAT(error("Bottom, 23", "Bottom, 24"), HasSubstr("line 18: node set 'Mixed' names node 24"));
+  EXPECT_THAT(error("Bottom, 23", "Bottum, 23"), HasSubstr("line 18: unknown node set 'BOTTUM'"));
+  EXPECT_THAT(error("Bottom, 23", "Mixed"), HasSubstr("contains itself"));
+  EXPECT_THAT(error(" 10, 13, 1", " 10, 2000000000000, 1"),
+              HasSubstr("line 20: node set 'bottom' names node 14"));
+  EXPECT_THAT(error(" 10, 13, 1", " 10, 13, 0"), HasSubstr("step of a range is 0"));
+  EXPECT_THAT(error("5, s6", "5, s7"), HasSubstr("face S1..S6, found 's7'"));
+  EXPECT_THAT(error("5, s6", "6, s6"), HasSubstr("names element 6"));
+  EXPECT_THAT(error("body, S1", "corpus, S1"), HasSubstr("unknown element set 'corpus'"));
+  EXPECT_THAT(error("*Heading", "*Include, input=a.inp"), HasSubstr("*INCLUDE is not supported"));
+  EXPECT_THAT(error("*Heading", "1, 2"), HasSubstr("line 1: data before the first keyword"));
+}
+
+TEST_F(Inp, refuses_names_that_the_format_confuses) {
+  Mesh mesh = box_mesh({1, 1, 1});
+  mesh.node_sets["seat"] = {0};
+  mesh.node_sets["SEAT"] = {1};
+  EXPECT_THROW(write_inp(path, mesh), Error);
+  mesh.node_sets.erase("SEAT");
+  mesh.node_sets["a,b"] = {1};
+  EXPECT_THROW(write_inp(path, mesh), Error);
+}
+
+}  // namespace

@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "box_mesh.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/mesh/msh.h"
+
+using namespace elastogear;
+using namespace elastogear::mesh;
+using testing::HasSubstr;
+
+namespace {
+
+// A cube as Gmsh itself may write it: gaps in the numbering, several blocks, lines and triangles, a
+// quadrangle turned inward, a group without a name.
+const std::string kCube = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Comments
+nothing
+$EndComments
+$PhysicalNames
+2
+2 7 "top side"
+3 9 "all"
+$EndPhysicalNames
+$Entities
+1 0 1 1
+1 0 0 0 1 4
+1 0 0 0 1 1 1 1 -7 0
+1 0 0 0 1 1 1 1 9 1 1
+$EndEntities
+$Nodes
+2 8 10 50
+2 1 1 4
+40
+50
+20
+30
+0 1 1 0 0
+0 0 1 0 0
+1 0 1 0 0
+1 1 1 0 0
+3 1 0 4
+10
+11
+12
+13
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+$EndNodes
+$Elements
+4 4 1 9
+0 1 15 1
+1 11
+1 1 1 1
+2 10 11
+2 1 3 1
+3 50 40 30 20
+3 1 5 1
+9 10 11 12 13 50 20 30 40
+$EndElements
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+struct Msh : testing::Test {
+  Folder folder{"msh"};
+  std::string path = folder / "cube.msh";
+
+  Mesh read(const std::string& content, ReadReport* report = nullptr) const {
+    write_file(path, content);
+    return read_msh(path, 1, report);
+  }
+  std::string error(const std::string& from, const std::string& to) const {
+    try {
+      read(replaced(kCube, from, to));
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+};
+
+TEST_F(Msh, numbers_nodes_by_their_tags) {
+  const Mesh mesh = read(kCube);
+  ASSERT_EQ(mesh.n_nodes(), 8);
+  EXPECT_EQ(mesh.X.col(1), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(mesh.X.col(4), Eigen::Vector3d(1, 0, 1));
+  EXPECT_EQ(mesh.X.col(7), Eigen::Vector3d(0, 0, 1));
+}
+
+TEST_F(Msh, turns_faces_outward) {
+  const Mesh mesh = read(kCube);
+  const Face& top = mesh.face_sets.at("top side").at(0);
+  const Eigen::Vector3d a = mesh.X.col(top[1]) - mesh.X.col(top[0]),
+                        b = mesh.X.col(top[2]) - mesh.X.col(top[1]);
+  EXPECT_EQ(a.cross(b), Eigen::Vector3d(0, 0, 1));
+}
+
+TEST_F(Msh, reads_groups_without_a_name_and_reports_what_it_leaves_out) {
+  ReadReport report;
+  const Mesh mesh = read(kCube, &report);
+  EXPECT_EQ(mesh.node_sets.at("physical_4"), std::vector<int>{1});
+  EXPECT_EQ(mesh.cell_sets.at("all"), std::vector<int>{0});
+  EXPECT_THAT(report.ignored,
+              testing::UnorderedElementsAre("lines that are in no set (1)", "section $Comments (1)"));
+}
+
+TEST_F(Msh, keeps_nodes_and_cells_in_the_order_of_their_tags_whatever_the_blocks) {
+  const Mesh mesh = box_mesh_with_sets({4, 3, 2});
+  write_msh(path, mesh, Encoding::ascii);
+  EXPECT_THAT(read_file(path), HasSubstr("$Entities\n3 0 3 5\n"));  // volumes: the sets' combinations
+  EXPECT_TRUE(equal(read_msh(path), mesh));
+}
+
+TEST_F(Msh, names_line_and_value_of_hostile_input) {
+  EXPECT_THAT(error("4.1 0 8", "2.2 0 8"), HasSubstr("line 2: MSH version 2.2"));
+  EXPECT_THAT(error("4.1 0 8", "4.1 0 4"), HasSubstr("data size 4"));
+  EXPECT_THAT(error("1 0 0\n1 1 0", "1 nan 0\n1 1 0"), HasSubstr("line 35: a node coordinate is nan"));
+  EXPECT_THAT(error("1 0 0\n1 1 0", "1 inf 0\n1 1 0"), HasSubstr("a node coordinate is inf"));
+  EXPECT_THAT(error("1 0 0\n1 1 0", "1 0,5 0\n1 1 0"), HasSubstr("'0,5', must be a number"));
+  EXPECT_THAT(error("50 20 30 40\n$End", "50 20 30 41\n$End"), HasSubstr("cell 9 names node 41"));
+  EXPECT_THAT(error("\n3 50 40 30 20", "\n3 50 40 30 21"), HasSubstr("face set 'top side' names node 21"));
+  EXPECT_THAT(error("\n12\n", "\n11\n"), HasSubstr("node 11 is defined twice"));
+  EXPECT_THAT(error("\n12\n", "\n-12\n"), HasSubstr("a node number is '-12'"));
+  EXPECT_THAT(error("\n12\n", "\n0\n"), HasSubstr("a node number is 0"));
+  EXPECT_THAT(error("3 1 0 4", "3 1 0 3"), HasSubstr("line"));
+  EXPECT_THAT(error("3 1 0 4", "3 1 0 5"), HasSubstr("line"));
+  EXPECT_THAT(error("2 8 10 50", "2 9 10 50"), HasSubstr("announces 9 nodes and holds 8"));
+  EXPECT_THAT(error("2 8 10 50", "2 999999999999999 10 50"), HasSubstr("only"));
+  EXPECT_THAT(error("4 4 1 9", "4 5 1 9"), HasSubstr("announces 5 elements and holds 4"));
+  EXPECT_THAT(error("3 1 5 1", "3 1 4 2"), HasSubstr("element type 4"));
+  EXPECT_THAT(error("\n3 50 40 30 20", "\n3 50 40 30 10"), HasSubstr("no face of a cell"));
+  EXPECT_THAT(error("9 10 11 12 13", "9 10 11 12 12"), HasSubstr("repeats a node"));
+  EXPECT_THAT(error("$Elements", "$Nodes"), HasSubstr("a second section $Nodes"));
+  EXPECT_THAT(error("4 4 1 9", "3 3 1 9"), HasSubstr("expected $EndElements"));
+}
+
+}  // namespace
