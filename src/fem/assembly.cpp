@@ -7,10 +7,9 @@
 namespace elastogear::fem {
 namespace {
 
-// Number of blocks in each owned block row: with columns of this rank or others, and the same from the
-// diagonal upwards.
+// Number of blocks in each owned block row: in columns of this rank, and in columns of others.
 struct BlockCounts {
-  std::vector<PetscInt> diagonal, other, diagonal_upper, other_upper;
+  std::vector<PetscInt> diagonal, other;
 };
 
 // Per owned block row the cells at its node.
@@ -27,7 +26,6 @@ std::vector<std::vector<int>> cells_of_rows(const Share& share) {
 BlockCounts count_blocks(const Share& share) {
   BlockCounts counts;
   std::vector<int> columns;
-  int row = share.row_begin;
   for (const auto& cells : cells_of_rows(share)) {
     columns.clear();
     for (int cell : cells)
@@ -35,17 +33,10 @@ BlockCounts count_blocks(const Share& share) {
         if (share.row[node] >= 0) columns.push_back(share.row[node]);
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-    const auto below = [&](int limit) {
-      return std::lower_bound(columns.begin(), columns.end(), limit) - columns.begin();
-    };
-    const auto n = static_cast<PetscInt>(columns.size());
-    const auto begin = static_cast<PetscInt>(below(share.row_begin)),
-               end = static_cast<PetscInt>(below(share.row_end));
-    counts.diagonal.push_back(end - begin);
-    counts.other.push_back(n - (end - begin));
-    counts.diagonal_upper.push_back(end - static_cast<PetscInt>(below(row)));
-    counts.other_upper.push_back(n - end);
-    ++row;
+    const auto mine = std::lower_bound(columns.begin(), columns.end(), share.row_end) -
+                      std::lower_bound(columns.begin(), columns.end(), share.row_begin);
+    counts.diagonal.push_back(static_cast<PetscInt>(mine));
+    counts.other.push_back(static_cast<PetscInt>(columns.size()) - counts.diagonal.back());
   }
   return counts;
 }
@@ -55,11 +46,8 @@ UniqueMat create_matrix(MPI_Comm comm, const Share& share, const BlockCounts& co
   const PetscInt n = 3 * (share.row_end - share.row_begin);
   check(MatCreate(comm, A.out()));
   check(MatSetSizes(A, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
-  check(MatSetType(A, MATSBAIJ));
-  check(MatSetFromOptions(A));
-  check(MatXAIJSetPreallocation(A, 3, counts.diagonal.data(), counts.other.data(),
-                                counts.diagonal_upper.data(), counts.other_upper.data()));
-  check(MatSetOption(A, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE));
+  check(MatSetType(A, MATAIJ));
+  check(MatXAIJSetPreallocation(A, 3, counts.diagonal.data(), counts.other.data(), nullptr, nullptr));
   check(MatSetOption(A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
   check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
   check(MatSetOption(A, MAT_SPD, PETSC_TRUE));

@@ -8,8 +8,9 @@
 
 namespace elastogear::fem {
 
-/// K in N/m, M in kg, both symmetric positive definite when the restraint holds the body, and of one
-/// sparsity. Only the upper triangle is stored (MATSBAIJ) unless `-mat_type` says otherwise.
+/// K in N/m, M in kg, MATAIJ, both symmetric positive definite when the restraint holds the body, and of one
+/// sparsity. (Not MATSBAIJ, which would halve the memory: PETSc 3.18's MatAXPY adds only a part of it on
+/// several ranks, and with it K - sigma M is wrong.)
 struct Matrices {
   UniqueMat K, M;
 };
