@@ -43,7 +43,9 @@ def included_module(include, folder):
     """Module that an include names, seen from a file in `folder`; None for system and third-party headers."""
     if include.startswith("elastogear/"):
         return module_of("include/" + include)
-    return module_of(os.path.normpath(os.path.join(folder, include))) if include.startswith("..") else None
+    if include.startswith(".."):
+        return module_of(os.path.normpath(os.path.join(folder, include)))
+    return include.split("/")[0] if include.split("/")[0] in LEVEL else None  # src/ is an include path of the programs
 
 
 def source_files(repository):

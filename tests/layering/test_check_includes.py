@@ -53,6 +53,7 @@ class CheckIncludes(unittest.TestCase):
 
     def test_private_headers_of_other_modules_are_seen(self):
         self.assert_forbidden("src/mesh/a.cpp", '"../fem/quadrature.h"')
+        self.assert_forbidden("src/mesh/a.cpp", '"fem/quadrature.h"')
 
     def test_unknown_modules_are_reported(self):
         self.assert_forbidden("src/utils/a.cpp", '"elastogear/base/error.h"')
