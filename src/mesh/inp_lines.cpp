@@ -75,7 +75,7 @@ Keyword InpLines::keyword() {
   split(line_.substr(1), fields_);
   result.name = fields_.empty() ? "" : upper(fields_[0]);
   for (std::size_t i = 1; i < fields_.size(); ++i) add_parameter(result, fields_[i]);
-  while (line_.ends_with(',') && next()) {
+  while (continues() && next()) {
     if (at_keyword()) fail_here("a keyword line ends with a comma but does not continue");
     split(line_, fields_);
     for (std::string_view field : fields_) add_parameter(result, field);

@@ -35,6 +35,8 @@ class InpLines {
   Keyword keyword();
   /// Next line that is data; false (and nothing consumed) at a keyword or the end.
   bool next_data();
+  /// Does the current line end with a comma?
+  bool continues() const { return line_.ends_with(','); }
   /// The current data line's fields without surrounding blanks; a trailing comma adds no field.
   const std::vector<std::string_view>& fields();
 

@@ -28,7 +28,8 @@ struct Raw {
   std::vector<Tag> node;
   std::vector<double> X;  // 3 per node
   std::vector<Tag> cell;
-  std::vector<Tag> cell_node;  // 8 per cell
+  std::vector<Tag> cell_node;       // 8 per cell
+  std::vector<Tag> other_elements;  // shells, beams, ...: left out, but sets may name them
   InpSets node_sets{"node"}, cell_sets{"element"};
   InpNames surfaces;
   std::vector<SurfaceLine> surface_lines;
@@ -73,18 +74,37 @@ std::vector<Tag> read_element(InpLines& in) {
   return numbers;
 }
 
+// Numbers of shells, beams and the like, which no body is made of.
+std::vector<Tag> read_other_elements(InpLines& in) {
+  std::vector<Tag> numbers;
+  for (bool continued = false; in.next_data(); continued = in.continues())
+    if (!continued) numbers.push_back(in.parse_field<Tag>(in.fields().at(0), "an element number"));
+  return numbers;
+}
+
+std::vector<Tag> read_hexahedra(InpLines& in, Raw& raw) {
+  std::vector<Tag> cells;
+  while (in.next_data()) {
+    const std::vector<Tag> numbers = read_element(in);
+    cells.push_back(numbers[0]);
+    raw.cell_node.insert(raw.cell_node.end(), numbers.begin() + 1, numbers.end());
+  }
+  raw.cell.insert(raw.cell.end(), cells.begin(), cells.end());
+  return cells;
+}
+
 void read_elements(InpLines& in, const Keyword& key, Raw& raw) {
   const std::string type = key.has("TYPE") ? upper(key.parameters.at("TYPE")) : "";
   const bool hex8 = type.starts_with("C3D8");
-  if (!hex8) in.fail_here("element type '", type, "', allowed are C3D8 and its variants (C3D8I, C3D8R, ...)");
-  const auto first = raw.cell.size();
-  while (in.next_data()) {
-    const std::vector<Tag> numbers = read_element(in);
-    raw.cell.push_back(numbers[0]);
-    raw.cell_node.insert(raw.cell_node.end(), numbers.begin() + 1, numbers.end());
+  if (type.empty() || (!hex8 && type.starts_with("C3D")))
+    in.fail_here("element type '", type,
+                 "', of solids only C3D8 and its variants (C3D8I, C3D8R, ...) are read");
+  const std::vector<Tag> elements = hex8 ? read_hexahedra(in, raw) : read_other_elements(in);
+  if (!hex8) {
+    raw.other_elements.insert(raw.other_elements.end(), elements.begin(), elements.end());
+    raw.ignored.push_back("*ELEMENT, TYPE=" + type + " (line " + std::to_string(key.line) + ")");
   }
-  if (key.has("ELSET"))
-    raw.cell_sets.add(key.parameters.at("ELSET"), {raw.cell.begin() + first, raw.cell.end()}, key.line);
+  if (key.has("ELSET")) raw.cell_sets.add(key.parameters.at("ELSET"), elements, key.line);
 }
 
 void read_set(InpLines& in, const Keyword& key, InpSets& sets) {
@@ -192,8 +212,9 @@ Mesh build(const std::string& path, const InpLines& in, const Raw& raw, double u
     mesh.cells.add(CellType::hex8, corner);
   }
   const auto fail_at = [&](int line, const std::string& text) { in.fail_at(line, text); };
-  mesh.node_sets = raw.node_sets.resolve(nodes, fail_at);
-  mesh.cell_sets = raw.cell_sets.resolve(cells, fail_at);
+  mesh.node_sets = raw.node_sets.resolve(nodes, {}, fail_at);
+  mesh.cell_sets =
+      raw.cell_sets.resolve(cells, {raw.other_elements.begin(), raw.other_elements.end()}, fail_at);
   build_surfaces(in, raw, cells, mesh);
   validate(mesh, path);
   return mesh;

@@ -48,6 +48,7 @@ const std::string* InpSets::spelling(const std::string& name) const {
 struct InpSets::Resolution {
   const InpSets& sets;
   const TagTable& table;
+  const std::set<std::int64_t>& left_out;
   const Fail& fail_at;
   std::map<std::string, std::vector<int>> members = {};  // by name in capitals
   std::map<std::string, Mark> marks = {};
@@ -55,10 +56,10 @@ struct InpSets::Resolution {
   void add_range(const Range& range, const std::string& set, std::vector<int>& out) const {
     for (std::int64_t tag = range.first; tag <= range.last; tag += range.step) {
       const int i = table.find(tag);
-      if (i < 0)
+      if (i < 0 && !left_out.contains(tag))
         fail_at(range.line, sets.kind_ + " set '" + *sets.spelling(set) + "' names " + sets.kind_ + " " +
                                 std::to_string(tag) + ", which the file does not define");
-      out.push_back(i);
+      if (i >= 0) out.push_back(i);
       if (range.step > range.last - tag) break;
     }
   }
@@ -84,8 +85,10 @@ struct InpSets::Resolution {
   }
 };
 
-std::map<std::string, std::vector<int>> InpSets::resolve(const TagTable& table, const Fail& fail_at) const {
-  Resolution resolution{*this, table, fail_at};
+std::map<std::string, std::vector<int>> InpSets::resolve(const TagTable& table,
+                                                         const std::set<std::int64_t>& left_out,
+                                                         const Fail& fail_at) const {
+  Resolution resolution{*this, table, left_out, fail_at};
   std::map<std::string, std::vector<int>> result;
   for (const auto& [name, set] : sets_) result[*spelling(name)] = resolution.resolve(name, 0);
   return result;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,10 @@ class InpSets {
   const std::string* spelling(const std::string& name) const;
 
   using Fail = std::function<void(int line, const std::string& text)>;  ///< must throw
-  /// Sorted 0-based members by name. Sets may be named before they are defined.
-  std::map<std::string, std::vector<int>> resolve(const TagTable& table, const Fail& fail_at) const;
+  /// Sorted 0-based members by name, without those `left_out`. Sets may be named before they are defined.
+  std::map<std::string, std::vector<int>> resolve(const TagTable& table,
+                                                  const std::set<std::int64_t>& left_out,
+                                                  const Fail& fail_at) const;
 
  private:
   struct Range {

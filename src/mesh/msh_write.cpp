@@ -118,8 +118,8 @@ void write_head(Out& out, std::size_t blocks, std::size_t items) {
   out.end_line();
 }
 
-void write_block(Out& out, int dim, int tag, int type, std::size_t items) {
-  for (int value : {dim, tag, type}) out.integer(value);
+void write_block(Out& out, std::array<int, 3> dim_tag_type, std::size_t items) {
+  for (int value : dim_tag_type) out.integer(value);
   out.size(items);
   out.end_line();
 }
@@ -127,7 +127,7 @@ void write_block(Out& out, int dim, int tag, int type, std::size_t items) {
 void write_nodes(Out& out, const Mesh& mesh) {
   out.begin("Nodes");
   write_head(out, 1, mesh.n_nodes());
-  write_block(out, 3, 1, 0, mesh.n_nodes());
+  write_block(out, {3, 1, 0}, mesh.n_nodes());
   for (int i = 0; i < mesh.n_nodes(); ++i) {
     out.size(i + 1);
     out.end_line();
@@ -146,28 +146,51 @@ void write_element(Out& out, std::size_t tag, const Nodes& nodes) {
   out.end_line();
 }
 
-// Cells keep their number as tag, so that their order survives the grouping into volumes.
-void write_elements(Out& out, const Mesh& mesh, const std::vector<Volume>& volume) {
-  std::size_t total = mesh.cells.size();
-  for (const auto& [name, faces] : mesh.face_sets) total += faces.size();
-  for (const auto& [name, nodes] : mesh.node_sets) total += nodes.size();
-  out.begin("Elements");
-  write_head(out, mesh.node_sets.size() + mesh.face_sets.size() + volume.size(), total);
-  int entity = 0;
-  for (const Volume& v : volume) {
-    write_block(out, 3, ++entity, kHexahedron, v.cells.size());
-    for (int cell : v.cells) write_element(out, cell + 1, mesh.cells[cell]);
+struct Element {
+  std::size_t tag;
+  std::span<const int> nodes;
+};
+
+// The elements of one entity.
+struct Block {
+  int dim, entity, type;
+  std::vector<Element> elements;
+};
+
+// Cells keep their number as tag, so that their order survives the grouping into volumes. Blocks without
+// elements are left out, because not every reader bears them.
+std::vector<Block> element_blocks(const Mesh& mesh, const std::vector<Volume>& volume) {
+  std::vector<Block> blocks;
+  for (int entity = 0; const Volume& v : volume) {
+    blocks.push_back({3, ++entity, kHexahedron, {}});
+    for (int cell : v.cells) blocks.back().elements.push_back({cell + std::size_t{1}, mesh.cells[cell]});
   }
   std::size_t tag = mesh.cells.size();
-  entity = 0;
-  for (const auto& [name, faces] : mesh.face_sets) {
-    write_block(out, 2, ++entity, kQuadrangle, faces.size());
-    for (const Face& face : faces) write_element(out, ++tag, face);
+  for (int entity = 0; const auto& [name, faces] : mesh.face_sets) {
+    blocks.push_back({2, ++entity, kQuadrangle, {}});
+    for (const Face& face : faces) blocks.back().elements.push_back({++tag, face});
   }
-  entity = 0;
-  for (const auto& [name, nodes] : mesh.node_sets) {
-    write_block(out, 0, ++entity, kPoint, nodes.size());
-    for (int node : nodes) write_element(out, ++tag, std::array{node});
+  for (int entity = 0; const auto& [name, nodes] : mesh.node_sets) {
+    blocks.push_back({0, ++entity, kPoint, {}});
+    for (const int& node : nodes) blocks.back().elements.push_back({++tag, {&node, 1}});
+  }
+  std::erase_if(blocks, [](const Block& block) { return block.elements.empty(); });
+  return blocks;
+}
+
+void write_elements(Out& out, const Mesh& mesh, const std::vector<Volume>& volume) {
+  const std::vector<Block> blocks = element_blocks(mesh, volume);
+  std::size_t total = 0;
+  for (const Block& block : blocks) total += block.elements.size();
+  out.begin("Elements");
+  write_head(out, blocks.size(), total);
+  for (const Block& block : blocks) {
+    write_block(out, {block.dim, block.entity, block.type}, block.elements.size());
+    for (const Element& element : block.elements) {
+      out.size(element.tag);
+      for (int node : element.nodes) out.size(node + 1);
+      out.end_line();
+    }
   }
   out.end("Elements");
 }

@@ -87,6 +87,16 @@ TEST_F(Inp, reports_every_keyword_it_ignores) {
               testing::ElementsAre("*HEADING (line 1)", "*MATERIAL (line 28)", "*ELASTIC (line 29)"));
 }
 
+TEST_F(Inp, leaves_shells_out_and_reports_them) {
+  ReadReport report;
+  const std::string shell = "*Element, type=CPS4, elset=shell\n 90, 10, 11,\n 12, 13\n";
+  const Mesh mesh = read(kCube + shell + "*Elset, elset=both\n 5, 90\n", &report);
+  EXPECT_EQ(mesh.cells.size(), 1);
+  EXPECT_TRUE(mesh.cell_sets.at("shell").empty());
+  EXPECT_EQ(mesh.cell_sets.at("both"), std::vector{0});
+  EXPECT_THAT(report.ignored, testing::Contains("*ELEMENT, TYPE=CPS4 (line 31)"));
+}
+
 TEST_F(Inp, tells_that_the_last_line_may_be_cut) {
   ReadReport report;
   read(kCube.substr(0, kCube.size() - 1), &report);

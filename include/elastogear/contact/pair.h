@@ -27,6 +27,7 @@ struct Settings {
   double depth = 0;           ///< m, deepest penetration still taken for contact; 0 = from the face size
   double normal_angle = 100;  ///< deg, slave and master normals must be at least this far apart
   bool full_tangent = true;   ///< with the geometric part; false: normal part only
+  double extension = 0.025;   ///< by which open ends of the master are prolonged, share of a face's length
 };
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.
@@ -56,6 +57,7 @@ struct ContactPoint {
 /// Two surfaces in contact, with their trees and the faces found last. The surfaces must outlive the pair.
 class Pair {
  public:
+  /// Throws Error for settings out of range and for surfaces that are empty, inconsistent or not finite.
   Pair(const model::Surface& a, const model::Surface& b, const Settings& settings);
   ~Pair();
   Pair(Pair&&) noexcept;
@@ -63,6 +65,9 @@ class Pair {
   /// Active contacts in the given configuration, ordered by pass and slave node (deterministic).
   /// Throws Error when a surface has non-finite positions.
   std::vector<ContactPoint> detect(const SurfaceState& a, const SurfaceState& b);
+
+  /// The settings in force: as given, with stiffness and depth filled in where they were 0.
+  const Settings& settings() const;
 
  private:
   struct Data;

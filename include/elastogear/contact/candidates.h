@@ -1,0 +1,30 @@
+#pragma once
+// From pairs of faces to the master faces that each slave node has to be tried against.
+
+#include <span>
+#include <vector>
+
+#include "elastogear/contact/bvh.h"
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::contact {
+
+/// Memory is kept between calls.
+class Candidates {
+ public:
+  /// Nodes of slave faces whose distance to the box around a paired master face is at most `margin` (m).
+  /// slave_side: which entry of each pair is the slave face.
+  void collect(const std::vector<NodePair>& face_pairs, int slave_side, const SurfaceView& slave,
+               const SurfaceView& master, double margin);
+
+  /// Ascending, without duplicates; empty for nodes that are near no face.
+  std::span<int> operator[](int slave_node);
+
+ private:
+  void sort_by_node(int n_nodes);
+
+  std::vector<std::array<int, 2>> near_;  // slave node, master face
+  std::vector<int> begin_, end_, face_;   // per node: its range of face_
+};
+
+}  // namespace elastogear::contact

@@ -1,0 +1,20 @@
+#pragma once
+// Consistent tangent of one penalty contact (docs/theory.md, section Contact tangent).
+
+#include <Eigen/Core>
+
+#include "elastogear/contact/winner.h"
+
+namespace elastogear::contact {
+
+/// Stiffness W k W' of the 15 coordinates (slave node, four master nodes; x y z each): the force
+/// F = -c_p g_n [n; -N_i n] changes by dF = -W k W' dx.
+struct Tangent {
+  Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, 5> W;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5> k;  ///< symmetric, N/m
+};
+
+/// full: normal and geometric part; otherwise the normal part c_p [n; -N_i n] [n; -N_i n]' only.
+Tangent contact_tangent(const Face& face, const Winner& winner, double c_p, bool full);
+
+}  // namespace elastogear::contact

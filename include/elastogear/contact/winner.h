@@ -1,0 +1,37 @@
+#pragma once
+// The one face, edge or vertex of the master surface that a slave node touches (docs/theory.md, section
+// Winner).
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+
+#include "elastogear/contact/closest_point.h"
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::contact {
+
+struct SlaveNode {
+  Eigen::Vector3d x;  ///< m
+  Eigen::Vector3d n;  ///< outward unit normal of the slave surface at the node
+};
+
+struct Limits {
+  double depth = 0;         ///< m, largest distance to the surface
+  double cos_angle = -0.1;  ///< n_slave . n_master must not exceed this
+};
+
+struct Winner {
+  int face = 0;
+  ClosestPoint point;
+  Eigen::Vector3d n;  ///< outward, x_slave - x_c = g_n n
+  double g_n = 0;     ///< m, < 0
+};
+
+/// Nothing when the node is outside the master body, beyond an open end, deeper than the limit, or when only
+/// faces that do not oppose it are near. `faces` must hold all master faces within `depth` of the node; their
+/// order does not matter, but the search is quickest when the first is the right one.
+std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
+                                  std::span<const int> faces);
+
+}  // namespace elastogear::contact

@@ -1,0 +1,51 @@
+#pragma once
+// From contact points (15 local displacements in the world frame) to generalised coordinates: node positions
+// x = r(s) + R(s) (X + Phi q), so that dx/ds_i = R (v_i + w_i x x_B) and dx/dq = R Phi, with [v_i; w_i] =
+// H_i.
+
+#include <vector>
+
+#include "elastogear/body/equations.h"
+#include "elastogear/contact/pair.h"
+#include "elastogear/dynamics/low_rank_solver.h"
+
+namespace elastogear::dynamics {
+
+/// Sums over the contacts of all pairs at the surface nodes of one body that they touch.
+struct NodalForces {
+  std::vector<int> node;  ///< surface nodes, ascending
+  Eigen::Matrix3Xd x_B;   ///< m, deformed position in the BRF
+  Eigen::Matrix3Xd f_B;   ///< N, contact force in the BRF
+};
+
+/// Contact points of one pair and the two bodies they belong to.
+struct PairContacts {
+  int body[2] = {0, 1};
+  std::vector<contact::ContactPoint> points;
+};
+
+/// Body side and surface node of local node i = 0 (slave), 1..4 (master).
+struct LocalNode {
+  int side, node;
+};
+LocalNode local_node(const contact::ContactPoint& point, int i);
+/// N, force on local node i, world frame; the five forces sum to zero.
+Eigen::Vector3d local_force(const contact::ContactPoint& point, int i);
+
+/// One entry per body. states[b].x_B may be empty for bodies that no pair names.
+std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
+                                      const std::vector<contact::SurfaceState>& states);
+
+/// Generalised contact force: s: H' [sum f; sum x x f], q: Phi' f.
+body::Force contact_force(const body::Equations& eq, const NodalForces& forces);
+
+/// Adds -d(contact force)/dz at constant local forces: the part that comes from the turning of the BRF.
+/// s_i s_j: -f.(w_j x (v_i + w_i x x)); s_i q: -(f x w_i).Phi. `columns` n_u rows come before the nodes'.
+void add_geometric_stiffness(const body::Equations& eq, const NodalForces& forces, BodyTerms& terms);
+
+/// W_s, L of every body (whose `node` are set) and k, from the tangents of all contact points.
+void set_contact_columns(const std::vector<const body::Equations*>& bodies,
+                         const std::vector<PairContacts>& pairs,
+                         const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A);
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,65 @@
+#pragma once
+// The elastic block D = shift_a M_r + shift_v D_r + K_r of one body's effective matrix, its exact inverse,
+// and the compliance E' D^-1 E that the joint and contact columns E see.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/body/equations.h"
+
+namespace elastogear::dynamics {
+
+/// The columns E = [U, Phi(node)'], n_q x n_e, through which joint and contact reach the elastic coordinates.
+/// U = [M_sq', M_ss_1'] does not change; three columns belong to each surface node.
+class BorderColumns {
+ public:
+  explicit BorderColumns(const body::Equations& eq);
+
+  Eigen::Index n_u() const { return U_.cols(); }
+  Eigen::Index size(const std::vector<int>& node) const;
+  Eigen::MatrixXd project(const std::vector<int>& node, const Eigen::MatrixXd& X) const;  ///< E' X
+  Eigen::VectorXd expand(const std::vector<int>& node, const Eigen::VectorXd& c) const;   ///< E c
+  const Eigen::MatrixXd& U() const { return U_; }
+  Eigen::MatrixXd node_columns(const std::vector<int>& node) const;  ///< Phi(node)', n_q x 3 n_node
+
+ private:
+  const model::BasisRows* Phi_;
+  Eigen::MatrixXd U_;
+};
+
+/// D factorised once per pair of shifts: a division when the basis is modal, else a sparse Cholesky
+/// factorisation (PETSc KSP, prefix "elastic_", MUMPS by default). The body must outlive the block.
+class ElasticBlock {
+ public:
+  explicit ElasticBlock(const body::Equations& eq);
+
+  /// Throws Error when D is not positive definite. Does nothing when the shifts are those in force.
+  void set_shifts(double shift_v, double shift_a);
+  Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< D x
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& Y) const;     ///< D^-1 Y
+  /// E' D^-1 E for the given nodes, from columns kept since the shifts last changed: n_e x n_e.
+  Eigen::MatrixXd compliance(const std::vector<int>& node);
+  const BorderColumns& columns() const { return columns_; }
+
+ private:
+  void factorise();
+  void reset_compliance();
+  void add_to_compliance(const std::vector<int>& node);
+
+  const model::ElasticBody* body_;
+  Eigen::SparseMatrix<double> D_r_;
+  BorderColumns columns_;
+  double shift_v_ = 0, shift_a_ = 0;
+  bool diagonal_ = false;
+  Eigen::VectorXd inverse_;  // of a diagonal D
+  Eigen::SparseMatrix<double, Eigen::RowMajor> D_;
+  UniqueMat D_mat_;  // borrows D_'s arrays
+  UniqueKSP ksp_;
+  std::vector<int> kept_;  // nodes in the order of G_
+  std::vector<int> slot_;  // surface node -> position in kept_, or -1
+  Eigen::MatrixXd G_;      // E' D^-1 E of the kept nodes
+};
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,40 @@
+#pragma once
+// Generalised-alpha for F(t, U, V, A) = 0 as a PETSc TS type (theory.md, "Time integration").
+//
+// The problem is given by TSSetI2Function, TSSetI2Jacobian and TS2SetSolution; everything else is PETSc's
+// usual TS. Options, beside -ts_*, -ts_adapt_*, -snes_*, -ksp_*:
+//   -ts_alpha_radius rho_inf              spectral radius at infinite frequency, 0..1 (default 1: no
+//   dissipation) -ts_alpha_alpha_m, _alpha_f, _gamma, _beta   the four parameters one by one. alpha_m and
+//   alpha_f weight the
+//                                         *new* state, as in PETSc: one minus those of Chung and Hulbert
+//   -ts_alpha_predictor none | constant_acceleration | zero_acceleration
+//   -ts_alpha_velocity_rtol, _velocity_atol   error control of V (default 0, 0: only U is controlled)
+// The SNES unknown is the change of U against the predictor, not U itself: small displacements are resolved
+// on top of large ones, and -snes_stol is relative to that change. A linear problem (TS_LINEAR, SNESKSPONLY)
+// is solved exactly; a nonlinear one under SNESKSPONLY ends in PETSC_ERR_NOT_CONVERGED.
+
+#include <petscts.h>
+
+namespace elastogear::dynamics {
+
+/// Registers the TS type "generalized_alpha", and replaces PETSc's "alpha2" by it: the one in PETSc 3.18
+/// starts with twice the true acceleration. May be called more than once. TSAlpha2SetRadius and its kin work
+/// on both.
+void register_generalized_alpha();
+
+/// Borrowed U, V, A at the accepted step. They may be changed in place if set_state follows. Where A is not
+/// known (before the first step, after a restart or a change of U or V) it is solved from F(t, U, V, A) = 0.
+/// Any pointer may be null. Throws Error for another TS type or when that solve fails.
+void generalized_alpha_state(TS ts, Vec* U, Vec* V, Vec* A);
+
+/// Replaces the accepted state; the next step continues from exactly these values, so a run resumed with the
+/// stored U, V, A, time, time step and step number equals the uninterrupted one bit for bit. Also the way to
+/// re-base coordinates in a TSPostStep callback. Needs TS2SetSolution, and TSSolve with the same U or
+/// nullptr.
+void generalized_alpha_set_state(TS ts, Vec U, Vec V, Vec A);
+
+/// After a discontinuity of F: the next step starts from the acceleration that solves F(t, U, V, A) = 0.
+/// Changing U or V without set_state does the same.
+void generalized_alpha_restart(TS ts);
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,57 @@
+#pragma once
+// The effective matrix A = shift_a dF/dA + shift_v dF/dV + dF/dU of the system and its exact inverse.
+//
+// Per body, with the columns E of BorderColumns,      A = [C, (E rho)'; E beta, D]  on [s; q],
+// and over all bodies the contact's low rank part       + W k W',   W = [W_s; E L] per body.
+// With x_q = D^-1 (y_q - E (beta x_s + L k lambda)) and lambda = W'x a dense system of n_s + r unknowns
+// stays:
+//   [C - rho'G beta,  (W_s - rho'G L) k;  -W_s' + L'G beta,  I + L'G L k] [x_s; lambda] = [y_s - rho'p; L'p]
+// where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory.md, "Solving for one Newton step").
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "elastogear/dynamics/elastic_block.h"
+
+namespace elastogear::dynamics {
+
+/// One body's entries. n_e = BorderColumns::size(node); r contact columns in the whole system.
+struct BodyTerms {
+  std::vector<int> node;          ///< surface nodes touched by contact
+  Eigen::MatrixXd C;              ///< n_s x n_s
+  Eigen::MatrixXd beta, rho;      ///< n_e x n_s
+  Eigen::MatrixXd W_s;            ///< n_s x r
+  Eigen::SparseMatrix<double> L;  ///< n_e x r
+};
+
+struct EffectiveMatrix {
+  double shift_v = 0, shift_a = 0;  ///< 1/s, 1/s^2
+  std::vector<BodyTerms> body;
+  Eigen::SparseMatrix<double> k;  ///< r x r, N/m
+};
+
+/// Vectors are ordered body by body, [s; q] each.
+class LowRankSolver {
+ public:
+  explicit LowRankSolver(const std::vector<const body::Equations*>& bodies);
+
+  /// Factorises. Throws Error when A is singular.
+  void set(EffectiveMatrix A);
+  Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< A x
+  Eigen::VectorXd solve(const Eigen::VectorXd& y) const;     ///< A^-1 y
+
+ private:
+  struct Range {
+    Eigen::Index s, n_s, n_q;  ///< first entry in the global vector, sizes
+    Eigen::Index joint;        ///< first entry among all bodies' joint coordinates
+  };
+  void add_body(std::size_t b, Eigen::MatrixXd& small);
+
+  std::vector<Range> range_;
+  std::vector<ElasticBlock> block_;
+  EffectiveMatrix A_;
+  Eigen::Index n_s_ = 0;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+};
+
+}  // namespace elastogear::dynamics

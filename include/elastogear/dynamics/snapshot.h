@@ -1,0 +1,24 @@
+#pragma once
+// The state of a system at one time as results see it, and its energy ledger.
+
+#include "elastogear/dynamics/system.h"
+#include "elastogear/model/result.h"
+
+namespace elastogear::dynamics {
+
+/// Bodies, pairs and stored energies in (U, V, A); dissipated, work and balance stay zero.
+model::Snapshot snapshot(System& system, double time, ConstVector U, ConstVector V, ConstVector A);
+
+/// Completes the energies of successive snapshots. Over one step damping takes dt q'_m.D_r q'_m with the mean
+/// velocity q'_m, which is exact for the midpoint rule (rho_inf = 1), second order otherwise.
+class EnergyLedger {
+ public:
+  void enter(const System& system, model::Snapshot& snapshot);
+
+ private:
+  double stored_0_ = 0, dissipated_ = 0, work_ = 0;
+  double time_ = 0;
+  std::vector<model::BodyState> bodies_;  // of the snapshot before; empty: none yet
+};
+
+}  // namespace elastogear::dynamics

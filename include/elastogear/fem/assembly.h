@@ -1,0 +1,23 @@
+#pragma once
+// Distributed stiffness K and consistent mass M over the free displacements, block size 3.
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/base/progress.h"
+#include "elastogear/fem/share.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::fem {
+
+/// K in N/m, M in kg, MATAIJ, both symmetric positive definite when the restraint holds the body, and of one
+/// sparsity. (Not MATSBAIJ, which would halve the memory: PETSc 3.18's MatAXPY adds only a part of it on
+/// several ranks, and with it K - sigma M is wrong.)
+struct Matrices {
+  UniqueMat K, M;
+};
+
+/// Restraint by elimination: restrained displacements have no rows. Collective. The share's regions index
+/// `regions`; Jacobians must be positive (require_positive_jacobians).
+Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::MaterialRegion>& regions,
+                  model::Element element, const Progress& progress = {});
+
+}  // namespace elastogear::fem

@@ -1,0 +1,29 @@
+#pragma once
+// The table of elements: what assembly and stress recovery need of each cell type.
+
+#include <Eigen/Core>
+
+#include "elastogear/fem/material.h"
+
+namespace elastogear::fem {
+
+/// Functions of one cell type. X: 3 x n_nodes, m. Results as in fem/hex8.h with n_nodes in place of 8.
+struct ElementFunctions {
+  int n_nodes;
+  double (*smallest_jacobian)(const Eigen::Matrix3Xd& X);
+  double (*volume)(const Eigen::Matrix3Xd& X);
+  Eigen::MatrixXd (*stiffness)(const Eigen::Matrix3Xd& X, const Lame& material, model::Element element);
+  Eigen::MatrixXd (*mass)(const Eigen::Matrix3Xd& X, double rho);  ///< scalar, n_nodes x n_nodes
+  Eigen::MatrixXd (*stress)(const Eigen::Matrix3Xd& X, const Lame& material, model::Element element);
+};
+
+/// The functions of a cell type; Error when there is no element for it.
+const ElementFunctions& element_functions(mesh::CellType type);
+
+/// Coordinates of a cell's nodes, 3 x n_nodes.
+Eigen::Matrix3Xd cell_coordinates(const mesh::Mesh& mesh, int cell);
+
+/// Throws Error naming the cell, its nodes and the value where the Jacobian is not positive.
+void require_positive_jacobians(const mesh::Mesh& mesh);
+
+}  // namespace elastogear::fem

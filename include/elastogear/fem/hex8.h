@@ -1,0 +1,39 @@
+#pragma once
+// The 8-node hexahedron, plain or with nine incompatible modes (docs/theory.md, section Elements).
+//
+// Incompatible modes: P_k = 1 - xi_k^2, k = 1..3, for each direction of displacement; E. L. Wilson's modes
+// with the corrected gradient grad P = (det J_0/det J) J_0^-T dP/dxi (J_0: Jacobian at the centre) of R. L.
+// Taylor, P. J. Beresford, E. L. Wilson, "A non-conforming element for stress analysis", Int. J. Numer. Meth.
+// Eng. 10 (1976) 1211-1219: it integrates to zero over the cell, so the patch test is passed on any shape.
+// The modes are condensed statically and carry no mass.
+//
+// Dofs are node-major (x y z of node 0, then of node 1, ...); stresses are ordered xx yy zz xy yz xz.
+
+#include <Eigen/Core>
+
+#include "elastogear/fem/material.h"
+
+namespace elastogear::fem::hex8 {
+
+using Coordinates = Eigen::Matrix<double, 3, 8>;       ///< m, one column per node
+using Stiffness = Eigen::Matrix<double, 24, 24>;       ///< N/m
+using Mass = Eigen::Matrix<double, 8, 8>;              ///< kg, scalar: the element's mass is Mass (x) I_3
+using StressOperator = Eigen::Matrix<double, 48, 24>;  ///< Pa/m, 6 rows per node
+
+/// Smallest determinant of the Jacobian (m^3) over the centre and all points of both quadratures. Every
+/// function below presumes that it is positive.
+double smallest_jacobian(const Coordinates& X);
+
+/// K_e, 2x2x2 Gauss points.
+Stiffness stiffness(const Coordinates& X, const Lame& material, model::Element element);
+
+/// Consistent mass, 3x3x3 Gauss points: exact for every trilinear hexahedron.
+Mass mass(const Coordinates& X, double rho);
+
+/// Stress at the 2x2x2 Gauss points, incompatible part included, extrapolated trilinearly to the nodes.
+StressOperator stress(const Coordinates& X, const Lame& material, model::Element element);
+
+/// m^3, exact.
+double volume(const Coordinates& X);
+
+}  // namespace elastogear::fem::hex8

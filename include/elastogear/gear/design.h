@@ -1,0 +1,96 @@
+#pragma once
+// The worm drive: a ZI worm (involute helicoid, DIN 3975 / ISO 10828) and a cylindrical helical involute
+// wheel at a shaft angle of 90 degrees, both right-handed. The pair is exactly conjugate (crossed helical
+// gears, point contact).
+//
+// Frames. World: wheel axis +Z through the origin, worm axis +X through (0, a, 0). Wheel frame = world. Worm
+// frame: axis z, and worm local (x, y, z) = world (Y, Z, X). At zero angles a wheel tooth (tooth_01) stands
+// on +Y, in the middle of a worm space, so that both flanks have the gap jn/2. The pair runs with phi_2 =
+// phi_1 z1/z2.
+
+#include <Eigen/Core>
+
+namespace elastogear::gear {
+
+/// All numbers of the drive; the defaults are the reference design (electric power steering, 20.5 : 1).
+struct Design {
+  // Toothing, common to worm and wheel
+  double m_n = 2.0e-3;                 ///< m, normal module
+  double alpha_n = 0.261799387799149;  ///< rad, normal pressure angle (15 deg)
+  int z1 = 2;                          ///< -, starts of the worm
+  int z2 = 41;                         ///< -, teeth of the wheel
+  double a = 50.0e-3;                  ///< m, centre distance
+  double j_n = 0.040e-3;               ///< m, normal backlash, taken half from each body's tooth thickness
+  double addendum = 2.0e-3;            ///< m, tip over pitch radius, both bodies
+  double dedendum = 2.5e-3;            ///< m, pitch over root radius, both bodies
+  double worm_fillet = 0.70e-3;        ///< m, root fillet radius of the worm, axial section
+  double wheel_rack_tip = 0.60e-3;     ///< m, tip radius of the rack that generates the wheel, normal section
+
+  // Worm shaft; z along the axis, the thread's middle at z = 0
+  double thread_length = 39.2e-3;  ///< m, between the thread's ends, rounded to whole sections of the mesh
+  double worm_bore = 2.5e-3;       ///< m, diameter of the axial bore
+  double seat_1_begin = -45.6e-3, seat_1_end = -36.6e-3, seat_1_diameter = 10.0e-3;  ///< m, bearing at -z
+  double seat_2_begin = 36.8e-3, seat_2_end = 45.0e-3, seat_2_diameter = 8.0e-3;     ///< m, bearing at +z
+  double shaft_1_end = -60.0e-3, shaft_1_diameter = 9.0e-3;  ///< m, stub beyond bearing 1
+  double shaft_2_end = 47.0e-3, shaft_2_diameter = 7.0e-3;   ///< m, stub beyond bearing 2
+  double shoulder = 0.8e-3;                                  ///< m, length of the cone between two diameters
+
+  // Wheel, symmetric about z = 0: hub (bore to hub diameter), web, ring, rim (from the rim diameter to the
+  // teeth)
+  double face_width = 16.0e-3;    ///< m, width of ring, rim and teeth
+  double wheel_bore = 24.0e-3;    ///< m, diameter
+  double hub_diameter = 36.0e-3;  ///< m, outer diameter of the hub
+  double hub_width = 22.0e-3;     ///< m
+  double web_diameter = 61.0e-3;  ///< m, outer diameter of the web, inner of the ring
+  double web_width = 8.0e-3;      ///< m
+  double rim_diameter = 70.0e-3;  ///< m, inner diameter of the rim
+};
+
+/// One body's toothing. Flanks: theta = z/p + s psi(r) + theta_tooth, s = +1: `left`, counter-clockwise seen
+/// from +z (on the worm the side of smaller z); s = -1: `right`.
+struct Toothing {
+  int z = 0;           ///< -, teeth or starts
+  double r = 0;        ///< m, pitch radius
+  double r_a = 0;      ///< m, tip radius
+  double r_f = 0;      ///< m, root radius
+  double r_b = 0;      ///< m, base radius
+  double r_form = 0;   ///< m, radius where the flank ends and the fillet begins
+  double r_start = 0;  ///< m, smallest radius on the path of contact
+  double alpha_t = 0;  ///< rad, transverse pressure angle
+  double beta_b = 0;   ///< rad, base helix angle
+  double p = 0;        ///< m/rad, axial advance per radian: lead / (2 pi)
+  double psi_b = 0;    ///< rad, half the tooth thickness as an angle, at the base circle
+  double theta_1 = 0;  ///< rad, angle of tooth 1's centre at z = 0
+};
+
+/// What follows from a Design.
+struct Geometry {
+  double gamma = 0;    ///< rad, lead angle of the worm = helix angle of the wheel
+  double s_n = 0;      ///< m, normal tooth thickness at the pitch cylinders
+  double p_bn = 0;     ///< m, normal base pitch, common to both bodies
+  double p_x = 0;      ///< m, axial pitch of the worm
+  double epsilon = 0;  ///< -, contact ratio
+  double j_n = 0;      ///< m, normal backlash
+  double ratio = 0;    ///< -, z2/z1
+  Toothing worm, wheel;
+};
+
+/// Solves the lead angle from the centre distance (the smaller of the two solutions) and checks the whole
+/// design. Throws Error naming the value and what is allowed for designs that do not exist: no lead angle,
+/// undercut, pointed teeth, fillets that do not fit or reach into the path of contact, contact ratio below 1,
+/// shafts and rings out of order.
+Geometry derive(const Design& design);
+
+/// Angle of tooth i (0-based) at z = 0, rad.
+double tooth_angle(const Toothing& toothing, int i);
+
+/// Half the tooth thickness as an angle at radius r >= r_b (the base circle's value inside it), rad.
+double psi(const Toothing& toothing, double r);
+
+/// Exact signed normal distance of point x (body frame, m) to the flank of a tooth on side s = +1 (left) or
+/// -1 (right): d = r_b cos(beta_b) (s (theta - z/p - theta_tooth) - psi(r)); > 0 outside the tooth. The angle
+/// is taken nearest to the tooth's centre. Inside the base cylinder, where the flank has no points, psi(r_b)
+/// is used.
+double flank_distance(const Toothing& toothing, int tooth, int side, const Eigen::Vector3d& x);
+
+}  // namespace elastogear::gear

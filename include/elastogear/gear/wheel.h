@@ -1,0 +1,35 @@
+#pragma once
+// Structured, conforming hexahedral mesh of the wheel: the transverse section of one tooth, extruded along
+// the helix and repeated around.
+
+#include "elastogear/gear/design.h"
+#include "elastogear/gear/size.h"
+#include "elastogear/mesh/mesh.h"
+
+namespace elastogear::gear {
+
+/// Element counts of one sector of the wheel.
+struct WheelCounts {
+  int tooth = 2;        ///< columns across the tooth, even
+  int space = 1;        ///< columns across half a space
+  int flank = 2;        ///< rows up the flank
+  int fillet = 1;       ///< rows up the tooth's half of the fillet
+  int rim = 1;          ///< rows from the rim radius to the root
+  int ring = 1;         ///< rows across the ring
+  int web = 1;          ///< rows across the web
+  int hub = 1;          ///< rows across the hub
+  int web_layers = 2;   ///< axial layers across the web's width
+  int face_layers = 1;  ///< axial layers of the face on each side of the web
+  int hub_layers = 1;   ///< axial layers of the hub on each side beyond the face
+};
+
+WheelCounts wheel_counts(Size size);
+
+/// Mesh in the wheel frame. Face sets left, right, flanks, tooth_<ii>_left, tooth_<ii>_right; node sets bore,
+/// root, root_<ii> (nodes of the fillet surface); cell sets body and rim (from the rim radius on), disjoint.
+/// Teeth are numbered 01..z2 with as many digits as z2 has. Nodes and cells are numbered sector by sector:
+/// with n = n_nodes/z2, node i n + j is node j turned by 2 pi i/z2. Throws Error for designs that do not
+/// exist and counts that are not positive.
+mesh::Mesh wheel_mesh(const Design& design, const WheelCounts& counts);
+
+}  // namespace elastogear::gear

@@ -1,0 +1,35 @@
+#pragma once
+// Structured, conforming hexahedral mesh of the worm.
+//
+// The axial section is swept along the helix. On each cylinder the grid lines are axial lines and helices:
+// going once around, layer k becomes layer k + K with K = z1 (2 space + tooth). Beyond the thread that shift
+// is taken back one layer at a time: the stack of helical layers ends in K steps of one layer, and at each
+// step the step's riser is joined with the next edge of its tread, so that turn - K plain columns go on into
+// the shaft (docs/theory.md).
+
+#include "elastogear/gear/design.h"
+#include "elastogear/gear/size.h"
+#include "elastogear/mesh/mesh.h"
+
+namespace elastogear::gear {
+
+/// Element counts of the worm.
+struct WormCounts {
+  int tooth = 2;   ///< columns across the tooth, even
+  int space = 1;   ///< columns across half a space
+  int flank = 2;   ///< rows up the flank
+  int fillet = 1;  ///< rows up the tooth's half of the fillet
+  int ring = 2;    ///< rows from the bore to the root
+  int turn = 24;   ///< sections per turn: a multiple of z1 (2 space + tooth), at least twice
+  int shaft = 10;  ///< layers of each plain shaft end (each cone and seat gets at least one)
+};
+
+/// Counts of a size for a worm with z1 starts (sections per turn follow from it).
+WormCounts worm_counts(Size size, int z1 = Design{}.z1);
+
+/// Mesh in the worm frame. Face sets left, right, flanks, thread_<i>_left, thread_<i>_right; node sets seats,
+/// seat_1, seat_2, root, root_<i> (nodes of the fillet surface); cell set body. Threads are numbered 1..z1.
+/// Throws Error for designs that do not exist and counts that do not fit.
+mesh::Mesh worm_mesh(const Design& design, const WormCounts& counts);
+
+}  // namespace elastogear::gear

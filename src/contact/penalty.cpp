@@ -1,0 +1,74 @@
+#include "elastogear/contact/penalty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elastogear/base/error.h"
+#include "elastogear/contact/kdop.h"
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::contact {
+namespace {
+
+constexpr const char* surface_name[2] = {"contact: surface a", "contact: surface b"};
+
+double mean_stiffness(const model::Surface& surface, int side) {
+  const auto n_f = surface.face.cols();
+  require(surface.c_f.size() == n_f && (surface.c_f.array() > 0).all() && surface.c_f.allFinite(),
+          surface_name[side], " has no positive stiffness c_f for each face: give the penalty stiffness");
+  return surface.c_f.mean();
+}
+
+}  // namespace
+
+void validate(const Settings& s) {
+  directions(s.k);
+  require(std::isfinite(s.stiffness) && s.stiffness >= 0, "contact: stiffness ", s.stiffness,
+          ", allowed are positive values and 0 (from material and cell size)");
+  require(std::isfinite(s.depth) && s.depth >= 0, "contact: depth ", s.depth,
+          ", allowed are positive values and 0 (from the face size)");
+  require(s.slave == 0 || s.slave == 1, "contact: slave ", s.slave, ", allowed are 0 and 1");
+  require(s.normal_angle >= 90 && s.normal_angle <= 180, "contact: normal_angle ", s.normal_angle,
+          " deg, allowed is 90 to 180");
+  require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
+          ", allowed is 0 to 0.5");
+}
+
+void validate(const model::Surface& surface, int side) {
+  const auto n_s = surface.X.cols();
+  require(surface.face.cols() > 0, surface_name[side], " has no faces");
+  require(surface.X.allFinite(), surface_name[side], " has a node at a position that is not finite");
+  require(surface.face.minCoeff() >= 0 && surface.face.maxCoeff() < n_s, surface_name[side],
+          " has a face with node ",
+          surface.face.minCoeff() < 0 ? surface.face.minCoeff() : surface.face.maxCoeff(),
+          ", allowed is 0 to ", n_s - 1);
+}
+
+void validate(const SurfaceState& state, const model::Surface& surface, int side) {
+  require(state.x_B.cols() == surface.X.cols(), surface_name[side], ": positions of ", state.x_B.cols(),
+          " nodes given, the surface has ", surface.X.cols());
+  require(state.r_WB.allFinite() && state.R_WB.allFinite(), surface_name[side],
+          ": the body's placement is not finite");
+  if (state.x_B.allFinite()) return;
+  for (Eigen::Index i = 0; i < state.x_B.cols(); ++i)
+    require(state.x_B.col(i).allFinite(), surface_name[side], ": position of node ", i, " is not finite");
+}
+
+Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b) {
+  if (settings.stiffness == 0) {
+    settings.stiffness = 1 / (1 / mean_stiffness(a, 0) + 1 / mean_stiffness(b, 1));
+    const model::Surface& slave = settings.slave == 0 ? a : b;
+    if (settings.penalty == Penalty::per_node) settings.stiffness *= node_areas(slave.X, slave.face).mean();
+  }
+  if (settings.depth == 0) settings.depth = 0.5 * std::min(face_size(a.X, a.face), face_size(b.X, b.face));
+  require(settings.depth > 0, "contact: the faces have no area, give the depth");
+  return settings;
+}
+
+Eigen::VectorXd node_stiffness(const Settings& settings, const model::Surface& slave) {
+  const double c_p = settings.two_pass ? 0.5 * settings.stiffness : settings.stiffness;
+  if (settings.penalty == Penalty::per_node) return Eigen::VectorXd::Constant(slave.X.cols(), c_p);
+  return c_p * node_areas(slave.X, slave.face);
+}
+
+}  // namespace elastogear::contact

@@ -1,0 +1,82 @@
+#include "elastogear/contact/winner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace elastogear::contact {
+namespace {
+
+struct Nearest {
+  int face = std::numeric_limits<int>::max();
+  ClosestPoint point;
+  double distance2;
+
+  explicit Nearest(double limit2) : distance2(limit2) {}
+  bool found() const { return face != std::numeric_limits<int>::max(); }
+
+  // Ties go to the lower face number. Neighbours find bitwise the same point on a shared edge or vertex.
+  void offer(int f, const ClosestPoint& p) {
+    if (p.distance2 < distance2 || (p.distance2 == distance2 && f < face))
+      face = f, point = p, distance2 = p.distance2;
+  }
+};
+
+double distance_bound(const Face& face, const Eigen::Vector3d& q) {
+  Eigen::Vector3d lo = face.x[0], hi = face.x[0];
+  for (int i = 1; i < face.sides; ++i) lo = lo.cwiseMin(face.x[i]), hi = hi.cwiseMax(face.x[i]);
+  const double extension = *std::max_element(face.extension.begin(), face.extension.end());
+  const double reach = 4 * extension * (hi - lo).norm();
+  const Eigen::Vector3d out = (lo - q).cwiseMax(q - hi).cwiseMax(0.0);
+  return std::max(0.0, out.norm() - reach);
+}
+
+// Points outwards at the closest point; zero where the surface is degenerate.
+Eigen::Vector3d outward(const SurfaceView& master, int f, const ClosestPoint& p) {
+  if (p.feature == Feature::vertex) return node_normal(master, master.face(p.part, f));
+  if (p.feature == Feature::edge)
+    return edge_normal(master, f, p.part, p.N[(p.part + 1) % side_count(master.face, f)]);
+  return normal(face_of(master, f), p.u, p.v);
+}
+
+enum class Place { inside, outside, unknown };
+
+Place place(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& nearest) {
+  if (!nearest.found() || nearest.point.feature == Feature::outside) return Place::unknown;
+  const double side = (q - nearest.point.x).dot(outward(master, nearest.face, nearest.point));
+  return side < 0 ? Place::inside : side > 0 ? Place::outside : Place::unknown;
+}
+
+Winner make_winner(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& nearest) {
+  Winner w{nearest.face, nearest.point, {}, 0};
+  const Eigen::Vector3d d = q - w.point.x;
+  if (w.point.feature == Feature::face) {
+    w.n = outward(master, w.face, w.point);
+    w.g_n = w.n.dot(d);
+  } else {  // x_slave lies in the normal cone of the edge or vertex: n follows it
+    w.g_n = -d.stableNorm();
+    w.n = d / w.g_n;
+  }
+  return w;
+}
+
+}  // namespace
+
+std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
+                                  std::span<const int> faces) {
+  Nearest any(limits.depth * limits.depth), opposing = any;
+  for (int f : faces) {
+    const Face face = face_of(master, f);
+    const double bound = distance_bound(face, slave.x);
+    if (bound * bound > std::max(any.distance2, opposing.distance2)) continue;
+    const ClosestPoint p = closest_point(face, slave.x);
+    any.offer(f, p);
+    const Eigen::Vector3d n = normal(face, p.u, p.v);
+    if (n.dot(slave.n) <= limits.cos_angle) opposing.offer(f, p);
+  }
+  if (place(master, slave.x, any) == Place::outside) return {};
+  if (place(master, slave.x, opposing) != Place::inside) return {};
+  return make_winner(master, slave.x, opposing);
+}
+
+}  // namespace elastogear::contact

@@ -1,0 +1,143 @@
+#include "elastogear/dynamics/contact_loads.h"
+
+#include <algorithm>
+
+namespace elastogear::dynamics {
+namespace {
+
+constexpr int kLocalNodes = 5;
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+Eigen::Index slot(const std::vector<int>& node, int number) {
+  return std::lower_bound(node.begin(), node.end(), number) - node.begin();
+}
+
+// Twist i at the point x_B: v_i + w_i x x_B.
+Eigen::Vector3d twist_at(const body::MotionSubspace& H, Eigen::Index i, const Eigen::Vector3d& x_B) {
+  return H.col(i).head<3>() + H.col(i).tail<3>().cross(x_B);
+}
+
+// Rows of W at one local node, turned into one body's frame, added to its W_s and L from `column` on.
+struct NodeColumns {
+  Eigen::Index column, first_row;  // first_row: of the node in L
+  Eigen::Vector3d x_B;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 5> W_B;
+};
+
+void add_columns(const body::MotionSubspace& H, const NodeColumns& c, Eigen::MatrixXd& W_s, Triplets& L) {
+  for (Eigen::Index j = 0; j < c.W_B.cols(); ++j) {
+    for (Eigen::Index i = 0; i < H.cols(); ++i)
+      W_s(i, c.column + j) += twist_at(H, i, c.x_B).dot(c.W_B.col(j));
+    for (Eigen::Index d = 0; d < 3; ++d) L.emplace_back(c.first_row + d, c.column + j, c.W_B(d, j));
+  }
+}
+
+Eigen::Index column_count(const std::vector<PairContacts>& pairs) {
+  Eigen::Index r = 0;
+  for (const PairContacts& pair : pairs)
+    for (const auto& point : pair.points) r += point.W.cols();
+  return r;
+}
+
+}  // namespace
+
+LocalNode local_node(const contact::ContactPoint& point, int i) {
+  if (i == 0) return {point.slave_side, point.slave_node};
+  return {1 - point.slave_side, point.master_node[i - 1]};
+}
+
+Eigen::Vector3d local_force(const contact::ContactPoint& point, int i) {
+  return i == 0 ? point.f : Eigen::Vector3d(-point.N[i - 1] * point.f);
+}
+
+std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
+                                      const std::vector<contact::SurfaceState>& states) {
+  std::vector<NodalForces> forces(states.size());
+  for (const PairContacts& pair : pairs)
+    for (const auto& point : pair.points)
+      for (int i = 0; i < kLocalNodes; ++i) {
+        const LocalNode local = local_node(point, i);
+        forces[pair.body[local.side]].node.push_back(local.node);
+      }
+  for (std::size_t b = 0; b < states.size(); ++b) {
+    sort_unique(forces[b].node);
+    forces[b].x_B = states[b].x_B(Eigen::all, forces[b].node);
+    forces[b].f_B.setZero(3, forces[b].x_B.cols());
+  }
+  for (const PairContacts& pair : pairs)
+    for (const auto& point : pair.points)
+      for (int i = 0; i < kLocalNodes; ++i) {
+        const LocalNode local = local_node(point, i);
+        const int b = pair.body[local.side];
+        forces[b].f_B.col(slot(forces[b].node, local.node)) +=
+            states[b].R_WB.transpose() * local_force(point, i);
+      }
+  return forces;
+}
+
+body::Force contact_force(const body::Equations& eq, const NodalForces& forces) {
+  body::Force h{Eigen::VectorXd::Zero(eq.n_s()), Eigen::VectorXd::Zero(eq.n_q())};
+  for (Eigen::Index p = 0; p < forces.f_B.cols(); ++p) {
+    const Eigen::Vector3d f = forces.f_B.col(p);
+    for (Eigen::Index i = 0; i < eq.n_s(); ++i) h.s[i] += twist_at(eq.H, i, forces.x_B.col(p)).dot(f);
+    model::add_force(eq.body->surface.Phi, forces.node[p], f, h.q);
+  }
+  return h;
+}
+
+void add_geometric_stiffness(const body::Equations& eq, const NodalForces& forces, BodyTerms& terms) {
+  const Eigen::Index first = terms.beta.rows() - 3 * forces.f_B.cols();
+  for (Eigen::Index p = 0; p < forces.f_B.cols(); ++p) {
+    const Eigen::Vector3d f = forces.f_B.col(p);
+    for (Eigen::Index i = 0; i < eq.n_s(); ++i) {
+      const Eigen::Vector3d w_i = eq.H.col(i).tail<3>(), f_w = f.cross(w_i);
+      terms.beta.col(i).segment<3>(first + 3 * p) -= f_w;
+      terms.rho.col(i).segment<3>(first + 3 * p) -= f_w;
+      for (Eigen::Index j = 0; j < eq.n_s(); ++j) {
+        const Eigen::Vector3d w_j = eq.H.col(j).tail<3>();
+        terms.C(i, j) -= f.dot(w_j.cross(twist_at(eq.H, i, forces.x_B.col(p))));
+      }
+    }
+  }
+}
+
+void set_contact_columns(const std::vector<const body::Equations*>& bodies,
+                         const std::vector<PairContacts>& pairs,
+                         const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A) {
+  const Eigen::Index r = column_count(pairs);
+  std::vector<Triplets> L(bodies.size());
+  Triplets k;
+  for (std::size_t b = 0; b < bodies.size(); ++b) A.body[b].W_s.setZero(bodies[b]->n_s(), r);
+  Eigen::Index column = 0;
+  for (const PairContacts& pair : pairs)
+    for (const auto& point : pair.points) {
+      for (int i = 0; i < kLocalNodes; ++i) {
+        const LocalNode local = local_node(point, i);
+        const int b = pair.body[local.side];
+        BodyTerms& terms = A.body[b];
+        const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
+        add_columns(bodies[b]->H,
+                    {column, n_u + 3 * slot(terms.node, local.node), states[b].x_B.col(local.node),
+                     states[b].R_WB.transpose() * point.W.middleRows(3 * i, 3)},
+                    terms.W_s, L[b]);
+      }
+      for (Eigen::Index i = 0; i < point.k.rows(); ++i)
+        for (Eigen::Index j = 0; j < point.k.cols(); ++j)
+          k.emplace_back(column + i, column + j, point.k(i, j));
+      column += point.W.cols();
+    }
+  A.k.resize(r, r);
+  A.k.setFromTriplets(k.begin(), k.end());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    A.body[b].L.resize(A.body[b].beta.rows(), r);
+    A.body[b].L.setFromTriplets(L[b].begin(), L[b].end());
+  }
+}
+
+}  // namespace elastogear::dynamics

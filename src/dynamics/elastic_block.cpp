@@ -1,0 +1,152 @@
+#include "elastogear/dynamics/elastic_block.h"
+
+#include <algorithm>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+// Nodes whose compliance is kept before the store is emptied: bounds it to about 300 MB a body.
+constexpr std::size_t kMaxKeptNodes = 2000;
+
+bool is_diagonal(const Eigen::SparseMatrix<double>& A) {
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
+      if (it.row() != it.col() && it.value() != 0) return false;
+  return true;
+}
+
+}  // namespace
+
+BorderColumns::BorderColumns(const body::Equations& eq) : Phi_(&eq.body->surface.Phi) {
+  U_.resize(eq.n_q(), eq.M_sq.rows() + eq.M_ss_1.rows());
+  U_ << eq.M_sq.transpose(), eq.M_ss_1.transpose();
+}
+
+Eigen::Index BorderColumns::size(const std::vector<int>& node) const {
+  return n_u() + 3 * static_cast<Eigen::Index>(node.size());
+}
+
+Eigen::MatrixXd BorderColumns::project(const std::vector<int>& node, const Eigen::MatrixXd& X) const {
+  Eigen::MatrixXd P(size(node), X.cols());
+  P.topRows(n_u()) = U_.transpose() * X;
+  std::visit(
+      [&](const auto& rows) {
+        for (std::size_t i = 0; i < node.size(); ++i)
+          P.middleRows(n_u() + 3 * static_cast<Eigen::Index>(i), 3) = rows.middleRows(3 * node[i], 3) * X;
+      },
+      *Phi_);
+  return P;
+}
+
+Eigen::VectorXd BorderColumns::expand(const std::vector<int>& node, const Eigen::VectorXd& c) const {
+  Eigen::VectorXd x = U_ * c.head(n_u());
+  for (std::size_t i = 0; i < node.size(); ++i)
+    model::add_force(*Phi_, node[i], c.segment<3>(n_u() + 3 * static_cast<Eigen::Index>(i)), x);
+  return x;
+}
+
+Eigen::MatrixXd BorderColumns::node_columns(const std::vector<int>& node) const {
+  Eigen::MatrixXd columns(U_.rows(), 3 * static_cast<Eigen::Index>(node.size()));
+  std::visit(
+      [&](const auto& rows) {
+        for (std::size_t i = 0; i < node.size(); ++i)
+          columns.middleCols(3 * static_cast<Eigen::Index>(i), 3) =
+              rows.middleRows(3 * node[i], 3).transpose();
+      },
+      *Phi_);
+  return columns;
+}
+
+ElasticBlock::ElasticBlock(const body::Equations& eq)
+    : body_(eq.body.get()), D_r_(eq.D_r), columns_(eq), slot_(eq.body->surface.node.size(), -1) {
+  diagonal_ = is_diagonal(body_->M_r) && is_diagonal(body_->K_r);
+}
+
+void ElasticBlock::set_shifts(double shift_v, double shift_a) {
+  if (shift_v == shift_v_ && shift_a == shift_a_) return;
+  shift_v_ = shift_v;
+  shift_a_ = shift_a;
+  D_ = shift_a * body_->M_r + shift_v * D_r_ + body_->K_r;
+  D_.makeCompressed();
+  if (diagonal_) {
+    inverse_ = D_.diagonal().cwiseInverse();
+    require(inverse_.allFinite(), "body '", body_->name, "': the effective elastic matrix is singular");
+  } else {
+    factorise();
+  }
+  reset_compliance();
+}
+
+void ElasticBlock::factorise() {
+  const auto n = static_cast<PetscInt>(D_.rows());
+  ksp_ = UniqueKSP();
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, D_.outerIndexPtr(), D_.innerIndexPtr(),
+                                  D_.valuePtr(), D_mat_.out()));
+  check(MatSetOption(D_mat_, MAT_SPD, PETSC_TRUE));
+  check(KSPCreate(PETSC_COMM_SELF, ksp_.out()));
+  check(KSPSetOptionsPrefix(ksp_, "elastic_"));
+  check(KSPSetOperators(ksp_, D_mat_, D_mat_));
+  check(KSPSetType(ksp_, KSPPREONLY));
+  PC pc = nullptr;
+  check(KSPGetPC(ksp_, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetFromOptions(ksp_));
+  check(KSPSetUp(ksp_));
+}
+
+Eigen::VectorXd ElasticBlock::multiply(const Eigen::VectorXd& x) const { return D_ * x; }
+
+Eigen::MatrixXd ElasticBlock::solve(const Eigen::MatrixXd& Y) const {
+  if (diagonal_) return inverse_.asDiagonal() * Y;
+  const auto n = static_cast<PetscInt>(Y.rows()), m = static_cast<PetscInt>(Y.cols());
+  Eigen::MatrixXd right = Y, X = Eigen::MatrixXd::Zero(n, m);
+  if (m == 0) return X;
+  UniqueMat right_mat, X_mat;
+  check(MatCreateSeqDense(PETSC_COMM_SELF, n, m, right.data(), right_mat.out()));
+  check(MatCreateSeqDense(PETSC_COMM_SELF, n, m, X.data(), X_mat.out()));
+  check(KSPMatSolve(ksp_, right_mat, X_mat));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check(KSPGetConvergedReason(ksp_, &reason));
+  require(reason >= 0 && X.allFinite(), "body '", body_->name,
+          "': the effective elastic matrix could not be factorised (is it positive definite?)");
+  return X;
+}
+
+void ElasticBlock::reset_compliance() {
+  kept_.clear();
+  std::fill(slot_.begin(), slot_.end(), -1);
+  G_ = columns_.U().transpose() * solve(columns_.U());
+}
+
+void ElasticBlock::add_to_compliance(const std::vector<int>& node) {
+  const Eigen::Index before = G_.rows();
+  const Eigen::MatrixXd X = solve(columns_.node_columns(node));
+  for (int i : node) {
+    slot_[i] = static_cast<int>(kept_.size());
+    kept_.push_back(i);
+  }
+  const Eigen::Index after = columns_.size(kept_);
+  G_.conservativeResize(after, after);
+  G_.rightCols(after - before) = columns_.project(kept_, X);
+  G_.bottomLeftCorner(after - before, before) = G_.topRightCorner(before, after - before).transpose();
+}
+
+Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
+  std::vector<int> missing;
+  std::copy_if(node.begin(), node.end(), std::back_inserter(missing), [&](int i) { return slot_[i] < 0; });
+  if (kept_.size() + missing.size() > kMaxKeptNodes) {
+    reset_compliance();
+    missing = node;
+  }
+  if (!missing.empty()) add_to_compliance(missing);
+  std::vector<Eigen::Index> index;
+  for (Eigen::Index u = 0; u < columns_.n_u(); ++u) index.push_back(u);
+  for (int i : node)
+    for (Eigen::Index d = 0; d < 3; ++d) index.push_back(columns_.n_u() + 3 * slot_[i] + d);
+  return G_(index, index);
+}
+
+}  // namespace elastogear::dynamics

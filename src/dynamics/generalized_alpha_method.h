@@ -1,0 +1,66 @@
+#pragma once
+// The arithmetic of one generalised-alpha step and its nonlinear solves. Private to module dynamics.
+// Equation numbers (TI.n) are those of theory.md, "Time integration".
+
+#include <petsc/private/tsimpl.h>
+
+namespace elastogear::dynamics::generalized_alpha {
+
+struct Parameters {
+  PetscReal alpha_m, alpha_f, gamma, beta;
+};
+
+/// Optimal parameters for a spectral radius rho_inf in 0..1 (TI.5).
+Parameters parameters_for(PetscReal rho_inf);
+
+enum class Predictor { none, constant_acceleration, zero_acceleration };
+
+struct Motion {
+  Vec U, V, A;
+};
+
+/// Where F is evaluated: base + c * Delta at time t (TI.6).
+struct Stage {
+  PetscReal t, c_U, c_V, c_A;
+  PetscReal shift_V, shift_A;  ///< dV/dU and dA/dU for the Jacobian callback
+  PetscReal scale;             ///< of F, so that its derivative in Delta is the callback's Jacobian
+};
+
+struct Method {
+  Parameters parameters;
+  Predictor predictor;
+  PetscReal velocity_rtol, velocity_atol;
+
+  Motion current;  ///< accepted state; U and V are copies of the solution, to notice changes made outside
+  bool acceleration_known;
+  PetscObjectState solution_state;  ///< of ts->vec_sol when current was recorded; -1 after set_state
+  Motion start, end;                ///< of the last step, as integrated
+  PetscReal step_time, step_size;
+
+  Stage stage;
+  Motion base, at_stage;
+  Vec Delta, residual;
+};
+
+inline Method& method(TS ts) { return *static_cast<Method*>(ts->data); }
+
+PetscErrorCode create_vectors(TS ts);
+PetscErrorCode destroy_vectors(Method& m);
+PetscErrorCode copy(const Motion& from, const Motion& to);
+
+/// end := predictor, then the solution of F = 0 at the stage. The outcome is the reason of ts->snes.
+PetscErrorCode solve_step(TS ts);
+
+/// current := (vec_sol, vec_dot, A) with F(t, U, V, A) = 0 (TI.7). Fails with PETSC_ERR_NOT_CONVERGED, or
+/// with ts->reason where TSSetErrorIfStepFails is off.
+PetscErrorCode solve_acceleration(TS ts);
+
+/// A of the method belongs to a time that lags t by (alpha_m - alpha_f) dt. When the next step is `ratio` times
+/// the last one, current.A moves to the lag of the next step (TI.8), never past A at the start of the last.
+PetscErrorCode move_lag(const Method& m, PetscReal ratio);
+
+/// The callbacks of ts->snes.
+PetscErrorCode stage_function(SNES, Vec Delta, Vec F, TS ts);
+PetscErrorCode stage_jacobian(SNES, Vec Delta, Mat J, Mat P, TS ts);
+
+}  // namespace elastogear::dynamics::generalized_alpha

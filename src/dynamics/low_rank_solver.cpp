@@ -1,0 +1,89 @@
+#include "elastogear/dynamics/low_rank_solver.h"
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::dynamics {
+
+LowRankSolver::LowRankSolver(const std::vector<const body::Equations*>& bodies) {
+  Eigen::Index start = 0;
+  for (const body::Equations* eq : bodies) {
+    range_.push_back({start, eq->n_s(), eq->n_q(), n_s_});
+    block_.emplace_back(*eq);
+    start += eq->n_s() + eq->n_q();
+    n_s_ += eq->n_s();
+  }
+}
+
+void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
+  const BodyTerms& t = A_.body[b];
+  const auto [s, n_s, n_q, joint] = range_[b];
+  const Eigen::Index r = A_.k.rows();
+  const Eigen::MatrixXd G = block_[b].compliance(t.node);
+  const Eigen::MatrixXd G_beta = G * t.beta, G_rho = G * t.rho, G_L = G * t.L;
+  small.block(joint, joint, n_s, n_s) += t.C - t.rho.transpose() * G_beta;
+  small.block(joint, n_s_, n_s, r) += (t.W_s - G_rho.transpose() * t.L) * A_.k;
+  small.block(n_s_, joint, r, n_s) += t.L.transpose() * G_beta - t.W_s.transpose();
+  const Eigen::MatrixXd L_G_L = t.L.transpose() * G_L;
+  small.bottomRightCorner(r, r) += L_G_L * A_.k;
+}
+
+void LowRankSolver::set(EffectiveMatrix A) {
+  A_ = std::move(A);
+  const Eigen::Index r = A_.k.rows();
+  Eigen::MatrixXd small = Eigen::MatrixXd::Zero(n_s_ + r, n_s_ + r);
+  small.bottomRightCorner(r, r).setIdentity();
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    block_[b].set_shifts(A_.shift_v, A_.shift_a);
+    add_body(b, small);
+  }
+  require(small.allFinite(), "the effective matrix is not finite");
+  if (small.rows() == 0) return;
+  lu_.compute(small);
+  require(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0, "the effective matrix is singular");
+}
+
+Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(A_.k.rows()), y(x.size());
+  std::vector<Eigen::VectorXd> projected;
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    const auto [s, n_s, n_q, joint] = range_[b];
+    const BodyTerms& t = A_.body[b];
+    projected.push_back(block_[b].columns().project(t.node, x.segment(s + n_s, n_q)));
+    lambda += t.W_s.transpose() * x.segment(s, n_s) + t.L.transpose() * projected[b];
+  }
+  const Eigen::VectorXd k_lambda = A_.k * lambda;
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    const auto [s, n_s, n_q, joint] = range_[b];
+    const BodyTerms& t = A_.body[b];
+    const auto x_s = x.segment(s, n_s);
+    y.segment(s, n_s) = t.C * x_s + t.rho.transpose() * projected[b] + t.W_s * k_lambda;
+    y.segment(s + n_s, n_q) = block_[b].multiply(x.segment(s + n_s, n_q)) +
+                              block_[b].columns().expand(t.node, t.beta * x_s + t.L * k_lambda);
+  }
+  return y;
+}
+
+Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd x(y.size()), right = Eigen::VectorXd::Zero(n_s_ + A_.k.rows());
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    const auto [s, n_s, n_q, joint] = range_[b];
+    const BodyTerms& t = A_.body[b];
+    x.segment(s + n_s, n_q) = block_[b].solve(y.segment(s + n_s, n_q));
+    const Eigen::VectorXd p = block_[b].columns().project(t.node, x.segment(s + n_s, n_q));
+    right.segment(joint, n_s) = y.segment(s, n_s) - t.rho.transpose() * p;
+    right.tail(A_.k.rows()) += t.L.transpose() * p;
+  }
+  const Eigen::VectorXd small = right.size() ? Eigen::VectorXd(lu_.solve(right)) : right;
+  const Eigen::VectorXd k_lambda = A_.k * small.tail(A_.k.rows());
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    const auto [s, n_s, n_q, joint] = range_[b];
+    const BodyTerms& t = A_.body[b];
+    const Eigen::VectorXd x_s = small.segment(joint, n_s);
+    x.segment(s, n_s) = x_s;
+    x.segment(s + n_s, n_q) -=
+        block_[b].solve(block_[b].columns().expand(t.node, t.beta * x_s + t.L * k_lambda));
+  }
+  return x;
+}
+
+}  // namespace elastogear::dynamics

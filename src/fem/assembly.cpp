@@ -1,0 +1,116 @@
+#include "elastogear/fem/assembly.h"
+
+#include <algorithm>
+
+#include "elastogear/fem/element.h"
+
+namespace elastogear::fem {
+namespace {
+
+// Number of blocks in each owned block row: in columns of this rank, and in columns of others.
+struct BlockCounts {
+  std::vector<PetscInt> diagonal, other;
+};
+
+// Per owned block row the cells at its node.
+std::vector<std::vector<int>> cells_of_rows(const Share& share) {
+  std::vector<std::vector<int>> cells(static_cast<std::size_t>(share.row_end - share.row_begin));
+  for (int cell = 0; cell < share.mesh.cells.size(); ++cell)
+    for (int node : share.mesh.cells[cell]) {
+      const int row = share.row[node];
+      if (row >= share.row_begin && row < share.row_end) cells[row - share.row_begin].push_back(cell);
+    }
+  return cells;
+}
+
+BlockCounts count_blocks(const Share& share) {
+  BlockCounts counts;
+  std::vector<int> columns;
+  for (const auto& cells : cells_of_rows(share)) {
+    columns.clear();
+    for (int cell : cells)
+      for (int node : share.mesh.cells[cell])
+        if (share.row[node] >= 0) columns.push_back(share.row[node]);
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    const auto mine = std::lower_bound(columns.begin(), columns.end(), share.row_end) -
+                      std::lower_bound(columns.begin(), columns.end(), share.row_begin);
+    counts.diagonal.push_back(static_cast<PetscInt>(mine));
+    counts.other.push_back(static_cast<PetscInt>(columns.size()) - counts.diagonal.back());
+  }
+  return counts;
+}
+
+UniqueMat create_matrix(MPI_Comm comm, const Share& share, const BlockCounts& counts) {
+  UniqueMat A;
+  const PetscInt n = 3 * (share.row_end - share.row_begin);
+  check(MatCreate(comm, A.out()));
+  check(MatSetSizes(A, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  check(MatSetType(A, MATAIJ));
+  check(MatXAIJSetPreallocation(A, 3, counts.diagonal.data(), counts.other.data(), nullptr, nullptr));
+  check(MatSetOption(A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+  check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
+  check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
+  return A;
+}
+
+// Block columns of a cell, and its block rows with those of other ranks masked by -1 (PETSc skips them).
+struct CellRows {
+  std::vector<PetscInt> row, column;
+};
+
+void find_rows(const Share& share, int cell, CellRows& rows) {
+  rows.row.clear();
+  rows.column.clear();
+  for (int node : share.mesh.cells[cell]) {
+    const PetscInt column = share.row[node];
+    rows.column.push_back(column);
+    rows.row.push_back(column >= share.row_begin && column < share.row_end ? column : -1);
+  }
+}
+
+// M_e (x) I_3
+Eigen::MatrixXd in_three_directions(const Eigen::MatrixXd& M_e) {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(3 * M_e.rows(), 3 * M_e.cols());
+  for (Eigen::Index b = 0; b < M_e.cols(); ++b)
+    for (Eigen::Index a = 0; a < M_e.rows(); ++a)
+      M.block<3, 3>(3 * a, 3 * b).diagonal().setConstant(M_e(a, b));
+  return M;
+}
+
+// Both matrices are symmetric, so that Eigen's column order serves as PETSc's row order.
+void add(Mat A, const CellRows& rows, const Eigen::MatrixXd& A_e) {
+  const auto n = static_cast<PetscInt>(rows.row.size());
+  check(MatSetValuesBlocked(A, n, rows.row.data(), n, rows.column.data(), A_e.data(), ADD_VALUES));
+}
+
+void finish(Mat A) {
+  check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+}
+
+}  // namespace
+
+Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::MaterialRegion>& regions,
+                  model::Element element, const Progress& progress) {
+  constexpr int kReportEvery = 4096;
+  const BlockCounts counts = count_blocks(share);
+  Matrices matrices{create_matrix(comm, share, counts), create_matrix(comm, share, counts)};
+  const int n_cells = share.mesh.cells.size();
+  CellRows rows;
+  for (int cell = 0; cell < n_cells; ++cell) {
+    if (cell % kReportEvery == 0) report(progress, "assembly", static_cast<double>(cell) / n_cells);
+    const ElementFunctions& functions = element_functions(share.mesh.cells.type[cell]);
+    const model::Material& material = regions[share.region[cell]].material;
+    const Eigen::Matrix3Xd X = cell_coordinates(share.mesh, cell);
+    find_rows(share, cell, rows);
+    add(matrices.K, rows, functions.stiffness(X, lame(material), element));
+    add(matrices.M, rows, in_three_directions(functions.mass(X, material.rho)));
+  }
+  finish(matrices.K);
+  finish(matrices.M);
+  report(progress, "assembly", 1);
+  return matrices;
+}
+
+}  // namespace elastogear::fem

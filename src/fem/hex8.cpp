@@ -1,0 +1,156 @@
+#include "elastogear/fem/hex8.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+
+#include "elastogear/fem/kernels.h"
+
+namespace elastogear::fem::hex8 {
+namespace {
+
+using Point = Eigen::Vector3d;
+using Functions = Eigen::Matrix<double, 8, 1>;
+using Derivatives = Eigen::Matrix<double, 8, 3>;
+constexpr int kModes = 3;  // incompatible functions, each in three directions
+constexpr int kFunctions = 8 + kModes;
+using Gradients = Eigen::Matrix<double, 3, kFunctions>;
+using Condensation = Eigen::Matrix<double, 9, 24>;
+
+// Corner k of the reference cube [-1, 1]^3, in the mesh's node order.
+Point corner(int k) {
+  static constexpr int kSigns[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                       {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  return {double(kSigns[k][0]), double(kSigns[k][1]), double(kSigns[k][2])};
+}
+
+Functions shape(const Point& xi) {
+  Functions N;
+  for (int a = 0; a < 8; ++a) N(a) = (1 + corner(a).array() * xi.array()).prod() / 8;
+  return N;
+}
+
+Derivatives shape_derivatives(const Point& xi) {
+  Derivatives dN;
+  for (int a = 0; a < 8; ++a) {
+    const Point s = corner(a), f = 1 + s.array() * xi.array();
+    dN.row(a) << s.x() * f.y() * f.z() / 8, s.y() * f.z() * f.x() / 8, s.z() * f.x() * f.y() / 8;
+  }
+  return dN;
+}
+
+struct Sample {
+  Point xi;
+  double weight;
+  Functions N;
+  Derivatives dN;
+};
+
+Sample sample(const Point& xi, double weight) { return {xi, weight, shape(xi), shape_derivatives(xi)}; }
+
+// 2x2x2 Gauss points in node order, so that the cube they span is the cell shrunk by 1/sqrt(3).
+const std::array<Sample, 8>& stiffness_points() {
+  static const std::array<Sample, 8> points = [] {
+    std::array<Sample, 8> p;
+    for (int k = 0; k < 8; ++k) p[k] = sample(corner(k) / std::sqrt(3.0), 1);
+    return p;
+  }();
+  return points;
+}
+
+const std::array<Sample, 27>& mass_points() {
+  static const std::array<Sample, 27> points = [] {
+    const double x[3] = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, w[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+    std::array<Sample, 27> p;
+    for (int i = 0; i < 27; ++i)
+      p[i] = sample({x[i % 3], x[i / 3 % 3], x[i / 9]}, w[i % 3] * w[i / 3 % 3] * w[i / 9]);
+    return p;
+  }();
+  return points;
+}
+
+Eigen::Matrix3d centre_jacobian(const Coordinates& X) { return X * shape_derivatives(Point::Zero()); }
+
+// Gradients of the eight shape functions and the three corrected incompatible modes at one Gauss point.
+Gradients gradients(const Coordinates& X, const Sample& point, const Eigen::Matrix3d& J_0, double* det) {
+  const Eigen::Matrix3d J = X * point.dN;
+  *det = J.determinant();
+  Gradients g;
+  g.leftCols<8>() = (point.dN * J.inverse()).transpose();
+  const Eigen::Matrix3d dP = (-2 * point.xi).asDiagonal();
+  g.rightCols<kModes>() = J_0.determinant() / *det * (J_0.inverse().transpose() * dP);
+  return g;
+}
+
+// K of all kFunctions functions, before condensation.
+Eigen::Matrix<double, 3 * kFunctions, 3 * kFunctions> full_stiffness(const Coordinates& X,
+                                                                     const Lame& material) {
+  const Eigen::Matrix3d J_0 = centre_jacobian(X);
+  Eigen::Matrix<double, 3 * kFunctions, 8> G;
+  for (int p = 0; p < 8; ++p) {
+    double det = 0;
+    const Gradients g = gradients(X, stiffness_points()[p], J_0, &det);
+    G.col(p) = std::sqrt(det) * g.reshaped();
+  }
+  return isotropic_stiffness<kFunctions, 8>(G, material);
+}
+
+// Amplitudes of the incompatible modes per nodal displacement: a = -K_aa^-1 K_au u.
+template <class Matrix>
+Condensation condensation(const Matrix& K) {
+  const Eigen::Matrix<double, 9, 9> K_aa = K.template bottomRightCorner<9, 9>();
+  const Condensation K_au = K.template bottomLeftCorner<9, 24>();
+  return -K_aa.ldlt().solve(K_au);
+}
+
+}  // namespace
+
+double smallest_jacobian(const Coordinates& X) {
+  double smallest = centre_jacobian(X).determinant();
+  const auto visit = [&](const Sample& point) {
+    const double det = Eigen::Matrix3d(X * point.dN).determinant();
+    if (!(det >= smallest)) smallest = det;
+  };
+  for (const Sample& point : stiffness_points()) visit(point);
+  for (const Sample& point : mass_points()) visit(point);
+  return smallest;
+}
+
+Stiffness stiffness(const Coordinates& X, const Lame& material, model::Element element) {
+  const auto K = full_stiffness(X, material);
+  Stiffness K_e = K.topLeftCorner<24, 24>();
+  if (element == model::Element::incompatible) K_e += K.topRightCorner<24, 9>() * condensation(K);
+  return (K_e + K_e.transpose()) / 2;
+}
+
+Mass mass(const Coordinates& X, double rho) {
+  Mass M = Mass::Zero();
+  for (const Sample& point : mass_points()) {
+    const double det = Eigen::Matrix3d(X * point.dN).determinant();
+    M += rho * det * point.weight * point.N * point.N.transpose();
+  }
+  return M;
+}
+
+StressOperator stress(const Coordinates& X, const Lame& material, model::Element element) {
+  Condensation C = Condensation::Zero();
+  if (element == model::Element::incompatible) C = condensation(full_stiffness(X, material));
+  const Eigen::Matrix3d J_0 = centre_jacobian(X);
+  StressOperator S = StressOperator::Zero();
+  for (int p = 0; p < 8; ++p) {
+    double det = 0;
+    const auto DB = isotropic_stress<kFunctions>(gradients(X, stiffness_points()[p], J_0, &det), material);
+    const Eigen::Matrix<double, 6, 24> at_point = DB.leftCols<24>() + DB.rightCols<9>() * C;
+    for (int a = 0; a < 8; ++a) S.middleRows<6>(6 * a) += shape(std::sqrt(3.0) * corner(a))(p) * at_point;
+  }
+  return S;
+}
+
+double volume(const Coordinates& X) {
+  double V = 0;
+  for (const Sample& point : stiffness_points()) V += Eigen::Matrix3d(X * point.dN).determinant();
+  return V;
+}
+
+}  // namespace elastogear::fem::hex8

@@ -1,0 +1,98 @@
+#include "elastogear/fem/stress.h"
+
+#include <limits>
+
+#include "elastogear/base/error.h"
+#include "elastogear/fem/element.h"
+
+namespace elastogear::fem {
+namespace {
+
+// What each node averages over: its region, and how many of that region's cells it has.
+struct Averaging {
+  std::vector<int> region_of_cell;
+  std::vector<int> region, count;  // per node
+
+  bool counts(int cell, int node) const { return region_of_cell[cell] == region[node]; }
+};
+
+Averaging find_averaging(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions) {
+  const auto n = static_cast<std::size_t>(mesh.n_nodes());
+  Averaging average{cell_regions(mesh, regions), std::vector<int>(n, std::numeric_limits<int>::max()),
+                    std::vector<int>(n, 0)};
+  for (int cell = 0; cell < mesh.cells.size(); ++cell)
+    for (int node : mesh.cells[cell])
+      average.region[node] = std::min(average.region[node], average.region_of_cell[cell]);
+  for (int cell = 0; cell < mesh.cells.size(); ++cell)
+    for (int node : mesh.cells[cell]) average.count[node] += average.counts(cell, node);
+  return average;
+}
+
+Eigen::MatrixXd element_stress(const mesh::Mesh& mesh, int cell, const model::Material& material,
+                               model::Element element) {
+  const auto& functions = element_functions(mesh.cells.type[cell]);
+  return functions.stress(cell_coordinates(mesh, cell), lame(material), element);
+}
+
+Eigen::VectorXd cell_displacement(const mesh::Mesh& mesh, int cell, const Eigen::VectorXd& u) {
+  const auto nodes = mesh.cells[cell];
+  Eigen::VectorXd u_e(3 * nodes.size());
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    u_e.segment<3>(static_cast<Eigen::Index>(3 * a)) = u.segment<3>(3 * nodes[a]);
+  return u_e;
+}
+
+// Adds the 6 rows of the cell's node `a` to the operator's rows 6 i ..
+void add_rows(std::vector<Eigen::Triplet<double>>& entries, int i, std::span<const int> nodes,
+              const Eigen::MatrixXd& S_a) {
+  for (int row = 0; row < 6; ++row)
+    for (Eigen::Index b = 0; b < S_a.cols(); ++b)
+      entries.emplace_back(6 * i + row, 3 * nodes[static_cast<std::size_t>(b / 3)] + b % 3, S_a(row, b));
+}
+
+}  // namespace
+
+model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
+                                  model::Element element, const std::vector<int>& nodes) {
+  const Averaging average = find_averaging(mesh, regions);
+  std::vector<int> local(static_cast<std::size_t>(mesh.n_nodes()), -1);
+  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+    require(average.count[nodes[i]] > 0, "stress node ", nodes[i], " (counted from 0) belongs to no cell");
+    local[nodes[i]] = i;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    Eigen::MatrixXd S_e;
+    const auto cell_nodes = mesh.cells[cell];
+    for (int a = 0; a < static_cast<int>(cell_nodes.size()); ++a) {
+      const int node = cell_nodes[a];
+      if (local[node] < 0 || !average.counts(cell, node)) continue;
+      if (S_e.size() == 0)
+        S_e = element_stress(mesh, cell, regions[average.region_of_cell[cell]].material, element);
+      add_rows(entries, local[node], cell_nodes, S_e.middleRows(6 * a, 6) / average.count[node]);
+    }
+  }
+  model::SparseRows S(6 * static_cast<Eigen::Index>(nodes.size()), 3 * mesh.n_nodes());
+  S.setFromTriplets(entries.begin(), entries.end());
+  return S;
+}
+
+Eigen::MatrixXd nodal_stress(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
+                             model::Element element, const Eigen::VectorXd& u) {
+  require(u.size() == 3 * mesh.n_nodes(), "displacement has ", u.size(), " entries, the mesh needs ",
+          3 * mesh.n_nodes());
+  const Averaging average = find_averaging(mesh, regions);
+  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(6, mesh.n_nodes());
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const model::Material& material = regions[average.region_of_cell[cell]].material;
+    const Eigen::VectorXd s =
+        element_stress(mesh, cell, material, element) * cell_displacement(mesh, cell, u);
+    const auto nodes = mesh.cells[cell];
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      if (average.counts(cell, nodes[a]))
+        sigma.col(nodes[a]) += s.segment<6>(static_cast<Eigen::Index>(6 * a)) / average.count[nodes[a]];
+  }
+  return sigma;
+}
+
+}  // namespace elastogear::fem

@@ -1,0 +1,213 @@
+#include "elastogear/gear/design.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+#include "elastogear/base/error.h"
+#include "profile.h"
+
+namespace elastogear::gear {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kMaxPressureAngle = kPi / 4;
+constexpr int kMaxTeeth = 1000;
+constexpr double kMinTipWidth = 0.1;  // of the module: thinner teeth count as pointed
+
+double involute(double alpha) { return std::tan(alpha) - alpha; }
+
+// A named number of the design, for messages.
+struct Value {
+  const char* name;
+  double value;
+};
+
+void require_increasing(std::initializer_list<Value> values) {
+  for (auto next = values.begin() + 1; next != values.end(); ++next)
+    require(next[-1].value < next->value, next->name, " = ", next->value, " m: must be above ", next[-1].name,
+            " = ", next[-1].value, " m");
+}
+
+void check_positive(const Design& d) {
+  const Value values[] = {{"m_n", d.m_n},
+                          {"a", d.a},
+                          {"addendum", d.addendum},
+                          {"dedendum", d.dedendum},
+                          {"worm_fillet", d.worm_fillet},
+                          {"wheel_rack_tip", d.wheel_rack_tip},
+                          {"thread_length", d.thread_length},
+                          {"worm_bore", d.worm_bore},
+                          {"seat_1_diameter", d.seat_1_diameter},
+                          {"seat_2_diameter", d.seat_2_diameter},
+                          {"shaft_1_diameter", d.shaft_1_diameter},
+                          {"shaft_2_diameter", d.shaft_2_diameter},
+                          {"shoulder", d.shoulder},
+                          {"face_width", d.face_width},
+                          {"wheel_bore", d.wheel_bore},
+                          {"hub_diameter", d.hub_diameter},
+                          {"hub_width", d.hub_width},
+                          {"web_diameter", d.web_diameter},
+                          {"web_width", d.web_width},
+                          {"rim_diameter", d.rim_diameter}};
+  for (const auto& [name, value] : values)
+    require(std::isfinite(value) && value > 0, name, " = ", value, " m: must be positive and finite");
+  for (double z : {d.seat_1_begin, d.seat_1_end, d.seat_2_begin, d.seat_2_end, d.shaft_1_end, d.shaft_2_end})
+    require(std::isfinite(z), "positions along the worm's shaft must be finite, one is ", z);
+}
+
+void check_toothing(const Design& d) {
+  require(d.z1 >= 1, "z1 = ", d.z1, ": the worm needs at least 1 start");
+  require(d.z2 > d.z1 && d.z2 <= kMaxTeeth, "z2 = ", d.z2, ": must be above z1 = ", d.z1, " and at most ",
+          kMaxTeeth);
+  require(d.alpha_n > 0 && d.alpha_n <= kMaxPressureAngle, "alpha_n = ", d.alpha_n,
+          " rad: must be above 0 and at most ", kMaxPressureAngle, " rad");
+  require(d.j_n >= 0 && d.j_n < kPi * d.m_n * std::cos(d.alpha_n), "j_n = ", d.j_n,
+          " m: must be at least 0 and below the normal base pitch ", kPi * d.m_n * std::cos(d.alpha_n), " m");
+  require(d.dedendum > d.addendum, "dedendum = ", d.dedendum, " m: must be above addendum = ", d.addendum,
+          " m, else tips and roots touch");
+}
+
+double centre_distance(const Design& d, double gamma) {
+  return d.m_n / 2 * (d.z1 / std::sin(gamma) + d.z2 / std::cos(gamma));
+}
+
+// The centre distance falls from infinity at gamma = 0 to its minimum at tan(gamma)^3 = z1/z2.
+double lead_angle(const Design& d) {
+  double low = 0, high = std::atan(std::cbrt(static_cast<double>(d.z1) / d.z2));
+  const double smallest = centre_distance(d, high);
+  require(d.a >= smallest, "there is no lead angle for the centre distance a = ", d.a, " m: at least ",
+          smallest, " m is needed with z1 = ", d.z1, ", z2 = ", d.z2, ", m_n = ", d.m_n, " m");
+  for (int i = 0; i < 200; ++i) {
+    const double gamma = (low + high) / 2;
+    (centre_distance(d, gamma) > d.a ? low : high) = gamma;
+  }
+  return high;
+}
+
+// `angle` is the helix angle's complement seen by this body: tan(alpha_t) = tan(alpha_n)/sin(angle).
+Toothing toothing(const Design& d, int z, double angle, double s_n) {
+  Toothing t{.z = z};
+  t.r = d.m_n * z / (2 * std::sin(angle));
+  t.r_a = t.r + d.addendum;
+  t.r_f = t.r - d.dedendum;
+  t.alpha_t = std::atan(std::tan(d.alpha_n) / std::sin(angle));
+  t.r_b = t.r * std::cos(t.alpha_t);
+  t.beta_b = std::asin(std::cos(angle) * std::cos(d.alpha_n));
+  t.p = t.r * std::tan(angle);
+  t.psi_b = s_n / (2 * t.r * std::sin(angle)) + involute(t.alpha_t);
+  return t;
+}
+
+// Length of the path of contact from the pitch point to the tip cylinder.
+double path_length(const Toothing& t) {
+  const double tip = std::sqrt(t.r_a * t.r_a - t.r_b * t.r_b), pitch = std::sqrt(t.r * t.r - t.r_b * t.r_b);
+  return (tip - pitch) / std::cos(t.beta_b);
+}
+
+// Radius of the contact point where the path leaves the mate's tip cylinder, `length` from the pitch point.
+// The path runs along (sin beta_b1, sin alpha_n, sin beta_b2) = (worm axis, centre line, wheel axis).
+double start_radius(const Design& d, const Toothing& t, const Toothing& mate, double length) {
+  return std::hypot(t.r - length * std::sin(d.alpha_n), length * std::sin(mate.beta_b));
+}
+
+// A body's name, its fillet radius and the tooth's thickness at the tip.
+struct ToothCheck {
+  const char *body, *fillet;
+  double fillet_radius, tip_width;
+};
+
+void check_tooth(const Toothing& t, const Design& d, const ToothCheck& c) {
+  require(c.tip_width >= kMinTipWidth * d.m_n, "addendum = ", d.addendum, " m: the ", c.body,
+          "'s teeth are pointed, ", c.tip_width, " m thick at the tip, at least ", kMinTipWidth * d.m_n,
+          " m is needed");
+  require(t.r_start > t.r_b, "addendum = ", d.addendum, " m: the contact reaches the radius ", t.r_start,
+          " m of the ", c.body, ", inside its base circle ", t.r_b, " m");
+  require(t.r_form <= t.r_start, c.fillet, " = ", c.fillet_radius, " m: the fillet of the ", c.body,
+          " ends at the radius ", t.r_form, " m, inside the path of contact, which starts at ", t.r_start,
+          " m");
+}
+
+void check_shaft(const Design& d, const Geometry& g) {
+  // The helical layers end within one pitch of the thread's ends.
+  const double reach = d.thread_length / 2 + g.p_x + d.shoulder;
+  require(reach < std::min(-d.seat_1_end, d.seat_2_begin), "thread_length = ", d.thread_length,
+          " m: half the thread, a pitch and a shoulder take ", reach,
+          " m from the middle, the seats begin at ", d.seat_1_end, " m and ", d.seat_2_begin, " m");
+  require_increasing({{"shaft_1_end plus shoulder", d.shaft_1_end + d.shoulder},
+                      {"seat_1_begin", d.seat_1_begin},
+                      {"seat_1_end", d.seat_1_end}});
+  require_increasing({{"seat_2_begin", d.seat_2_begin},
+                      {"seat_2_end", d.seat_2_end},
+                      {"shaft_2_end less shoulder", d.shaft_2_end - d.shoulder}});
+  const Value diameters[] = {{"seat_1_diameter", d.seat_1_diameter},
+                             {"seat_2_diameter", d.seat_2_diameter},
+                             {"shaft_1_diameter", d.shaft_1_diameter},
+                             {"shaft_2_diameter", d.shaft_2_diameter},
+                             {"the worm's root diameter", 2 * g.worm.r_f}};
+  for (const Value& value : diameters) require_increasing({{"worm_bore", d.worm_bore}, value});
+}
+
+void check_wheel(const Design& d, const Geometry& g) {
+  require_increasing({{"wheel_bore", d.wheel_bore},
+                      {"hub_diameter", d.hub_diameter},
+                      {"web_diameter", d.web_diameter},
+                      {"rim_diameter", d.rim_diameter},
+                      {"the wheel's root diameter", 2 * g.wheel.r_f}});
+  require(d.web_width <= std::min(d.hub_width, d.face_width), "web_width = ", d.web_width,
+          " m: at most hub_width = ", d.hub_width, " m and face_width = ", d.face_width, " m");
+}
+
+Geometry pitch_geometry(const Design& d) {
+  Geometry g;
+  g.gamma = lead_angle(d);
+  g.j_n = d.j_n;
+  g.s_n = kPi * d.m_n / 2 - d.j_n / (2 * std::cos(d.alpha_n));
+  g.p_bn = kPi * d.m_n * std::cos(d.alpha_n);
+  g.p_x = kPi * d.m_n / std::cos(g.gamma);
+  g.ratio = static_cast<double>(d.z2) / d.z1;
+  g.worm = toothing(d, d.z1, g.gamma, g.s_n);
+  g.wheel = toothing(d, d.z2, kPi / 2 - g.gamma, g.s_n);
+  g.worm.theta_1 = kPi - kPi / d.z1;  // a space faces the wheel, at worm local -x
+  g.wheel.theta_1 = kPi / 2;
+  return g;
+}
+
+void derive_contact(const Design& d, Geometry& g) {
+  const double L_1 = path_length(g.worm), L_2 = path_length(g.wheel);
+  g.epsilon = (L_1 + L_2) / g.p_bn;
+  require(g.epsilon >= 1, "addendum = ", d.addendum, " m: the contact ratio is ", g.epsilon,
+          ", at least 1 is needed");
+  g.worm.r_start = start_radius(d, g.worm, g.wheel, L_2);
+  g.wheel.r_start = start_radius(d, g.wheel, g.worm, L_1);
+}
+
+}  // namespace
+
+double tooth_angle(const Toothing& t, int i) { return t.theta_1 + 2 * kPi * i / t.z; }
+
+double psi(const Toothing& t, double r) { return t.psi_b - involute(std::acos(std::min(1.0, t.r_b / r))); }
+
+double flank_distance(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
+  const double turned = std::atan2(x[1], x[0]) - x[2] / t.p - tooth_angle(t, tooth);
+  const double theta = std::remainder(turned, 2 * kPi);
+  return t.r_b * std::cos(t.beta_b) * (side * theta - psi(t, std::hypot(x[0], x[1])));
+}
+
+Geometry derive(const Design& d) {
+  check_positive(d);
+  check_toothing(d);
+  Geometry g = pitch_geometry(d);
+  check_shaft(d, g);
+  check_wheel(d, g);
+  derive_contact(d, g);
+  g.worm.r_form = worm_form_radius(d, g);
+  g.wheel.r_form = wheel_form_radius(d, g);
+  check_tooth(g.worm, d, {"worm", "worm_fillet", d.worm_fillet, 2 * psi(g.worm, g.worm.r_a) * g.worm.p});
+  check_tooth(g.wheel, d,
+              {"wheel", "wheel_rack_tip", d.wheel_rack_tip, 2 * psi(g.wheel, g.wheel.r_a) * g.wheel.r_a});
+  return g;
+}
+
+}  // namespace elastogear::gear

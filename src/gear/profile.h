@@ -1,0 +1,34 @@
+#pragma once
+// Plane tooth outlines: the worm in its axial section, the wheel in its transverse section.
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "elastogear/gear/design.h"
+
+namespace elastogear::gear {
+
+/// The half of one tooth on the positive side of its axis. A point is given by its radius and a lateral
+/// coordinate c: axial position (worm, m) or angle (wheel, rad). Plane coordinates (m): x across, y along the
+/// tooth axis.
+struct Profile {
+  bool polar = false;                             ///< wheel: x = r sin c, y = r cos c; worm: x = c, y = r
+  double half_pitch = 0;                          ///< middle of the space, c
+  double r_inner = 0;                             ///< m, lower end of the section: bore (worm), rim (wheel)
+  double r_f = 0, r_form = 0, r_a = 0;            ///< m, root, end of the flank, tip
+  std::function<double(double)> half_width;       ///< c of the flank at radius r
+  std::function<Eigen::Vector2d(double)> fillet;  ///< plane point, t = 0 at the root land, 1 at the flank
+
+  Eigen::Vector2d point(double c, double r) const;
+  double lateral(const Eigen::Vector2d& x) const;  ///< c of a plane point
+};
+
+/// Profiles of a design whose form radii are known (Geometry of derive()).
+Profile worm_profile(const Design& design, const Geometry& geometry);
+Profile wheel_profile(const Design& design, const Geometry& geometry);
+
+/// Radii where the flanks end and the fillets begin; throw Error when the fillet does not exist.
+double worm_form_radius(const Design& design, const Geometry& geometry);
+double wheel_form_radius(const Design& design, const Geometry& geometry);
+
+}  // namespace elastogear::gear

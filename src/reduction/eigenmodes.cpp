@@ -1,0 +1,227 @@
+#include "elastogear/reduction/eigenmodes.h"
+
+#include <slepceps.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::reduction {
+namespace {
+
+using UniqueEPS = Handle<EPS, EPSDestroy>;
+
+// A mechanism's eigenvalue is roundoff of the largest one, max K_ii/M_ii; the lowest elastic one of a slender
+// finely meshed body is still some 1e-9 of it.
+constexpr double kZeroEigenvalue = 1e-13;
+constexpr double kSameModulus = 1e-6;
+
+struct Monitor {
+  const Progress* progress;
+  int wanted;
+};
+
+PetscErrorCode monitor(EPS, PetscInt, PetscInt converged, PetscScalar*, PetscScalar*, PetscReal*, PetscInt,
+                       void* context) {
+  const auto& m = *static_cast<Monitor*>(context);
+  std::exception_ptr ignored;
+  return guard(ignored, [&] {
+    report(*m.progress, "eigenmodes", std::min(1.0, static_cast<double>(converged) / m.wanted));
+  });
+}
+
+int size_of(Mat K) {
+  PetscInt n = 0;
+  check(MatGetSize(K, &n, nullptr));
+  return static_cast<int>(n);
+}
+
+void use_mumps(PC pc, PCType type) {
+  check(PCSetType(pc, type));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+}
+
+// A few modes more than wanted: the last of a group of equal eigenvalues then is not cut off, and a gap
+// above the wanted ones is known.
+int guarded_count(int wanted, int n) { return std::min(n, wanted + 2 + wanted / 20); }
+
+UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
+  UniqueEPS eps;
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(K)), eps.out()));
+  check(EPSSetOptionsPrefix(eps, options.prefix.c_str()));
+  check(EPSSetOperators(eps, K, M));
+  check(EPSSetProblemType(eps, EPS_GHEP));
+  check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
+  check(EPSSetTarget(eps, 0));
+  check(EPSSetDimensions(eps, guarded_count(options.n_modes, size_of(K)), PETSC_DEFAULT, PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, options.tolerance, PETSC_DEFAULT));
+  check(EPSSetPurify(eps, PETSC_FALSE));  // M is definite: purifying costs a solve per mode for nothing
+  check(EPSGetST(eps, &st));
+  check(STSetType(st, STSINVERT));
+  check(STGetKSP(st, &ksp));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  use_mumps(pc, PCCHOLESKY);
+  check(EPSSetFromOptions(eps));
+  return eps;
+}
+
+[[noreturn]] void fail_singular(const std::string& detail) {
+  fail("the stiffness is singular (", detail,
+       "): the restrained nodes do not hold the body, or parts of the mesh hang together by an edge or a "
+       "node only");
+}
+
+void solve(EPS eps, const EigenOptions& options, const Progress& progress) {
+  Monitor context{&progress, options.n_modes};
+  check(EPSMonitorSet(eps, monitor, &context, nullptr));
+  report(progress, "eigenmodes", 0);
+  const PetscErrorCode code = EPSSolve(eps);
+  if (code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_CONV_FAILED || code == PETSC_ERR_MAT_CH_ZRPVT)
+    fail_singular("its factorisation failed");
+  check(code);
+  check(EPSMonitorCancel(eps));
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps, &converged));
+  require(converged >= options.n_modes, "the eigensolver found ", converged, " of ", options.n_modes,
+          " modes; allow more iterations (-", options.prefix, "eps_max_it) or a larger basis (-",
+          options.prefix, "eps_ncv)");
+}
+
+// Converged pairs in ascending order of eigenvalue.
+std::vector<std::pair<double, int>> sorted_pairs(EPS eps) {
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps, &converged));
+  std::vector<std::pair<double, int>> pairs;
+  for (int i = 0; i < static_cast<int>(converged); ++i) {
+    PetscScalar lambda = 0;
+    check(EPSGetEigenvalue(eps, i, &lambda, nullptr));
+    pairs.emplace_back(lambda, i);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+double largest_ratio(Mat K, Mat M) {
+  UniqueVec k, m;
+  PetscReal largest = 0;
+  check(MatCreateVecs(K, k.out(), m.out()));
+  check(MatGetDiagonal(K, k));
+  check(MatGetDiagonal(M, m));
+  check(VecPointwiseDivide(k, k, m));
+  check(VecMax(k, nullptr, &largest));
+  return largest;
+}
+
+void require_definite(Mat K, Mat M, double lowest) {
+  const double scale = largest_ratio(K, M);
+  if (lowest > kZeroEigenvalue * scale) return;
+  fail_singular("its lowest eigenvalue is " + std::to_string(lowest) + " rad^2/s^2");
+}
+
+// Rayleigh quotient (more exact than the solver's value) and residual of one vector; scales it to phi' M phi
+// = 1.
+struct Workspace {
+  UniqueVec phi, K_phi, M_phi;
+};
+
+void measure(Mat K, Mat M, const Workspace& w, double* eigenvalue, double* residual) {
+  PetscScalar mass = 0, stiffness = 0;
+  PetscReal force = 0, rest = 0;
+  check(MatMult(M, w.phi, w.M_phi));
+  check(VecDot(w.phi, w.M_phi, &mass));
+  check(VecScale(w.phi, 1 / std::sqrt(mass)));
+  check(VecScale(w.M_phi, 1 / std::sqrt(mass)));
+  check(MatMult(K, w.phi, w.K_phi));
+  check(VecDot(w.phi, w.K_phi, &stiffness));
+  check(VecNorm(w.K_phi, NORM_2, &force));
+  check(VecAXPY(w.K_phi, -stiffness, w.M_phi));
+  check(VecNorm(w.K_phi, NORM_2, &rest));
+  *eigenvalue = stiffness;
+  *residual = rest / force;
+}
+
+// A shift between the last wanted and the next known eigenvalue; the number of eigenvalues below it that are
+// known. Equal eigenvalues stay together.
+std::pair<double, int> shift_above(const std::vector<std::pair<double, int>>& pairs, int wanted) {
+  constexpr double kGap = 1e-4;
+  for (std::size_t i = static_cast<std::size_t>(wanted); i < pairs.size(); ++i) {
+    const double below = pairs[i - 1].first, above = pairs[i].first;
+    if (above - below > kGap * above) return {(below + above) / 2, static_cast<int>(i)};
+  }
+  return {pairs.back().first * (1 + kGap), static_cast<int>(pairs.size())};
+}
+
+void verify_count(Mat K, Mat M, double sigma, int known) {
+  const int exact = count_eigenvalues_below(K, M, sigma);
+  require(exact == known, "the eigensolver found ", known, " of the ", exact, " modes below ",
+          std::sqrt(sigma) / (2 * M_PI),
+          " Hz; use a larger basis (-eps_ncv) or a smaller tolerance (-eps_tol)");
+}
+
+}  // namespace
+
+int count_eigenvalues_below(Mat K, Mat M, double sigma) {
+  UniqueMat shifted;
+  UniqueKSP ksp;
+  PC pc = nullptr;
+  Mat factor = nullptr;
+  PetscInt below = 0;
+  check(MatDuplicate(K, MAT_COPY_VALUES, shifted.out()));
+  check(MatSetOption(shifted, MAT_SPD, PETSC_FALSE));
+  check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
+  check(MatAXPY(shifted, -sigma, M, SAME_NONZERO_PATTERN));
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(K)), ksp.out()));
+  check(KSPSetOperators(ksp, shifted, shifted));
+  check(KSPGetPC(ksp, &pc));
+  use_mumps(pc, PCCHOLESKY);
+  check(PCFactorSetUpMatSolverType(pc));
+  check(PCFactorGetMatrix(pc, &factor));
+  check(MatMumpsSetIcntl(factor, 13, 1));  // no ScaLAPACK on the root: it would not count negative pivots
+  check(KSPSetUp(ksp));
+  check(PCFactorGetMatrix(pc, &factor));
+  check(MatGetInertia(factor, &below, nullptr, nullptr));
+  return static_cast<int>(below);
+}
+
+Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
+                           const Progress& progress) {
+  const int n = size_of(K);
+  require(options.n_modes > 0 && options.n_modes <= n, "modes = ", options.n_modes,
+          ", must be between 1 and the number of free degrees of freedom, ", n);
+  UniqueEPS eps = create_solver(K, M, options);
+  solve(eps, options, progress);
+  const auto pairs = sorted_pairs(eps);
+  require_definite(K, M, pairs.front().first);
+  Eigenmodes modes{Eigen::VectorXd(options.n_modes), Eigen::VectorXd(options.n_modes), 0};
+  PetscInt iterations = 0;
+  check(EPSGetIterationNumber(eps, &iterations));
+  modes.iterations = static_cast<int>(iterations);
+  Workspace w;
+  check(MatCreateVecs(K, w.phi.out(), w.K_phi.out()));
+  check(VecDuplicate(w.phi, w.M_phi.out()));
+  for (int i = 0; i < options.n_modes; ++i) {
+    check(EPSGetEigenvector(eps, pairs[i].second, w.phi, nullptr));
+    measure(K, M, w, &modes.eigenvalue(i), &modes.residual(i));
+    sink(i, w.phi);
+  }
+  eps = {};  // frees the factorisation before the next one
+  if (options.verify_count) {
+    const auto [sigma, known] = shift_above(pairs, options.n_modes);
+    verify_count(K, M, sigma, known);
+  }
+  return modes;
+}
+
+void fix_sign(Eigen::VectorXd& phi) {
+  const double largest = phi.lpNorm<Eigen::Infinity>();
+  const auto first = std::find_if(phi.begin(), phi.end(),
+                                  [&](double x) { return std::abs(x) >= (1 - kSameModulus) * largest; });
+  if (first != phi.end() && *first < 0) phi = -phi;
+}
+
+}  // namespace elastogear::reduction

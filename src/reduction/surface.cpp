@@ -1,0 +1,122 @@
+#include "elastogear/reduction/surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "elastogear/base/error.h"
+#include "elastogear/fem/element.h"
+
+namespace elastogear::reduction {
+namespace {
+
+using mesh::Face;
+
+Face key(Face face) {
+  std::sort(face.begin(), face.end());
+  return face;
+}
+
+struct BoundaryFace {
+  Face face;  // turned outward
+  int cell = 0;
+  const std::string* group = nullptr;
+  std::size_t group_size = 0;
+};
+
+using Boundary = std::map<Face, BoundaryFace>;  // by sorted node numbers
+
+Boundary find_boundary(const mesh::Mesh& mesh) {
+  std::vector<int> cell;
+  const std::vector<Face> faces = mesh::boundary_faces(mesh, &cell);
+  Boundary boundary;
+  for (std::size_t i = 0; i < faces.size(); ++i) boundary[key(faces[i])] = {faces[i], cell[i]};
+  return boundary;
+}
+
+// std::map visits sets alphabetically, so that `<` keeps the first of equal ones.
+void assign_groups(const mesh::Mesh& mesh, Boundary& boundary) {
+  for (const auto& [name, faces] : mesh.face_sets)
+    for (const Face& face : faces) {
+      const auto found = boundary.find(key(face));
+      if (found == boundary.end()) continue;
+      BoundaryFace& f = found->second;
+      if (f.group && f.group_size <= faces.size()) continue;
+      f.group = &name;
+      f.group_size = faces.size();
+    }
+}
+
+std::vector<BoundaryFace> select_faces(const mesh::Mesh& mesh, const std::vector<std::string>& face_sets) {
+  Boundary boundary = find_boundary(mesh);
+  assign_groups(mesh, boundary);
+  std::vector<BoundaryFace> selected;
+  for (const std::string& name : face_sets)
+    for (const Face& face : mesh::face_set(mesh, name)) {
+      const auto found = boundary.find(key(face));
+      require(found != boundary.end(), "face set '", name, "' holds the face (", face[0], ", ", face[1], ", ",
+              face[2], ", ", face[3], "), which is inside the body");
+      selected.push_back(found->second);
+    }
+  return selected;
+}
+
+double area(const mesh::Mesh& mesh, const Face& f) {
+  const Eigen::Vector3d d_1 = mesh.X.col(f[2]) - mesh.X.col(f[0]), d_2 = mesh.X.col(f[3]) - mesh.X.col(f[1]);
+  return d_1.cross(d_2).norm() / 2;
+}
+
+double cell_volume(const mesh::Mesh& mesh, int cell) {
+  return fem::element_functions(mesh.cells.type[cell]).volume(fem::cell_coordinates(mesh, cell));
+}
+
+void number_nodes(const mesh::Mesh& mesh, const std::vector<BoundaryFace>& faces, model::Surface& surface) {
+  std::set<int> nodes;
+  for (const auto& f : faces) nodes.insert(f.face.begin(), f.face.end());
+  surface.node.assign(nodes.begin(), nodes.end());
+  surface.X = mesh.X(Eigen::all, surface.node);
+  surface.face.resize(4, static_cast<Eigen::Index>(faces.size()));
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    for (int k = 0; k < 4; ++k) {
+      const auto at = std::lower_bound(surface.node.begin(), surface.node.end(), faces[i].face[k]);
+      surface.face(k, static_cast<Eigen::Index>(i)) = static_cast<int>(at - surface.node.begin());
+    }
+}
+
+void number_groups(const std::vector<BoundaryFace>& faces, model::Surface& surface) {
+  std::set<std::string> names;
+  for (const auto& f : faces) names.insert(*f.group);
+  surface.group_name.assign(names.begin(), names.end());
+  for (const auto& f : faces) {
+    const auto at = std::lower_bound(surface.group_name.begin(), surface.group_name.end(), *f.group);
+    surface.group.push_back(static_cast<int>(at - surface.group_name.begin()));
+  }
+}
+
+// A face that two of the selected sets share counts once.
+void drop_repeated(std::vector<BoundaryFace>& faces) {
+  std::set<Face> seen;
+  std::erase_if(faces, [&](const BoundaryFace& f) { return !seen.insert(f.face).second; });
+}
+
+}  // namespace
+
+model::Surface make_surface(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
+                            const std::vector<std::string>& face_sets) {
+  const std::vector<int> region = fem::cell_regions(mesh, regions);
+  std::vector<BoundaryFace> faces = select_faces(mesh, face_sets);
+  drop_repeated(faces);
+  model::Surface surface;
+  number_nodes(mesh, faces, surface);
+  number_groups(faces, surface);
+  surface.c_f.resize(static_cast<Eigen::Index>(faces.size()));
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double E = regions[region[faces[i].cell]].material.E;
+    surface.c_f(static_cast<Eigen::Index>(i)) =
+        E * area(mesh, faces[i].face) / cell_volume(mesh, faces[i].cell);
+  }
+  return surface;
+}
+
+}  // namespace elastogear::reduction

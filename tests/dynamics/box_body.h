@@ -1,0 +1,29 @@
+#pragma once
+// Elastic boxes for tests: a regular grid of trilinear hexahedra with consistent mass, in both bases.
+
+#include <functional>
+
+#include "elastogear/model/elastic_body.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::test {
+
+struct BoxSpec {
+  Eigen::Vector3d corner = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();    ///< m
+  Eigen::Vector3i cells = Eigen::Vector3i::Ones();
+  model::Material material;
+  /// Is this degree of freedom (0..2) of the node at X held?
+  std::function<bool(const Eigen::Vector3d& X, int direction)> held = [](const auto&, int) { return false; };
+};
+
+/// Surface: the faces at x_min and x_max, groups of those names. n_modes = 0: all.
+model::ElasticBody make_box(const BoxSpec& spec, model::Basis basis, int n_modes = 0);
+
+/// The same box with no elastic coordinate.
+model::ElasticBody make_rigid_box(const BoxSpec& spec);
+
+/// q' of a uniform velocity (m/s): M_r q' = C_l v, exact when the basis holds the translation.
+Eigen::VectorXd uniform_velocity(const model::ElasticBody& body, const Eigen::Vector3d& v);
+
+}  // namespace elastogear::test
