@@ -28,7 +28,7 @@ def write_field(path, with_stress=True):
         points.InsertNextPoint(x, y, z)
     grid.SetPoints(points)
     grid.InsertNextCell(vtk.VTK_HEXAHEDRON, 8, range(8))
-    add_array(grid.GetPointData(), "displacement", np.full((8, 3), 1e-6))
+    add_array(grid.GetPointData(), "displacement [m]", np.full((8, 3), 1e-6))
     if with_stress:
         add_array(grid.GetPointData(), "von_mises", np.arange(8) * 1e7)
     writer = vtk.vtkXMLUnstructuredGridWriter()

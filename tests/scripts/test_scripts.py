@@ -20,7 +20,9 @@ def write_result(path):
         file.attrs["format"] = "elastogear result"
         file["time"] = TIME
         file["bodies/worm/rigid_velocity"] = np.zeros((5, 0))
+        file["bodies/worm"].attrs["joint"] = "fixed"
         file["bodies/wheel/rigid_velocity"] = np.array([[20.0], [10.0], [0.0], [-10.0], [-19.0]])
+        file["bodies/wheel"].attrs["joint"] = "revolute"
         pair = file.create_group("contact/worm:wheel")
         pair["force"], pair["count"], pair["penetration"] = force, (2 * PULSE).astype(int), 1e-6 * PULSE
         pair["groups/b/force"] = np.stack([force, np.zeros_like(force)], axis=1)
@@ -46,6 +48,7 @@ def write_body(path):
     with h5py.File(path, "w") as file:
         file.attrs["format"] = "elastogear body"
         file["modes/frequency"], file["rigid/mass"] = [1e4, 2e4], 0.08
+        file["mesh/X"], file["mesh/cell_type"] = np.zeros((12, 3)), [0, 0]
         file["surface/face"], file["stress/nodes"] = np.zeros((6, 4), int), [4, 17]
 
 
@@ -72,7 +75,8 @@ class Scripts(unittest.TestCase):
     def test_summary_holds_the_known_values(self):
         run = self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5")
         self.assertEqual(run.returncode, 0, run.stderr)
-        for words in ("worm: 0.08 kg, 2 modes, 10 to 20 kHz", "peak force 500 N at 100 µs, at most 4 nodes",
+        for words in ("worm: 12 nodes, 2 elements, 6 contact faces", "0.08 kg, 2 modes, 10 to 20 kHz",
+                      "peak force 500 N at 100 µs, at most 4 nodes",
                       "speed 20 rad/s at the start, -19 rad/s at the end", "von Mises 173.2 MPa at node 17",
                       "(0.5 % of the initial energy)"):
             self.assertIn(words, run.stdout)
