@@ -4,7 +4,8 @@ find_library(ELASTOGEAR_BLAS_LIBRARY NAMES libblas.so.3 DOC "BLAS that programs 
 mark_as_advanced(ELASTOGEAR_BLAS_LIBRARY)
 if(ELASTOGEAR_BLAS_LIBRARY)
   file(REAL_PATH "${ELASTOGEAR_BLAS_LIBRARY}" blas_file)
-  if(NOT blas_file MATCHES "openblas|flexiblas|blis|mkl|atlas|armpl")
+  string(REGEX MATCH "[^/]*/[^/]*$" blas_name "${blas_file}")  # e.g. openblas-pthread/libblas.so.3
+  if(NOT blas_name MATCHES "openblas|flexiblas|blis|mkl|atlas|armpl")
     message(WARNING "The BLAS in use, ${blas_file}, is not an optimised one (reference BLAS?). "
                     "Install libopenblas-dev; choose it by update-alternatives --config libblas.so.3-<architecture>.")
   endif()

@@ -40,10 +40,11 @@ def read(path):
 
 
 def array(attributes, name, path):
-    found = attributes.GetArray(name)
-    if found is None:
-        sys.exit(f"{path}: has no data array '{name}'")
-    return vtk_to_numpy(found)
+    """The data array of this name, which a unit may follow: "displacement [m]"."""
+    for i in range(attributes.GetNumberOfArrays()):
+        if attributes.GetArrayName(i).split(" [")[0] == name:
+            return vtk_to_numpy(attributes.GetArray(i))
+    sys.exit(f"{path}: has no data array '{name}'")
 
 
 def surface_of(data):

@@ -74,7 +74,7 @@ def plot_speed(result, body, folder):
     speed = result["bodies"][body]["rigid_velocity"]
     if speed.shape[1] == 0:
         return
-    unit = results.text(speed.attrs.get("unit", "rad/s"))
+    unit = results.speed_unit(result["bodies"][body])
     figure, axes = plt.subplots(figsize=(7, 4))
     t = time_axis(axes, result["time"][:])
     for i in range(speed.shape[1]):

@@ -43,6 +43,11 @@ def total_force(pair):
     return np.linalg.norm(pair["force"][:], axis=1)
 
 
+def speed_unit(body):
+    """Unit of the joint velocities of a result file's body group."""
+    return "rad/s" if text(body.attrs.get("joint", "revolute")) == "revolute" else "m/s"
+
+
 class NodeStress:
     """Stress history of one node of one body, Pa: tensor (n_t x 6, order COMPONENTS), von_mises, rankine."""
 

@@ -30,8 +30,9 @@ def body_lines(name, path):
             frequency = body["modes/frequency"][:]
             basis = f"{modes} modes, {frequency[0] / 1e3:.3g} to {frequency[-1] / 1e3:.4g} kHz"
         mass = float(np.squeeze(body["rigid/mass"][()]))
+        mesh = f"{body['mesh/X'].shape[0]} nodes, {body['mesh/cell_type'].shape[0]} elements"
         sizes = f"{body['surface/face'].shape[0]} contact faces, {body['stress/nodes'].shape[0]} stress nodes"
-    return [f"{name}: {mass:.4g} kg, {basis}, {sizes}"]
+    return [f"{name}: {mesh}, {sizes}", f"  {mass:.4g} kg, {basis}"]
 
 
 def contact_lines(result):
@@ -52,7 +53,7 @@ def motion_lines(result):
     lines = section("Motion")
     for body, state in result["bodies"].items():
         speed = state["rigid_velocity"]
-        unit = results.text(speed.attrs.get("unit", "rad/s"))
+        unit = results.speed_unit(state)
         for i in range(speed.shape[1]):
             lines.append(f"{body}: speed {speed[0, i]:.5g} {unit} at the start, {speed[-1, i]:.5g} {unit} at the end")
     return lines

@@ -1,0 +1,102 @@
+"""Pictures of a small field and a small tree, drawn off screen."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+sys.path.insert(0, SCRIPTS)
+import pictures  # noqa: E402  (found through the line above)
+
+
+def add_array(attributes, name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    attributes.AddArray(array)
+
+
+def write_field(path, with_stress=True):
+    """A unit cube of one hexahedron."""
+    grid = vtk.vtkUnstructuredGrid()
+    points = vtk.vtkPoints()
+    for x, y, z in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)):
+        points.InsertNextPoint(x, y, z)
+    grid.SetPoints(points)
+    grid.InsertNextCell(vtk.VTK_HEXAHEDRON, 8, range(8))
+    add_array(grid.GetPointData(), "displacement [m]", np.full((8, 3), 1e-6))
+    if with_stress:
+        add_array(grid.GetPointData(), "von_mises", np.arange(8) * 1e7)
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(grid)
+    writer.Write()
+
+
+def write_boxes(path):
+    """One box of level 1."""
+    cube = vtk.vtkCubeSource()
+    cube.Update()
+    add_array(cube.GetOutput().GetCellData(), "level", np.ones(6, dtype=np.int32))
+    writer = vtk.vtkXMLPolyDataWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(cube.GetOutput())
+    writer.Write()
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_pictures(self, *arguments):
+        return subprocess.run([os.path.join(SCRIPTS, "pictures.py"), *arguments], capture_output=True, encoding="utf-8",
+                              cwd=self.folder.name)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_stress_and_boxes_are_drawn(self):
+        write_field(self.path("cube.vtu"))
+        write_boxes(self.path("cube.vtp"))
+        boxes = ("boxes", "--surfaces", "cube.vtu", "--boxes", "cube.vtp", "--levels", "1", "leaf", "--out", "b.png")
+        for arguments in (("stress", "cube.vtu", "--out", "s.png"), boxes):
+            run = self.run_pictures(*arguments)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertGreater(os.path.getsize(self.path(arguments[-1])), 1000)
+
+    def test_a_field_without_stress_is_refused(self):
+        write_field(self.path("cube.vtu"), with_stress=False)
+        run = self.run_pictures("stress", "cube.vtu", "--out", "s.png")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("von_mises", run.stderr)
+        self.assertFalse(os.path.exists(self.path("s.png")))
+
+    def test_a_level_that_is_not_there_is_refused(self):
+        write_boxes(self.path("cube.vtp"))
+        with self.assertRaisesRegex(SystemExit, "no boxes of level 3, only of 1"):
+            pictures.boxes_of_level(pictures.read(self.path("cube.vtp")), "3", "cube.vtp")
+
+
+class Choices(unittest.TestCase):
+    def test_the_scale_is_a_round_number(self):
+        displacement = np.array([[3e-6, 0, 0], [0, 1e-6, 0]])
+        self.assertAlmostEqual(pictures.warp_scale(displacement, size=0.1), 1000)
+
+    def test_a_body_that_does_not_move_is_not_enlarged(self):
+        self.assertEqual(pictures.warp_scale(np.zeros((2, 3)), size=0.1), 1)
+
+    def test_the_axis_of_a_rod_and_of_a_disc_is_found(self):
+        angle = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+        circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+        for height in (0.2, 9.0):  # disc, rod
+            points = np.vstack([circle, circle + [0, 0, height]])
+            np.testing.assert_allclose(np.abs(pictures.axis_of(points)), [0, 0, 1], atol=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()

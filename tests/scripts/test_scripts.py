@@ -1,0 +1,101 @@
+"""The plots and the summary, run on a small result whose values are known."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+TIME = np.linspace(0, 2e-4, 5)
+PULSE = np.array([0.0, 1.0, 2.0, 1.0, 0.0])
+
+
+def write_result(path):
+    """A wheel that rebounds: peak force 500 N = (300, 400), all through one contact area, at 100 µs."""
+    force = PULSE[:, None] / 2 * np.array([300.0, 400.0, 0.0])
+    with h5py.File(path, "w") as file:
+        file.attrs["format"] = "elastogear result"
+        file["time"] = TIME
+        file["bodies/worm/rigid_velocity"] = np.zeros((5, 0))
+        file["bodies/worm"].attrs["joint"] = "fixed"
+        file["bodies/wheel/rigid_velocity"] = np.array([[20.0], [10.0], [0.0], [-10.0], [-19.0]])
+        file["bodies/wheel"].attrs["joint"] = "revolute"
+        pair = file.create_group("contact/worm:wheel")
+        pair["force"], pair["count"], pair["penetration"] = force, (2 * PULSE).astype(int), 1e-6 * PULSE
+        pair["groups/b/force"] = np.stack([force, np.zeros_like(force)], axis=1)
+        pair["groups/b/name"] = np.array([b"tooth_00_left", b"tooth_00_right"])
+        for name, values in (("kinetic", 4 - PULSE), ("elastic", 0.75 * PULSE), ("contact", 0.25 * PULSE),
+                             ("dissipated", 0 * PULSE), ("work", 0 * PULSE), ("balance", 0.01 * PULSE)):
+            file["energy/" + name] = values
+
+
+def write_stress(path):
+    """Two nodes of the worm in pure shear; node 17 carries the larger one: sqrt(3) 100 MPa by von Mises."""
+    shear = PULSE[:, None] / 2 * np.array([[60e6, 100e6]])
+    with h5py.File(path, "w") as file:
+        file.attrs["format"] = "elastogear stress"
+        file["time"] = TIME
+        group = file.create_group("worm/root")
+        group["nodes"] = [4, 17]
+        group["stress"] = np.stack([0 * shear, 0 * shear, 0 * shear, shear, 0 * shear, 0 * shear], axis=2)
+        group["von_mises"], group["rankine"] = np.sqrt(3) * shear, shear
+
+
+def write_body(path):
+    with h5py.File(path, "w") as file:
+        file.attrs["format"] = "elastogear body"
+        file["modes/frequency"], file["rigid/mass"] = [1e4, 2e4], 0.08
+        file["mesh/X"], file["mesh/cell_type"] = np.zeros((12, 3)), [0, 0]
+        file["surface/face"], file["stress/nodes"] = np.zeros((6, 4), int), [4, 17]
+
+
+class Scripts(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        write_result(self.path("result.h5"))
+        write_stress(self.path("stress.h5"))
+        write_body(self.path("worm.h5"))
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def run_script(self, name, *arguments):
+        return subprocess.run([sys.executable, os.path.join(SCRIPTS, name), *arguments], capture_output=True,
+                              encoding="utf-8", cwd=self.folder.name, env={**os.environ, "PYTHONIOENCODING": "utf-8"})
+
+    def assert_fails(self, run, *words):
+        self.assertNotEqual(run.returncode, 0)
+        for word in words:
+            self.assertIn(word, run.stderr)
+
+    def test_summary_holds_the_known_values(self):
+        run = self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for words in ("worm: 12 nodes, 2 elements, 6 contact faces", "0.08 kg, 2 modes, 10 to 20 kHz",
+                      "peak force 500 N at 100 µs, at most 4 nodes",
+                      "speed 20 rad/s at the start, -19 rad/s at the end", "von Mises 173.2 MPa at node 17",
+                      "(0.5 % of the initial energy)"):
+            self.assertIn(words, run.stdout)
+
+    def test_every_plot_is_drawn(self):
+        run = self.run_script("plots.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5", "--out", "plots")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("plots"))),
+                         ["contact_force_worm_wheel.png", "energy.png", "speed_wheel.png", "stress_worm.png"])
+
+    def test_a_missing_file_is_named(self):
+        self.assert_fails(self.run_script("plots.py", "nothing.h5", "stress.h5"), "nothing.h5")
+
+    def test_a_file_of_another_kind_is_refused(self):
+        self.assert_fails(self.run_script("plots.py", "stress.h5", "stress.h5"), "stress.h5", "elastogear result")
+
+    def test_a_node_without_stress_is_refused(self):
+        self.assert_fails(self.run_script("plots.py", "result.h5", "stress.h5", "--node", "worm=5"), "worm", "5")
+
+
+if __name__ == "__main__":
+    unittest.main()
