@@ -2,7 +2,14 @@
 
 #include <algorithm>
 
+#include "elastogear/base/error.h"
+#include "elastogear/mesh/quality.h"
+
 namespace elastogear::gear {
+namespace {
+constexpr int kMaxCount = 1000;    // of one kind of elements
+constexpr double kMaxCells = 2e7;  // far above any use, far below the range of int
+}  // namespace
 
 std::vector<mesh::Face> add_hex(mesh::Mesh& mesh, const std::array<int, 8>& nodes) {
   mesh.cells.add(mesh::CellType::hex8, nodes);
@@ -12,6 +19,22 @@ std::vector<mesh::Face> add_hex(mesh::Mesh& mesh, const std::array<int, 8>& node
 void add_flank(mesh::Mesh& mesh, const mesh::Face& face, const std::string& tooth, const std::string& side) {
   for (const std::string& name : {std::string("flanks"), side, tooth + "_" + side})
     mesh.face_sets[name].push_back(face);
+}
+
+void check_counts(const std::string& body, std::initializer_list<int> counts, double cells) {
+  for (int count : counts)
+    require(count >= 1 && count <= kMaxCount, "the ", body, "'s element counts must be 1 to ", kMaxCount,
+            ", one is ", count);
+  require(cells <= kMaxCells, "the ", body, "'s counts ask for about ", cells, " cells, at most ", kMaxCells,
+          " are allowed");
+}
+
+void check_cells(const mesh::Mesh& mesh, const std::string& body) {
+  const auto cell = mesh::first_inverted_cell(mesh);
+  if (!cell) return;
+  const Eigen::Vector3d x = mesh.X.col(mesh.cells[*cell][0]);
+  fail("the ", body, "'s mesh has a folded cell at (", x.transpose(),
+       ") m: change the element counts or make the design's steps there less sharp");
 }
 
 void sort_node_sets(mesh::Mesh& mesh) {

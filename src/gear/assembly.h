@@ -2,7 +2,9 @@
 // Small helpers with which worm and wheel build their meshes.
 
 #include <array>
+#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "elastogear/mesh/mesh.h"
 
@@ -13,6 +15,13 @@ std::vector<mesh::Face> add_hex(mesh::Mesh& mesh, const std::array<int, 8>& node
 
 /// Appends a flank face to `flanks`, `<side>` and `<tooth>_<side>`.
 void add_flank(mesh::Mesh& mesh, const mesh::Face& face, const std::string& tooth, const std::string& side);
+
+/// Throws Error when a count is not within 1..1000, or when about `cells` cells are too many for one mesh.
+void check_counts(const std::string& body, std::initializer_list<int> counts, double cells);
+
+/// Throws Error, naming the place, when a cell is folded: the design passes its checks, but not at these
+/// counts.
+void check_cells(const mesh::Mesh& mesh, const std::string& body);
 
 /// Sorts the node sets and removes duplicates.
 void sort_node_sets(mesh::Mesh& mesh);

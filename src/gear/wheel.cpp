@@ -26,14 +26,16 @@ struct Sector {
   int planes() const { return static_cast<int>(z.size()); }
 };
 
-constexpr int kMaxCount = 1000;      // of one kind of elements
 constexpr double kSamePlane = 1e-9;  // m, far below any layer
 
-void check_counts(const WheelCounts& n) {
-  for (int count : {n.tooth, n.space, n.flank, n.fillet, n.rim, n.ring, n.web, n.hub, n.web_layers,
-                    n.face_layers, n.hub_layers})
-    require(count >= 1 && count <= kMaxCount, "the wheel's element counts must be 1 to ", kMaxCount,
-            ", one is ", count);
+void check(const WheelCounts& n, int z2) {
+  const double layers = n.web_layers + 2.0 * (n.face_layers + n.hub_layers);
+  const double section = (2.0 * n.space + n.tooth) * (n.rim + n.ring + n.web + n.hub) +
+                         static_cast<double>(n.tooth) * (n.fillet + n.flank);
+  check_counts("wheel",
+               {n.tooth, n.space, n.flank, n.fillet, n.rim, n.ring, n.web, n.hub, n.web_layers, n.face_layers,
+                n.hub_layers},
+               z2 * layers * section);
   require(n.tooth % 2 == 0, "the wheel's count tooth = ", n.tooth, " must be even");
 }
 
@@ -222,7 +224,7 @@ WheelCounts wheel_counts(Size size) {
 }
 
 mesh::Mesh wheel_mesh(const Design& design, const WheelCounts& counts) {
-  check_counts(counts);
+  check(counts, design.z2);
   const Geometry geometry = derive(design);
   const Sector s = sector(design, geometry, counts);
   const Numbering n = number_nodes(s);
@@ -235,6 +237,7 @@ mesh::Mesh wheel_mesh(const Design& design, const WheelCounts& counts) {
           if (has_cell(s, q, row, plane)) add_cell(mesh, s, n, {tooth, q, row, plane});
   add_node_sets(mesh, s, n, geometry.wheel.z);
   sort_node_sets(mesh);
+  check_cells(mesh, "wheel");
   return mesh;
 }
 

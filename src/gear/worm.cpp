@@ -147,6 +147,7 @@ mesh::Mesh worm_mesh(const Design& design, const WormCounts& counts) {
   b.mesh.X = Eigen::Map<const Eigen::Matrix3Xd>(b.X.front().data(), 3, static_cast<Eigen::Index>(b.X.size()));
   std::vector<int>& body = b.mesh.cell_sets["body"];
   for (int cell = 0; cell < b.mesh.cells.size(); ++cell) body.push_back(cell);
+  check_cells(b.mesh, "worm");
   return b.mesh;
 }
 

@@ -18,14 +18,13 @@ constexpr double kSinking = 0.4;        // at the bore, part of the last pitch b
 constexpr double kSinkingLength = 0.5;  // of a pitch: the shaft's rings are flat again beyond it
 constexpr double kFade = 0.06;          // of a turn: the tooth's footprint in the core ends within it
 
-constexpr int kMaxCount = 1000;  // of one kind of elements
-
-void check_counts(const WormCounts& n, int z1) {
-  for (int count : {n.tooth, n.space, n.flank, n.fillet, n.ring, n.shaft})
-    require(count >= 1 && count <= kMaxCount, "the worm's element counts must be 1 to ", kMaxCount,
-            ", one is ", count);
+void check(const WormCounts& n, const Design& d, double p_x) {
+  const double section =
+      (2.0 * n.space + n.tooth) * n.ring + static_cast<double>(n.tooth) * (n.fillet + n.flank);
+  check_counts("worm", {n.tooth, n.space, n.flank, n.fillet, n.ring, n.shaft},
+               n.turn * (section * (d.thread_length / p_x + 2) + 2.0 * n.shaft * n.ring));
   require(n.tooth % 2 == 0, "the worm's count tooth = ", n.tooth, " must be even");
-  const int columns = z1 * (2 * n.space + n.tooth);
+  const int columns = d.z1 * (2 * n.space + n.tooth);
   require(n.turn >= 2 * columns && n.turn % columns == 0, "the worm's count turn = ", n.turn,
           " must be a multiple, at least twice, of z1 (2 space + tooth) = ", columns);
 }
@@ -140,7 +139,7 @@ Polar shaft_position(const WormGrid& g, int end, int ring, int column, int row) 
 
 WormGrid worm_grid(const Design& d, const WormCounts& n) {
   WormGrid g{.design = d, .geometry = derive(d), .n = n, .comb = {}, .helix = {}, .treads = {}, .shaft = {}};
-  check_counts(n, d.z1);
+  check(n, d, g.geometry.p_x);
   g.comb = comb(worm_profile(d, g.geometry),
                 {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.ring});
   g.columns = 2 * g.comb.half_pitch;

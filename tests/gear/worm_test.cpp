@@ -134,6 +134,8 @@ TEST(WormCounts, that_do_not_fit_are_refused) {
   EXPECT_THROW(worm_mesh({}, {.turn = 8}), Error);
   EXPECT_THROW(worm_mesh({}, {.turn = 25}), Error);
   EXPECT_THROW(worm_mesh({}, {.ring = 2000000000}), Error);
+  EXPECT_THROW(worm_mesh({}, {.turn = 2000000000}), Error);
+  EXPECT_THROW(worm_mesh({}, {.flank = 1000, .ring = 1000, .turn = 800}), Error);
 }
 
 }  // namespace
