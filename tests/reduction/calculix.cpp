@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <set>
 #include <sstream>
 
@@ -33,7 +34,7 @@ void write_mesh(std::ostream& deck, const mesh::Mesh& mesh, const std::string& e
 
 void write_deck(const fs::path& path, const CalculixModel& model, int n) {
   std::ofstream deck(path);
-  deck.precision(17);
+  deck << std::scientific << std::setprecision(12);  // CalculiX reads 20 characters of a number
   write_mesh(deck, model.mesh, model.element);
   deck << "*MATERIAL, NAME=M\n*ELASTIC\n"
        << model.material.E << ", " << model.material.nu << "\n*DENSITY\n"

@@ -20,10 +20,10 @@ constexpr double kDiscretisation = 0.005;
 mesh::Mesh crooked_beam() {
   const auto bend = [](const Eigen::Vector3d& X) -> Eigen::Vector3d {
     const double a = 3 * X.x(), s = 1 - 0.4 * X.x();
-    const double y = s * (X.y() - 0.02), z = s * (X.z() - 0.03);
+    const double y = s * (X.y() - 0.01), z = s * (X.z() - 0.012);
     return {X.x() + 2 * y * X.x(), std::cos(a) * y - std::sin(a) * z, std::sin(a) * y + std::cos(a) * z};
   };
-  return test::mapped(test::distorted(test::brick({100, 4, 5}, {1, 0.04, 0.05}), 0.001), bend);
+  return test::mapped(test::distorted(test::brick({170, 3, 3}, {1, 0.02, 0.025}), 0.0005), bend);
 }
 
 void compare(const mesh::Mesh& mesh, const std::vector<std::string>& restrained) {
