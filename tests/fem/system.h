@@ -15,15 +15,17 @@ struct System {
 };
 
 inline System assemble(const mesh::Mesh& mesh, const std::vector<std::string>& restrained,
-                       MPI_Comm comm = PETSC_COMM_WORLD) {
+                       MPI_Comm comm = PETSC_COMM_WORLD,
+                       const std::vector<model::MaterialRegion>& regions = kSteelBody,
+                       model::Element element = model::Element::incompatible) {
   int size = 1;
   MPI_Comm_size(comm, &size);
   std::vector<int> part;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) part.push_back(cell * size / mesh.cells.size());
   System system;
   system.rows = fem::number_rows(mesh, fem::free_nodes(mesh, restrained), part, size);
-  const auto share = fem::distribute(comm, mesh, fem::cell_regions(mesh, kSteelBody), system.rows);
-  system.matrices = fem::assemble(comm, share, kSteelBody, model::Element::incompatible);
+  const auto share = fem::distribute(comm, mesh, fem::cell_regions(mesh, regions), system.rows);
+  system.matrices = fem::assemble(comm, share, regions, element);
   return system;
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+// Reference frequencies from CalculiX (program ccx), when it is installed.
+
+#include <string>
+#include <vector>
+
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::test {
+
+bool calculix_is_installed();
+
+struct CalculixModel {
+  const mesh::Mesh& mesh;
+  model::Material material;                  ///< of all cells
+  std::vector<std::string> restrained_sets;  ///< node sets, all three displacements zero
+  std::string element = "C3D8I";
+};
+
+/// The lowest n frequencies in Hz, ascending: writes a deck into a new temporary folder, runs ccx, reads its
+/// .dat.
+std::vector<double> calculix_frequencies(const CalculixModel& model, int n);
+
+}  // namespace elastogear::test
