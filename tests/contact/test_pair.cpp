@@ -102,7 +102,8 @@ TEST(Pair, misses_no_contact_of_random_and_degenerate_surfaces) {
     auto next = found.begin();
     for (int node = 0; node < a.X.cols(); ++node, ++n_nodes) {
       const Limits limits{s.depth, std::cos(s.normal_angle * test::pi / 180)};
-      const auto w = find_winner(master, {slave.x.col(node), node_normal(slave, node)}, limits, all);
+      const auto w =
+          find_winner(master, {slave.x.col(node), [&] { return node_normal(slave, node); }}, limits, all);
       if (!w) continue;
       ASSERT_TRUE(next != found.end() && next->slave_node == node) << trial << " node " << node;
       EXPECT_NEAR(next->g_n, w->g_n, roundoff);

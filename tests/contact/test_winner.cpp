@@ -26,7 +26,7 @@ struct Master {
                               const Limits& limits) const {
     std::vector<int> faces(surface.face.cols());
     std::iota(faces.begin(), faces.end(), 0);
-    return find_winner(view(), {q, n}, limits, faces);
+    return find_winner(view(), {q, [&] { return n; }}, limits, faces);
   }
   std::optional<Winner> touch(const Eigen::Vector3d& q, double depth = 10) const {
     return touch(q, Eigen::Vector3d::UnitZ(), {depth, any_angle});
@@ -84,7 +84,7 @@ TEST(Winner, decides_inside_and_outside_at_concave_edges_and_vertices) {
 TEST(Winner, is_the_lower_face_on_a_tie_whatever_the_order) {
   const Master valley(
       test::grid(2, 1, [](double u, double v) { return Eigen::Vector3d(u, v, std::abs(u - 0.5)); }));
-  const SlaveNode q{{0.5, 0.5, -0.1}, -Eigen::Vector3d::UnitZ()};
+  const SlaveNode q{{0.5, 0.5, -0.1}, [] { return Eigen::Vector3d(0, 0, -1); }};
   const Limits limits{1, 0};
   for (const std::vector<int>& order : {std::vector<int>{0, 1}, {1, 0}}) {
     const auto w = find_winner(valley.view(), q, limits, order);
