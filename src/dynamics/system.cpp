@@ -1,5 +1,7 @@
 #include "elastogear/dynamics/system.h"
 
+#include <algorithm>
+
 #include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {
@@ -148,6 +150,15 @@ const ContactState& System::contacts(ConstVector U) {
   state_.force = nodal_forces(state_.pair, state_.surface);
   U_of_state_ = U;
   return state_;
+}
+
+double System::depth_share(ConstVector U) {
+  double share = 0;
+  const ContactState& contact = contacts(U);
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    for (const contact::ContactPoint& point : contact.pair[p].points)
+      share = std::max(share, -point.g_n / detectors_[p].settings().depth);
+  return share;
 }
 
 Residual System::residual(ConstVector U, ConstVector V, ConstVector A) {

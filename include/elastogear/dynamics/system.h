@@ -72,6 +72,8 @@ class System {
   body::Motion motion(std::size_t b, ConstVector U, ConstVector V, ConstVector A) const;
   /// Placement, surfaces and contacts in U; kept, so that a second call with an equal U costs nothing.
   const ContactState& contacts(ConstVector U);
+  /// Largest penetration in U over the depth of its pair, beyond which it would no longer be seen; -.
+  double depth_share(ConstVector U);
   Residual residual(ConstVector U, ConstVector V, ConstVector A);
   /// shift_v dF/dV + shift_a dF/dA + dF/dU
   EffectiveMatrix effective_matrix(ConstVector U, ConstVector V, ConstVector A, double shift_v,

@@ -1,0 +1,114 @@
+#include "problem.h"
+
+#include "elastogear/base/error.h"
+#include "vec_view.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+constexpr double kResidualTolerance = 1e-8;  // of the forces in balance
+constexpr int kNewtonLimit = 25;
+constexpr double kDeepest = 0.9;  // share of the contact depth that may be used before a step is cut
+
+template <class Object>
+Problem& context(Object object, PetscErrorCode (*get)(Object, void*)) {
+  Problem* problem = nullptr;
+  check(get(object, &problem));
+  return *problem;
+}
+
+// Makes SNES give the step up, so that it is cut.
+void set_inadmissible(Problem& problem, TS ts, const char* trouble) {
+  problem.trouble = trouble;
+  SNES snes = nullptr;
+  check(TSGetSNES(ts, &snes));
+  check(SNESSetFunctionDomainError(snes));
+}
+
+PetscErrorCode function(TS ts, PetscReal, Vec U, Vec V, Vec A, Vec F, void* ctx) {
+  auto& problem = *static_cast<Problem*>(ctx);
+  return guard(problem.pending, [&] {
+    const ReadView u(U), v(V), a(A);
+    if (!(*u).allFinite() || !(*v).allFinite() || !(*a).allFinite())
+      return set_inadmissible(problem, ts, "the motion is not finite");
+    if (problem.system.depth_share(*u) > kDeepest)
+      return set_inadmissible(problem, ts, "bodies penetrate each other by nearly the contact depth");
+    problem.residual = problem.system.residual(*u, *v, *a);
+    if (!problem.residual.F.allFinite()) return set_inadmissible(problem, ts, "forces are not finite");
+    problem.trouble.clear();
+    assign(F, problem.residual.F);
+  });
+}
+
+PetscErrorCode jacobian(TS, PetscReal, Vec U, Vec V, Vec A, PetscReal shift_v, PetscReal shift_a, Mat J,
+                        Mat P, void* ctx) {
+  auto& problem = *static_cast<Problem*>(ctx);
+  return guard(problem.pending, [&] {
+    const ReadView u(U), v(V), a(A);
+    problem.solver.set(problem.system.effective_matrix(*u, *v, *a, shift_v, shift_a));
+    for (Mat matrix : {J, P}) {
+      check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+      check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    }
+  });
+}
+
+PetscErrorCode multiply(Mat A, Vec x, Vec y) {
+  Problem& problem = context(A, MatShellGetContext);
+  return guard(problem.pending, [&] { assign(y, problem.solver.multiply(*ReadView(x))); });
+}
+
+PetscErrorCode solve(PC pc, Vec y, Vec x) {
+  Problem& problem = context(pc, PCShellGetContext);
+  return guard(problem.pending, [&] { assign(x, problem.solver.solve(*ReadView(y))); });
+}
+
+// SNES's own test would weigh angles against modal amplitudes; this one looks at every block for itself.
+PetscErrorCode converged(SNES snes, PetscInt, PetscReal, PetscReal, PetscReal norm,
+                         SNESConvergedReason* reason, void* ctx) {
+  const auto& problem = *static_cast<Problem*>(ctx);
+  PetscReal atol = 0, rtol = 0;
+  PetscCall(SNESGetTolerances(snes, &atol, &rtol, nullptr, nullptr, nullptr));
+  *reason = SNES_CONVERGED_ITERATING;
+  const Residual& r = problem.residual;
+  if (PetscIsInfOrNanReal(norm))
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (norm <= atol)
+    *reason = SNES_CONVERGED_FNORM_ABS;
+  else if ((r.norm.array() <= rtol * r.scale.array()).all())
+    *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  return 0;
+}
+
+void set_solvers(Problem& problem, TS ts) {
+  SNES snes = nullptr;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  SNESLineSearch search = nullptr;
+  check(TSGetSNES(ts, &snes));
+  check(SNESSetConvergenceTest(snes, converged, &problem, nullptr));
+  check(
+      SNESSetTolerances(snes, PETSC_DEFAULT, kResidualTolerance, PETSC_DEFAULT, kNewtonLimit, PETSC_DEFAULT));
+  check(SNESGetLineSearch(snes, &search));
+  check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  check(SNESGetKSP(snes, &ksp));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, &problem));
+  check(PCShellSetApply(pc, solve));
+  check(PCShellSetName(pc, "exact low-rank solver"));
+}
+
+}  // namespace
+
+void attach(Problem& problem, TS ts, UniqueMat& J) {
+  const auto n = static_cast<PetscInt>(problem.system.size());
+  check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &problem, J.out()));
+  check(MatShellSetOperation(J, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  check(TSSetI2Function(ts, nullptr, function, &problem));
+  check(TSSetI2Jacobian(ts, J, J, jacobian, &problem));
+  set_solvers(problem, ts);
+}
+
+}  // namespace elastogear::dynamics

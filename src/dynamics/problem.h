@@ -1,0 +1,23 @@
+#pragma once
+// A System as a PETSc problem: the callbacks of TS, SNES, the shell matrix and its exact preconditioner.
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/dynamics/system.h"
+
+namespace elastogear::dynamics {
+
+/// What the callbacks share. Must outlive the TS.
+struct Problem {
+  explicit Problem(System& s) : system(s), solver(s.equations()) {}
+
+  System& system;
+  LowRankSolver solver;
+  Residual residual;           ///< of the last evaluation
+  std::string trouble;         ///< why a state was last called inadmissible; empty: it was not
+  std::exception_ptr pending;  ///< what a callback threw
+};
+
+/// Sets F, its Jacobian, the convergence test and the solvers of a TS whose type is known. `J` is created.
+void attach(Problem& problem, TS ts, UniqueMat& J);
+
+}  // namespace elastogear::dynamics

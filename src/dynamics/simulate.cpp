@@ -1,0 +1,186 @@
+#include "elastogear/dynamics/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "elastogear/base/error.h"
+#include "elastogear/contact/initial_overlap.h"
+#include "elastogear/dynamics/generalized_alpha.h"
+#include "elastogear/dynamics/snapshot.h"
+#include "problem.h"
+#include "vec_view.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+struct Run {
+  Run(System& system, const TimeSettings& s, const Observer& o, const Progress& p)
+      : problem(system), settings(s), observer(o), progress(p) {}
+
+  Problem problem;
+  const TimeSettings& settings;
+  const Observer& observer;
+  const Progress& progress;
+  EnergyLedger ledger;
+  model::Snapshot last;
+  bool last_observed = false;
+  double nominal_dt = 0;  // s, at the start
+  RunSummary summary;
+};
+
+void validate(const TimeSettings& settings) {
+  require(std::isfinite(settings.dt) && settings.dt > 0, "time step dt = ", settings.dt,
+          " s must be positive");
+  require(std::isfinite(settings.end_time) && settings.end_time > 0, "end time ", settings.end_time,
+          " s must be positive");
+  require(settings.rho_inf >= 0 && settings.rho_inf <= 1, "rho_inf = ", settings.rho_inf,
+          " must lie in 0..1");
+  require(settings.output_every >= 1, "output_every = ", settings.output_every, " must be at least 1");
+}
+
+void require_bodies_apart(System& system) {
+  const ContactState& state = system.contacts(system.initial_position());
+  for (const PairSetup& pair : system.pairs()) {
+    const int a = pair.body[0], b = pair.body[1];
+    const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
+    contact::require_apart(
+        contact::initial_overlap(surface(a), surface(b), pair.settings, state.surface[a], state.surface[b]),
+        pair.name);
+  }
+}
+
+void update(RunSummary& summary, const model::Snapshot& snapshot) {
+  int contacts = 0;
+  for (std::size_t p = 0; p < snapshot.pairs.size(); ++p) {
+    const model::PairState& pair = snapshot.pairs[p];
+    PairSummary& entry = summary.pair[p];
+    contacts += pair.count;
+    entry.penetration = std::max(entry.penetration, pair.penetration);
+    if (pair.force.norm() > entry.peak_force) {
+      entry.peak_force = pair.force.norm();
+      entry.peak_time = snapshot.time;
+    }
+  }
+  summary.most_contacts = std::max(summary.most_contacts, contacts);
+  summary.largest_imbalance = std::max(summary.largest_imbalance, std::abs(snapshot.energy.balance));
+}
+
+void observe(Run& run) {
+  if (run.observer) run.observer(run.last);
+  run.last_observed = true;
+}
+
+PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
+  auto& run = *static_cast<Run*>(ctx);
+  return guard(run.problem.pending, [&] {
+    Vec U = nullptr, V = nullptr, A = nullptr;
+    PetscReal end = 0;
+    generalized_alpha_state(ts, &U, &V, &A);
+    run.last = snapshot(run.problem.system, time, *ReadView(U), *ReadView(V), *ReadView(A));
+    run.ledger.enter(run.problem.system, run.last);
+    run.last_observed = false;
+    const model::Energies& energy = run.last.energy;
+    if (step == 0) run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact;
+    update(run.summary, run.last);
+    if (step % run.settings.output_every == 0) observe(run);
+    check(TSGetMaxTime(ts, &end));
+    report(run.progress, "simulate", std::min(1.0, time / end));
+  });
+}
+
+// Without an error estimate nothing would lengthen a step again that Newton's failure has cut.
+PetscErrorCode recover_dt(TS ts) {
+  Run* run = nullptr;
+  TSAdapt adapt = nullptr;
+  PetscBool fixed = PETSC_FALSE;
+  PetscReal time = 0, end = 0, dt = 0;
+  PetscInt rejected = 0;
+  PetscCall(TSGetApplicationContext(ts, &run));
+  PetscCall(TSGetAdapt(ts, &adapt));
+  PetscCall(PetscObjectTypeCompare((PetscObject)adapt, TSADAPTNONE, &fixed));
+  PetscCall(TSGetStepRejections(ts, &rejected));
+  PetscCall(TSGetTime(ts, &time));
+  PetscCall(TSGetMaxTime(ts, &end));
+  PetscCall(TSGetTimeStep(ts, &dt));
+  if (fixed && rejected > 0 && dt < run->nominal_dt && time < end)
+    PetscCall(TSSetTimeStep(ts, std::min({2 * dt, run->nominal_dt, end - time})));
+  return 0;
+}
+
+UniqueVec vector(const Eigen::VectorXd& values) {
+  UniqueVec vec;
+  check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(values.size()), vec.out()));
+  assign(vec, values);
+  return vec;
+}
+
+void set_time(TS ts, const TimeSettings& settings) {
+  check(TSSetTimeStep(ts, settings.dt));
+  check(TSSetMaxTime(ts, settings.end_time));
+  check(TSSetMaxSteps(ts, std::numeric_limits<PetscInt>::max()));
+  check(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
+  check(TSSetMaxSNESFailures(ts, -1));
+  check(TSSetErrorIfStepFails(ts, PETSC_FALSE));
+}
+
+UniqueTS make_ts(Run& run, UniqueMat& J) {
+  UniqueTS ts;
+  check(TSCreate(PETSC_COMM_SELF, ts.out()));
+  register_generalized_alpha();
+  check(TSSetType(ts, "generalized_alpha"));
+  check(TSAlpha2SetRadius(ts, run.settings.rho_inf));
+  TSAdapt adapt = nullptr;
+  check(TSGetAdapt(ts, &adapt));
+  check(TSAdaptSetType(adapt, TSADAPTNONE));
+  attach(run.problem, ts, J);
+  set_time(ts, run.settings);
+  check(TSSetApplicationContext(ts, &run));
+  check(TSSetPostStep(ts, recover_dt));
+  check(TSMonitorSet(ts, monitor, &run, nullptr));
+  check(TSSetFromOptions(ts));
+  check(TSGetTimeStep(ts, &run.nominal_dt));
+  require(run.nominal_dt > 0, "time step dt = ", run.nominal_dt, " s must be positive");
+  return ts;
+}
+
+void finish(Run& run, TS ts) {
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  PetscReal time = 0, dt = 0;
+  check(TSGetConvergedReason(ts, &reason));
+  check(TSGetTime(ts, &time));
+  check(TSGetTimeStep(ts, &dt));
+  const std::string& trouble = run.problem.trouble;
+  require(reason > 0, "the step at t = ", time, " s cannot be solved, not even with dt cut to ", dt,
+          " s: ", trouble.empty() ? "Newton's method does not converge" : trouble, " (",
+          TSConvergedReasons[reason], ")");
+  PetscInt steps = 0, rejected = 0, newton = 0;
+  check(TSGetStepNumber(ts, &steps));
+  check(TSGetStepRejections(ts, &rejected));
+  check(TSGetSNESIterations(ts, &newton));
+  run.summary.steps = steps;
+  run.summary.rejected_steps = rejected;
+  run.summary.newton_iterations = newton;
+}
+
+}  // namespace
+
+RunSummary simulate(System& system, const TimeSettings& settings, const Observer& observer,
+                    const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  validate(settings);
+  require_bodies_apart(system);
+  Run run(system, settings, observer, progress);
+  for (const PairSetup& pair : system.pairs()) run.summary.pair.push_back({pair.name});
+  UniqueMat J;
+  const UniqueTS ts = make_ts(run, J);
+  const UniqueVec U = vector(system.initial_position()), V = vector(system.initial_velocity());
+  check(TS2SetSolution(ts, U, V));
+  check(TSSolve(ts, U), run.problem.pending);
+  if (!run.last_observed) observe(run);
+  finish(run, ts);
+  run.summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return run.summary;
+}
+
+}  // namespace elastogear::dynamics

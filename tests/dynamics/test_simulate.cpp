@@ -1,0 +1,127 @@
+// What a run promises beside its solution: observers, options, errors, determinism.
+#include <gtest/gtest.h>
+
+#include "box_body.h"
+#include "elastogear/base/error.h"
+#include "elastogear/dynamics/simulate.h"
+
+using namespace elastogear;
+using namespace elastogear::dynamics;
+
+namespace {
+
+System spinning_rigid_box() {
+  const auto body = std::make_shared<model::ElasticBody>(test::make_rigid_box({.material = {1, 0, 1}}));
+  return System(
+      {{.name = "box", .body = body, .joint = {body::JointType::revolute}, .omega0 = 1, .torque = 1}}, {});
+}
+
+// A soft box flies against a rigid one, `gap` away.
+System impact(double gap) {
+  const test::BoxSpec box{.size = {1, 1, 1}, .cells = {2, 2, 2}, .material = {100, 0.3, 1}};
+  const auto soft = std::make_shared<model::ElasticBody>(test::make_box(box, model::Basis::modal));
+  const auto wall = std::make_shared<model::ElasticBody>(
+      test::make_rigid_box({.corner = {0, -1, -1}, .size = {1, 3, 3}, .material = {100, 0.3, 1}}));
+  return System({{.name = "box", .body = soft, .q_dot0 = test::uniform_velocity(*soft, {1, 0, 0})},
+                 {.name = "wall", .body = wall, .joint = {.r_WB0 = {1 + gap, 0, 0}}}},
+                {{"box:wall", {0, 1}, {}}});
+}
+
+std::vector<double> times(System system, const TimeSettings& settings) {
+  std::vector<double> times;
+  simulate(system, settings, [&](const model::Snapshot& snapshot) { times.push_back(snapshot.time); });
+  return times;
+}
+
+class Option {
+ public:
+  Option(const char* name, const char* value) : name_(name) {
+    check(PetscOptionsSetValue(nullptr, name, value));
+  }
+  ~Option() { PetscOptionsClearValue(nullptr, name_); }
+  Option(const Option&) = delete;
+
+ private:
+  const char* name_;
+};
+
+std::string message_of(const auto& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST(Simulate, observes_every_nth_step_and_the_last) {
+  const std::vector<double> seen = times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1, .output_every = 3});
+  ASSERT_EQ(seen.size(), 5u);  // steps 0 3 6 9 10
+  EXPECT_EQ(seen.front(), 0);
+  EXPECT_DOUBLE_EQ(seen[1], 0.3);
+  EXPECT_DOUBLE_EQ(seen.back(), 1);
+}
+
+TEST(Simulate, options_database_wins_over_settings) {
+  const Option dt("-ts_dt", "0.25");
+  EXPECT_EQ(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1}).size(), 5u);
+}
+
+TEST(Simulate, first_snapshot_holds_the_initial_acceleration) {
+  System system = spinning_rigid_box();
+  std::vector<double> acceleration;
+  simulate(system, {.dt = 0.1, .end_time = 0.1},
+           [&](const model::Snapshot& s) { acceleration.push_back(s.bodies[0].s_ddot[0]); });
+  EXPECT_NEAR(acceleration.front(), 1 / system.bodies()[0].eq.M_ss(0, 0), 1e-12);
+}
+
+TEST(Simulate, refuses_settings_that_make_no_sense) {
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0, .end_time = 1}), Error);
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = NAN, .end_time = 1}), Error);
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = -1}), Error);
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1, .rho_inf = 1.5}), Error);
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1, .output_every = 0}), Error);
+  const Option dt("-ts_dt", "-1");
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1}), Error);
+}
+
+TEST(Simulate, rethrows_what_the_observer_throws) {
+  System system = spinning_rigid_box();
+  const std::string message = message_of([&] {
+    simulate(system, {.dt = 0.1, .end_time = 1}, [](const model::Snapshot&) { fail("disk full"); });
+  });
+  EXPECT_EQ(message, "disk full");
+}
+
+TEST(Simulate, step_that_cannot_be_cut_further_is_an_error_with_its_time) {
+  const Option none("-snes_max_it", "0");
+  const std::string message = message_of([] { times(impact(0.01), {.dt = 0.1, .end_time = 1}); });
+  EXPECT_NE(message.find("cannot be solved"), std::string::npos) << message;
+}
+
+TEST(Simulate, bodies_that_begin_inside_each_other_are_refused) {
+  const std::string message = message_of([] { times(impact(-0.3), {.dt = 0.01, .end_time = 1}); });
+  EXPECT_NE(message.find("box:wall"), std::string::npos) << message;
+}
+
+TEST(Simulate, impact_too_fast_for_the_time_step_is_cut_and_recovers) {
+  System system = impact(0.01);
+  std::vector<double> seen;
+  const RunSummary summary =
+      simulate(system, {.dt = 0.5, .end_time = 3}, [&](const model::Snapshot& s) { seen.push_back(s.time); });
+  EXPECT_GT(summary.rejected_steps, 0);
+  EXPECT_GT(summary.pair[0].peak_force, 0);
+  EXPECT_DOUBLE_EQ(seen.back(), 3);
+}
+
+TEST(Simulate, repeats_itself_bit_for_bit) {
+  const auto end = [] {
+    System system = impact(0.01);
+    Eigen::VectorXd q;
+    simulate(system, {.dt = 0.005, .end_time = 0.3}, [&](const model::Snapshot& s) { q = s.bodies[0].q; });
+    return q;
+  };
+  EXPECT_EQ(end(), end());
+}
