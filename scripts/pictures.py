@@ -190,8 +190,8 @@ def draw_boxes(options):
             actors.append(scene.box_actor(boxes_of_level(boxes, level, path), colour, 0.25))
         picture.panel((left, 0.5, right, 0.95), actors, views[0])
         picture.panel((left + GAP, 0.05, right - GAP, 0.5), actors, views[1])
-        title = "leaves" if level == "leaf" else f"level {level}"
-        picture.panel((left, 0.95, right, 1), [scene.text_actor("k-DOPs, " + title, 0.5, 0.5, 34)])
+        title = f"{options.title}, " + ("leaves" if level == "leaf" else f"level {level}")
+        picture.panel((left, 0.95, right, 1), [scene.text_actor(title, 0.5, 0.5, 34)])
     picture.panel((0, 0, 1, 0.05), box_legend(options.boxes))
     picture.save(options.out)
 
@@ -208,6 +208,7 @@ def arguments():
     boxes.add_argument("--surfaces", nargs="+", required=True, metavar="FILE", help=".vtu or .vtp of each body")
     boxes.add_argument("--boxes", nargs="+", required=True, metavar="FILE", help=".vtp with cell data level")
     boxes.add_argument("--levels", nargs="+", default=["1", "5", "leaf"], help="tree levels, root 0; leaf: the deepest")
+    boxes.add_argument("--title", default="k-DOPs", help="default: %(default)s")
     boxes.add_argument("--view", nargs=3, type=float, default=(0.35, 0.75, 0.55), metavar=("X", "Y", "Z"),
                        help="from where to look")
     boxes.set_defaults(draw=draw_boxes)
