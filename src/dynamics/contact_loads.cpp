@@ -1,5 +1,6 @@
 #include "elastogear/dynamics/contact_loads.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace elastogear::dynamics {

@@ -1,5 +1,6 @@
 #include "elastogear/dynamics/snapshot.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace elastogear::dynamics {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kMaxPressureAngle = kPi / 4;
+constexpr double kMaxConeSlope = 3;
 constexpr int kMaxTeeth = 1000;
 constexpr double kMinTipWidth = 0.1;  // of the module: thinner teeth count as pointed
 
@@ -112,24 +113,25 @@ double start_radius(const Design& d, const Toothing& t, const Toothing& mate, do
   return std::hypot(t.r - length * std::sin(d.alpha_n), length * std::sin(mate.beta_b));
 }
 
-// A body's name, its fillet radius and the tooth's thickness at the tip.
-struct ToothCheck {
-  const char *body, *fillet;
-  double fillet_radius, tip_width;
-};
-
-void check_tooth(const Toothing& t, const Design& d, const ToothCheck& c) {
-  require(c.tip_width >= kMinTipWidth * d.m_n, "addendum = ", d.addendum, " m: the ", c.body,
-          "'s teeth are pointed, ", c.tip_width, " m thick at the tip, at least ", kMinTipWidth * d.m_n,
+void check_tip(const Design& d, double width, const char* body) {
+  require(width >= kMinTipWidth * d.m_n, "addendum = ", d.addendum, " m: the ", body,
+          "'s teeth are pointed, ", width, " m thick at the tip, at least ", kMinTipWidth * d.m_n,
           " m is needed");
+}
+
+void check_start(const Design& d, const Toothing& t, const char* body) {
   require(t.r_start > t.r_b, "addendum = ", d.addendum, " m: the contact reaches the radius ", t.r_start,
-          " m of the ", c.body, ", inside its base circle ", t.r_b, " m");
-  require(t.r_form <= t.r_start, c.fillet, " = ", c.fillet_radius, " m: the fillet of the ", c.body,
-          " ends at the radius ", t.r_form, " m, inside the path of contact, which starts at ", t.r_start,
-          " m");
+          " m of the ", body, ", inside its base circle ", t.r_b, " m");
+}
+
+void check_fillet(const Toothing& t, const char* name, double radius) {
+  require(t.r_form <= t.r_start, name, " = ", radius, " m: the fillet ends at the radius ", t.r_form,
+          " m, inside the path of contact, which starts at ", t.r_start, " m");
 }
 
 void check_shaft(const Design& d, const Geometry& g) {
+  require(d.thread_length >= g.p_x, "thread_length = ", d.thread_length,
+          " m: must be at least one axial pitch, ", g.p_x, " m");
   // The helical layers end within one pitch of the thread's ends.
   const double reach = d.thread_length / 2 + g.p_x + d.shoulder;
   require(reach < std::min(-d.seat_1_end, d.seat_2_begin), "thread_length = ", d.thread_length,
@@ -147,6 +149,18 @@ void check_shaft(const Design& d, const Geometry& g) {
                              {"shaft_2_diameter", d.shaft_2_diameter},
                              {"the worm's root diameter", 2 * g.worm.r_f}};
   for (const Value& value : diameters) require_increasing({{"worm_bore", d.worm_bore}, value});
+}
+
+// Steeper cones would squeeze the cells there flat.
+void check_shoulders(const Design& d, const Geometry& g) {
+  const double root = 2 * g.worm.r_f;
+  const double steps[] = {root - d.seat_1_diameter, d.seat_1_diameter - d.shaft_1_diameter,
+                          root - d.seat_2_diameter, d.seat_2_diameter - d.shaft_2_diameter};
+  for (double step : steps)
+    require(std::abs(step) / 2 <= kMaxConeSlope * d.shoulder, "shoulder = ", d.shoulder,
+            " m: too short for the step of ", std::abs(step),
+            " m between two diameters of the worm's shaft, at least ", std::abs(step) / 2 / kMaxConeSlope,
+            " m is needed");
 }
 
 void check_wheel(const Design& d, const Geometry& g) {
@@ -181,6 +195,8 @@ void derive_contact(const Design& d, Geometry& g) {
           ", at least 1 is needed");
   g.worm.r_start = start_radius(d, g.worm, g.wheel, L_2);
   g.wheel.r_start = start_radius(d, g.wheel, g.worm, L_1);
+  check_start(d, g.worm, "worm");
+  check_start(d, g.wheel, "wheel");
 }
 
 }  // namespace
@@ -200,13 +216,15 @@ Geometry derive(const Design& d) {
   check_toothing(d);
   Geometry g = pitch_geometry(d);
   check_shaft(d, g);
+  check_shoulders(d, g);
   check_wheel(d, g);
-  derive_contact(d, g);
-  g.worm.r_form = worm_form_radius(d, g);
+  check_tip(d, 2 * psi(g.worm, g.worm.r_a) * g.worm.p, "worm");
+  check_tip(d, 2 * psi(g.wheel, g.wheel.r_a) * g.wheel.r_a, "wheel");
   g.wheel.r_form = wheel_form_radius(d, g);
-  check_tooth(g.worm, d, {"worm", "worm_fillet", d.worm_fillet, 2 * psi(g.worm, g.worm.r_a) * g.worm.p});
-  check_tooth(g.wheel, d,
-              {"wheel", "wheel_rack_tip", d.wheel_rack_tip, 2 * psi(g.wheel, g.wheel.r_a) * g.wheel.r_a});
+  g.worm.r_form = worm_form_radius(d, g);
+  derive_contact(d, g);
+  check_fillet(g.worm, "worm_fillet", d.worm_fillet);
+  check_fillet(g.wheel, "wheel_rack_tip", d.wheel_rack_tip);
   return g;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "elastogear/base/error.h"
-#include "numbers.h"
+#include "elastogear/base/number.h"
 
 namespace elastogear::mesh {
 

@@ -2,11 +2,11 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/base/number.h"
 #include "elastogear/mesh/inp.h"
 #include "face_owner.h"
 #include "inp_format.h"
 #include "inp_lines.h"
-#include "numbers.h"
 
 namespace elastogear::mesh {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "elastogear/base/error.h"
-#include "numbers.h"
+#include "elastogear/base/number.h"
 
 namespace elastogear::mesh {
 

@@ -2,8 +2,8 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/base/number.h"
 #include "elastogear/mesh/msh.h"
-#include "numbers.h"
 
 namespace elastogear::mesh {
 namespace {

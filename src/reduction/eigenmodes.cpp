@@ -188,11 +188,14 @@ int count_eigenvalues_below(Mat K, Mat M, double sigma) {
   return static_cast<int>(below);
 }
 
+void require_mode_count(int n_modes, int n_free) {
+  require(n_modes > 0 && n_modes <= n_free, "modes = ", n_modes,
+          ", must be between 1 and the number of free degrees of freedom, ", n_free);
+}
+
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress) {
-  const int n = size_of(K);
-  require(options.n_modes > 0 && options.n_modes <= n, "modes = ", options.n_modes,
-          ", must be between 1 and the number of free degrees of freedom, ", n);
+  require_mode_count(options.n_modes, size_of(K));
   UniqueEPS eps = create_solver(K, M, options);
   solve(eps, options, progress);
   const auto pairs = sorted_pairs(eps);

@@ -17,12 +17,12 @@ namespace elastogear::dynamics {
 
 struct BodySetup {
   std::string name;
-  std::shared_ptr<const model::ElasticBody> body;
-  body::Joint joint;
-  double angle0 = 0;       ///< rad, revolute only
-  double omega0 = 0;       ///< rad/s, revolute only
-  double torque = 0;       ///< N m, constant, about the hinge axis, revolute only
-  Eigen::VectorXd q_dot0;  ///< n_q, initial elastic velocity; empty: zero
+  std::shared_ptr<const model::ElasticBody> body = nullptr;
+  body::Joint joint = {};
+  double angle0 = 0;            ///< rad, revolute only
+  double omega0 = 0;            ///< rad/s, revolute only
+  double torque = 0;            ///< N m, constant, about the hinge axis, revolute only
+  Eigen::VectorXd q_dot0 = {};  ///< n_q, initial elastic velocity; empty: zero
 };
 
 struct PairSetup {

@@ -4,17 +4,22 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "elastogear/model/result.h"
 
 namespace elastogear::io {
 
-/// Appends snapshots under a temporary name beside `path`; finish() renames it.
+/// Appends snapshots under a temporary name beside `path`; finish() renames it. Destroyed unfinished: nothing
+/// stays.
 class ResultWriter {
  public:
   ResultWriter(const std::string& path, const model::ResultHeader& header);
   ~ResultWriter();
+  /// Error when the time does not increase, numbers are not finite, or sizes differ from the header or the
+  /// first snapshot.
   void append(const model::Snapshot& snapshot);
+  /// Error when nothing was appended.
   void finish();
 
  private:
@@ -25,13 +30,35 @@ class ResultWriter {
 /// Histories of one body, one column per output time.
 struct BodyHistory {
   Eigen::MatrixXd q, q_dot, q_ddot;  ///< n_q x n_t
-  Eigen::MatrixXd s, s_dot;          ///< n_s x n_t, joint coordinates
+  Eigen::MatrixXd s, s_dot, s_ddot;  ///< n_s x n_t, joint coordinates
   Eigen::MatrixXd r_WB;              ///< 3 x n_t
   Eigen::MatrixXd R_WB;              ///< 9 x n_t, row-major rotation matrix
 };
 
+/// Histories of one pair, one column per output time. Forces on body b in the world frame, see
+/// model::PairState.
+struct PairHistory {
+  Eigen::MatrixXd force;                   ///< 3 x n_t, N
+  Eigen::MatrixXd torque;                  ///< 3 x n_t, N m, about the world origin
+  Eigen::VectorXi count;                   ///< n_t
+  Eigen::VectorXd penetration;             ///< n_t, m
+  std::vector<std::string> group_name[2];  ///< face groups of surface a, b
+  Eigen::MatrixXd group_force[2];          ///< 3 n_g x n_t, N, rows 3 g .. 3 g + 2
+};
+
+/// n_t each, J; see model::Energies.
+struct EnergyHistory {
+  Eigen::VectorXd kinetic, elastic, contact, dissipated, work, balance;
+};
+
+/// Readers throw Error naming the file and what is missing or wrong. Bodies and pairs go by name.
 model::ResultHeader read_result_header(const std::string& path);
 Eigen::VectorXd read_times(const std::string& path);
 BodyHistory read_body_history(const std::string& path, const std::string& body);
+PairHistory read_pair_history(const std::string& path, const std::string& pair);
+EnergyHistory read_energies(const std::string& path);
+/// The active contacts of a pair, one list per output time.
+std::vector<std::vector<model::ContactRecord>> read_contacts(const std::string& path,
+                                                             const std::string& pair);
 
 }  // namespace elastogear::io

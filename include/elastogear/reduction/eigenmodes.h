@@ -27,6 +27,9 @@ struct Eigenmodes {
 /// Called on all ranks.
 using ModeSink = std::function<void(int index, Vec phi)>;
 
+/// Throws Error naming both numbers unless 1 <= n_modes <= n_free.
+void require_mode_count(int n_modes, int n_free);
+
 /// SLEPc's Krylov-Schur with shift-and-invert about 0 and MUMPS' Cholesky, unless the options database says
 /// otherwise. Reports the stage "eigenmodes". Collective. Throws Error when n_modes is not in 1..n (n: size
 /// of K), when K is singular (the body is not held, or has a mechanism), when modes do not converge or are

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace elastogear::mesh {
+namespace elastogear {
 
 /// The number that makes up all of `text` (a leading + is allowed), or nothing.
 template <class T>
@@ -26,4 +26,4 @@ void print(std::string& out, T value) {
   out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
-}  // namespace elastogear::mesh
+}  // namespace elastogear

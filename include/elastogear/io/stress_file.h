@@ -1,0 +1,30 @@
+#pragma once
+// The stress file (HDF5, docs/file_format.md): written by recover, read by compare, info and scripts.
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace elastogear::io {
+
+/// Histories at the nodes of one evaluation set, one column per time; body frame.
+struct StressSet {
+  std::string body, set;
+  std::vector<int> node;      ///< n, mesh numbers
+  Eigen::MatrixXd stress;     ///< 6 n x n_t, Pa, rows xx yy zz xy yz xz of node 0, then node 1, ...
+  Eigen::MatrixXd von_mises;  ///< n x n_t, Pa
+  Eigen::MatrixXd rankine;    ///< n x n_t, Pa, largest principal stress
+};
+
+struct StressHistory {
+  Eigen::VectorXd time;  ///< n_t, s
+  std::vector<StressSet> sets;
+  std::map<std::string, std::string> provenance;
+};
+
+/// Error when shapes disagree or numbers are not finite; the file appears only when complete.
+void write_stress(const std::string& path, const StressHistory& history);
+StressHistory read_stress(const std::string& path);
+
+}  // namespace elastogear::io

@@ -1,0 +1,28 @@
+#pragma once
+// Coordinates q of a body and what belongs to them: inertia coupling, surface rows, stress modes, M_r, K_r.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "elastogear/fem/inertia.h"
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::reduction {
+
+/// Sizes the body's dense fields for n_q modes: zero until add_mode.
+void allocate_modes(model::ElasticBody& body, int n_q);
+
+/// Enters one mode: column k of Phi (surface) and Psi = S phi (stress), row k of C_l and C_r, column k of
+/// S_1. phi: 3 n_nodes, node-major. S: the stress operator at body.stress.node.
+void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
+              const model::SparseRows& S);
+
+/// M_r = I, K_r = diag(eigenvalue), frequencies in Hz.
+void set_modal_matrices(model::ElasticBody& body, const Eigen::VectorXd& eigenvalue);
+
+/// Unit basis: one coordinate per free displacement, in the order of free_dof (ascending). All rows sparse.
+void set_full_basis(model::ElasticBody& body, const std::vector<int>& free_dof,
+                    const fem::MassMoments& moments, const model::SparseRows& S);
+
+}  // namespace elastogear::reduction

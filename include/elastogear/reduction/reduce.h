@@ -1,0 +1,62 @@
+#pragma once
+// From a mesh to a body file: partition, assembly, eigenmodes, inertia, stress modes, surface.
+
+#include <mpi.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "elastogear/base/progress.h"
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/model/elastic_body.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::reduction {
+
+struct ReductionOptions {
+  std::string name = {};                            ///< of the body
+  std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
+  model::Element element = model::Element::incompatible;
+  std::vector<std::string> restrain = {};      ///< node sets, all three displacements zero
+  std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
+  std::vector<std::string> stress_nodes = {};  ///< node sets
+  model::Basis basis = model::Basis::modal;
+  int n_modes = 100;                                   ///< modal only
+  double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
+  std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
+  std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
+};
+
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// What a reduction did. Complete on rank 0.
+struct ReductionReport {
+  double m = 0;                                 ///< kg
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();  ///< m, centre of mass
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();  ///< kg m^2, about the centre of mass
+  int n_nodes = 0, n_cells = 0;
+  int n_dofs = 0, n_free = 0;  ///< displacements: all, not restrained
+  int n_ranks = 1;
+  int edge_cut = 0;              ///< pairs of neighbouring cells on different ranks
+  double balance = 1;            ///< most cells of a rank over the mean
+  Eigen::VectorXd frequency;     ///< Hz, ascending; empty for the full basis
+  Eigen::VectorXd residual;      ///< |K phi - omega^2 M phi| / |K phi| of each mode
+  std::vector<StageTime> times;  ///< wall-clock time of each stage, in order
+};
+
+/// Reduces the body and writes the body file `output` (on rank 0; a failed run leaves no file). Collective;
+/// the mesh is read on rank 0 only and must be valid (mesh::validate). Memory and work for K, M and the modes
+/// are distributed; rank 0 keeps the mesh and one mode at a time.
+///
+/// Throws the same Error on all ranks for wrong materials, unknown sets, inverted cells, a body that is not
+/// held, more modes than free degrees of freedom, stress nodes outside the cells, and what find_eigenmodes
+/// and io::BodyWriter throw.
+ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOptions& options,
+                       const std::string& output, const Progress& progress = {});
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,39 @@
+#pragma once
+// Words and units of the body file.
+
+#include <string>
+
+#include "elastogear/base/error.h"
+#include "elastogear/model/elastic_body.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::io {
+
+/// Units follow from those of q: m sqrt(kg) when mass-normalised (modal), m for the unit basis (full).
+struct BodyUnits {
+  const char *Phi, *Psi, *M, *K, *C_l, *C_r, *S_1;
+};
+constexpr BodyUnits kModalUnits{"kg^-1/2", "Pa m^-1 kg^-1/2", "1", "s^-2", "kg^1/2", "m kg^1/2", "m kg^1/2"};
+constexpr BodyUnits kFullUnits{"1", "Pa/m", "kg", "N/m", "kg", "kg m", "kg m"};
+
+inline const BodyUnits& body_units(model::Basis basis) {
+  return basis == model::Basis::modal ? kModalUnits : kFullUnits;
+}
+
+inline std::string basis_name(model::Basis basis) { return basis == model::Basis::modal ? "modal" : "full"; }
+inline model::Basis parse_basis(const std::string& path, const std::string& name) {
+  if (name == "modal") return model::Basis::modal;
+  require(name == "full", path, ": unknown basis '", name, "', allowed are modal, full");
+  return model::Basis::full;
+}
+
+inline std::string element_name(model::Element element) {
+  return element == model::Element::incompatible ? "incompatible" : "plain";
+}
+inline model::Element parse_element(const std::string& path, const std::string& name) {
+  if (name == "incompatible") return model::Element::incompatible;
+  require(name == "plain", path, ": unknown element '", name, "', allowed are incompatible, plain");
+  return model::Element::plain;
+}
+
+}  // namespace elastogear::io

@@ -1,0 +1,190 @@
+#include "elastogear/io/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "body_schema.h"
+#include "elastogear/io/body_file.h"
+#include "elastogear/io/result_file.h"
+#include "elastogear/io/stress_file.h"
+#include "elastogear/mesh/file.h"
+#include "schema.h"
+
+namespace elastogear::io {
+namespace {
+
+using Out = std::ostringstream;
+
+template <class... Parts>
+void line(Out& out, const Parts&... parts) {
+  (out << ... << parts) << '\n';
+}
+
+std::string counted(std::size_t n, const std::string& thing) {
+  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
+}
+
+template <class Set>
+void describe_sets(Out& out, const char* kind, const std::map<std::string, Set>& sets) {
+  if (sets.empty()) return;
+  line(out, kind, " sets:");
+  for (const auto& [name, members] : sets) line(out, "  ", name, ": ", members.size());
+}
+
+void describe_mesh(Out& out, const mesh::Mesh& mesh) {
+  line(out, "mesh: ", counted(mesh.n_nodes(), "node"), ", ", counted(mesh.cells.size(), "hexahedron cell"));
+  if (mesh.n_nodes() > 0)
+    line(out, "box: (", mesh.X.rowwise().minCoeff().transpose(), ") to (",
+         mesh.X.rowwise().maxCoeff().transpose(), ") m");
+  describe_sets(out, "node", mesh.node_sets);
+  describe_sets(out, "cell", mesh.cell_sets);
+  describe_sets(out, "face", mesh.face_sets);
+}
+
+void describe_map(Out& out, const std::map<std::string, std::string>& provenance) {
+  if (provenance.empty()) return;
+  line(out, "provenance:");
+  for (const auto& [key, value] : provenance) line(out, "  ", key, ": ", value);
+}
+
+void describe_mesh_file(Out& out, const std::string& path, const std::string& format) {
+  mesh::ReadReport report;
+  const mesh::Mesh mesh = mesh::read_mesh(path, 1, &report);
+  line(out, "format: ", format, " (lengths as in the file, taken as m)");
+  describe_mesh(out, mesh);
+  for (const std::string& what : report.ignored) line(out, "not read: ", what);
+}
+
+void describe_inertia(Out& out, const model::Inertia& inertia) {
+  const Eigen::IOFormat row(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ");
+  line(out, "mass: ", inertia.m, " kg");
+  line(out, "centre of mass: (", inertia.c.transpose(), ") m, body frame");
+  line(out, "inertia about the origin: [", inertia.J.format(row), "] kg m^2");
+}
+
+void describe_modes(Out& out, const model::ElasticBody& body) {
+  line(out, "basis: ", basis_name(body.basis), ", ", counted(body.n_q(), "elastic coordinate"));
+  if (body.frequency.size() > 0)
+    line(out, "frequencies: ", body.frequency.minCoeff(), " to ", body.frequency.maxCoeff(), " Hz");
+  line(out, "damping: alpha = ", body.alpha, " 1/s, beta = ", body.beta, " s");
+}
+
+void describe_body(Out& out, const std::string& path) {
+  const model::ElasticBody body = read_body(path);
+  const BodySource source = read_body_source(path);
+  line(out, "body: ", body.name);
+  describe_modes(out, body);
+  describe_inertia(out, body.inertia);
+  line(out, "element: hex8 ", element_name(source.element), ", ",
+       counted(source.free_dof.size(), "free degree"), " of freedom");
+  for (const auto& [cell_set, material] : source.regions)
+    line(out, "material of ", cell_set.empty() ? "all other cells" : cell_set, ": E = ", material.E,
+         " Pa, nu = ", material.nu, ", rho = ", material.rho, " kg/m^3");
+  std::string groups;
+  for (const std::string& name : body.surface.group_name) groups += " " + name;
+  line(out, "surface: ", counted(body.surface.node.size(), "node"), ", ",
+       counted(body.surface.face.cols(), "face"), " in ", counted(body.surface.group_name.size(), "group"),
+       groups.empty() ? "" : ":", groups);
+  line(out, "stress: ", counted(body.stress.node.size(), "node"));
+  describe_sets(out, "stress node", body.stress.sets);
+  describe_mesh(out, source.mesh);
+  describe_map(out, body.provenance);
+}
+
+void describe_pair(Out& out, const std::string& path, const std::string& name, const Eigen::VectorXd& time) {
+  const PairHistory history = read_pair_history(path, name);
+  line(out, "contact ", name, ": ", counted(history.group_name[0].size(), "group"), " and ",
+       counted(history.group_name[1].size(), "group"));
+  Eigen::Index at = 0;
+  const double peak = history.force.colwise().norm().maxCoeff(&at);
+  line(out, "  peak force: ", peak, " N at t = ", time[at], " s");
+  line(out, "  most contacts: ", history.count.maxCoeff(),
+       ", largest penetration: ", history.penetration.maxCoeff(), " m");
+}
+
+void describe_energies(Out& out, const EnergyHistory& energy) {
+  const auto last = energy.balance.size() - 1;
+  line(out, "energy at the start: ", energy.kinetic[0], " J kinetic, ", energy.elastic[0], " J elastic, ",
+       energy.contact[0], " J contact");
+  line(out, "energy at the end: ", energy.kinetic[last], " J kinetic, ", energy.elastic[last], " J elastic, ",
+       energy.contact[last], " J contact, ", energy.dissipated[last], " J dissipated, ", energy.work[last],
+       " J work of loads");
+  line(out, "energy balance: at most ", energy.balance.cwiseAbs().maxCoeff(), " J off");
+}
+
+void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& time) {
+  require(time.size() > 0, path, ": holds no times");
+  line(out, "times: ", time.size(), " from ", time[0], " to ", time[time.size() - 1], " s");
+}
+
+void describe_result(Out& out, const std::string& path) {
+  const model::ResultHeader header = read_result_header(path);
+  const Eigen::VectorXd time = read_times(path);
+  describe_times(out, path, time);
+  for (const auto& body : header.bodies) {
+    const h5::Shape q = h5::shape(h5::open(path), "/bodies/" + body.name + "/q");
+    line(out, "body ", body.name, ": ", body.file, ", joint ", body.joint, ", ",
+         counted(q.back(), "elastic coordinate"));
+  }
+  for (const auto& pair : header.pairs) describe_pair(out, path, pair.name, time);
+  describe_energies(out, read_energies(path));
+  describe_map(out, header.provenance);
+}
+
+void describe_stress(Out& out, const std::string& path) {
+  const StressHistory history = read_stress(path);
+  describe_times(out, path, history.time);
+  for (const StressSet& set : history.sets) {
+    line(out, "stress of ", set.body, "/", set.set, ": ", counted(set.node.size(), "node"), ", body frame");
+    if (set.node.empty()) continue;
+    Eigen::Index node = 0, step = 0;
+    const double peak = set.von_mises.maxCoeff(&node, &step);
+    line(out, "  peak von Mises: ", peak, " Pa at node ", set.node[node], ", t = ", history.time[step], " s");
+    line(out, "  peak Rankine: ", set.rankine.maxCoeff(), " Pa");
+  }
+  describe_map(out, history.provenance);
+}
+
+void describe_hdf5(Out& out, const std::string& path) {
+  const std::string format = h5::string_attribute(h5::open(path), "/", "format");
+  line(out, "format: ", format, ", version ", kVersion, "; SI units");
+  if (format == kBodyFormat) return describe_body(out, path);
+  if (format == kResultFormat) return describe_result(out, path);
+  require(format == kStressFormat, path, ": unknown format '", format, "', known are '", kBodyFormat, "', '",
+          kResultFormat, "', '", kStressFormat, "'");
+  describe_stress(out, path);
+}
+
+bool has_hdf5_signature(const std::string& path) {
+  constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
+  std::string start(kSignature.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == kSignature;
+}
+
+}  // namespace
+
+std::string describe(const std::string& path) {
+  std::error_code error;
+  require(std::filesystem::is_regular_file(path, error), path, ": there is no such file");
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  Out out;
+  line(out, "file: ", path);
+  if (has_hdf5_signature(path)) {
+    describe_hdf5(out, path);
+  } else if (extension == ".msh" || extension == ".inp") {
+    describe_mesh_file(out, path, extension == ".msh" ? "Gmsh MSH 4.1" : "Abaqus/CalculiX input");
+  } else if (extension == ".vtu" || extension == ".pvd") {
+    line(out, "format: VTK ", extension == ".vtu" ? "unstructured grid" : "time series",
+         " (open it with ParaView)");
+  } else {
+    fail(path, ": unknown format; known are .msh, .inp, .vtu, .pvd and the HDF5 files of this program");
+  }
+  return out.str();
+}
+
+}  // namespace elastogear::io

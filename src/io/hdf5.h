@@ -1,0 +1,139 @@
+#pragma once
+// The HDF5 library held, not wrapped: one RAII handle, and whole datasets and attributes by path. Errors name
+// the file and the object; HDF5 itself prints nothing. Serial access, also in the parallel build of HDF5.
+
+#include <hdf5.h>
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::io::h5 {
+
+/// Owner of any HDF5 object.
+class Id {
+ public:
+  Id() = default;
+  explicit Id(hid_t id) : id_(id) {}
+  Id(Id&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
+  Id& operator=(Id&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
+  ~Id() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_ = H5I_INVALID_HID;
+};
+
+struct File {
+  std::string path;  ///< named in errors
+  Id id;
+};
+
+/// New file at `temporary`; errors name `path`.
+File create(const std::string& path, const std::string& temporary);
+/// Existing file, read only. Error when it is missing, truncated or no HDF5 file.
+File open(const std::string& path);
+/// Error when something could not be written.
+void close(File& file);
+
+/// Error naming file and object unless `good`.
+void check(bool good, const File& file, const std::string& object, const char* what);
+
+bool exists(const File& file, const std::string& name);
+void make_group(const File& file, const std::string& name);
+/// Names of the members of a group, ascending.
+std::vector<std::string> members(const File& file, const std::string& group);
+
+using Shape = std::vector<hsize_t>;
+
+/// Row-major numbers in memory. Eigen's 3 x n column-major matrices are n x 3 here.
+template <class T>
+struct View {
+  Shape shape;
+  const T* data;
+};
+
+struct Storage {
+  Shape chunk = {};  ///< empty: contiguous
+  bool compress = false;
+};
+
+/// T: double or int. `unit`: "m", "N", ...; "1" for none.
+template <class T>
+void write(const File& file, const std::string& name, const View<T>& view, const std::string& unit,
+           const Storage& storage = {});
+void write_strings(const File& file, const std::string& name, const std::vector<std::string>& strings);
+
+Shape shape(const File& file, const std::string& name);
+/// Error unless the dataset is numeric and of this shape; kAny allows any extent.
+constexpr hsize_t kAny = H5S_UNLIMITED;
+template <class T>
+std::vector<T> read(const File& file, const std::string& name, const Shape& expected);
+std::vector<std::string> read_strings(const File& file, const std::string& name);
+std::string unit(const File& file, const std::string& name);
+
+/// Attributes of the object `name` ("/" for the root).
+void set_attribute(const File& file, const std::string& name, const std::string& key,
+                   const std::string& value);
+void set_attribute(const File& file, const std::string& name, const std::string& key, double value);
+void set_attribute(const File& file, const std::string& name, const std::string& key,
+                   const std::vector<int>& value);
+std::string string_attribute(const File& file, const std::string& name, const std::string& key);
+double number_attribute(const File& file, const std::string& name, const std::string& key);
+std::vector<int> int_attribute(const File& file, const std::string& name, const std::string& key);
+
+/// A group whose attributes are the map.
+void write_map(const File& file, const std::string& group, const std::map<std::string, std::string>& map);
+std::map<std::string, std::string> read_map(const File& file, const std::string& group);
+
+/// Rows first .. first + count[0] - 1 of a dataset, which is read or written piece by piece.
+struct Rows {
+  hsize_t first;
+  Shape count;  ///< of all dimensions
+};
+struct Chunked {
+  Shape shape, chunk;
+  std::string unit;
+};
+Id create_chunked(const File& file, const std::string& name, const Chunked& layout);
+void write_rows(const File& file, hid_t dataset, const Rows& rows, const double* data);
+void read_rows(const File& file, const std::string& name, const Rows& rows, double* data);
+
+/// What each row of a Series is.
+struct Item {
+  Shape shape;  ///< of one row; empty: a number
+  std::string unit;
+  bool integer = false;
+};
+
+/// One growing dataset, n_rows x item shape, written in blocks. The file must outlive it.
+class Series {
+ public:
+  Series(const File& file, std::string name, Item item);
+  /// `rows` rows, row-major.
+  void append(const double* data, hsize_t rows = 1);
+  /// Writes what is still buffered.
+  void flush();
+  const Item& item() const { return item_; }
+
+ private:
+  const File* file_;
+  std::string name_;
+  Item item_;
+  hsize_t item_size_ = 1, block_ = 1, rows_ = 0;
+  Id dataset_;
+  std::vector<double> buffer_;
+};
+
+}  // namespace elastogear::io::h5

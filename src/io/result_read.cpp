@@ -1,0 +1,143 @@
+#include <algorithm>
+
+#include "elastogear/io/result_file.h"
+#include "schema.h"
+
+namespace elastogear::io {
+namespace {
+
+constexpr const char* kSide[2] = {"a", "b"};
+
+// Names of the members of a group in the order of their attribute `number`.
+std::vector<std::string> in_order(const h5::File& file, const std::string& group) {
+  const std::vector<std::string> names = h5::members(file, group);
+  std::vector<std::string> ordered(names.size());
+  for (const std::string& name : names) {
+    const int number = h5::int_attribute(file, group + "/" + name, "number").front();
+    require(number >= 0 && number < static_cast<int>(names.size()) && ordered[number].empty(), file.path,
+            ": ", group, "/", name, " has the number ", number, ", must be one of 0..", names.size() - 1);
+    ordered[number] = name;
+  }
+  return ordered;
+}
+
+h5::File open_with(const std::string& path, const std::string& group, const std::string& name) {
+  h5::File file = open_format(path, kResultFormat);
+  const std::vector<std::string> names = h5::members(file, group);
+  std::string known;
+  for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
+  require(std::find(names.begin(), names.end(), name) != names.end(), path, ": has no ", group, "/", name,
+          "; it has: ", known.empty() ? "none" : known);
+  return file;
+}
+
+hsize_t time_count(const h5::File& file) { return h5::read<double>(file, "/time", {h5::kAny}).size(); }
+
+// n_t x item in the file is item x n_t here.
+Eigen::MatrixXd read_columns(const h5::File& file, const std::string& name, const h5::Shape& item) {
+  const hsize_t n_t = time_count(file);
+  h5::Shape expected{n_t};
+  expected.insert(expected.end(), item.begin(), item.end());
+  const auto values = h5::read<double>(file, name, expected);
+  const auto columns = static_cast<Eigen::Index>(n_t);
+  // An item of size 0 or a file without times leaves no values to divide.
+  return Eigen::Map<const Eigen::MatrixXd>(
+      values.data(), columns == 0 ? 0 : static_cast<Eigen::Index>(values.size()) / columns, columns);
+}
+
+model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& name, std::size_t n_bodies) {
+  const std::string group = "/contact/" + name;
+  model::ResultHeader::Pair pair;
+  pair.name = name;
+  const std::vector<int> body = h5::int_attribute(file, group, "body");
+  require(body.size() == 2, file.path, ": ", group, ": attribute body must be two numbers");
+  for (int side : {0, 1}) {
+    require(body[side] >= 0 && body[side] < static_cast<int>(n_bodies), file.path, ": ", group,
+            " names body ", body[side], " of ", n_bodies);
+    pair.body[side] = body[side];
+    pair.group_name[side] = h5::read_strings(file, group + "/groups/" + kSide[side] + "/name");
+  }
+  return pair;
+}
+
+}  // namespace
+
+model::ResultHeader read_result_header(const std::string& path) {
+  const h5::File file = open_format(path, kResultFormat);
+  model::ResultHeader header;
+  header.provenance = h5::read_map(file, "/provenance");
+  for (const std::string& name : in_order(file, "/bodies"))
+    header.bodies.push_back({name, h5::string_attribute(file, "/bodies/" + name, "file"),
+                             h5::string_attribute(file, "/bodies/" + name, "joint")});
+  for (const std::string& name : in_order(file, "/contact"))
+    header.pairs.push_back(read_pair(file, name, header.bodies.size()));
+  return header;
+}
+
+Eigen::VectorXd read_times(const std::string& path) {
+  return read_vector(open_format(path, kResultFormat), "/time");
+}
+
+BodyHistory read_body_history(const std::string& path, const std::string& body) {
+  const h5::File file = open_with(path, "/bodies", body);
+  const std::string group = "/bodies/" + body;
+  const auto read = [&](const char* name) { return read_columns(file, group + name, {h5::kAny}); };
+  BodyHistory history;
+  history.q = read("/q");
+  history.q_dot = read("/q_velocity");
+  history.q_ddot = read("/q_acceleration");
+  history.s = read("/rigid");
+  history.s_dot = read("/rigid_velocity");
+  history.s_ddot = read("/rigid_acceleration");
+  history.r_WB = read_columns(file, group + "/position", {3});
+  history.R_WB = read_columns(file, group + "/rotation", {3, 3});
+  return history;
+}
+
+PairHistory read_pair_history(const std::string& path, const std::string& pair) {
+  const h5::File file = open_with(path, "/contact", pair);
+  const std::string group = "/contact/" + pair;
+  PairHistory history;
+  history.force = read_columns(file, group + "/force", {3});
+  history.torque = read_columns(file, group + "/torque", {3});
+  history.count = read_columns(file, group + "/count", {}).transpose().cast<int>();
+  history.penetration = read_columns(file, group + "/penetration", {}).transpose();
+  for (int side : {0, 1}) {
+    const std::string groups = group + "/groups/" + kSide[side];
+    history.group_name[side] = h5::read_strings(file, groups + "/name");
+    history.group_force[side] = read_columns(file, groups + "/force", {history.group_name[side].size(), 3});
+  }
+  return history;
+}
+
+EnergyHistory read_energies(const std::string& path) {
+  const h5::File file = open_format(path, kResultFormat);
+  const auto read = [&](const std::string& name) {
+    return read_vector(file, "/energy/" + name, time_count(file));
+  };
+  return {read("kinetic"),    read("elastic"), read("contact"),
+          read("dissipated"), read("work"),    read("balance")};
+}
+
+std::vector<std::vector<model::ContactRecord>> read_contacts(const std::string& path,
+                                                             const std::string& pair) {
+  const h5::File file = open_with(path, "/contact", pair);
+  const std::string group = "/contact/" + pair + "/points/";
+  const auto offset = h5::read<int>(file, group + "offset", {time_count(file) + 1});
+  require(offset.front() == 0 && std::is_sorted(offset.begin(), offset.end()), path, ": ", group,
+          "offset does not ascend from 0");
+  const auto n = static_cast<hsize_t>(offset.back());
+  const auto integers = [&](const char* name) { return h5::read<int>(file, group + name, {n}); };
+  const auto side = integers("slave_side"), node = integers("slave_node"), face = integers("face");
+  const Eigen::VectorXd xi = read_vector(file, group + "xi", n), eta = read_vector(file, group + "eta", n),
+                        gap = read_vector(file, group + "gap", n);
+  const auto force = h5::read<double>(file, group + "force", {n, 3});
+  std::vector<std::vector<model::ContactRecord>> contacts(offset.size() - 1);
+  for (std::size_t step = 0; step < contacts.size(); ++step)
+    for (int i = offset[step]; i < offset[step + 1]; ++i)
+      contacts[step].push_back({side[i], node[i], face[i], xi[i], eta[i], gap[i],
+                                Eigen::Map<const Eigen::Vector3d>(&force[3 * static_cast<std::size_t>(i)])});
+  return contacts;
+}
+
+}  // namespace elastogear::io

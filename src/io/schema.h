@@ -1,0 +1,41 @@
+#pragma once
+// What our HDF5 files have in common: root attributes `format` and `version`, provenance.
+
+#include <string>
+
+#include "elastogear/mesh/mesh.h"
+#include "hdf5.h"
+
+namespace elastogear::io {
+
+constexpr const char* kBodyFormat = "elastogear body";
+constexpr const char* kResultFormat = "elastogear result";
+constexpr const char* kStressFormat = "elastogear stress";
+constexpr int kVersion = 1;  ///< of all three; counts up when a reader of the old layout would go wrong
+
+void write_format(const h5::File& file, const std::string& format);
+/// Error when the file has another format or version.
+void require_format(const h5::File& file, const std::string& format);
+/// Opens and checks the format.
+h5::File open_format(const std::string& path, const std::string& format);
+
+/// Names in HDF5 paths; Error when empty or with a slash.
+void require_name(const h5::File& file, const std::string& name);
+
+/// Group /mesh of a body file.
+void write_mesh(const h5::File& file, const mesh::Mesh& mesh);
+mesh::Mesh read_mesh(const h5::File& file);
+
+inline h5::View<double> view(const Eigen::Matrix3Xd& X) {
+  return {{static_cast<hsize_t>(X.cols()), 3}, X.data()};
+}
+inline h5::View<double> view(const Eigen::VectorXd& x) {
+  return {{static_cast<hsize_t>(x.size())}, x.data()};
+}
+inline h5::View<int> view(const std::vector<int>& v) { return {{v.size()}, v.data()}; }
+inline h5::View<double> view(const double& value) { return {{}, &value}; }
+
+Eigen::Matrix3Xd read_points(const h5::File& file, const std::string& name);
+Eigen::VectorXd read_vector(const h5::File& file, const std::string& name, hsize_t size = h5::kAny);
+
+}  // namespace elastogear::io

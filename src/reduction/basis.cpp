@@ -1,0 +1,85 @@
+#include "elastogear/reduction/basis.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace elastogear::reduction {
+namespace {
+
+Eigen::SparseMatrix<double> diagonal(const Eigen::VectorXd& d) {
+  Eigen::SparseMatrix<double> D(d.size(), d.size());
+  D = d.asDiagonal();
+  return D;
+}
+
+void resize_coupling(model::Inertia& inertia, Eigen::Index n_q) {
+  inertia.C_l.setZero(n_q, 3);
+  inertia.C_r.setZero(n_q, 3);
+  inertia.S_1.setZero(9, n_q);
+}
+
+// 3 n_nodes x n_free selection: column j is the unit vector of free_dof[j].
+Eigen::SparseMatrix<double> unit_columns(const std::vector<int>& free_dof, Eigen::Index n_dofs) {
+  Eigen::SparseMatrix<double> I(n_dofs, static_cast<Eigen::Index>(free_dof.size()));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < free_dof.size(); ++j)
+    entries.emplace_back(free_dof[j], static_cast<int>(j), 1.0);
+  I.setFromTriplets(entries.begin(), entries.end());
+  return I;
+}
+
+// 3 n_s x 3 n_nodes selection of the given nodes.
+model::SparseRows node_rows(const std::vector<int>& nodes, Eigen::Index n_dofs) {
+  model::SparseRows R(3 * static_cast<Eigen::Index>(nodes.size()), n_dofs);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int d = 0; d < 3; ++d) entries.emplace_back(static_cast<int>(3 * i) + d, 3 * nodes[i] + d, 1.0);
+  R.setFromTriplets(entries.begin(), entries.end());
+  return R;
+}
+
+}  // namespace
+
+void allocate_modes(model::ElasticBody& body, int n_q) {
+  body.basis = model::Basis::modal;
+  resize_coupling(body.inertia, n_q);
+  body.surface.Phi = model::DenseRows::Zero(3 * static_cast<Eigen::Index>(body.surface.node.size()), n_q);
+  body.stress.Psi = model::DenseRows::Zero(6 * static_cast<Eigen::Index>(body.stress.node.size()), n_q);
+}
+
+void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
+              const model::SparseRows& S) {
+  auto& Phi = std::get<model::DenseRows>(body.surface.Phi);
+  for (std::size_t i = 0; i < body.surface.node.size(); ++i)
+    Phi.block<3, 1>(static_cast<Eigen::Index>(3 * i), k) = phi.segment<3>(3 * body.surface.node[i]);
+  std::get<model::DenseRows>(body.stress.Psi).col(k) = S * phi;
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> S_1 = fem::first_moment(moments, phi);
+  body.inertia.S_1.col(k) = S_1.reshaped<Eigen::RowMajor>();
+  body.inertia.C_l.row(k) = fem::translational_coupling(moments, phi);
+  body.inertia.C_r.row(k) = fem::rotational_coupling(S_1);
+}
+
+void set_modal_matrices(model::ElasticBody& body, const Eigen::VectorXd& eigenvalue) {
+  body.frequency = eigenvalue.cwiseSqrt() / (2 * M_PI);
+  body.K_r = diagonal(eigenvalue);
+  body.M_r = diagonal(Eigen::VectorXd::Ones(eigenvalue.size()));
+}
+
+void set_full_basis(model::ElasticBody& body, const std::vector<int>& free_dof,
+                    const fem::MassMoments& moments, const model::SparseRows& S) {
+  body.basis = model::Basis::full;
+  const Eigen::Index n_dofs = 3 * moments.w_0.size();
+  const auto Phi = unit_columns(free_dof, n_dofs);
+  body.surface.Phi = model::SparseRows(node_rows(body.surface.node, n_dofs) * Phi);
+  body.stress.Psi = model::SparseRows(S * Phi);
+  resize_coupling(body.inertia, Phi.cols());
+  for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
+    const int node = free_dof[static_cast<std::size_t>(j)] / 3, d = free_dof[static_cast<std::size_t>(j)] % 3;
+    const Eigen::Vector3d e = Eigen::Vector3d::Unit(d), w_1 = moments.w_1.col(node);
+    body.inertia.C_l.row(j) = moments.w_0(node) * e;
+    body.inertia.C_r.row(j) = w_1.cross(e);
+    for (int a = 0; a < 3; ++a) body.inertia.S_1(3 * a + d, j) = w_1(a);
+  }
+}
+
+}  // namespace elastogear::reduction

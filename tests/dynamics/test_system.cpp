@@ -1,0 +1,184 @@
+// The residual of a system and its Jacobian, with rotation, both inertia levels and contact.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "box_body.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/rotation.h"
+#include "elastogear/dynamics/snapshot.h"
+#include "elastogear/dynamics/system.h"
+
+using namespace elastogear;
+using namespace elastogear::dynamics;
+using body::InertiaLevel;
+using body::JointType;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kStep = 1e-6;        // of central differences, against sizes of order one
+constexpr double kDifference = 1e-7;  // relative: roundoff / kStep, and kStep^2 curvature
+constexpr double kRoundoff = 1e-12;
+
+std::shared_ptr<const model::ElasticBody> box(const Vector3d& corner, const Eigen::Vector3i& cells,
+                                              model::Basis basis, int n_modes) {
+  const test::BoxSpec spec{.corner = corner, .size = {2, 1, 1}, .cells = cells, .material = {100, 0.3, 1}};
+  auto body = std::make_shared<model::ElasticBody>(test::make_box(spec, basis, n_modes));
+  body->alpha = 0.1;
+  body->beta = 0.01;
+  return body;
+}
+
+struct Options {
+  InertiaLevel level = InertiaLevel::linear;
+  bool two_pass = false;
+  int slave = 0;
+  model::Basis basis = model::Basis::modal;
+};
+
+// Two hinged boxes, end against end, tilted a little, 0.02 deep in each other.
+System two_boxes(const Options& options) {
+  std::vector<BodySetup> bodies(2);
+  bodies[0] = {.name = "a",
+               .body = box({0, -0.5, -0.5}, {2, 2, 2}, options.basis, 14),
+               .joint = {JointType::revolute, {0, 0.2, 1}},
+               .torque = 0.3};
+  bodies[1] = {
+      .name = "b",
+      .body = box({-2, -0.5, -0.5}, {2, 3, 2}, options.basis, 15),
+      .joint = {JointType::revolute, {1, 3, -1}, {3.98, 0.03, 0.04}, rotation_matrix({0.2, 0.005, -0.01})}};
+  PairSetup pair{"a:b", {0, 1}, {}};
+  pair.settings.penalty = contact::Penalty::per_node;
+  pair.settings.stiffness = 50;
+  pair.settings.two_pass = options.two_pass;
+  pair.settings.slave = options.slave;
+  return System(bodies, {pair}, options.level);
+}
+
+struct State {
+  VectorXd U, V, A;
+};
+
+State some_state(const System& system) {
+  std::srand(4);
+  return {0.002 * VectorXd::Random(system.size()), VectorXd::Random(system.size()),
+          VectorXd::Random(system.size())};
+}
+
+// dF along (x, shift_v x, shift_a x)
+VectorXd difference(System& system, const State& s, const VectorXd& x, double shift_v, double shift_a) {
+  const auto F = [&](double h) {
+    const VectorXd dx = h * x;
+    return system.residual(s.U + dx, s.V + shift_v * dx, s.A + shift_a * dx).F;
+  };
+  return (F(kStep) - F(-kStep)) / (2 * kStep);
+}
+
+void expect_jacobian_is_derivative(System& system) {
+  constexpr double kShiftV = 3, kShiftA = 20;
+  const State s = some_state(system);
+  LowRankSolver solver(system.equations());
+  solver.set(system.effective_matrix(s.U, s.V, s.A, kShiftV, kShiftA));
+  for (Eigen::Index j = 0; j < system.size(); ++j) {
+    const VectorXd unit = VectorXd::Unit(system.size(), j), column = solver.multiply(unit);
+    EXPECT_LT((column - difference(system, s, unit, kShiftV, kShiftA)).norm(), kDifference * column.norm())
+        << "column " << j;
+  }
+}
+
+class Jacobian : public testing::TestWithParam<Options> {};
+
+BodySetup named(const std::string& name) {
+  return {.name = name, .body = box({0, 0, 0}, {1, 1, 1}, model::Basis::modal, 3)};
+}
+
+}  // namespace
+
+TEST_P(Jacobian, is_the_derivative_of_the_residual) {
+  System system = two_boxes(GetParam());
+  ASSERT_GE(system.contacts(some_state(system).U).pair[0].points.size(), 3u);
+  expect_jacobian_is_derivative(system);
+}
+
+INSTANTIATE_TEST_SUITE_P(Levels, Jacobian,
+                         testing::Values(Options{InertiaLevel::constant}, Options{InertiaLevel::linear},
+                                         Options{InertiaLevel::linear, true},
+                                         Options{InertiaLevel::linear, false, 1},
+                                         Options{.basis = model::Basis::full}));
+
+TEST(Contact, forces_and_moments_on_both_bodies_balance) {
+  System system = two_boxes({.two_pass = true});
+  const ContactState& contact = system.contacts(some_state(system).U);
+  Eigen::Matrix<double, 6, 2> wrench = Eigen::Matrix<double, 6, 2>::Zero();
+  for (int b : {0, 1}) {
+    const contact::SurfaceState& surface = contact.surface[b];
+    const NodalForces& forces = contact.force[b];
+    for (Eigen::Index p = 0; p < forces.f_B.cols(); ++p) {
+      const Vector3d x = surface.r_WB + surface.R_WB * forces.x_B.col(p),
+                     f = surface.R_WB * forces.f_B.col(p);
+      wrench.col(b).head<3>() += f;
+      wrench.col(b).tail<3>() += x.cross(f);
+    }
+  }
+  ASSERT_GT(wrench.col(0).head<3>().norm(), 0.1);
+  EXPECT_LT((wrench.col(0) + wrench.col(1)).norm(), kRoundoff * wrench.norm());
+}
+
+TEST(Contact, snapshot_repeats_the_forces_on_body_b) {
+  System system = two_boxes({.two_pass = true});
+  const State s = some_state(system);
+  const model::PairState pair = snapshot(system, 0, s.U, s.V, s.A).pairs[0];
+  const ContactState& contact = system.contacts(s.U);
+  const contact::SurfaceState& b = contact.surface[1];
+  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+  for (Eigen::Index p = 0; p < contact.force[1].f_B.cols(); ++p) {
+    const Vector3d f = b.R_WB * contact.force[1].f_B.col(p);
+    force += f;
+    torque += (b.r_WB + b.R_WB * contact.force[1].x_B.col(p)).cross(f);
+  }
+  EXPECT_LT((pair.force - force).norm(), kRoundoff * force.norm());
+  EXPECT_LT((pair.torque - torque).norm(), kRoundoff * torque.norm());
+  EXPECT_LT((pair.group_force[0][1] - force).norm(), kRoundoff * force.norm());  // x_max of a
+  EXPECT_LT((pair.group_force[1][0] - force).norm(), kRoundoff * force.norm());  // x_min of b
+  EXPECT_GT(pair.penetration, 0);
+}
+
+TEST(Contact, force_is_minus_the_gradient_of_its_energy) {
+  System system = two_boxes({});
+  const State s = some_state(system);
+  const VectorXd zero = VectorXd::Zero(system.size());
+  const auto energy = [&](const VectorXd& U) { return snapshot(system, 0, U, zero, zero).energy.contact; };
+  const ContactState contact = system.contacts(s.U);
+  for (std::size_t b : {0u, 1u}) {
+    const System::Body& body = system.bodies()[b];
+    const body::Force h = contact_force(body.eq, contact.force[b]);
+    VectorXd both(h.s.size() + h.q.size());
+    both << h.s, h.q;
+    for (Eigen::Index j = 0; j < both.size(); ++j) {
+      const VectorXd dx = kStep * VectorXd::Unit(system.size(), body.first + j);
+      EXPECT_NEAR(both[j], -(energy(s.U + dx) - energy(s.U - dx)) / (2 * kStep), kDifference);
+    }
+  }
+}
+
+TEST(System, refuses_what_cannot_be_simulated) {
+  EXPECT_THROW(System({}, {}), Error);
+  EXPECT_THROW(System({named("a"), named("a")}, {}), Error);
+  EXPECT_THROW(System({named("a")}, {{"a:a", {0, 0}, {}}}), Error);
+  EXPECT_THROW(System({named("a")}, {{"a:b", {0, 1}, {}}}), Error);
+  BodySetup setup = named("a");
+  setup.torque = 1;  // on a fixed joint
+  EXPECT_THROW(System({setup}, {}), Error);
+  setup = named("a");
+  setup.joint.r_WB0[1] = NAN;
+  EXPECT_THROW(System({setup}, {}), Error);
+  setup = named("a");
+  setup.joint.R_WB0 *= 2;
+  EXPECT_THROW(System({setup}, {}), Error);
+  setup = named("a");
+  setup.q_dot0 = VectorXd::Zero(2);  // n_q = 3
+  EXPECT_THROW(System({setup}, {}), Error);
+}

@@ -1,0 +1,134 @@
+// Materials, restraints and inertia of a mesh.
+#include <gtest/gtest.h>
+
+#include "brick.h"
+#include "elastogear/base/error.h"
+#include "elastogear/fem/inertia.h"
+#include "elastogear/fem/material.h"
+#include "elastogear/fem/restraint.h"
+
+namespace {
+
+using namespace elastogear;
+
+constexpr double kRoundoff = 1e-12;
+
+template <class F>
+std::string message_of(F&& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Materials, fill_named_sets_and_the_rest) {
+  auto mesh = test::brick({3, 1, 1}, {1, 1, 1});
+  mesh.cell_sets["rim"] = {2};
+  mesh.cell_sets["end"] = {1, 2};
+  EXPECT_EQ(fem::cell_regions(mesh, {{"", test::kSteel}, {"rim", test::kSteel}}),
+            (std::vector<int>{0, 0, 1}));
+  EXPECT_NE(message_of([&] {
+              fem::cell_regions(mesh, {{"rim", test::kSteel}});
+            }).find("cell 0"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] {
+              fem::cell_regions(mesh, {{"rim", test::kSteel}, {"end", test::kSteel}});
+            }).find("cell 2"),
+            std::string::npos);
+}
+
+TEST(Materials, outside_their_range_are_errors_naming_the_value) {
+  for (const model::Material& wrong : {model::Material{0, 0.3, 1},
+                                       {1, 0.5, 1},
+                                       {1, -1, 1},
+                                       {1, 0.3, 0},
+                                       {NAN, 0.3, 1},
+                                       {1, NAN, 1},
+                                       {1, 0.3, INFINITY}})
+    EXPECT_NE(message_of([&] { fem::validate({{"rim", wrong}}); }).find("rim"), std::string::npos);
+  EXPECT_EQ(message_of([] { fem::validate(test::kSteelBody); }), "");
+}
+
+TEST(Restraint, must_hold_every_part_by_three_nodes_off_one_line) {
+  const auto mesh = test::brick({2, 2, 2}, {1, 1, 1});
+  const auto held_by = [&](std::vector<int> nodes) {
+    auto copy = mesh;
+    copy.node_sets["held"] = std::move(nodes);
+    return message_of([&] { fem::require_held(copy, fem::free_nodes(copy, {"held"})); });
+  };
+  EXPECT_NE(held_by({}), "");
+  EXPECT_NE(held_by({0, 1}), "");
+  EXPECT_NE(held_by({0, 1, 2}).find("collinear"), std::string::npos);
+  EXPECT_EQ(held_by({0, 1, 3}), "");
+  EXPECT_EQ(held_by(mesh.node_sets.at("xmin")), "");
+}
+
+TEST(Restraint, leaves_out_nodes_of_no_cell) {
+  auto mesh = test::brick({1, 1, 1}, {1, 1, 1});
+  mesh.X.conservativeResize(3, 9);
+  mesh.X.rightCols<1>().setZero();
+  EXPECT_EQ(fem::free_dofs(fem::free_nodes(mesh, {"xmin"})).size(), 12u);
+}
+
+TEST(Inertia, of_a_brick_is_exact) {
+  const Eigen::Vector3d l(2, 1, 0.5), at(0.3, -0.2, 1);
+  const auto mesh = test::mapped(test::distorted(test::brick({4, 3, 2}, l), 0.05),
+                                 [&](auto X) -> Eigen::Vector3d { return X + at; });
+  const auto inertia = fem::rigid_inertia(mesh, fem::mass_moments(mesh, test::kSteelBody));
+  const double m = test::kSteel.rho * l.prod();
+  const Eigen::Vector3d c = at + l / 2;
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d squares = l.cwiseAbs2();
+  const Eigen::Matrix3d J = m / 12 * (squares.sum() * I - Eigen::Matrix3d(squares.asDiagonal())) +
+                            m * (c.squaredNorm() * I - c * c.transpose());
+  EXPECT_NEAR(inertia.m / m, 1, kRoundoff);
+  EXPECT_LT((inertia.c - c).norm(), kRoundoff);
+  EXPECT_LT((inertia.J - J).norm(), kRoundoff * J.norm());
+}
+
+// integral of x^i y^j z^k over the mesh by the divergence theorem on its outer faces, 4x4 Gauss points each.
+double surface_moment(const mesh::Mesh& mesh, const Eigen::Vector3i& power) {
+  const double a = std::sqrt(3. / 7 - 2. / 7 * std::sqrt(1.2)),
+               b = std::sqrt(3. / 7 + 2. / 7 * std::sqrt(1.2));
+  const double wa = (18 + std::sqrt(30.)) / 36, wb = (18 - std::sqrt(30.)) / 36;
+  const double xi[4] = {-b, -a, a, b}, w[4] = {wb, wa, wa, wb};
+  double sum = 0;
+  for (const mesh::Face& f : mesh::boundary_faces(mesh))
+    for (int p = 0; p < 16; ++p) {
+      const double r = xi[p % 4], s = xi[p / 4];
+      const Eigen::Vector4d N =
+          Eigen::Vector4d((1 - r) * (1 - s), (1 + r) * (1 - s), (1 + r) * (1 + s), (1 - r) * (1 + s)) / 4;
+      const Eigen::Vector4d N_r = Eigen::Vector4d(-(1 - s), 1 - s, 1 + s, -(1 + s)) / 4;
+      const Eigen::Vector4d N_s = Eigen::Vector4d(-(1 - r), -(1 + r), 1 + r, 1 - r) / 4;
+      const Eigen::Matrix<double, 3, 4> X = mesh.X(Eigen::all, f);
+      const Eigen::Vector3d x = X * N, t = X * N_r, u = X * N_s;
+      const double n_x = t.y() * u.z() - t.z() * u.y();
+      sum += w[p % 4] * w[p / 4] * n_x * std::pow(x.x(), power.x() + 1) / (power.x() + 1) *
+             std::pow(x.y(), power.y()) * std::pow(x.z(), power.z());
+    }
+  return sum;
+}
+
+TEST(Inertia, of_a_curved_body_equals_the_geometry_enclosed_by_its_faces) {
+  const auto twist = [](const Eigen::Vector3d& X) -> Eigen::Vector3d {
+    const double a = 0.8 * X.z(), s = 1 + 0.3 * X.z();
+    return {s * (std::cos(a) * X.x() - std::sin(a) * X.y()), s * (std::sin(a) * X.x() + std::cos(a) * X.y()),
+            X.z() + 0.1 * X.x() * X.y()};
+  };
+  const auto mesh = test::mapped(test::brick({3, 3, 4}, {1, 0.8, 1.5}), twist);
+  const auto inertia = fem::rigid_inertia(mesh, fem::mass_moments(mesh, test::kSteelBody));
+  const auto moment = [&](int i, int j, int k) { return test::kSteel.rho * surface_moment(mesh, {i, j, k}); };
+  const double m = moment(0, 0, 0);
+  EXPECT_NEAR(inertia.m / m, 1, kRoundoff);
+  EXPECT_LT((inertia.c - Eigen::Vector3d(moment(1, 0, 0), moment(0, 1, 0), moment(0, 0, 1)) / m).norm(),
+            kRoundoff);
+  Eigen::Matrix3d P;
+  P << moment(2, 0, 0), moment(1, 1, 0), moment(1, 0, 1), moment(1, 1, 0), moment(0, 2, 0), moment(0, 1, 1),
+      moment(1, 0, 1), moment(0, 1, 1), moment(0, 0, 2);
+  const Eigen::Matrix3d J = P.trace() * Eigen::Matrix3d::Identity() - P;
+  EXPECT_LT((inertia.J - J).norm(), kRoundoff * J.norm());
+}
+
+}  // namespace

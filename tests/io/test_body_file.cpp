@@ -1,0 +1,226 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "sample_body.h"
+
+using namespace elastogear;
+using namespace elastogear::io;
+using testing::HasSubstr;
+
+namespace {
+
+template <class Sparse>
+bool equal_sparse(const Sparse& A, const Sparse& B) {
+  return A.rows() == B.rows() && A.cols() == B.cols() && A.nonZeros() == B.nonZeros() &&
+         A.toDense() == B.toDense();
+}
+
+bool equal(const model::BasisRows& a, const model::BasisRows& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* dense = std::get_if<model::DenseRows>(&a)) return *dense == std::get<model::DenseRows>(b);
+  return equal_sparse(std::get<model::SparseRows>(a), std::get<model::SparseRows>(b));
+}
+
+bool equal(const model::Inertia& a, const model::Inertia& b) {
+  return a.m == b.m && a.c == b.c && a.J == b.J && a.C_l == b.C_l && a.C_r == b.C_r && a.S_1 == b.S_1;
+}
+
+bool equal(const model::Surface& a, const model::Surface& b) {
+  return a.node == b.node && a.X == b.X && a.face == b.face && a.group == b.group && a.c_f == b.c_f &&
+         a.group_name == b.group_name && equal(a.Phi, b.Phi);
+}
+
+void expect_equal(const model::ElasticBody& a, const model::ElasticBody& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.basis, b.basis);
+  EXPECT_EQ(a.frequency, b.frequency);
+  EXPECT_TRUE(equal_sparse(a.M_r, b.M_r) && equal_sparse(a.K_r, b.K_r));
+  EXPECT_TRUE(a.alpha == b.alpha && a.beta == b.beta);
+  EXPECT_TRUE(equal(a.inertia, b.inertia));
+  EXPECT_TRUE(equal(a.surface, b.surface));
+  EXPECT_TRUE(a.stress.node == b.stress.node && a.stress.X == b.stress.X && a.stress.sets == b.stress.sets);
+  EXPECT_TRUE(equal(a.stress.Psi, b.stress.Psi));
+  EXPECT_EQ(a.provenance, b.provenance);
+}
+
+std::string message(const std::string& path) {
+  try {
+    read_body(path);
+    read_body_source(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+struct BodyFile : testing::Test {
+  mesh::Folder folder{"body"};
+  std::string path = folder / "worm.h5";
+};
+
+TEST_F(BodyFile, gives_a_modal_body_back_to_the_bit) {
+  const model::ElasticBody body = sample_modal_body();
+  write_modal(path, body, sample_modes());
+  expect_equal(read_body(path), body);
+  EXPECT_EQ(folder.files(), 1);
+}
+
+TEST_F(BodyFile, gives_a_full_body_back_to_the_bit) {
+  const model::ElasticBody body = sample_full_body();
+  write_full(path, body);
+  expect_equal(read_body(path), body);
+}
+
+TEST_F(BodyFile, gives_mesh_materials_and_free_dof_back) {
+  write_full(path, sample_full_body());
+  const BodySource a = sample_source(), b = read_body_source(path);
+  EXPECT_TRUE(mesh::equal(a.mesh, b.mesh));
+  EXPECT_EQ(a.free_dof, b.free_dof);
+  EXPECT_EQ(a.element, b.element);
+  ASSERT_EQ(b.regions.size(), 2u);
+  EXPECT_EQ(b.regions[0].cell_set, "");
+  EXPECT_EQ(b.regions[1].cell_set, "even");
+  EXPECT_EQ(b.regions[1].material.E, 1.1e11);
+  EXPECT_EQ(b.regions[1].material.nu, 0.34);
+  EXPECT_EQ(b.regions[1].material.rho, 8800);
+}
+
+TEST_F(BodyFile, holds_a_body_without_surface_and_stress_nodes) {
+  model::ElasticBody body = sample_modal_body();
+  body.surface = {};
+  body.surface.Phi = model::DenseRows(0, 3);
+  body.stress = {};
+  body.stress.Psi = model::DenseRows(0, 3);
+  write_modal(path, body, sample_modes());
+  expect_equal(read_body(path), body);
+}
+
+TEST_F(BodyFile, displacement_field_is_the_sum_of_modes) {
+  const Eigen::MatrixXd modes = sample_modes();
+  write_modal(path, sample_modal_body(), modes);
+  const Eigen::Vector3d q(0.5, -2, 0.25);
+  const Eigen::VectorXd expected = modes * q;
+  const Eigen::Matrix3Xd u = read_displacement_field(path, q);
+  const double roundoff = 1e-15;
+  EXPECT_LE((u.reshaped() - expected).norm(), roundoff * expected.norm());
+  EXPECT_THROW(read_displacement_field(path, Eigen::Vector2d(1, 2)), Error);
+  EXPECT_THROW(read_displacement_field(path, Eigen::Vector3d(1, 2, NAN)), Error);
+}
+
+TEST_F(BodyFile, displacement_field_of_the_full_basis_leaves_restrained_nodes_at_rest) {
+  write_full(path, sample_full_body());
+  const Eigen::VectorXd q = Eigen::VectorXd::Random(24);
+  const Eigen::Matrix3Xd u = read_displacement_field(path, q);
+  EXPECT_EQ(u.leftCols(4).norm(), 0);
+  EXPECT_EQ(u.rightCols(8).reshaped(), q);
+}
+
+TEST_F(BodyFile, appears_only_when_complete) {
+  write_file(path, "old");
+  {
+    BodyWriter writer(path, 12, 3);
+    writer.write_mode(0, sample_modes().col(0));
+    EXPECT_THROW(writer.finish(sample_modal_body(), sample_source()), Error);
+  }
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(folder.files(), 1);
+}
+
+TEST_F(BodyFile, refuses_modes_that_do_not_fit_or_are_not_finite) {
+  BodyWriter writer(path, 12, 3);
+  Eigen::VectorXd phi = sample_modes().col(0);
+  EXPECT_THROW(writer.write_mode(3, phi), Error);
+  EXPECT_THROW(writer.write_mode(-1, phi), Error);
+  EXPECT_THROW(writer.write_mode(0, phi.head(9)), Error);
+  phi[5] = NAN;
+  EXPECT_THROW(writer.write_mode(0, phi), Error);
+  EXPECT_THROW(BodyWriter(folder / "none/worm.h5", 12, 3), Error);
+}
+
+TEST_F(BodyFile, refuses_bodies_that_are_not_valid) {
+  model::ElasticBody body = sample_full_body();
+  body.inertia.m = NAN;
+  EXPECT_THROW(write_full(path, body), Error);
+  body = sample_full_body();
+  body.stress.sets["a/b"] = {0};
+  EXPECT_THROW(write_full(path, body), Error);
+  EXPECT_EQ(folder.files(), 0);
+}
+
+TEST_F(BodyFile, is_an_error_when_truncated_anywhere) {
+  write_full(path, sample_full_body());
+  const std::string content = read_file(path);
+  for (std::size_t n = 0; n < content.size(); n += 97) {
+    write_file(path, content.substr(0, n));
+    EXPECT_NE(message(path), "no error") << "cut at byte " << n;
+  }
+}
+
+TEST_F(BodyFile, of_another_kind_is_an_error_that_names_it) {
+  EXPECT_THAT(message(path), HasSubstr("no such file"));
+  EXPECT_THAT(message(folder.path.string()), HasSubstr("not a regular file"));
+  write_file(path, "solid");
+  EXPECT_THAT(message(path), HasSubstr("is no HDF5 file"));
+  H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_THAT(message(path), HasSubstr("has no attribute format"));
+}
+
+// Opens the file for a change behind the library's back.
+struct Opened {
+  hid_t file;
+  explicit Opened(const std::string& path) : file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT)) {}
+  ~Opened() { H5Fclose(file); }
+  template <class T>
+  void overwrite(const char* dataset, hid_t type, const std::vector<T>& data) const {
+    const hid_t id = H5Dopen2(file, dataset, H5P_DEFAULT);
+    ASSERT_GE(H5Dwrite(id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()), 0);
+    H5Dclose(id);
+  }
+};
+
+TEST_F(BodyFile, of_another_version_is_an_error) {
+  write_full(path, sample_full_body());
+  {
+    const Opened opened(path);
+    const hid_t version = H5Aopen(opened.file, "version", H5P_DEFAULT);
+    const int newer = 2;
+    H5Awrite(version, H5T_NATIVE_INT, &newer);
+    H5Aclose(version);
+  }
+  EXPECT_THAT(message(path),
+              HasSubstr("has version 2 of the format 'elastogear body', this program reads version 1"));
+}
+
+TEST_F(BodyFile, without_a_dataset_is_an_error_that_names_it) {
+  write_full(path, sample_full_body());
+  for (const char* name : {"/reduced/K", "/rigid/mass", "/surface/Phi/data", "/stress/nodes", "/mesh/X"}) {
+    write_full(path, sample_full_body());
+    H5Ldelete(Opened(path).file, name, H5P_DEFAULT);
+    EXPECT_THAT(message(path), HasSubstr(name));
+  }
+}
+
+TEST_F(BodyFile, with_damaged_numbers_is_an_error) {
+  const auto damaged = [&](const char* dataset, auto value, std::size_t n) {
+    write_full(path, sample_full_body());
+    const hid_t type = std::is_same_v<decltype(value), int> ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
+    Opened(path).overwrite(dataset, type, std::vector(n, value));
+    return message(path);
+  };
+  EXPECT_NE(damaged("/rigid/mass", -1.0, 1), "no error");
+  EXPECT_NE(damaged("/rigid/mass", double{NAN}, 1), "no error");
+  EXPECT_NE(damaged("/reduced/K/indptr", 1 << 30, 25), "no error");
+  EXPECT_NE(damaged("/reduced/K/indices", -1, 26), "no error");
+  EXPECT_NE(damaged("/surface/face", 99, 8), "no error");
+  EXPECT_NE(damaged("/surface/group", -5, 2), "no error");
+  EXPECT_NE(damaged("/stress/sets/root", 2, 2), "no error");
+  EXPECT_NE(damaged("/reduced/free_dof", 36, 24), "no error");
+  EXPECT_NE(damaged("/mesh/cell_offset", 1 << 30, 3), "no error");
+  EXPECT_NE(damaged("/mesh/cell_nodes", -1, 16), "no error");
+  EXPECT_NE(damaged("/mesh/cell_type", 7, 2), "no error");
+}
+
+}  // namespace

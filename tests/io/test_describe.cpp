@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/io/describe.h"
+#include "elastogear/io/field_file.h"
+#include "elastogear/io/stress_file.h"
+#include "elastogear/mesh/file.h"
+#include "sample_body.h"
+#include "sample_result.h"
+
+using namespace elastogear;
+using namespace elastogear::io;
+using testing::AllOf;
+using testing::HasSubstr;
+
+namespace {
+
+StressHistory sample_stress() {
+  StressHistory history;
+  history.time = Eigen::Vector3d(0, 1e-6, 2e-6);
+  history.provenance = {{"options", "-a b"}};
+  history.sets = {{"worm",
+                   "root",
+                   {4, 7},
+                   Eigen::MatrixXd::Random(12, 3),
+                   Eigen::MatrixXd::Random(2, 3),
+                   Eigen::MatrixXd::Random(2, 3)},
+                  {"worm", "empty", {}, Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 3)}};
+  history.sets[0].von_mises(1, 2) = 123e6;
+  return history;
+}
+
+struct Describe : testing::Test {
+  mesh::Folder folder{"describe"};
+  std::string path(const char* name) const { return folder / name; }
+};
+
+TEST_F(Describe, mesh_files) {
+  for (const char* name : {"box.msh", "box.inp"}) {
+    mesh::write_mesh(path(name), mesh::box_mesh_with_sets({2, 1, 1}));
+    EXPECT_THAT(describe(path(name)),
+                AllOf(HasSubstr("12 nodes, 2 hexahedron cells"), HasSubstr("flank: 10")));
+  }
+}
+
+TEST_F(Describe, body_files) {
+  write_modal(path("worm.h5"), sample_modal_body(), sample_modes());
+  EXPECT_THAT(
+      describe(path("worm.h5")),
+      AllOf(HasSubstr("format: elastogear body, version 1"), HasSubstr("mass: 0.333333"),
+            HasSubstr("frequencies: 333.333 to 9000 Hz"), HasSubstr("3 elastic coordinates"),
+            HasSubstr("tooth_01_left"), HasSubstr("material of even: E = 1.1e+11 Pa"), HasSubstr("root: 2")));
+}
+
+TEST_F(Describe, result_files) {
+  write_result(path("impact.h5"), sample_snapshots(5));
+  EXPECT_THAT(describe(path("impact.h5")),
+              AllOf(HasSubstr("times: 5 from 0 to 4e-06 s"), HasSubstr("wheel.h5, joint revolute, 5 elastic"),
+                    HasSubstr("most contacts: 3, largest penetration: 3e-06 m"), HasSubstr("peak force"),
+                    HasSubstr("energy balance: at most 0.006 J off"), HasSubstr("-ts_dt 1e-6")));
+}
+
+TEST_F(Describe, stress_and_field_files) {
+  write_stress(path("stress.h5"), sample_stress());
+  EXPECT_THAT(describe(path("stress.h5")),
+              AllOf(HasSubstr("worm/root: 2 nodes"),
+                    HasSubstr("peak von Mises: 1.23e+08 Pa at node 7, t = 2e-06 s")));
+  write_vtu(path("a.vtu"), mesh::box_mesh({1, 1, 1}), {});
+  EXPECT_THAT(describe(path("a.vtu")), HasSubstr("VTK unstructured grid"));
+}
+
+TEST_F(Describe, unknown_files_are_errors) {
+  EXPECT_THROW(describe(path("none.h5")), Error);
+  EXPECT_THROW(describe(folder.path.string()), Error);
+  write_file(path("a.txt"), "text");
+  EXPECT_THROW(describe(path("a.txt")), Error);
+  H5Fclose(H5Fcreate(path("empty.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_THROW(describe(path("empty.h5")), Error);
+}
+
+TEST_F(Describe, stress_files_round_trip_to_the_bit) {
+  const StressHistory a = sample_stress();
+  write_stress(path("stress.h5"), a);
+  const StressHistory b = read_stress(path("stress.h5"));
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.provenance, b.provenance);
+  ASSERT_EQ(b.sets.size(), 2u);
+  const StressSet& root = b.sets[1];  // read in the order of names
+  EXPECT_EQ(root.set, "root");
+  EXPECT_EQ(root.node, a.sets[0].node);
+  EXPECT_EQ(root.stress, a.sets[0].stress);
+  EXPECT_EQ(root.von_mises, a.sets[0].von_mises);
+  EXPECT_EQ(root.rankine, a.sets[0].rankine);
+}
+
+TEST_F(Describe, stress_files_refuse_shapes_that_disagree) {
+  StressHistory history = sample_stress();
+  history.sets[0].rankine.resize(2, 2);
+  EXPECT_THROW(write_stress(path("stress.h5"), history), Error);
+  history = sample_stress();
+  history.sets[0].body = "time";
+  EXPECT_THROW(write_stress(path("stress.h5"), history), Error);
+  EXPECT_EQ(folder.files(), 0);
+}
+
+}  // namespace

@@ -1,0 +1,165 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../mesh/box_mesh.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "sample_result.h"
+
+using namespace elastogear;
+using namespace elastogear::io;
+using testing::HasSubstr;
+
+namespace {
+
+struct ResultFile : testing::Test {
+  mesh::Folder folder{"result"};
+  std::string path = folder / "impact.h5";
+
+  template <class F>
+  static std::string message(const F& f) {
+    try {
+      f();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  void read_all() const {
+    for (const auto& body : read_result_header(path).bodies) read_body_history(path, body.name);
+    read_pair_history(path, "wheel:ground");
+    read_contacts(path, "wheel:ground");
+    read_energies(path);
+  }
+};
+
+TEST_F(ResultFile, gives_the_header_back_in_order) {
+  write_result(path, sample_snapshots(1));
+  const model::ResultHeader a = sample_header(), b = read_result_header(path);
+  ASSERT_EQ(b.bodies.size(), 2u);
+  for (int i : {0, 1}) {
+    EXPECT_EQ(a.bodies[i].name, b.bodies[i].name);
+    EXPECT_EQ(a.bodies[i].file, b.bodies[i].file);
+    EXPECT_EQ(a.bodies[i].joint, b.bodies[i].joint);
+    EXPECT_EQ(a.pairs[0].body[i], b.pairs[0].body[i]);
+    EXPECT_EQ(a.pairs[0].group_name[i], b.pairs[0].group_name[i]);
+  }
+  EXPECT_EQ(a.pairs[0].name, b.pairs[0].name);
+  EXPECT_EQ(a.provenance, b.provenance);
+}
+
+// More snapshots than are buffered, and not a multiple of them.
+constexpr int kSteps = 150;
+
+TEST_F(ResultFile, gives_body_histories_back_to_the_bit) {
+  const auto snapshots = sample_snapshots(kSteps);
+  write_result(path, snapshots);
+  const Eigen::VectorXd time = read_times(path);
+  const BodyHistory wheel = read_body_history(path, "wheel"), ground = read_body_history(path, "ground");
+  ASSERT_EQ(time.size(), kSteps);
+  for (int i = 0; i < kSteps; ++i) {
+    const model::BodyState& body = snapshots[i].bodies[0];
+    EXPECT_EQ(time[i], snapshots[i].time);
+    EXPECT_TRUE(wheel.q.col(i) == body.q && wheel.q_dot.col(i) == body.q_dot &&
+                wheel.q_ddot.col(i) == body.q_ddot);
+    EXPECT_TRUE(wheel.s.col(i) == body.s && wheel.s_dot.col(i) == body.s_dot &&
+                wheel.s_ddot.col(i) == body.s_ddot);
+    EXPECT_EQ(wheel.r_WB.col(i), body.r_WB);
+    EXPECT_EQ(wheel.R_WB.col(i), body.R_WB.transpose().reshaped());
+    EXPECT_EQ(ground.r_WB.col(i), snapshots[i].bodies[1].r_WB);
+  }
+  EXPECT_EQ(ground.q.rows(), 0);
+  EXPECT_EQ(ground.q.cols(), kSteps);
+}
+
+TEST_F(ResultFile, gives_pair_histories_back_to_the_bit) {
+  const auto snapshots = sample_snapshots(kSteps);
+  write_result(path, snapshots);
+  const PairHistory history = read_pair_history(path, "wheel:ground");
+  EXPECT_EQ(history.group_name[0], sample_header().pairs[0].group_name[0]);
+  EXPECT_EQ(history.group_force[1].rows(), 0);
+  for (int i = 0; i < kSteps; ++i) {
+    const model::PairState& pair = snapshots[i].pairs[0];
+    EXPECT_TRUE(history.force.col(i) == pair.force && history.torque.col(i) == pair.torque);
+    EXPECT_TRUE(history.count[i] == pair.count && history.penetration[i] == pair.penetration);
+    EXPECT_EQ(history.group_force[0].col(i).tail(3), pair.group_force[0][1]);
+  }
+}
+
+TEST_F(ResultFile, gives_contacts_back_to_the_bit) {
+  const auto snapshots = sample_snapshots(kSteps);
+  write_result(path, snapshots);
+  const auto contacts = read_contacts(path, "wheel:ground");
+  ASSERT_EQ(contacts.size(), snapshots.size());
+  for (int i = 0; i < kSteps; ++i) {
+    const auto& expected = snapshots[i].pairs[0].contacts;
+    ASSERT_EQ(contacts[i].size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      const model::ContactRecord &a = contacts[i][k], &b = expected[k];
+      EXPECT_TRUE(a.slave_side == b.slave_side && a.slave_node == b.slave_node && a.face == b.face);
+      EXPECT_TRUE(a.xi == b.xi && a.eta == b.eta && a.g_n == b.g_n && a.f == b.f);
+    }
+  }
+}
+
+TEST_F(ResultFile, gives_energies_back_to_the_bit) {
+  write_result(path, sample_snapshots(3));
+  const EnergyHistory energy = read_energies(path);
+  EXPECT_EQ(energy.kinetic, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(energy.elastic, Eigen::Vector3d::Constant(2));
+  EXPECT_EQ(energy.contact, Eigen::Vector3d::Constant(3));
+  EXPECT_EQ(energy.dissipated, Eigen::Vector3d::Constant(4));
+  EXPECT_EQ(energy.work, Eigen::Vector3d::Constant(5));
+  EXPECT_EQ(energy.balance, Eigen::Vector3d::Constant(6e-3));
+}
+
+TEST_F(ResultFile, without_any_contact_has_empty_lists) {
+  write_result(path, {sample_snapshot(0), sample_snapshot(4)});
+  const auto contacts = read_contacts(path, "wheel:ground");
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_TRUE(contacts[0].empty() && contacts[1].empty());
+}
+
+TEST_F(ResultFile, appears_only_when_finished) {
+  write_file(path, "old");
+  {
+    ResultWriter writer(path, sample_header());
+    writer.append(sample_snapshot(0));
+  }
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_THROW(ResultWriter(path, sample_header()).finish(), Error);
+  EXPECT_EQ(folder.files(), 1);
+}
+
+TEST_F(ResultFile, refuses_snapshots_that_do_not_fit) {
+  ResultWriter writer(path, sample_header());
+  writer.append(sample_snapshot(1));
+  model::Snapshot snapshot = sample_snapshot(1);
+  EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("does not come after"));
+  snapshot = sample_snapshot(2);
+  snapshot.bodies[0].q[1] = NAN;
+  EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("not finite"));
+  snapshot = sample_snapshot(2);
+  snapshot.bodies.pop_back();
+  EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("1 bodies"));
+  snapshot = sample_snapshot(2);
+  snapshot.bodies[0].q.setZero(6);
+  EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("/bodies/wheel/q changed its size"));
+}
+
+TEST_F(ResultFile, names_the_bodies_and_pairs_it_has) {
+  write_result(path, sample_snapshots(1));
+  EXPECT_THAT(message([&] { read_body_history(path, "worm"); }), HasSubstr("it has: ground, wheel"));
+  EXPECT_THAT(message([&] { read_pair_history(path, "a:b"); }), HasSubstr("it has: wheel:ground"));
+}
+
+TEST_F(ResultFile, is_an_error_when_truncated_anywhere) {
+  write_result(path, sample_snapshots(3));
+  const std::string content = read_file(path);
+  for (std::size_t n = 0; n < content.size(); n += 61) {
+    write_file(path, content.substr(0, n));
+    EXPECT_THROW(read_all(), Error) << "cut at byte " << n;
+  }
+}
+
+}  // namespace
