@@ -112,16 +112,26 @@ def fitted_view(points, direction, up, aspect):
     return scene.View((low + high) / 2 @ frame, diagonal(points) * direction, up, half_height)
 
 
-def stress_views(points, hot, aspect):
-    """Whole body and hot spot, seen from outside, obliquely to the axis, which lies horizontally."""
+def normal_at(surface, point):
+    """Outward unit normal of the surface at one of its points."""
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetInputData(surface)
+    normals.SplittingOff()
+    normals.AutoOrientNormalsOn()
+    normals.Update()
+    return vtk_to_numpy(normals.GetOutput().GetPointData().GetNormals())[point].astype(float)
+
+
+def stress_views(surface, hot, aspect):
+    """Whole body and the point `hot`, which is seen from outside and from the side it faces; the axis is horizontal."""
+    points, normal = points_of(surface), normal_at(surface, hot)
     axis = axis_of(points)
-    offset = hot - (points.max(axis=0) + points.min(axis=0)) / 2
-    axis = axis if axis @ offset >= 0 else -axis
+    offset = points[hot] - (points.max(axis=0) + points.min(axis=0)) / 2
     radial = unit(offset - (axis @ offset) * axis)
-    direction = unit(radial + 0.45 * axis)
+    direction = unit(radial + 0.3 * normal + 0.15 * np.sign(axis @ normal) * axis)
     up = unit(np.cross(direction, axis))
-    whole = fitted_view(points, direction, up, aspect)
-    return whole, scene.View(hot, diagonal(points) * direction, up, ZOOM_SHARE * diagonal(points))
+    zoom = scene.View(points[hot], diagonal(points) * direction, up, ZOOM_SHARE * diagonal(points))
+    return fitted_view(points, direction, up, aspect), zoom
 
 
 def draw_stress(options):
@@ -132,7 +142,7 @@ def draw_stress(options):
     move_points(surface, scale * displacement)
     colour_by(surface, stress)
     table = scene.colour_table(colour_range(stress))
-    views = stress_views(points_of(surface), points_of(surface)[stress.argmax()], aspect=1.2)
+    views = stress_views(surface, int(stress.argmax()), aspect=1.2)
     name = options.title or os.path.splitext(os.path.basename(options.field))[0].replace("_", " ")
     picture = scene.Picture(1800, 1000)
     picture.panel((0, 0.16, 0.5, 0.92), [scene.scalar_actor(surface, table, edges=False)], views[0])
@@ -190,8 +200,8 @@ def draw_boxes(options):
             actors.append(scene.box_actor(boxes_of_level(boxes, level, path), colour, 0.25))
         picture.panel((left, 0.5, right, 0.95), actors, views[0])
         picture.panel((left + GAP, 0.05, right - GAP, 0.5), actors, views[1])
-        title = "leaves" if level == "leaf" else f"level {level}"
-        picture.panel((left, 0.95, right, 1), [scene.text_actor("k-DOPs, " + title, 0.5, 0.5, 34)])
+        title = f"{options.title}, " + ("leaves" if level == "leaf" else f"level {level}")
+        picture.panel((left, 0.95, right, 1), [scene.text_actor(title, 0.5, 0.5, 34)])
     picture.panel((0, 0, 1, 0.05), box_legend(options.boxes))
     picture.save(options.out)
 
@@ -208,6 +218,7 @@ def arguments():
     boxes.add_argument("--surfaces", nargs="+", required=True, metavar="FILE", help=".vtu or .vtp of each body")
     boxes.add_argument("--boxes", nargs="+", required=True, metavar="FILE", help=".vtp with cell data level")
     boxes.add_argument("--levels", nargs="+", default=["1", "5", "leaf"], help="tree levels, root 0; leaf: the deepest")
+    boxes.add_argument("--title", default="k-DOPs", help="default: %(default)s")
     boxes.add_argument("--view", nargs=3, type=float, default=(0.35, 0.75, 0.55), metavar=("X", "Y", "Z"),
                        help="from where to look")
     boxes.set_defaults(draw=draw_boxes)

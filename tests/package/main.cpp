@@ -1,19 +1,19 @@
-// Uses an installed elastogear as any other program would: prints the version and a mesh's boundary.
+// Uses an installed elastogear as any other program would: meshes the reference wheel and weighs it.
+#include <cmath>
 #include <cstdio>
 
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/version.h"
-#include "elastogear/mesh/mesh.h"
+#include "elastogear/fem/inertia.h"
+#include "elastogear/gear/wheel.h"
 
 int main(int argc, char** argv) {
-  const elastogear::Session session(argc, argv);
-  elastogear::mesh::Mesh cube;
-  cube.X.resize(3, 8);
-  cube.X << 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1;
-  const int nodes[] = {0, 1, 2, 3, 4, 5, 6, 7};
-  cube.cells.add(elastogear::mesh::CellType::hex8, nodes);
-  validate(cube, "cube");
-  const std::size_t n_faces = boundary_faces(cube).size();
-  std::printf("elastogear %s: a cube has %zu faces\n", elastogear::version(), n_faces);
-  return n_faces == 6 ? 0 : 1;
+  namespace eg = elastogear;
+  const eg::Session session(argc, argv);
+  const eg::mesh::Mesh wheel = eg::gear::wheel_mesh({}, eg::gear::wheel_counts(eg::gear::Size::tiny));
+  const auto moments = eg::fem::mass_moments(wheel, {{"", {.E = 210e9, .nu = 0.3, .rho = 7850}}});
+  const eg::model::Inertia inertia = eg::fem::rigid_inertia(wheel, moments);
+  std::printf("elastogear %s: the wheel has %d nodes, %.4g kg and %.4g kg m^2 about its axis\n",
+              eg::version(), wheel.n_nodes(), inertia.m, inertia.J(2, 2));
+  return std::isfinite(inertia.m) && inertia.m > 0 ? 0 : 1;
 }
