@@ -1,9 +1,131 @@
-#include <cstdio>
+// elastogear VERB [FILE ...] [-option value ...]
 
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "app/verbs.h"
+#include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/version.h"
 
+namespace elastogear::app {
+namespace {
+
+struct CommandLine {
+  std::string verb;
+  std::vector<std::string> arguments;  // words before the first option
+  bool help = false, version = false;
+};
+
+bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && std::isalpha(word[1]); }
+
+CommandLine parse(int argc, char** argv) {
+  CommandLine line;
+  const auto asks = [](const std::string& word, const char* name) {
+    return word == std::string("-") + name || word == std::string("--") + name;
+  };
+  bool options_began = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (asks(word, "help") || word == "-h") line.help = true;
+    if (asks(word, "version") && i == 1) line.version = true;
+    options_began = options_began || is_option(word) || word.starts_with("--");
+    if (options_began) continue;
+    if (line.verb.empty())
+      line.verb = word;
+    else
+      line.arguments.push_back(word);
+  }
+  return line;
+}
+
+void print_usage(const std::vector<Verb>& verbs) {
+  std::printf("elastogear %s (%s): stresses in gears by elastic multibody models\n\nusage:\n", version(),
+              git_hash());
+  for (const Verb& verb : verbs)
+    std::printf("  elastogear %-52s %s\n", verb.usage.c_str(), verb.summary.c_str());
+  std::printf(
+      "\n'elastogear VERB -help' lists every option with unit and default. Options stand in YAML files\n"
+      "(nested keys are joined by '_') and on the command line, which wins.\n");
+}
+
+void print_help(const Verb& verb) {
+  std::printf(
+      "elastogear %s\n  %s\n\noptions (SI units; on the command line, or as keys of a YAML file):\n%s\n",
+      verb.usage.c_str(), verb.summary.c_str(), help_text(verb.table).c_str());
+  std::printf("PETSc's and SLEPc's options (-eps_*, -st_*, -ts_*, -snes_*, -log_view) work beside these.\n");
+}
+
+const Verb& find(const std::vector<Verb>& verbs, const std::string& name) {
+  for (const Verb& verb : verbs)
+    if (verb.name == name) return verb;
+  std::string known;
+  for (const Verb& verb : verbs) known += (known.empty() ? "" : ", ") + verb.name;
+  fail("unknown verb '", name, "'; the verbs are ", known);
+}
+
+// A misspelt option of PETSc is found only after the run: nothing asked for it.
+void warn_of_unused_options() {
+  PetscInt n = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &n, &names, &values));
+  for (PetscInt i = 0; i < n; ++i) std::fprintf(stderr, "warning: nothing used the option -%s\n", names[i]);
+  check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
+}
+
+// The options of all verbs, bare and under the verb's own section ("recover_output").
+OptionTable all_options(const std::vector<Verb>& verbs) {
+  OptionTable all;
+  for (const Verb& verb : verbs)
+    for (OptionSpec spec : verb.table) {
+      all.push_back(spec);
+      spec.name = verb.name + "_" + spec.name;
+      all.push_back(spec);
+    }
+  return all;
+}
+
+void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& line, int argc, char** argv) {
+  int size = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  require(verb.parallel || size == 1, "runs on one rank, not on ", size, ": call it without mpirun");
+  Options options(verb.name, verb.table, all_options(verbs));
+  const bool configured = verb.name != "info";
+  options.load(configured ? line.arguments : std::vector<std::string>{}, argc, argv);
+  verb.run(options, line.arguments);
+}
+
+int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, int argc, char** argv) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  try {
+    run(find(verbs, line.verb), verbs, line, argc, argv);
+    if (rank == 0) warn_of_unused_options();
+    return 0;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "elastogear %s: error: out of memory\n", line.verb.c_str());
+  } catch (const std::exception& error) {
+    if (rank == 0) std::fprintf(stderr, "elastogear %s: error: %s\n", line.verb.c_str(), error.what());
+  }
+  return 1;
+}
+
+}  // namespace
+}  // namespace elastogear::app
+
 int main(int argc, char** argv) {
-  elastogear::Session session(argc, argv);
-  std::printf("elastogear %s (%s)\n", elastogear::version(), elastogear::git_hash());
+  using namespace elastogear;
+  const std::vector<app::Verb> verbs = {app::mesh_verb(), app::reduce_verb(), app::simulate_verb(),
+                                        app::recover_verb(), app::info_verb()};
+  const app::CommandLine line = app::parse(argc, argv);
+  if (line.version) return std::printf("elastogear %s (%s)\n", version(), git_hash()), 0;
+  if (line.verb.empty()) return app::print_usage(verbs), line.help ? 0 : 1;
+  if (line.help) {
+    for (const app::Verb& verb : verbs)
+      if (verb.name == line.verb) return app::print_help(verb), 0;
+    return app::print_usage(verbs), 1;
+  }
+  Session session(argc, argv);
+  return app::main_in_session(verbs, line, argc, argv);
 }

@@ -1,0 +1,21 @@
+#pragma once
+// What the program prints: progress with time remaining, and aligned summaries. Rank 0 only.
+
+#include <string>
+
+#include "elastogear/base/progress.h"
+
+namespace elastogear::app {
+
+/// Progress lines on stderr with the time remaining of the stage; at most a few per second on a terminal,
+/// every tenth elsewhere. Silent on ranks > 0.
+Progress console_progress();
+
+/// "  name ............ text"
+void print_item(const std::string& name, const std::string& text);
+/// Number with unit in about four significant digits.
+std::string with_unit(double value, const std::string& unit);
+/// Seconds as "0.83 s", "2 min 05 s".
+std::string duration(double seconds);
+
+}  // namespace elastogear::app

@@ -1,0 +1,23 @@
+#include "app/field.h"
+
+#include "elastogear/fem/stress.h"
+#include "elastogear/recovery/stress.h"
+
+namespace elastogear::app {
+
+void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
+                 const FieldState& state) {
+  const Eigen::Matrix3Xd u_B = io::read_displacement_field(body_file, state.q);
+  const Eigen::MatrixXd stress = fem::nodal_stress(source.mesh, source.regions, source.element,
+                                                   Eigen::Map<const Eigen::VectorXd>(u_B.data(), u_B.size()));
+  const Eigen::MatrixXd tensors = Eigen::Map<const Eigen::MatrixXd>(stress.data(), stress.size(), 1);
+  mesh::Mesh placed = source.mesh;
+  placed.X = (state.R_WB * placed.X).colwise() + state.r_WB;
+  io::write_vtu(path, placed,
+                {{"displacement", state.R_WB * u_B},
+                 {"stress", stress},
+                 {"von_mises", recovery::von_mises(tensors).transpose()},
+                 {"rankine", recovery::rankine(tensors).transpose()}});
+}
+
+}  // namespace elastogear::app

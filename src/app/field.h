@@ -1,0 +1,25 @@
+#pragma once
+// Whole-body fields at one time, for ParaView: what recovery gives, on the mesh the body file keeps.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "elastogear/io/body_file.h"
+#include "elastogear/io/field_file.h"
+
+namespace elastogear::app {
+
+/// One body at one time.
+struct FieldState {
+  Eigen::Vector3d r_WB;
+  Eigen::Matrix3d R_WB;
+  Eigen::VectorXd q;
+};
+
+/// Undeformed body in its placement (world frame) with displacement (m, world frame), stress (Pa, body
+/// frame), von_mises and rankine (Pa). `body_file` gives Phi.
+void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
+                 const FieldState& state);
+
+}  // namespace elastogear::app

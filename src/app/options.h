@@ -1,0 +1,67 @@
+#pragma once
+// The program's own options: one table per verb says name, unit, default and meaning. The table makes -help,
+// finds misspelt keys and holds every default. All reads of our own keys go through `Options`.
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace elastogear::app {
+
+/// One option. A name may hold one placeholder, "<body>_file": it stands for any of the names the option list
+/// `placeholder_values` gives (verbs with named bodies), or for any word.
+struct OptionSpec {
+  std::string name;
+  std::string unit;           ///< "m", "rad/s", "-" for words and counts
+  std::string default_value;  ///< as the user would write it; empty: no default
+  std::string help;
+};
+
+using OptionTable = std::vector<OptionSpec>;
+
+/// The options in force: files given on the command line first, then the command line again, so that it wins.
+class Options {
+ public:
+  /// `known`: tables of all verbs (a file may serve several verbs); `own`: the running verb's table.
+  Options(std::string verb, OptionTable own, OptionTable known);
+
+  /// Inserts YAML files, promotes keys of the verb's own section ("recover_output" -> "output"), then inserts
+  /// the command line again. Throws Error for missing or malformed files.
+  void load(const std::vector<std::string>& files, int argc, char** argv);
+
+  /// Throws Error for the first key that no table knows and that is not PETSc's, naming the nearest known
+  /// key. `placeholder` values restrict "<body>"-like names; empty: any.
+  void reject_unknown(const std::vector<std::string>& placeholder_values = {}) const;
+
+  bool given(const std::string& name) const;
+  std::string text(const std::string& name) const;  ///< Error when neither given nor defaulted
+  double number(const std::string& name) const;     ///< finite number
+  double positive(const std::string& name) const;   ///< finite number > 0
+  int count(const std::string& name, int smallest = 0) const;
+  bool flag(const std::string& name) const;
+  Eigen::Vector3d vector(const std::string& name) const;
+  std::vector<double> numbers(const std::string& name) const;
+  std::vector<std::string> list(const std::string& name) const;  ///< may be empty
+  /// The position of the value among `allowed`, else Error listing them.
+  int choice(const std::string& name, const std::vector<std::string>& allowed) const;
+
+  /// Names given by the user that fit a pattern "material_<set>_E", with what the placeholder stands for.
+  std::vector<std::string> placeholder_values(const std::string& pattern) const;
+
+  /// Everything in force, defaults included, and the versions of the program and its libraries.
+  std::map<std::string, std::string> provenance() const;
+  const std::string& verb() const { return verb_; }
+
+ private:
+  const OptionSpec& spec(const std::string& name) const;
+
+  std::string verb_;
+  OptionTable own_, known_;
+  std::map<std::string, std::string> given_;
+};
+
+/// The table as text: option, unit, default, meaning.
+std::string help_text(const OptionTable& table);
+
+}  // namespace elastogear::app

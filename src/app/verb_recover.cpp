@@ -1,0 +1,235 @@
+// elastogear recover: result file -> stress histories, fields, pictures of the trees.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "app/console.h"
+#include "app/field.h"
+#include "app/verbs.h"
+#include "elastogear/base/error.h"
+#include "elastogear/io/csv.h"
+#include "elastogear/io/polydata_file.h"
+#include "elastogear/io/result_file.h"
+#include "elastogear/io/stress_file.h"
+#include "elastogear/recovery/boxes.h"
+#include "elastogear/recovery/stress.h"
+
+namespace elastogear::app {
+namespace {
+
+constexpr int kSmallSet = 10;  // nodes; larger sets go to CSV with their peak node only
+
+const OptionTable kTable = {
+    {"result", "-", "", "result file of simulate"},
+    {"output", "-", "", "stress file to write (HDF5); CSV tables are named after it"},
+    {"stress_<body>", "-", "", "node sets of a body whose stress histories are wanted (of its stress_nodes)"},
+    {"csv", "-", "peak", "nodes in the CSV tables of sets above 10 nodes: peak (largest von Mises) or all"},
+    {"field_times", "s", "", "times at which fields of whole bodies are written for ParaView"},
+    {"fields", "-", "", "first part of the field files' names (default: the result file without .h5)"},
+    {"box_levels", "-", "",
+     "levels of the bounding-volume trees to write at the first field time: 0, 1, ... or leaf"},
+    {"box_kdop", "-", "24", "directions of those bounding volumes"},
+    {"<body>_file", "-", "", "body file, when it is no longer where the result file says"},
+};
+
+struct Body {
+  std::string name, file;
+  io::BodyHistory history;
+};
+
+struct Run {
+  std::string result;
+  Eigen::VectorXd time;
+  std::vector<Body> bodies;
+};
+
+std::string stem(const std::string& path) { return std::filesystem::path(path).replace_extension().string(); }
+
+Run read_run(const Options& options) {
+  Run run{options.text("result"), {}, {}};
+  const model::ResultHeader header = io::read_result_header(run.result);
+  run.time = io::read_times(run.result);
+  std::vector<std::string> names;
+  for (const auto& body : header.bodies) names.push_back(body.name);
+  options.reject_unknown(names);
+  for (const auto& body : header.bodies) {
+    const std::string key = body.name + "_file";
+    run.bodies.push_back({body.name, options.given(key) ? options.text(key) : body.file,
+                          io::read_body_history(run.result, body.name)});
+  }
+  return run;
+}
+
+const Body& find_body(const Run& run, const std::string& name) {
+  std::string known;
+  for (const Body& body : run.bodies) {
+    if (body.name == name) return body;
+    known += (known.empty() ? "" : ", ") + body.name;
+  }
+  fail("option -stress_", name, ": ", run.result, " has no body '", name, "'; it has: ", known);
+}
+
+const std::vector<int>& stress_set(const model::Stress& stress, const std::string& set,
+                                   const std::string& file) {
+  const auto found = stress.sets.find(set);
+  std::string known;
+  for (const auto& [name, members] : stress.sets) known += (known.empty() ? "" : ", ") + name;
+  require(found != stress.sets.end(), file, ": no stress modes at the set '", set,
+          "'; there are: ", known.empty() ? "none" : known, ". Name it in -stress_nodes of reduce");
+  return found->second;
+}
+
+// Position (node, time) of the largest von Mises stress.
+std::pair<Eigen::Index, Eigen::Index> peak(const io::StressSet& set) {
+  Eigen::Index node = 0, time = 0;
+  if (set.von_mises.size() > 0) set.von_mises.maxCoeff(&node, &time);
+  return {node, time};
+}
+
+void print_peak(const io::StressSet& set, const Eigen::VectorXd& time) {
+  const auto [node, step] = peak(set);
+  print_item(set.body + " " + set.set,
+             "peak von Mises " + with_unit(1e-6 * set.von_mises(node, step), "MPa") + " at node " +
+                 std::to_string(set.node[node]) + ", " + with_unit(time[step], "s"));
+}
+
+void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, Eigen::Index node) {
+  const char* components[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+  const std::string suffix = " node " + std::to_string(set.node[node]);
+  for (int c = 0; c < 6; ++c) columns.push_back({components[c] + suffix, "Pa", set.stress.row(6 * node + c)});
+  columns.push_back({"von_mises" + suffix, "Pa", set.von_mises.row(node)});
+  columns.push_back({"rankine" + suffix, "Pa", set.rankine.row(node)});
+}
+
+void write_table(const std::string& path, const io::StressSet& set, const Eigen::VectorXd& time, bool all) {
+  std::vector<io::CsvColumn> columns = {{"time", "s", time}};
+  if (all || set.node.size() <= kSmallSet)
+    for (std::size_t node = 0; node < set.node.size(); ++node) add_columns(columns, set, node);
+  else
+    add_columns(columns, set, peak(set).first);
+  io::write_csv(path, columns);
+}
+
+void write_stresses(const Options& options, const Run& run) {
+  const std::string output = options.text("output");
+  io::StressHistory file{run.time, {}, options.provenance()};
+  for (const std::string& name : options.placeholder_values("stress_<body>")) {
+    if (name == "nodes") continue;  // reduce's key in a shared file
+    const Body& body = find_body(run, name);
+    const model::Stress stress = io::read_body(body.file).stress;
+    for (const std::string& set : options.list("stress_" + name)) {
+      auto h = recovery::stress_history(stress, stress_set(stress, set, body.file), body.history.q);
+      file.sets.push_back(
+          {name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises), std::move(h.rankine)});
+    }
+  }
+  require(!file.sets.empty(),
+          "option -stress_<body> is missing: node sets whose stress histories are wanted, e.g. "
+          "-stress_",
+          run.bodies.front().name, " root");
+  io::write_stress(output, file);
+  print_item("written", output);
+  const bool all = options.choice("csv", {"peak", "all"}) == 1;
+  for (const io::StressSet& set : file.sets) {
+    print_peak(set, run.time);
+    const std::string path = stem(output) + "_" + set.body + "_" + set.set + ".csv";
+    write_table(path, set, run.time, all);
+    print_item("written", path);
+  }
+}
+
+int nearest_step(const Eigen::VectorXd& time, double t) {
+  require(t >= 0 && t <= time[time.size() - 1] * (1 + 1e-9), "option -field_times: ", t,
+          " s is outside the run, 0 .. ", time[time.size() - 1], " s");
+  Eigen::Index step = 0;
+  (time.array() - t).abs().minCoeff(&step);
+  return static_cast<int>(step);
+}
+
+FieldState state_at(const Body& body, int step) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(body.history.R_WB.col(step).data());
+  return {body.history.r_WB.col(step), R, body.history.q.col(step)};
+}
+
+std::string field_prefix(const Options& options) {
+  return options.given("fields") ? options.text("fields") : stem(options.text("result"));
+}
+
+void write_fields(const Options& options, const Run& run) {
+  const std::vector<double> times = options.numbers("field_times");
+  for (const Body& body : run.bodies) {
+    if (times.empty()) break;
+    const io::BodySource source = io::read_body_source(body.file);
+    const std::string base = field_prefix(options) + "_" + body.name;
+    std::vector<io::TimeStep> series;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const int step = nearest_step(run.time, times[i]);
+      const std::string path = times.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
+      write_field(path, body.file, source, state_at(body, step));
+      series.push_back({run.time[step], std::filesystem::path(path).filename().string()});
+      print_item("written", path);
+    }
+    io::write_pvd(base + ".pvd", series);
+  }
+}
+
+std::vector<int> box_levels(const Options& options) {
+  std::vector<int> levels;
+  for (const std::string& level : options.list("box_levels")) {
+    const bool number =
+        !level.empty() && level.size() < 4 && std::all_of(level.begin(), level.end(), isdigit);
+    require(number || level == "leaf", "option -box_levels = '", level,
+            "': must be a level 0, 1, ... or leaf");
+    levels.push_back(number ? std::stoi(level) : std::numeric_limits<int>::max());
+  }
+  return levels;
+}
+
+void write_boxes(const std::string& path, const recovery::Boxes& boxes) {
+  io::write_polydata(path, boxes.points, boxes.polygons,
+                     {{"level", boxes.level}, {"overlaps", boxes.overlaps}});
+  print_item("written", path);
+}
+
+// k-DOPs of all bodies in the world frame; with two bodies also the leaves that overlap (the paper's Fig. 4).
+void write_trees(const Options& options, const Run& run) {
+  const std::vector<int> levels = box_levels(options);
+  if (levels.empty()) return;
+  const std::vector<double> times = options.numbers("field_times");
+  const int step = nearest_step(run.time, times.empty() ? 0 : times.front());
+  std::vector<contact::Bvh> trees;
+  for (const Body& body : run.bodies) {
+    const model::Surface surface = io::read_body(body.file).surface;
+    const FieldState state = state_at(body, step);
+    Eigen::Matrix3Xd x = surface.X;
+    Eigen::Map<Eigen::VectorXd>(x.data(), x.size()) += model::multiply(surface.Phi, state.q);
+    x = ((state.R_WB * x).colwise() + state.r_WB).eval();
+    trees.push_back(recovery::fitted_tree(surface, x, options.count("box_kdop")));
+    write_boxes(field_prefix(options) + "_" + body.name + "_kdops.vtp",
+                recovery::boxes_at_levels(trees.back(), levels));
+  }
+  if (trees.size() != 2) return;
+  for (int i : {0, 1})
+    write_boxes(field_prefix(options) + "_" + run.bodies[i].name + "_overlaps.vtp",
+                recovery::overlapping_boxes(trees[i], trees[1 - i]));
+}
+
+void run(const Options& options, const std::vector<std::string>&) {
+  require(options.text("output") != options.text("result"), "option -output = '", options.text("output"),
+          "' would overwrite the result file");
+  const Run run = read_run(options);
+  write_stresses(options, run);
+  write_fields(options, run);
+  write_trees(options, run);
+}
+
+}  // namespace
+
+Verb recover_verb() {
+  return {"recover", "recover system.yaml [-option value ...]",
+          "stress histories, equivalent stresses and fields from a result file", kTable, run};
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# Bad input: each case must end with a clear error that names file and value, a non-zero exit code and no new file.
+#   bad_input.sh PATH/TO/elastogear
+set -u
+elastogear=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0 failed=0
+
+# expect_error NAME 'regex' COMMAND...: the command fails by itself (no signal), says what the regex asks for, and
+# leaves the folder as it was.
+expect_error() {
+  local name=$1 pattern=$2 before after status
+  shift 2
+  before=$(ls -1)
+  timeout 120 "$@" >"$work.out" 2>&1
+  status=$?
+  after=$(ls -1)
+  if ((status == 0)) || ((status >= 124)); then
+    echo "FAIL $name: exit code $status"; tail -5 "$work.out"; failed=$((failed + 1))
+  elif ! grep -Eq "error: .*$pattern" "$work.out"; then
+    echo "FAIL $name: no message matching '$pattern'"; tail -5 "$work.out"; failed=$((failed + 1))
+  elif [ "$before" != "$after" ]; then
+    echo "FAIL $name: files appeared: $(comm -13 <(echo "$before") <(echo "$after"))"; failed=$((failed + 1))
+  else
+    echo "ok   $name: $(grep -Eo 'error: .*' "$work.out" | head -1)"; passed=$((passed + 1))
+  fi
+  rm -f "$work.out"
+}
+
+# A brick of n x 1 x 1 hexahedra of 10 mm as .inp; the node set FIX is the left end, the surface TOP the upper side.
+brick() {
+  awk -v n="$1" 'BEGIN {
+    print "*NODE";
+    for (i = 0; i <= n; ++i) for (k = 0; k < 4; ++k)
+      printf "%d, %g, %g, %g\n", 4*i + k + 1, 0.01*i, 0.01*(k == 1 || k == 2), 0.01*(k > 1);
+    print "*ELEMENT, TYPE=C3D8, ELSET=ALL";
+    for (i = 0; i < n; ++i) printf "%d, %d, %d, %d, %d, %d, %d, %d, %d\n", i + 1, 4*i+1, 4*i+2, 4*i+3, 4*i+4, 4*i+5, 4*i+6, 4*i+7, 4*i+8;
+    print "*NSET, NSET=FIX\n1, 2, 3, 4\n*NSET, NSET=CORNER\n1\n*SURFACE, NAME=TOP, TYPE=ELEMENT";
+    for (i = 0; i < n; ++i) printf "%d, S5\n", i + 1;
+  }'
+}
+brick 3 >brick.inp
+sed 's/^5, 0.01,/5, nan,/' brick.inp >nan.inp
+awk -F', ' '/TYPE=C3D8/ {e=1; print; next} e && /^2,/ {print $1", "$6", "$7", "$8", "$9", "$2", "$3", "$4", "$5; next} {print}' brick.inp >inverted.inp
+reduce=("$elastogear" reduce -mesh brick.inp -material_E 210e9 -material_nu 0.3 -material_rho 7850 -restrain FIX
+        -surface TOP -modes 5 -output new.h5)
+
+# What the cases vary works when it is right.
+"${reduce[@]}" -output body.h5 >good.log 2>&1 || { echo "FAIL: the good case fails"; cat good.log; exit 1; }
+[ -s body.h5 ] || { echo "FAIL: the good case wrote nothing"; exit 1; }
+cp body.h5 other.h5
+head -c $(($(stat -c %s body.h5) / 2)) body.h5 >truncated.h5
+"$elastogear" mesh -part wheel -size tiny -mesh wheel.msh >good.log 2>&1 || { echo "FAIL: mesh fails"; cat good.log; exit 1; }
+head -c $(($(stat -c %s wheel.msh) / 2)) wheel.msh >truncated.msh
+simulate=("$elastogear" simulate -bodies a,b -a_file body.h5 -b_file other.h5 -contact_pairs a:b -ts_dt 1e-7
+          -ts_max_time 1e-6 -output new.h5)
+
+expect_error "missing configuration" 'nosuch.yaml' "$elastogear" simulate nosuch.yaml
+printf 'mesh: [1, 2\nfoo: {' >malformed.yaml
+expect_error "malformed configuration" 'malformed.yaml' "$elastogear" reduce malformed.yaml
+expect_error "unknown verb" "'reduse'" "$elastogear" reduse
+expect_error "missing mesh" 'nosuch.msh' "${reduce[@]}" -mesh nosuch.msh
+expect_error "truncated .msh" 'truncated.msh' "${reduce[@]}" -mesh truncated.msh
+expect_error "unknown option" 'modess.*-modes' "${reduce[@]}" -modess 5
+expect_error "missing option" 'material_nu' "$elastogear" reduce -mesh brick.inp -output new.h5 -material_E 1 -restrain FIX
+expect_error "missing node set" "NOSUCH.*CORNER, FIX" "${reduce[@]}" -restrain NOSUCH
+expect_error "missing face set" "NOSUCH.*TOP" "${reduce[@]}" -surface NOSUCH
+expect_error "NaN option" 'material_E.*nan' "${reduce[@]}" -material_E nan
+expect_error "NaN coordinate" 'nan.inp.*nan' "${reduce[@]}" -mesh nan.inp
+expect_error "impossible material" 'nu.*0\.7' "${reduce[@]}" -material_nu 0.7
+expect_error "inverted element" '(cell|element).*Jacobian' "${reduce[@]}" -mesh inverted.inp
+expect_error "no restraint" 'restrain' "$elastogear" reduce -mesh brick.inp -material_E 210e9 -material_nu 0.3 -material_rho 7850 -surface TOP -modes 5 -output new.h5
+expect_error "too little restraint" '(singular|restrain)' "${reduce[@]}" -restrain CORNER
+expect_error "too many modes" 'modes.*37.*36' "${reduce[@]}" -modes 37
+expect_error "modes no number" 'modes.*many' "${reduce[@]}" -modes many
+expect_error "missing body file" 'nosuch.h5' "${simulate[@]}" -a_file nosuch.h5
+expect_error "truncated body file" 'truncated.h5' "${simulate[@]}" -a_file truncated.h5
+expect_error "a mesh as body file" 'wheel.msh' "${simulate[@]}" -a_file wheel.msh
+expect_error "misspelt body key" 'a_jonit.*a_joint' "${simulate[@]}" -a_jonit fixed
+expect_error "pair of unknown body" "'c'" "${simulate[@]}" -contact_pairs a:c
+expect_error "zero step" 'ts_dt.*0' "${simulate[@]}" -ts_dt 0
+expect_error "zero axis" 'axis' "${simulate[@]}" -a_joint revolute -a_axis 0,0,0
+expect_error "bodies deep inside each other" '(deep|penetrat)' "${simulate[@]}" -b_position 0.003,0,0.004 -b_rotation 3.14159265,0,0
+expect_error "undercut gear" "undercut" "$elastogear" mesh -part wheel -z2 12 -size tiny -mesh new.msh
+expect_error "centre distance that does not exist" 'centre distance' "$elastogear" mesh -part worm -centre_distance 0.02 -mesh new.msh
+expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all
+expect_error "info on a foreign file" 'good.log' "$elastogear" info good.log
+
+echo "$passed passed, $failed failed"
+((failed == 0))
