@@ -17,6 +17,8 @@ namespace {
 
 using Out = std::ostringstream;
 
+const Eigen::IOFormat kRow(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ");
+
 template <class... Parts>
 void line(Out& out, const Parts&... parts) {
   (out << ... << parts) << '\n';
@@ -36,8 +38,8 @@ void describe_sets(Out& out, const char* kind, const std::map<std::string, Set>&
 void describe_mesh(Out& out, const mesh::Mesh& mesh) {
   line(out, "mesh: ", counted(mesh.n_nodes(), "node"), ", ", counted(mesh.cells.size(), "hexahedron cell"));
   if (mesh.n_nodes() > 0)
-    line(out, "box: (", mesh.X.rowwise().minCoeff().transpose(), ") to (",
-         mesh.X.rowwise().maxCoeff().transpose(), ") m");
+    line(out, "box: (", mesh.X.rowwise().minCoeff().transpose().format(kRow), ") to (",
+         mesh.X.rowwise().maxCoeff().transpose().format(kRow), ") m");
   describe_sets(out, "node", mesh.node_sets);
   describe_sets(out, "cell", mesh.cell_sets);
   describe_sets(out, "face", mesh.face_sets);
@@ -58,10 +60,9 @@ void describe_mesh_file(Out& out, const std::string& path, const std::string& fo
 }
 
 void describe_inertia(Out& out, const model::Inertia& inertia) {
-  const Eigen::IOFormat row(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ");
   line(out, "mass: ", inertia.m, " kg");
   line(out, "centre of mass: (", inertia.c.transpose(), ") m, body frame");
-  line(out, "inertia about the origin: [", inertia.J.format(row), "] kg m^2");
+  line(out, "inertia about the origin: [", inertia.J.format(kRow), "] kg m^2");
 }
 
 void describe_modes(Out& out, const model::ElasticBody& body) {

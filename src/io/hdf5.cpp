@@ -321,6 +321,10 @@ void set_attribute(const File& file, const std::string& name, const std::string&
   write_attribute(file, name, key, H5T_NATIVE_DOUBLE, {{}, &value});
 }
 
+void set_attribute(const File& file, const std::string& name, const std::string& key, int value) {
+  write_attribute(file, name, key, H5T_NATIVE_INT, {{}, &value});
+}
+
 void set_attribute(const File& file, const std::string& name, const std::string& key,
                    const std::vector<int>& value) {
   write_attribute(file, name, key, H5T_NATIVE_INT, {{value.size()}, value.data()});

@@ -87,10 +87,12 @@ std::string unit(const File& file, const std::string& name);
 void set_attribute(const File& file, const std::string& name, const std::string& key,
                    const std::string& value);
 void set_attribute(const File& file, const std::string& name, const std::string& key, double value);
+void set_attribute(const File& file, const std::string& name, const std::string& key, int value);
 void set_attribute(const File& file, const std::string& name, const std::string& key,
                    const std::vector<int>& value);
 std::string string_attribute(const File& file, const std::string& name, const std::string& key);
 double number_attribute(const File& file, const std::string& name, const std::string& key);
+/// One number or a row of numbers.
 std::vector<int> int_attribute(const File& file, const std::string& name, const std::string& key);
 
 /// A group whose attributes are the map.

@@ -21,7 +21,7 @@ void write_header(const h5::File& file, const model::ResultHeader& header) {
     const auto& body = header.bodies[i];
     require_name(file, body.name);
     h5::make_group(file, "/bodies/" + body.name);
-    h5::set_attribute(file, "/bodies/" + body.name, "number", std::vector{static_cast<int>(i)});
+    h5::set_attribute(file, "/bodies/" + body.name, "number", static_cast<int>(i));
     h5::set_attribute(file, "/bodies/" + body.name, "file", body.file);
     h5::set_attribute(file, "/bodies/" + body.name, "joint", body.joint);
   }
@@ -31,7 +31,7 @@ void write_header(const h5::File& file, const model::ResultHeader& header) {
     require_name(file, pair.name);
     const std::string group = "/contact/" + pair.name;
     h5::make_group(file, group);
-    h5::set_attribute(file, group, "number", std::vector{static_cast<int>(i)});
+    h5::set_attribute(file, group, "number", static_cast<int>(i));
     h5::set_attribute(file, group, "body", std::vector{pair.body[0], pair.body[1]});
     for (int side : {0, 1})
       h5::write_strings(file, group + "/groups/" + kSide[side] + "/name", pair.group_name[side]);

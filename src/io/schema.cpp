@@ -4,7 +4,7 @@ namespace elastogear::io {
 
 void write_format(const h5::File& file, const std::string& format) {
   h5::set_attribute(file, "/", "format", format);
-  h5::set_attribute(file, "/", "version", std::vector{kVersion});
+  h5::set_attribute(file, "/", "version", kVersion);
 }
 
 void require_format(const h5::File& file, const std::string& format) {
