@@ -88,9 +88,12 @@ Outcome run(System system, double rho_inf = 1) {
   return outcome;
 }
 
+// The penalty's own compliance lengthens the contact; as stiff as half a cell it does so by less than 1 %.
 System bar_on_wall(model::Basis basis) {
-  return System({flying("bar", bar(basis), 0, kSpeed), flying("wall", wall(), kLength + kGap, 0)},
-                {{"bar:wall", {0, 1}, {}}});
+  const auto body = bar(basis);
+  PairSetup pair{"bar:wall", {0, 1}, {}};
+  pair.settings.stiffness = 2 * body->surface.c_f[0];
+  return System({flying("bar", body, 0, kSpeed), flying("wall", wall(), kLength + kGap, 0)}, {pair});
 }
 
 System two_bars(model::Basis basis) {
