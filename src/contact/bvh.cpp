@@ -3,9 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace elastogear::contact {
 namespace {
+
+// Calls f with k as a compile-time constant: loops over the directions then have a fixed length.
+template <class F>
+void with_size(int k, F f) {
+  switch (k) {
+    case 6:
+      return f(std::integral_constant<int, 6>());
+    case 14:
+      return f(std::integral_constant<int, 14>());
+    case 18:
+      return f(std::integral_constant<int, 18>());
+    case 24:
+      return f(std::integral_constant<int, 24>());
+    default:
+      return f(std::integral_constant<int, 26>());
+  }
+}
 
 // A float not above d. The step of 2 ulp covers the rounding of d and of the subtraction; the least normal
 // number covers denormals.
@@ -14,16 +32,19 @@ float round_down(double d) {
   return f - (std::abs(f) * 2 * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min());
 }
 
-void point_box(const Directions& B, const double* p, double margin, float* box) {
-  for (int i = 0; i < B.n; ++i) {
-    const double d = B.x[i] * p[0] + B.y[i] * p[1] + B.z[i] * p[2], m = margin * B.norm[i];
-    box[i] = round_down(d - m);
-    box[B.n + i] = round_down(-d - m);
+template <int K>
+void point_box(const Directions& B, const double* p, const double* margin, float* box) {
+  constexpr int h = K / 2;
+  for (int i = 0; i < h; ++i) {
+    const double d = B.x[i] * p[0] + B.y[i] * p[1] + B.z[i] * p[2];
+    box[i] = round_down(d - margin[i]);
+    box[h + i] = round_down(-d - margin[i]);
   }
 }
 
-void shrink_to_min(float* into, const float* other, int k) {
-  for (int i = 0; i < k; ++i) into[i] = other[i] < into[i] ? other[i] : into[i];
+template <int K>
+void shrink_to_min(float* into, const float* other) {
+  for (int i = 0; i < K; ++i) into[i] = other[i] < into[i] ? other[i] : into[i];
 }
 
 template <int K>
@@ -31,6 +52,29 @@ bool boxes_overlap(const float* a, const float* b) {
   int apart = 0;
   for (int i = 0; i < K / 2; ++i) apart |= (a[i] > -b[K / 2 + i]) | (b[i] > -a[K / 2 + i]);
   return !apart;
+}
+
+template <int K>
+void refit_boxes(Bvh& bvh, const Eigen::Matrix3Xd& x, const Eigen::Matrix4Xi& face, double margin,
+                 std::vector<float>& work) {
+  constexpr std::size_t k = K;
+  const Directions& B = directions(K);
+  std::array<double, K / 2> margins;
+  for (int i = 0; i < K / 2; ++i) margins[i] = margin * B.norm[i];
+  work.resize(k * x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) point_box<K>(B, x.col(i).data(), margins.data(), &work[k * i]);
+  bvh.box.resize(k * bvh.n_nodes());
+  for (int node = bvh.n_nodes() - 1; node >= 0; --node) {
+    float* into = &bvh.box[k * node];
+    if (bvh.is_leaf(node)) {
+      const auto corner = face.col(bvh.face(node));
+      std::copy_n(&work[k * corner[0]], k, into);
+      for (int c = 1; c < 4; ++c) shrink_to_min<K>(into, &work[k * corner[c]]);
+    } else {
+      std::copy_n(&bvh.box[k * bvh.child[node]], k, into);
+      shrink_to_min<K>(into, &bvh.box[k * (bvh.child[node] + 1)]);
+    }
+  }
 }
 
 template <int K>
@@ -77,22 +121,7 @@ class Descent {
 
 void refit(Bvh& bvh, const Eigen::Matrix3Xd& x, const Eigen::Matrix4Xi& face, double margin,
            std::vector<float>& work) {
-  const Directions& B = directions(bvh.k);
-  const std::size_t k = bvh.k;
-  work.resize(k * x.cols());
-  for (Eigen::Index i = 0; i < x.cols(); ++i) point_box(B, x.col(i).data(), margin, &work[k * i]);
-  bvh.box.resize(k * bvh.n_nodes());
-  for (int node = bvh.n_nodes() - 1; node >= 0; --node) {
-    float* into = &bvh.box[k * node];
-    if (bvh.is_leaf(node)) {
-      const auto corner = face.col(bvh.face(node));
-      std::copy_n(&work[k * corner[0]], k, into);
-      for (int c = 1; c < 4; ++c) shrink_to_min(into, &work[k * corner[c]], bvh.k);
-    } else {
-      std::copy_n(&bvh.box[k * bvh.child[node]], k, into);
-      shrink_to_min(into, &bvh.box[k * (bvh.child[node] + 1)], bvh.k);
-    }
-  }
+  with_size(bvh.k, [&](auto k) { refit_boxes<k>(bvh, x, face, margin, work); });
 }
 
 Kdop box(const Bvh& bvh, int node) {
@@ -116,18 +145,7 @@ void set_box(Bvh& bvh, int node, const Kdop& dop) {
 void overlapping_faces(const Bvh& a, const Bvh& b, const std::function<void(int)>& visit_a,
                        std::vector<NodePair>& work, std::vector<NodePair>& pairs) {
   pairs.clear();
-  switch (a.k) {
-    case 6:
-      return Descent<6>(a, b, visit_a, work).run(pairs);
-    case 14:
-      return Descent<14>(a, b, visit_a, work).run(pairs);
-    case 18:
-      return Descent<18>(a, b, visit_a, work).run(pairs);
-    case 24:
-      return Descent<24>(a, b, visit_a, work).run(pairs);
-    default:
-      return Descent<26>(a, b, visit_a, work).run(pairs);
-  }
+  with_size(a.k, [&](auto k) { Descent<k>(a, b, visit_a, work).run(pairs); });
 }
 
 std::vector<int> nodes_at_level(const Bvh& bvh, int level) {

@@ -83,7 +83,8 @@ struct Pair::Data {
   }
   void place(const SurfaceState& a, const SurfaceState& b);
   double margin() const;
-  void run_pass(int slave_side, const std::vector<NodePair>& face_pairs, std::vector<ContactPoint>& contacts);
+  void run_pass(int slave_side, const std::vector<NodePair>& face_pairs, double margin,
+                std::vector<ContactPoint>& contacts);
 };
 
 // Common frame: the BRF of b.
@@ -104,18 +105,18 @@ double Pair::Data::margin() const {
          std::max(extension_reach(view(0, settings.extension)), extension_reach(view(1, settings.extension)));
 }
 
-void Pair::Data::run_pass(int slave_side, const std::vector<NodePair>& face_pairs,
+void Pair::Data::run_pass(int slave_side, const std::vector<NodePair>& face_pairs, double margin,
                           std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = view(slave_side, 0), master = view(1 - slave_side, settings.extension);
   const Limits limits{settings.depth, std::cos(settings.normal_angle * std::numbers::pi / 180)};
   Side& slaves = side[slave_side];
-  candidates.collect(face_pairs, slave_side, slave, master, margin());
+  candidates.collect(face_pairs, slave_side, slave, master, margin);
   for (int node = 0; node < slave.x.cols(); ++node) {
     const auto faces = candidates[node];
     if (faces.empty()) continue;
     const auto cached = std::find(faces.begin(), faces.end(), slaves.last_face[node]);
     if (cached != faces.end()) std::iter_swap(faces.begin(), cached);
-    const SlaveNode q{slave.x.col(node), node_normal(slave, node)};
+    const SlaveNode q{slave.x.col(node), [&] { return node_normal(slave, node); }};
     const auto winner = find_winner(master, q, limits, faces);
     slaves.last_face[node] = winner ? winner->face : -1;
     if (!winner) continue;
@@ -147,10 +148,11 @@ std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState
   validate(a, *d.side[0].surface, 0);
   validate(b, *d.side[1].surface, 1);
   d.place(a, b);
-  const auto& face_pairs = d.search.face_pairs(d.configuration, d.margin());
+  const double margin = d.margin();
+  const auto& face_pairs = d.search.face_pairs(d.configuration, margin);
   std::vector<ContactPoint> contacts;
-  d.run_pass(d.settings.slave, face_pairs, contacts);
-  if (d.settings.two_pass) d.run_pass(1 - d.settings.slave, face_pairs, contacts);
+  d.run_pass(d.settings.slave, face_pairs, margin, contacts);
+  if (d.settings.two_pass) d.run_pass(1 - d.settings.slave, face_pairs, margin, contacts);
   for (ContactPoint& contact : contacts) rotate(contact, b.R_WB);
   return contacts;
 }

@@ -31,6 +31,20 @@ double distance_bound(const Face& face, const Eigen::Vector3d& q) {
   return std::max(0.0, out.norm() - reach);
 }
 
+template <class Accept>
+Nearest nearest(const SurfaceView& master, const Eigen::Vector3d& q, double depth, std::span<const int> faces,
+                const Accept& accept) {
+  Nearest best(depth * depth);
+  for (int f : faces) {
+    const Face face = face_of(master, f);
+    const double bound = distance_bound(face, q);
+    if (bound * bound > best.distance2) continue;
+    const ClosestPoint p = closest_point(face, q);
+    if (accept(face, p)) best.offer(f, p);
+  }
+  return best;
+}
+
 // Points outwards at the closest point; zero where the surface is degenerate.
 Eigen::Vector3d outward(const SurfaceView& master, int f, const ClosestPoint& p) {
   if (p.feature == Feature::vertex) return node_normal(master, master.face(p.part, f));
@@ -41,14 +55,14 @@ Eigen::Vector3d outward(const SurfaceView& master, int f, const ClosestPoint& p)
 
 enum class Place { inside, outside, unknown };
 
-Place place(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& nearest) {
-  if (!nearest.found() || nearest.point.feature == Feature::outside) return Place::unknown;
-  const double side = (q - nearest.point.x).dot(outward(master, nearest.face, nearest.point));
+Place place(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
+  if (!best.found() || best.point.feature == Feature::outside) return Place::unknown;
+  const double side = (q - best.point.x).dot(outward(master, best.face, best.point));
   return side < 0 ? Place::inside : side > 0 ? Place::outside : Place::unknown;
 }
 
-Winner make_winner(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& nearest) {
-  Winner w{nearest.face, nearest.point, {}, 0};
+Winner make_winner(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
+  Winner w{best.face, best.point, {}, 0};
   const Eigen::Vector3d d = q - w.point.x;
   if (w.point.feature == Feature::face) {
     w.n = outward(master, w.face, w.point);
@@ -64,19 +78,16 @@ Winner make_winner(const SurfaceView& master, const Eigen::Vector3d& q, const Ne
 
 std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
                                   std::span<const int> faces) {
-  Nearest any(limits.depth * limits.depth), opposing = any;
-  for (int f : faces) {
-    const Face face = face_of(master, f);
-    const double bound = distance_bound(face, slave.x);
-    if (bound * bound > std::max(any.distance2, opposing.distance2)) continue;
-    const ClosestPoint p = closest_point(face, slave.x);
-    any.offer(f, p);
-    const Eigen::Vector3d n = normal(face, p.u, p.v);
-    if (n.dot(slave.n) <= limits.cos_angle) opposing.offer(f, p);
-  }
-  if (place(master, slave.x, any) == Place::outside) return {};
-  if (place(master, slave.x, opposing) != Place::inside) return {};
-  return make_winner(master, slave.x, opposing);
+  const Nearest any = nearest(master, slave.x, limits.depth, faces, [](auto&&...) { return true; });
+  if (!any.found() || place(master, slave.x, any) == Place::outside) return {};
+  const Eigen::Vector3d n_slave = slave.normal();
+  const auto opposes = [&](const Face& face, const ClosestPoint& p) {
+    return normal(face, p.u, p.v).dot(n_slave) <= limits.cos_angle;
+  };
+  const bool settled = opposes(face_of(master, any.face), any.point);
+  const Nearest best = settled ? any : nearest(master, slave.x, limits.depth, faces, opposes);
+  if (place(master, slave.x, best) != Place::inside) return {};
+  return make_winner(master, slave.x, best);
 }
 
 }  // namespace elastogear::contact

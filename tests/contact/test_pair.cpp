@@ -102,7 +102,8 @@ TEST(Pair, misses_no_contact_of_random_and_degenerate_surfaces) {
     auto next = found.begin();
     for (int node = 0; node < a.X.cols(); ++node, ++n_nodes) {
       const Limits limits{s.depth, std::cos(s.normal_angle * test::pi / 180)};
-      const auto w = find_winner(master, {slave.x.col(node), node_normal(slave, node)}, limits, all);
+      const auto w =
+          find_winner(master, {slave.x.col(node), [&] { return node_normal(slave, node); }}, limits, all);
       if (!w) continue;
       ASSERT_TRUE(next != found.end() && next->slave_node == node) << trial << " node " << node;
       EXPECT_NEAR(next->g_n, w->g_n, roundoff);
@@ -226,6 +227,17 @@ TEST(Pair, flat_punch_on_a_conforming_mesh_has_every_node_in_contact) {
     Eigen::Vector3d on_a = Eigen::Vector3d::Zero();
     for (const ContactPoint& c : contacts) on_a += c.slave_side == 0 ? c.f : Eigen::Vector3d(-c.f);
     EXPECT_NEAR(on_a.z(), 0.01, 2 * lateral + roundoff);
+  }
+}
+
+TEST(Pair, prolonged_open_ends_are_in_reach_of_the_coarse_search) {
+  const model::Surface master = test::plane(4, 4), slave = test::flipped(test::plane(1, 1, 0.1, 0.1));
+  for (Update update : {Update::refit, Update::realign}) {
+    Settings s = settings(1, 1e-3);  // far less than the prolongation of 0.025
+    s.extension = 0.1;
+    s.update = update;
+    EXPECT_EQ(Pair(slave, master, s).detect(at(slave, {1.02, 0.5, -5e-4}), at(master)).size(), 2u);
+    EXPECT_EQ(Pair(slave, master, s).detect(at(slave, {1.03, 0.5, -5e-4}), at(master)).size(), 0u);
   }
 }
 

@@ -26,7 +26,7 @@ struct Master {
                               const Limits& limits) const {
     std::vector<int> faces(surface.face.cols());
     std::iota(faces.begin(), faces.end(), 0);
-    return find_winner(view(), {q, n}, limits, faces);
+    return find_winner(view(), {q, [&] { return n; }}, limits, faces);
   }
   std::optional<Winner> touch(const Eigen::Vector3d& q, double depth = 10) const {
     return touch(q, Eigen::Vector3d::UnitZ(), {depth, any_angle});
@@ -84,7 +84,7 @@ TEST(Winner, decides_inside_and_outside_at_concave_edges_and_vertices) {
 TEST(Winner, is_the_lower_face_on_a_tie_whatever_the_order) {
   const Master valley(
       test::grid(2, 1, [](double u, double v) { return Eigen::Vector3d(u, v, std::abs(u - 0.5)); }));
-  const SlaveNode q{{0.5, 0.5, -0.1}, -Eigen::Vector3d::UnitZ()};
+  const SlaveNode q{{0.5, 0.5, -0.1}, [] { return Eigen::Vector3d(0, 0, -1); }};
   const Limits limits{1, 0};
   for (const std::vector<int>& order : {std::vector<int>{0, 1}, {1, 0}}) {
     const auto w = find_winner(valley.view(), q, limits, order);
@@ -173,6 +173,25 @@ TEST(Winner, on_the_far_side_of_a_thin_tooth_is_none) {
   const auto deep = master.touch({0.4, 0.6, -0.15}, -up, limits);
   ASSERT_TRUE(deep) << "nearer to the lower side, but it came through the upper one";
   EXPECT_NEAR(deep->g_n, -0.15, roundoff);
+}
+
+// A sharp wedge whose lower side is cut in a fan: a plain sum of face normals would follow the many.
+model::Surface wedge(int n_fan) {
+  model::Surface s;
+  s.X.resize(3, n_fan + 2);
+  s.face.resize(4, n_fan + 1);
+  s.X.col(0).setZero();
+  for (int i = 0; i <= n_fan; ++i) s.X.col(i + 1) << 1, -0.5 + 1.0 * i / n_fan, -0.1;
+  s.X.rightCols(n_fan + 1).row(2).setConstant(-0.1);
+  s.face.col(0) << 0, 1, n_fan + 1, n_fan + 1;
+  for (int i = 0; i < n_fan; ++i) s.face.col(i + 1) << 0, i + 2, i + 1, i + 1;
+  for (int i = 1; i < n_fan; ++i) s.X(2, i + 1) -= 0.2 * i * (n_fan - i) / double(n_fan * n_fan);
+  return s;
+}
+
+TEST(Winner, at_a_sharp_vertex_does_not_depend_on_the_number_of_faces_there) {
+  const Eigen::Vector3d above(-0.02, 0, 0.1);  // in front of the tip, over the single upper face
+  for (int n_fan : {2, 30}) EXPECT_FALSE(Master(wedge(n_fan)).touch(above)) << n_fan;
 }
 
 TEST(Winner, deeper_than_the_limit_is_none) {

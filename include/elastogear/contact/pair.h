@@ -37,8 +37,10 @@ struct SurfaceState {
   Eigen::Matrix3d R_WB;
 };
 
-/// One active contact. Local vectors have 15 rows: slave node, then the four master nodes (x y z each, world
-/// frame). Local force F = -c_p g_n [n; -N_i n]; tangent dF = -W k W' dx.
+/// One active contact: x_slave - x_c = g_n n with the closest point x_c = sum_i N_i x_i of the master
+/// surface. On an edge or vertex n has the direction of that line, within the normals of the faces there.
+/// Local vectors have 15 rows: slave node, then the four master nodes (x y z each, world frame). Local force
+/// F = -c_p g_n [n; -N_i n]; tangent dF = -W k W' dx.
 struct ContactPoint {
   int slave_side = 0;
   int slave_node = 0;

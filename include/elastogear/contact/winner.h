@@ -3,6 +3,7 @@
 // Winner).
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -13,7 +14,8 @@ namespace elastogear::contact {
 
 struct SlaveNode {
   Eigen::Vector3d x;  ///< m
-  Eigen::Vector3d n;  ///< outward unit normal of the slave surface at the node
+  std::function<Eigen::Vector3d()>
+      normal;  ///< outward unit normal of the slave surface; asked for when inside
 };
 
 struct Limits {
