@@ -19,14 +19,14 @@ const char* const predictor_names[] = {"none", "constant_acceleration", "zero_ac
 // TSSolve).
 PetscErrorCode acceleration_is_known(TS ts, bool* known) {
   const Method& m = method(ts);
-  PetscBool same_U = PETSC_FALSE, same_V = PETSC_FALSE;
+  PetscBool U_same = PETSC_FALSE, V_same = PETSC_FALSE;
   PetscObjectState state = 0;
   *known = false;
   if (!m.acceleration_known) return 0;
-  PetscCall(VecEqual(ts->vec_sol, m.current.U, &same_U));
-  PetscCall(VecEqual(ts->vec_dot, m.current.V, &same_V));
+  PetscCall(VecEqual(ts->vec_sol, m.current.U, &U_same));
+  PetscCall(VecEqual(ts->vec_dot, m.current.V, &V_same));
   PetscCall(PetscObjectStateGet((PetscObject)ts->vec_sol, &state));
-  *known = same_U && same_V && (!ts->steprestart || state != m.solution_state);
+  *known = U_same && V_same && (!ts->steprestart || state != m.solution_state);
   return 0;
 }
 
@@ -50,7 +50,7 @@ PetscErrorCode set_solution(TS ts, const Motion& x) {
 
 // ---- one step
 
-// One try with the present time step; the next one is left in ts->time_step unless it was accepted.
+// One try with the present time step. A rejected one leaves the state untouched and a smaller ts->time_step.
 PetscErrorCode attempt(TS ts, PetscBool* accept, PetscReal* next_step) {
   Method& m = method(ts);
   PetscBool solved = PETSC_FALSE;
@@ -102,10 +102,9 @@ PetscErrorCode roll_back(TS ts) { return set_solution(ts, method(ts).start); }
 // Cubic Hermite polynomial through U and V at both ends of the last step, as integrated (TI.10).
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   const Method& m = method(ts);
-  const PetscReal dt = m.step_size, s = dt > 0 ? (t - m.step_time) / dt : -1;
-  PetscCheck(s >= 0 && s <= 1, PetscObjectComm((PetscObject)ts), PETSC_ERR_ARG_OUTOFRANGE,
-             "Time %g is not in the last step [%g, %g]", (double)t, (double)m.step_time,
-             (double)(m.step_time + dt));
+  const PetscReal dt = m.step_size, s = (t - m.step_time) / dt;
+  PetscCheck(dt > 0 && m.step_time == ts->ptime_prev, PetscObjectComm((PetscObject)ts),
+             PETSC_ERR_ARG_WRONGSTATE, "No step to interpolate: none was taken, or it was rolled back");
   const PetscReal h = s * s * (3 - 2 * s);
   const PetscScalar weights[] = {1 - h, h, dt * s * (1 - s) * (1 - s), dt * s * s * (s - 1)};
   Vec ends[] = {m.start.U, m.end.U, m.start.V, m.end.V};

@@ -52,9 +52,14 @@ PetscErrorCode blend(PetscReal alpha, Vec a, Vec b, Vec y) {
 PetscErrorCode set_stage(TS ts) {
   Method& m = method(ts);
   const Parameters& p = m.parameters;
-  const PetscReal dt = ts->time_step, dV = p.gamma / (p.beta * dt), dA = 1 / (p.beta * dt * dt);
-  m.stage = {ts->ptime + p.alpha_f * dt, p.alpha_f,    p.alpha_f * dV, p.alpha_m * dA, dV,
-             p.alpha_m / p.alpha_f * dA, 1 / p.alpha_f};
+  const PetscReal dt = ts->time_step, V_per_U = p.gamma / (p.beta * dt), A_per_U = 1 / (p.beta * dt * dt);
+  m.stage = {.t = ts->ptime + p.alpha_f * dt,
+             .c_U = p.alpha_f,
+             .c_V = p.alpha_f * V_per_U,
+             .c_A = p.alpha_m * A_per_U,
+             .shift_V = V_per_U,
+             .shift_A = p.alpha_m / p.alpha_f * A_per_U,
+             .scale = 1 / p.alpha_f};
   PetscCall(blend(p.alpha_f, m.start.U, m.end.U, m.base.U));
   PetscCall(blend(p.alpha_f, m.start.V, m.end.V, m.base.V));
   PetscCall(blend(p.alpha_m, m.start.A, m.end.A, m.base.A));
@@ -219,10 +224,16 @@ PetscErrorCode solve_step(TS ts) {
 PetscErrorCode solve_acceleration(TS ts) {
   Method& m = method(ts);
   m.acceleration_known = false;
-  // Shifted so far, K + shift_A M is a multiple of M to roundoff for any frequency below 1 / (epsilon dt). Delta
-  // = A / c_A stays within the absolute limits of line searches and linear solvers.
+  // Shifted so far, K + shift_A M is a multiple of M to roundoff for any frequency below 1 / (epsilon dt).
+  // Delta = A / c_A stays within the absolute limits of line searches and linear solvers.
   const PetscReal epsilon = PETSC_MACHINE_EPSILON, c_A = 1 / (epsilon * ts->time_step * ts->time_step);
-  m.stage = {ts->ptime, 0, 0, c_A, 0, c_A / epsilon, 1 / epsilon};
+  m.stage = {.t = ts->ptime,
+             .c_U = 0,
+             .c_V = 0,
+             .c_A = c_A,
+             .shift_V = 0,
+             .shift_A = c_A / epsilon,
+             .scale = 1 / epsilon};
   PetscCall(VecCopy(ts->vec_sol, m.current.U));
   PetscCall(VecCopy(ts->vec_dot, m.current.V));
   PetscCall(VecZeroEntries(m.current.A));

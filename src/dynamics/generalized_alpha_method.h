@@ -55,8 +55,9 @@ PetscErrorCode solve_step(TS ts);
 /// with ts->reason where TSSetErrorIfStepFails is off.
 PetscErrorCode solve_acceleration(TS ts);
 
-/// A of the method belongs to a time that lags t by (alpha_m - alpha_f) dt. When the next step is `ratio` times
-/// the last one, current.A moves to the lag of the next step (TI.8), never past A at the start of the last.
+/// A of the method belongs to a time that lags t by (alpha_m - alpha_f) dt. When the next step is `ratio`
+/// times the last one, current.A moves to the lag of the next step (TI.8), never past A at the start of the
+/// last.
 PetscErrorCode move_lag(const Method& m, PetscReal ratio);
 
 /// The callbacks of ts->snes.

@@ -11,7 +11,9 @@
 //   -ts_alpha_velocity_rtol, _velocity_atol   error control of V (default 0, 0: only U is controlled)
 // The SNES unknown is the change of U against the predictor, not U itself: small displacements are resolved
 // on top of large ones, and -snes_stol is relative to that change. A linear problem (TS_LINEAR, SNESKSPONLY)
-// is solved exactly; a nonlinear one under SNESKSPONLY ends in PETSC_ERR_NOT_CONVERGED.
+// is solved exactly; a nonlinear one under SNESKSPONLY ends in PETSC_ERR_NOT_CONVERGED. For the acceleration
+// at the start the Jacobian callback is called with shift_V = 0 and a shift_A so large that the Jacobian is
+// shift_A dF/dA to roundoff; dF/dA must be regular.
 
 #include <petscts.h>
 
