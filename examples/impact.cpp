@@ -6,9 +6,8 @@
 //     =====\/\/\======  worm     4. recover   sigma = Psi q at the worm's tooth roots
 //
 // Sample run:   impact /tmp
-// Expected:     exit code 0: the wheel rebounds, the worm's root sees a peak von Mises stress of 241 MPa (100
-// to
-//               400 MPa asked for), and the energy balance closes to 1 %.
+// Expected:     exit code 0: the wheel rebounds, the worm's root sees a peak von Mises stress of 241 MPa,
+//               and the energy balance closes to 1 %.
 
 #include <algorithm>
 #include <cstdio>
