@@ -21,11 +21,8 @@ constexpr ElementFunctions kHex8 = {
 }  // namespace
 
 const ElementFunctions& element_functions(mesh::CellType type) {
-  switch (type) {
-    case mesh::CellType::hex8:
-      return kHex8;
-  }
-  fail("no element for cell type ", static_cast<int>(type));
+  if (type == mesh::CellType::hex8) return kHex8;
+  fail("no element for cell type ", mesh::name(type));
 }
 
 Eigen::Matrix3Xd cell_coordinates(const mesh::Mesh& mesh, int cell) {
