@@ -16,8 +16,9 @@ struct Rules {
   Rule stiffness, mass, stress;
 };
 
-// Stiffness: the rules of Abaqus and CalculiX, the smallest that pass the patch test on straight-edged cells
-// and leave no zero-energy mode. Mass: exact on straight-edged cells. Stress: where the stress is most
+// Stiffness: the rules of Abaqus and CalculiX, the smallest that pass the patch test on straight-edged cells.
+// They leave no zero-energy mode but one: wedge6's two points do not see its twist about the line through
+// them, which other cells beside it resist. Mass: exact on straight-edged cells. Stress: where it is most
 // accurate.
 Rules rules(CellType type) {
   switch (type) {
