@@ -6,8 +6,8 @@
 //     =====\/\/\======  worm     4. recover   sigma = Psi q at the worm's tooth roots
 //
 // Sample run:   impact /tmp
-// Expected:     the wheel rebounds; the peak von Mises stress of the worm's root lies between 100 and 400
-// MPa.
+// Expected:     exit code 0: the wheel rebounds, the worm's root sees a peak von Mises stress of 241 MPa,
+//               and the energy balance closes to 1 %.
 
 #include <algorithm>
 #include <cstdio>
@@ -81,5 +81,6 @@ int main(int argc, char** argv) {
   std::printf("wheel                %8.2f rad/s before, %.2f rad/s after\n", kOmega, omega);
   std::printf("worm root, von Mises %8.1f MPa\n", 1e-6 * peak);
   std::printf("energy balance       %8.2g of %.3g J\n", run.largest_imbalance, run.initial_energy);
-  return omega < 0 && peak > 100e6 && peak < 400e6 ? 0 : 1;
+  const bool balanced = run.largest_imbalance < 0.01 * run.initial_energy;
+  return omega < 0 && peak > 100e6 && peak < 400e6 && balanced ? 0 : 1;
 }

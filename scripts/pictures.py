@@ -182,8 +182,16 @@ def box_views(surfaces, boxes, direction, aspect):
     return fitted_view(points, direction, up, aspect), zoom
 
 
-def box_legend(paths):
-    names = [os.path.splitext(os.path.basename(path))[0].replace("_", " ") for path in paths]
+def distinct_names(paths):
+    """File names without extension and without the leading words that all share: impact_worm -> worm."""
+    words = [os.path.splitext(os.path.basename(path))[0].split("_") for path in paths]
+    while all(len(w) > 1 and w[0] == words[0][0] for w in words):
+        words = [w[1:] for w in words]
+    return [" ".join(w) for w in words]
+
+
+def box_legend(surfaces):
+    names = distinct_names(surfaces)
     places = np.linspace(0, 1, len(names) + 2)[1:-1]
     return [scene.text_actor(name, x, 0.5, 34, colour) for name, x, colour in zip(names, places, BODY_COLOURS)]
 
@@ -202,7 +210,7 @@ def draw_boxes(options):
         picture.panel((left + GAP, 0.05, right - GAP, 0.5), actors, views[1])
         title = f"{options.title}, " + ("leaves" if level == "leaf" else f"level {level}")
         picture.panel((left, 0.95, right, 1), [scene.text_actor(title, 0.5, 0.5, 34)])
-    picture.panel((0, 0, 1, 0.05), box_legend(options.boxes))
+    picture.panel((0, 0, 1, 0.05), box_legend(options.surfaces))
     picture.save(options.out)
 
 

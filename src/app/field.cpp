@@ -14,10 +14,10 @@ void write_field(const std::string& path, const std::string& body_file, const io
   mesh::Mesh placed = source.mesh;
   placed.X = (state.R_WB * placed.X).colwise() + state.r_WB;
   io::write_vtu(path, placed,
-                {{"displacement", state.R_WB * u_B},
-                 {"stress", stress},
-                 {"von_mises", recovery::von_mises(tensors).transpose()},
-                 {"rankine", recovery::rankine(tensors).transpose()}});
+                {{"displacement [m]", state.R_WB * u_B},
+                 {"stress [Pa]", stress},
+                 {"von_mises [Pa]", recovery::von_mises(tensors).transpose()},
+                 {"rankine [Pa]", recovery::rankine(tensors).transpose()}});
 }
 
 }  // namespace elastogear::app

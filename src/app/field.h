@@ -17,8 +17,8 @@ struct FieldState {
   Eigen::VectorXd q;
 };
 
-/// Undeformed body in its placement (world frame) with displacement (m, world frame), stress (Pa, body
-/// frame), von_mises and rankine (Pa). `body_file` gives Phi.
+/// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),
+/// von_mises and rankine. `body_file` gives Phi.
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
                  const FieldState& state);
 

@@ -103,7 +103,8 @@ Options::Options(std::string verb, OptionTable own, OptionTable known)
 void Options::load(const std::vector<std::string>& files, int argc, char** argv) {
   for (const std::string& file : files) {
     require(std::filesystem::is_regular_file(file), file, ": no such file");
-    const PetscErrorCode code = PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, file.c_str(), PETSC_TRUE);
+    const PetscErrorCode code =
+        PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, file.c_str(), PETSC_TRUE);
     require(code == 0, file, ": is no valid YAML (nested maps of keys and values, lists in [a, b] form)");
   }
   const std::string section = verb_ + "_";

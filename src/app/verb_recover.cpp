@@ -157,18 +157,22 @@ std::string field_prefix(const Options& options) {
   return options.given("fields") ? options.text("fields") : stem(options.text("result"));
 }
 
-void write_fields(const Options& options, const Run& run) {
-  const std::vector<double> times = options.numbers("field_times");
+std::vector<int> field_steps(const Options& options, const Run& run) {
+  std::vector<int> steps;
+  for (double time : options.numbers("field_times")) steps.push_back(nearest_step(run.time, time));
+  return steps;
+}
+
+void write_fields(const Options& options, const Run& run, const std::vector<int>& steps) {
   for (const Body& body : run.bodies) {
-    if (times.empty()) break;
+    if (steps.empty()) break;
     const io::BodySource source = io::read_body_source(body.file);
     const std::string base = field_prefix(options) + "_" + body.name;
     std::vector<io::TimeStep> series;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const int step = nearest_step(run.time, times[i]);
-      const std::string path = times.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
-      write_field(path, body.file, source, state_at(body, step));
-      series.push_back({run.time[step], std::filesystem::path(path).filename().string()});
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const std::string path = steps.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
+      write_field(path, body.file, source, state_at(body, steps[i]));
+      series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string()});
       print_item("written", path);
     }
     io::write_pvd(base + ".pvd", series);
@@ -194,11 +198,8 @@ void write_boxes(const std::string& path, const recovery::Boxes& boxes) {
 }
 
 // k-DOPs of all bodies in the world frame; with two bodies also the leaves that overlap (the paper's Fig. 4).
-void write_trees(const Options& options, const Run& run) {
-  const std::vector<int> levels = box_levels(options);
+void write_trees(const Options& options, const Run& run, const std::vector<int>& levels, int step) {
   if (levels.empty()) return;
-  const std::vector<double> times = options.numbers("field_times");
-  const int step = nearest_step(run.time, times.empty() ? 0 : times.front());
   std::vector<contact::Bvh> trees;
   for (const Body& body : run.bodies) {
     const model::Surface surface = io::read_body(body.file).surface;
@@ -220,9 +221,10 @@ void run(const Options& options, const std::vector<std::string>&) {
   require(options.text("output") != options.text("result"), "option -output = '", options.text("output"),
           "' would overwrite the result file");
   const Run run = read_run(options);
+  const std::vector<int> steps = field_steps(options, run), levels = box_levels(options);
   write_stresses(options, run);
-  write_fields(options, run);
-  write_trees(options, run);
+  write_fields(options, run, steps);
+  write_trees(options, run, levels, steps.empty() ? 0 : steps.front());
 }
 
 }  // namespace

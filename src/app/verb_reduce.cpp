@@ -23,7 +23,8 @@ const OptionTable kTable = {
     {"material_<set>_E", "Pa", "", "Young's modulus of one cell set"},
     {"material_<set>_nu", "-", "", "Poisson's ratio of one cell set"},
     {"material_<set>_rho", "kg/m^3", "", "density of one cell set"},
-    {"element", "-", "incompatible", "hexahedra: incompatible (modes) or plain"},
+    {"element", "-", "incompatible",
+     "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
     {"restrain", "-", "", "node sets that are held in all directions and carry the body frame"},
     {"surface", "-", "", "face sets of the contact surface"},
     {"stress_nodes", "-", "", "node sets at which stress modes are stored"},
@@ -51,8 +52,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   reduction::ReductionOptions o;
   o.name = std::filesystem::path(options.text("output")).stem().string();
   o.regions = regions(options);
-  o.element = options.choice("element", {"incompatible", "plain"}) == 0 ? model::Element::incompatible
-                                                                        : model::Element::plain;
+  o.element = static_cast<model::Element>(options.choice("element", {"incompatible", "plain", "bbar"}));
   o.restrain = options.list("restrain");
   o.surface = options.list("surface");
   o.stress_nodes = options.list("stress_nodes");

@@ -39,6 +39,26 @@ void add_columns(const body::MotionSubspace& H, const NodeColumns& c, Eigen::Mat
   }
 }
 
+NodeColumns node_columns(const contact::ContactPoint& point, int i, Eigen::Index column,
+                         const BodyTerms& terms, const contact::SurfaceState& state) {
+  const int node = local_node(point, i).node;
+  const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
+  return {column, n_u + 3 * slot(terms.node, node), state.x_B.col(node),
+          state.R_WB.transpose() * point.W.middleRows(3 * i, 3)};
+}
+
+template <class Matrix>
+void add_block(const Matrix& block, Eigen::Index first, Triplets& triplets) {
+  for (Eigen::Index i = 0; i < block.rows(); ++i)
+    for (Eigen::Index j = 0; j < block.cols(); ++j) triplets.emplace_back(first + i, first + j, block(i, j));
+}
+
+void set_sparse(Eigen::SparseMatrix<double>& A, Eigen::Index rows, Eigen::Index cols,
+                const Triplets& triplets) {
+  A.resize(rows, cols);
+  A.setFromTriplets(triplets.begin(), triplets.end());
+}
+
 Eigen::Index column_count(const std::vector<PairContacts>& pairs) {
   Eigen::Index r = 0;
   for (const PairContacts& pair : pairs)
@@ -119,26 +139,14 @@ void set_contact_columns(const std::vector<const body::Equations*>& bodies,
   for (const PairContacts& pair : pairs)
     for (const auto& point : pair.points) {
       for (int i = 0; i < kLocalNodes; ++i) {
-        const LocalNode local = local_node(point, i);
-        const int b = pair.body[local.side];
-        BodyTerms& terms = A.body[b];
-        const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
-        add_columns(bodies[b]->H,
-                    {column, n_u + 3 * slot(terms.node, local.node), states[b].x_B.col(local.node),
-                     states[b].R_WB.transpose() * point.W.middleRows(3 * i, 3)},
-                    terms.W_s, L[b]);
+        const int b = pair.body[local_node(point, i).side];
+        add_columns(bodies[b]->H, node_columns(point, i, column, A.body[b], states[b]), A.body[b].W_s, L[b]);
       }
-      for (Eigen::Index i = 0; i < point.k.rows(); ++i)
-        for (Eigen::Index j = 0; j < point.k.cols(); ++j)
-          k.emplace_back(column + i, column + j, point.k(i, j));
+      add_block(point.k, column, k);
       column += point.W.cols();
     }
-  A.k.resize(r, r);
-  A.k.setFromTriplets(k.begin(), k.end());
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    A.body[b].L.resize(A.body[b].beta.rows(), r);
-    A.body[b].L.setFromTriplets(L[b].begin(), L[b].end());
-  }
+  set_sparse(A.k, r, r, k);
+  for (std::size_t b = 0; b < bodies.size(); ++b) set_sparse(A.body[b].L, A.body[b].beta.rows(), r, L[b]);
 }
 
 }  // namespace elastogear::dynamics

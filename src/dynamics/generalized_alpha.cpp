@@ -99,7 +99,7 @@ PetscErrorCode step(TS ts) {
 
 PetscErrorCode roll_back(TS ts) { return set_solution(ts, method(ts).start); }
 
-// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated (TI.10).
+// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated (8.10).
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   const Method& m = method(ts);
   const PetscReal dt = m.step_size, s = (t - m.step_time) / dt;
@@ -141,7 +141,7 @@ PetscErrorCode velocity_error_norm(TS ts, NormType type, PetscReal* norm) {
   return code;
 }
 
-// Local error of U, third order in dt, and of the predicted V, second order (TI.9).
+// Local error of U, third order in dt, and of the predicted V, second order (8.9).
 PetscErrorCode evaluate_wlte(TS ts, NormType type, PetscInt* order, PetscReal* wlte) {
   const Method& m = method(ts);
   const Parameters& p = m.parameters;

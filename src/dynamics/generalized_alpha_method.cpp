@@ -20,7 +20,7 @@ PetscErrorCode destroy(Motion& x) {
   return 0;
 }
 
-// Newmark's formulas (TI.3): U, V at the end of a step from its start and the acceleration at the end.
+// Newmark's formulas (8.3): U, V at the end of a step from its start and the acceleration at the end.
 PetscErrorCode newmark(const Parameters& p, PetscReal dt, const Motion& start, const Motion& end) {
   PetscCall(VecCopy(start.V, end.V));
   PetscCall(VecAXPY(end.V, dt * (1 - p.gamma), start.A));

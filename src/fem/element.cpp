@@ -2,6 +2,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/fem/hex8.h"
+#include "isoparametric.h"
 
 namespace elastogear::fem {
 namespace {
@@ -21,9 +22,22 @@ constexpr ElementFunctions kHex8 = {
 }  // namespace
 
 const ElementFunctions& element_functions(mesh::CellType type) {
+  using mesh::CellType;
   switch (type) {
-    case mesh::CellType::hex8:
+    case CellType::hex8:
       return kHex8;
+    case CellType::hex20:
+      return isoparametric<CellType::hex20, 20, 27>;
+    case CellType::tet4:
+      return isoparametric<CellType::tet4, 4, 1>;
+    case CellType::tet10:
+      return isoparametric<CellType::tet10, 10, 4>;
+    case CellType::wedge6:
+      return isoparametric<CellType::wedge6, 6, 2>;
+    case CellType::wedge15:
+      return isoparametric<CellType::wedge15, 15, 9>;
+    case CellType::pyramid5:
+      return isoparametric<CellType::pyramid5, 5, 8>;
   }
   fail("no element for cell type ", static_cast<int>(type));
 }

@@ -104,6 +104,35 @@ Condensation condensation(const Matrix& K) {
   return -K_aa.ldlt().solve(K_au);
 }
 
+// The material without its resistance to dilatation.
+Lame deviatoric(const Lame& material) { return {-2.0 / 3 * material.mu, material.mu}; }
+double bulk_modulus(const Lame& material) { return material.lambda + 2.0 / 3 * material.mu; }
+
+// Divergence of the displacement per nodal displacement, averaged over the cell (1/m).
+Eigen::Matrix<double, 24, 1> mean_divergence(const Coordinates& X) {
+  const Eigen::Matrix3d J_0 = centre_jacobian(X);
+  Eigen::Matrix<double, 24, 1> sum = Eigen::Matrix<double, 24, 1>::Zero();
+  for (const Sample& point : stiffness_points()) {
+    double det = 0;
+    const Gradients g = gradients(X, point, J_0, &det);
+    sum += det * g.leftCols<8>().reshaped();
+  }
+  return sum / volume(X);
+}
+
+// The deviatoric part of the plain element and the dilatation's mean.
+Stiffness bbar_stiffness(const Coordinates& X, const Lame& material) {
+  const auto b = mean_divergence(X);
+  return full_stiffness(X, deviatoric(material)).topLeftCorner<24, 24>() +
+         bulk_modulus(material) * volume(X) * b * b.transpose();
+}
+
+// Adds the mean pressure's part to the stress at each node.
+void add_mean_pressure(const Coordinates& X, const Lame& material, StressOperator& S) {
+  const Eigen::Matrix<double, 1, 24> pressure = bulk_modulus(material) * mean_divergence(X).transpose();
+  for (int a = 0; a < 8; ++a) S.middleRows<3>(6 * a).rowwise() += pressure;
+}
+
 }  // namespace
 
 double smallest_jacobian(const Coordinates& X) {
@@ -118,6 +147,7 @@ double smallest_jacobian(const Coordinates& X) {
 }
 
 Stiffness stiffness(const Coordinates& X, const Lame& material, model::Element element) {
+  if (element == model::Element::bbar) return bbar_stiffness(X, material);
   const auto K = full_stiffness(X, material);
   Stiffness K_e = K.topLeftCorner<24, 24>();
   if (element == model::Element::incompatible) K_e += K.topRightCorner<24, 9>() * condensation(K);
@@ -137,13 +167,16 @@ StressOperator stress(const Coordinates& X, const Lame& material, model::Element
   Condensation C = Condensation::Zero();
   if (element == model::Element::incompatible) C = condensation(full_stiffness(X, material));
   const Eigen::Matrix3d J_0 = centre_jacobian(X);
+  const bool bbar = element == model::Element::bbar;
+  const Lame at_points = bbar ? deviatoric(material) : material;
   StressOperator S = StressOperator::Zero();
   for (int p = 0; p < 8; ++p) {
     double det = 0;
-    const auto DB = isotropic_stress<kFunctions>(gradients(X, stiffness_points()[p], J_0, &det), material);
+    const auto DB = isotropic_stress<kFunctions>(gradients(X, stiffness_points()[p], J_0, &det), at_points);
     const Eigen::Matrix<double, 6, 24> at_point = DB.leftCols<24>() + DB.rightCols<9>() * C;
     for (int a = 0; a < 8; ++a) S.middleRows<6>(6 * a) += shape(std::sqrt(3.0) * corner(a))(p) * at_point;
   }
+  if (bbar) add_mean_pressure(X, material, S);
   return S;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Words and units of the body file.
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "elastogear/base/error.h"
@@ -27,13 +29,17 @@ inline model::Basis parse_basis(const std::string& path, const std::string& name
   return model::Basis::full;
 }
 
+// In the order of model::Element.
+inline constexpr const char* kElementNames[] = {"incompatible", "plain", "bbar"};
+
 inline std::string element_name(model::Element element) {
-  return element == model::Element::incompatible ? "incompatible" : "plain";
+  return kElementNames[static_cast<std::size_t>(element)];
 }
 inline model::Element parse_element(const std::string& path, const std::string& name) {
-  if (name == "incompatible") return model::Element::incompatible;
-  require(name == "plain", path, ": unknown element '", name, "', allowed are incompatible, plain");
-  return model::Element::plain;
+  const auto* const found = std::find(std::begin(kElementNames), std::end(kElementNames), name);
+  require(found != std::end(kElementNames), path, ": unknown element '", name,
+          "', allowed are incompatible, plain, bbar");
+  return static_cast<model::Element>(found - std::begin(kElementNames));
 }
 
 }  // namespace elastogear::io

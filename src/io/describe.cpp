@@ -35,8 +35,19 @@ void describe_sets(Out& out, const char* kind, const std::map<std::string, Set>&
   for (const auto& [name, members] : sets) line(out, "  ", name, ": ", members.size());
 }
 
+// "12 hex8, 4 wedge6"
+std::string cell_types(const mesh::Cells& cells) {
+  std::map<mesh::CellType, int> count;
+  for (mesh::CellType type : cells.type) ++count[type];
+  std::string text;
+  for (const auto& [type, n] : count)
+    text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + mesh::name(type);
+  return text;
+}
+
 void describe_mesh(Out& out, const mesh::Mesh& mesh) {
-  line(out, "mesh: ", counted(mesh.n_nodes(), "node"), ", ", counted(mesh.cells.size(), "hexahedron cell"));
+  line(out, "mesh: ", counted(mesh.n_nodes(), "node"), ", ", counted(mesh.cells.size(), "cell"), " (",
+       cell_types(mesh.cells), ")");
   if (mesh.n_nodes() > 0)
     line(out, "box: (", mesh.X.rowwise().minCoeff().transpose().format(kRow), ") to (",
          mesh.X.rowwise().maxCoeff().transpose().format(kRow), ") m");
@@ -78,7 +89,7 @@ void describe_body(Out& out, const std::string& path) {
   line(out, "body: ", body.name);
   describe_modes(out, body);
   describe_inertia(out, body.inertia);
-  line(out, "element: hex8 ", element_name(source.element), ", ",
+  line(out, "element of hex8 cells: ", element_name(source.element), ", ",
        counted(source.free_dof.size(), "free degree"), " of freedom");
   for (const auto& [cell_set, material] : source.regions)
     line(out, "material of ", cell_set.empty() ? "all other cells" : cell_set, ": E = ", material.E,

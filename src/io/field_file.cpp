@@ -8,7 +8,10 @@
 namespace elastogear::io {
 namespace {
 
-constexpr std::uint8_t kVtkHexahedron = 12;  // the node order is ours
+// VTK's cell types in the order of mesh::CellType.
+constexpr std::uint8_t kVtkType[mesh::kCellTypes] = {12, 25, 10, 24, 13, 26, 14};
+// VTK's node order is ours but for the wedges: their first triangle faces outward.
+constexpr int kVtkWedge[] = {0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13};
 constexpr const char* kTensor[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
 
 std::string escaped(const std::string& text) {
@@ -56,9 +59,22 @@ void add_field(Grid& grid, const NodeField& field) {
              field.values.data(), static_cast<std::size_t>(field.values.size()));
 }
 
+bool is_wedge(mesh::CellType type) {
+  return type == mesh::CellType::wedge6 || type == mesh::CellType::wedge15;
+}
+
+std::vector<int> vtk_nodes(const mesh::Cells& cells) {
+  std::vector<int> nodes = cells.nodes;
+  for (int i = 0; i < cells.size(); ++i)
+    if (is_wedge(cells.type[i]))
+      for (int k = 0; k < std::ssize(cells[i]); ++k) nodes[cells.offset[i] + k] = cells[i][kVtkWedge[k]];
+  return nodes;
+}
+
 void add_cells(Grid& grid, const mesh::Cells& cells) {
-  const std::vector<std::uint8_t> type(cells.type.size(), kVtkHexahedron);
-  grid.array("type=\"Int32\" Name=\"connectivity\"", cells.nodes.data(), cells.nodes.size());
+  std::vector<std::uint8_t> type;
+  for (mesh::CellType t : cells.type) type.push_back(kVtkType[static_cast<int>(t)]);
+  grid.array("type=\"Int32\" Name=\"connectivity\"", vtk_nodes(cells).data(), cells.nodes.size());
   grid.array("type=\"Int32\" Name=\"offsets\"", cells.offset.data() + 1, cells.type.size());
   grid.array("type=\"UInt8\" Name=\"types\"", type.data(), type.size());
 }

@@ -5,8 +5,6 @@
 namespace elastogear::io {
 namespace {
 
-constexpr const char* kHex8 = "hex8";
-
 template <class Set, class Write>
 void write_sets(const h5::File& file, const std::string& group, const std::map<std::string, Set>& sets,
                 const Write& write) {
@@ -39,9 +37,12 @@ std::map<std::string, std::vector<int>> read_sets(const h5::File& file, const st
 
 void write_mesh(const h5::File& file, const mesh::Mesh& mesh) {
   h5::write<double>(file, "/mesh/X", view(mesh.X), "m");
-  const std::vector<int> type(mesh.cells.size(), 0);
-  h5::write<int>(file, "/mesh/cell_type", view(type), "1");
-  h5::set_attribute(file, "/mesh/cell_type", "type_0", kHex8);
+  std::vector<int> types;
+  for (mesh::CellType type : mesh.cells.type) types.push_back(static_cast<int>(type));
+  h5::write<int>(file, "/mesh/cell_type", view(types), "1");
+  for (int type = 0; type < mesh::kCellTypes; ++type)
+    h5::set_attribute(file, "/mesh/cell_type", "type_" + std::to_string(type),
+                      mesh::name(static_cast<mesh::CellType>(type)));
   h5::write<int>(file, "/mesh/cell_offset", view(mesh.cells.offset), "1");
   h5::write<int>(file, "/mesh/cell_nodes", view(mesh.cells.nodes), "1");
   const auto numbers = [](const std::vector<int>& set) { return view(set); };
@@ -54,8 +55,9 @@ mesh::Mesh read_mesh(const h5::File& file) {
   mesh::Mesh mesh;
   mesh.X = read_points(file, "/mesh/X");
   for (int type : h5::read<int>(file, "/mesh/cell_type", {h5::kAny})) {
-    require(type == 0, file.path, ": /mesh/cell_type holds ", type, ", allowed is 0 (", kHex8, ")");
-    mesh.cells.type.push_back(mesh::CellType::hex8);
+    require(type >= 0 && type < mesh::kCellTypes, file.path, ": /mesh/cell_type holds ", type,
+            ", allowed are 0..", mesh::kCellTypes - 1);
+    mesh.cells.type.push_back(static_cast<mesh::CellType>(type));
   }
   mesh.cells.offset = h5::read<int>(file, "/mesh/cell_offset", {mesh.cells.type.size() + 1});
   mesh.cells.nodes = h5::read<int>(file, "/mesh/cell_nodes", {h5::kAny});

@@ -1,25 +1,6 @@
 #include "face_owner.h"
 
-#include <algorithm>
-
 namespace elastogear::mesh {
-namespace {
-
-Face sorted(Face face) {
-  std::sort(face.begin(), face.end());
-  return face;
-}
-
-// The same nodes in the same cyclic order.
-bool same_direction(const Face& a, Face b) {
-  for (int turn = 0; turn < 4; ++turn) {
-    if (a == b) return true;
-    std::rotate(b.begin(), b.begin() + 1, b.end());
-  }
-  return false;
-}
-
-}  // namespace
 
 std::size_t FaceOwners::Hash::operator()(const Face& face) const {
   std::size_t h = 0;
@@ -29,21 +10,22 @@ std::size_t FaceOwners::Hash::operator()(const Face& face) const {
 
 FaceOwners::FaceOwners(const Mesh& mesh) {
   for (const auto& [name, faces] : mesh.face_sets)
-    for (const Face& face : faces) owners_.try_emplace(sorted(face));
+    for (const Face& face : faces) owners_.try_emplace(face_key(face));
   if (owners_.empty()) return;
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const auto faces = cell_faces(mesh.cells.type[cell], mesh.cells[cell]);
-    for (int side = 0; side < static_cast<int>(faces.size()); ++side) {
-      const auto found = owners_.find(sorted(faces[side]));
-      if (found == owners_.end()) continue;
-      auto& [first, second] = found->second;
-      (first.cell < 0 ? first : second) = {cell, side, faces[side]};
-    }
+    const auto sides = cell_sides(mesh.cells.type[cell], mesh.cells[cell]);
+    for (int side = 0; side < std::ssize(sides); ++side)
+      for (const Face& face : sides[side]) {
+        const auto found = owners_.find(face_key(face));
+        if (found == owners_.end()) continue;
+        auto& [first, second] = found->second;
+        (first.cell < 0 ? first : second) = {cell, side, face};
+      }
   }
 }
 
 std::optional<FaceOwner> FaceOwners::find(const Face& face) const {
-  const auto found = owners_.find(sorted(face));
+  const auto found = owners_.find(face_key(face));
   if (found == owners_.end() || found->second[0].cell < 0) return std::nullopt;
   const auto& [first, second] = found->second;
   return second.cell >= 0 && same_direction(second.face, face) ? second : first;

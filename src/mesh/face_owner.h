@@ -26,7 +26,7 @@ class FaceOwners {
   struct Hash {
     std::size_t operator()(const Face& face) const;
   };
-  std::unordered_map<Face, std::array<FaceOwner, 2>, Hash> owners_;  // by sorted nodes
+  std::unordered_map<Face, std::array<FaceOwner, 2>, Hash> owners_;  // by face_key
 };
 
 /// Turns faces of the mesh's face sets that no cell has in this direction outward.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "elastogear/base/file.h"
 #include "elastogear/mesh/inp.h"
@@ -14,7 +15,7 @@ namespace {
 
 using Tag = std::int64_t;
 
-constexpr int kCorners = 8, kSides = 6;
+constexpr int kMaxSides = 6;
 
 struct SurfaceLine {
   std::string name;     // of the surface
@@ -28,7 +29,9 @@ struct Raw {
   std::vector<Tag> node;
   std::vector<double> X;  // 3 per node
   std::vector<Tag> cell;
-  std::vector<Tag> cell_node;       // 8 per cell
+  std::vector<CellType> cell_type;
+  std::vector<std::size_t> cell_offset{0};
+  std::vector<Tag> cell_node;       // cell i: cell_offset[i] .. cell_offset[i + 1]
   std::vector<Tag> other_elements;  // shells, beams, ...: left out, but sets may name them
   InpSets node_sets{"node"}, cell_sets{"element"};
   InpNames surfaces;
@@ -62,15 +65,16 @@ void read_nodes(InpLines& in, const Keyword& key, Raw& raw) {
 }
 
 // One element may take several lines.
-std::vector<Tag> read_element(InpLines& in) {
+std::vector<Tag> read_element(InpLines& in, CellType type) {
+  const std::size_t n = 1 + static_cast<std::size_t>(node_count(type));
   std::vector<Tag> numbers;
   do {
     for (std::string_view field : in.fields())
       numbers.push_back(in.parse_field<Tag>(field, "an element or node number"));
-  } while (numbers.size() < 1 + kCorners && in.next_data());
-  if (numbers.size() != 1 + kCorners)
+  } while (numbers.size() < n && in.next_data());
+  if (numbers.size() != n)
     in.fail_here("element ", numbers.empty() ? 0 : numbers[0], " has ", numbers.size() - 1,
-                 " nodes, its type needs 8");
+                 " nodes, its type needs ", n - 1);
   return numbers;
 }
 
@@ -82,12 +86,14 @@ std::vector<Tag> read_other_elements(InpLines& in) {
   return numbers;
 }
 
-std::vector<Tag> read_hexahedra(InpLines& in, Raw& raw) {
+std::vector<Tag> read_cells(InpLines& in, CellType type, Raw& raw) {
   std::vector<Tag> cells;
   while (in.next_data()) {
-    const std::vector<Tag> numbers = read_element(in);
+    const std::vector<Tag> numbers = read_element(in, type);
     cells.push_back(numbers[0]);
+    raw.cell_type.push_back(type);
     raw.cell_node.insert(raw.cell_node.end(), numbers.begin() + 1, numbers.end());
+    raw.cell_offset.push_back(raw.cell_node.size());
   }
   raw.cell.insert(raw.cell.end(), cells.begin(), cells.end());
   return cells;
@@ -95,12 +101,12 @@ std::vector<Tag> read_hexahedra(InpLines& in, Raw& raw) {
 
 void read_elements(InpLines& in, const Keyword& key, Raw& raw) {
   const std::string type = key.has("TYPE") ? upper(key.parameters.at("TYPE")) : "";
-  const bool hex8 = type.starts_with("C3D8");
-  if (type.empty() || (!hex8 && type.starts_with("C3D")))
-    in.fail_here("element type '", type,
-                 "', of solids only C3D8 and its variants (C3D8I, C3D8R, ...) are read");
-  const std::vector<Tag> elements = hex8 ? read_hexahedra(in, raw) : read_other_elements(in);
-  if (!hex8) {
+  const std::optional<CellType> solid = inp_format::cell_type(type);
+  if (type.empty() || (!solid && type.starts_with("C3D")))
+    in.fail_here("element type '", type, "', of solids only C3D4, 5, 6, 8, 10, 15, 20 and their variants ",
+                 "(C3D8I, C3D20R, ...) are read");
+  const std::vector<Tag> elements = solid ? read_cells(in, *solid, raw) : read_other_elements(in);
+  if (!solid) {
     raw.other_elements.insert(raw.other_elements.end(), elements.begin(), elements.end());
     raw.ignored.push_back("*ELEMENT, TYPE=" + type + " (line " + std::to_string(key.line) + ")");
   }
@@ -139,7 +145,7 @@ void read_surface(InpLines& in, const Keyword& key, Raw& raw) {
   while (in.next_data()) {
     const auto& fields = in.fields();
     const std::string label = fields.size() == 2 ? upper(fields[1]) : "";
-    const bool known = label.size() == 2 && label[0] == 'S' && label[1] >= '1' && label[1] < '1' + kSides;
+    const bool known = label.size() == 2 && label[0] == 'S' && label[1] >= '1' && label[1] < '1' + kMaxSides;
     if (!known)
       in.fail_here("surface '", name, "' needs an element or element set and a face S1..S6, found '",
                    fields.size() > 1 ? fields[1] : "", "'");
@@ -180,7 +186,11 @@ void build_surfaces(const InpLines& in, const Raw& raw, const TagTable& cells, M
   for (const SurfaceLine& line : raw.surface_lines) {
     auto& faces = mesh.face_sets[line.name];
     const auto add = [&](int cell) {
-      faces.push_back(cell_faces(mesh.cells.type[cell], mesh.cells[cell])[line.side]);
+      const auto sides = cell_sides(mesh.cells.type[cell], mesh.cells[cell]);
+      if (line.side >= std::ssize(sides))
+        in.fail_at(line.line, "surface '", line.name, "' names side S", line.side + 1, " of a ",
+                   name(mesh.cells.type[cell]), ", which has ", sides.size());
+      faces.insert(faces.end(), sides[line.side].begin(), sides[line.side].end());
     };
     if (const auto number = parse<Tag>(line.members)) {
       const int cell = cells.find(*number);
@@ -199,17 +209,18 @@ void build_surfaces(const InpLines& in, const Raw& raw, const TagTable& cells, M
 
 Mesh build(const std::string& path, const InpLines& in, const Raw& raw, double unit_in_m) {
   const TagTable nodes(raw.node, "node", path), cells(raw.cell, "element", path);
-  require(cells.size() > 0, path, ": the mesh has no elements C3D8");
+  require(cells.size() > 0, path, ": the mesh has no solid elements (C3D...)");
   Mesh mesh;
   mesh.X.resize(3, nodes.size());
   for (int i = 0; i < nodes.size(); ++i)
     mesh.X.col(i) = unit_in_m * Eigen::Map<const Eigen::Vector3d>(&raw.X[3 * nodes.position(i)]);
   for (int i = 0; i < cells.size(); ++i) {
-    int corner[kCorners];
-    for (int k = 0; k < kCorners; ++k)
-      corner[k] = nodes.at(raw.cell_node[kCorners * cells.position(i) + k],
-                           [&] { return "element " + std::to_string(raw.cell[cells.position(i)]); });
-    mesh.cells.add(CellType::hex8, corner);
+    const int at = cells.position(i);
+    std::vector<int> cell_nodes;
+    for (std::size_t k = raw.cell_offset[at]; k < raw.cell_offset[at + 1]; ++k)
+      cell_nodes.push_back(
+          nodes.at(raw.cell_node[k], [&] { return "element " + std::to_string(raw.cell[at]); }));
+    mesh.cells.add(raw.cell_type[at], cell_nodes);
   }
   const auto fail_at = [&](int line, const std::string& text) { in.fail_at(line, text); };
   mesh.node_sets = raw.node_sets.resolve(nodes, {}, fail_at);

@@ -45,14 +45,39 @@ void write_nodes(std::string& out, const Mesh& mesh) {
   }
 }
 
-void write_elements(std::string& out, const Mesh& mesh, const std::string& element) {
-  out += "*ELEMENT, TYPE=" + element + "\n";
+// One block per run of cells of one type.
+void write_elements(std::string& out, const Mesh& mesh, const std::string& hex8) {
+  const auto& type = mesh.cells.type;
   for (int i = 0; i < mesh.cells.size(); ++i) {
+    if (i == 0 || type[i] != type[i - 1]) {
+      out += "*ELEMENT, TYPE=";
+      out += type[i] == CellType::hex8 ? hex8 : inp_format::kElementTypes[static_cast<int>(type[i])];
+      out += '\n';
+    }
     print(out, i + 1);
-    for (int node : mesh.cells[i]) {
-      out += ", ";
+    for (int k = 0; int node : mesh.cells[i]) {
+      out += ++k % kNumbersPerLine == 0 ? ",\n" : ", ";
       print(out, node + 1);
     }
+    out += '\n';
+  }
+}
+
+// Sides in the order of their first faces. A side of a second-order cell is written whole or not at all.
+void write_surface(std::string& out, const Mesh& mesh, const FaceOwners& owners, const std::string& name) {
+  std::map<std::pair<int, int>, std::size_t> parts;  // faces by cell and side
+  std::vector<std::pair<int, int>> sides;
+  for (const Face& face : mesh.face_sets.at(name)) {
+    const FaceOwner owner = owners.find(face).value();
+    if (parts[{owner.cell, owner.side}]++ == 0) sides.emplace_back(owner.cell, owner.side);
+  }
+  for (const auto& [cell, side] : sides) {
+    const std::size_t whole = cell_sides(mesh.cells.type[cell], mesh.cells[cell])[side].size();
+    require(parts[{cell, side}] == whole, "face set '", name, "' holds ", parts[{cell, side}], " of the ",
+            whole, " parts of side S", side + 1, " of cell ", cell, ": .inp stores whole sides only");
+    print(out, cell + 1);
+    out += ", S";
+    print(out, side + 1);
     out += '\n';
   }
 }
@@ -61,13 +86,7 @@ void write_surfaces(std::string& out, const Mesh& mesh) {
   const FaceOwners owners(mesh);
   for (const auto& [name, faces] : mesh.face_sets) {
     out += "*SURFACE, NAME=" + name + ", TYPE=ELEMENT\n";
-    for (const Face& face : faces) {
-      const FaceOwner owner = owners.find(face).value();
-      print(out, owner.cell + 1);
-      out += ", S";
-      print(out, owner.side + 1);
-      out += '\n';
-    }
+    write_surface(out, mesh, owners, name);
   }
 }
 
@@ -75,7 +94,8 @@ void write_surfaces(std::string& out, const Mesh& mesh) {
 
 void write_inp(const std::string& path, const Mesh& mesh, const std::string& element) {
   validate(mesh, path);
-  require(element.starts_with("C3D8"), path, ": element type '", element, "', allowed are C3D8*");
+  require(inp_format::cell_type(element) == CellType::hex8, path, ": element type '", element,
+          "', allowed are C3D8*");
   check_names(path, mesh.node_sets);
   check_names(path, mesh.cell_sets);
   check_names(path, mesh.face_sets);

@@ -8,10 +8,6 @@
 namespace elastogear::mesh {
 namespace {
 
-// Abaqus faces S1..S6 of the hexahedron, turned outward.
-constexpr int kHexFaces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                 {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
 struct KeyHash {
   std::size_t operator()(const Face& f) const {
     std::size_t h = 0;
@@ -19,11 +15,6 @@ struct KeyHash {
     return h;
   }
 };
-
-Face sorted(Face face) {
-  std::sort(face.begin(), face.end());
-  return face;
-}
 
 template <class Set>
 const Set& named(const std::map<std::string, Set>& sets, const std::string& name, const char* kind) {
@@ -40,7 +31,7 @@ FaceMap count_faces(const Mesh& mesh) {
   FaceMap count;
   count.reserve(static_cast<std::size_t>(mesh.cells.size()) * 4);
   for (int i = 0; i < mesh.cells.size(); ++i)
-    for (const Face& face : cell_faces(mesh.cells.type[i], mesh.cells[i])) ++count[sorted(face)];
+    for (const Face& face : cell_faces(mesh.cells.type[i], mesh.cells[i])) ++count[face_key(face)];
   return count;
 }
 
@@ -71,25 +62,10 @@ void validate_cells(const Mesh& mesh, const std::string& source) {
 
 }  // namespace
 
-int node_count(CellType type) {
-  switch (type) {
-    case CellType::hex8:
-      return 8;
-  }
-  fail("unknown cell type ", static_cast<int>(type));
-}
-
 void Cells::add(CellType t, std::span<const int> cell_nodes) {
   type.push_back(t);
   nodes.insert(nodes.end(), cell_nodes.begin(), cell_nodes.end());
   offset.push_back(static_cast<int>(nodes.size()));
-}
-
-std::vector<Face> cell_faces(CellType type, std::span<const int> nodes) {
-  require(type == CellType::hex8, "unknown cell type ", static_cast<int>(type));
-  std::vector<Face> faces;
-  for (const auto& f : kHexFaces) faces.push_back({nodes[f[0]], nodes[f[1]], nodes[f[2]], nodes[f[3]]});
-  return faces;
 }
 
 std::vector<Face> boundary_faces(const Mesh& mesh, std::vector<int>* cell) {
@@ -97,7 +73,7 @@ std::vector<Face> boundary_faces(const Mesh& mesh, std::vector<int>* cell) {
   std::vector<Face> boundary;
   for (int i = 0; i < mesh.cells.size(); ++i)
     for (const Face& face : cell_faces(mesh.cells.type[i], mesh.cells[i]))
-      if (count.at(sorted(face)) == 1) {
+      if (count.at(face_key(face)) == 1) {
         boundary.push_back(face);
         if (cell) cell->push_back(i);
       }
@@ -115,8 +91,8 @@ void validate(const Mesh& mesh, const std::string& source) {
   const FaceMap faces = count_faces(mesh);
   for (const auto& [name, members] : mesh.face_sets)
     for (const Face& face : members)
-      require(faces.contains(sorted(face)), source, ": face set '", name, "' holds the face (", face[0], ", ",
-              face[1], ", ", face[2], ", ", face[3], "), which is no face of a cell");
+      require(faces.contains(face_key(face)), source, ": face set '", name, "' holds the face (", face[0],
+              ", ", face[1], ", ", face[2], ", ", face[3], "), which is no face of a cell");
 }
 
 const std::vector<int>& node_set(const Mesh& mesh, const std::string& name) {

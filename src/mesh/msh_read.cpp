@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "elastogear/base/file.h"
 #include "elastogear/mesh/msh.h"
 #include "face_owner.h"
+#include "msh_format.h"
 #include "msh_scanner.h"
 #include "tag_table.h"
 
@@ -14,19 +14,13 @@ namespace {
 using Tag = std::int64_t;
 using DimTag = std::pair<int, Tag>;  // dimension and number of an entity or physical group
 
-// Gmsh's element types that are read; lines and triangles are left out and reported.
-struct ElementType {
-  int number;
-  int dim;
-  int n_nodes;
-  const char* name;
+using msh_format::ElementType;
+
+// An element's number in the file and its nodes.
+struct RawElement {
+  Tag tag;
+  std::vector<Tag> nodes;
 };
-constexpr ElementType kTypes[] = {{15, 0, 1, "points"},
-                                  {1, 1, 2, "lines"},
-                                  {2, 2, 3, "triangles"},
-                                  {3, 2, 4, "quadrangles"},
-                                  {5, 3, 8, "hexahedra"}};
-constexpr int kPoint = 15, kQuadrangle = 3, kHexahedron = 5;
 
 // The file as it stands, in its own numbers.
 struct Raw {
@@ -35,9 +29,11 @@ struct Raw {
   std::vector<Tag> node;
   std::vector<double> X;  // 3 per node
   std::vector<Tag> cell;
-  std::vector<Tag> cell_node;  // 8 per cell
+  std::vector<CellType> cell_type;
+  std::vector<std::size_t> cell_offset{0};
+  std::vector<Tag> cell_node;  // cell i: cell_offset[i] .. cell_offset[i + 1]; our order
   std::map<std::string, std::vector<Tag>> cell_sets, node_sets;
-  std::map<std::string, std::vector<Tag>> face_sets;  // 4 nodes per face
+  std::map<std::string, std::vector<RawElement>> face_sets;
   bool has_nodes = false, has_elements = false;
   std::map<std::string, std::size_t> left_out;  // what and how many
 };
@@ -128,23 +124,31 @@ std::string set_name(const Raw& raw, DimTag group) {
 
 ElementType read_type(MshScanner& in, int dim) {
   const int number = in.integer("an element type");
-  for (const ElementType& type : kTypes)
+  for (const ElementType& type : msh_format::kTypes)
     if (type.number == number && type.dim == dim) return type;
   in.fail_here(
       "element type ", number, " in an entity of dimension ", dim,
-      ", allowed are 5 (8-node hexahedron) in 3, 3 (4-node quadrangle) in 2, 15 (point) in 0, and 1, 2 ",
-      "(line, triangle), which are left out");
+      ", allowed are 4, 5, 6, 7 (linear tetrahedron, hexahedron, prism, pyramid), 11, 17, 18 ",
+      "(second-order tetrahedron, hexahedron, prism) in 3, 2, 3, 9, 16 (triangle, quadrangle) in 2, ",
+      "15 (point) in 0, and 1, 8 (line), which are left out");
 }
 
-using Lists = std::vector<std::vector<Tag>*>;
+void add_cell(Raw& raw, CellType type, const RawElement& element) {
+  raw.cell.push_back(element.tag);
+  raw.cell_type.push_back(type);
+  const auto position = msh_format::gmsh_position(type);
+  for (std::size_t k = 0; k < element.nodes.size(); ++k)
+    raw.cell_node.push_back(element.nodes[position.empty() ? k : position[k]]);
+  raw.cell_offset.push_back(raw.cell_node.size());
+}
 
-// The sets' lists in raw that the elements of one block go to.
-Lists block_sets(Raw& raw, DimTag entity, int type) {
-  if (type != kHexahedron && type != kQuadrangle && type != kPoint) return {};
-  auto& sets = type == kHexahedron ? raw.cell_sets : type == kQuadrangle ? raw.face_sets : raw.node_sets;
-  Lists lists;
-  for (Tag group : raw.groups_of[entity]) lists.push_back(&sets[set_name(raw, {entity.first, group})]);
-  return lists;
+// Puts an element into the sets of its entity.
+void add_to_sets(Raw& raw, int dim, const std::vector<std::string>& sets, const RawElement& element) {
+  for (const std::string& set : sets) {
+    if (dim == 0) raw.node_sets[set].push_back(element.nodes[0]);
+    if (dim == 2) raw.face_sets[set].push_back(element);
+    if (dim == 3) raw.cell_sets[set].push_back(element.tag);
+  }
 }
 
 void read_block(MshScanner& in, Raw& raw, std::size_t& total) {
@@ -152,20 +156,16 @@ void read_block(MshScanner& in, Raw& raw, std::size_t& total) {
   const int entity = in.integer("the number of an entity");
   const ElementType type = read_type(in, dim);
   const std::size_t n = in.count("the number of elements in a block");
-  const Lists lists = block_sets(raw, {dim, entity}, type.number);
-  const bool is_cell = type.number == kHexahedron;
-  if (lists.empty() && !is_cell) raw.left_out[std::string(type.name) + " that are in no set"] += n;
+  std::vector<std::string> sets;
+  for (Tag group : raw.groups_of[{dim, entity}]) sets.push_back(set_name(raw, {dim, group}));
+  if (dim == 1) sets.clear();
+  if (sets.empty() && !type.cell) raw.left_out[std::string(type.plural) + " that are in no set"] += n;
+  RawElement element{0, std::vector<Tag>(static_cast<std::size_t>(type.n_nodes))};
   for (std::size_t i = 0; i < n; ++i) {
-    const Tag element = in.tag("an element number");
-    Tag nodes[8];
-    for (int k = 0; k < type.n_nodes; ++k) nodes[k] = in.tag("a node number of an element");
-    if (is_cell) {
-      raw.cell.push_back(element);
-      raw.cell_node.insert(raw.cell_node.end(), nodes, nodes + type.n_nodes);
-      for (auto* list : lists) list->push_back(element);
-    } else {
-      for (auto* list : lists) list->insert(list->end(), nodes, nodes + type.n_nodes);
-    }
+    element.tag = in.tag("an element number");
+    for (Tag& node : element.nodes) node = in.tag("a node number of an element");
+    if (type.cell) add_cell(raw, *type.cell, element);
+    add_to_sets(raw, dim, sets, element);
   }
   total += n;
 }
@@ -228,17 +228,23 @@ void sort_unique(std::vector<int>& members) {
   members.erase(std::unique(members.begin(), members.end()), members.end());
 }
 
+// Faces in the order of their elements' tags, whatever the blocks.
+std::vector<Face> faces(std::vector<RawElement> elements, const TagTable& nodes, const std::string& user) {
+  const auto by_tag = [](const RawElement& a, const RawElement& b) { return a.tag < b.tag; };
+  std::stable_sort(elements.begin(), elements.end(), by_tag);
+  std::vector<Face> found;
+  for (const RawElement& element : elements)
+    for (const Face& face : side_faces(numbers(element.nodes, nodes, user))) found.push_back(face);
+  return found;
+}
+
 void build_sets(const Raw& raw, const TagTable& nodes, const TagTable& cells, Mesh& mesh) {
   for (const auto& [name, tags] : raw.node_sets)
     sort_unique(mesh.node_sets[name] = numbers(tags, nodes, "node set '" + name + "'"));
   for (const auto& [name, tags] : raw.cell_sets)
     sort_unique(mesh.cell_sets[name] = numbers(tags, cells, "cell set '" + name + "'"));
-  for (const auto& [name, tags] : raw.face_sets) {
-    const std::vector<int> corner = numbers(tags, nodes, "face set '" + name + "'");
-    auto& faces = mesh.face_sets[name];
-    for (std::size_t i = 0; i < corner.size(); i += 4)
-      faces.push_back({corner[i], corner[i + 1], corner[i + 2], corner[i + 3]});
-  }
+  for (const auto& [name, elements] : raw.face_sets)
+    mesh.face_sets[name] = faces(elements, nodes, "face set '" + name + "'");
 }
 
 }  // namespace
@@ -246,17 +252,18 @@ void build_sets(const Raw& raw, const TagTable& nodes, const TagTable& cells, Me
 Mesh read_msh(const std::string& path, double unit_in_m, ReadReport* report) {
   const Raw raw = read_raw(path);
   const TagTable nodes(raw.node, "node", path), cells(raw.cell, "cell", path);
-  require(cells.size() > 0, path, ": the mesh has no 8-node hexahedra");
+  require(cells.size() > 0, path, ": the mesh has no solid cells");
   Mesh mesh;
   mesh.X.resize(3, nodes.size());
   for (int i = 0; i < nodes.size(); ++i)
     mesh.X.col(i) = unit_in_m * Eigen::Map<const Eigen::Vector3d>(&raw.X[3 * nodes.position(i)]);
   for (int i = 0; i < cells.size(); ++i) {
-    int corner[8];
-    for (int k = 0; k < 8; ++k)
-      corner[k] = nodes.at(raw.cell_node[8 * cells.position(i) + k],
-                           [&] { return "cell " + std::to_string(raw.cell[cells.position(i)]); });
-    mesh.cells.add(CellType::hex8, corner);
+    const int at = cells.position(i);
+    std::vector<int> cell_nodes;
+    for (std::size_t k = raw.cell_offset[at]; k < raw.cell_offset[at + 1]; ++k)
+      cell_nodes.push_back(
+          nodes.at(raw.cell_node[k], [&] { return "cell " + std::to_string(raw.cell[at]); }));
+    mesh.cells.add(raw.cell_type[at], cell_nodes);
   }
   build_sets(raw, nodes, cells, mesh);
   orient_faces(mesh);

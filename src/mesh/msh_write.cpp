@@ -4,11 +4,18 @@
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 #include "elastogear/mesh/msh.h"
+#include "msh_format.h"
 
 namespace elastogear::mesh {
 namespace {
 
-constexpr int kPoint = 15, kQuadrangle = 3, kHexahedron = 5;
+using namespace msh_format;
+
+int gmsh_type(CellType type) {
+  const auto* const found = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                         [type](const ElementType& t) { return t.cell == type; });
+  return found->number;
+}
 
 // Collects the file's content; numbers go out as text or as bytes.
 struct Out {
@@ -139,17 +146,18 @@ void write_nodes(Out& out, const Mesh& mesh) {
   out.end("Nodes");
 }
 
-template <class Nodes>
-void write_element(Out& out, std::size_t tag, const Nodes& nodes) {
-  out.size(tag);
-  for (int node : nodes) out.size(node + 1);
-  out.end_line();
-}
-
 struct Element {
   std::size_t tag;
-  std::span<const int> nodes;
+  std::vector<int> nodes;  // in Gmsh's order
 };
+
+Element cell_element(const Mesh& mesh, int cell) {
+  const auto nodes = mesh.cells[cell];
+  const auto position = gmsh_position(mesh.cells.type[cell]);
+  Element element{cell + std::size_t{1}, {nodes.begin(), nodes.end()}};
+  for (std::size_t k = 0; k < position.size(); ++k) element.nodes[position[k]] = nodes[k];
+  return element;
+}
 
 // The elements of one entity.
 struct Block {
@@ -157,24 +165,43 @@ struct Block {
   std::vector<Element> elements;
 };
 
-// Cells keep their number as tag, so that their order survives the grouping into volumes. Blocks without
-// elements are left out, because not every reader bears them.
-std::vector<Block> element_blocks(const Mesh& mesh, const std::vector<Volume>& volume) {
-  std::vector<Block> blocks;
+using Blocks = std::vector<Block>;
+
+// Adds an element to the entity's block of its type.
+void add(Blocks& blocks, const Block& head, Element element) {
+  const auto same = [&](const Block& b) {
+    return b.dim == head.dim && b.entity == head.entity && b.type == head.type;
+  };
+  auto found = std::find_if(blocks.rbegin(), blocks.rend(), same);
+  if (found == blocks.rend()) {
+    blocks.push_back(head);
+    found = blocks.rbegin();
+  }
+  found->elements.push_back(std::move(element));
+}
+
+// Cells keep their number as tag, so that their order survives the grouping into volumes, and faces that in
+// their set. Parts of a second-order cell's side are written as the linear faces they are.
+Blocks element_blocks(const Mesh& mesh, const std::vector<Volume>& volume) {
+  Blocks blocks;
   for (int entity = 0; const Volume& v : volume) {
-    blocks.push_back({3, ++entity, kHexahedron, {}});
-    for (int cell : v.cells) blocks.back().elements.push_back({cell + std::size_t{1}, mesh.cells[cell]});
+    ++entity;
+    for (int cell : v.cells)
+      add(blocks, {3, entity, gmsh_type(mesh.cells.type[cell]), {}}, cell_element(mesh, cell));
   }
   std::size_t tag = mesh.cells.size();
   for (int entity = 0; const auto& [name, faces] : mesh.face_sets) {
-    blocks.push_back({2, ++entity, kQuadrangle, {}});
-    for (const Face& face : faces) blocks.back().elements.push_back({++tag, face});
+    ++entity;
+    for (const Face& face : faces) {
+      const bool triangle = face[2] == face[3];
+      add(blocks, {2, entity, triangle ? kTriangle : kQuadrangle, {}},
+          {++tag, {face.begin(), face.end() - (triangle ? 1 : 0)}});
+    }
   }
   for (int entity = 0; const auto& [name, nodes] : mesh.node_sets) {
-    blocks.push_back({0, ++entity, kPoint, {}});
-    for (const int& node : nodes) blocks.back().elements.push_back({++tag, {&node, 1}});
+    ++entity;
+    for (int node : nodes) add(blocks, {0, entity, kPoint, {}}, {++tag, {node}});
   }
-  std::erase_if(blocks, [](const Block& block) { return block.elements.empty(); });
   return blocks;
 }
 

@@ -2,6 +2,8 @@
 
 #include <metis.h>
 
+#include <algorithm>
+
 #include "elastogear/base/error.h"
 
 namespace elastogear::mesh {
@@ -9,8 +11,28 @@ namespace {
 
 static_assert(sizeof(idx_t) == sizeof(int), "METIS must be built with 32-bit indices");
 constexpr idx_t kSeed = 1;
-// Hexahedra that share a face share four nodes.
-constexpr idx_t kCommonNodes = 4;
+
+// The cells' corners in compressed rows. Midside nodes are left out: with them, cells that share only an edge
+// would have as many nodes in common as tetrahedra that share a face.
+struct Corners {
+  std::vector<idx_t> offset{0}, nodes;
+};
+
+Corners corners(const Cells& cells) {
+  Corners result;
+  for (int i = 0; i < cells.size(); ++i) {
+    const auto corner = cells[i].first(corner_count(cells.type[i]));
+    result.nodes.insert(result.nodes.end(), corner.begin(), corner.end());
+    result.offset.push_back(static_cast<idx_t>(result.nodes.size()));
+  }
+  return result;
+}
+
+// The fewest corners that two cells with a common side share.
+idx_t common_corners(const Cells& cells) {
+  const auto is_hexahedron = [](CellType type) { return corner_count(type) == 8; };
+  return std::all_of(cells.type.begin(), cells.type.end(), is_hexahedron) ? 4 : 3;
+}
 
 }  // namespace
 
@@ -20,18 +42,17 @@ Partition partition_cells(const Mesh& mesh, int n_parts) {
   Partition result;
   result.part.assign(mesh.cells.size(), 0);
   if (n_parts == 1) return result;
-  idx_t n_cells = mesh.cells.size(), n_nodes = mesh.n_nodes(), parts = n_parts, common = kCommonNodes;
+  idx_t n_cells = mesh.cells.size(), n_nodes = mesh.n_nodes(), parts = n_parts,
+        common = common_corners(mesh.cells);
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = kSeed;
   options[METIS_OPTION_PTYPE] = METIS_PTYPE_RB;  // better balanced than k-way for few parts
-  // METIS takes non-const pointers and does not write to them.
-  auto* offset = const_cast<idx_t*>(mesh.cells.offset.data());
-  auto* nodes = const_cast<idx_t*>(mesh.cells.nodes.data());
+  Corners corner = corners(mesh.cells);
   std::vector<idx_t> node_part(n_nodes);
-  const int status =
-      METIS_PartMeshDual(&n_cells, &n_nodes, offset, nodes, nullptr, nullptr, &common, &parts, nullptr,
-                         options, &result.edge_cut, result.part.data(), node_part.data());
+  const int status = METIS_PartMeshDual(&n_cells, &n_nodes, corner.offset.data(), corner.nodes.data(),
+                                        nullptr, nullptr, &common, &parts, nullptr, options, &result.edge_cut,
+                                        result.part.data(), node_part.data());
   require(status == METIS_OK, "METIS could not split ", n_cells, " cells into ", n_parts, " parts (status ",
           status, ")");
   return result;

@@ -13,11 +13,6 @@ namespace {
 
 using mesh::Face;
 
-Face key(Face face) {
-  std::sort(face.begin(), face.end());
-  return face;
-}
-
 struct BoundaryFace {
   Face face;  // turned outward
   int cell = 0;
@@ -25,13 +20,13 @@ struct BoundaryFace {
   std::size_t group_size = 0;
 };
 
-using Boundary = std::map<Face, BoundaryFace>;  // by sorted node numbers
+using Boundary = std::map<Face, BoundaryFace>;  // by face_key
 
 Boundary find_boundary(const mesh::Mesh& mesh) {
   std::vector<int> cell;
   const std::vector<Face> faces = mesh::boundary_faces(mesh, &cell);
   Boundary boundary;
-  for (std::size_t i = 0; i < faces.size(); ++i) boundary[key(faces[i])] = {faces[i], cell[i]};
+  for (std::size_t i = 0; i < faces.size(); ++i) boundary[mesh::face_key(faces[i])] = {faces[i], cell[i]};
   return boundary;
 }
 
@@ -39,7 +34,7 @@ Boundary find_boundary(const mesh::Mesh& mesh) {
 void assign_groups(const mesh::Mesh& mesh, Boundary& boundary) {
   for (const auto& [name, faces] : mesh.face_sets)
     for (const Face& face : faces) {
-      const auto found = boundary.find(key(face));
+      const auto found = boundary.find(mesh::face_key(face));
       if (found == boundary.end()) continue;
       BoundaryFace& f = found->second;
       if (f.group && f.group_size <= faces.size()) continue;
@@ -54,7 +49,7 @@ std::vector<BoundaryFace> select_faces(const mesh::Mesh& mesh, const std::vector
   std::vector<BoundaryFace> selected;
   for (const std::string& name : face_sets)
     for (const Face& face : mesh::face_set(mesh, name)) {
-      const auto found = boundary.find(key(face));
+      const auto found = boundary.find(mesh::face_key(face));
       require(found != boundary.end(), "face set '", name, "' holds the face (", face[0], ", ", face[1], ", ",
               face[2], ", ", face[3], "), which is inside the body");
       selected.push_back(found->second);
@@ -65,6 +60,16 @@ std::vector<BoundaryFace> select_faces(const mesh::Mesh& mesh, const std::vector
 double area(const mesh::Mesh& mesh, const Face& f) {
   const Eigen::Vector3d d_1 = mesh.X.col(f[2]) - mesh.X.col(f[0]), d_2 = mesh.X.col(f[3]) - mesh.X.col(f[1]);
   return d_1.cross(d_2).norm() / 2;
+}
+
+// Area of the whole side of the cell that the face is a part of.
+double side_area(const mesh::Mesh& mesh, int cell, const Face& face) {
+  double sum = 0;
+  for (const auto& side : mesh::cell_sides(mesh.cells.type[cell], mesh.cells[cell])) {
+    if (std::find(side.begin(), side.end(), face) == side.end()) continue;
+    for (const Face& part : side) sum += area(mesh, part);
+  }
+  return sum;
 }
 
 double cell_volume(const mesh::Mesh& mesh, int cell) {
@@ -114,7 +119,7 @@ model::Surface make_surface(const mesh::Mesh& mesh, const std::vector<model::Mat
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const double E = regions[region[faces[i].cell]].material.E;
     surface.c_f(static_cast<Eigen::Index>(i)) =
-        E * area(mesh, faces[i].face) / cell_volume(mesh, faces[i].cell);
+        E * side_area(mesh, faces[i].cell, faces[i].face) / cell_volume(mesh, faces[i].cell);
   }
   return surface;
 }

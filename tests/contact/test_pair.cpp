@@ -230,6 +230,17 @@ TEST(Pair, flat_punch_on_a_conforming_mesh_has_every_node_in_contact) {
   }
 }
 
+TEST(Pair, prolonged_open_ends_are_in_reach_of_the_coarse_search) {
+  const model::Surface master = test::plane(4, 4), slave = test::flipped(test::plane(1, 1, 0.1, 0.1));
+  for (Update update : {Update::refit, Update::realign}) {
+    Settings s = settings(1, 1e-3);  // far less than the prolongation of 0.025
+    s.extension = 0.1;
+    s.update = update;
+    EXPECT_EQ(Pair(slave, master, s).detect(at(slave, {1.02, 0.5, -5e-4}), at(master)).size(), 2u);
+    EXPECT_EQ(Pair(slave, master, s).detect(at(slave, {1.03, 0.5, -5e-4}), at(master)).size(), 0u);
+  }
+}
+
 // Elastic foundation: the force on a sphere pressed into a plane is c pi R depth^2.
 TEST(Pair, sphere_on_a_plane_has_the_force_of_an_elastic_foundation) {
   const model::Surface sphere = test::cube(40, test::onto_sphere), plane = test::plane(9, 9, 2, 2);

@@ -175,6 +175,25 @@ TEST(Winner, on_the_far_side_of_a_thin_tooth_is_none) {
   EXPECT_NEAR(deep->g_n, -0.15, roundoff);
 }
 
+// A sharp wedge whose lower side is cut in a fan: a plain sum of face normals would follow the many.
+model::Surface wedge(int n_fan) {
+  model::Surface s;
+  s.X.resize(3, n_fan + 2);
+  s.face.resize(4, n_fan + 1);
+  s.X.col(0).setZero();
+  for (int i = 0; i <= n_fan; ++i) s.X.col(i + 1) << 1, -0.5 + 1.0 * i / n_fan, -0.1;
+  s.X.rightCols(n_fan + 1).row(2).setConstant(-0.1);
+  s.face.col(0) << 0, 1, n_fan + 1, n_fan + 1;
+  for (int i = 0; i < n_fan; ++i) s.face.col(i + 1) << 0, i + 2, i + 1, i + 1;
+  for (int i = 1; i < n_fan; ++i) s.X(2, i + 1) -= 0.2 * i * (n_fan - i) / double(n_fan * n_fan);
+  return s;
+}
+
+TEST(Winner, at_a_sharp_vertex_does_not_depend_on_the_number_of_faces_there) {
+  const Eigen::Vector3d above(-0.02, 0, 0.1);  // in front of the tip, over the single upper face
+  for (int n_fan : {2, 30}) EXPECT_FALSE(Master(wedge(n_fan)).touch(above)) << n_fan;
+}
+
 TEST(Winner, deeper_than_the_limit_is_none) {
   const Master master(test::plane(4, 4));
   EXPECT_TRUE(master.touch({0.4, 0.6, -0.099}, 0.1));

@@ -75,7 +75,8 @@ TEST_P(Stiffness, passes_the_patch_test) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BothElements, Stiffness, testing::Values(Element::plain, Element::incompatible));
+INSTANTIATE_TEST_SUITE_P(Elements, Stiffness,
+                         testing::Values(Element::plain, Element::incompatible, Element::bbar));
 
 TEST(IncompatibleModes, bend_a_rectangular_cell_exactly) {
   const auto mesh = test::brick({1, 1, 1}, {4, 1, 1});

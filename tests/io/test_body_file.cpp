@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include "../fem/other_cells.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "sample_body.h"
@@ -86,6 +87,21 @@ TEST_F(BodyFile, gives_mesh_materials_and_free_dof_back) {
   EXPECT_EQ(b.regions[1].material.E, 1.1e11);
   EXPECT_EQ(b.regions[1].material.nu, 0.34);
   EXPECT_EQ(b.regions[1].material.rho, 8800);
+}
+
+TEST_F(BodyFile, gives_cells_of_every_type_and_every_element_back) {
+  const auto brick = test::brick({2, 2, 2}, {1, 1, 1});
+  for (mesh::CellType type : test::all_cell_types())
+    for (auto element : {model::Element::incompatible, model::Element::plain, model::Element::bbar}) {
+      BodySource source = sample_source();
+      source.mesh = test::cells_of(type, brick);
+      source.mesh.cell_sets["even"] = {0};
+      source.element = element;
+      BodyWriter(path, source.mesh.n_nodes(), 0).finish(sample_full_body(), source);
+      const BodySource read = read_body_source(path);
+      EXPECT_TRUE(mesh::equal(read.mesh, source.mesh)) << mesh::name(type);
+      EXPECT_EQ(read.element, element);
+    }
 }
 
 TEST_F(BodyFile, holds_a_body_without_surface_and_stress_nodes) {

@@ -42,7 +42,7 @@ TEST_F(Describe, mesh_files) {
   for (const char* name : {"box.msh", "box.inp"}) {
     mesh::write_mesh(path(name), mesh::box_mesh_with_sets({2, 1, 1}));
     EXPECT_THAT(describe(path(name)),
-                AllOf(HasSubstr("12 nodes, 2 hexahedron cells"), HasSubstr("flank: 10")));
+                AllOf(HasSubstr("12 nodes, 2 cells (2 hex8)"), HasSubstr("flank: 10")));
   }
 }
 

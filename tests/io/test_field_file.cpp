@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
+#include "../fem/other_cells.h"
 #include "../mesh/box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -42,6 +45,22 @@ TEST_F(FieldFile, holds_mesh_and_fields_as_bytes) {
   EXPECT_EQ(appended<int>(file, "connectivity"), mesh.cells.nodes);
   EXPECT_THAT(appended<int>(file, "offsets"), testing::ElementsAre(8, 16));
   EXPECT_THAT(appended<std::uint8_t>(file, "types"), testing::ElementsAre(12, 12));
+}
+
+TEST_F(FieldFile, turns_the_first_triangle_of_a_wedge_outward_as_vtk_does) {
+  using mesh::CellType;
+  const mesh::Mesh wedges = test::cells_of(CellType::wedge15, test::brick({1, 1, 1}, {1, 1, 1}));
+  write_vtu(folder / "a.vtu", wedges, {});
+  const std::string file = read_file(folder / "a.vtu");
+  EXPECT_THAT(appended<std::uint8_t>(file, "types"), testing::ElementsAre(26, 26));
+  const auto nodes = appended<int>(file, "connectivity");
+  const auto side = [&](int a, int b) { return (wedges.X.col(nodes[b]) - wedges.X.col(nodes[a])).eval(); };
+  EXPECT_LT(side(0, 1).cross(side(0, 2)).dot(side(0, 3)), 0);
+  // VTK's edges of the wedge: round the first triangle, round the second, then along.
+  const int ends[][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+  for (int e = 0; e < 9; ++e)
+    EXPECT_EQ(wedges.X.col(nodes[6 + e]),
+              (wedges.X.col(nodes[ends[e][0]]) + wedges.X.col(nodes[ends[e][1]])) / 2);
 }
 
 TEST_F(FieldFile, refuses_fields_that_do_not_fit_or_are_not_finite) {

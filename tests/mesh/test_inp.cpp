@@ -112,7 +112,8 @@ TEST_F(Inp, names_line_and_value_of_hostile_input) {
   EXPECT_THAT(error("20, 21, 22, 23", "20, 21, 22, 24"), HasSubstr("element 5 names node 24"));
   EXPECT_THAT(error("20, 21, 22, 23", "20, 21, 22"), HasSubstr("has 7 nodes"));
   EXPECT_THAT(error("20, 21, 22, 23", "20, 21, 22, 23, 24"), HasSubstr("has 9 nodes"));
-  EXPECT_THAT(error("C3D8R", "C3D10"), HasSubstr("element type 'C3D10'"));
+  EXPECT_THAT(error("C3D8R", "C3D27"), HasSubstr("element type 'C3D27'"));
+  EXPECT_THAT(error("C3D8R", "C3D10"), HasSubstr("its type needs 10"));
   EXPECT_THAT(error("Bottom, 23", "Bottom, 24"), HasSubstr("line 18: node set 'Mixed' names node 24"));
   EXPECT_THAT(error("Bottom, 23", "Bottum, 23"), HasSubstr("line 18: unknown node set 'BOTTUM'"));
   EXPECT_THAT(error("Bottom, 23", "Mixed"), HasSubstr("contains itself"));
@@ -124,6 +125,43 @@ TEST_F(Inp, names_line_and_value_of_hostile_input) {
   EXPECT_THAT(error("body, S1", "corpus, S1"), HasSubstr("unknown element set 'corpus'"));
   EXPECT_THAT(error("*Heading", "*Include, input=a.inp"), HasSubstr("*INCLUDE is not supported"));
   EXPECT_THAT(error("*Heading", "1, 2"), HasSubstr("line 1: data before the first keyword"));
+}
+
+// One tetrahedron, whose second-order element takes two lines.
+const std::string kTetrahedron = R"(*Node
+ 1, 0., 0., 0.
+ 2, 2., 0., 0.
+ 3, 0., 2., 0.
+ 4, 0., 0., 2.
+ 5, 1., 0., 0.
+ 6, 1., 1., 0.
+ 7, 0., 1., 0.
+ 8, 0., 0., 1.
+ 9, 1., 0., 1.
+ 10, 0., 1., 1.
+*Element, type=C3D10
+ 1, 1, 2, 3, 4,
+ 5, 6, 7, 8, 9, 10
+*Surface, name=skin
+ 1, S3
+)";
+
+TEST_F(Inp, cuts_a_side_with_midside_nodes_into_faces_that_use_them_all) {
+  const Mesh mesh = read(kTetrahedron);
+  EXPECT_EQ(mesh.face_sets.at("skin"),
+            (std::vector<Face>{{1, 5, 8, 8}, {2, 9, 5, 5}, {3, 8, 9, 9}, {5, 9, 8, 8}}));
+}
+
+TEST_F(Inp, refuses_sides_that_a_cell_does_not_have_and_parts_of_sides) {
+  try {
+    read(replaced(kTetrahedron, "1, S3", "1, S5"));
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("line 16: surface 'skin' names side S5 of a tet10, which has 4"));
+  }
+  Mesh mesh = read(kTetrahedron);
+  mesh.face_sets.at("skin").pop_back();
+  EXPECT_THROW(write_inp(path, mesh), Error);
 }
 
 TEST_F(Inp, refuses_names_that_the_format_confuses) {

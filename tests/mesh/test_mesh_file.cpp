@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../fem/other_cells.h"
 #include "box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -38,6 +39,18 @@ TEST_P(MeshFile, gives_the_same_mesh_back_to_the_bit) {
   EXPECT_TRUE(equal(read_mesh(path, 1, &report), mesh));
   EXPECT_TRUE(report.ignored.empty());
   EXPECT_EQ(folder.files(), 1);
+}
+
+TEST_P(MeshFile, gives_cells_of_every_type_back) {
+  const Mesh brick = test::brick({2, 2, 2}, {1, 1, 1});
+  std::vector<Mesh> meshes = {test::mixed(brick, 2),
+                              test::second_order(test::hexahedra_and_wedges(brick, 2))};
+  for (CellType type : test::all_cell_types()) meshes.push_back(test::cells_of(type, brick));
+  for (Mesh& m : meshes) {
+    m.cell_sets["first"] = {0};
+    write(m);
+    EXPECT_TRUE(equal(read_mesh(path), m)) << name(m.cells.type[0]);
+  }
 }
 
 TEST_P(MeshFile, converts_the_unit_of_length) {

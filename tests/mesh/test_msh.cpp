@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "../../src/mesh/msh_format.h"
 #include "box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -121,6 +122,87 @@ TEST_F(Msh, keeps_nodes_and_cells_in_the_order_of_their_tags_whatever_the_blocks
   EXPECT_TRUE(equal(read_msh(path), mesh));
 }
 
+// Midside nodes in Gmsh's order by the corners they lie between (Gmsh reference manual, node ordering).
+struct GmshEdges {
+  CellType type;
+  std::vector<std::array<int, 2>> edges;
+};
+const GmshEdges kGmshEdges[] = {
+    {CellType::tet10, {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}},
+    {CellType::hex20,
+     {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}}},
+    {CellType::wedge15, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}}}};
+
+TEST(MshFormat, finds_every_midside_node_between_the_corners_that_gmsh_puts_it) {
+  for (const GmshEdges& gmsh : kGmshEdges) {
+    const int corners = corner_count(gmsh.type);
+    const auto position = msh_format::gmsh_position(gmsh.type);
+    ASSERT_EQ(std::ssize(position), node_count(gmsh.type));
+    for (int e = 0; e < std::ssize(edges(gmsh.type)); ++e) {
+      auto ours = edges(gmsh.type)[e], theirs = gmsh.edges.at(position[corners + e] - corners);
+      std::sort(ours.begin(), ours.end());
+      std::sort(theirs.begin(), theirs.end());
+      EXPECT_EQ(ours, theirs) << name(gmsh.type) << " edge " << e;
+    }
+  }
+}
+
+TEST_F(Msh, reads_second_order_faces_as_the_parts_of_their_cells_sides) {
+  const std::string cell = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+2 1 "skin"
+$EndPhysicalNames
+$Entities
+0 0 1 1
+1 0 0 0 1 1 1 1 1 0
+1 0 0 0 1 1 1 0 0
+$EndEntities
+$Nodes
+1 10 1 10
+3 1 0 10
+1
+2
+3
+4
+5
+6
+7
+8
+9
+10
+0 0 0
+2 0 0
+0 2 0
+0 0 2
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+0 1 1
+1 0 1
+$EndNodes
+$Elements
+2 2 1 2
+2 1 9 1
+1 2 3 4 6 9 10
+3 1 11 1
+2 1 2 3 4 5 6 7 8 9 10
+$EndElements
+)";
+  const Mesh mesh = read(cell);
+  ASSERT_EQ(mesh.cells.type, std::vector{CellType::tet10});
+  for (int e = 0; e < 6; ++e) {
+    const auto [a, b] = edges(CellType::tet10)[e];
+    EXPECT_EQ(mesh.X.col(mesh.cells[0][4 + e]),
+              (mesh.X.col(mesh.cells[0][a]) + mesh.X.col(mesh.cells[0][b])) / 2);
+  }
+  const auto side = cell_sides(CellType::tet10, mesh.cells[0])[2];
+  EXPECT_THAT(mesh.face_sets.at("skin"), testing::UnorderedElementsAreArray(side));
+}
+
 TEST_F(Msh, names_line_and_value_of_hostile_input) {
   EXPECT_THAT(error("4.1 0 8", "2.2 0 8"), HasSubstr("line 2: MSH version 2.2"));
   EXPECT_THAT(error("4.1 0 8", "4.1 0 4"), HasSubstr("data size 4"));
@@ -137,7 +219,7 @@ TEST_F(Msh, names_line_and_value_of_hostile_input) {
   EXPECT_THAT(error("2 8 10 50", "2 9 10 50"), HasSubstr("announces 9 nodes and holds 8"));
   EXPECT_THAT(error("2 8 10 50", "2 999999999999999 10 50"), HasSubstr("only"));
   EXPECT_THAT(error("4 4 1 9", "4 5 1 9"), HasSubstr("announces 5 elements and holds 4"));
-  EXPECT_THAT(error("3 1 5 1", "3 1 4 2"), HasSubstr("element type 4"));
+  EXPECT_THAT(error("3 1 5 1", "3 1 12 1"), HasSubstr("element type 12"));
   EXPECT_THAT(error("\n3 50 40 30 20", "\n3 50 40 30 10"), HasSubstr("no face of a cell"));
   EXPECT_THAT(error("9 10 11 12 13", "9 10 11 12 12"), HasSubstr("repeats a node"));
   EXPECT_THAT(error("$Elements", "$Nodes"), HasSubstr("a second section $Nodes"));

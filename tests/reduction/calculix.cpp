@@ -27,7 +27,7 @@ void write_mesh(std::ostream& deck, const mesh::Mesh& mesh, const std::string& e
   deck << "*ELEMENT, TYPE=" << element << ", ELSET=EALL\n";
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     deck << cell + 1;
-    for (int node : mesh.cells[cell]) deck << ", " << node + 1;
+    for (int k = 0; int node : mesh.cells[cell]) deck << (++k % 16 == 0 ? ",\n" : ", ") << node + 1;
     deck << "\n";
   }
 }

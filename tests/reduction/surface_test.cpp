@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "../fem/brick.h"
+#include "../fem/other_cells.h"
 #include "elastogear/base/error.h"
 
 namespace {
@@ -26,8 +26,8 @@ TEST(Surface, groups_are_the_smallest_sets_then_the_first_by_name) {
   EXPECT_EQ(surface.group, (std::vector<int>{0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2, 2}));
 }
 
-TEST(Surface, faces_look_outward_and_know_the_stiffness_behind_them) {
-  const auto mesh = test::brick({4, 2, 1}, {4, 2, 3});
+// On a brick of cells 1 x 1 x 3.
+void expect_outward_and_stiff(const mesh::Mesh& mesh) {
   const auto surface = reduction::make_surface(mesh, test::kSteelBody, {"surface"});
   for (int i = 0; i < surface.face.cols(); ++i) {
     const Eigen::Matrix3Xd x = surface.X(Eigen::all, surface.face.col(i));
@@ -39,6 +39,14 @@ TEST(Surface, faces_look_outward_and_know_the_stiffness_behind_them) {
   }
   for (std::size_t i = 0; i < surface.node.size(); ++i)
     EXPECT_EQ(surface.X.col(static_cast<int>(i)), mesh.X.col(surface.node[i]));
+}
+
+TEST(Surface, faces_look_outward_and_know_the_stiffness_behind_them) {
+  expect_outward_and_stiff(test::brick({4, 2, 1}, {4, 2, 3}));
+}
+
+TEST(Surface, parts_of_a_second_order_side_have_the_stiffness_of_the_whole) {
+  expect_outward_and_stiff(test::second_order(test::brick({4, 2, 1}, {4, 2, 3})));
 }
 
 TEST(Surface, inside_the_body_is_an_error_and_so_is_an_unknown_set) {

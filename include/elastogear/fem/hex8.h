@@ -1,11 +1,15 @@
 #pragma once
-// The 8-node hexahedron, plain or with nine incompatible modes (docs/theory.md, section Elements).
+// The 8-node hexahedron: plain, with nine incompatible modes, or B-bar (docs/theory.md, section Elements).
 //
 // Incompatible modes: P_k = 1 - xi_k^2, k = 1..3, for each direction of displacement; E. L. Wilson's modes
 // with the corrected gradient grad P = (det J_0/det J) J_0^-T dP/dxi (J_0: Jacobian at the centre) of R. L.
 // Taylor, P. J. Beresford, E. L. Wilson, "A non-conforming element for stress analysis", Int. J. Numer. Meth.
 // Eng. 10 (1976) 1211-1219: it integrates to zero over the cell, so the patch test is passed on any shape.
 // The modes are condensed statically and carry no mass.
+//
+// B-bar: the dilatation is its mean over the cell, so that nearly incompressible bodies do not lock; T. J. R.
+// Hughes, "Generalization of selective integration procedures to anisotropic and nonlinear media", Int. J.
+// Numer. Meth. Eng. 15 (1980) 1413-1418, with J. C. Nagtegaal's constant dilatation.
 //
 // Dofs are node-major (x y z of node 0, then of node 1, ...); stresses are ordered xx yy zz xy yz xz.
 

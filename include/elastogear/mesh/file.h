@@ -14,7 +14,7 @@ struct ReadReport {
 };
 
 /// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm).
-/// Error naming file and place for anything that is not a complete mesh of 8-node hexahedra.
+/// Error naming file and place for anything that is not a complete mesh of known cells.
 Mesh read_mesh(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
 
 /// Validates and writes (binary for .msh), coordinates in m; the file appears only when complete.

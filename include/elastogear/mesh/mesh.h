@@ -11,14 +11,28 @@
 
 namespace elastogear::mesh {
 
-/// Cell types; node order as in Abaqus (hex8: bottom 0-3 counter-clockwise seen from above, top 4-7).
-enum class CellType : std::uint8_t { hex8 };
+/// Cell types; node order as in Abaqus (hex8: bottom 0-3 counter-clockwise seen from above, top 4-7; wedges
+/// and pyramids likewise; the second-order cells' midside nodes after the corners, in the order of edges()).
+enum class CellType : std::uint8_t { hex8, hex20, tet4, tet10, wedge6, wedge15, pyramid5 };
+inline constexpr int kCellTypes = 7;
 
-/// Number of nodes of a cell type.
+/// "hex8", ...
+const char* name(CellType type);
+
+/// Number of nodes of a cell type, and of those at corners (the first ones).
 int node_count(CellType type);
+int corner_count(CellType type);
+
+/// Corners of the edges; on second-order cells node corner_count + i is the midside node of edge i.
+std::span<const std::array<int, 2>> edges(CellType type);
 
 /// Four node numbers, counter-clockwise seen from outside the body; a triangle repeats its third node.
 using Face = std::array<int, 4>;
+
+/// The same for all faces with these nodes, whatever their direction and first node. Not itself a face.
+Face face_key(Face face);
+/// The same nodes in the same cyclic order?
+bool same_direction(const Face& a, Face b);
 
 /// Cells in compressed rows: cell i has nodes[offset[i]] .. nodes[offset[i+1]-1].
 struct Cells {
@@ -44,8 +58,17 @@ struct Mesh {
   int n_nodes() const { return static_cast<int>(X.cols()); }
 };
 
-/// The cell's faces, outward, in the numbering of Abaqus (S1..S6).
+/// The cell's sides in the numbering of Abaqus (S1..S6), each as faces that point outward. A side of a linear
+/// cell is one face. A side of a second-order cell is cut so that all its nodes take part and both of its
+/// cells cut it alike: a triangle at each corner, and the triangle or quadrilateral of the midside nodes.
+std::vector<std::vector<Face>> cell_sides(CellType type, std::span<const int> cell_nodes);
+
+/// The faces of all sides, in order.
 std::vector<Face> cell_faces(CellType type, std::span<const int> cell_nodes);
+
+/// The faces that a side with these nodes is cut into: 3 or 4 corners in order, then as many midside nodes
+/// (the first between corners 0 and 1) or none.
+std::vector<Face> side_faces(std::span<const int> side_nodes);
 
 /// Faces that belong to one cell only, outward, in cell order; `cell` receives the cell of each when given.
 std::vector<Face> boundary_faces(const Mesh& mesh, std::vector<int>* cell = nullptr);

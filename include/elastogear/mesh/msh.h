@@ -1,6 +1,5 @@
 #pragma once
-// Gmsh MSH 4.1 files. Sets are physical groups: 3-D groups of hexahedra are cell sets, 2-D groups of
-// quadrangles face sets, 0-D groups of points node sets. Nodes and cells are numbered in the order of their
+// Gmsh MSH 4.1 files. Sets are physical groups: 3-D groups are cell sets, 2-D groups face sets, 0-D groups of points node sets. Nodes and cells are numbered in the order of their
 // tags (docs/file_format.md).
 
 #include <string>

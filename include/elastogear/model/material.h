@@ -18,7 +18,8 @@ struct MaterialRegion {
   Material material;
 };
 
-/// hex8: plain isoparametric, or with the nine incompatible modes of Taylor, Beresford & Wilson (1976).
-enum class Element { incompatible, plain };
+/// hex8: plain isoparametric, with the nine incompatible modes of Taylor, Beresford & Wilson (1976), or with
+/// the mean dilatation of Hughes (1980). Other cells have one formulation each.
+enum class Element { incompatible, plain, bbar };
 
 }  // namespace elastogear::model
