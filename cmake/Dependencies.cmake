@@ -13,3 +13,16 @@ if(NOT TARGET METIS::METIS)
   set_target_properties(METIS::METIS PROPERTIES IMPORTED_LOCATION "${METIS_LIBRARY}"
                         INTERFACE_INCLUDE_DIRECTORIES "${METIS_INCLUDE_DIR}")
 endif()
+if(NOT TARGET MUMPS::DMUMPS)
+  find_path(MUMPS_INCLUDE_DIR dmumps_c.h REQUIRED)
+  find_library(DMUMPS_LIBRARY dmumps REQUIRED)
+  add_library(MUMPS::DMUMPS UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(MUMPS::DMUMPS PROPERTIES IMPORTED_LOCATION "${DMUMPS_LIBRARY}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${MUMPS_INCLUDE_DIR}")
+endif()
+if(NOT TARGET LAPACK)  # the same files as PETSc's, so that Debian's choice of BLAS holds for both
+  find_library(ELASTOGEAR_LAPACK lapack REQUIRED)
+  find_library(ELASTOGEAR_BLAS blas REQUIRED)
+  add_library(LAPACK INTERFACE IMPORTED GLOBAL)
+  target_link_libraries(LAPACK INTERFACE "${ELASTOGEAR_LAPACK}" "${ELASTOGEAR_BLAS}")
+endif()

@@ -6,15 +6,14 @@
 #include <cmath>
 
 #include "elastogear/base/error.h"
+#include "elastogear/reduction/windows.h"
+#include "residual.h"
 
 namespace elastogear::reduction {
 namespace {
 
 using UniqueEPS = Handle<EPS, EPSDestroy>;
 
-// A mechanism's eigenvalue is roundoff of the largest one, max K_ii/M_ii; the lowest elastic one of a slender
-// finely meshed body is still some 1e-9 of it.
-constexpr double kZeroEigenvalue = 1e-13;
 constexpr double kSameModulus = 1e-6;
 
 struct Monitor {
@@ -70,12 +69,6 @@ UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
   return eps;
 }
 
-[[noreturn]] void fail_singular(const std::string& detail) {
-  fail("the stiffness is singular (", detail,
-       "): the restrained nodes do not hold the body, or parts of the mesh hang together by an edge or a "
-       "node only");
-}
-
 void solve(EPS eps, const EigenOptions& options, const Progress& progress) {
   Monitor context{&progress, options.n_modes};
   check(EPSMonitorSet(eps, monitor, &context, nullptr));
@@ -106,45 +99,6 @@ std::vector<std::pair<double, int>> sorted_pairs(EPS eps) {
   return pairs;
 }
 
-double largest_ratio(Mat K, Mat M) {
-  UniqueVec k, m;
-  PetscReal largest = 0;
-  check(MatCreateVecs(K, k.out(), m.out()));
-  check(MatGetDiagonal(K, k));
-  check(MatGetDiagonal(M, m));
-  check(VecPointwiseDivide(k, k, m));
-  check(VecMax(k, nullptr, &largest));
-  return largest;
-}
-
-void require_definite(Mat K, Mat M, double lowest) {
-  const double scale = largest_ratio(K, M);
-  if (lowest > kZeroEigenvalue * scale) return;
-  fail_singular("its lowest eigenvalue is " + std::to_string(lowest) + " rad^2/s^2");
-}
-
-// Rayleigh quotient (more exact than the solver's value) and residual of one vector; scales it to phi' M phi
-// = 1.
-struct Workspace {
-  UniqueVec phi, K_phi, M_phi;
-};
-
-void measure(Mat K, Mat M, const Workspace& w, double* eigenvalue, double* residual) {
-  PetscScalar mass = 0, stiffness = 0;
-  PetscReal force = 0, rest = 0;
-  check(MatMult(M, w.phi, w.M_phi));
-  check(VecDot(w.phi, w.M_phi, &mass));
-  check(VecScale(w.phi, 1 / std::sqrt(mass)));
-  check(VecScale(w.M_phi, 1 / std::sqrt(mass)));
-  check(MatMult(K, w.phi, w.K_phi));
-  check(VecDot(w.phi, w.K_phi, &stiffness));
-  check(VecNorm(w.K_phi, NORM_2, &force));
-  check(VecAXPY(w.K_phi, -stiffness, w.M_phi));
-  check(VecNorm(w.K_phi, NORM_2, &rest));
-  *eigenvalue = stiffness;
-  *residual = rest / force;
-}
-
 // A shift between the last wanted and the next known eigenvalue; the number of eigenvalues below it that are
 // known. Equal eigenvalues stay together.
 std::pair<double, int> shift_above(const std::vector<std::pair<double, int>>& pairs, int wanted) {
@@ -161,6 +115,41 @@ void verify_count(Mat K, Mat M, double sigma, int known) {
   require(exact == known, "the eigensolver found ", known, " of the ", exact, " modes below ",
           std::sqrt(sigma) / (2 * M_PI),
           " Hz; use a larger basis (-eps_ncv) or a smaller tolerance (-eps_tol)");
+}
+
+// Any -<prefix>eps_* or -<prefix>st_* on the command line or in a file asks for SLEPc's solvers.
+bool has_slepc_options(const std::string& prefix) {
+  char* text = nullptr;
+  check(PetscOptionsGetAll(nullptr, &text));
+  const std::string all = std::string(" ") + text;
+  check(PetscFree(text));
+  return all.find(" -" + prefix + "eps_") != std::string::npos ||
+         all.find(" -" + prefix + "st_") != std::string::npos;
+}
+
+// All modes from one shift-and-invert about 0; the count is checked afterwards.
+Eigenmodes find_by_slepc(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
+                         const Progress& progress) {
+  UniqueEPS eps = create_solver(K, M, options);
+  solve(eps, options, progress);
+  const auto pairs = sorted_pairs(eps);
+  require_definite(K, M, pairs.front().first);
+  Eigenmodes modes{Eigen::VectorXd(options.n_modes), Eigen::VectorXd(options.n_modes), 0};
+  PetscInt iterations = 0;
+  check(EPSGetIterationNumber(eps, &iterations));
+  modes.iterations = static_cast<int>(iterations);
+  const Residual w = make_residual(K);
+  for (int i = 0; i < options.n_modes; ++i) {
+    check(EPSGetEigenvector(eps, pairs[i].second, w.phi, nullptr));
+    measure(K, M, w, &modes.eigenvalue(i), &modes.residual(i));
+    sink(i, w.phi);
+  }
+  eps = {};  // frees the factorisation before the next one
+  if (options.verify_count) {
+    const auto [sigma, known] = shift_above(pairs, options.n_modes);
+    verify_count(K, M, sigma, known);
+  }
+  return modes;
 }
 
 }  // namespace
@@ -196,28 +185,8 @@ void require_mode_count(int n_modes, int n_free) {
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress) {
   require_mode_count(options.n_modes, size_of(K));
-  UniqueEPS eps = create_solver(K, M, options);
-  solve(eps, options, progress);
-  const auto pairs = sorted_pairs(eps);
-  require_definite(K, M, pairs.front().first);
-  Eigenmodes modes{Eigen::VectorXd(options.n_modes), Eigen::VectorXd(options.n_modes), 0};
-  PetscInt iterations = 0;
-  check(EPSGetIterationNumber(eps, &iterations));
-  modes.iterations = static_cast<int>(iterations);
-  Workspace w;
-  check(MatCreateVecs(K, w.phi.out(), w.K_phi.out()));
-  check(VecDuplicate(w.phi, w.M_phi.out()));
-  for (int i = 0; i < options.n_modes; ++i) {
-    check(EPSGetEigenvector(eps, pairs[i].second, w.phi, nullptr));
-    measure(K, M, w, &modes.eigenvalue(i), &modes.residual(i));
-    sink(i, w.phi);
-  }
-  eps = {};  // frees the factorisation before the next one
-  if (options.verify_count) {
-    const auto [sigma, known] = shift_above(pairs, options.n_modes);
-    verify_count(K, M, sigma, known);
-  }
-  return modes;
+  return has_slepc_options(options.prefix) ? find_by_slepc(K, M, options, sink, progress)
+                                           : find_by_windows(K, M, options, sink, progress);
 }
 
 void fix_sign(Eigen::VectorXd& phi) {

@@ -135,6 +135,7 @@ void reduce_modal(Job& job, const fem::Matrices& matrices) {
   };
   EigenOptions options;
   options.n_modes = job.options.n_modes;
+  options.window = job.options.window;
   options.prefix = job.options.prefix;
   const Eigenmodes modes = find_eigenmodes(matrices.K, matrices.M, options, keep, job.progress);
   set_modal_matrices(plan.body, modes.eigenvalue);

@@ -1,0 +1,28 @@
+#pragma once
+// What every eigensolver of this module does with a vector it found.
+
+#include <Eigen/Core>
+#include <string>
+
+#include "elastogear/base/petsc.h"
+
+namespace elastogear::reduction {
+
+struct Residual {
+  UniqueVec phi, K_phi, M_phi;
+};
+
+Residual make_residual(Mat K);
+
+/// phi := own rows.
+void load(const Residual& w, const Eigen::Ref<const Eigen::VectorXd>& own);
+
+/// Scales phi to phi' M phi = 1. eigenvalue: the Rayleigh quotient (more exact than a solver's value);
+/// residual: |K phi - eigenvalue M phi| / |K phi|.
+void measure(Mat K, Mat M, const Residual& w, double* eigenvalue, double* residual);
+
+/// Throws Error unless the lowest eigenvalue is above roundoff of the largest.
+void require_definite(Mat K, Mat M, double lowest);
+[[noreturn]] void fail_singular(const std::string& detail);
+
+}  // namespace elastogear::reduction

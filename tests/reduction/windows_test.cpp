@@ -1,0 +1,147 @@
+#include "elastogear/reduction/windows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "../fem/system.h"
+#include "elastogear/base/error.h"
+#include "elastogear/reduction/ordering.h"
+
+namespace {
+
+using namespace elastogear;
+
+constexpr double kEigensolver = 1e-9;  // relative, of eigenvalues
+constexpr double kOrthogonality = 1e-8;
+constexpr double kRoundoff = 1e-10;  // relative, of a solution, times the condition number
+constexpr int kModes = 24;
+
+// A beam of square section: its bending eigenvalues come in equal pairs.
+test::System square_beam() { return test::assemble(test::brick({6, 2, 2}, {1, 0.2, 0.2}), {"xmin"}); }
+
+// Held on one face: symmetric about both mid-planes and the diagonals, so that pairs are equal here too.
+test::System cube() { return test::assemble(test::brick({4, 4, 4}, {1, 1, 1}), {"xmin"}); }
+
+struct Solution {
+  reduction::Eigenmodes modes;
+  Eigen::MatrixXd gram;  // phi_i' M phi_j
+};
+
+Solution solve(const test::System& system, const reduction::EigenOptions& options) {
+  std::vector<UniqueVec> phi;
+  Solution solution;
+  const auto keep = [&](int i, Vec v) {
+    EXPECT_EQ(i, static_cast<int>(phi.size()));
+    check(VecDuplicate(v, phi.emplace_back().out()));
+    check(VecCopy(v, phi.back()));
+  };
+  const auto& [K, M] = system.matrices;
+  solution.modes = reduction::find_eigenmodes(K, M, options, keep);
+  UniqueVec M_phi;
+  check(MatCreateVecs(M, nullptr, M_phi.out()));
+  solution.gram.resize(options.n_modes, options.n_modes);
+  for (int i = 0; i < options.n_modes; ++i) {
+    check(MatMult(M, phi[i], M_phi));
+    for (int j = 0; j < options.n_modes; ++j) check(VecDot(phi[j], M_phi, &solution.gram(i, j)));
+  }
+  return solution;
+}
+
+void expect_orthonormal(const Solution& solution) {
+  const auto n = solution.gram.rows();
+  EXPECT_LT((solution.gram - Eigen::MatrixXd::Identity(n, n)).lpNorm<Eigen::Infinity>(), kOrthogonality);
+}
+
+void expect_equal(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (Eigen::Index i = 0; i < a.size(); ++i) EXPECT_NEAR(a(i) / b(i), 1, kEigensolver) << i;
+}
+
+TEST(Windows, many_give_the_modes_of_one) {
+  for (const test::System& system : {square_beam(), cube()}) {
+    const Solution one = solve(system, {.n_modes = kModes});
+    expect_orthonormal(one);
+    for (int size : {3, 8}) {
+      const Solution many = solve(system, {.n_modes = kModes, .window = size, .block = 4});
+      expect_equal(many.modes.eigenvalue, one.modes.eigenvalue);
+      expect_orthonormal(many);
+      EXPECT_GT(many.modes.iterations, one.modes.iterations) << "one window held all";
+    }
+  }
+}
+
+TEST(Windows, give_the_modes_of_krylov_schur) {
+  const test::System system = square_beam();
+  check(PetscOptionsSetValue(nullptr, "-ks_eps_type", "krylovschur"));
+  const Solution theirs = solve(system, {.n_modes = kModes, .prefix = "ks_"});
+  check(PetscOptionsClearValue(nullptr, "-ks_eps_type"));
+  const Solution ours = solve(system, {.n_modes = kModes, .window = 10, .block = 8});
+  expect_equal(ours.modes.eigenvalue, theirs.modes.eigenvalue);
+  EXPECT_LT(ours.modes.residual.maxCoeff(), 1e-7);
+}
+
+TEST(Windows, do_not_depend_on_the_number_of_ranks) {
+  const auto mesh = test::brick({6, 2, 2}, {1, 0.2, 0.2});
+  const reduction::EigenOptions options{.n_modes = kModes, .window = 10, .block = 8};
+  expect_equal(solve(test::assemble(mesh, {"xmin"}), options).modes.eigenvalue,
+               solve(test::assemble(mesh, {"xmin"}, PETSC_COMM_SELF), options).modes.eigenvalue);
+}
+
+TEST(Windows, that_lost_a_mode_are_an_error_naming_both_counts) {
+  const test::System system = square_beam();
+  const Eigen::VectorXd all = solve(system, {.n_modes = 13}).modes.eigenvalue;
+  reduction::ShiftedFactor factor(system.matrices.K, system.matrices.M);
+  reduction::Window window;
+  int n = 12;
+  while (all(n) < 1.001 * all(n - 1)) --n;
+  window.upper = (all(n - 1) + all(n)) / 2;
+  window.eigenvalue = all.head(n);
+  EXPECT_NO_THROW(reduction::require_complete(factor, window));
+  window.eigenvalue = all.head(n - 1);
+  try {
+    reduction::require_complete(factor, window);
+    ADD_FAILURE() << "a lost mode went unnoticed";
+  } catch (const Error& error) {
+    const std::string expected = "found " + std::to_string(n - 1) + " of the " + std::to_string(n);
+    EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+  }
+}
+
+TEST(ShiftedFactor, solves_for_many_right_hand_sides_in_both_orders_of_elimination) {
+  const test::System system = square_beam();
+  const auto& [K, M] = system.matrices;
+  UniqueVec x, b;
+  check(MatCreateVecs(K, x.out(), b.out()));
+  PetscInt own = 0;
+  check(VecGetLocalSize(x, &own));
+  for (const auto ordering : {reduction::Ordering::metis, reduction::Ordering::mumps}) {
+    reduction::ShiftedFactor factor(K, M, ordering);
+    EXPECT_EQ(factor.factorise(0), 0);
+    Eigen::MatrixXd B(own, 3);
+    for (int j = 0; j < 3; ++j) {
+      check(VecSet(x, j + 1));
+      check(MatMult(K, x, b));
+      const PetscScalar* values = nullptr;
+      check(VecGetArrayRead(b, &values));
+      B.col(j) = Eigen::Map<const Eigen::VectorXd>(values, own);
+      check(VecRestoreArrayRead(b, &values));
+    }
+    factor.solve(B);
+    for (int j = 0; j < 3; ++j) EXPECT_LT((B.col(j).array() - (j + 1)).abs().maxCoeff(), kRoundoff);
+  }
+}
+
+TEST(NestedDissection, orders_every_row_once) {
+  const test::System system = square_beam();
+  std::vector<int> position = reduction::nested_dissection(system.matrices.K);
+  int rank = 0;
+  PetscInt n = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  check(MatGetSize(system.matrices.K, &n, nullptr));
+  ASSERT_EQ(static_cast<int>(position.size()), rank == 0 ? n : 0);
+  std::sort(position.begin(), position.end());
+  for (std::size_t i = 0; i < position.size(); ++i) EXPECT_EQ(position[i], static_cast<int>(i));
+}
+
+}  // namespace
