@@ -31,7 +31,8 @@ const OptionTable kTable = {
     {"basis", "-", "modal",
      "modal: eigenmodes; full: every free degree of freedom (the finite-element reference)"},
     {"modes", "-", "100", "number of eigenmodes"},
-    {"window", "-", "256", "eigenmodes found at a time; memory: about twice as many displacement vectors"},
+    {"window", "-", "0",
+     "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc (-eps_*, -st_*)"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
 };
@@ -58,7 +59,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.stress_nodes = options.list("stress_nodes");
   o.basis = options.choice("basis", {"modal", "full"}) == 0 ? model::Basis::modal : model::Basis::full;
   o.n_modes = options.count("modes", 1);
-  o.window = options.count("window", 1);
+  o.window = options.count("window");
   o.alpha = options.number("damping_alpha");
   o.beta = options.number("damping_beta");
   o.provenance = options.provenance();

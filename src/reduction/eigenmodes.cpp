@@ -117,16 +117,6 @@ void verify_count(Mat K, Mat M, double sigma, int known) {
           " Hz; use a larger basis (-eps_ncv) or a smaller tolerance (-eps_tol)");
 }
 
-// Any -<prefix>eps_* or -<prefix>st_* on the command line or in a file asks for SLEPc's solvers.
-bool has_slepc_options(const std::string& prefix) {
-  char* text = nullptr;
-  check(PetscOptionsGetAll(nullptr, &text));
-  const std::string all = std::string(" ") + text;
-  check(PetscFree(text));
-  return all.find(" -" + prefix + "eps_") != std::string::npos ||
-         all.find(" -" + prefix + "st_") != std::string::npos;
-}
-
 // All modes from one shift-and-invert about 0; the count is checked afterwards.
 Eigenmodes find_by_slepc(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                          const Progress& progress) {
@@ -185,8 +175,8 @@ void require_mode_count(int n_modes, int n_free) {
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress) {
   require_mode_count(options.n_modes, size_of(K));
-  return has_slepc_options(options.prefix) ? find_by_slepc(K, M, options, sink, progress)
-                                           : find_by_windows(K, M, options, sink, progress);
+  return options.window > 0 ? find_by_windows(K, M, options, sink, progress)
+                            : find_by_slepc(K, M, options, sink, progress);
 }
 
 void fix_sign(Eigen::VectorXd& phi) {

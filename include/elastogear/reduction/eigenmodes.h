@@ -14,7 +14,7 @@ struct EigenOptions {
   int n_modes = 100;
   double tolerance = 1e-10;  ///< relative residual at which a mode counts as converged
   bool verify_count = true;  ///< count the eigenvalues below each window's end by the inertia of K - sigma M
-  int window = 256;          ///< modes per window at most; memory: about twice as many vectors
+  int window = 0;            ///< > 0: windows of at most so many modes; memory: about twice as many vectors
   int block = 16;            ///< right-hand sides that go through the factor together
   std::string prefix = {};   ///< of the options: -<prefix>eps_type, -<prefix>st_pc_type, ...
 };
@@ -32,11 +32,11 @@ using ModeSink = std::function<void(int index, Vec phi)>;
 /// Throws Error naming both numbers unless 1 <= n_modes <= n_free.
 void require_mode_count(int n_modes, int n_free);
 
-/// Block Lanczos in windows up the spectrum (reduction/windows.h). With any -<prefix>eps_* or -<prefix>st_*
-/// in the options database SLEPc's solver that they choose, by default Krylov-Schur with shift-and-invert
-/// about 0 and MUMPS' Cholesky, for all modes at once. Reports the stage "eigenmodes". Collective. Throws
-/// Error when n_modes is not in 1..n (n: size of K), when K is singular (the body is not held, or has a
-/// mechanism), when modes do not converge or are missing.
+/// SLEPc's Krylov-Schur with shift-and-invert about 0 and MUMPS' Cholesky for all modes at once, unless the
+/// options database says otherwise; with options.window > 0 block Lanczos in windows up the spectrum
+/// (reduction/windows.h). Reports the stage "eigenmodes". Collective. Throws Error when n_modes is not
+/// in 1..n (n: size of K), when K is singular (the body is not held, or has a mechanism), when modes do not
+/// converge or are missing.
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress = {});
 

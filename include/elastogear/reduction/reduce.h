@@ -24,7 +24,7 @@ struct ReductionOptions {
   std::vector<std::string> stress_nodes = {};  ///< node sets
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                                   ///< modal only
-  int window = 256;                                    ///< modes found at a time, see EigenOptions
+  int window = 0;                                      ///< modes found at a time, see EigenOptions
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
   std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
