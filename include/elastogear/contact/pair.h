@@ -10,18 +10,16 @@
 
 namespace elastogear::contact {
 
-enum class Update {
-  refit,
-  realign
-};  ///< how trees follow the motion: leaf-up from the deformed surface, or k-DOPs rotated by hull points
+/// How trees follow the motion: leaf-up from the deformed surface, or k-DOPs rotated by their hull points.
+enum class Update { refit, realign };
 enum class Penalty { per_node, per_area };
 
 struct Settings {
   int k = 24;  ///< k-DOP directions: 6, 14, 18, 24, 26
   Update update = Update::refit;
   Penalty penalty = Penalty::per_area;
-  double stiffness =
-      0;  ///< per_node: N/m, per_area: Pa/m; 0 = from material and cell size (c_f of both sides in series)
+  /// per_node: N/m, per_area: Pa/m; 0 = from material and cell size (c_f of both sides in series)
+  double stiffness = 0;
   int slave = 0;              ///< which of the two surfaces gives the slave nodes
   bool two_pass = false;      ///< swap the roles in a second pass, half the stiffness each
   double depth = 0;           ///< m, deepest penetration still taken for contact; 0 = from the face size
