@@ -9,8 +9,8 @@
 namespace elastogear::fem {
 
 /// K in N/m, M in kg, MATAIJ, both symmetric positive definite when the restraint holds the body, and of one
-/// sparsity. (Not MATSBAIJ, which would halve the memory: PETSc 3.18's MatAXPY adds only a part of it on
-/// several ranks, and with it K - sigma M is wrong.)
+/// sparsity. (Not MATSBAIJ, which would halve the memory: on several ranks the inertia of K - sigma M formed
+/// by PETSc 3.18's MatAXPY came out wrong there; the cause is not known.)
 struct Matrices {
   UniqueMat K, M;
 };
