@@ -35,8 +35,11 @@ const OptionTable kTable = {
      "penalty stiffness; 0: from material and size of the cells, both sides in series"},
     {"contact_depth", "m", "0", "deepest penetration still taken for contact; 0: from the size of the faces"},
     {"contact_kdop", "-", "24", "directions of the bounding volumes: 6, 14, 18, 24 or 26"},
-    {"contact_update", "-", "refit",
-     "how the trees follow the motion: refit (leaf-up) or realign (hull points)"},
+    {"contact_skin", "m", "0",
+     "relative motion after which the surfaces are searched anew; 0: from the size of the faces"},
+    {"contact_update", "-", "bound",
+     "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
+     "(leaf-up from the deformed surface) or realign (hull points)"},
     {"contact_tangent", "-", "full", "contact tangent: full, or normal (without its geometric part)"},
     {"inertia", "-", "linear", "dependence of the inertia on the deformation: constant or linear"},
     {"analysis", "-", "dynamic", "dynamic"},
@@ -79,8 +82,9 @@ contact::Settings contact_settings(const Options& options) {
                          : contact::Penalty::per_node;
   settings.stiffness = options.number("contact_stiffness");
   settings.depth = options.number("contact_depth");
-  settings.update = options.choice("contact_update", {"refit", "realign"}) == 0 ? contact::Update::refit
-                                                                                : contact::Update::realign;
+  settings.skin = options.number("contact_skin");
+  settings.update =
+      static_cast<contact::Update>(options.choice("contact_update", {"bound", "refit", "realign"}));
   settings.full_tangent = options.choice("contact_tangent", {"full", "normal"}) == 0;
   return settings;
 }

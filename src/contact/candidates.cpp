@@ -34,15 +34,17 @@ void Candidates::sort_by_node(int n_nodes) {
   }
   face_.resize(near_.size());
   for (const auto& [node, f] : near_) face_[end_[node]++] = f;
+  nodes_.clear();
   for (int i = 0; i < n_nodes; ++i) {
     const auto first = face_.begin() + begin_[i], last = face_.begin() + end_[i];
+    if (first != last) nodes_.push_back(i);
     if (last - first < 2) continue;
     std::sort(first, last);
     end_[i] = static_cast<int>(std::unique(first, last) - face_.begin());
   }
 }
 
-std::span<int> Candidates::operator[](int slave_node) {
+std::span<const int> Candidates::operator[](int slave_node) const {
   return std::span(face_).subspan(begin_[slave_node], end_[slave_node] - begin_[slave_node]);
 }
 

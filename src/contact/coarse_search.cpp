@@ -4,7 +4,7 @@ namespace elastogear::contact {
 
 CoarseSearch::CoarseSearch(const model::Surface& a, const model::Surface& b, int k, Update update)
     : surface_{&a, &b}, update_(update), tree_{build(a.X, a.face, k), build(b.X, b.face, k)} {
-  if (update_ == Update::refit) return;
+  if (update_ != Update::realign) return;
   for (int node = 0; node < tree_[0].n_nodes(); ++node) rest_.push_back(box(tree_[0], node));
   visited_.assign(rest_.size(), 0);
 }
@@ -25,11 +25,10 @@ void CoarseSearch::realign_pair(int first, const Realignment& motion, double mar
 const std::vector<NodePair>& CoarseSearch::face_pairs(const Configuration& configuration, double margin) {
   std::function<void(int)> visit;
   Realignment motion;
-  if (update_ == Update::refit) {
+  if (update_ != Update::realign) {
     refit_both(configuration, margin);
   } else {  // b's tree stays as built: a's boxes take the whole margin
     ++call_;
-    margin += configuration.deformation;
     motion = realignment(tree_[0].k, configuration.R, configuration.r);
     visit = [&](int first) { realign_pair(first, motion, margin); };
   }

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "elastogear/base/error.h"
 #include "elastogear/contact/candidates.h"
 #include "elastogear/contact/coarse_search.h"
+#include "elastogear/contact/deformation_bound.h"
 #include "elastogear/contact/penalty.h"
 #include "elastogear/contact/tangent.h"
+#include "elastogear/contact/vicinity.h"
 
 namespace elastogear::contact {
 namespace {
@@ -16,15 +20,24 @@ namespace {
 struct Side {
   const model::Surface* surface;
   Topology topology;
+  DeformationBound bound;
+  Ball ball;
   Eigen::VectorXd c_p;         // N/m, of each node as slave
   std::vector<int> last_face;  // master face each node touched last; -1
 };
 
-Side make_side(const model::Surface& surface, const Settings& settings) {
+Side make_side(const model::Surface& surface, const Settings& settings,
+               const Eigen::SparseMatrix<double>* K_r) {
   const int n_s = static_cast<int>(surface.X.cols());
-  return {&surface, topology(surface.face, n_s), node_stiffness(settings, surface),
+  return {&surface,
+          topology(surface.face, n_s),
+          deformation_bound(surface.Phi, K_r ? *K_r : Eigen::SparseMatrix<double>()),
+          enclosing_ball(surface.X),
+          node_stiffness(settings, surface),
           std::vector<int>(n_s, -1)};
 }
+
+constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
 
 double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
   return std::sqrt((state.x_B - surface.X).colwise().squaredNorm().maxCoeff());
@@ -75,49 +88,106 @@ struct Pair::Data {
   Settings settings;
   Side side[2];
   CoarseSearch search;
-  Configuration configuration;
-  Candidates candidates;
+  double reach;  // m, largest distance of a slave node from a master face's corners that can still matter
+  Configuration configuration = {};
+  std::optional<Vicinity> vicinity = {};
+  int n_searches = 0, n_displaced = 0;
 
   SurfaceView view(int i, double extension) const {
     return {side[i].surface->face, side[i].topology, configuration.x[i], extension};
   }
+  std::vector<int> passes() const;
   void place(const SurfaceState& a, const SurfaceState& b);
-  double margin() const;
-  void run_pass(int slave_side, const std::vector<NodePair>& face_pairs, double margin,
-                std::vector<ContactPoint>& contacts);
+  void place(const SurfaceMotion* motion[2], bool deformed);
+  void place_vicinity(const SurfaceMotion* motion[2]);
+  bool is_valid(const SurfaceMotion* motion[2]) const;
+  void find_vicinity(double margin);
+  void find_vicinity(const SurfaceMotion* motion[2]);
+  void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
+  std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
 };
+
+std::vector<int> Pair::Data::passes() const {
+  return settings.two_pass ? std::vector{settings.slave, 1 - settings.slave} : std::vector{settings.slave};
+}
 
 // Common frame: the BRF of b.
 void Pair::Data::place(const SurfaceState& a, const SurfaceState& b) {
-  configuration.R.noalias() = b.R_WB.transpose() * a.R_WB;
-  configuration.r.noalias() = b.R_WB.transpose() * (a.r_WB - b.r_WB);
-  configuration.x[0].noalias() = configuration.R * a.x_B;
-  configuration.x[0].colwise() += configuration.r;
+  const RelativeMotion motion = relative_motion({{}, a.r_WB, a.R_WB}, {{}, b.r_WB, b.R_WB});
+  configuration.R = motion.R;
+  configuration.r = motion.r;
+  configuration.x[0].noalias() = motion.R * a.x_B;
+  configuration.x[0].colwise() += motion.r;
   configuration.x[1] = b.x_B;
-  if (settings.update == Update::realign)
-    configuration.deformation =
-        largest_displacement(a, *side[0].surface) + largest_displacement(b, *side[1].surface);
 }
 
-// Largest distance of a slave node from a master face's corners that can still matter.
-double Pair::Data::margin() const {
-  return settings.depth +
-         std::max(extension_reach(view(0, settings.extension)), extension_reach(view(1, settings.extension)));
+void Pair::Data::place(const SurfaceMotion* motion[2], bool deformed) {
+  SurfaceState state[2];
+  for (int i : {0, 1})
+    state[i] = deformed ? surface_state(*side[i].surface, *motion[i])
+                        : SurfaceState{side[i].surface->X, motion[i]->r_WB, motion[i]->R_WB};
+  place(state[0], state[1]);
 }
 
-void Pair::Data::run_pass(int slave_side, const std::vector<NodePair>& face_pairs, double margin,
-                          std::vector<ContactPoint>& contacts) {
+// Only the nodes that the fine search reads.
+void Pair::Data::place_vicinity(const SurfaceMotion* motion[2]) {
+  const RelativeMotion relative = relative_motion(*motion[0], *motion[1]);
+  for (int i : {0, 1}) {
+    const model::Surface& surface = *side[i].surface;
+    for (int node : vicinity->node[i]) {
+      const Eigen::Vector3d x_B = surface.X.col(node) + model::displacement(surface.Phi, node, motion[i]->q);
+      require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
+              " is not finite");
+      configuration.x[i].col(node) = i == 0 ? Eigen::Vector3d(relative.R * x_B + relative.r) : x_B;
+    }
+  }
+  n_displaced = static_cast<int>(vicinity->node[0].size() + vicinity->node[1].size());
+}
+
+bool Pair::Data::is_valid(const SurfaceMotion* motion[2]) const {
+  if (!vicinity) return false;
+  const SurfaceMotion* then = vicinity->found_at;
+  double way = 0;
+  for (int i : {0, 1}) way += largest_displacement(side[i].bound, motion[i]->q - then[i].q);
+  Ball ball = side[0].ball;
+  ball.radius += largest_displacement(side[0].bound, then[0].q);
+  way += travel(ball, relative_motion(then[0], then[1]), relative_motion(*motion[0], *motion[1]));
+  return way <= settings.skin;
+}
+
+// Candidates within `margin` of each other where the nodes are placed now.
+void Pair::Data::find_vicinity(double margin) {
+  const auto& face_pairs = search.face_pairs(configuration, margin);
+  const Topology* topologies[2] = {&side[0].topology, &side[1].topology};
+  const Eigen::Matrix4Xi* faces[2] = {&side[0].surface->face, &side[1].surface->face};
+  if (!vicinity) vicinity.emplace();
+  for (auto& nodes : vicinity->node) nodes.clear();
+  for (int slave : passes()) {
+    Candidates& candidates = vicinity->candidates[slave];
+    candidates.collect(face_pairs, slave, view(slave, 0), view(1 - slave, settings.extension), margin);
+    add_nodes_to_place(candidates, slave, topologies, faces, vicinity->node);
+  }
+  ++n_searches;
+}
+
+void Pair::Data::find_vicinity(const SurfaceMotion* motion[2]) {
+  const bool deformed = settings.update == Update::refit;
+  double margin = reach + settings.skin;
+  for (int i : {0, 1})
+    if (!deformed) margin += largest_displacement(side[i].bound, motion[i]->q);
+  place(motion, deformed);
+  find_vicinity(margin);
+  for (int i : {0, 1}) vicinity->found_at[i] = *motion[i];
+}
+
+void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = view(slave_side, 0), master = view(1 - slave_side, settings.extension);
   const Limits limits{settings.depth, std::cos(settings.normal_angle * std::numbers::pi / 180)};
+  const Candidates& candidates = vicinity->candidates[slave_side];
   Side& slaves = side[slave_side];
-  candidates.collect(face_pairs, slave_side, slave, master, margin);
-  for (int node = 0; node < slave.x.cols(); ++node) {
-    const auto faces = candidates[node];
-    if (faces.empty()) continue;
-    const auto cached = std::find(faces.begin(), faces.end(), slaves.last_face[node]);
-    if (cached != faces.end()) std::iter_swap(faces.begin(), cached);
+  for (int node : candidates.nodes()) {
     const SlaveNode q{slave.x.col(node), [&] { return node_normal(slave, node); }};
-    const auto winner = find_winner(master, q, limits, faces);
+    const auto winner = find_winner(master, q, limits, candidates[node], slaves.last_face[node]);
     slaves.last_face[node] = winner ? winner->face : -1;
     if (!winner) continue;
     contacts.push_back(make_contact(master, *winner, slaves.c_p[node], settings.full_tangent));
@@ -126,35 +196,63 @@ void Pair::Data::run_pass(int slave_side, const std::vector<NodePair>& face_pair
   }
 }
 
-Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given) {
+std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R_WB) {
+  std::vector<ContactPoint> contacts;
+  for (int slave : passes()) run_pass(slave, contacts);
+  for (ContactPoint& contact : contacts) rotate(contact, R_WB);
+  return contacts;
+}
+
+SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion) {
+  SurfaceState state{surface.X, motion.r_WB, motion.R_WB};
+  if (motion.q.size() > 0) state.x_B += model::multiply(surface.Phi, motion.q).reshaped(3, surface.X.cols());
+  return state;
+}
+
+Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
+           const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r) {
   validate(given);
   validate(a, 0);
   validate(b, 1);
   const Settings settings = with_defaults(given, a, b);
   data_.reset(new Data{settings,
-                       {make_side(a, settings), make_side(b, settings)},
+                       {make_side(a, settings, K_r[0]), make_side(b, settings, K_r[1])},
                        CoarseSearch(a, b, settings.k, settings.update),
-                       {},
-                       {}});
+                       settings.depth});
+  for (int i : {0, 1}) data_->configuration.x[i] = data_->side[i].surface->X;
+  const double reach[2] = {extension_reach(data_->view(0, settings.extension)),
+                           extension_reach(data_->view(1, settings.extension))};
+  data_->reach += kStretch * std::max(reach[0], reach[1]);
 }
 
 Pair::~Pair() = default;
 Pair::Pair(Pair&&) noexcept = default;
 
 const Settings& Pair::settings() const { return data_->settings; }
+int Pair::n_searches() const { return data_->n_searches; }
+int Pair::n_displaced() const { return data_->n_displaced; }
 
 std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState& b) {
   Data& d = *data_;
-  validate(a, *d.side[0].surface, 0);
-  validate(b, *d.side[1].surface, 1);
+  const SurfaceState* state[2] = {&a, &b};
+  double margin = d.reach;
+  for (int i : {0, 1}) {
+    validate(*state[i], *d.side[i].surface, i);
+    if (d.settings.update == Update::realign) margin += largest_displacement(*state[i], *d.side[i].surface);
+  }
   d.place(a, b);
-  const double margin = d.margin();
-  const auto& face_pairs = d.search.face_pairs(d.configuration, margin);
-  std::vector<ContactPoint> contacts;
-  d.run_pass(d.settings.slave, face_pairs, margin, contacts);
-  if (d.settings.two_pass) d.run_pass(1 - d.settings.slave, face_pairs, margin, contacts);
-  for (ContactPoint& contact : contacts) rotate(contact, b.R_WB);
+  d.find_vicinity(margin);
+  std::vector<ContactPoint> contacts = d.contacts(b.R_WB);
+  d.vicinity.reset();  // of no use for a surface whose motion is not known
   return contacts;
+}
+
+std::vector<ContactPoint> Pair::detect(const SurfaceMotion& a, const SurfaceMotion& b) {
+  const SurfaceMotion* motion[2] = {&a, &b};
+  for (int i : {0, 1}) validate(*motion[i], *data_->side[i].surface, i);
+  if (!data_->is_valid(motion)) data_->find_vicinity(motion);
+  data_->place_vicinity(motion);
+  return data_->contacts(b.R_WB);
 }
 
 }  // namespace elastogear::contact

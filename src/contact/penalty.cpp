@@ -12,6 +12,8 @@ namespace {
 
 constexpr const char* surface_name[2] = {"contact: surface a", "contact: surface b"};
 
+constexpr double kSkin = 0.25;  // of the face size: dozens of time steps, and few more nodes than at 0
+
 double mean_stiffness(const model::Surface& surface, int side) {
   const auto n_f = surface.face.cols();
   require(surface.c_f.size() == n_f && (surface.c_f.array() > 0).all() && surface.c_f.allFinite(),
@@ -26,6 +28,8 @@ void validate(const Settings& s) {
   require(std::isfinite(s.stiffness) && s.stiffness >= 0, "contact: stiffness ", s.stiffness,
           ", allowed are positive values and 0 (from material and cell size)");
   require(std::isfinite(s.depth) && s.depth >= 0, "contact: depth ", s.depth,
+          ", allowed are positive values and 0 (from the face size)");
+  require(std::isfinite(s.skin) && s.skin >= 0, "contact: skin ", s.skin,
           ", allowed are positive values and 0 (from the face size)");
   require(s.slave == 0 || s.slave == 1, "contact: slave ", s.slave, ", allowed are 0 and 1");
   require(s.normal_angle >= 90 && s.normal_angle <= 180, "contact: normal_angle ", s.normal_angle,
@@ -54,13 +58,23 @@ void validate(const SurfaceState& state, const model::Surface& surface, int side
     require(state.x_B.col(i).allFinite(), surface_name[side], ": position of node ", i, " is not finite");
 }
 
+void validate(const SurfaceMotion& motion, const model::Surface& surface, int side) {
+  const Eigen::Index n_q = std::visit([](const auto& rows) { return rows.cols(); }, surface.Phi);
+  require(motion.q.size() == n_q, surface_name[side], ": ", motion.q.size(),
+          " elastic coordinates given, the surface has ", n_q);
+  require(motion.q.allFinite() && motion.r_WB.allFinite() && motion.R_WB.allFinite(), surface_name[side],
+          ": the body's placement or its elastic coordinates are not finite");
+}
+
 Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b) {
   if (settings.stiffness == 0) {
     settings.stiffness = 1 / (1 / mean_stiffness(a, 0) + 1 / mean_stiffness(b, 1));
     const model::Surface& slave = settings.slave == 0 ? a : b;
     if (settings.penalty == Penalty::per_node) settings.stiffness *= node_areas(slave.X, slave.face).mean();
   }
-  if (settings.depth == 0) settings.depth = 0.5 * std::min(face_size(a.X, a.face), face_size(b.X, b.face));
+  const double size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
+  if (settings.depth == 0) settings.depth = 0.5 * size;
+  if (settings.skin == 0) settings.skin = kSkin * size;
   require(settings.depth > 0, "contact: the faces have no area, give the depth");
   return settings;
 }

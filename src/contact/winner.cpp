@@ -31,17 +31,29 @@ double distance_bound(const Face& face, const Eigen::Vector3d& q) {
   return std::max(0.0, out.norm() - reach);
 }
 
+// Master faces that a slave node is tried against.
+struct Trial {
+  const SurfaceView& master;
+  Eigen::Vector3d q;
+  double depth;
+  std::span<const int> faces;
+  int likely;
+};
+
 template <class Accept>
-Nearest nearest(const SurfaceView& master, const Eigen::Vector3d& q, double depth, std::span<const int> faces,
-                const Accept& accept) {
-  Nearest best(depth * depth);
-  for (int f : faces) {
-    const Face face = face_of(master, f);
-    const double bound = distance_bound(face, q);
-    if (bound * bound > best.distance2) continue;
-    const ClosestPoint p = closest_point(face, q);
+Nearest nearest(const Trial& trial, const Accept& accept) {
+  Nearest best(trial.depth * trial.depth);
+  const auto offer = [&](int f) {
+    const Face face = face_of(trial.master, f);
+    const double bound = distance_bound(face, trial.q);
+    if (bound * bound > best.distance2) return;
+    const ClosestPoint p = closest_point(face, trial.q);
     if (accept(face, p)) best.offer(f, p);
-  }
+  };
+  const bool known = std::binary_search(trial.faces.begin(), trial.faces.end(), trial.likely);
+  if (known) offer(trial.likely);
+  for (int f : trial.faces)
+    if (!known || f != trial.likely) offer(f);
   return best;
 }
 
@@ -77,15 +89,16 @@ Winner make_winner(const SurfaceView& master, const Eigen::Vector3d& q, const Ne
 }  // namespace
 
 std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
-                                  std::span<const int> faces) {
-  const Nearest any = nearest(master, slave.x, limits.depth, faces, [](auto&&...) { return true; });
+                                  std::span<const int> faces, int likely) {
+  const Trial trial{master, slave.x, limits.depth, faces, likely};
+  const Nearest any = nearest(trial, [](auto&&...) { return true; });
   if (!any.found() || place(master, slave.x, any) == Place::outside) return {};
   const Eigen::Vector3d n_slave = slave.normal();
   const auto opposes = [&](const Face& face, const ClosestPoint& p) {
     return normal(face, p.u, p.v).dot(n_slave) <= limits.cos_angle;
   };
   const bool settled = opposes(face_of(master, any.face), any.point);
-  const Nearest best = settled ? any : nearest(master, slave.x, limits.depth, faces, opposes);
+  const Nearest best = settled ? any : nearest(trial, opposes);
   if (place(master, slave.x, best) != Place::inside) return {};
   return make_winner(master, slave.x, best);
 }

@@ -6,8 +6,6 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr int kLocalNodes = 5;
-
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 void sort_unique(std::vector<int>& numbers) {

@@ -40,13 +40,14 @@ void validate(const TimeSettings& settings) {
 }
 
 void require_bodies_apart(System& system) {
-  const ContactState& state = system.contacts(system.initial_position());
   for (const PairSetup& pair : system.pairs()) {
     const int a = pair.body[0], b = pair.body[1];
     const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
+    const auto state = [&](int i) {
+      return contact::surface_state(surface(i), system.surface_motion(i, system.initial_position()));
+    };
     contact::require_apart(
-        contact::initial_overlap(surface(a), surface(b), pair.settings, state.surface[a], state.surface[b]),
-        pair.name);
+        contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b)), pair.name);
   }
 }
 

@@ -48,8 +48,15 @@ std::vector<int> node_groups(const model::Surface& surface) {
   return group;
 }
 
-Eigen::Matrix3Xd deformed_surface(const model::Surface& surface, const Eigen::VectorXd& q) {
-  return surface.X + model::multiply(surface.Phi, q).reshaped(3, surface.X.cols());
+// Positions of the nodes that contact touches; the others' stay undeformed.
+void place_touched(const PairContacts& pair, const model::Surface* surface[2],
+                   const contact::SurfaceMotion* motion[2], std::vector<contact::SurfaceState>& state) {
+  for (const contact::ContactPoint& point : pair.points)
+    for (int i = 0; i < kLocalNodes; ++i) {
+      const auto [side, node] = local_node(point, i);
+      state[pair.body[side]].x_B.col(node) =
+          surface[side]->X.col(node) + model::displacement(surface[side]->Phi, node, motion[side]->q);
+    }
 }
 
 void set_norms(Residual& r, std::size_t block, Eigen::Index first,
@@ -113,8 +120,9 @@ void System::add_pair(const PairSetup& setup) {
   }
   require(setup.body[0] != setup.body[1], "contact pair '", setup.name, "' names one body twice");
   pairs_.push_back(setup);
-  detectors_.emplace_back(bodies_[setup.body[0]].eq.body->surface, bodies_[setup.body[1]].eq.body->surface,
-                          setup.settings);
+  const model::ElasticBody& a = *bodies_[setup.body[0]].eq.body;
+  const model::ElasticBody& b = *bodies_[setup.body[1]].eq.body;
+  detectors_.emplace_back(a.surface, b.surface, setup.settings, std::array{&a.K_r, &b.K_r});
 }
 
 std::vector<const body::Equations*> System::equations() const {
@@ -133,23 +141,32 @@ body::Motion System::motion(std::size_t b, ConstVector U, ConstVector V, ConstVe
 const ContactState& System::contacts(ConstVector U) {
   if (U_of_state_ && *U_of_state_ == U) return state_;
   U_of_state_.reset();
-  state_.surface.clear();
-  for (const Body& body : bodies_) {
-    const body::Equations& eq = body.eq;
-    const auto [r_WB, R_WB] = body::placement(eq.joint, eq.H, U.segment(body.first, eq.n_s()));
-    state_.surface.push_back({{}, r_WB, R_WB});
-    if (body.in_contact)
-      state_.surface.back().x_B =
-          deformed_surface(eq.body->surface, U.segment(body.first + eq.n_s(), eq.n_q()));
+  std::vector<contact::SurfaceMotion> motion;
+  state_.surface.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    motion.push_back(surface_motion(b, U));
+    const bool first = state_.surface[b].x_B.cols() == 0 && bodies_[b].in_contact;
+    if (first) state_.surface[b].x_B = bodies_[b].eq.body->surface.X;
+    state_.surface[b].r_WB = motion[b].r_WB;
+    state_.surface[b].R_WB = motion[b].R_WB;
   }
   state_.pair.clear();
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const int a = pairs_[p].body[0], b = pairs_[p].body[1];
-    state_.pair.push_back({{a, b}, detectors_[p].detect(state_.surface[a], state_.surface[b])});
+    const model::Surface* surface[2] = {&bodies_[a].eq.body->surface, &bodies_[b].eq.body->surface};
+    const contact::SurfaceMotion* moved[2] = {&motion[a], &motion[b]};
+    state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b])});
+    place_touched(state_.pair.back(), surface, moved, state_.surface);
   }
   state_.force = nodal_forces(state_.pair, state_.surface);
   U_of_state_ = U;
   return state_;
+}
+
+contact::SurfaceMotion System::surface_motion(std::size_t b, ConstVector U) const {
+  const body::Equations& eq = bodies_[b].eq;
+  const auto [r_WB, R_WB] = body::placement(eq.joint, eq.H, U.segment(bodies_[b].first, eq.n_s()));
+  return {U.segment(bodies_[b].first + eq.n_s(), eq.n_q()), r_WB, R_WB};
 }
 
 double System::depth_share(ConstVector U) {

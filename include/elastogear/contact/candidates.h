@@ -18,13 +18,16 @@ class Candidates {
                const SurfaceView& master, double margin);
 
   /// Ascending, without duplicates; empty for nodes that are near no face.
-  std::span<int> operator[](int slave_node);
+  std::span<const int> operator[](int slave_node) const;
+  /// Slave nodes that are near a face, ascending.
+  const std::vector<int>& nodes() const { return nodes_; }
 
  private:
   void sort_by_node(int n_nodes);
 
   std::vector<std::array<int, 2>> near_;  // slave node, master face
   std::vector<int> begin_, end_, face_;   // per node: its range of face_
+  std::vector<int> nodes_;
 };
 
 }  // namespace elastogear::contact

@@ -15,7 +15,6 @@ struct Configuration {
   Eigen::Matrix3Xd x[2];                            ///< 3 x n, m, both surfaces in the common frame
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< frame of a to common frame
   Eigen::Vector3d r = Eigen::Vector3d::Zero();      ///< m, origin of a's frame in the common frame
-  double deformation = 0;  ///< m, largest displacements of a and b in their frames, added
 };
 
 /// Two trees with their scratch memory.
@@ -24,7 +23,8 @@ class CoarseSearch {
   /// X, face of a and b in their own frames; must outlive the search.
   CoarseSearch(const model::Surface& a, const model::Surface& b, int k, Update update);
 
-  /// All pairs (face of a, face of b) closer than `margin` (m), and some more. Valid until the next call.
+  /// All pairs (face of a, face of b) closer than `margin` (m), and some more. Valid until the next call. The
+  /// boxes follow x, with Update::realign the undeformed surfaces: there `margin` must cover the deformation.
   const std::vector<NodePair>& face_pairs(const Configuration& configuration, double margin);
 
   const Bvh& tree(int side) const { return tree_[side]; }

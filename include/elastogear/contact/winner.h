@@ -31,9 +31,9 @@ struct Winner {
 };
 
 /// Nothing when the node is outside the master body, beyond an open end, deeper than the limit, or when only
-/// faces that do not oppose it are near. `faces` must hold all master faces within `depth` of the node; their
-/// order does not matter, but the search is quickest when the first is the right one.
+/// faces that do not oppose it are near. `faces` must hold all master faces within `depth` of the node; they
+/// ascend. `likely`, one of them or -1, is tried first: the search is quickest when it is right.
 std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
-                                  std::span<const int> faces);
+                                  std::span<const int> faces, int likely = -1);
 
 }  // namespace elastogear::contact

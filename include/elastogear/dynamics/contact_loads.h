@@ -24,6 +24,7 @@ struct PairContacts {
   std::vector<contact::ContactPoint> points;
 };
 
+inline constexpr int kLocalNodes = 5;  ///< of a contact point: slave, four master nodes
 /// Body side and surface node of local node i = 0 (slave), 1..4 (master).
 struct LocalNode {
   int side, node;

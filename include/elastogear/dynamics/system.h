@@ -41,7 +41,7 @@ struct Residual {
 
 /// Everything that depends on the positions U alone.
 struct ContactState {
-  std::vector<contact::SurfaceState> surface;  ///< per body; x_B only where a pair needs it
+  std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
 };
@@ -70,7 +70,8 @@ class System {
   std::vector<const body::Equations*> equations() const;
 
   body::Motion motion(std::size_t b, ConstVector U, ConstVector V, ConstVector A) const;
-  /// Placement, surfaces and contacts in U; kept, so that a second call with an equal U costs nothing.
+  contact::SurfaceMotion surface_motion(std::size_t b, ConstVector U) const;
+  /// Placement and contacts in U; kept, so that a second call with an equal U costs nothing.
   const ContactState& contacts(ConstVector U);
   /// Largest penetration in U over the depth of its pair, beyond which it would no longer be seen; -.
   double depth_share(ConstVector U);

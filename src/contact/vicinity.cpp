@@ -1,0 +1,54 @@
+#include "elastogear/contact/vicinity.h"
+
+#include <algorithm>
+
+namespace elastogear::contact {
+namespace {
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+void add_ring(int node, const Topology& topology, const Eigen::Matrix4Xi& face, std::vector<int>& nodes) {
+  nodes.push_back(node);
+  for (int corner : topology.node_corners[node])
+    for (int neighbour : face.col(corner / 4)) nodes.push_back(neighbour);
+}
+
+}  // namespace
+
+Ball enclosing_ball(const Eigen::Matrix3Xd& X) {
+  const Eigen::Vector3d centre = 0.5 * (X.rowwise().minCoeff() + X.rowwise().maxCoeff());
+  return {centre, std::sqrt((X.colwise() - centre).colwise().squaredNorm().maxCoeff())};
+}
+
+RelativeMotion relative_motion(const SurfaceMotion& a, const SurfaceMotion& b) {
+  return {b.R_WB.transpose() * a.R_WB, b.R_WB.transpose() * (a.r_WB - b.r_WB)};
+}
+
+double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion& to) {
+  const Eigen::Matrix3d dR =
+      to.R - from.R;  // its largest stretch is its Frobenius norm over the square root of 2
+  return (dR * ball.centre + to.r - from.r).norm() + dR.norm() / std::sqrt(2.0) * ball.radius;
+}
+
+void add_nodes_to_place(const Candidates& candidates, int slave_side, const Topology* topology[2],
+                        const Eigen::Matrix4Xi* face[2], std::array<std::vector<int>, 2>& nodes) {
+  const int master = 1 - slave_side;
+  std::vector<int> faces;
+  for (int node : candidates.nodes()) {
+    add_ring(node, *topology[slave_side], *face[slave_side], nodes[slave_side]);
+    const auto near = candidates[node];
+    faces.insert(faces.end(), near.begin(), near.end());
+  }
+  sort_unique(faces);
+  std::vector<int> corners;
+  for (int f : faces)
+    for (int node : face[master]->col(f)) corners.push_back(node);
+  sort_unique(corners);
+  for (int node : corners) add_ring(node, *topology[master], *face[master], nodes[master]);
+  for (auto& list : nodes) sort_unique(list);
+}
+
+}  // namespace elastogear::contact

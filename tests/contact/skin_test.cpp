@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "elastogear/base/error.h"
+#include "elastogear/contact/deformation_bound.h"
+#include "elastogear/contact/pair.h"
+#include "elastogear/contact/vicinity.h"
+#include "surfaces.h"
+
+namespace elastogear::contact {
+namespace {
+
+using test::Random;
+
+constexpr int n_modes = 12;
+
+// A wavy patch of 2 x 2 m with smooth modes of 5 mm at q = 1.
+struct Elastic {
+  model::Surface surface;
+  Eigen::SparseMatrix<double> K_r;
+};
+
+Elastic elastic_patch(int n, bool turned, Random& random) {
+  Elastic e;
+  e.surface = test::grid(n, n, [&](double u, double v) {
+    return Eigen::Vector3d(2 * u - 1, 2 * v - 1, 0.02 * std::sin(7 * u) * std::cos(5 * v));
+  });
+  if (turned) e.surface = test::flipped(e.surface);
+  e.surface.node.resize(e.surface.X.cols());
+  model::DenseRows Phi(3 * e.surface.X.cols(), n_modes);
+  e.K_r.resize(n_modes, n_modes);
+  for (int k = 0; k < n_modes; ++k) {
+    e.K_r.insert(k, k) = std::pow(1.0 + k, 2);
+    const Eigen::Vector3d direction = random.vector(1), wave = random.vector(3);
+    for (Eigen::Index i = 0; i < e.surface.X.cols(); ++i)
+      Phi.block<3, 1>(3 * i, k) = 5e-3 * std::cos(wave.dot(e.surface.X.col(i))) * direction;
+  }
+  e.K_r.makeCompressed();
+  e.surface.Phi = Phi;
+  return e;
+}
+
+Eigen::VectorXd amplitudes(Random& random, double size) {
+  Eigen::VectorXd q(n_modes);
+  for (double& x : q) x = random.uniform(-size, size);
+  return q;
+}
+
+Settings settings(Update update) {
+  Settings s;
+  s.stiffness = 1;
+  s.penalty = Penalty::per_node;
+  s.depth = 0.03;
+  s.update = update;
+  s.two_pass = true;
+  return s;
+}
+
+void expect_equal(const std::vector<ContactPoint>& a, const std::vector<ContactPoint>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].slave_side, b[i].slave_side);
+    EXPECT_EQ(a[i].slave_node, b[i].slave_node);
+    EXPECT_EQ(a[i].face, b[i].face);
+    EXPECT_NEAR(a[i].g_n, b[i].g_n, 1e-15);  // roundoff of positions of size 1
+  }
+}
+
+TEST(DeformationBound, is_never_below_the_largest_displacement_and_is_reached) {
+  Random random(1);
+  const Elastic e = elastic_patch(9, false, random);
+  const DeformationBound by_energy = deformation_bound(e.surface.Phi, e.K_r);
+  const DeformationBound by_nodes = deformation_bound(e.surface.Phi, {});
+  ASSERT_GT(by_energy.compliance, 0);
+  EXPECT_EQ(by_nodes.compliance, 0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::VectorXd q = amplitudes(random, 1);
+    EXPECT_GE(largest_displacement(by_energy, q), largest_displacement(by_nodes, q));
+  }
+  // A static force on a node, in the direction in which it gives most, displaces it by the bound.
+  double tightest = 0;
+  const auto& Phi = std::get<model::DenseRows>(e.surface.Phi);
+  for (Eigen::Index i = 0; i < e.surface.X.cols(); ++i) {
+    const Eigen::Matrix3d C = Phi.middleRows<3>(3 * i) * e.K_r.diagonal().cwiseInverse().asDiagonal() *
+                              Phi.middleRows<3>(3 * i).transpose();
+    const Eigen::Vector3d f = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C).eigenvectors().col(2);
+    const Eigen::VectorXd q =
+        e.K_r.diagonal().cwiseInverse().asDiagonal() * (Phi.middleRows<3>(3 * i).transpose() * f);
+    tightest = std::max(tightest, largest_displacement(by_nodes, q) / largest_displacement(by_energy, q));
+  }
+  EXPECT_NEAR(tightest, 1, 1e-6);
+}
+
+TEST(Travel, bounds_the_way_of_every_point_of_the_ball) {
+  Random random(2);
+  const Elastic e = elastic_patch(6, false, random);
+  const Ball ball = enclosing_ball(e.surface.X);
+  double largest_share = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const RelativeMotion from{test::rotation(random.vector(3)), random.vector(1)};
+    const double size = std::pow(10.0, random.uniform(-6, 0));
+    const RelativeMotion to{from.R * test::rotation(random.vector(size)), from.r + random.vector(size)};
+    const Eigen::Matrix3Xd way = ((to.R - from.R) * e.surface.X).colwise() + (to.r - from.r);
+    const double farthest = std::sqrt(way.colwise().squaredNorm().maxCoeff());
+    EXPECT_GE(travel(ball, from, to) * (1 + 1e-12), farthest);
+    largest_share = std::max(largest_share, farthest / travel(ball, from, to));
+  }
+  EXPECT_GT(largest_share, 0.8);
+}
+
+// Two elastic patches slide, roll and vibrate over each other for 200 small steps.
+TEST(Skin, contacts_equal_those_of_a_search_at_every_stage) {
+  for (Update update : {Update::bound, Update::refit, Update::realign}) {
+    Random random(3);
+    const Elastic a = elastic_patch(16, true, random), b = elastic_patch(14, false, random);
+    Pair searched(a.surface, b.surface, settings(update));
+    Pair kept(a.surface, b.surface, settings(update), {&a.K_r, &b.K_r});
+    SurfaceMotion m_a{Eigen::VectorXd::Zero(n_modes), {-0.3, 0.1, 0.01}, test::rotation({0.01, -0.02, 0.3})};
+    SurfaceMotion m_b{Eigen::VectorXd::Zero(n_modes), {0, 0, 0}, Eigen::Matrix3d::Identity()};
+    int n_contacts = 0, n_displaced = 0;
+    constexpr int n_steps = 200;
+    for (int step = 0; step < n_steps; ++step) {
+      m_a.q += amplitudes(random, 2e-2);
+      m_b.q += amplitudes(random, 2e-2);
+      m_a.r_WB += Eigen::Vector3d(1e-3, -5e-4, 0) + random.vector(2e-4);
+      m_a.R_WB = m_a.R_WB * test::rotation(random.vector(2e-4));
+      m_b.R_WB = m_b.R_WB * test::rotation(random.vector(2e-4));
+      const auto found = kept.detect(m_a, m_b);
+      expect_equal(found, searched.detect(surface_state(a.surface, m_a), surface_state(b.surface, m_b)));
+      n_contacts += static_cast<int>(found.size());
+      n_displaced += kept.n_displaced();
+    }
+    EXPECT_GT(n_contacts, 10 * n_steps);
+    EXPECT_LT(kept.n_searches(), n_steps / 3);
+    EXPECT_GE(kept.n_searches(), 10);
+    EXPECT_LT(n_displaced, n_steps * static_cast<int>(a.surface.X.cols() + b.surface.X.cols()));
+  }
+}
+
+TEST(Skin, of_bodies_that_are_far_apart_displaces_no_node) {
+  Random random(4);
+  const Elastic a = elastic_patch(8, true, random), b = elastic_patch(8, false, random);
+  Pair pair(a.surface, b.surface, settings(Update::bound), {&a.K_r, &b.K_r});
+  const SurfaceMotion m_b{amplitudes(random, 1), {0, 0, 0}, Eigen::Matrix3d::Identity()};
+  EXPECT_TRUE(pair.detect({amplitudes(random, 1), {0, 0, 3}, Eigen::Matrix3d::Identity()}, m_b).empty());
+  EXPECT_EQ(pair.n_displaced(), 0);
+}
+
+TEST(Skin, refuses_wrong_coordinates) {
+  Random random(5);
+  const Elastic a = elastic_patch(4, true, random), b = elastic_patch(4, false, random);
+  Pair pair(a.surface, b.surface, settings(Update::bound), {&a.K_r, &b.K_r});
+  const SurfaceMotion good{amplitudes(random, 1), {0, 0, 0}, Eigen::Matrix3d::Identity()};
+  SurfaceMotion few = good, nan = good;
+  few.q.conservativeResize(n_modes - 1);
+  nan.q[3] = std::nan("");
+  EXPECT_THROW(pair.detect(few, good), Error);
+  EXPECT_THROW(pair.detect(good, nan), Error);
+  Settings negative = settings(Update::bound);
+  negative.skin = -1;
+  EXPECT_THROW(Pair(a.surface, b.surface, negative), Error);
+}
+
+}  // namespace
+}  // namespace elastogear::contact
