@@ -8,20 +8,32 @@
 namespace elastogear::contact {
 namespace {
 
-// Calls f with k as a compile-time constant: loops over the directions then have a fixed length.
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kUlp = 0x1p-24F;  // relative error of rounding to float
+
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int __attribute__((vector_size(16)));
+
+Float4 load(const float* p) {
+  Float4 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+void store(float* p, Float4 v) { __builtin_memcpy(p, &v, sizeof v); }
+
+// Calls f with padded_half(k) as a compile-time constant: loops over the intervals then have a fixed length.
 template <class F>
-void with_size(int k, F f) {
-  switch (k) {
-    case 6:
-      return f(std::integral_constant<int, 6>());
-    case 14:
-      return f(std::integral_constant<int, 14>());
-    case 18:
-      return f(std::integral_constant<int, 18>());
-    case 24:
-      return f(std::integral_constant<int, 24>());
+void with_half(int k, F f) {
+  switch (padded_half(k)) {
+    case 4:
+      return f(std::integral_constant<int, 4>());
+    case 8:
+      return f(std::integral_constant<int, 8>());
+    case 12:
+      return f(std::integral_constant<int, 12>());
     default:
-      return f(std::integral_constant<int, 26>());
+      return f(std::integral_constant<int, 16>());
   }
 }
 
@@ -29,123 +41,155 @@ void with_size(int k, F f) {
 // number covers denormals.
 float round_down(double d) {
   const float f = static_cast<float>(d);
-  return f - (std::abs(f) * 2 * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min());
+  return f - (std::abs(f) * 4 * kUlp + std::numeric_limits<float>::min());
 }
 
-template <int K>
-void point_box(const Directions& B, const double* p, const double* margin, float* box) {
-  constexpr int h = K / 2;
-  for (int i = 0; i < h; ++i) {
-    const double d = B.x[i] * p[0] + B.y[i] * p[1] + B.z[i] * p[2];
-    box[i] = round_down(d - margin[i]);
-    box[h + i] = round_down(-d - margin[i]);
+// Directions and the margin along them in float; infinite margins in the padding.
+template <int H>
+struct FloatDirections {
+  alignas(16) float x[H] = {}, y[H] = {}, z[H] = {}, margin[H];
+
+  FloatDirections(const Directions& B, double m) {
+    std::fill_n(margin, H, kInfinity);
+    for (int i = 0; i < B.n; ++i) {
+      x[i] = static_cast<float>(B.x[i]);
+      y[i] = static_cast<float>(B.y[i]);
+      z[i] = static_cast<float>(B.z[i]);
+      margin[i] = static_cast<float>(m * B.norm[i]) * (1 + 2 * kUlp);
+    }
+  }
+};
+
+// Rounding the point, two sums and the margin's subtraction err by at most 4 ulp of |p|_1 + margin; 8 are
+// taken.
+template <int H>
+void point_box(const FloatDirections<H>& B, const double* p, float* box) {
+  const auto x = static_cast<float>(p[0]), y = static_cast<float>(p[1]), z = static_cast<float>(p[2]);
+  const float size = std::abs(x) + std::abs(y) + std::abs(z);
+  for (int i = 0; i < H; i += 4) {
+    const Float4 d = load(B.x + i) * x + load(B.y + i) * y + load(B.z + i) * z, m = load(B.margin + i);
+    const Float4 out = m + (m + size) * (8 * kUlp) + std::numeric_limits<float>::min();
+    store(box + i, d - out);
+    store(box + H + i, -d - out);
   }
 }
 
-template <int K>
+template <int H>
 void shrink_to_min(float* into, const float* other) {
-  for (int i = 0; i < K; ++i) into[i] = other[i] < into[i] ? other[i] : into[i];
+  for (int i = 0; i < 2 * H; i += 4) {
+    const Float4 a = load(into + i), b = load(other + i);
+    store(into + i, b < a ? b : a);
+  }
 }
 
-template <int K>
+template <int H>
 bool boxes_overlap(const float* a, const float* b) {
-  int apart = 0;
-  for (int i = 0; i < K / 2; ++i) apart |= (a[i] > -b[K / 2 + i]) | (b[i] > -a[K / 2 + i]);
-  return !apart;
+  Int4 apart = {};
+  for (int i = 0; i < H; i += 4) apart |= (load(a + i) > -load(b + H + i)) | (load(b + i) > -load(a + H + i));
+  long long half[2];
+  __builtin_memcpy(half, &apart, sizeof apart);
+  return (half[0] | half[1]) == 0;
 }
 
-template <int K>
+template <int H>
 void refit_boxes(Bvh& bvh, const Eigen::Matrix3Xd& x, const Eigen::Matrix4Xi& face, double margin,
                  std::vector<float>& work) {
-  constexpr std::size_t k = K;
-  const Directions& B = directions(K);
-  std::array<double, K / 2> margins;
-  for (int i = 0; i < K / 2; ++i) margins[i] = margin * B.norm[i];
-  work.resize(k * x.cols());
-  for (Eigen::Index i = 0; i < x.cols(); ++i) point_box<K>(B, x.col(i).data(), margins.data(), &work[k * i]);
-  bvh.box.resize(k * bvh.n_nodes());
+  constexpr std::size_t n = 2 * H;
+  const FloatDirections<H> B(directions(bvh.k), margin);
+  work.resize(n * x.cols());
+  for (Eigen::Index i = 0; i < x.cols(); ++i) point_box<H>(B, x.col(i).data(), &work[n * i]);
+  bvh.box.resize(n * bvh.n_nodes());
   for (int node = bvh.n_nodes() - 1; node >= 0; --node) {
-    float* into = &bvh.box[k * node];
+    float* into = &bvh.box[n * node];
     if (bvh.is_leaf(node)) {
       const auto corner = face.col(bvh.face(node));
-      std::copy_n(&work[k * corner[0]], k, into);
-      for (int c = 1; c < 4; ++c) shrink_to_min<K>(into, &work[k * corner[c]]);
+      std::copy_n(&work[n * corner[0]], n, into);
+      for (int c = 1; c < 4; ++c) shrink_to_min<H>(into, &work[n * corner[c]]);
     } else {
-      std::copy_n(&bvh.box[k * bvh.child[node]], k, into);
-      shrink_to_min<K>(into, &bvh.box[k * (bvh.child[node] + 1)]);
+      std::copy_n(&bvh.box[n * bvh.child[node]], n, into);
+      shrink_to_min<H>(into, &bvh.box[n * (bvh.child[node] + 1)]);
     }
   }
 }
 
-template <int K>
+// Breadth-first descent, level by level: every pair of a level either is a pair of leaves or is replaced by
+// the overlapping ones of its up to four pairs of children.
+template <int H>
 class Descent {
  public:
-  Descent(const Bvh& a, const Bvh& b, const std::function<void(int)>& visit_a, std::vector<NodePair>& front)
-      : a_(a), b_(b), visit_a_(visit_a), front_(front) {}
+  Descent(const Bvh& a, const Bvh& b, const std::function<void(int)>& visit_a)
+      : a_(a), b_(b), visit_a_(visit_a) {}
 
-  void run(std::vector<NodePair>& faces) {
-    front_.clear();
+  void run(std::vector<NodePair>& front, std::vector<NodePair>& next, std::vector<NodePair>& faces) {
     if (visit_a_) visit_a_(0);
-    test(0, 0);
-    for (std::size_t i = 0; i < front_.size(); ++i) {
-      const auto [node_a, node_b] = front_[i];
-      if (a_.is_leaf(node_a) && b_.is_leaf(node_b))
-        faces.push_back({a_.face(node_a), b_.face(node_b)});
-      else
-        expand(node_a, node_b);
+    front.resize(1);
+    if (add(0, 0, front.data()) == front.data()) return;
+    while (!front.empty()) {
+      next.resize(4 * front.size());
+      NodePair* end = next.data();
+      for (const auto& [node_a, node_b] : front) {
+        if (a_.is_leaf(node_a) && b_.is_leaf(node_b))
+          faces.push_back({a_.face(node_a), b_.face(node_b)});
+        else
+          end = expand(node_a, node_b, end);
+      }
+      next.resize(end - next.data());
+      front.swap(next);
     }
   }
 
  private:
-  void test(int node_a, int node_b) {
-    if (boxes_overlap<K>(&a_.box[static_cast<std::size_t>(node_a) * K],
-                         &b_.box[static_cast<std::size_t>(node_b) * K]))
-      front_.push_back({node_a, node_b});
+  NodePair* add(int node_a, int node_b, NodePair* end) const {
+    *end = {node_a, node_b};
+    return end + boxes_overlap<H>(&a_.box[static_cast<std::size_t>(node_a) * 2 * H],
+                                  &b_.box[static_cast<std::size_t>(node_b) * 2 * H]);
   }
 
-  void expand(int node_a, int node_b) {
+  NodePair* expand(int node_a, int node_b, NodePair* end) const {
     const int n_a = a_.is_leaf(node_a) ? 1 : 2, n_b = b_.is_leaf(node_b) ? 1 : 2;
     const int first_a = n_a == 1 ? node_a : a_.child[node_a], first_b = n_b == 1 ? node_b : b_.child[node_b];
     if (n_a == 2 && visit_a_) visit_a_(first_a);
     for (int i = 0; i < n_a; ++i)
-      for (int j = 0; j < n_b; ++j) test(first_a + i, first_b + j);
+      for (int j = 0; j < n_b; ++j) end = add(first_a + i, first_b + j, end);
+    return end;
   }
 
   const Bvh& a_;
   const Bvh& b_;
   const std::function<void(int)>& visit_a_;
-  std::vector<NodePair>& front_;
 };
 
 }  // namespace
 
 void refit(Bvh& bvh, const Eigen::Matrix3Xd& x, const Eigen::Matrix4Xi& face, double margin,
            std::vector<float>& work) {
-  with_size(bvh.k, [&](auto k) { refit_boxes<k>(bvh, x, face, margin, work); });
+  with_half(bvh.k, [&](auto half) { refit_boxes<half>(bvh, x, face, margin, work); });
 }
 
 Kdop box(const Bvh& bvh, int node) {
   Kdop dop{bvh.k, {}, {}};
-  const float* stored = &bvh.box[static_cast<std::size_t>(bvh.k) * node];
+  const int half = padded_half(bvh.k);
+  const float* stored = &bvh.box[static_cast<std::size_t>(2) * half * node];
   for (int i = 0; i < bvh.k / 2; ++i) {
     dop.lo[i] = stored[i];
-    dop.hi[i] = -static_cast<double>(stored[bvh.k / 2 + i]);
+    dop.hi[i] = -static_cast<double>(stored[half + i]);
   }
   return dop;
 }
 
 void set_box(Bvh& bvh, int node, const Kdop& dop) {
-  float* stored = &bvh.box[static_cast<std::size_t>(bvh.k) * node];
+  const int half = padded_half(bvh.k);
+  float* stored = &bvh.box[static_cast<std::size_t>(2) * half * node];
   for (int i = 0; i < bvh.k / 2; ++i) {
     stored[i] = round_down(dop.lo[i]);
-    stored[bvh.k / 2 + i] = round_down(-dop.hi[i]);
+    stored[half + i] = round_down(-dop.hi[i]);
   }
 }
 
 void overlapping_faces(const Bvh& a, const Bvh& b, const std::function<void(int)>& visit_a,
-                       std::vector<NodePair>& work, std::vector<NodePair>& pairs) {
+                       DescentMemory& work, std::vector<NodePair>& pairs) {
   pairs.clear();
-  with_size(a.k, [&](auto k) { Descent<k>(a, b, visit_a, work).run(pairs); });
+  with_half(a.k, [&](auto half) { Descent<half>(a, b, visit_a).run(work.front, work.next, pairs); });
 }
 
 std::vector<int> nodes_at_level(const Bvh& bvh, int level) {

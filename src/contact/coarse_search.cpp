@@ -32,7 +32,7 @@ const std::vector<NodePair>& CoarseSearch::face_pairs(const Configuration& confi
     motion = realignment(tree_[0].k, configuration.R, configuration.r);
     visit = [&](int first) { realign_pair(first, motion, margin); };
   }
-  overlapping_faces(tree_[0], tree_[1], visit, front_, pairs_);
+  overlapping_faces(tree_[0], tree_[1], visit, work_, pairs_);
   return pairs_;
 }
 

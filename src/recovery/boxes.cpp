@@ -43,7 +43,8 @@ Boxes boxes_at_levels(const contact::Bvh& tree, const std::vector<int>& levels) 
 }
 
 Boxes overlapping_boxes(const contact::Bvh& tree, const contact::Bvh& other) {
-  std::vector<contact::NodePair> work, pairs;
+  contact::DescentMemory work;
+  std::vector<contact::NodePair> pairs;
   contact::overlapping_faces(tree, other, {}, work, pairs);
   std::vector<int> faces;
   for (const contact::NodePair& pair : pairs) faces.push_back(pair[0]);

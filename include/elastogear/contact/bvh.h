@@ -11,11 +11,16 @@
 
 namespace elastogear::contact {
 
+/// Intervals of a box in memory: k/2 filled up to a multiple of four, so that four are compared at a time.
+constexpr int padded_half(int k) { return (k / 2 + 3) / 4 * 4; }
+
 /// Node 0 is the root; children come in pairs and after their parent.
 struct Bvh {
   int k = 0;
   std::vector<int> child;  ///< per node: first of two neighbouring children, or -1 - face for a leaf
-  std::vector<float> box;  ///< k per node: lo of the k/2 intervals, then -hi; rounded outwards
+  /// 2 padded_half(k) per node: lo of the intervals, then -hi, both rounded outwards; -infinity in the
+  /// padding
+  std::vector<float> box;
 
   int n_nodes() const { return static_cast<int>(child.size()); }
   bool is_leaf(int node) const { return child[node] < 0; }
@@ -37,12 +42,16 @@ void set_box(Bvh& bvh, int node, const Kdop& dop);
 
 using NodePair = std::array<int, 2>;
 
+/// Scratch memory of a descent, kept between calls.
+struct DescentMemory {
+  std::vector<NodePair> front, next;
+};
+
 /// Pairs of faces (a, b) whose leaf boxes overlap, by simultaneous breadth-first descent; both trees in one
 /// frame, same k. `visit_a`, when given, is called with the first of two siblings of `a` before their boxes
-/// are read and may set them. `work` is scratch memory kept between calls. The order of the pairs depends on
-/// the trees alone.
+/// are read and may set them. The order of the pairs depends on the trees alone.
 void overlapping_faces(const Bvh& a, const Bvh& b, const std::function<void(int)>& visit_a,
-                       std::vector<NodePair>& work, std::vector<NodePair>& pairs);
+                       DescentMemory& work, std::vector<NodePair>& pairs);
 
 /// Nodes at a depth below the root (level 0), with the leaves that ended above it: together they always hold
 /// the whole surface. For pictures.

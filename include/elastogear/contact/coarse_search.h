@@ -40,7 +40,8 @@ class CoarseSearch {
   std::vector<int> visited_;  // per node of a: the call in which its box was realigned last
   int call_ = 0;
   std::vector<float> points_;
-  std::vector<NodePair> front_, pairs_;
+  DescentMemory work_;
+  std::vector<NodePair> pairs_;
 };
 
 }  // namespace elastogear::contact
