@@ -7,7 +7,8 @@ namespace elastogear::app {
 
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
                  const FieldState& state) {
-  const Eigen::Matrix3Xd u_B = io::read_displacement_field(body_file, state.q);
+  Eigen::Matrix3Xd u_B = io::read_displacement_field(body_file, state.q);
+  if (state.u_static.size() > 0) u_B += state.u_static.reshaped(3, u_B.cols());
   const Eigen::MatrixXd stress = fem::nodal_stress(source.mesh, source.regions, source.element,
                                                    Eigen::Map<const Eigen::VectorXd>(u_B.data(), u_B.size()));
   const Eigen::MatrixXd tensors = Eigen::Map<const Eigen::MatrixXd>(stress.data(), stress.size(), 1);

@@ -15,6 +15,7 @@ struct FieldState {
   Eigen::Vector3d r_WB;
   Eigen::Matrix3d R_WB;
   Eigen::VectorXd q;
+  Eigen::VectorXd u_static = {};  ///< 3 n_nodes, m, BRF, added to Phi q; empty: nothing
 };
 
 /// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),

@@ -7,6 +7,7 @@
 
 #include "app/console.h"
 #include "app/field.h"
+#include "app/static_answer.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/csv.h"
@@ -31,12 +32,18 @@ const OptionTable kTable = {
     {"box_levels", "-", "",
      "levels of the bounding-volume trees to write at the first field time: 0, 1, ... or leaf"},
     {"box_kdop", "-", "24", "directions of those bounding volumes"},
+    {"mode_acceleration", "-", "false",
+     "add what the modes leave out of the answer to contact forces, statically; needs the factor of each "
+     "body's stiffness matrix"},
     {"<body>_file", "-", "", "body file, when it is no longer where the result file says"},
 };
 
 struct Body {
   std::string name, file;
   io::BodyHistory history;
+  std::unique_ptr<StaticAnswer> answer = nullptr;  // of mode acceleration, when asked for
+
+  const Eigen::MatrixXd& q() const { return answer ? answer->q : history.q; }
 };
 
 struct Run {
@@ -59,12 +66,14 @@ Run read_run(const Options& options) {
     run.bodies.push_back({body.name, options.given(key) ? options.text(key) : body.file,
                           io::read_body_history(run.result, body.name)});
   }
+  if (!options.flag("mode_acceleration")) return run;
+  for (Body& body : run.bodies) body.answer = static_answer({run.result, body.name, body.file, body.history});
   return run;
 }
 
-const Body& find_body(const Run& run, const std::string& name) {
+Body& find_body(Run& run, const std::string& name) {
   std::string known;
-  for (const Body& body : run.bodies) {
+  for (Body& body : run.bodies) {
     if (body.name == name) return body;
     known += (known.empty() ? "" : ", ") + body.name;
   }
@@ -112,15 +121,23 @@ void write_table(const std::string& path, const io::StressSet& set, const Eigen:
   io::write_csv(path, columns);
 }
 
-void write_stresses(const Options& options, const Run& run) {
+recovery::StressHistory history(Body& body, const model::Stress& stress, const std::string& set) {
+  const std::vector<int>& members = stress_set(stress, set, body.file);
+  std::vector<int> nodes;
+  for (int member : members) nodes.push_back(stress.node[member]);
+  const Eigen::MatrixXd sigma_static = body.answer ? stress_history(*body.answer, nodes) : Eigen::MatrixXd();
+  return recovery::stress_history(stress, members, body.q(), sigma_static);
+}
+
+void write_stresses(const Options& options, Run& run) {
   const std::string output = options.text("output");
   io::StressHistory file{run.time, {}, options.provenance()};
   for (const std::string& name : options.placeholder_values("stress_<body>")) {
     if (name == "nodes") continue;  // reduce's key in a shared file
-    const Body& body = find_body(run, name);
+    Body& body = find_body(run, name);
     const model::Stress stress = io::read_body(body.file).stress;
     for (const std::string& set : options.list("stress_" + name)) {
-      auto h = recovery::stress_history(stress, stress_set(stress, set, body.file), body.history.q);
+      auto h = history(body, stress, set);
       file.sets.push_back(
           {name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises), std::move(h.rankine)});
     }
@@ -153,6 +170,15 @@ FieldState state_at(const Body& body, int step) {
   return {body.history.r_WB.col(step), R, body.history.q.col(step)};
 }
 
+// With the whole body's static answer in place of that of the modes, when it was asked for.
+FieldState recovered_state(const Body& body, int step) {
+  FieldState state = state_at(body, step);
+  if (!body.answer) return state;
+  state.q = body.answer->q.col(step);
+  state.u_static = displacement(*body.answer, step);
+  return state;
+}
+
 std::string field_prefix(const Options& options) {
   return options.given("fields") ? options.text("fields") : stem(options.text("result"));
 }
@@ -171,7 +197,7 @@ void write_fields(const Options& options, const Run& run, const std::vector<int>
     std::vector<io::TimeStep> series;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const std::string path = steps.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
-      write_field(path, body.file, source, state_at(body, steps[i]));
+      write_field(path, body.file, source, recovered_state(body, steps[i]));
       series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string()});
       print_item("written", path);
     }
@@ -220,7 +246,7 @@ void write_trees(const Options& options, const Run& run, const std::vector<int>&
 void run(const Options& options, const std::vector<std::string>&) {
   require(options.text("output") != options.text("result"), "option -output = '", options.text("output"),
           "' would overwrite the result file");
-  const Run run = read_run(options);
+  Run run = read_run(options);
   const std::vector<int> steps = field_steps(options, run), levels = box_levels(options);
   write_stresses(options, run);
   write_fields(options, run, steps);

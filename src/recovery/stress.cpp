@@ -31,7 +31,7 @@ Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress) { return for_each_tenso
 Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, rankine); }
 
 StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,
-                             const Eigen::MatrixXd& q) {
+                             const Eigen::MatrixXd& q, const Eigen::MatrixXd& sigma_static) {
   StressHistory history;
   history.stress.resize(6 * static_cast<Eigen::Index>(members.size()), q.cols());
   for (std::size_t i = 0; i < members.size(); ++i) {
@@ -40,6 +40,7 @@ StressHistory stress_history(const model::Stress& stress, const std::vector<int>
         [&](const auto& Psi) { history.stress.middleRows<6>(6 * i) = Psi.middleRows(6 * members[i], 6) * q; },
         stress.Psi);
   }
+  if (sigma_static.size() > 0) history.stress += sigma_static;
   history.von_mises = von_mises(history.stress);
   history.rankine = rankine(history.stress);
   return history;

@@ -29,8 +29,9 @@ struct StressHistory {
 Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress);
 Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress);
 
-/// sigma(t) = Psi q(t) at the evaluation nodes `members` (local numbers in stress.node); q: n_q x n_t.
+/// sigma(t) = Psi q(t) + sigma_static(t) at the evaluation nodes `members` (local numbers in stress.node);
+/// q: n_q x n_t; sigma_static: 6 n x n_t, Pa, or empty.
 StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,
-                             const Eigen::MatrixXd& q);
+                             const Eigen::MatrixXd& q, const Eigen::MatrixXd& sigma_static = {});
 
 }  // namespace elastogear::recovery

@@ -1,0 +1,33 @@
+#pragma once
+// What static forces do to the unreduced body: displacement K^-1 f and stress S K^-1 f (docs/theory.md,
+// section Mode acceleration).
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "elastogear/io/body_file.h"
+
+namespace elastogear::reduction {
+
+/// Factorises K of the whole body, once, on this process alone. Nodes are mesh numbers; forces on restrained
+/// nodes do nothing.
+class StaticResponse {
+ public:
+  /// The source must outlive this. Throws Error when the body is not held or the factorisation fails.
+  explicit StaticResponse(const io::BodySource& source);
+  ~StaticResponse();
+  StaticResponse(const StaticResponse&) = delete;
+  StaticResponse& operator=(const StaticResponse&) = delete;
+
+  /// 3 n_nodes, m, node-major, for forces f (3 x n, N) on `loaded`.
+  Eigen::VectorXd displacement(const std::vector<int>& loaded, const Eigen::Matrix3Xd& f);
+  /// Stress at `evaluated` for unit forces in x, y, z on each of `loaded`: 6 n_e x 3 n, Pa/N.
+  Eigen::MatrixXd stress(const std::vector<int>& loaded, const std::vector<int>& evaluated);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,36 @@
+#pragma once
+// Mode acceleration for one body of a run: its dynamic coordinates, the contact forces on it, and the whole
+// body's static answer to them.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elastogear/io/result_file.h"
+#include "elastogear/recovery/mode_acceleration.h"
+#include "elastogear/reduction/static_response.h"
+
+namespace elastogear::app {
+
+struct StaticAnswer {
+  Eigen::MatrixXd q;      ///< n_q x n_t, without the static part
+  std::vector<int> node;  ///< loaded nodes, mesh numbers
+  Eigen::MatrixXd force;  ///< 3 n x n_t, N, body frame
+  io::BodySource source;
+  std::unique_ptr<reduction::StaticResponse> response;  ///< none when no force ever acts
+};
+
+struct BodyOfRun {
+  std::string result, name, file;
+  const io::BodyHistory& history;
+};
+
+/// Nothing for a body in its full basis, whose answer is complete already.
+std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body);
+
+/// 6 n x n_t, Pa, at mesh nodes.
+Eigen::MatrixXd stress_history(StaticAnswer& answer, const std::vector<int>& nodes);
+/// 3 n_nodes, m, at one output time.
+Eigen::VectorXd displacement(StaticAnswer& answer, Eigen::Index step);
+
+}  // namespace elastogear::app
