@@ -8,6 +8,7 @@
 #include "elastogear/base/agree.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/mesh/file.h"
+#include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/reduce.h"
 
 namespace elastogear::app {
@@ -31,8 +32,12 @@ const OptionTable kTable = {
     {"basis", "-", "modal",
      "modal: eigenmodes; full: every free degree of freedom (the finite-element reference)"},
     {"modes", "-", "100", "number of eigenmodes"},
-    {"window", "-", "0",
-     "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc (-eps_*, -st_*)"},
+    {"window", "-", "auto",
+     "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc; auto: windows of the "
+     "best size, or SLEPc when an -eps_* or -st_* option is given"},
+    {"store", "-", "all",
+     "modes at all nodes, or at the surface and stress nodes only (no whole fields): all or surface"},
+    {"precision", "-", "float64", "of modes stored at all nodes: float64 or float32"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
 };
@@ -49,6 +54,17 @@ std::vector<model::MaterialRegion> regions(const Options& options) {
   return regions;
 }
 
+// SLEPc's own options ask for SLEPc.
+bool asks_for_slepc(const Options& options) {
+  return !options.placeholder_values("eps_<option>").empty() ||
+         !options.placeholder_values("st_<option>").empty();
+}
+
+int window(const Options& options) {
+  if (options.text("window") != "auto") return options.count("window");
+  return asks_for_slepc(options) ? 0 : reduction::kAutomaticWindow;
+}
+
 reduction::ReductionOptions reduction_options(const Options& options) {
   reduction::ReductionOptions o;
   o.name = std::filesystem::path(options.text("output")).stem().string();
@@ -59,7 +75,11 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.stress_nodes = options.list("stress_nodes");
   o.basis = options.choice("basis", {"modal", "full"}) == 0 ? model::Basis::modal : model::Basis::full;
   o.n_modes = options.count("modes", 1);
-  o.window = options.count("window");
+  o.window = window(options);
+  o.store =
+      options.choice("store", {"surface", "all"}) == 0 ? reduction::Store::surface : reduction::Store::all;
+  o.precision = options.choice("precision", {"float64", "float32"}) == 0 ? io::Precision::float64
+                                                                         : io::Precision::float32;
   o.alpha = options.number("damping_alpha");
   o.beta = options.number("damping_beta");
   o.provenance = options.provenance();
@@ -96,11 +116,17 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
   print_item("inertia about it, diagonal", vector_text(report.J.diagonal(), "kg m^2"));
   print_item("off-diagonal yz, xz, xy",
              vector_text({report.J(1, 2), report.J(0, 2), report.J(0, 1)}, "kg m^2"));
+  if (report.discarded > 0)
+    print_item("discarded", std::to_string(report.discarded) + " stored windows of another reduction");
+  if (report.continued_after > 0)
+    print_item("continued after", std::to_string(report.continued_after) + " modes of a run that was killed");
   if (report.frequency.size() > 0) {
     print_item("modes", std::to_string(report.frequency.size()));
     print_item("frequency range", with_unit(report.frequency.minCoeff(), "Hz") + " to " +
                                       with_unit(report.frequency.maxCoeff(), "Hz"));
     print_item("largest residual", with_unit(report.residual.maxCoeff(), ""));
+    print_item("largest phi_i' M phi_j", with_unit(report.orthogonality, ""));
+    print_item("count", "complete, by the inertia of K - sigma M");
   }
   for (const reduction::StageTime& stage : report.times)
     print_item("time: " + stage.stage, duration(stage.seconds));

@@ -78,6 +78,9 @@ Basis read_basis(const h5::File& file) {
 
 // Sum of modes; one mode in memory at a time.
 Eigen::VectorXd sum_modes(const h5::File& file, const Eigen::VectorXd& q) {
+  require(h5::exists(file, "/modes/Phi"), file.path,
+          ": holds the modes at surface and stress nodes only; reduce the body with -store all to recover "
+          "whole fields");
   const h5::Shape shape = h5::shape(file, "/modes/Phi");
   require(shape.size() == 3 && shape[0] == extent(q.size()) && shape[2] == 3, file.path,
           ": /modes/Phi does not hold ", q.size(), " modes of n nodes x 3");
@@ -117,6 +120,16 @@ BodySource read_body_source(const std::string& path) {
   source.element = parse_element(path, h5::string_attribute(file, "/", "element"));
   source.free_dof = read_free_dof(file, 3 * source.mesh.X.cols());
   return source;
+}
+
+ModeChecks read_mode_checks(const std::string& path) {
+  const h5::File file = open_format(path, kBodyFormat);
+  if (!h5::exists(file, "/checks/residual")) return {};
+  return {read_vector(file, "/checks/residual"), h5::read<double>(file, "/checks/orthogonality", {}).front()};
+}
+
+bool has_full_modes(const std::string& path) {
+  return h5::exists(open_format(path, kBodyFormat), "/modes/Phi");
 }
 
 Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q) {

@@ -57,6 +57,12 @@ void write_modes(const h5::File& file, const model::ElasticBody& body) {
   h5::write<double>(file, "/modes/eigenvalue", view(eigenvalue), "rad^2/s^2");
 }
 
+void write_checks(const h5::File& file, const ModeChecks& checks) {
+  if (checks.residual.size() == 0) return;
+  h5::write<double>(file, "/checks/residual", view(checks.residual), "1");
+  h5::write<double>(file, "/checks/orthogonality", view(checks.orthogonality), "1");
+}
+
 void write_materials(const h5::File& file, const std::vector<model::MaterialRegion>& regions) {
   h5::make_group(file, "/material");
   for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -90,7 +96,7 @@ struct BodyWriter::Data {
   h5::Id modes;
 };
 
-BodyWriter::BodyWriter(const std::string& path, int n_nodes, int n_modes) {
+BodyWriter::BodyWriter(const std::string& path, int n_nodes, int n_modes, Precision precision) {
   require(n_nodes >= 0 && n_modes >= 0, path, ": ", n_nodes, " nodes and ", n_modes, " modes");
   data_.reset(new Data{PendingFile(path), {}, static_cast<hsize_t>(n_nodes), std::vector<bool>(n_modes), {}});
   data_->file = h5::create(path, data_->pending.temporary());
@@ -98,7 +104,8 @@ BodyWriter::BodyWriter(const std::string& path, int n_nodes, int n_modes) {
   h5::make_group(data_->file, "/reduced");
   if (n_modes == 0 || n_nodes == 0) return;
   const h5::Shape shape{static_cast<hsize_t>(n_modes), data_->n_nodes, 3}, chunk{1, data_->n_nodes, 3};
-  data_->modes = h5::create_chunked(data_->file, "/modes/Phi", {shape, chunk, kModalUnits.Phi});
+  data_->modes = h5::create_chunked(data_->file, "/modes/Phi",
+                                    {shape, chunk, kModalUnits.Phi, precision == Precision::float32});
 }
 
 BodyWriter::~BodyWriter() = default;
@@ -113,14 +120,16 @@ void BodyWriter::write_mode(int index, const Eigen::VectorXd& phi) {
   data_->written[index] = true;
 }
 
-void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source) {
+void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source, const ModeChecks& checks) {
   const std::string& path = data_->file.path;
   model::validate(body, path);
   check_source(body, source, path);
   const Eigen::Index n_modes = body.basis == Basis::modal ? body.n_q() : 0;
+  const auto n_written = static_cast<Eigen::Index>(data_->written.size());
   const bool complete =
       std::find(data_->written.begin(), data_->written.end(), false) == data_->written.end();
-  require(complete && static_cast<Eigen::Index>(data_->written.size()) == n_modes &&
+  require(complete && (n_written == 0 || n_written == n_modes) &&
+              (checks.residual.size() == 0 || checks.residual.size() == n_modes) &&
               source.mesh.n_nodes() == static_cast<int>(data_->n_nodes),
           path, ": the modes written are not those of the body");
   const h5::File& file = data_->file;
@@ -130,6 +139,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   h5::set_attribute(file, "/", "element", element_name(source.element));
   h5::write_map(file, "/provenance", body.provenance);
   write_modes(file, body);
+  write_checks(file, checks);
   write_reduced(file, body, unit);
   write_inertia(file, body.inertia, unit);
   write_surface(file, body.surface, unit);

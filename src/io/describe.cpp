@@ -76,10 +76,16 @@ void describe_inertia(Out& out, const model::Inertia& inertia) {
   line(out, "inertia about the origin: [", inertia.J.format(kRow), "] kg m^2");
 }
 
-void describe_modes(Out& out, const model::ElasticBody& body) {
+void describe_modes(Out& out, const std::string& path, const model::ElasticBody& body) {
   line(out, "basis: ", basis_name(body.basis), ", ", counted(body.n_q(), "elastic coordinate"));
   if (body.frequency.size() > 0)
     line(out, "frequencies: ", body.frequency.minCoeff(), " to ", body.frequency.maxCoeff(), " Hz");
+  if (body.basis == model::Basis::modal)
+    line(out, "modes are stored at ", has_full_modes(path) ? "all nodes" : "surface and stress nodes only");
+  const ModeChecks checks = read_mode_checks(path);
+  if (checks.residual.size() > 0)
+    line(out, "largest residual: ", checks.residual.maxCoeff(),
+         ", largest phi_i' M phi_j: ", checks.orthogonality, ", count proved by inertia");
   line(out, "damping: alpha = ", body.alpha, " 1/s, beta = ", body.beta, " s");
 }
 
@@ -87,7 +93,7 @@ void describe_body(Out& out, const std::string& path) {
   const model::ElasticBody body = read_body(path);
   const BodySource source = read_body_source(path);
   line(out, "body: ", body.name);
-  describe_modes(out, body);
+  describe_modes(out, path, body);
   describe_inertia(out, body.inertia);
   line(out, "element of hex8 cells: ", element_name(source.element), ", ",
        counted(source.free_dof.size(), "free degree"), " of freedom");

@@ -290,8 +290,8 @@ std::vector<std::string> read_strings(const File& file, const std::string& name)
 }
 
 Id create_chunked(const File& file, const std::string& name, const Chunked& layout) {
-  Id dataset = create_dataset(file, name, H5T_NATIVE_DOUBLE, simple_space(layout.shape),
-                              creation_properties({layout.chunk}));
+  Id dataset = create_dataset(file, name, layout.single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE,
+                              simple_space(layout.shape), creation_properties({layout.chunk}));
   set_attribute(file, name, "unit", layout.unit);
   return dataset;
 }

@@ -107,6 +107,7 @@ struct Rows {
 struct Chunked {
   Shape shape, chunk;
   std::string unit;
+  bool single = false;  ///< 4 bytes a number
 };
 Id create_chunked(const File& file, const std::string& name, const Chunked& layout);
 void write_rows(const File& file, hid_t dataset, const Rows& rows, const double* data);
@@ -117,6 +118,7 @@ struct Item {
   Shape shape;  ///< of one row; empty: a number
   std::string unit;
   bool integer = false;
+  bool single = false;  ///< 4 bytes a number
 };
 
 /// One growing dataset, n_rows x item shape, written in blocks. The file must outlive it.

@@ -23,7 +23,8 @@ Series::Series(const File& file, std::string name, Item item)
   const Id properties(H5Pcreate(H5P_DATASET_CREATE)), links(H5Pcreate(H5P_LINK_CREATE));
   H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
   H5Pset_create_intermediate_group(links, 1);
-  const hid_t type = item_.integer ? H5T_STD_I64LE : H5T_IEEE_F64LE;
+  const hid_t number = item_.single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+  const hid_t type = item_.integer ? H5T_STD_I64LE : number;
   dataset_ = Id(H5Dcreate2(file.id, name_.c_str(), type, space, links, properties, H5P_DEFAULT));
   check(dataset_ >= 0, file, name_, "cannot be created");
   set_attribute(file, name_, "unit", item_.unit);

@@ -6,6 +6,8 @@
 namespace elastogear::reduction {
 namespace {
 
+constexpr int kInertiaRows = 9 + 3 + 3;  // of S_1, C_l, C_r
+
 Eigen::SparseMatrix<double> diagonal(const Eigen::VectorXd& d) {
   Eigen::SparseMatrix<double> D(d.size(), d.size());
   D = d.asDiagonal();
@@ -49,14 +51,31 @@ void allocate_modes(model::ElasticBody& body, int n_q) {
 
 void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
               const model::SparseRows& S) {
-  auto& Phi = std::get<model::DenseRows>(body.surface.Phi);
+  set_mode(body, k, mode_column(body, phi, moments, S));
+}
+
+Eigen::VectorXd mode_column(const model::ElasticBody& body, const Eigen::VectorXd& phi,
+                            const fem::MassMoments& moments, const model::SparseRows& S) {
+  const auto n_s = 3 * static_cast<Eigen::Index>(body.surface.node.size()), n_e = S.rows();
+  Eigen::VectorXd column(n_s + n_e + kInertiaRows);
   for (std::size_t i = 0; i < body.surface.node.size(); ++i)
-    Phi.block<3, 1>(static_cast<Eigen::Index>(3 * i), k) = phi.segment<3>(3 * body.surface.node[i]);
-  std::get<model::DenseRows>(body.stress.Psi).col(k) = S * phi;
+    column.segment<3>(static_cast<Eigen::Index>(3 * i)) = phi.segment<3>(3 * body.surface.node[i]);
+  column.segment(n_s, n_e) = S * phi;
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> S_1 = fem::first_moment(moments, phi);
-  body.inertia.S_1.col(k) = S_1.reshaped<Eigen::RowMajor>();
-  body.inertia.C_l.row(k) = fem::translational_coupling(moments, phi);
-  body.inertia.C_r.row(k) = fem::rotational_coupling(S_1);
+  column.tail<kInertiaRows>() << S_1.reshaped<Eigen::RowMajor>(), fem::translational_coupling(moments, phi),
+      fem::rotational_coupling(S_1);
+  return column;
+}
+
+void set_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& column) {
+  auto& Phi = std::get<model::DenseRows>(body.surface.Phi);
+  auto& Psi = std::get<model::DenseRows>(body.stress.Psi);
+  Phi.col(k) = column.head(Phi.rows());
+  Psi.col(k) = column.segment(Phi.rows(), Psi.rows());
+  const auto tail = column.tail<kInertiaRows>();
+  body.inertia.S_1.col(k) = tail.head<9>();
+  body.inertia.C_l.row(k) = tail.segment<3>(9);
+  body.inertia.C_r.row(k) = tail.tail<3>();
 }
 
 void set_modal_matrices(model::ElasticBody& body, const Eigen::VectorXd& eigenvalue) {

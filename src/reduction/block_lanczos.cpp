@@ -16,30 +16,17 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Columns = Eigen::Ref<MatrixXd>;
+using ConstColumns = Eigen::Ref<const MatrixXd>;
 
 constexpr double kRoundoff = 1e-14;          // of the first block's norm: a direction below it is noise
 constexpr double kNearlyOrthonormal = 0.25;  // smallest over largest eigenvalue of the Gram matrix
-constexpr int kMaxPasses = 5;  // of orthogonalisation; two do unless the block nearly loses rank
-
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
-
-MatrixXd multiply(Mat M, Columns W) {
-  UniqueMat dense, product;
-  PetscInt n = 0;
-  const PetscScalar* values = nullptr;
-  check(MatGetSize(M, &n, nullptr));
-  check(MatCreateDense(comm_of(M), static_cast<PetscInt>(W.rows()), PETSC_DECIDE, n,
-                       static_cast<PetscInt>(W.cols()), W.data(), dense.out()));
-  check(MatMatMult(M, dense, MAT_INITIAL_MATRIX, PETSC_DEFAULT, product.out()));
-  check(MatDenseGetArrayRead(product, &values));
-  MatrixXd MW = Eigen::Map<const MatrixXd>(values, W.rows(), W.cols());
-  check(MatDenseRestoreArrayRead(product, &values));
-  return MW;
-}
+constexpr double kWellConditioned = 1e-6;    // the same: dividing by its root loses three digits at most
+constexpr double kSmallCorrection = 1e-6;    // relative: what is left of it after the projection is roundoff
+constexpr int kMaxPasses = 5;
 
 // C := alpha op(A) B + beta C by BLAS.
-void gemm(bool transposed, double alpha, const Eigen::Ref<const MatrixXd>& A,
-          const Eigen::Ref<const MatrixXd>& B, double beta, Columns C) {
+void gemm(bool transposed, double alpha, const ConstColumns& A, const ConstColumns& B, double beta,
+          Columns C) {
   const auto m = static_cast<PetscBLASInt>(C.rows()), n = static_cast<PetscBLASInt>(C.cols()),
              k = static_cast<PetscBLASInt>(B.rows());
   const auto stride = [](const auto& X) {
@@ -50,19 +37,18 @@ void gemm(bool transposed, double alpha, const Eigen::Ref<const MatrixXd>& A,
   BLASgemm_(transposed ? "T" : "N", "N", &m, &n, &k, &alpha, A.data(), &a, B.data(), &b, &beta, C.data(), &c);
 }
 
-// A' B over all ranks; the same bits on each.
-MatrixXd inner(MPI_Comm comm, const Eigen::Ref<const MatrixXd>& A, const Eigen::Ref<const MatrixXd>& B) {
-  MatrixXd own(A.cols(), B.cols()), sum(A.cols(), B.cols());
-  gemm(true, 1, A, B, 0, own);
-  const int length = static_cast<int>(own.size());
-  MPI_Reduce(own.data(), sum.data(), length, MPI_DOUBLE, MPI_SUM, 0, comm);
-  MPI_Bcast(sum.data(), length, MPI_DOUBLE, 0, comm);
-  return sum;
+MatrixXd times(const ConstColumns& W, const MatrixXd& U) {
+  MatrixXd product(W.rows(), U.cols());
+  gemm(false, 1, W, U, 0, product);
+  return product;
 }
 
 struct Orthonormal {
-  MatrixXd H;  // columns of V x b: W = V H + Q R
-  MatrixXd R;  // rank x b
+  MatrixXd H;    // columns of V x b: W = V H + Q R
+  MatrixXd R;    // rank x b
+  MatrixXd M_Q;  // own rows x rank
+  double scale;  // norm of the block before anything was taken off
+  bool done = false;
 };
 
 // Rows of R that are not noise.
@@ -73,62 +59,100 @@ std::vector<int> kept_rows(const MatrixXd& R, double scale) {
   return kept;
 }
 
+// W := W G^-1/2, G: its Gram matrix; drops directions that are noise. Returns the factor applied.
+MatrixXd normalise(MatrixXd& W, const MatrixXd& G, double correction, Orthonormal& result) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(G);
+  const double largest = gram.eigenvalues().maxCoeff(), smallest = gram.eigenvalues().minCoeff();
+  const VectorXd d = gram.eigenvalues().cwiseMax(kRoundoff * largest).cwiseSqrt();
+  const MatrixXd R = d.asDiagonal() * gram.eigenvectors().transpose() * result.R;
+  const std::vector<int> kept = kept_rows(R, result.scale);
+  const MatrixXd U = (gram.eigenvectors() * d.cwiseInverse().asDiagonal())(Eigen::all, kept);
+  result.R = R(kept, Eigen::all);
+  W = times(W, U);
+  result.done = smallest > kWellConditioned * largest &&
+                correction * correction < kSmallCorrection * kSmallCorrection * smallest;
+  return U;
+}
+
 // W := Q, orthonormal and orthogonal to V in the inner product of M; drops columns that are in the span of V.
-// Each pass projects and then divides by the square root of the Gram matrix.
-Orthonormal orthonormalise(Mat M, const Eigen::Ref<const MatrixXd>& V, MatrixXd& W) {
-  const MPI_Comm comm = comm_of(M);
-  Orthonormal result{MatrixXd::Zero(V.cols(), W.cols()), MatrixXd::Identity(W.cols(), W.cols())};
-  double scale = 0;
-  for (int pass = 0; pass < kMaxPasses && W.cols() > 0; ++pass) {
-    MatrixXd MW = multiply(M, W);
-    if (pass == 0) scale = std::sqrt(inner(comm, W, MW).diagonal().maxCoeff());
+// Each pass projects and then divides by the square root of the Gram matrix; one does when W was nearly
+// orthogonal to V before and well conditioned. The Gram matrix after the projection is W' M W - C' C.
+Orthonormal orthonormalise(const BlockProduct& M, const ConstColumns& V, MatrixXd& W, double scale) {
+  Orthonormal result{MatrixXd::Zero(V.cols(), W.cols()), MatrixXd::Identity(W.cols(), W.cols()), {}, scale};
+  for (int pass = 0; pass < kMaxPasses && W.cols() > 0 && !result.done; ++pass) {
+    const MatrixXd M_W = M(W);
+    MatrixXd G = inner(M.comm(), W, M_W);
+    if (pass == 0) result.scale = std::max(scale, std::sqrt(G.diagonal().maxCoeff()));
+    double correction = 0;
     if (V.cols() > 0) {
-      const MatrixXd C = inner(comm, V, MW);
+      const MatrixXd C = inner(M.comm(), V, M_W);
       result.H += C * result.R;
       gemm(false, -1, V, C, 1, W);
-      MW = multiply(M, W);
+      G -= C.transpose() * C;
+      correction = C.colwise().norm().maxCoeff();
     }
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(inner(comm, W, MW));
-    const double largest = gram.eigenvalues().maxCoeff(), smallest = gram.eigenvalues().minCoeff();
-    const VectorXd d = gram.eigenvalues().cwiseMax(kRoundoff * largest).cwiseSqrt();
-    const MatrixXd R = d.asDiagonal() * gram.eigenvectors().transpose() * result.R;
-    const std::vector<int> kept = kept_rows(R, scale);
-    const MatrixXd U = gram.eigenvectors() * d.cwiseInverse().asDiagonal();
-    result.R = R(kept, Eigen::all);
-    MatrixXd Q(W.rows(), static_cast<Eigen::Index>(kept.size()));
-    gemm(false, 1, W, U(Eigen::all, kept), 0, Q);
-    W = std::move(Q);
-    if (pass > 0 && smallest > kNearlyOrthonormal * largest) break;
+    normalise(W, G, correction, result);
   }
+  result.M_Q = M(W);
+  if (W.cols() > 0) result.M_Q = times(result.M_Q, normalise(W, inner(M.comm(), W, result.M_Q), 0, result));
   return result;
 }
 
-void append(KrylovBasis& basis, const MatrixXd& Q) {
+void append(KrylovBasis& basis, const MatrixXd& Q, const Orthonormal& orthonormal) {
   basis.V.middleCols(basis.size, Q.cols()) = Q;
+  basis.M_next = orthonormal.M_Q;
+  basis.R = orthonormal.R;
   basis.exhausted = Q.cols() == 0;
+}
+
+// Takes off what the three-term recurrence says is in the last two blocks; all the rest is roundoff. Returns
+// the norm of what was taken.
+double recur(KrylovBasis& basis, MatrixXd& W) {
+  const Eigen::Index block = basis.R.rows(), before = basis.R.cols(), begin = basis.size;
+  double scale = 0;
+  if (begin > 0) {
+    gemm(false, -1, basis.V.middleCols(begin - before, before), basis.R.transpose(), 1, W);
+    basis.T.block(begin - before, begin, before, block) = basis.R.transpose();
+    scale = basis.R.norm();
+  }
+  const MatrixXd A = inner(basis.M->comm(), basis.M_next, W);
+  gemm(false, -1, basis.V.middleCols(begin, block), A, 1, W);
+  basis.T.block(begin, begin, block, block) = A;
+  return scale + A.norm();
 }
 
 }  // namespace
 
-KrylovBasis start_basis(Mat M, ShiftedFactor& factor, double sigma, int block, int capacity) {
+MatrixXd sum(MPI_Comm comm, const MatrixXd& own) {
+  MatrixXd total(own.rows(), own.cols());
+  const int length = static_cast<int>(own.size());
+  MPI_Reduce(own.data(), total.data(), length, MPI_DOUBLE, MPI_SUM, 0, comm);
+  MPI_Bcast(total.data(), length, MPI_DOUBLE, 0, comm);
+  return total;
+}
+
+MatrixXd inner(MPI_Comm comm, const ConstColumns& A, const ConstColumns& B) {
+  MatrixXd own(A.cols(), B.cols());
+  gemm(true, 1, A, B, 0, own);
+  return sum(comm, own);
+}
+
+KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, int capacity) {
   int rank = 0;
-  PetscInt n_own = 0, n = 0;
-  MPI_Comm_rank(comm_of(M), &rank);
-  check(MatGetLocalSize(M, &n_own, nullptr));
-  check(MatGetSize(M, &n, nullptr));
+  MPI_Comm_rank(M.comm(), &rank);
   KrylovBasis basis;
-  basis.M = M;
+  basis.M = &M;
   basis.sigma = sigma;
-  basis.V.resize(n_own, capacity + block);
+  basis.V.resize(M.n_own(), capacity + block);
   basis.T.setZero(capacity + block, capacity + block);
   std::mt19937 generator(static_cast<unsigned>(rank));
   std::uniform_real_distribution<double> uniform(-1, 1);
-  MatrixXd W(n_own, std::min<PetscInt>(block, n));
+  MatrixXd W(M.n_own(), std::min(block, M.n()));
   for (double& w : W.reshaped()) w = uniform(generator);
-  W = multiply(M, W);
+  W = M(W);
   factor.solve(W);
-  basis.R = orthonormalise(M, basis.V.leftCols(0), W).R;
-  append(basis, W);
+  const Orthonormal first = orthonormalise(M, basis.V.leftCols(0), W, 0);
+  append(basis, W, first);
   return basis;
 }
 
@@ -139,13 +163,13 @@ bool has_room(const KrylovBasis& basis) {
 void expand(KrylovBasis& basis, ShiftedFactor& factor) {
   const auto block = basis.R.rows();
   const auto begin = basis.size;
-  MatrixXd W = multiply(basis.M, basis.V.middleCols(begin, block));
+  MatrixXd W = basis.M_next;
   factor.solve(W);
+  const double scale = recur(basis, W);
   basis.size += static_cast<int>(block);
-  const auto [H, R] = orthonormalise(basis.M, basis.V.leftCols(basis.size), W);
-  basis.T.block(0, begin, basis.size, block) = H;
-  basis.R = R;
-  append(basis, W);
+  const Orthonormal next = orthonormalise(*basis.M, basis.V.leftCols(basis.size), W, scale);
+  basis.T.block(0, begin, basis.size, block) += next.H;
+  append(basis, W, next);
 }
 
 RitzPairs ritz_pairs(const KrylovBasis& basis) {
@@ -168,14 +192,20 @@ RitzPairs ritz_pairs(const KrylovBasis& basis) {
   return pairs;
 }
 
-MatrixXd ritz_vectors(const KrylovBasis& basis, const RitzPairs& pairs, const std::vector<int>& columns) {
-  const MatrixXd s = pairs.s(Eigen::all, columns);
+MatrixXd improved_coefficients(const KrylovBasis& basis, const RitzPairs& pairs,
+                               const std::vector<int>& columns) {
   const VectorXd theta = pairs.theta(columns);
-  const MatrixXd next = basis.R * s.bottomRows(basis.R.cols()) * theta.cwiseInverse().asDiagonal();
-  MatrixXd phi(basis.V.rows(), s.cols());
-  gemm(false, 1, basis.V.leftCols(basis.size), s, 0, phi);
-  if (next.rows() > 0) gemm(false, 1, basis.V.middleCols(basis.size, next.rows()), next, 1, phi);
-  return phi;
+  MatrixXd s(basis.size + basis.R.rows(), theta.size());
+  s.topRows(basis.size) = pairs.s(Eigen::all, columns);
+  s.bottomRows(basis.R.rows()) =
+      basis.R * s.middleRows(basis.size - basis.R.cols(), basis.R.cols()) * theta.cwiseInverse().asDiagonal();
+  return s;
+}
+
+MatrixXd combine(const KrylovBasis& basis, const MatrixXd& s) { return times(basis.V.leftCols(s.rows()), s); }
+
+MatrixXd project(const KrylovBasis& basis, const MatrixXd& s, const ConstColumns& M_phi) {
+  return s.transpose() * inner(basis.M->comm(), basis.V.leftCols(s.rows()), M_phi);
 }
 
 }  // namespace elastogear::reduction

@@ -110,6 +110,43 @@ std::pair<double, int> shift_above(const std::vector<std::pair<double, int>>& pa
   return {pairs.back().first * (1 + kGap), static_cast<int>(pairs.size())};
 }
 
+// `wanted`, and more when their eigenvalues are as good as equal to the last one's.
+int whole_group(const std::vector<std::pair<double, int>>& pairs, int wanted) {
+  constexpr double kEqual = 1e-5;
+  std::size_t n = static_cast<std::size_t>(wanted);
+  while (n < pairs.size() && pairs[n].first - pairs[n - 1].first < kEqual * pairs[n].first) ++n;
+  return static_cast<int>(n);
+}
+
+// Largest |phi_i' M phi_j|, i != j, of the first `count` pairs: the solver's basis consists of the modes.
+double orthogonality(EPS eps, const std::vector<std::pair<double, int>>& pairs, int count) {
+  BV basis = nullptr;
+  UniqueMat dense;
+  const PetscScalar* values = nullptr;
+  PetscInt n = static_cast<PetscInt>(pairs.size());
+  check(EPSGetBV(eps, &basis));
+  check(BVSetActiveColumns(basis, 0, n));
+  check(MatCreateSeqDense(PETSC_COMM_SELF, n, n, nullptr, dense.out()));
+  check(BVDot(basis, basis, dense));
+  check(MatDenseGetArrayRead(dense, &values));
+  const Eigen::Map<const Eigen::MatrixXd> gram(values, n, n);
+  double largest = 0;
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < i; ++j) largest = std::max(largest, std::abs(gram(pairs[i].second, pairs[j].second)));
+  check(MatDenseRestoreArrayRead(dense, &values));
+  return largest;
+}
+
+void commit(const EigenOptions& options, const Eigenmodes& modes) {
+  if (!options.commit) return;
+  SearchState state;
+  state.eigenvalue = modes.eigenvalue;
+  state.residual = modes.residual;
+  state.orthogonality = modes.orthogonality;
+  state.iterations = modes.iterations;
+  options.commit(state);
+}
+
 void verify_count(Mat K, Mat M, double sigma, int known) {
   const int exact = count_eigenvalues_below(K, M, sigma);
   require(exact == known, "the eigensolver found ", known, " of the ", exact, " modes below ",
@@ -124,12 +161,13 @@ Eigenmodes find_by_slepc(Mat K, Mat M, const EigenOptions& options, const ModeSi
   solve(eps, options, progress);
   const auto pairs = sorted_pairs(eps);
   require_definite(K, M, pairs.front().first);
-  Eigenmodes modes{Eigen::VectorXd(options.n_modes), Eigen::VectorXd(options.n_modes), 0};
+  const int count = options.whole_pairs ? whole_group(pairs, options.n_modes) : options.n_modes;
+  Eigenmodes modes{Eigen::VectorXd(count), Eigen::VectorXd(count), orthogonality(eps, pairs, count)};
   PetscInt iterations = 0;
   check(EPSGetIterationNumber(eps, &iterations));
   modes.iterations = static_cast<int>(iterations);
   const Residual w = make_residual(K);
-  for (int i = 0; i < options.n_modes; ++i) {
+  for (int i = 0; i < count; ++i) {
     check(EPSGetEigenvector(eps, pairs[i].second, w.phi, nullptr));
     measure(K, M, w, &modes.eigenvalue(i), &modes.residual(i));
     sink(i, w.phi);
@@ -139,6 +177,7 @@ Eigenmodes find_by_slepc(Mat K, Mat M, const EigenOptions& options, const ModeSi
     const auto [sigma, known] = shift_above(pairs, options.n_modes);
     verify_count(K, M, sigma, known);
   }
+  commit(options, modes);
   return modes;
 }
 
@@ -175,8 +214,11 @@ void require_mode_count(int n_modes, int n_free) {
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress) {
   require_mode_count(options.n_modes, size_of(K));
-  return options.window > 0 ? find_by_windows(K, M, options, sink, progress)
-                            : find_by_slepc(K, M, options, sink, progress);
+  const SearchState& start = options.start;
+  if (start.eigenvalue.size() >= options.n_modes)
+    return {start.eigenvalue, start.residual, start.orthogonality, start.iterations};
+  return options.window != 0 ? find_by_windows(K, M, options, sink, progress)
+                             : find_by_slepc(K, M, options, sink, progress);
 }
 
 void fix_sign(Eigen::VectorXd& phi) {

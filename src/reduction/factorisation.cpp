@@ -105,12 +105,10 @@ ShiftedFactor::~ShiftedFactor() { solver_->call(end); }
 
 int ShiftedFactor::factorise(double sigma) {
   Solver& s = *solver_;
-  UniqueMat shifted;
-  check(MatDuplicate(s.K, MAT_COPY_VALUES, shifted.out()));
-  check(MatAXPY(shifted, -sigma, s.M, SAME_NONZERO_PATTERN));
-  std::size_t k = 0;
-  s.visit_lower(shifted, [&](int, int, double a) { s.value[k++] = a; });
-  shifted = {};
+  std::size_t k = 0, m = 0;
+  s.visit_lower(s.K, [&](int, int, double a) { s.value[k++] = a; });
+  s.visit_lower(s.M, [&](int, int, double a) { s.value[m++] -= sigma * a; });
+  require(k == m, "K and M differ in their sparsity");
   int code = s.call(Job::factorise);
   while ((code == kWorkspaceTooSmall || code == kWorkspaceTooSmall + 1) && s.icntl(14) < kMaxWorkspace) {
     s.icntl(14) *= 2;
@@ -144,8 +142,8 @@ void ShiftedFactor::solve(Eigen::Ref<Eigen::MatrixXd> B) {
 
 FactorSize ShiftedFactor::size() const {
   const double million = 1e6;
-  const int entries = solver_->infog(29);  // negative: in millions
-  return {entries < 0 ? -million * entries : entries, solver_->id.rinfog[2]};
+  const int entries = solver_->infog(20);  // negative: in millions
+  return {entries < 0 ? -million * entries : entries, solver_->id.rinfog[0]};
 }
 
 }  // namespace elastogear::reduction

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/base/version.h"
 #include "elastogear/fem/assembly.h"
 #include "elastogear/fem/element.h"
 #include "elastogear/fem/gather.h"
@@ -16,6 +19,8 @@
 #include "elastogear/reduction/basis.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/surface.h"
+#include "fingerprint.h"
+#include "mode_pieces.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -29,13 +34,13 @@ struct Plan {
   fem::MassMoments moments;
   model::SparseRows S;
   model::ElasticBody body;
-  std::optional<io::BodyWriter> writer;
 };
 
 struct Job {
   MPI_Comm comm;
   const mesh::Mesh& mesh;
   const ReductionOptions& options;
+  const std::string& output;
   const Progress& progress;
   int rank = 0, size = 1;
   Plan plan = {};
@@ -111,16 +116,52 @@ void number(Job& job) {
   plan.rows = fem::number_rows(mesh, is_free, plan.partition.part, job.size);
 }
 
-void prepare_body(Job& job, const std::string& output) {
+void prepare_body(Job& job) {
   Plan& plan = job.plan;
   plan.moments = fem::mass_moments(job.mesh, job.options.regions);
   plan.body = make_body(job.mesh, job.options, plan.moments);
   plan.S = fem::stress_operator(job.mesh, job.options.regions, job.options.element, plan.body.stress.node);
-  if (job.modal()) allocate_modes(plan.body, job.options.n_modes);
-  plan.writer.emplace(output, job.mesh.n_nodes(), job.modal() ? job.options.n_modes : 0);
+  const PendingFile can_be_written(job.output);
 }
 
-void reduce_modal(Job& job, const fem::Matrices& matrices) {
+// What the modes depend on. Collective.
+std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
+  const ReductionOptions& o = job.options;
+  Fingerprint f;
+  f.add(std::string(version()) + git_hash() + o.prefix);
+  for (std::uint64_t word : {fingerprint(matrices.K), fingerprint(matrices.M)}) f.add(word);
+  for (int option : {o.n_modes, o.window, static_cast<int>(o.store), static_cast<int>(o.precision)})
+    f.add(static_cast<double>(option));
+  f.add_all(job.plan.rows.row);
+  f.add_all(job.plan.moments.w_0);
+  f.add_all(job.plan.moments.w_1.reshaped());
+  f.add_all(job.plan.body.surface.node);
+  f.add_all(job.plan.body.stress.node);
+  f.add_all(std::span(job.plan.S.valuePtr(), static_cast<std::size_t>(job.plan.S.nonZeros())));
+  return f.text();
+}
+
+EigenOptions eigen_options(Job& job, ModePieces& pieces, const fem::Matrices& matrices) {
+  EigenOptions options;
+  PetscInt n_own = 0;
+  check(MatGetLocalSize(matrices.K, &n_own, nullptr));
+  options.n_modes = job.options.n_modes;
+  options.window = job.options.window;
+  options.prefix = job.options.prefix;
+  options.whole_pairs = true;
+  options.start = pieces.resume(static_cast<int>(n_own));
+  options.commit = [&](const SearchState& state) { pieces.commit(state); };
+  job.report.continued_after = static_cast<int>(options.start.eigenvalue.size());
+  job.report.discarded = pieces.discarded();
+  if (job.report.continued_after > 0)
+    report(job.progress,
+           "continues after " + std::to_string(job.report.continued_after) + " of " +
+               std::to_string(options.n_modes) + " modes",
+           1);
+  return options;
+}
+
+void find_modes(Job& job, const fem::Matrices& matrices, ModePieces& pieces) {
   Plan& plan = job.plan;
   UniqueVec layout;
   check(MatCreateVecs(matrices.K, layout.out(), nullptr));
@@ -129,19 +170,45 @@ void reduce_modal(Job& job, const fem::Matrices& matrices) {
     Eigen::VectorXd phi = gather(v);
     job.on_root([&] {
       fix_sign(phi);
-      add_mode(plan.body, k, phi, plan.moments, plan.S);
-      plan.writer->write_mode(k, phi);
+      Eigen::VectorXd column = mode_column(plan.body, phi, plan.moments, plan.S);
+      if (job.options.store == Store::surface) phi.resize(0);
+      pieces.add(k, {std::move(column), std::move(phi)});
     });
   };
-  EigenOptions options;
-  options.n_modes = job.options.n_modes;
-  options.window = job.options.window;
-  options.prefix = job.options.prefix;
-  const Eigenmodes modes = find_eigenmodes(matrices.K, matrices.M, options, keep, job.progress);
+  const Eigenmodes modes =
+      find_eigenmodes(matrices.K, matrices.M, eigen_options(job, pieces, matrices), keep, job.progress);
   set_modal_matrices(plan.body, modes.eigenvalue);
   job.report.frequency = plan.body.frequency;
   job.report.residual = modes.residual;
+  job.report.orthogonality = modes.orthogonality;
   job.finish_stage("eigenmodes");
+}
+
+io::BodySource source_of(const Job& job) {
+  return {job.mesh, job.options.regions, job.options.element, job.plan.free_dof};
+}
+
+// Rank 0.
+void write_modal(Job& job, const ModePieces& pieces) {
+  model::ElasticBody& body = job.plan.body;
+  const int n_q = static_cast<int>(body.frequency.size());
+  const bool full = job.options.store == Store::all;
+  allocate_modes(body, n_q);
+  io::BodyWriter writer(job.output, job.mesh.n_nodes(), full ? n_q : 0, job.options.precision);
+  pieces.visit([&](int k, const ModeRecord& mode) {
+    if (k >= n_q) return;  // void
+    set_mode(body, k, mode.column);
+    if (full) writer.write_mode(k, mode.phi);
+  });
+  model::validate(body, job.output);
+  writer.finish(body, source_of(job), {job.report.residual, job.report.orthogonality});
+}
+
+void reduce_modal(Job& job, const fem::Matrices& matrices) {
+  ModePieces pieces(job.comm, job.output + ".partial", fingerprint_of(job, matrices), job.options.precision);
+  find_modes(job, matrices, pieces);
+  job.on_root([&] { write_modal(job, pieces); });
+  pieces.clear();
 }
 
 void keep_all(Job& job, const fem::Matrices& matrices) {
@@ -153,6 +220,10 @@ void keep_all(Job& job, const fem::Matrices& matrices) {
     plan.body.M_r = std::move(M);
   });
   job.finish_stage("gathering");
+  job.on_root([&] {
+    model::validate(plan.body, job.output);
+    io::BodyWriter(job.output, job.mesh.n_nodes(), 0).finish(plan.body, source_of(job));
+  });
 }
 
 void fill_report(Job& job) {
@@ -178,13 +249,13 @@ void fill_report(Job& job) {
 
 ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOptions& options,
                        const std::string& output, const Progress& progress) {
-  Job job{comm, mesh, options, progress};
+  Job job{comm, mesh, options, output, progress};
   MPI_Comm_rank(comm, &job.rank);
   MPI_Comm_size(comm, &job.size);
   job.on_root([&] { number(job); });
   const fem::Share share = fem::distribute(comm, mesh, job.plan.region, job.plan.rows);
   job.finish_stage("partition");
-  job.on_root([&] { prepare_body(job, output); });
+  job.on_root([&] { prepare_body(job); });
   job.finish_stage("inertia, surface and stress operator");
   const fem::Matrices matrices = fem::assemble(comm, share, options.regions, options.element, progress);
   job.finish_stage("assembly");
@@ -192,11 +263,7 @@ ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOpt
     reduce_modal(job, matrices);
   else
     keep_all(job, matrices);
-  job.on_root([&] {
-    model::validate(job.plan.body, output);
-    job.plan.writer->finish(job.plan.body, {mesh, options.regions, options.element, job.plan.free_dof});
-    fill_report(job);
-  });
+  job.on_root([&] { fill_report(job); });
   job.finish_stage("writing");
   return job.report;
 }

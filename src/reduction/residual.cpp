@@ -32,11 +32,11 @@ Residual make_residual(Mat K) {
   return w;
 }
 
-void load(const Residual& w, const Eigen::Ref<const Eigen::VectorXd>& own) {
+void load(Vec phi, const Eigen::Ref<const Eigen::VectorXd>& own) {
   PetscScalar* values = nullptr;
-  check(VecGetArrayWrite(w.phi, &values));
+  check(VecGetArrayWrite(phi, &values));
   std::copy(own.begin(), own.end(), values);
-  check(VecRestoreArrayWrite(w.phi, &values));
+  check(VecRestoreArrayWrite(phi, &values));
 }
 
 void measure(Mat K, Mat M, const Residual& w, double* eigenvalue, double* residual) {

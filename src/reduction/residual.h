@@ -15,7 +15,7 @@ struct Residual {
 Residual make_residual(Mat K);
 
 /// phi := own rows.
-void load(const Residual& w, const Eigen::Ref<const Eigen::VectorXd>& own);
+void load(Vec phi, const Eigen::Ref<const Eigen::VectorXd>& own);
 
 /// Scales phi to phi' M phi = 1. eigenvalue: the Rayleigh quotient (more exact than a solver's value);
 /// residual: |K phi - eigenvalue M phi| / |K phi|.

@@ -1,6 +1,7 @@
 #include "elastogear/reduction/windows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -12,204 +13,340 @@
 namespace elastogear::reduction {
 namespace {
 
-constexpr double kGap = 1e-5;           // relative, of eigenvalues: room for a window's end
-constexpr double kColumnsPerMode = 2;   // of a Krylov basis without restarts, with a margin
-constexpr double kFirstBlocks = 10;     // until the first Ritz values converge
-constexpr double kFewestColumns = 200;  // of a basis, however small the window
-constexpr double kGrowth = 1.08;        // of the basis between two looks at its Ritz values
-constexpr double kTooMany = 1.5;        // times the wanted modes under a shift: move the shift down
-constexpr int kShifts = 4;              // tries to place one
-constexpr int kSpare = 2;               // modes above the wanted ones that show the gap there
-constexpr double kWeyl = 2.0 / 3;       // eigenvalues of a solid: lambda ~ N^(2/3)
+constexpr double kGap = 1e-5;            // relative, of eigenvalues: room for a window's end
+constexpr int kEndChoices = 8;           // gaps of which the widest becomes the end
+constexpr double kColumnsPerMode = 1.7;  // of a Krylov basis without restarts, measured
+constexpr double kFirstBlocks = 24;      // more of them, until the first Ritz values converge
+constexpr double kFirstLook = 0.8;       // of these sizes: when Ritz values are first looked at
+constexpr double kFewestColumns = 200;   // of a basis, however small the window
+constexpr double kGrowth = 1.05;         // of the basis between two looks at its Ritz values
+constexpr double kTooMany = 1.5;         // times the wanted modes under a shift: move the shift down
+constexpr int kShifts = 4;               // tries to place one
+constexpr int kSpare = 2;                // modes above the wanted ones that show the gap there
+constexpr double kWeyl = 1.5;            // exponent of N(lambda) in a solid
+constexpr int kFewModes = 16;            // too few to see an exponent of their own
+
+// The cost of a flop in a solve, over that in a matrix product: kSolve + kSolveOnce / block.
+constexpr double kSolve = 2, kSolveOnce = 24;
+constexpr double kLargestBasis = 0.7;  // entries, over those of the factor
+constexpr double kSmallBasis = 4e7;    // entries that are always allowed
+constexpr std::array kWindows{60, 100, 150, 200, 250, 300, 400, 500, 600};
+constexpr std::array kBlocks{8, 16, 24, 32};
 
 struct Search {
   Mat K, M;
   const EigenOptions& options;
   const ModeSink& sink;
   const Progress& progress;
+  BlockProduct K_times, M_times;
   ShiftedFactor factor;
-  Residual residual;
-  int n;
-  Window window = {};
-  Eigenmodes modes = {};
-  int delivered = 0;
+  UniqueVec phi;
+  WindowSize size;
+  SearchState state;
 
-  int wanted() const { return options.n_modes - window.below; }
+  int delivered() const { return static_cast<int>(state.eigenvalue.size()); }
+  int known() const { return options.n_rigid + delivered(); }
+  int wanted() const { return options.n_modes - delivered(); }
 };
+
+struct Shift {
+  double sigma = 0;
+  int below = 0;  // eigenvalues under it
+};
+
+using Found = std::vector<std::pair<double, int>>;  // eigenvalue and column, ascending
 
 // Which Ritz pairs make up the window.
 struct Choice {
-  std::vector<int> column;
+  Found modes;  // in ascending order
   double upper = 0;
+  int below_shift = 0;  // eigenvalues under the shift, by what was found
 };
 
-double eigenvalue(const KrylovBasis& basis, const RitzPairs& pairs, int i) {
-  return basis.sigma + 1 / pairs.theta(i);
-}
-
-// Converged pairs from the shift outwards up to the first that is not: (eigenvalue, column), ascending.
-// Between them none is missing, as far as the basis can know.
-std::vector<std::pair<double, int>> trusted(const KrylovBasis& basis, const RitzPairs& pairs,
-                                            double tolerance) {
-  std::vector<std::pair<double, int>> found;
+// Converged pairs from the shift outwards up to the first that is not. Between them none is missing, as far
+// as the basis can know.
+Found trusted(const KrylovBasis& basis, const RitzPairs& pairs, double tolerance) {
+  Found found;
   for (int i = 0; i < pairs.theta.size() && pairs.error(i) <= tolerance; ++i)
-    found.emplace_back(eigenvalue(basis, pairs, i), i);
+    found.emplace_back(basis.sigma + 1 / pairs.theta(i), i);
   std::sort(found.begin(), found.end());
   return found;
 }
 
-// Of `found` those above window.lower that end in a gap: as few as are wanted in the last window, else as
-// many as possible. None when the basis has not yet reached down to window.lower, or not yet up to enough.
-std::optional<Choice> choose(const Search& search, const KrylovBasis& basis,
-                             const std::vector<std::pair<double, int>>& found, int least) {
-  const double lower = search.window.lower;
-  const bool all = static_cast<int>(found.size()) == search.n;
-  const double reach =
-      found.empty() ? 0 : std::max(basis.sigma - found.front().first, found.back().first - basis.sigma);
-  if (found.empty() || (!all && search.window.below > 0 && basis.sigma - lower > reach)) return {};
-  Choice choice;
-  std::optional<std::size_t> end;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].first <= lower) continue;
-    choice.column.push_back(found[i].second);
-    if (static_cast<int>(choice.column.size()) < least) continue;
-    const bool top = i + 1 == found.size();
-    if (top ? !all : found[i + 1].first - found[i].first < kGap * found[i].first) continue;
-    choice.upper = top ? found[i].first * (1 + kGap) : (found[i].first + found[i + 1].first) / 2;
-    end = choice.column.size();
-    if (static_cast<int>(*end) >= search.wanted()) break;
+// Whether `found`, about sigma, comes down to where the last window ended.
+bool reaches_down(const Search& search, double sigma, const Found& found) {
+  if (static_cast<int>(found.size()) == search.M_times.n()) return true;
+  if (found.empty()) return false;
+  const double reach = std::max(sigma - found.front().first, found.back().first - sigma);
+  return search.delivered() == 0 || sigma - search.state.lower <= reach;
+}
+
+struct End {
+  std::size_t count;
+  double upper, gap;
+};
+
+// Numbers of modes, at least `least` and ascending, after which there is a gap.
+std::vector<End> possible_ends(const Found& modes, int least, bool all) {
+  std::vector<End> ends;
+  for (std::size_t n = static_cast<std::size_t>(least); n < modes.size(); ++n) {
+    const double below = modes[n - 1].first, above = modes[n].first, gap = (above - below) / std::abs(below);
+    if (gap >= kGap) ends.push_back({n, (below + above) / 2, gap});
   }
-  if (!end) return {};
-  choice.column.resize(*end);
+  if (all) ends.push_back({modes.size(), modes.back().first * (1 + kGap), kGap});
+  return ends;
+}
+
+// Of `found` those above the last window that end in a gap: as few as are wanted in the last window, else as
+// many as possible but for a better gap. None when `found` does not reach down, or up to enough.
+std::optional<Choice> choose(const Search& search, double sigma, const Found& found, int least) {
+  if (!reaches_down(search, sigma, found)) return {};
+  const auto above = std::find_if(found.begin(), found.end(),
+                                  [&](const auto& mode) { return mode.first > search.state.lower; });
+  const int skipped =
+      search.delivered() == 0 ? std::min<int>(search.options.n_rigid, found.end() - above) : 0;
+  Choice choice{Found(above + skipped, found.end()), 0, 0};
+  const bool all = static_cast<int>(found.size()) == search.M_times.n();
+  const std::vector<End> ends = possible_ends(choice.modes, least, all);
+  if (ends.empty()) return {};
+  const auto enough = std::find_if(ends.begin(), ends.end(), [&](const End& end) {
+    return static_cast<int>(end.count) >= search.wanted();
+  });
+  const auto first = ends.end() - std::min<std::ptrdiff_t>(kEndChoices, ends.end() - ends.begin());
+  const auto widest = std::max_element(first, ends.end(), [](auto& a, auto& b) { return a.gap < b.gap; });
+  const End& end = enough != ends.end() ? *enough : *widest;
+  choice.below_shift = search.options.n_rigid + search.delivered();
+  for (const auto& mode : choice.modes) choice.below_shift += mode.first < sigma;
+  choice.modes.resize(end.count);
+  choice.upper = end.upper;
   return choice;
 }
 
+// Columns that a basis needs for so many modes on both sides of the shift.
+double columns(int modes, int block) { return kColumnsPerMode * modes + kFirstBlocks * block; }
+
 int room(const Search& search) {
-  const double columns = kColumnsPerMode * search.options.window + kFirstBlocks * search.options.block;
-  return static_cast<int>(std::min<double>(std::max(columns, kFewestColumns), search.n));
+  const double needed = columns(search.size.modes, search.size.block);
+  return static_cast<int>(std::min<double>(std::max(needed, kFewestColumns), search.M_times.n()));
 }
 
 // Modes that one basis is to yield.
-int target(const Search& search) { return std::min(search.options.window, search.wanted() + kSpare); }
+int target(const Search& search) { return std::min(search.size.modes, search.wanted() + kSpare); }
 
 void report_search(const Search& search, const KrylovBasis& basis) {
-  const double inside = static_cast<double>(basis.size) / room(search);
-  const double modes = search.delivered + std::min(1.0, inside) * std::min(search.wanted(), target(search));
+  const double inside = std::min(1.0, static_cast<double>(basis.size) / room(search));
+  const double modes = search.delivered() + inside * std::min(search.wanted(), target(search));
   report(search.progress, "eigenmodes", std::min(1.0, modes / search.options.n_modes));
 }
 
 // Grows the basis until it holds a window of `modes`, or as much of one as there is room for.
 std::optional<Choice> grow(Search& search, KrylovBasis& basis, RitzPairs& pairs, int modes) {
   std::optional<Choice> choice;
-  for (double next = modes; has_room(basis) && !choice;) {
+  for (double next = std::max(kFirstLook * columns(modes, search.size.block), kGrowth * basis.size);
+       has_room(basis) && !choice;) {
     expand(basis, search.factor);
-    ++search.modes.iterations;
+    ++search.state.iterations;
     report_search(search, basis);
     if (basis.size < next && has_room(basis)) continue;
     next = kGrowth * basis.size;
     pairs = ritz_pairs(basis);
-    const auto found = trusted(basis, pairs, search.options.tolerance);
-    choice = choose(search, basis, found, has_room(basis) ? std::min(search.wanted(), modes) : 1);
+    const Found found = trusted(basis, pairs, search.options.tolerance);
+    choice = choose(search, basis.sigma, found, has_room(basis) ? std::min(search.wanted(), modes) : 1);
   }
   return choice;
 }
 
-// Mass-normalised, in ascending order, as many columns at a time as go through the factor together.
+// Eigenvalue and residual of each column of phi, which are scaled to phi' M phi = 1, with M_phi.
+void measure_block(const Search& search, Eigen::MatrixXd& phi, Eigen::MatrixXd& M_phi, int first,
+                   SearchState& state) {
+  const MPI_Comm comm = search.M_times.comm();
+  const Eigen::RowVectorXd scale =
+      sum(comm, phi.cwiseProduct(M_phi).colwise().sum()).cwiseSqrt().cwiseInverse();
+  phi *= scale.asDiagonal();
+  M_phi *= scale.asDiagonal();
+  Eigen::MatrixXd K_phi = search.K_times(phi);
+  const Eigen::RowVectorXd lambda = sum(comm, phi.cwiseProduct(K_phi).colwise().sum());
+  const Eigen::RowVectorXd force = sum(comm, K_phi.colwise().squaredNorm());
+  K_phi -= M_phi * lambda.asDiagonal();
+  const Eigen::RowVectorXd rest = sum(comm, K_phi.colwise().squaredNorm());
+  state.eigenvalue.segment(first, phi.cols()) = lambda;
+  state.residual.segment(first, phi.cols()) = rest.cwiseQuotient(force).cwiseSqrt();
+}
+
+// Largest |phi_i' M phi_j| of the columns j from `first` on of the window with all i < j of it, and with the
+// edge of the window before.
+double overlap(const Search& search, const KrylovBasis& basis, const Eigen::MatrixXd& s, int first,
+               const Eigen::MatrixXd& M_phi) {
+  Eigen::MatrixXd gram = project(basis, s.leftCols(first + M_phi.cols()), M_phi);
+  gram.bottomRows(M_phi.cols()).diagonal().setZero();
+  double largest = gram.size() > 0 ? gram.cwiseAbs().maxCoeff() : 0;
+  if (search.state.edge.cols() > 0)
+    largest = std::max(largest, inner(search.M_times.comm(), search.state.edge, M_phi).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+// Mass-normalised, in ascending order, as many columns at a time as go through the factor together. Enters
+// the modes into a new state, for the edge of the old one serves all blocks.
 void deliver(Search& search, const KrylovBasis& basis, const RitzPairs& pairs, const Choice& choice) {
-  const int count = std::min(search.wanted(), static_cast<int>(choice.column.size()));
-  for (int begin = 0; begin < count; begin += search.options.block) {
-    const int end = std::min(count, begin + search.options.block);
-    const std::vector<int> columns(choice.column.begin() + begin, choice.column.begin() + end);
-    const Eigen::MatrixXd phi = ritz_vectors(basis, pairs, columns);
-    for (int j = 0; j < end - begin; ++j) {
-      const int k = search.delivered++;
-      load(search.residual, phi.col(j));
-      measure(search.K, search.M, search.residual, &search.modes.eigenvalue(k), &search.modes.residual(k));
-      search.sink(k, search.residual.phi);
+  const int found = static_cast<int>(choice.modes.size()), before = search.delivered();
+  const int count = search.options.whole_pairs ? found : std::min(search.wanted(), found);
+  std::vector<int> columns;
+  for (int i = 0; i < count; ++i) columns.push_back(choice.modes[i].second);
+  const Eigen::MatrixXd s = improved_coefficients(basis, pairs, columns);
+  SearchState next = search.state;
+  next.eigenvalue.conservativeResize(before + count);
+  next.residual.conservativeResize(before + count);
+  for (int begin = 0; begin < count; begin += search.size.block) {
+    const int width = std::min(count - begin, search.size.block);
+    next.edge = combine(basis, s.middleCols(begin, width));
+    Eigen::MatrixXd M_phi = search.M_times(next.edge);
+    measure_block(search, next.edge, M_phi, before + begin, next);
+    next.orthogonality = std::max(next.orthogonality, overlap(search, basis, s, begin, M_phi));
+    for (int j = 0; j < width; ++j) {
+      load(search.phi, next.edge.col(j));
+      search.sink(before + begin + j, search.phi);
     }
   }
+  search.state = std::move(next);
 }
 
-// A shift with about half of the next window's modes under it. N(omega) ~ omega^3 places the first try.
-double place_shift(Search& search, int modes) {
-  const Window& window = search.window;
-  if (window.below == 0) {
-    search.factor.factorise(0);
-    return 0;
+// Where N(lambda) comes to `more` above the modes known, by the power law of the last of them.
+double extrapolate(const SearchState& state, double more) {
+  const auto n = state.eigenvalue.size();
+  double exponent = kWeyl;
+  if (n >= kFewModes) {
+    const auto half = std::max<Eigen::Index>(n / 2, n - static_cast<Eigen::Index>(2 * more));
+    exponent = std::log(static_cast<double>(n) / half) / std::log(state.lower / state.eigenvalue(half - 1));
+    exponent = std::clamp(exponent, kWeyl / 3, 3 * kWeyl);
+  }
+  return state.lower * std::pow(1 + more / n, 1 / exponent);
+}
+
+// A shift with about half of the next window's modes under it, and the factor there.
+Shift place_shift(Search& search, int modes) {
+  const SearchState& state = search.state;
+  Shift shift{search.options.first_shift, 0};
+  if (search.delivered() == 0) {
+    shift.below = search.factor.factorise(shift.sigma);
+    return shift;
   }
   const double half = std::max(1.0, modes / 2.0);
-  double sigma = window.lower * std::pow((window.below + half) / window.below, kWeyl);
-  for (int i = 1;; ++i) {  // leaves the factor at sigma
-    const int under = search.factor.factorise(sigma) - window.below;
-    if (under <= kTooMany * half || i == kShifts) break;
-    sigma = window.lower + (sigma - window.lower) * half / under;
+  shift.sigma = extrapolate(state, half);
+  for (int i = 1;; ++i) {
+    shift.below = search.factor.factorise(shift.sigma);
+    const int under = shift.below - search.known();
+    if (under <= kTooMany * half || i == kShifts) return shift;
+    shift.sigma = state.lower + (shift.sigma - state.lower) * half / under;
   }
-  return sigma;
 }
 
-int known(const Window& window) { return window.below + static_cast<int>(window.eigenvalue.size()); }
-
-void set_window(Window& window, const KrylovBasis& basis, const RitzPairs& pairs, const Choice& choice) {
-  window.upper = choice.upper;
-  window.eigenvalue.resize(static_cast<Eigen::Index>(choice.column.size()));
-  for (std::size_t i = 0; i < choice.column.size(); ++i)
-    window.eigenvalue(static_cast<Eigen::Index>(i)) = eigenvalue(basis, pairs, choice.column[i]);
-}
-
-// Whether the window may be delivered. A mode that the basis does not show yet (the second of an equal pair,
-// say) calls for more columns, and thus the factor at the shift again, while there is room.
-bool accept(Search& search, const KrylovBasis& basis) {
+// Whether the number of modes found under the shift is right. The last window is counted up to its end, too;
+// that leaves the factor at the shift again when modes are missing.
+bool is_complete(Search& search, const Shift& shift, const Choice& choice) {
   if (!search.options.verify_count) return true;
-  if (search.factor.factorise(search.window.upper) == known(search.window)) return true;
-  if (!has_room(basis)) require_complete(search.factor, search.window);
-  search.factor.factorise(basis.sigma);
+  if (choice.below_shift != shift.below) return false;
+  const int known = search.known() + static_cast<int>(choice.modes.size());
+  const bool last = search.delivered() + static_cast<int>(choice.modes.size()) >= search.options.n_modes;
+  if (!last || choice.upper <= shift.sigma || known == search.M_times.n()) return true;
+  if (search.factor.factorise(choice.upper) == known) return true;
+  search.factor.factorise(shift.sigma);
   return false;
 }
 
-// One window: its modes are delivered after their count was checked.
+// The modes above the last shift are not proved complete: they are looked for once more, from there.
+void step_back(Search& search, const Shift& shift, const Choice& choice) {
+  SearchState& state = search.state;
+  if (state.lower <= state.shift) require_complete(choice.below_shift, shift.below, shift.sigma);
+  require(state.lower > state.shift, "the eigensolver misses modes above ",
+          std::sqrt(std::max(0.0, shift.sigma)) / (2 * M_PI),
+          " Hz; use a smaller tolerance or larger windows");
+  state.lower = state.shift;
+  state.eigenvalue.conservativeResize(state.below_shift - search.options.n_rigid);
+  state.residual.conservativeResize(state.eigenvalue.size());
+  state.edge.resize(state.edge.rows(), 0);
+}
+
+// One window, or none when a basis for `modes` of them has no room for any.
 bool solve_window(Search& search, int modes) {
-  const double sigma = place_shift(search, modes);
-  KrylovBasis basis = start_basis(search.M, search.factor, sigma, search.options.block, room(search));
+  const Shift shift = place_shift(search, modes);
+  KrylovBasis basis =
+      start_basis(search.M_times, search.factor, shift.sigma, search.size.block, room(search));
   RitzPairs pairs;
-  Window& window = search.window;
   std::optional<Choice> choice;
-  do {
-    choice = grow(search, basis, pairs, modes);
-    if (!choice) return false;
-    set_window(window, basis, pairs, *choice);
-    if (search.delivered == 0) require_definite(search.K, search.M, window.eigenvalue(0));
-  } while (!accept(search, basis));
+  for (bool complete = false; !complete;) {
+    const std::optional<Choice> larger = grow(search, basis, pairs, modes);
+    if (!larger && !choice) return false;
+    if (!larger) {
+      step_back(search, shift, *choice);
+      return true;
+    }
+    choice = larger;
+    if (search.delivered() == 0 && search.options.n_rigid == 0)
+      require_definite(search.K, search.M, choice->modes.front().first);
+    complete = is_complete(search, shift, *choice);
+  }
   deliver(search, basis, pairs, *choice);
-  window.below = known(window);
-  window.lower = window.upper;
+  search.state.lower = choice->upper;
+  search.state.shift = shift.sigma;
+  search.state.below_shift = shift.below;
+  if (search.options.commit) search.options.commit(search.state);
   return true;
 }
 
 }  // namespace
 
-void require_complete(ShiftedFactor& factor, const Window& window) {
-  const int exact = factor.factorise(window.upper);
-  require(exact == known(window), "the eigensolver found ", known(window), " of the ", exact, " modes below ",
-          std::sqrt(window.upper) / (2 * M_PI), " Hz; use larger blocks of vectors or a smaller tolerance");
+WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked) {
+  const auto rows = static_cast<double>(n);
+  const auto cost_per_mode = [&](const WindowSize& size) {
+    const double c = columns(size.modes, size.block);
+    const double solves = 4 * factor.entries * c * (kSolve + kSolveOnce / size.block);
+    return (factor.flops + solves + 2 * rows * c * c + 4 * rows * c * size.modes) / size.modes;
+  };
+  const double most = std::max(kLargestBasis * factor.entries, kSmallBasis) / rows;
+  WindowSize best{asked.modes > 0 ? asked.modes : kWindows.front(),
+                  asked.block > 0 ? asked.block : kBlocks.front()};
+  for (int modes : kWindows)
+    for (int block : kBlocks) {
+      const WindowSize size{asked.modes > 0 ? asked.modes : modes, asked.block > 0 ? asked.block : block};
+      const bool fits = asked.modes > 0 || columns(size.modes, size.block) <= most;
+      if (fits && cost_per_mode(size) < cost_per_mode(best)) best = size;
+    }
+  return best;
+}
+
+void require_complete(int known, int exact, double sigma) {
+  require(exact == known, "the eigensolver found ", known, " of the ", exact, " modes below ",
+          std::sqrt(std::max(0.0, sigma)) / (2 * M_PI),
+          " Hz; use larger blocks of vectors or a smaller tolerance");
 }
 
 Eigenmodes find_by_windows(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress) {
-  PetscInt n = 0;
-  check(MatGetSize(K, &n, nullptr));
-  report(progress, "eigenmodes", 0);
-  Search search{K, M, options, sink, progress, ShiftedFactor(K, M), make_residual(K), static_cast<int>(n)};
-  search.modes = {Eigen::VectorXd(options.n_modes), Eigen::VectorXd(options.n_modes), 0};
-  for (int modes = target(search); search.delivered < options.n_modes;) {
+  Search search{K,
+                M,
+                options,
+                sink,
+                progress,
+                BlockProduct(K),
+                BlockProduct(M, BlockProduct::Storage::without_zeros),
+                ShiftedFactor(K, M),
+                {},
+                {},
+                options.start};
+  check(MatCreateVecs(K, search.phi.out(), nullptr));
+  search.size = choose_window(search.factor.size(), search.M_times.n(), {options.window, options.block});
+  report(progress, "eigenmodes", static_cast<double>(search.delivered()) / options.n_modes);
+  for (int modes = target(search); search.delivered() < options.n_modes;) {
     if (solve_window(search, modes)) {
       modes = target(search);
       continue;
     }
-    require(modes > 1, "no modes converged above ", std::sqrt(search.window.lower) / (2 * M_PI),
+    require(modes > 1, "no modes converged above ", std::sqrt(std::max(0.0, search.state.lower)) / (2 * M_PI),
             " Hz; use larger windows or a larger tolerance than ", options.tolerance);
     modes /= 2;
   }
-  return search.modes;
+  const SearchState& state = search.state;
+  return {state.eigenvalue, state.residual, state.orthogonality, state.iterations};
 }
 
 }  // namespace elastogear::reduction

@@ -90,15 +90,13 @@ TEST(Windows, that_lost_a_mode_are_an_error_naming_both_counts) {
   const test::System system = square_beam();
   const Eigen::VectorXd all = solve(system, {.n_modes = 13}).modes.eigenvalue;
   reduction::ShiftedFactor factor(system.matrices.K, system.matrices.M);
-  reduction::Window window;
   int n = 12;
   while (all(n) < 1.001 * all(n - 1)) --n;
-  window.upper = (all(n - 1) + all(n)) / 2;
-  window.eigenvalue = all.head(n);
-  EXPECT_NO_THROW(reduction::require_complete(factor, window));
-  window.eigenvalue = all.head(n - 1);
+  const double sigma = (all(n - 1) + all(n)) / 2;
+  const int exact = factor.factorise(sigma);
+  EXPECT_NO_THROW(reduction::require_complete(n, exact, sigma));
   try {
-    reduction::require_complete(factor, window);
+    reduction::require_complete(n - 1, exact, sigma);
     ADD_FAILURE() << "a lost mode went unnoticed";
   } catch (const Error& error) {
     const std::string expected = "found " + std::to_string(n - 1) + " of the " + std::to_string(n);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "elastogear/io/precision.h"
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
@@ -20,15 +21,22 @@ struct BodySource {
   std::vector<int> free_dof;  ///< n_free, ascending: dof 3 node + direction that is not restrained
 };
 
+/// What was checked of the modes; empty for a full basis.
+struct ModeChecks {
+  Eigen::VectorXd residual;  ///< n_q, |K phi - omega^2 M phi| / |K phi|
+  double orthogonality = 0;  ///< largest |phi_i' M phi_j|, i != j
+};
+
 /// Writes a body file under a temporary name beside `path`; finish() renames it. Destroyed unfinished:
 /// nothing stays.
 class BodyWriter {
  public:
-  BodyWriter(const std::string& path, int n_nodes, int n_modes);
+  /// n_modes: 0 when the modes are not to be stored in full.
+  BodyWriter(const std::string& path, int n_nodes, int n_modes, Precision precision = Precision::float64);
   ~BodyWriter();
   /// Full displacement vector of one mode, 3 n_nodes (node-major), stored as row `index` of /modes/Phi.
   void write_mode(int index, const Eigen::VectorXd& phi);
-  void finish(const model::ElasticBody& body, const BodySource& source);
+  void finish(const model::ElasticBody& body, const BodySource& source, const ModeChecks& checks = {});
 
  private:
   struct Data;
@@ -38,7 +46,12 @@ class BodyWriter {
 /// Reads and validates; throws Error naming the file and what is wrong with it.
 model::ElasticBody read_body(const std::string& path);
 BodySource read_body_source(const std::string& path);
-/// Whole-body displacement Phi q, 3 x n_nodes, m, BRF. Streams /modes/Phi (modal) or scatters q (full).
+/// Empty when the file holds none.
+ModeChecks read_mode_checks(const std::string& path);
+/// Whether the file holds the modes at all nodes.
+bool has_full_modes(const std::string& path);
+/// Whole-body displacement Phi q, 3 x n_nodes, m, BRF. Streams /modes/Phi (modal) or scatters q (full). Error
+/// with the remedy when the modes are not stored in full.
 Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q);
 
 }  // namespace elastogear::io

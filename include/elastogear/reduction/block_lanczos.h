@@ -1,20 +1,21 @@
 #pragma once
-// Block Lanczos for (K - sigma M)^-1 M with full reorthogonalisation in the inner product of M (Grimes, Lewis
-// & Simon, SIAM J. Matrix Anal. Appl. 15, 1994): many right-hand sides go through the factor together.
+// Block Lanczos for (K - sigma M)^-1 M in the inner product of M (Grimes, Lewis & Simon, SIAM J. Matrix Anal.
+// Appl. 15, 1994): many right-hand sides go through the factor together, all else is matrix products.
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "elastogear/base/petsc.h"
+#include "elastogear/reduction/block_product.h"
 #include "elastogear/reduction/factorisation.h"
 
 namespace elastogear::reduction {
 
 /// (K - sigma M)^-1 M V = V T + V_next R [0 .. 0 I], V' M V = I.
 struct KrylovBasis {
-  Mat M = nullptr;
+  const BlockProduct* M = nullptr;
   double sigma = 0;
   Eigen::MatrixXd V;       ///< own rows x capacity; the first `size` columns count, then those of V_next
+  Eigen::MatrixXd M_next;  ///< M V_next
   Eigen::MatrixXd T;       ///< capacity x capacity, its upper triangle counts
   Eigen::MatrixXd R;       ///< columns of V_next x last block
   int size = 0;            ///< columns of V in the relation
@@ -27,9 +28,9 @@ struct RitzPairs {
   Eigen::MatrixXd s;      ///< phi = V s
 };
 
-/// Room for `capacity` columns and a first block of random ones. The factor is that of K - sigma M.
-/// Memory: (capacity + 2 block) own rows. Collective.
-KrylovBasis start_basis(Mat M, ShiftedFactor& factor, double sigma, int block, int capacity);
+/// Room for `capacity` columns and a first block of random ones, the same on every call. The factor is that
+/// of K - sigma M. Memory: (capacity + 4 block) own rows. Collective.
+KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, int capacity);
 
 /// Adds the next block of columns. Collective. Call while there is room and the basis is not exhausted.
 void expand(KrylovBasis& basis, ShiftedFactor& factor);
@@ -37,9 +38,21 @@ bool has_room(const KrylovBasis& basis);
 
 RitzPairs ritz_pairs(const KrylovBasis& basis);
 
-/// Own rows of the Ritz vectors of the given columns of `pairs`, improved by one step of inverse iteration
-/// that the relation above gives for nothing.
-Eigen::MatrixXd ritz_vectors(const KrylovBasis& basis, const RitzPairs& pairs,
-                             const std::vector<int>& columns);
+/// phi = [V V_next] s of the given columns of `pairs`: one step of inverse iteration, which the relation
+/// above gives for nothing, is added.
+Eigen::MatrixXd improved_coefficients(const KrylovBasis& basis, const RitzPairs& pairs,
+                                      const std::vector<int>& columns);
+
+/// Own rows of phi = [V V_next] s.
+Eigen::MatrixXd combine(const KrylovBasis& basis, const Eigen::MatrixXd& s);
+/// phi' M phi_2 for the vectors phi of s and given M phi_2 (own rows). Collective.
+Eigen::MatrixXd project(const KrylovBasis& basis, const Eigen::MatrixXd& s,
+                        const Eigen::Ref<const Eigen::MatrixXd>& M_phi);
+
+/// Sum over all ranks, the same bits on each.
+Eigen::MatrixXd sum(MPI_Comm comm, const Eigen::MatrixXd& own);
+/// A' B over all ranks. A, B: own rows.
+Eigen::MatrixXd inner(MPI_Comm comm, const Eigen::Ref<const Eigen::MatrixXd>& A,
+                      const Eigen::Ref<const Eigen::MatrixXd>& B);
 
 }  // namespace elastogear::reduction

@@ -9,11 +9,16 @@
 #include <vector>
 
 #include "elastogear/base/progress.h"
+#include "elastogear/io/precision.h"
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
 
 namespace elastogear::reduction {
+
+/// surface: at the nodes of the contact surface and, as stress modes, at the stress nodes: all that
+/// simulation and stress histories need. all: at every node, for whole fields.
+enum class Store { surface, all };
 
 struct ReductionOptions {
   std::string name = {};                            ///< of the body
@@ -25,6 +30,8 @@ struct ReductionOptions {
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                                   ///< modal only
   int window = 0;                                      ///< modes found at a time, see EigenOptions
+  Store store = Store::all;                            ///< where the modes are stored
+  io::Precision precision = io::Precision::float64;    ///< of modes stored at all nodes
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
   std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
@@ -47,12 +54,18 @@ struct ReductionReport {
   double balance = 1;            ///< most cells of a rank over the mean
   Eigen::VectorXd frequency;     ///< Hz, ascending; empty for the full basis
   Eigen::VectorXd residual;      ///< |K phi - omega^2 M phi| / |K phi| of each mode
+  double orthogonality = 0;      ///< largest |phi_i' M phi_j|, i != j, see Eigenmodes
+  int continued_after = 0;       ///< modes taken over from a run that was killed
+  int discarded = 0;             ///< windows of another run that did not fit this one
   std::vector<StageTime> times;  ///< wall-clock time of each stage, in order
 };
 
-/// Reduces the body and writes the body file `output` (on rank 0; a failed run leaves no file). Collective;
-/// the mesh is read on rank 0 only and must be valid (mesh::validate). Memory and work for K, M and the modes
-/// are distributed; rank 0 keeps the mesh and one mode at a time.
+/// Reduces the body and writes the body file `output` (on rank 0; a failed run leaves no file). Modes are
+/// kept window by window in the folder `output`.partial meanwhile: the same reduction, started again after it
+/// was killed, goes on after the last whole window, and on one rank ends in the same file to the bit. More
+/// modes than asked for are delivered when the last one's equals would be missing. Collective; the mesh is
+/// read on rank 0 only and must be valid (mesh::validate). Memory and work for K, M and the modes are
+/// distributed; rank 0 keeps the mesh and one mode at a time.
 ///
 /// Throws the same Error on all ranks for wrong materials, unknown sets, inverted cells, a body that is not
 /// held, more modes than free degrees of freedom, stress nodes outside the cells, and what find_eigenmodes

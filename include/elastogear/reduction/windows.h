@@ -1,28 +1,26 @@
 #pragma once
 // The lowest eigenmodes, window after window up the spectrum, each with a shift of its own and a count check.
 
-#include <limits>
-
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/factorisation.h"
 
 namespace elastogear::reduction {
 
-/// A stretch of the spectrum between two counts.
-struct Window {
-  double lower =
-      -std::numeric_limits<double>::infinity();  ///< rad^2/s^2; no eigenvalue lies close to either end
-  double upper = 0;
-  int below = 0;               ///< eigenvalues under `lower`
-  Eigen::VectorXd eigenvalue;  ///< those found between, ascending
+/// Modes found in windows and columns that go through the factor together.
+struct WindowSize {
+  int modes = 0, block = 0;
 };
 
-/// Throws Error naming both numbers unless (K, M) has exactly window.below + window.eigenvalue.size()
-/// eigenvalues under window.upper. Factorises at window.upper.
-void require_complete(ShiftedFactor& factor, const Window& window);
+/// Sizes that make the cost per mode least, by the work of a factorisation, of the solves and of the
+/// orthogonalisation, with a basis no larger than half the factor. n: rows of K. `asked` > 0 keeps its value.
+WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked);
 
-/// find_eigenmodes by block Lanczos in windows. Window ends lie in gaps of the spectrum, so that equal or
-/// close eigenvalues stay together. Memory: the factor and about 2 options.window vectors.
+/// Throws Error naming both numbers unless `known` eigenvalues are all of the `exact` ones under sigma,
+/// rad^2/s^2.
+void require_complete(int known, int exact, double sigma);
+
+/// find_eigenmodes by block Lanczos in windows (docs/theory.md 2.2). Window ends lie in gaps of the spectrum,
+/// so that equal or close eigenvalues stay together. Memory: the factor and about 2 options.window vectors.
 Eigenmodes find_by_windows(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress);
 

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace elastogear::io {
+
+/// Of stored numbers; in memory all are double.
+enum class Precision { float64, float32 };
+
+}  // namespace elastogear::io

@@ -1,0 +1,51 @@
+#pragma once
+// A sparse matrix times many columns at once: each entry of the matrix is read once for eight of them.
+
+#include <petscsf.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "elastogear/base/petsc.h"
+
+namespace elastogear::reduction {
+
+using UniqueSF = Handle<PetscSF, PetscSFDestroy>;
+
+/// A: MATAIJ, borrowed; its values must not change meanwhile. Making and calling it is collective.
+class BlockProduct {
+ public:
+  enum class Storage { in_place, without_zeros };  ///< of M = M_s (x) I_3 two thirds are stored zeros
+
+  explicit BlockProduct(Mat A, Storage storage = Storage::in_place);
+  ~BlockProduct();
+  BlockProduct(const BlockProduct&) = delete;
+  BlockProduct& operator=(const BlockProduct&) = delete;
+
+  MPI_Comm comm() const { return comm_; }
+  int n_own() const { return n_own_; }  ///< rows of this rank
+  int n() const { return n_; }          ///< rows of all ranks
+  /// A X: own rows x columns of X.
+  Eigen::MatrixXd operator()(const Eigen::Ref<const Eigen::MatrixXd>& X) const;
+
+ private:
+  // Compressed rows of this rank; columns from n_own_ on are ghosts.
+  struct Rows {
+    const PetscInt *offset = nullptr, *column = nullptr;
+    const PetscScalar* value = nullptr;
+  };
+  void find_ghosts(Mat A);
+  void drop_zeros();
+  void release();
+
+  MPI_Comm comm_;
+  int n_own_ = 0, n_ = 0, n_ghost_ = 0;
+  UniqueSF ghosts_;
+  UniqueMat merged_;     // own rows of a distributed A
+  Mat local_ = nullptr;  // merged_ or a serial A
+  Rows rows_;
+  std::vector<PetscInt> offset_, column_;  // without zeros
+  std::vector<PetscScalar> value_;
+};
+
+}  // namespace elastogear::reduction
