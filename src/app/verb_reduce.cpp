@@ -33,6 +33,9 @@ const OptionTable kTable = {
     {"modes", "-", "100", "number of eigenmodes"},
     {"window", "-", "0",
      "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc (-eps_*, -st_*)"},
+    {"symmetry", "-", "auto",
+     "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none: from the "
+     "whole body"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
 };
@@ -60,6 +63,8 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.basis = options.choice("basis", {"modal", "full"}) == 0 ? model::Basis::modal : model::Basis::full;
   o.n_modes = options.count("modes", 1);
   o.window = options.count("window");
+  o.symmetry = options.choice("symmetry", {"auto", "none"}) == 0 ? reduction::Symmetry::automatic
+                                                                 : reduction::Symmetry::none;
   o.alpha = options.number("damping_alpha");
   o.beta = options.number("damping_beta");
   o.provenance = options.provenance();
@@ -91,6 +96,7 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
   print_item("degrees of freedom", std::to_string(report.n_dofs) + ", free " + std::to_string(report.n_free));
   print_item("ranks", std::to_string(report.n_ranks) + ", faces cut " + std::to_string(report.edge_cut) +
                           ", largest part / mean " + with_unit(report.balance, ""));
+  if (!report.symmetry.empty()) print_item("symmetry", report.symmetry);
   print_item("mass", with_unit(report.m, "kg"));
   print_item("centre of mass", vector_text(report.c, "m"));
   print_item("inertia about it, diagonal", vector_text(report.J.diagonal(), "kg m^2"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -14,16 +15,21 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/mesh/partition.h"
 #include "elastogear/reduction/basis.h"
+#include "elastogear/reduction/cyclic.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/surface.h"
 
 namespace elastogear::reduction {
 namespace {
 
+constexpr double kRounding = 1e-9;  // m and -: of an axis in a report
+
 // What rank 0 alone knows: the numbering, and everything of the body that needs no solution.
 struct Plan {
-  std::vector<int> region;  // of each cell
+  std::vector<int> region;    // of each cell
+  std::vector<bool> is_free;  // of each node
   std::vector<int> free_dof;
+  mesh::Repetition repetition;  // n_sectors = 1 (on all ranks): none
   mesh::Partition partition;
   fem::RowNumbering rows;
   fem::MassMoments moments;
@@ -43,6 +49,7 @@ struct Job {
   double started = MPI_Wtime();
 
   bool modal() const { return options.basis == model::Basis::modal; }
+  bool cyclic() const { return plan.repetition.turn.n_sectors > 1; }
 
   // Runs `f` on rank 0; its errors reach all ranks.
   void on_root(const std::function<void()>& f) {
@@ -96,19 +103,55 @@ void validate(const ReductionOptions& options) {
   require(options.beta >= 0, "damping beta = ", options.beta, " s, must not be negative");
 }
 
+// Without the roundoff of zeros.
+Eigen::RowVector3d rounded(const Eigen::Vector3d& v) {
+  return (v / kRounding).array().round() * kRounding + 0.0;
+}
+
+std::string describe(const mesh::Turn& turn) {
+  std::ostringstream text;
+  text << turn.n_sectors << " sectors around the direction (" << rounded(turn.axis) << ") through ("
+       << rounded(turn.point) << ") m";
+  return text.str();
+}
+
+// On rank 0; whether there is one is known to all.
+void find_symmetry(Job& job) {
+  mesh::Repetition& repetition = job.plan.repetition;
+  if (!job.modal() || job.options.symmetry == Symmetry::none) return;
+  job.on_root([&] {
+    auto [found, reason] = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
+    if (found) repetition = std::move(*found);
+    job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
+  });
+  MPI_Bcast(&repetition.turn.n_sectors, 1, MPI_INT, 0, job.comm);
+}
+
 void number(Job& job) {
   const mesh::Mesh& mesh = job.mesh;
   Plan& plan = job.plan;
   validate(job.options);
   fem::require_positive_jacobians(mesh);
   plan.region = fem::cell_regions(mesh, job.options.regions);
-  const std::vector<bool> is_free = fem::free_nodes(mesh, job.options.restrain);
-  fem::require_held(mesh, is_free);
-  plan.free_dof = fem::free_dofs(is_free);
+  plan.is_free = fem::free_nodes(mesh, job.options.restrain);
+  fem::require_held(mesh, plan.is_free);
+  plan.free_dof = fem::free_dofs(plan.is_free);
   require(!plan.free_dof.empty(), "all nodes are restrained, no degree of freedom is left");
   if (job.modal()) require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
-  plan.partition = mesh::partition_cells(mesh, job.size);
-  plan.rows = fem::number_rows(mesh, is_free, plan.partition.part, job.size);
+}
+
+fem::Matrices assemble(Job& job) {
+  Plan& plan = job.plan;
+  job.on_root([&] {
+    plan.partition = mesh::partition_cells(job.mesh, job.size);
+    plan.rows = fem::number_rows(job.mesh, plan.is_free, plan.partition.part, job.size);
+  });
+  const fem::Share share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
+  job.finish_stage("partition");
+  fem::Matrices matrices =
+      fem::assemble(job.comm, share, job.options.regions, job.options.element, job.progress);
+  job.finish_stage("assembly");
+  return matrices;
 }
 
 void prepare_body(Job& job, const std::string& output) {
@@ -120,32 +163,51 @@ void prepare_body(Job& job, const std::string& output) {
   plan.writer.emplace(output, job.mesh.n_nodes(), job.modal() ? job.options.n_modes : 0);
 }
 
-void reduce_modal(Job& job, const fem::Matrices& matrices) {
-  Plan& plan = job.plan;
+// Enters one mode into the body and the file, on rank 0. phi: all displacements there.
+void keep_mode(Job& job, int k, Eigen::VectorXd phi) {
+  job.on_root([&] {
+    fix_sign(phi);
+    add_mode(job.plan.body, k, phi, job.plan.moments, job.plan.S);
+    job.plan.writer->write_mode(k, phi);
+  });
+}
+
+EigenOptions eigen_options(const ReductionOptions& o) {
+  EigenOptions options;
+  options.n_modes = o.n_modes;
+  options.window = o.window;
+  options.prefix = o.prefix;
+  return options;
+}
+
+Eigenmodes find_modes(Job& job) {
+  const fem::Matrices matrices = assemble(job);
   UniqueVec layout;
   check(MatCreateVecs(matrices.K, layout.out(), nullptr));
-  const fem::VectorGather gather(layout, plan.rows);
-  const auto keep = [&](int k, Vec v) {
-    Eigen::VectorXd phi = gather(v);
-    job.on_root([&] {
-      fix_sign(phi);
-      add_mode(plan.body, k, phi, plan.moments, plan.S);
-      plan.writer->write_mode(k, phi);
-    });
-  };
-  EigenOptions options;
-  options.n_modes = job.options.n_modes;
-  options.window = job.options.window;
-  options.prefix = job.options.prefix;
-  const Eigenmodes modes = find_eigenmodes(matrices.K, matrices.M, options, keep, job.progress);
-  set_modal_matrices(plan.body, modes.eigenvalue);
-  job.report.frequency = plan.body.frequency;
+  const fem::VectorGather gather(layout, job.plan.rows);
+  const auto keep = [&](int k, Vec v) { keep_mode(job, k, gather(v)); };
+  return find_eigenmodes(matrices.K, matrices.M, eigen_options(job.options), keep, job.progress);
+}
+
+Eigenmodes find_modes_of_sectors(Job& job) {
+  const Plan& plan = job.plan;
+  const fem::MeshedBody body{job.mesh, job.options.regions, plan.region, plan.is_free, job.options.element};
+  const auto keep = [&](int k, const Eigen::VectorXd& phi) { keep_mode(job, k, phi); };
+  return find_cyclic_eigenmodes(job.comm, {body, plan.repetition}, {.eigen = eigen_options(job.options)},
+                                keep, job.progress);
+}
+
+void reduce_modal(Job& job) {
+  const Eigenmodes modes = job.cyclic() ? find_modes_of_sectors(job) : find_modes(job);
+  set_modal_matrices(job.plan.body, modes.eigenvalue);
+  job.report.frequency = job.plan.body.frequency;
   job.report.residual = modes.residual;
   job.finish_stage("eigenmodes");
 }
 
-void keep_all(Job& job, const fem::Matrices& matrices) {
+void keep_all(Job& job) {
   Plan& plan = job.plan;
+  const fem::Matrices matrices = assemble(job);
   auto K = fem::gather_matrix(matrices.K, plan.rows), M = fem::gather_matrix(matrices.M, plan.rows);
   job.on_root([&] {
     set_full_basis(plan.body, plan.free_dof, plan.moments, plan.S);
@@ -170,8 +232,9 @@ void fill_report(Job& job) {
   report.edge_cut = job.plan.partition.edge_cut;
   std::vector<int> cells(static_cast<std::size_t>(job.size), 0);
   for (int part : job.plan.partition.part) ++cells[part];
-  report.balance =
-      *std::max_element(cells.begin(), cells.end()) * static_cast<double>(job.size) / report.n_cells;
+  if (!job.cyclic())
+    report.balance =
+        *std::max_element(cells.begin(), cells.end()) * static_cast<double>(job.size) / report.n_cells;
 }
 
 }  // namespace
@@ -182,16 +245,14 @@ ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOpt
   MPI_Comm_rank(comm, &job.rank);
   MPI_Comm_size(comm, &job.size);
   job.on_root([&] { number(job); });
-  const fem::Share share = fem::distribute(comm, mesh, job.plan.region, job.plan.rows);
-  job.finish_stage("partition");
+  find_symmetry(job);
+  job.finish_stage("numbering and symmetry");
   job.on_root([&] { prepare_body(job, output); });
   job.finish_stage("inertia, surface and stress operator");
-  const fem::Matrices matrices = fem::assemble(comm, share, options.regions, options.element, progress);
-  job.finish_stage("assembly");
   if (job.modal())
-    reduce_modal(job, matrices);
+    reduce_modal(job);
   else
-    keep_all(job, matrices);
+    keep_all(job);
   job.on_root([&] {
     model::validate(job.plan.body, output);
     job.plan.writer->finish(job.plan.body, {mesh, options.regions, options.element, job.plan.free_dof});

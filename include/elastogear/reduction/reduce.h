@@ -15,6 +15,10 @@
 
 namespace elastogear::reduction {
 
+/// Modes from one sector where the mesh, materials and restraint repeat around an axis, or from the whole
+/// body.
+enum class Symmetry { automatic, none };
+
 struct ReductionOptions {
   std::string name = {};                            ///< of the body
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
@@ -25,6 +29,7 @@ struct ReductionOptions {
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                                   ///< modal only
   int window = 0;                                      ///< modes found at a time, see EigenOptions
+  Symmetry symmetry = Symmetry::automatic;             ///< modal only, see reduction/cyclic.h
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
   std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
@@ -45,6 +50,7 @@ struct ReductionReport {
   int n_ranks = 1;
   int edge_cut = 0;              ///< pairs of neighbouring cells on different ranks
   double balance = 1;            ///< most cells of a rank over the mean
+  std::string symmetry;          ///< what was found, or why none; empty when it was not looked for
   Eigen::VectorXd frequency;     ///< Hz, ascending; empty for the full basis
   Eigen::VectorXd residual;      ///< |K phi - omega^2 M phi| / |K phi| of each mode
   std::vector<StageTime> times;  ///< wall-clock time of each stage, in order
