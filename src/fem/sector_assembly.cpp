@@ -64,6 +64,7 @@ UniqueMat create_matrix(MPI_Comm comm, const Rows& rows) {
 // Q of a cell: displacements of its nodes from the coordinates of their orbits, and where these are.
 struct CellBasis {
   std::vector<const MatrixXd*> Q;     // of each node; nullptr: restrained
+  std::vector<int> turns;             // of each node; -1: on the axis
   std::vector<PetscInt> row, column;  // of each coordinate; rows of other ranks are -1 (PETSc skips them)
 };
 
@@ -73,6 +74,7 @@ CellBasis cell_basis(const Sector& sector, const Harmonic& harmonic, const Rows&
     const int orbit = sector.placement.orbit[node];
     basis.Q.push_back(orbit < 0 ? nullptr
                                 : &harmonic.at(sector.on_axis[orbit], sector.placement.turns[node]));
+    basis.turns.push_back(orbit >= 0 && sector.on_axis[orbit] ? -1 : sector.placement.turns[node]);
     if (orbit < 0) continue;
     for (int i = harmonic.first[orbit]; i < harmonic.first[orbit + std::size_t{1}]; ++i) {
       basis.column.push_back(i);
@@ -90,6 +92,12 @@ MatrixXd projected(const MatrixXd& Q_a, const Eigen::Matrix3d& A_ab, const Matri
   return Q_a.transpose() * A_Q;
 }
 
+// Q_a' Q_b; off the axis exactly the identity for nodes that are turned alike, so that zeros in M are exact.
+MatrixXd overlap(const Harmonic& harmonic, const CellBasis& basis, std::size_t a, std::size_t b) {
+  if (basis.turns[a] < 0 || basis.turns[b] < 0) return basis.Q[a]->transpose() * *basis.Q[b];
+  return harmonic.turned[(basis.turns[b] - basis.turns[a] + harmonic.n_sectors) % harmonic.n_sectors];
+}
+
 // The cell's matrix over the harmonic's coordinates. block(a, b): of its nodes.
 template <class Block>
 MatrixXd project(const CellBasis& basis, const Block& block) {
@@ -100,7 +108,7 @@ MatrixXd project(const CellBasis& basis, const Block& block) {
     Eigen::Index row = 0;
     for (std::size_t a = 0; basis.Q[b] && a < basis.Q.size(); ++a) {
       if (!basis.Q[a]) continue;
-      const MatrixXd entries = projected(*basis.Q[a], block(a, b), *basis.Q[b]);
+      const MatrixXd entries = block(a, b);
       A.block(row, column, entries.rows(), entries.cols()) = entries;
       row += entries.rows();
     }
@@ -144,13 +152,15 @@ Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
     const double weight = sector.weight[cell];
     const MatrixXd K_e = weight * functions.stiffness(X, lame(material), element);
     const MatrixXd M_e = weight * functions.mass(X, material.rho);
-    add(matrices.K, basis, project(basis, [&](auto a, auto b) -> Eigen::Matrix3d {
-          return K_e.block<3, 3>(3 * static_cast<Eigen::Index>(a), 3 * static_cast<Eigen::Index>(b));
-        }));
-    add(matrices.M, basis, project(basis, [&](auto a, auto b) -> Eigen::Matrix3d {
-          return M_e(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) *
-                 Eigen::Matrix3d::Identity();
-        }));
+    const auto stiffness = [&](std::size_t a, std::size_t b) {
+      const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
+      return projected(*basis.Q[a], K_e.block<3, 3>(3 * i, 3 * j), *basis.Q[b]);
+    };
+    const auto mass = [&](std::size_t a, std::size_t b) -> MatrixXd {
+      return M_e(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * overlap(harmonic, basis, a, b);
+    };
+    add(matrices.K, basis, project(basis, stiffness));
+    add(matrices.M, basis, project(basis, mass));
   }
   finish(matrices.K);
   finish(matrices.M);

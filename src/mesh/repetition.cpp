@@ -192,28 +192,45 @@ std::vector<int> unmatched_cells(const Cloud& cloud, const std::vector<int>& ima
   return unmatched;
 }
 
+// The first node of each orbit: neighbours of such nodes where possible, so that they make up a sector in one
+// piece.
+void number_nodes(const Cloud& cloud, const std::vector<int>& image, Repetition& repetition) {
+  std::vector<int> reached;
+  const auto reach = [&](int first) {
+    if (repetition.orbit[first] >= 0) return;
+    int turns = 0;
+    for (int node = first; repetition.orbit[node] < 0; node = image[node]) {
+      repetition.orbit[node] = static_cast<int>(repetition.on_axis.size());
+      repetition.turns[node] = turns++;
+    }
+    repetition.on_axis.push_back(turns == 1);
+    reached.push_back(first);
+  };
+  std::size_t next = 0;
+  for (int node : cloud.node)
+    for (reach(node); next < reached.size(); ++next)
+      for (int at = cloud.first[reached[next]], end = cloud.first[reached[next] + 1]; at < end; ++at)
+        for (int neighbour : cloud.mesh.cells[cloud.cells[at]]) reach(neighbour);
+}
+
+void number_cells(const std::vector<int>& image, Repetition& repetition) {
+  std::vector<bool> seen(image.size(), false);
+  for (int first = 0; first < static_cast<int>(image.size()); ++first) {
+    if (seen[first]) continue;
+    int count = 0;
+    for (int cell = first; !seen[cell]; cell = image[cell], ++count) seen[cell] = true;
+    repetition.cell.push_back(first);
+    repetition.cell_count.push_back(count);
+  }
+}
+
 Repetition number_orbits(const Cloud& cloud, const Turn& turn, const std::vector<int>& image_of_node,
                          const std::vector<int>& image_of_cell) {
   Repetition repetition{
       turn, std::vector<int>(image_of_node.size(), -1), std::vector<int>(image_of_node.size(), 0), {}, {},
       {}};
-  for (int first : cloud.node) {
-    if (repetition.orbit[first] >= 0) continue;
-    int turns = 0;
-    for (int node = first; repetition.orbit[node] < 0; node = image_of_node[node]) {
-      repetition.orbit[node] = static_cast<int>(repetition.on_axis.size());
-      repetition.turns[node] = turns++;
-    }
-    repetition.on_axis.push_back(turns == 1);
-  }
-  std::vector<bool> seen(image_of_cell.size(), false);
-  for (int first = 0; first < cloud.mesh.cells.size(); ++first) {
-    if (seen[first]) continue;
-    int count = 0;
-    for (int cell = first; !seen[cell]; cell = image_of_cell[cell], ++count) seen[cell] = true;
-    repetition.cell.push_back(first);
-    repetition.cell_count.push_back(count);
-  }
+  number_nodes(cloud, image_of_node, repetition);
+  number_cells(image_of_cell, repetition);
   return repetition;
 }
 

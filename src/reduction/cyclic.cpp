@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 constexpr int kWindow = 256;         // modes
 constexpr double kSurplus = 0.05;    // modes found beyond the wanted ones, at most
 constexpr int kLeastSurplus = 8;     // and at least so many may be
+constexpr int kPairsInDoubt = 4;     // in a sample
 constexpr int kSampleEvery = 5;      // harmonics counted for the first guess of the cutoff
 constexpr double kAtCutoff = 1e-6;   // relative: an eigenvalue may lie so close above it
 constexpr int kCheckedFields = 4;    // on the whole mesh
@@ -120,13 +121,26 @@ std::vector<int> count_below(const Search& search, const std::vector<int>& which
   return count;
 }
 
-// The count of all harmonics, taken from a few.
-int estimate(const Search& search, const std::vector<int>& sample, double sigma) {
-  const std::vector<int> count = count_below(search, sample, sigma);
-  double of_sample = 0, all = 0;
-  for (int k : sample) of_sample += search.harmonics[k].size();
+double share_of_coordinates(const Search& search, const std::vector<int>& harmonics) {
+  double share = 0, all = 0;
+  for (int k : harmonics) share += search.harmonics[k].size();
   for (const fem::Harmonic& harmonic : search.harmonics) all += harmonic.size();
-  return static_cast<int>(std::accumulate(count.begin(), count.end(), 0) * all / of_sample);
+  return share / all;
+}
+
+// A sigma with about n eigenvalues below it, by counting those of every few harmonics.
+double estimate_cutoff(const Search& search, int n) {
+  const double weyl = weyl_cutoff(search.sector, search.body.body.regions, n);
+  std::vector<int> sample;
+  for (int k = kSampleEvery / 2; k < search.n_harmonics(); k += kSampleEvery) sample.push_back(k);
+  const double share = share_of_coordinates(search, sample);
+  if (share == 0) return weyl;
+  const auto estimate = [&](double sigma) {
+    const std::vector<int> count = count_below(search, sample, sigma);
+    return static_cast<int>(std::accumulate(count.begin(), count.end(), 0) / share);
+  };
+  const int doubt = static_cast<int>(std::max(kPairsInDoubt / share, kSurplus * n));
+  return find_cutoff(estimate, {std::max(1, n - doubt), n + doubt}, weyl);
 }
 
 struct Cutoff {
@@ -136,19 +150,15 @@ struct Cutoff {
 
 Cutoff choose_cutoff(const Search& search) {
   const int n = search.n_modes();
-  const CountRange wanted{n, n + std::max(kLeastSurplus, static_cast<int>(kSurplus * n))};
-  double start = weyl_cutoff(search.sector, search.body.body.regions, n);
-  std::vector<int> all(search.harmonics.size()), sample;
+  const int surplus = std::max(kLeastSurplus, static_cast<int>(kSurplus * n));
+  std::vector<int> all(search.harmonics.size());
   std::iota(all.begin(), all.end(), 0);
-  for (int k = kSampleEvery / 2; k < search.n_harmonics(); k += kSampleEvery) sample.push_back(k);
-  if (!sample.empty() && search.harmonics[sample.front()].size() > 0)
-    start = find_cutoff([&](double sigma) { return estimate(search, sample, sigma); }, wanted, start);
   Cutoff cutoff{0, {}};
   const auto count = [&](double sigma) {
     cutoff.count = count_below(search, all, sigma);
     return std::accumulate(cutoff.count.begin(), cutoff.count.end(), 0);
   };
-  cutoff.sigma = find_cutoff(count, wanted, start);
+  cutoff.sigma = find_cutoff(count, {n, n + surplus}, estimate_cutoff(search, n + surplus / 2));
   return cutoff;
 }
 
