@@ -38,6 +38,9 @@ const OptionTable kTable = {
     {"store", "-", "all",
      "modes at all nodes, or at the surface and stress nodes only (no whole fields): all or surface"},
     {"precision", "-", "float64", "of modes stored at all nodes: float64 or float32"},
+    {"symmetry", "-", "auto",
+     "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none: from the "
+     "whole body"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
 };
@@ -80,6 +83,8 @@ reduction::ReductionOptions reduction_options(const Options& options) {
       options.choice("store", {"surface", "all"}) == 0 ? reduction::Store::surface : reduction::Store::all;
   o.precision = options.choice("precision", {"float64", "float32"}) == 0 ? io::Precision::float64
                                                                          : io::Precision::float32;
+  o.symmetry = options.choice("symmetry", {"auto", "none"}) == 0 ? reduction::Symmetry::automatic
+                                                                 : reduction::Symmetry::none;
   o.alpha = options.number("damping_alpha");
   o.beta = options.number("damping_beta");
   o.provenance = options.provenance();
@@ -111,15 +116,16 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
   print_item("degrees of freedom", std::to_string(report.n_dofs) + ", free " + std::to_string(report.n_free));
   print_item("ranks", std::to_string(report.n_ranks) + ", faces cut " + std::to_string(report.edge_cut) +
                           ", largest part / mean " + with_unit(report.balance, ""));
+  if (!report.symmetry.empty()) print_item("symmetry", report.symmetry);
   print_item("mass", with_unit(report.m, "kg"));
   print_item("centre of mass", vector_text(report.c, "m"));
   print_item("inertia about it, diagonal", vector_text(report.J.diagonal(), "kg m^2"));
   print_item("off-diagonal yz, xz, xy",
              vector_text({report.J(1, 2), report.J(0, 2), report.J(0, 1)}, "kg m^2"));
   if (report.discarded > 0)
-    print_item("discarded", std::to_string(report.discarded) + " stored windows of another reduction");
-  if (report.continued_after > 0)
-    print_item("continued after", std::to_string(report.continued_after) + " modes of a run that was killed");
+    print_item("discarded", std::to_string(report.discarded) + " stored pieces of another reduction");
+  if (!report.continued_after.empty())
+    print_item("continued after", report.continued_after + " of a run that was killed");
   if (report.frequency.size() > 0) {
     print_item("modes", std::to_string(report.frequency.size()));
     print_item("frequency range", with_unit(report.frequency.minCoeff(), "Hz") + " to " +

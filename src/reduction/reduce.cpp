@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <sstream>
 
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -17,18 +18,24 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/mesh/partition.h"
 #include "elastogear/reduction/basis.h"
+#include "elastogear/reduction/cyclic.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/surface.h"
 #include "fingerprint.h"
+#include "harmonic_pieces.h"
 #include "mode_pieces.h"
 
 namespace elastogear::reduction {
 namespace {
 
+constexpr double kRounding = 1e-9;  // m and -: of an axis in a report
+
 // What rank 0 alone knows: the numbering, and everything of the body that needs no solution.
 struct Plan {
-  std::vector<int> region;  // of each cell
+  std::vector<int> region;    // of each cell
+  std::vector<bool> is_free;  // of each node
   std::vector<int> free_dof;
+  mesh::Repetition repetition;  // n_sectors = 1 (on all ranks): none
   mesh::Partition partition;
   fem::RowNumbering rows;
   fem::MassMoments moments;
@@ -48,6 +55,7 @@ struct Job {
   double started = MPI_Wtime();
 
   bool modal() const { return options.basis == model::Basis::modal; }
+  bool cyclic() const { return plan.repetition.turn.n_sectors > 1; }
 
   // Runs `f` on rank 0; its errors reach all ranks.
   void on_root(const std::function<void()>& f) {
@@ -101,19 +109,55 @@ void validate(const ReductionOptions& options) {
   require(options.beta >= 0, "damping beta = ", options.beta, " s, must not be negative");
 }
 
+// Without the roundoff of zeros.
+Eigen::RowVector3d rounded(const Eigen::Vector3d& v) {
+  return (v / kRounding).array().round() * kRounding + 0.0;
+}
+
+std::string describe(const mesh::Turn& turn) {
+  std::ostringstream text;
+  text << turn.n_sectors << " sectors around the direction (" << rounded(turn.axis) << ") through ("
+       << rounded(turn.point) << ") m";
+  return text.str();
+}
+
+// On rank 0; whether there is one is known to all.
+void find_symmetry(Job& job) {
+  mesh::Repetition& repetition = job.plan.repetition;
+  if (!job.modal() || job.options.symmetry == Symmetry::none) return;
+  job.on_root([&] {
+    auto [found, reason] = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
+    if (found) repetition = std::move(*found);
+    job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
+  });
+  MPI_Bcast(&repetition.turn.n_sectors, 1, MPI_INT, 0, job.comm);
+}
+
 void number(Job& job) {
   const mesh::Mesh& mesh = job.mesh;
   Plan& plan = job.plan;
   validate(job.options);
   fem::require_positive_jacobians(mesh);
   plan.region = fem::cell_regions(mesh, job.options.regions);
-  const std::vector<bool> is_free = fem::free_nodes(mesh, job.options.restrain);
-  fem::require_held(mesh, is_free);
-  plan.free_dof = fem::free_dofs(is_free);
+  plan.is_free = fem::free_nodes(mesh, job.options.restrain);
+  fem::require_held(mesh, plan.is_free);
+  plan.free_dof = fem::free_dofs(plan.is_free);
   require(!plan.free_dof.empty(), "all nodes are restrained, no degree of freedom is left");
   if (job.modal()) require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
-  plan.partition = mesh::partition_cells(mesh, job.size);
-  plan.rows = fem::number_rows(mesh, is_free, plan.partition.part, job.size);
+}
+
+fem::Matrices assemble(Job& job) {
+  Plan& plan = job.plan;
+  job.on_root([&] {
+    plan.partition = mesh::partition_cells(job.mesh, job.size);
+    plan.rows = fem::number_rows(job.mesh, plan.is_free, plan.partition.part, job.size);
+  });
+  const fem::Share share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
+  job.finish_stage("partition");
+  fem::Matrices matrices =
+      fem::assemble(job.comm, share, job.options.regions, job.options.element, job.progress);
+  job.finish_stage("assembly");
+  return matrices;
 }
 
 void prepare_body(Job& job) {
@@ -124,95 +168,165 @@ void prepare_body(Job& job) {
   const PendingFile can_be_written(job.output);
 }
 
-// What the modes depend on. Collective.
-std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
+// What the modes depend on, but for what the way of finding them adds. Rank 0.
+Fingerprint fingerprint_of(const Job& job) {
   const ReductionOptions& o = job.options;
   Fingerprint f;
   f.add(std::string(version()) + git_hash() + o.prefix);
-  for (std::uint64_t word : {fingerprint(matrices.K), fingerprint(matrices.M)}) f.add(word);
   for (int option : {o.n_modes, o.window, static_cast<int>(o.store), static_cast<int>(o.precision)})
     f.add(static_cast<double>(option));
-  f.add_all(job.plan.rows.row);
   f.add_all(job.plan.moments.w_0);
   f.add_all(job.plan.moments.w_1.reshaped());
   f.add_all(job.plan.body.surface.node);
   f.add_all(job.plan.body.stress.node);
   f.add_all(std::span(job.plan.S.valuePtr(), static_cast<std::size_t>(job.plan.S.nonZeros())));
-  return f.text();
+  return f;
 }
 
-EigenOptions eigen_options(Job& job, ModePieces& pieces, const fem::Matrices& matrices) {
+EigenOptions eigen_options(const ReductionOptions& o) {
   EigenOptions options;
-  PetscInt n_own = 0;
-  check(MatGetLocalSize(matrices.K, &n_own, nullptr));
-  options.n_modes = job.options.n_modes;
-  options.window = job.options.window;
-  options.prefix = job.options.prefix;
+  options.n_modes = o.n_modes;
+  options.window = o.window;
+  options.prefix = o.prefix;
   options.whole_pairs = true;
-  options.start = pieces.resume(static_cast<int>(n_own));
-  options.commit = [&](const SearchState& state) { pieces.commit(state); };
-  job.report.continued_after = static_cast<int>(options.start.eigenvalue.size());
-  job.report.discarded = pieces.discarded();
-  if (job.report.continued_after > 0)
-    report(job.progress,
-           "continues after " + std::to_string(job.report.continued_after) + " of " +
-               std::to_string(options.n_modes) + " modes",
-           1);
   return options;
 }
 
-void find_modes(Job& job, const fem::Matrices& matrices, ModePieces& pieces) {
-  Plan& plan = job.plan;
-  UniqueVec layout;
-  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
-  const fem::VectorGather gather(layout, plan.rows);
-  const auto keep = [&](int k, Vec v) {
-    Eigen::VectorXd phi = gather(v);
-    job.on_root([&] {
-      fix_sign(phi);
-      Eigen::VectorXd column = mode_column(plan.body, phi, plan.moments, plan.S);
-      if (job.options.store == Store::surface) phi.resize(0);
-      pieces.add(k, {std::move(column), std::move(phi)});
-    });
-  };
-  const Eigenmodes modes =
-      find_eigenmodes(matrices.K, matrices.M, eigen_options(job, pieces, matrices), keep, job.progress);
-  set_modal_matrices(plan.body, modes.eigenvalue);
-  job.report.frequency = plan.body.frequency;
+void report_continued(Job& job, int pieces, int discarded, const std::string& what) {
+  job.report.discarded = discarded;
+  if (pieces == 0) return;
+  job.report.continued_after = std::to_string(pieces) + " " + what;
+  report(job.progress, "continues after " + job.report.continued_after, 1);
+}
+
+// The numbers that the body keeps of a mode, and its field where that is stored too. Rank 0.
+ModeRecord mode_record(const Job& job, Eigen::VectorXd phi) {
+  fix_sign(phi);
+  Eigen::VectorXd column = mode_column(job.plan.body, phi, job.plan.moments, job.plan.S);
+  if (job.options.store == Store::surface) phi.resize(0);
+  return {std::move(column), std::move(phi)};
+}
+
+void set_eigenmodes(Job& job, const Eigenmodes& modes) {
+  set_modal_matrices(job.plan.body, modes.eigenvalue);
+  job.report.frequency = job.plan.body.frequency;
   job.report.residual = modes.residual;
   job.report.orthogonality = modes.orthogonality;
-  job.finish_stage("eigenmodes");
 }
 
 io::BodySource source_of(const Job& job) {
   return {job.mesh, job.options.regions, job.options.element, job.plan.free_dof};
 }
 
-// Rank 0.
-void write_modal(Job& job, const ModePieces& pieces) {
-  model::ElasticBody& body = job.plan.body;
-  const int n_q = static_cast<int>(body.frequency.size());
-  const bool full = job.options.store == Store::all;
-  allocate_modes(body, n_q);
-  io::BodyWriter writer(job.output, job.mesh.n_nodes(), full ? n_q : 0, job.options.precision);
-  pieces.visit([&](int k, const ModeRecord& mode) {
-    if (k >= n_q) return;  // void
-    set_mode(body, k, mode.column);
-    if (full) writer.write_mode(k, mode.phi);
-  });
-  model::validate(body, job.output);
-  writer.finish(body, source_of(job), {job.report.residual, job.report.orthogonality});
+// The body file of a modal basis, mode by mode. Rank 0.
+class ModalWriter {
+ public:
+  ModalWriter(Job& job, int n_q)
+      : job_(job),
+        full_(job.options.store == Store::all),
+        writer_(job.output, job.mesh.n_nodes(), full_ ? n_q : 0, job.options.precision) {
+    allocate_modes(job.plan.body, n_q);
+  }
+  void add(int k, const ModeRecord& mode) {
+    set_mode(job_.plan.body, k, mode.column);
+    if (full_) writer_.write_mode(k, mode.phi);
+  }
+  void finish() {
+    model::validate(job_.plan.body, job_.output);
+    writer_.finish(job_.plan.body, source_of(job_), {job_.report.residual, job_.report.orthogonality});
+  }
+
+ private:
+  Job& job_;
+  bool full_;
+  io::BodyWriter writer_;
+};
+
+Eigenmodes find_modes(Job& job, const fem::Matrices& matrices, ModePieces& pieces) {
+  UniqueVec layout;
+  PetscInt n_own = 0;
+  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
+  check(VecGetLocalSize(layout, &n_own));
+  const fem::VectorGather gather(layout, job.plan.rows);
+  const auto keep = [&](int k, Vec v) {
+    Eigen::VectorXd phi = gather(v);
+    job.on_root([&] { pieces.add(k, mode_record(job, std::move(phi))); });
+  };
+  EigenOptions options = eigen_options(job.options);
+  options.start = pieces.resume(static_cast<int>(n_own));
+  options.commit = [&](const SearchState& state) { pieces.commit(state); };
+  report_continued(job, static_cast<int>(options.start.eigenvalue.size()), pieces.discarded(),
+                   "of " + std::to_string(options.n_modes) + " modes");
+  return find_eigenmodes(matrices.K, matrices.M, options, keep, job.progress);
 }
 
-void reduce_modal(Job& job, const fem::Matrices& matrices) {
+std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
+  Fingerprint f;
+  job.on_root([&] {
+    f = fingerprint_of(job);
+    f.add_all(job.plan.rows.row);
+  });
+  for (std::uint64_t word : {fingerprint(matrices.K), fingerprint(matrices.M)}) f.add(word);
+  return f.text();
+}
+
+// From the matrices of the whole body.
+void reduce_whole(Job& job) {
+  const fem::Matrices matrices = assemble(job);
   ModePieces pieces(job.comm, job.output + ".partial", fingerprint_of(job, matrices), job.options.precision);
-  find_modes(job, matrices, pieces);
-  job.on_root([&] { write_modal(job, pieces); });
+  set_eigenmodes(job, find_modes(job, matrices, pieces));
+  job.finish_stage("eigenmodes");
+  job.on_root([&] {
+    const int n_q = static_cast<int>(job.report.frequency.size());
+    ModalWriter writer(job, n_q);
+    pieces.visit([&](int k, const ModeRecord& mode) {
+      if (k < n_q) writer.add(k, mode);  // later ones are void
+    });
+    writer.finish();
+  });
   pieces.clear();
 }
 
-void keep_all(Job& job, const fem::Matrices& matrices) {
+std::string fingerprint_of_sectors(Job& job) {
+  Fingerprint f;
+  job.on_root([&] {
+    f = fingerprint_of(job);
+    f.add_all(job.mesh.X.reshaped());
+    f.add_all(job.plan.is_free);
+    f.add_all(job.plan.region);
+    for (const model::MaterialRegion& region : job.options.regions)
+      for (double x : {region.material.E, region.material.nu, region.material.rho}) f.add(x);
+    f.add(static_cast<double>(job.options.element));
+  });
+  return f.text();
+}
+
+// From one sector of a body that repeats.
+void reduce_sectors(Job& job) {
+  HarmonicPieces pieces(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
+  const Plan& plan = job.plan;
+  const fem::MeshedBody body{job.mesh, job.options.regions, plan.region, plan.is_free, job.options.element};
+  std::optional<ModalWriter> writer;
+  CyclicOptions options;
+  options.eigen = eigen_options(job.options);
+  options.known = [&](int k, double cutoff) { return pieces.read(k, cutoff); };
+  options.done = [&](const HarmonicModes& modes) { pieces.write(modes); };
+  options.begin = [&](int n_q) { job.on_root([&] { writer.emplace(job, n_q); }); };
+  report_continued(job, pieces.n_known(), pieces.discarded(), "harmonics");
+  const auto keep = [&](int k, const Eigen::VectorXd& phi) {
+    job.on_root([&] { writer->add(k, mode_record(job, phi)); });
+  };
+  set_eigenmodes(job, find_cyclic_eigenmodes(job.comm, {body, plan.repetition}, options, keep, job.progress));
+  job.finish_stage("eigenmodes");
+  job.on_root([&] { writer->finish(); });
+  pieces.clear();
+}
+
+void reduce_modal(Job& job) { job.cyclic() ? reduce_sectors(job) : reduce_whole(job); }
+
+void keep_all(Job& job) {
   Plan& plan = job.plan;
+  const fem::Matrices matrices = assemble(job);
   auto K = fem::gather_matrix(matrices.K, plan.rows), M = fem::gather_matrix(matrices.M, plan.rows);
   job.on_root([&] {
     set_full_basis(plan.body, plan.free_dof, plan.moments, plan.S);
@@ -241,8 +355,9 @@ void fill_report(Job& job) {
   report.edge_cut = job.plan.partition.edge_cut;
   std::vector<int> cells(static_cast<std::size_t>(job.size), 0);
   for (int part : job.plan.partition.part) ++cells[part];
-  report.balance =
-      *std::max_element(cells.begin(), cells.end()) * static_cast<double>(job.size) / report.n_cells;
+  if (!job.cyclic())
+    report.balance =
+        *std::max_element(cells.begin(), cells.end()) * static_cast<double>(job.size) / report.n_cells;
 }
 
 }  // namespace
@@ -253,16 +368,14 @@ ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOpt
   MPI_Comm_rank(comm, &job.rank);
   MPI_Comm_size(comm, &job.size);
   job.on_root([&] { number(job); });
-  const fem::Share share = fem::distribute(comm, mesh, job.plan.region, job.plan.rows);
-  job.finish_stage("partition");
+  find_symmetry(job);
+  job.finish_stage("numbering and symmetry");
   job.on_root([&] { prepare_body(job); });
   job.finish_stage("inertia, surface and stress operator");
-  const fem::Matrices matrices = fem::assemble(comm, share, options.regions, options.element, progress);
-  job.finish_stage("assembly");
   if (job.modal())
-    reduce_modal(job, matrices);
+    reduce_modal(job);
   else
-    keep_all(job, matrices);
+    keep_all(job);
   job.on_root([&] { fill_report(job); });
   job.finish_stage("writing");
   return job.report;

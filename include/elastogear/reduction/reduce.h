@@ -20,6 +20,10 @@ namespace elastogear::reduction {
 /// simulation and stress histories need. all: at every node, for whole fields.
 enum class Store { surface, all };
 
+/// Modes from one sector where the mesh, materials and restraint repeat around an axis, or from the whole
+/// body.
+enum class Symmetry { automatic, none };
+
 struct ReductionOptions {
   std::string name = {};                            ///< of the body
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
@@ -32,6 +36,7 @@ struct ReductionOptions {
   int window = 0;                                      ///< modes found at a time, see EigenOptions
   Store store = Store::all;                            ///< where the modes are stored
   io::Precision precision = io::Precision::float64;    ///< of modes stored at all nodes
+  Symmetry symmetry = Symmetry::automatic;             ///< modal only, see reduction/cyclic.h
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
   std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
@@ -52,11 +57,12 @@ struct ReductionReport {
   int n_ranks = 1;
   int edge_cut = 0;              ///< pairs of neighbouring cells on different ranks
   double balance = 1;            ///< most cells of a rank over the mean
+  std::string symmetry;          ///< what was found, or why none; empty when it was not looked for
   Eigen::VectorXd frequency;     ///< Hz, ascending; empty for the full basis
   Eigen::VectorXd residual;      ///< |K phi - omega^2 M phi| / |K phi| of each mode
   double orthogonality = 0;      ///< largest |phi_i' M phi_j|, i != j, see Eigenmodes
-  int continued_after = 0;       ///< modes taken over from a run that was killed
-  int discarded = 0;             ///< windows of another run that did not fit this one
+  std::string continued_after;   ///< what was taken over from a run that was killed, if any
+  int discarded = 0;             ///< pieces of another run that did not fit this one
   std::vector<StageTime> times;  ///< wall-clock time of each stage, in order
 };
 

@@ -1,0 +1,70 @@
+#pragma once
+// One sector of a body that repeats Z times around an axis, and displacements of one harmonic on it
+// (docs/theory.md, section Cyclic symmetry).
+
+#include <mpi.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/mesh/repetition.h"
+
+namespace elastogear::fem {
+
+/// Where nodes are: each is the first node of its orbit, turned by 2 pi turns/Z.
+struct Placement {
+  std::vector<int> orbit;  ///< of each node, counted over the free orbits; -1: no displacements
+  std::vector<int> turns;  ///< of each node
+};
+
+/// What the element matrices of a sector need; the same on all ranks.
+struct Sector {
+  mesh::Turn turn;
+  mesh::Mesh mesh;             ///< one cell of each orbit, in local nodes, without sets
+  std::vector<int> region;     ///< of each cell
+  std::vector<double> weight;  ///< of each cell: its images over Z, below 1 around the axis
+  Placement placement;         ///< of the local nodes
+  std::vector<char> on_axis;   ///< of each free orbit
+
+  int n_orbits() const { return static_cast<int>(on_axis.size()); }
+};
+
+/// Placement of all nodes of the mesh.
+Placement free_placement(const mesh::Repetition& repetition, const std::vector<bool>& is_free);
+
+/// region: of each cell of the mesh.
+Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, const std::vector<int>& region,
+                   const Placement& placement);
+
+/// Copies rank 0's sector to all ranks. Collective.
+void broadcast(MPI_Comm comm, Sector& sector);
+
+/// Displacements u_j = R^j Re(z exp(2 pi i j k/Z)) on the sectors j = 0..Z-1 with complex amplitudes z of the
+/// sector, which are real for k = 0 and 2 k = Z. Coordinates of an orbit: Re z then Im z (3 + 3, or 3 when
+/// real); on the axis those along the directions that the turn allows.
+struct Harmonic {
+  int k = 0, n_sectors = 1;
+  bool real = true;
+  std::vector<Eigen::MatrixXd> turned;  ///< of each number of turns: (Re u, Im u) of a node from coordinates
+  Eigen::MatrixXd on_axis;              ///< the same for nodes on the axis; possibly without columns
+  std::vector<int> first;               ///< of each free orbit its first coordinate, then their number
+
+  int size() const { return first.back(); }
+  const Eigen::MatrixXd& at(bool axis, int turns) const { return axis ? on_axis : turned[turns]; }
+};
+
+/// 0 <= k <= Z/2.
+Harmonic make_harmonic(const Sector& sector, int k);
+
+/// Displacements of the whole mesh (3 n_nodes, node-major, 0 where restrained) from coordinates z of a
+/// harmonic. z' M_k z = 1 makes them mass-normalised.
+Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
+                       const Eigen::Ref<const Eigen::VectorXd>& z);
+
+/// Coordinates of i z: the second real field of a complex amplitude. Rows may be those of some orbits only.
+/// Not for real harmonics.
+Eigen::MatrixXd times_i(const Harmonic& harmonic, int first_orbit,
+                        const Eigen::Ref<const Eigen::MatrixXd>& z);
+
+}  // namespace elastogear::fem

@@ -1,0 +1,30 @@
+#pragma once
+// Eigenmodes of one harmonic of a body that repeats around an axis (docs/theory.md, section Cyclic symmetry).
+
+#include <Eigen/Core>
+
+#include "elastogear/fem/sector_assembly.h"
+#include "elastogear/reduction/eigenmodes.h"
+
+namespace elastogear::reduction {
+
+/// The modes of harmonic k below a limit. Unless the harmonic is real, each column z stands for two modes of
+/// the body with one eigenvalue, those of z and of i z.
+struct HarmonicModes {
+  int k = 0;
+  double cutoff = 0;           ///< rad^2/s^2: these are all modes below it
+  int iterations = 0;          ///< of the eigensolver
+  Eigen::VectorXd eigenvalue;  ///< rad^2/s^2, of each column, ascending
+  Eigen::VectorXd residual;    ///< |K_k z - lambda M_k z| / |K_k z|
+  Eigen::MatrixXd z;           ///< coordinates x columns, z' M_k z = 1; on rank 0 of the communicator
+};
+
+/// The lowest options.n_modes eigenvectors of the harmonic by block Lanczos in windows of options.window. Of
+/// a harmonic that is not real they are whole pairs, and of each pair one is returned. The phase rule: the
+/// component of largest modulus is real and positive; of components equal to 1e-6 the first decides.
+/// Collective. Leaves k's cutoff at 0. first_orbit: the first of this rank (fem::own_orbits).
+HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harmonic& harmonic,
+                                  int first_orbit, const EigenOptions& options,
+                                  const Progress& progress = {});
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,48 @@
+#include "elastogear/fem/balance.h"
+
+#include "elastogear/fem/element.h"
+
+namespace elastogear::fem {
+namespace {
+
+using Eigen::MatrixXd;
+
+MatrixXd rows_of_cell(const MatrixXd& u, std::span<const int> nodes) {
+  MatrixXd rows(3 * static_cast<Eigen::Index>(nodes.size()), u.cols());
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    rows.middleRows<3>(3 * static_cast<Eigen::Index>(a)) = u.middleRows<3>(3 * nodes[a]);
+  return rows;
+}
+
+// (M_s (x) I_3) u
+MatrixXd inertia_forces(const MatrixXd& M_s, const MatrixXd& u) {
+  MatrixXd f(u.rows(), u.cols());
+  for (Eigen::Index j = 0; j < u.cols(); ++j)
+    f.col(j).reshaped(3, M_s.rows()) = u.col(j).reshaped(3, M_s.rows()) * M_s;
+  return f;
+}
+
+}  // namespace
+
+Eigen::VectorXd imbalance(const MeshedBody& body, const MatrixXd& u, const Eigen::VectorXd& lambda) {
+  MatrixXd rest = MatrixXd::Zero(u.rows(), u.cols()), moduli = rest;
+  for (int cell = 0; cell < body.mesh.cells.size(); ++cell) {
+    const ElementFunctions& functions = element_functions(body.mesh.cells.type[cell]);
+    const model::Material& material = body.regions[body.region[cell]].material;
+    const Eigen::Matrix3Xd X = cell_coordinates(body.mesh, cell);
+    const auto nodes = body.mesh.cells[cell];
+    const MatrixXd u_e = rows_of_cell(u, nodes);
+    const MatrixXd elastic = functions.stiffness(X, lame(material), body.element) * u_e;
+    const MatrixXd inertial = inertia_forces(functions.mass(X, material.rho), u_e) * lambda.asDiagonal();
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      if (!body.is_free[nodes[a]]) continue;
+      const auto at = 3 * static_cast<Eigen::Index>(a);
+      rest.middleRows<3>(3 * nodes[a]) += elastic.middleRows<3>(at) - inertial.middleRows<3>(at);
+      moduli.middleRows<3>(3 * nodes[a]) +=
+          elastic.middleRows<3>(at).cwiseAbs() + inertial.middleRows<3>(at).cwiseAbs();
+    }
+  }
+  return rest.colwise().norm().cwiseQuotient(moduli.colwise().norm());
+}
+
+}  // namespace elastogear::fem

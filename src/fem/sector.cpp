@@ -1,0 +1,155 @@
+#include "elastogear/fem/sector.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "elastogear/base/rotation.h"
+
+namespace elastogear::fem {
+namespace {
+
+// Re and Im of A z as one real matrix that takes Re z and Im z.
+Eigen::MatrixXd in_parts(const Eigen::MatrixXcd& A) {
+  Eigen::MatrixXd parts(2 * A.rows(), 2 * A.cols());
+  parts << A.real(), -A.imag(), A.imag(), A.real();
+  return parts;
+}
+
+// Amplitudes z of a node on the axis: R z exp(i k alpha) = z. Columns: one for each that there is.
+Eigen::MatrixXcd directions_on_axis(const mesh::Turn& turn, int k) {
+  const Eigen::Vector3d e_1 = turn.axis.unitOrthogonal(), e_2 = turn.axis.cross(e_1);
+  Eigen::MatrixXcd P(3, 0);
+  if (k == 0) {
+    P = turn.axis.cast<std::complex<double>>();
+  } else if (k == 1 && turn.n_sectors == 2) {
+    P.resize(3, 2);
+    P << e_1, e_2;
+  } else if (k == 1) {
+    P.resize(3, 1);
+    P.real() = e_1 / std::numbers::sqrt2;
+    P.imag() = e_2 / std::numbers::sqrt2;
+  }
+  return P;
+}
+
+template <class T>
+void broadcast(MPI_Comm comm, std::vector<T>& values) {
+  auto size = static_cast<int>(values.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
+  values.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(values.data(), static_cast<int>(size * sizeof(T)), MPI_BYTE, 0, comm);
+}
+
+}  // namespace
+
+Placement free_placement(const mesh::Repetition& repetition, const std::vector<bool>& is_free) {
+  std::vector<int> number(repetition.on_axis.size(), -1);
+  Placement placement{std::vector<int>(is_free.size(), -1), repetition.turns};
+  int n_free = 0;
+  for (std::size_t node = 0; node < is_free.size(); ++node) {
+    const int orbit = repetition.orbit[node];
+    if (orbit < 0 || !is_free[node]) continue;
+    if (number[orbit] < 0) number[orbit] = n_free++;
+    placement.orbit[node] = number[orbit];
+  }
+  return placement;
+}
+
+Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, const std::vector<int>& region,
+                   const Placement& placement) {
+  Sector sector;
+  sector.turn = repetition.turn;
+  std::vector<int> local(static_cast<std::size_t>(mesh.n_nodes()), -1), nodes, cell_nodes;
+  for (std::size_t i = 0; i < repetition.cell.size(); ++i) {
+    const int cell = repetition.cell[i];
+    cell_nodes.clear();
+    for (int node : mesh.cells[cell]) {
+      if (local[node] < 0) {
+        local[node] = static_cast<int>(nodes.size());
+        nodes.push_back(node);
+      }
+      cell_nodes.push_back(local[node]);
+    }
+    sector.mesh.cells.add(mesh.cells.type[cell], cell_nodes);
+    sector.region.push_back(region[cell]);
+    sector.weight.push_back(repetition.cell_count[i] / static_cast<double>(sector.turn.n_sectors));
+  }
+  sector.mesh.X = mesh.X(Eigen::all, nodes);
+  const int n_orbits = placement.orbit.empty() ? 0 : 1 + *std::ranges::max_element(placement.orbit);
+  sector.on_axis.resize(static_cast<std::size_t>(n_orbits));
+  for (int node : nodes) {
+    const int orbit = placement.orbit[node];
+    sector.placement.orbit.push_back(orbit);
+    sector.placement.turns.push_back(placement.turns[node]);
+    if (orbit >= 0) sector.on_axis[orbit] = repetition.on_axis[repetition.orbit[node]];
+  }
+  return sector;
+}
+
+void broadcast(MPI_Comm comm, Sector& sector) {
+  std::vector<mesh::Turn> turn{sector.turn};
+  std::vector<double> X(sector.mesh.X.reshaped().begin(), sector.mesh.X.reshaped().end());
+  broadcast(comm, turn);
+  broadcast(comm, X);
+  broadcast(comm, sector.mesh.cells.type);
+  broadcast(comm, sector.mesh.cells.offset);
+  broadcast(comm, sector.mesh.cells.nodes);
+  broadcast(comm, sector.region);
+  broadcast(comm, sector.weight);
+  broadcast(comm, sector.placement.orbit);
+  broadcast(comm, sector.placement.turns);
+  broadcast(comm, sector.on_axis);
+  sector.turn = turn.front();
+  sector.mesh.X = Eigen::Map<const Eigen::Matrix3Xd>(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3));
+}
+
+Harmonic make_harmonic(const Sector& sector, int k) {
+  const int Z = sector.turn.n_sectors;
+  const double alpha = 2 * std::numbers::pi / Z;
+  Harmonic harmonic{k, Z, k == 0 || 2 * k == Z, {}, {}, {0}};
+  for (int j = 0; j < Z; ++j) {
+    const Eigen::Matrix3d R = rotation_matrix(alpha * j * sector.turn.axis);
+    const std::complex<double> phase = std::polar(1.0, alpha * (static_cast<long>(j) * k % Z));
+    harmonic.turned.push_back(harmonic.real ? Eigen::MatrixXd(std::round(phase.real()) * R)
+                                            : in_parts(phase * R.cast<std::complex<double>>()));
+  }
+  const Eigen::MatrixXcd P = directions_on_axis(sector.turn, k);
+  harmonic.on_axis = harmonic.real ? Eigen::MatrixXd(P.real()) : in_parts(P);
+  for (bool axis : sector.on_axis)
+    harmonic.first.push_back(harmonic.first.back() + static_cast<int>(harmonic.at(axis, 0).cols()));
+  return harmonic;
+}
+
+Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
+                       const Eigen::Ref<const Eigen::VectorXd>& z) {
+  const double scale = std::sqrt((harmonic.real ? 1.0 : 2.0) / harmonic.n_sectors);
+  const Eigen::Index off_axis = harmonic.turned.front().cols();
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(placement.orbit.size()));
+  for (std::size_t node = 0; node < placement.orbit.size(); ++node) {
+    const int orbit = placement.orbit[node];
+    if (orbit < 0) continue;
+    const int first = harmonic.first[orbit], count = harmonic.first[orbit + std::size_t{1}] - first;
+    const Eigen::MatrixXd& Q = harmonic.at(count < off_axis, placement.turns[node]);
+    u.segment<3>(3 * static_cast<Eigen::Index>(node)).noalias() =
+        scale * (Q.topRows<3>() * z.segment(first, count));
+  }
+  return u;
+}
+
+Eigen::MatrixXd times_i(const Harmonic& harmonic, int first_orbit,
+                        const Eigen::Ref<const Eigen::MatrixXd>& z) {
+  Eigen::MatrixXd iz(z.rows(), z.cols());
+  const int begin = harmonic.first[first_orbit];
+  for (std::size_t orbit = first_orbit; harmonic.first[orbit] - begin < z.rows(); ++orbit) {
+    const int at = harmonic.first[orbit] - begin,
+              half = (harmonic.first[orbit + 1] - harmonic.first[orbit]) / 2;
+    iz.middleRows(at, half) = -z.middleRows(at + half, half);
+    iz.middleRows(at + half, half) = z.middleRows(at, half);
+  }
+  return iz;
+}
+
+}  // namespace elastogear::fem

@@ -1,0 +1,170 @@
+#include "elastogear/fem/sector_assembly.h"
+
+#include <algorithm>
+
+#include "elastogear/fem/element.h"
+
+namespace elastogear::fem {
+namespace {
+
+using Eigen::MatrixXd;
+
+struct Rows {
+  int begin, end;                         // orbits whose rows this rank owns
+  std::vector<PetscInt> diagonal, other;  // entries of each own row in own columns and in others
+};
+
+// Own orbits with the orbits beside them.
+std::vector<std::vector<int>> neighbours(const Sector& sector, int begin, int end) {
+  std::vector<std::vector<int>> near(static_cast<std::size_t>(end - begin));
+  for (int cell = 0; cell < sector.mesh.cells.size(); ++cell)
+    for (int a : sector.mesh.cells[cell]) {
+      const int row = sector.placement.orbit[a];
+      if (row < begin || row >= end) continue;
+      for (int b : sector.mesh.cells[cell])
+        if (sector.placement.orbit[b] >= 0) near[row - begin].push_back(sector.placement.orbit[b]);
+    }
+  for (auto& orbits : near) {
+    std::sort(orbits.begin(), orbits.end());
+    orbits.erase(std::unique(orbits.begin(), orbits.end()), orbits.end());
+  }
+  return near;
+}
+
+Rows count_entries(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic) {
+  const auto [begin, end] = own_orbits(comm, sector);
+  Rows rows{begin, end, {}, {}};
+  const auto width = [&](std::size_t orbit) { return harmonic.first[orbit + 1] - harmonic.first[orbit]; };
+  int orbit = begin;
+  for (const auto& near : neighbours(sector, begin, end)) {
+    PetscInt own = 0, all = 0;
+    for (int other : near) {
+      all += width(other);
+      if (other >= begin && other < end) own += width(other);
+    }
+    rows.diagonal.insert(rows.diagonal.end(), width(orbit), own);
+    rows.other.insert(rows.other.end(), width(orbit++), all - own);
+  }
+  return rows;
+}
+
+UniqueMat create_matrix(MPI_Comm comm, const Rows& rows) {
+  UniqueMat A;
+  const auto n = static_cast<PetscInt>(rows.diagonal.size());
+  check(MatCreate(comm, A.out()));
+  check(MatSetSizes(A, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  check(MatSetType(A, MATAIJ));
+  check(MatXAIJSetPreallocation(A, 1, rows.diagonal.data(), rows.other.data(), nullptr, nullptr));
+  check(MatSetOption(A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
+  check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
+  check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
+  return A;
+}
+
+// Q of a cell: displacements of its nodes from the coordinates of their orbits, and where these are.
+struct CellBasis {
+  std::vector<const MatrixXd*> Q;     // of each node; nullptr: restrained
+  std::vector<int> turns;             // of each node; -1: on the axis
+  std::vector<PetscInt> row, column;  // of each coordinate; rows of other ranks are -1 (PETSc skips them)
+};
+
+CellBasis cell_basis(const Sector& sector, const Harmonic& harmonic, const Rows& rows, int cell) {
+  CellBasis basis;
+  for (int node : sector.mesh.cells[cell]) {
+    const int orbit = sector.placement.orbit[node];
+    basis.Q.push_back(orbit < 0 ? nullptr
+                                : &harmonic.at(sector.on_axis[orbit], sector.placement.turns[node]));
+    basis.turns.push_back(orbit >= 0 && sector.on_axis[orbit] ? -1 : sector.placement.turns[node]);
+    if (orbit < 0) continue;
+    for (int i = harmonic.first[orbit]; i < harmonic.first[orbit + std::size_t{1}]; ++i) {
+      basis.column.push_back(i);
+      basis.row.push_back(orbit >= rows.begin && orbit < rows.end ? i : -1);
+    }
+  }
+  return basis;
+}
+
+// Q_a' (A_ab for Re u and for Im u) Q_b for the 3 x 3 block of nodes a and b.
+MatrixXd projected(const MatrixXd& Q_a, const Eigen::Matrix3d& A_ab, const MatrixXd& Q_b) {
+  MatrixXd A_Q(Q_b.rows(), Q_b.cols());
+  for (Eigen::Index part = 0; part < Q_b.rows(); part += 3)
+    A_Q.middleRows<3>(part).noalias() = A_ab * Q_b.middleRows<3>(part);
+  return Q_a.transpose() * A_Q;
+}
+
+// Q_a' Q_b; off the axis exactly the identity for nodes that are turned alike, so that zeros in M are exact.
+MatrixXd overlap(const Harmonic& harmonic, const CellBasis& basis, std::size_t a, std::size_t b) {
+  if (basis.turns[a] < 0 || basis.turns[b] < 0) return basis.Q[a]->transpose() * *basis.Q[b];
+  return harmonic.turned[(basis.turns[b] - basis.turns[a] + harmonic.n_sectors) % harmonic.n_sectors];
+}
+
+// The cell's matrix over the harmonic's coordinates. block(a, b): of its nodes.
+template <class Block>
+MatrixXd project(const CellBasis& basis, const Block& block) {
+  const auto n = static_cast<Eigen::Index>(basis.column.size());
+  MatrixXd A(n, n);
+  Eigen::Index column = 0;
+  for (std::size_t b = 0; b < basis.Q.size(); ++b) {
+    Eigen::Index row = 0;
+    for (std::size_t a = 0; basis.Q[b] && a < basis.Q.size(); ++a) {
+      if (!basis.Q[a]) continue;
+      const MatrixXd entries = block(a, b);
+      A.block(row, column, entries.rows(), entries.cols()) = entries;
+      row += entries.rows();
+    }
+    if (basis.Q[b]) column += basis.Q[b]->cols();
+  }
+  return A;
+}
+
+// Symmetric, so that Eigen's column order serves as PETSc's row order.
+void add(Mat A, const CellBasis& basis, const MatrixXd& A_e) {
+  const auto n = static_cast<PetscInt>(basis.row.size());
+  check(MatSetValues(A, n, basis.row.data(), n, basis.column.data(), A_e.data(), ADD_VALUES));
+}
+
+void finish(Mat A) {
+  check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+}
+
+}  // namespace
+
+std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  const auto begin = [&](long r) { return static_cast<int>(r * sector.n_orbits() / size); };
+  return {begin(rank), begin(rank + 1)};
+}
+
+Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
+                  const std::vector<model::MaterialRegion>& regions, model::Element element) {
+  const Rows rows = count_entries(comm, sector, harmonic);
+  Matrices matrices{create_matrix(comm, rows), create_matrix(comm, rows)};
+  for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
+    const CellBasis basis = cell_basis(sector, harmonic, rows, cell);
+    const auto is_own = [](PetscInt row) { return row >= 0; };
+    if (std::none_of(basis.row.begin(), basis.row.end(), is_own)) continue;
+    const ElementFunctions& functions = element_functions(sector.mesh.cells.type[cell]);
+    const model::Material& material = regions[sector.region[cell]].material;
+    const Eigen::Matrix3Xd X = cell_coordinates(sector.mesh, cell);
+    const double weight = sector.weight[cell];
+    const MatrixXd K_e = weight * functions.stiffness(X, lame(material), element);
+    const MatrixXd M_e = weight * functions.mass(X, material.rho);
+    const auto stiffness = [&](std::size_t a, std::size_t b) {
+      const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
+      return projected(*basis.Q[a], K_e.block<3, 3>(3 * i, 3 * j), *basis.Q[b]);
+    };
+    const auto mass = [&](std::size_t a, std::size_t b) -> MatrixXd {
+      return M_e(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * overlap(harmonic, basis, a, b);
+    };
+    add(matrices.K, basis, project(basis, stiffness));
+    add(matrices.M, basis, project(basis, mass));
+  }
+  finish(matrices.K);
+  finish(matrices.M);
+  return matrices;
+}
+
+}  // namespace elastogear::fem
