@@ -65,9 +65,9 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   dynamics::BodySetup setup;
   setup.name = name;
   setup.joint = joint(options, prefix);
-  setup.angle0 = options.number(prefix + "angle0");
-  setup.omega0 = options.number(prefix + "omega0");
-  setup.torque = options.number(prefix + "torque");
+  setup.rotation.s_0 = options.number(prefix + "angle0");
+  setup.rotation.s_dot_0 = options.number(prefix + "omega0");
+  setup.rotation.load = dynamics::constant_signal(options.number(prefix + "torque"));
   setup.body = std::make_shared<model::ElasticBody>(io::read_body(options.text(prefix + "file")));
   return setup;
 }
@@ -144,7 +144,7 @@ void run(const Options& options, const std::vector<std::string>&) {
   std::vector<dynamics::BodySetup> bodies;
   for (const std::string& name : names) bodies.push_back(body_setup(options, name));
 
-  dynamics::System system(std::move(bodies), pairs, level);
+  dynamics::System system(std::move(bodies), pairs, {level});
   model::ResultHeader header = result_header(system);
   for (auto& body : header.bodies) body.file = options.text(body.name + "_file");
   header.provenance = options.provenance();

@@ -16,4 +16,15 @@ Eigen::Matrix3d rotation_matrix(const Eigen::Vector3d& psi) {
   return Eigen::AngleAxisd(angle, psi / angle).toRotationMatrix();
 }
 
+Eigen::Matrix3d cayley(const Eigen::Vector3d& psi) {
+  const Eigen::Matrix3d S = skew(psi);
+  return Eigen::Matrix3d::Identity() + (S + 0.5 * S * S) / (1 + 0.25 * psi.squaredNorm());
+}
+
+Eigen::Matrix3d cayley_tangent(const Eigen::Vector3d& psi) {
+  return (Eigen::Matrix3d::Identity() - 0.5 * skew(psi)) / (1 + 0.25 * psi.squaredNorm());
+}
+
+Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R) { return 1.5 * R - 0.5 * R * R.transpose() * R; }
+
 }  // namespace elastogear

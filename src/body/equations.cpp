@@ -1,28 +1,33 @@
 #include "elastogear/body/equations.h"
 
-#include "elastogear/base/rotation.h"
+#include <Eigen/Geometry>
+
+#include "elastogear/base/error.h"
+#include "elastogear/body/shape.h"
 
 namespace elastogear::body {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
 
-// Inertia of the frozen body about the BRF origin: [m I, -S~; S~, J] with the first moment S.
-Matrix6 rigid_inertia(double m, const Eigen::Vector3d& first_moment, const Eigen::Matrix3d& J) {
-  Matrix6 M;
-  M << m * Eigen::Matrix3d::Identity(), -skew(first_moment), skew(first_moment), J;
-  return M;
+Eigen::MatrixXd inertia_derivatives(const model::Inertia& inertia) {
+  Eigen::MatrixXd J_1(inertia.S_1.cols(), 6);
+  for (int k = 0; k < J_1.rows(); ++k) {
+    const Eigen::Matrix3d J = model::J_1(inertia, k);
+    J_1.row(k) << J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(1, 2), J(0, 2);
+  }
+  return J_1;
 }
 
-Eigen::MatrixXd joint_inertia_derivatives(const model::Inertia& inertia, const MotionSubspace& H) {
-  const Eigen::Index n_s = H.cols(), n_q = inertia.C_l.rows();
-  Eigen::MatrixXd M_ss_1(n_s * n_s, n_q);
-  for (int k = 0; k < n_q; ++k) {
-    const Matrix6 M_k = rigid_inertia(0, inertia.C_l.row(k).transpose(), model::J_1(inertia, k));
-    const Eigen::MatrixXd projected = H.transpose() * M_k * H;
-    M_ss_1.col(k) = projected.reshaped();
-  }
-  return M_ss_1;
+VectorXd on_joint(const Equations& eq, const Vector3d& F_v, const Vector3d& F_w) {
+  return eq.H.topRows<3>().transpose() * F_v + eq.H.bottomRows<3>().transpose() * F_w;
+}
+
+// [m a; S x a; C_l a]: inertia of an accelerated frame that does not turn.
+Force of_acceleration(const Equations& eq, const Shape& shape, const Vector3d& a) {
+  const model::Inertia& inertia = eq.body->inertia;
+  return {on_joint(eq, inertia.m * a, shape.S.cross(a)), inertia.C_l * a};
 }
 
 }  // namespace
@@ -30,50 +35,82 @@ Eigen::MatrixXd joint_inertia_derivatives(const model::Inertia& inertia, const M
 Equations make_equations(std::shared_ptr<const model::ElasticBody> body, const Joint& joint,
                          InertiaLevel level) {
   Equations eq;
-  const model::Inertia& inertia = body->inertia;
   eq.joint = joint;
   eq.H = motion_subspace(joint);
-  eq.M_ss = eq.H.transpose() * rigid_inertia(inertia.m, inertia.m * inertia.c, inertia.J) * eq.H;
-  eq.M_sq = eq.H.topRows<3>().transpose() * inertia.C_l.transpose() +
-            eq.H.bottomRows<3>().transpose() * inertia.C_r.transpose();
-  eq.M_ss_1 = joint_inertia_derivatives(inertia, eq.H);
-  if (level == InertiaLevel::constant) eq.M_ss_1.setZero();
+  eq.level = level;
+  require(level != InertiaLevel::full || body->n_q() == 0 || !body->inertia.S_2.empty(), "body '", body->name,
+          "' lacks the second-order invariants that inertia level 'full' needs");
+  if (body->n_q() == 0 && level == InertiaLevel::full) eq.level = InertiaLevel::linear;
+  eq.J_1 =
+      level == InertiaLevel::constant ? Eigen::MatrixXd(body->n_q(), 0) : inertia_derivatives(body->inertia);
   eq.D_r = body->alpha * body->M_r + body->beta * body->K_r;
   eq.body = std::move(body);
   return eq;
 }
 
-Eigen::MatrixXd joint_inertia_change(const Equations& eq, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd change = eq.M_ss_1 * x;
-  return change.reshaped(eq.n_s(), eq.n_s());
-}
-
-Eigen::MatrixXd joint_inertia(const Equations& eq, const Eigen::VectorXd& q) {
-  return eq.M_ss + joint_inertia_change(eq, q);
+FrameMotion frame_motion(const Equations& eq, const Motion& m) {
+  return frame_motion(eq.joint, eq.H, {m.s, m.s_dot, m.s_ddot});
 }
 
 Force inertia_force(const Equations& eq, const Motion& m) {
-  return {joint_inertia(eq, m.q) * m.s_ddot + eq.M_sq * m.q_ddot,
-          eq.M_sq.transpose() * m.s_ddot + eq.body->M_r * m.q_ddot};
+  const model::Inertia& inertia = eq.body->inertia;
+  const FrameMotion f = frame_motion(eq, m);
+  const Shape x = shape(eq, m);
+  Force h = of_acceleration(eq, x, f.a_s);
+  h.s += on_joint(eq, f.alpha.cross(x.S) + inertia.C_l.transpose() * m.q_ddot,
+                  x.J * f.alpha + project_C_r(eq, x, m.q_ddot));
+  h.q += inertia.C_r * f.alpha + eq.body->M_r * m.q_ddot;
+  if (eq.level == InertiaLevel::full) h.q += x.at_q.B * f.alpha;
+  return h;
 }
 
 Force quadratic_force(const Equations& eq, const Motion& m) {
-  const Eigen::MatrixXd s_dot_squared = m.s_dot * m.s_dot.transpose();
-  return {-joint_inertia_change(eq, m.q_dot) * m.s_dot,
-          0.5 * (eq.M_ss_1.transpose() * s_dot_squared.reshaped())};
+  const FrameMotion f = frame_motion(eq, m);
+  const Vector3d w = f.w;
+  const Shape x = shape(eq, m);
+  Force h = of_acceleration(eq, x, -f.a_c);
+  h.s -= on_joint(eq, w.cross(w.cross(x.S) + 2 * x.S_dot), w.cross(x.J * w + x.spin) + x.J_dot * w);
+  if (eq.level == InertiaLevel::constant) return h;
+  const Vector6 half_w_w = 0.5 * factor(w).transpose() * w;
+  h.q += eq.J_1 * half_w_w;
+  if (eq.level == InertiaLevel::full) h.q += x.at_q.D * half_w_w - 2 * x.at_q_dot.B * w;
+  return h;
 }
 
 Force inner_force(const Equations& eq, const Motion& m) {
-  return {Eigen::VectorXd::Zero(eq.n_s()), eq.D_r * m.q_dot + eq.body->K_r * m.q};
+  return {VectorXd::Zero(eq.n_s()), eq.D_r * m.q_dot + eq.body->K_r * m.q};
+}
+
+Force gravity_force(const Equations& eq, const Motion& m, const Vector3d& g_W) {
+  return of_acceleration(eq, shape(eq, m), placement(eq.joint, m.s).R_WB.transpose() * g_W);
 }
 
 double kinetic_energy(const Equations& eq, const Motion& m) {
-  return 0.5 * m.s_dot.dot(joint_inertia(eq, m.q) * m.s_dot) + m.s_dot.dot(eq.M_sq * m.q_dot) +
+  const FrameMotion f = frame_motion(eq, m);
+  const Shape x = shape(eq, m);
+  const Vector3d S_dot = eq.body->inertia.C_l.transpose() * m.q_dot;
+  return 0.5 * eq.body->inertia.m * f.v.squaredNorm() + f.v.dot(f.w.cross(x.S) + S_dot) +
+         0.5 * f.w.dot(x.J * f.w) + f.w.dot(project_C_r(eq, x, m.q_dot)) +
          0.5 * m.q_dot.dot(eq.body->M_r * m.q_dot);
 }
 
 double elastic_energy(const Equations& eq, const Motion& m) { return 0.5 * m.q.dot(eq.body->K_r * m.q); }
 
-double dissipation(const Equations& eq, const Eigen::VectorXd& q_dot) { return q_dot.dot(eq.D_r * q_dot); }
+double dissipation(const Equations& eq, const VectorXd& q_dot) { return q_dot.dot(eq.D_r * q_dot); }
+
+double gravity_energy(const Equations& eq, const Motion& m, const Vector3d& g_W) {
+  const Placement p = placement(eq.joint, m.s);
+  return -g_W.dot(eq.body->inertia.m * p.r_WB + p.R_WB * shape(eq, m).S);
+}
+
+Momentum momentum(const Equations& eq, const Motion& m) {
+  const FrameMotion f = frame_motion(eq, m);
+  const Shape x = shape(eq, m);
+  const Placement p = placement(eq.joint, m.s);
+  const Vector3d S_dot = eq.body->inertia.C_l.transpose() * m.q_dot;
+  const Vector3d linear = p.R_WB * (eq.body->inertia.m * f.v + f.w.cross(x.S) + S_dot);
+  const Vector3d angular = p.R_WB * (x.S.cross(f.v) + x.J * f.w + project_C_r(eq, x, m.q_dot));
+  return {linear, p.r_WB.cross(linear) + angular};
+}
 
 }  // namespace elastogear::body

@@ -22,17 +22,19 @@ Eigen::Vector3d twist_at(const body::MotionSubspace& H, Eigen::Index i, const Ei
   return H.col(i).head<3>() + H.col(i).tail<3>().cross(x_B);
 }
 
-// Rows of W at one local node, turned into one body's frame, added to its W_s and L from `column` on.
+// Rows of W at one local node, turned into one body's frame, added to its W_s, V_s and L from `column` on.
 struct NodeColumns {
   Eigen::Index column, first_row;  // first_row: of the node in L
   Eigen::Vector3d x_B;
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 5> W_B;
 };
 
-void add_columns(const body::MotionSubspace& H, const NodeColumns& c, Eigen::MatrixXd& W_s, Triplets& L) {
+void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms, Triplets& L) {
   for (Eigen::Index j = 0; j < c.W_B.cols(); ++j) {
-    for (Eigen::Index i = 0; i < H.cols(); ++i)
-      W_s(i, c.column + j) += twist_at(H, i, c.x_B).dot(c.W_B.col(j));
+    for (Eigen::Index i = 0; i < twists.H.cols(); ++i) {
+      terms.W_s(i, c.column + j) += twist_at(twists.H, i, c.x_B).dot(c.W_B.col(j));
+      terms.V_s(i, c.column + j) += twist_at(twists.P, i, c.x_B).dot(c.W_B.col(j));
+    }
     for (Eigen::Index d = 0; d < 3; ++d) L.emplace_back(c.first_row + d, c.column + j, c.W_B(d, j));
   }
 }
@@ -110,41 +112,42 @@ body::Force contact_force(const body::Equations& eq, const NodalForces& forces) 
   return h;
 }
 
-void add_geometric_stiffness(const body::Equations& eq, const NodalForces& forces, BodyTerms& terms) {
+void add_geometric_stiffness(const JointTwists& twists, const NodalForces& forces, BodyTerms& terms) {
   const Eigen::Index first = terms.beta.rows() - 3 * forces.f_B.cols();
   for (Eigen::Index p = 0; p < forces.f_B.cols(); ++p) {
     const Eigen::Vector3d f = forces.f_B.col(p);
-    for (Eigen::Index i = 0; i < eq.n_s(); ++i) {
-      const Eigen::Vector3d w_i = eq.H.col(i).tail<3>(), f_w = f.cross(w_i);
-      terms.beta.col(i).segment<3>(first + 3 * p) -= f_w;
-      terms.rho.col(i).segment<3>(first + 3 * p) -= f_w;
-      for (Eigen::Index j = 0; j < eq.n_s(); ++j) {
-        const Eigen::Vector3d w_j = eq.H.col(j).tail<3>();
-        terms.C(i, j) -= f.dot(w_j.cross(twist_at(eq.H, i, forces.x_B.col(p))));
+    for (Eigen::Index i = 0; i < twists.H.cols(); ++i) {
+      terms.beta.col(i).segment<3>(first + 3 * p) -= f.cross(twists.P.col(i).tail<3>());
+      terms.rho.col(i).segment<3>(first + 3 * p) -= f.cross(twists.H.col(i).tail<3>());
+      for (Eigen::Index j = 0; j < twists.P.cols(); ++j) {
+        const Eigen::Vector3d theta_j = twists.P.col(j).tail<3>();
+        terms.C(i, j) -= f.dot(theta_j.cross(twist_at(twists.H, i, forces.x_B.col(p))));
       }
     }
   }
 }
 
-void set_contact_columns(const std::vector<const body::Equations*>& bodies,
-                         const std::vector<PairContacts>& pairs,
+void set_contact_columns(const std::vector<JointTwists>& twists, const std::vector<PairContacts>& pairs,
                          const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A) {
   const Eigen::Index r = column_count(pairs);
-  std::vector<Triplets> L(bodies.size());
+  std::vector<Triplets> L(twists.size());
   Triplets k;
-  for (std::size_t b = 0; b < bodies.size(); ++b) A.body[b].W_s.setZero(bodies[b]->n_s(), r);
+  for (std::size_t b = 0; b < twists.size(); ++b) {
+    A.body[b].W_s.setZero(twists[b].H.cols(), r);
+    A.body[b].V_s.setZero(twists[b].P.cols(), r);
+  }
   Eigen::Index column = 0;
   for (const PairContacts& pair : pairs)
     for (const auto& point : pair.points) {
       for (int i = 0; i < kLocalNodes; ++i) {
         const int b = pair.body[local_node(point, i).side];
-        add_columns(bodies[b]->H, node_columns(point, i, column, A.body[b], states[b]), A.body[b].W_s, L[b]);
+        add_columns(twists[b], node_columns(point, i, column, A.body[b], states[b]), A.body[b], L[b]);
       }
       add_block(point.k, column, k);
       column += point.W.cols();
     }
   set_sparse(A.k, r, r, k);
-  for (std::size_t b = 0; b < bodies.size(); ++b) set_sparse(A.body[b].L, A.body[b].beta.rows(), r, L[b]);
+  for (std::size_t b = 0; b < twists.size(); ++b) set_sparse(A.body[b].L, A.body[b].beta.rows(), r, L[b]);
 }
 
 }  // namespace elastogear::dynamics

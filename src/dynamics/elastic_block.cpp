@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elastogear/base/error.h"
+#include "elastogear/body/tangent.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -19,10 +20,7 @@ bool is_diagonal(const Eigen::SparseMatrix<double>& A) {
 
 }  // namespace
 
-BorderColumns::BorderColumns(const body::Equations& eq) : Phi_(&eq.body->surface.Phi) {
-  U_.resize(eq.n_q(), eq.M_sq.rows() + eq.M_ss_1.rows());
-  U_ << eq.M_sq.transpose(), eq.M_ss_1.transpose();
-}
+BorderColumns::BorderColumns(const body::Equations& eq) : Phi_(&eq.body->surface.Phi), U_(body::border(eq)) {}
 
 Eigen::Index BorderColumns::size(const std::vector<int>& node) const {
   return n_u() + 3 * static_cast<Eigen::Index>(node.size());

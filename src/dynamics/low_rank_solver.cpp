@@ -1,16 +1,18 @@
 #include "elastogear/dynamics/low_rank_solver.h"
 
 #include "elastogear/base/error.h"
+#include "elastogear/body/shape.h"
 
 namespace elastogear::dynamics {
 
-LowRankSolver::LowRankSolver(const std::vector<const body::Equations*>& bodies) {
+LowRankSolver::LowRankSolver(const std::vector<SolverBody>& bodies) {
   Eigen::Index start = 0;
-  for (const body::Equations* eq : bodies) {
-    range_.push_back({start, eq->n_s(), eq->n_q(), n_s_});
+  for (const auto& [eq, n_s] : bodies) {
+    eq_.push_back(eq);
+    range_.push_back({start, n_s, eq->n_q(), n_s_});
     block_.emplace_back(*eq);
-    start += eq->n_s() + eq->n_q();
-    n_s_ += eq->n_s();
+    start += n_s + eq->n_q();
+    n_s_ += n_s;
   }
 }
 
@@ -22,7 +24,7 @@ void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
   const Eigen::MatrixXd G_beta = G * t.beta, G_rho = G * t.rho, G_L = G * t.L;
   small.block(joint, joint, n_s, n_s) += t.C - t.rho.transpose() * G_beta;
   small.block(joint, n_s_, n_s, r) += (t.W_s - G_rho.transpose() * t.L) * A_.k;
-  small.block(n_s_, joint, r, n_s) += t.L.transpose() * G_beta - t.W_s.transpose();
+  small.block(n_s_, joint, r, n_s) += t.L.transpose() * G_beta - t.V_s.transpose();
   const Eigen::MatrixXd L_G_L = t.L.transpose() * G_L;
   small.bottomRightCorner(r, r) += L_G_L * A_.k;
 }
@@ -49,7 +51,7 @@ Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
     const auto [s, n_s, n_q, joint] = range_[b];
     const BodyTerms& t = A_.body[b];
     projected.push_back(block_[b].columns().project(t.node, x.segment(s + n_s, n_q)));
-    lambda += t.W_s.transpose() * x.segment(s, n_s) + t.L.transpose() * projected[b];
+    lambda += t.V_s.transpose() * x.segment(s, n_s) + t.L.transpose() * projected[b];
   }
   const Eigen::VectorXd k_lambda = A_.k * lambda;
   for (std::size_t b = 0; b < block_.size(); ++b) {
@@ -59,8 +61,17 @@ Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
     y.segment(s, n_s) = t.C * x_s + t.rho.transpose() * projected[b] + t.W_s * k_lambda;
     y.segment(s + n_s, n_q) = block_[b].multiply(x.segment(s + n_s, n_q)) +
                               block_[b].columns().expand(t.node, t.beta * x_s + t.L * k_lambda);
+    if (t.Q_s.rows() > 0) add_second_order(b, x, y);
   }
   return y;
+}
+
+void LowRankSolver::add_second_order(std::size_t b, const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  const auto [s, n_s, n_q, joint] = range_[b];
+  const BodyTerms& t = A_.body[b];
+  const Eigen::VectorXd x_q = x.segment(s + n_s, n_q);
+  y.segment(s, n_s) += t.R_q * x_q;
+  y.segment(s + n_s, n_q) += t.Q_s * x.segment(s, n_s) + body::contract(eq_[b]->body->inertia, t.Gamma, x_q);
 }
 
 Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {

@@ -7,6 +7,7 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr double kResidualTolerance = 1e-8;  // of the forces in balance
+constexpr double kLinearTolerance = 1e-10;   // where the solver is only a preconditioner
 constexpr int kNewtonLimit = 25;
 constexpr double kDeepest = 0.9;  // share of the contact depth that may be used before a step is cut
 
@@ -25,27 +26,27 @@ void set_inadmissible(Problem& problem, TS ts, const char* trouble) {
   check(SNESSetFunctionDomainError(snes));
 }
 
-PetscErrorCode function(TS ts, PetscReal, Vec U, Vec V, Vec A, Vec F, void* ctx) {
+PetscErrorCode function(TS ts, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* ctx) {
   auto& problem = *static_cast<Problem*>(ctx);
   return guard(problem.pending, [&] {
     const ReadView u(U), v(V), a(A);
     if (!(*u).allFinite() || !(*v).allFinite() || !(*a).allFinite())
       return set_inadmissible(problem, ts, "the motion is not finite");
-    if (problem.system.depth_share(*u) > kDeepest)
+    if (problem.system.depth_share(t, *u) > kDeepest)
       return set_inadmissible(problem, ts, "bodies penetrate each other by nearly the contact depth");
-    problem.residual = problem.system.residual(*u, *v, *a);
+    problem.residual = problem.system.residual({t, *u, *v, *a});
     if (!problem.residual.F.allFinite()) return set_inadmissible(problem, ts, "forces are not finite");
     problem.trouble.clear();
     assign(F, problem.residual.F);
   });
 }
 
-PetscErrorCode jacobian(TS, PetscReal, Vec U, Vec V, Vec A, PetscReal shift_v, PetscReal shift_a, Mat J,
+PetscErrorCode jacobian(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v, PetscReal shift_a, Mat J,
                         Mat P, void* ctx) {
   auto& problem = *static_cast<Problem*>(ctx);
   return guard(problem.pending, [&] {
     const ReadView u(U), v(V), a(A);
-    problem.solver.set(problem.system.effective_matrix(*u, *v, *a, shift_v, shift_a));
+    problem.solver.set(problem.system.effective_matrix({t, *u, *v, *a}, {shift_v, shift_a}));
     for (Mat matrix : {J, P}) {
       check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
       check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
@@ -92,12 +93,14 @@ void set_solvers(Problem& problem, TS ts) {
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
   check(SNESGetKSP(snes, &ksp));
-  check(KSPSetType(ksp, KSPPREONLY));
+  const bool exact = problem.system.solver_is_exact();
+  check(KSPSetType(ksp, exact ? KSPPREONLY : KSPGMRES));
+  if (!exact) check(KSPSetTolerances(ksp, kLinearTolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, &problem));
   check(PCShellSetApply(pc, solve));
-  check(PCShellSetName(pc, "exact low-rank solver"));
+  check(PCShellSetName(pc, "low-rank solver"));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace elastogear::dynamics {
 
 /// What the callbacks share. Must outlive the TS.
 struct Problem {
-  explicit Problem(System& s) : system(s), solver(s.equations()) {}
+  explicit Problem(System& s) : system(s), solver(s.solver_bodies()) {}
 
   System& system;
   LowRankSolver solver;

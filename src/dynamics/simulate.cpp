@@ -39,12 +39,17 @@ void validate(const TimeSettings& settings) {
   require(settings.output_every >= 1, "output_every = ", settings.output_every, " must be at least 1");
 }
 
+void require_tables_cover(const System& system, double end_time) {
+  for (const System::Body& body : system.bodies())
+    for (const Axis& axis : body.axis) require_covers(axis, end_time, "body '" + body.name + "': ");
+}
+
 void require_bodies_apart(System& system) {
   for (const PairSetup& pair : system.pairs()) {
     const int a = pair.body[0], b = pair.body[1];
     const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
     const auto state = [&](int i) {
-      return contact::surface_state(surface(i), system.surface_motion(i, system.initial_position()));
+      return contact::surface_state(surface(i), system.surface_motion(i, 0, system.initial_position()));
     };
     contact::require_apart(
         contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b)), pair.name);
@@ -78,7 +83,8 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
     Vec U = nullptr, V = nullptr, A = nullptr;
     PetscReal end = 0;
     generalized_alpha_state(ts, &U, &V, &A);
-    run.last = snapshot(run.problem.system, time, *ReadView(U), *ReadView(V), *ReadView(A));
+    const ReadView u(U), v(V), a(A);
+    run.last = snapshot(run.problem.system, {time, *u, *v, *a});
     run.ledger.enter(run.problem.system, run.last);
     run.last_observed = false;
     const model::Energies& energy = run.last.energy;
@@ -109,6 +115,23 @@ PetscErrorCode recover_dt(TS ts) {
   return 0;
 }
 
+// Rotation vectors of free bodies begin at zero in every step.
+void rebase(System& system, TS ts) {
+  Vec U = nullptr, V = nullptr, A = nullptr;
+  generalized_alpha_state(ts, &U, &V, &A);
+  Eigen::VectorXd positions = *ReadView(U);
+  if (!system.rebase(positions)) return;
+  assign(U, positions);
+  generalized_alpha_set_state(ts, U, V, A);
+}
+
+PetscErrorCode post_step(TS ts) {
+  Run* run = nullptr;
+  PetscCall(TSGetApplicationContext(ts, &run));
+  PetscCall(guard(run->problem.pending, [&] { rebase(run->problem.system, ts); }));
+  return recover_dt(ts);
+}
+
 UniqueVec vector(const Eigen::VectorXd& values) {
   UniqueVec vec;
   check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(values.size()), vec.out()));
@@ -137,7 +160,7 @@ UniqueTS make_ts(Run& run, UniqueMat& J) {
   attach(run.problem, ts, J);
   set_time(ts, run.settings);
   check(TSSetApplicationContext(ts, &run));
-  check(TSSetPostStep(ts, recover_dt));
+  check(TSSetPostStep(ts, post_step));
   check(TSMonitorSet(ts, monitor, &run, nullptr));
   check(TSSetFromOptions(ts));
   check(TSGetTimeStep(ts, &run.nominal_dt));
@@ -170,6 +193,7 @@ RunSummary simulate(System& system, const TimeSettings& settings, const Observer
                     const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   validate(settings);
+  require_tables_cover(system, settings.end_time);
   require_bodies_apart(system);
   Run run(system, settings, observer, progress);
   for (const PairSetup& pair : system.pairs()) run.summary.pair.push_back({pair.name});

@@ -6,8 +6,9 @@
 namespace elastogear::dynamics {
 namespace {
 
-model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& placement) {
-  return {placement.r_WB, placement.R_WB, m.s, m.s_dot, m.s_ddot, m.q, m.q_dot, m.q_ddot};
+model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& placement,
+                            const Eigen::VectorXd& joint_force) {
+  return {placement.r_WB, placement.R_WB, m.s, m.s_dot, m.s_ddot, m.q, m.q_dot, m.q_ddot, joint_force};
 }
 
 model::ContactRecord record(const contact::ContactPoint& point) {
@@ -49,15 +50,20 @@ model::PairState pair_state(const System& system, const ContactState& contact, c
 
 double stored(const model::Energies& energy) { return energy.kinetic + energy.elastic + energy.contact; }
 
+double weight_energy(const System& system, std::size_t b, const model::BodyState& x) {
+  return body::gravity_energy(system.bodies()[b].eq, {x.s, x.s_dot, x.s_ddot, x.q, x.q_dot, x.q_ddot},
+                              system.environment().gravity);
+}
+
 }  // namespace
 
-model::Snapshot snapshot(System& system, double time, ConstVector U, ConstVector V, ConstVector A) {
-  const ContactState& contact = system.contacts(U);
+model::Snapshot snapshot(System& system, const State& x) {
+  const ContactState& contact = system.contacts(x.time, x.U);
   model::Snapshot result;
-  result.time = time;
+  result.time = x.time;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
-    const body::Motion m = system.motion(b, U, V, A);
-    result.bodies.push_back(body_state(m, contact.surface[b]));
+    const body::Motion m = system.motion(b, x);
+    result.bodies.push_back(body_state(m, contact.surface[b], system.joint_force(b, x)));
     result.energy.kinetic += body::kinetic_energy(system.bodies()[b].eq, m);
     result.energy.elastic += body::elastic_energy(system.bodies()[b].eq, m);
   }
@@ -68,17 +74,35 @@ model::Snapshot snapshot(System& system, double time, ConstVector U, ConstVector
   return result;
 }
 
+void EnergyLedger::enter_joint(const System::Body& body, const model::BodyState& now,
+                               const model::BodyState& before, const std::array<double, 2>& times) {
+  for (Eigen::Index i = 0; const Axis& axis : body.axis) {
+    const double way = now.s[i] - before.s[i], rate = 0.5 * (now.s_dot[i] + before.s_dot[i]);
+    const double lost = (times[1] - times[0]) * rate * resistance(axis, rate);
+    dissipated_ += lost;
+    work_ += axis.drive ? 0.5 * (now.joint_force[i] + before.joint_force[i]) * way + lost
+                        : at(axis.load, 0.5 * (times[0] + times[1])) * way;
+    ++i;
+  }
+}
+
 void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
-  if (bodies_.empty()) stored_0_ = stored(snapshot.energy);
+  double weight = 0;
+  for (std::size_t b = 0; b < system.bodies().size(); ++b)
+    weight += weight_energy(system, b, snapshot.bodies[b]);
+  if (bodies_.empty()) {
+    stored_0_ = stored(snapshot.energy);
+    weight_0_ = weight;
+  }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const System::Body& body = system.bodies()[b];
     const Eigen::VectorXd q_dot_m = 0.5 * (bodies_[b].q_dot + snapshot.bodies[b].q_dot);
     dissipated_ += (snapshot.time - time_) * body::dissipation(body.eq, q_dot_m);
-    work_ += body.torque * (snapshot.bodies[b].s - bodies_[b].s).sum();
+    enter_joint(body, snapshot.bodies[b], bodies_[b], {time_, snapshot.time});
   }
   snapshot.energy.dissipated = dissipated_;
-  snapshot.energy.work = work_;
-  snapshot.energy.balance = stored(snapshot.energy) + dissipated_ - work_ - stored_0_;
+  snapshot.energy.work = work_ + weight_0_ - weight;
+  snapshot.energy.balance = stored(snapshot.energy) + dissipated_ - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
   bodies_ = snapshot.bodies;
 }

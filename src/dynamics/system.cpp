@@ -1,8 +1,11 @@
 #include "elastogear/dynamics/system.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/rotation.h"
+#include "elastogear/body/tangent.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -14,6 +17,31 @@ void append(Eigen::VectorXd& x, const Eigen::VectorXd& tail) {
   x.tail(tail.size()) = tail;
 }
 
+bool is_default(const Axis& axis) {
+  return axis.s_0 == 0 && axis.s_dot_0 == 0 && axis.load.value.empty() && axis.damping == 0 &&
+         axis.friction == 0 && !axis.drive;
+}
+
+// What a joint does not have must not be set.
+void validate_motion(const BodySetup& setup, const std::string& who) {
+  const body::JointType type = setup.joint.type;
+  const std::string& joint = body::joint_names()[static_cast<std::size_t>(type)];
+  require(body::turns(type) || is_default(setup.rotation), who, "a ", joint,
+          " joint has no axis to turn about: no initial angle or speed, torque, friction or prescribed "
+          "rotation");
+  require(
+      body::slides(type) || is_default(setup.translation), who, "a ", joint,
+      " joint has no axis to slide along: no initial displacement or speed, force, friction or prescribed "
+      "translation");
+  require(type == body::JointType::free || (setup.velocity0.isZero(0) && setup.omega0.isZero(0)), who,
+          "only a free body takes an initial velocity and angular velocity as vectors");
+  require(setup.velocity0.allFinite() && setup.omega0.allFinite(), who, "initial velocity (",
+          setup.velocity0.transpose(), ") and angular velocity (", setup.omega0.transpose(),
+          ") must be finite");
+  validate(setup.rotation, who + "rotation: ");
+  validate(setup.translation, who + "translation: ");
+}
+
 void validate_joint(const BodySetup& setup) {
   const body::Joint& joint = setup.joint;
   const std::string who = "body '" + setup.name + "': ";
@@ -22,12 +50,19 @@ void validate_joint(const BodySetup& setup) {
   require(R.allFinite() && (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kRotationTolerance &&
               R.determinant() > 0,
           who, "rotation is not a rotation matrix");
-  require(std::isfinite(setup.angle0) && std::isfinite(setup.omega0) && std::isfinite(setup.torque), who,
-          "angle0 = ", setup.angle0, ", omega0 = ", setup.omega0, ", torque = ", setup.torque,
-          " must be finite");
-  require(
-      joint.type != body::JointType::fixed || (setup.angle0 == 0 && setup.omega0 == 0 && setup.torque == 0),
-      who, "a fixed joint takes no angle0, omega0 or torque");
+  validate_motion(setup, who);
+}
+
+// Inertia of the undeformed body against what the joint lets it do.
+void require_inertia(const System::Body& body) {
+  const model::Inertia& inertia = body.eq.body->inertia;
+  Eigen::Matrix<double, 6, 6> M;
+  const Eigen::Matrix3d S = skew(inertia.m * inertia.c);
+  M << inertia.m * Eigen::Matrix3d::Identity(), -S, S, inertia.J;
+  const Eigen::MatrixXd H = body.eq.H(Eigen::all, body.open);
+  const Eigen::LLT<Eigen::MatrixXd> factor(H.transpose() * M * H);
+  require(factor.info() == Eigen::Success, "body '", body.name, "' has a mass of ", inertia.m,
+          " kg and no (or a negative) inertia against a motion that its joint allows");
 }
 
 void validate_body(const BodySetup& setup, const std::vector<System::Body>& others) {
@@ -59,55 +94,127 @@ void place_touched(const PairContacts& pair, const model::Surface* surface[2],
     }
 }
 
-void set_norms(Residual& r, std::size_t block, Eigen::Index first,
-               const std::vector<Eigen::VectorXd>& terms) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(terms.front().size());
-  for (const Eigen::VectorXd& term : terms) {
-    sum += term;
-    r.scale[block] += term.norm();
-  }
-  r.norm[block] = sum.norm();
-  r.F.segment(first, sum.size()) = sum;
+using Terms = std::vector<Eigen::VectorXd>;
+
+Eigen::VectorXd sum(const Terms& terms) {
+  Eigen::VectorXd total = Eigen::VectorXd::Zero(terms.front().size());
+  for (const Eigen::VectorXd& term : terms) total += term;
+  return total;
 }
 
-const char* name(body::JointType type) { return type == body::JointType::fixed ? "fixed" : "revolute"; }
+// Norm of the sum and sum of the norms, of the given entries.
+void set_norms(Residual& r, std::size_t block, const Terms& terms, const std::vector<Eigen::Index>* entries) {
+  const auto norm = [&](const Eigen::VectorXd& x) { return entries ? x(*entries).norm() : x.norm(); };
+  for (const Eigen::VectorXd& term : terms) r.scale[block] += norm(term);
+  r.norm[block] = norm(sum(terms));
+}
 
-// Everything of a body's terms but contact, docs/theory.md, "Solving for one Newton step".
-BodyTerms inertia_terms(const body::Equations& eq, const body::Motion& m, const EffectiveMatrix& A,
-                        const std::vector<int>& node) {
-  const Eigen::Index n_s = eq.n_s(), n_u = n_s + n_s * n_s;
+// A matrix with further rows of zeros.
+Eigen::MatrixXd extended(const Eigen::MatrixXd& top, Eigen::Index rows) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, top.cols());
+  all.topRows(top.rows()) = top;
+  return all;
+}
+
+BodyTerms body_terms(body::Tangent tangent, const std::vector<int>& node) {
+  const Eigen::Index n_e = tangent.beta.rows() + 3 * static_cast<Eigen::Index>(node.size());
   BodyTerms terms;
   terms.node = node;
-  terms.C = A.shift_a * body::joint_inertia(eq, m.q) + A.shift_v * body::joint_inertia_change(eq, m.q_dot);
-  terms.beta.setZero(n_u + 3 * static_cast<Eigen::Index>(node.size()), n_s);
-  terms.beta.topRows(n_s) = A.shift_a * Eigen::MatrixXd::Identity(n_s, n_s);
-  terms.rho = terms.beta;
-  const Eigen::VectorXd of_row = m.s_ddot + A.shift_v * m.s_dot;
-  for (Eigen::Index i = 0; i < n_s; ++i)
-    for (Eigen::Index j = 0; j < n_s; ++j) {
-      terms.beta(n_s + j * n_s + i, i) -= A.shift_v * m.s_dot[j];
-      terms.rho(n_s + j * n_s + i, i) += of_row[j];
-    }
+  terms.C = std::move(tangent.C);
+  terms.beta = extended(tangent.beta, n_e);
+  terms.rho = extended(tangent.rho, n_e);
+  terms.R_q = std::move(tangent.R_q);
+  terms.Q_s = std::move(tangent.Q_s);
+  terms.Gamma = tangent.Gamma;
   return terms;
+}
+
+std::vector<Axis> axes(const BodySetup& setup) {
+  std::vector<Axis> axes;
+  if (body::turns(setup.joint.type)) axes.push_back(setup.rotation);
+  if (body::slides(setup.joint.type)) axes.push_back(setup.translation);
+  return axes;
+}
+
+std::vector<Eigen::Index> open_coordinates(const std::vector<Axis>& axes, Eigen::Index n_s) {
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < n_s; ++i)
+    if (axes.empty() || !axes[static_cast<std::size_t>(i)].drive) open.push_back(i);
+  return open;
+}
+
+// Initial joint coordinates and their rates.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> initial_motion(const BodySetup& setup, Eigen::Index n_s) {
+  Eigen::VectorXd s = Eigen::VectorXd::Zero(n_s), s_dot = s;
+  if (setup.joint.type == body::JointType::free) {
+    s.head<3>() = setup.joint.r_WB0;
+    s_dot << setup.velocity0, setup.omega0;
+  }
+  for (Eigen::Index i = 0; const Axis& axis : axes(setup)) {
+    s[i] = axis.s_0;
+    s_dot[i++] = axis.s_dot_0;
+  }
+  return {s, s_dot};
+}
+
+// Load minus resistance along each joint coordinate, and the derivative of the latter.
+Eigen::VectorXd load(const System::Body& body, double time, const Eigen::VectorXd& s_dot) {
+  Eigen::VectorXd h = Eigen::VectorXd::Zero(body.eq.n_s());
+  for (Eigen::Index i = 0; const Axis& axis : body.axis) {
+    h[i] = at(axis.load, time) - resistance(axis, s_dot[i]);
+    ++i;
+  }
+  return h;
+}
+
+Eigen::VectorXd load_rate(const System::Body& body, const Eigen::VectorXd& s_dot) {
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(body.eq.n_s());
+  for (Eigen::Index i = 0; const Axis& axis : body.axis) {
+    rate[i] = resistance_rate(axis, s_dot[i]);
+    ++i;
+  }
+  return rate;
+}
+
+// Rows and columns of the coordinates that are unknown.
+void keep_open(BodyTerms& terms, const std::vector<Eigen::Index>& open) {
+  if (terms.C.rows() == static_cast<Eigen::Index>(open.size())) return;
+  const auto columns = [&](Eigen::MatrixXd& M) { M = Eigen::MatrixXd(M(Eigen::all, open)); };
+  const auto rows = [&](Eigen::MatrixXd& M) { M = Eigen::MatrixXd(M(open, Eigen::all)); };
+  rows(terms.C);
+  columns(terms.C);
+  columns(terms.beta);
+  columns(terms.rho);
+  rows(terms.W_s);
+  rows(terms.V_s);
+  if (terms.Q_s.rows() == 0) return;
+  rows(terms.R_q);
+  columns(terms.Q_s);
 }
 
 }  // namespace
 
-System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, body::InertiaLevel level) {
+System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment)
+    : environment_(environment) {
   require(!bodies.empty(), "there is no body to simulate");
-  for (const BodySetup& setup : bodies) add_body(setup, level);
+  require(environment.gravity.allFinite(), "gravity (", environment.gravity.transpose(), ") must be finite");
+  for (const BodySetup& setup : bodies) add_body(setup);
   for (const PairSetup& setup : pairs) add_pair(setup);
 }
 
-void System::add_body(const BodySetup& setup, body::InertiaLevel level) {
+void System::add_body(const BodySetup& setup) {
   validate_body(setup, bodies_);
-  bodies_.push_back({setup.name, body::make_equations(setup.body, setup.joint, level), size(), setup.torque,
-                     false, node_groups(setup.body->surface)});
-  const body::Equations& eq = bodies_.back().eq;
-  append(U_0_, Eigen::VectorXd::Constant(eq.n_s(), setup.angle0));
-  append(U_0_, Eigen::VectorXd::Zero(eq.n_q()));
-  append(V_0_, Eigen::VectorXd::Constant(eq.n_s(), setup.omega0));
-  append(V_0_, setup.q_dot0.size() ? setup.q_dot0 : Eigen::VectorXd::Zero(eq.n_q()));
+  const std::vector<Axis> axis = axes(setup);
+  const auto [s, s_dot] = initial_motion(setup, body::coordinate_count(setup.joint.type));
+  const std::vector<Eigen::Index> open = open_coordinates(axis, s.size());
+  bodies_.push_back({setup.name, body::make_equations(setup.body, setup.joint, environment_.inertia), size(),
+                     axis, open, false, node_groups(setup.body->surface)});
+  require_inertia(bodies_.back());
+  const Eigen::Index n_q = setup.body->n_q();
+  append(U_0_, s(open));
+  append(U_0_, Eigen::VectorXd::Zero(n_q));
+  append(V_0_, s_dot(open));
+  append(V_0_, setup.q_dot0.size() ? setup.q_dot0 : Eigen::VectorXd::Zero(n_q));
 }
 
 void System::add_pair(const PairSetup& setup) {
@@ -125,26 +232,45 @@ void System::add_pair(const PairSetup& setup) {
   detectors_.emplace_back(a.surface, b.surface, setup.settings, std::array{&a.K_r, &b.K_r});
 }
 
-std::vector<const body::Equations*> System::equations() const {
-  std::vector<const body::Equations*> equations;
-  for (const Body& body : bodies_) equations.push_back(&body.eq);
-  return equations;
+std::vector<SolverBody> System::solver_bodies() const {
+  std::vector<SolverBody> bodies;
+  for (const Body& body : bodies_) bodies.push_back({&body.eq, body.n_open()});
+  return bodies;
 }
 
-body::Motion System::motion(std::size_t b, ConstVector U, ConstVector V, ConstVector A) const {
-  const body::Equations& eq = bodies_[b].eq;
-  const Eigen::Index s = bodies_[b].first, n_s = eq.n_s(), q = s + n_s, n_q = eq.n_q();
-  return {U.segment(s, n_s), V.segment(s, n_s), A.segment(s, n_s),
-          U.segment(q, n_q), V.segment(q, n_q), A.segment(q, n_q)};
+bool System::solver_is_exact() const {
+  return std::none_of(bodies_.begin(), bodies_.end(), [](const Body& body) {
+    return body.eq.level == body::InertiaLevel::full && body.eq.n_s() > 0;
+  });
 }
 
-const ContactState& System::contacts(ConstVector U) {
-  if (U_of_state_ && *U_of_state_ == U) return state_;
+body::Motion System::motion(std::size_t b, const State& x) const {
+  const Body& body = bodies_[b];
+  const Eigen::Index n_s = body.eq.n_s(), s = body.first, q = s + body.n_open(), n_q = body.eq.n_q();
+  body::Motion m{Eigen::VectorXd(n_s), Eigen::VectorXd(n_s), Eigen::VectorXd(n_s),
+                 x.U.segment(q, n_q),  x.V.segment(q, n_q),  x.A.segment(q, n_q)};
+  m.s(body.open) = x.U.segment(s, body.n_open());
+  m.s_dot(body.open) = x.V.segment(s, body.n_open());
+  m.s_ddot(body.open) = x.A.segment(s, body.n_open());
+  for (Eigen::Index i = 0; const Axis& axis : body.axis) {
+    if (axis.drive) {
+      const Prescribed p = at(*axis.drive, x.time);
+      m.s[i] = p.s;
+      m.s_dot[i] = p.s_dot;
+      m.s_ddot[i] = p.s_ddot;
+    }
+    ++i;
+  }
+  return m;
+}
+
+const ContactState& System::contacts(double time, ConstVector U) {
+  if (U_of_state_ && time == time_of_state_ && *U_of_state_ == U) return state_;
   U_of_state_.reset();
   std::vector<contact::SurfaceMotion> motion;
   state_.surface.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    motion.push_back(surface_motion(b, U));
+    motion.push_back(surface_motion(b, time, U));
     const bool first = state_.surface[b].x_B.cols() == 0 && bodies_[b].in_contact;
     if (first) state_.surface[b].x_B = bodies_[b].eq.body->surface.X;
     state_.surface[b].r_WB = motion[b].r_WB;
@@ -160,59 +286,101 @@ const ContactState& System::contacts(ConstVector U) {
   }
   state_.force = nodal_forces(state_.pair, state_.surface);
   U_of_state_ = U;
+  time_of_state_ = time;
   return state_;
 }
 
-contact::SurfaceMotion System::surface_motion(std::size_t b, ConstVector U) const {
-  const body::Equations& eq = bodies_[b].eq;
-  const auto [r_WB, R_WB] = body::placement(eq.joint, eq.H, U.segment(bodies_[b].first, eq.n_s()));
-  return {U.segment(bodies_[b].first + eq.n_s(), eq.n_q()), r_WB, R_WB};
+contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U) const {
+  const body::Motion m = motion(b, {time, U, U, U});
+  const auto [r_WB, R_WB] = body::placement(bodies_[b].eq.joint, m.s);
+  return {m.q, r_WB, R_WB};
 }
 
-double System::depth_share(ConstVector U) {
+double System::depth_share(double time, ConstVector U) {
   double share = 0;
-  const ContactState& contact = contacts(U);
+  const ContactState& contact = contacts(time, U);
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     for (const contact::ContactPoint& point : contact.pair[p].points)
       share = std::max(share, -point.g_n / detectors_[p].settings().depth);
   return share;
 }
 
-Residual System::residual(ConstVector U, ConstVector V, ConstVector A) {
-  const ContactState& contact = contacts(U);
+body::Force System::balance(std::size_t b, const State& x, Residual* r) {
+  const Body& body = bodies_[b];
+  const body::Motion m = motion(b, x);
+  const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
+                    inner = body::inner_force(body.eq, m),
+                    weight = body::gravity_force(body.eq, m, environment_.gravity),
+                    touch = contact_force(body.eq, contacts(x.time, x.U).force[b]);
+  const Terms s{inertia.s, -quadratic.s, -touch.s, -weight.s, -load(body, x.time, m.s_dot)},
+      q{inertia.q, inner.q, -quadratic.q, -touch.q, -weight.q};
+  const body::Force total{sum(s), sum(q)};
+  if (!r) return total;
+  r->F.segment(body.first, body.n_open()) = total.s(body.open);
+  r->F.segment(body.first + body.n_open(), body.eq.n_q()) = total.q;
+  set_norms(*r, 2 * b, s, &body.open);
+  set_norms(*r, 2 * b + 1, q, nullptr);
+  return total;
+}
+
+Residual System::residual(const State& x) {
   const auto n_blocks = static_cast<Eigen::Index>(2 * bodies_.size());
   Residual r{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(n_blocks), Eigen::VectorXd::Zero(n_blocks)};
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const body::Equations& eq = bodies_[b].eq;
-    const body::Motion m = motion(b, U, V, A);
-    const body::Force inertia = body::inertia_force(eq, m), quadratic = body::quadratic_force(eq, m),
-                      inner = body::inner_force(eq, m), touch = contact_force(eq, contact.force[b]);
-    const Eigen::VectorXd torque = Eigen::VectorXd::Constant(eq.n_s(), bodies_[b].torque);
-    const Eigen::Index first = bodies_[b].first;
-    set_norms(r, 2 * b, first, {inertia.s, inner.s, -quadratic.s, -touch.s, -torque});
-    set_norms(r, 2 * b + 1, first + eq.n_s(), {inertia.q, inner.q, -quadratic.q, -touch.q});
-  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) balance(b, x, &r);
   return r;
 }
 
-EffectiveMatrix System::effective_matrix(ConstVector U, ConstVector V, ConstVector A, double shift_v,
-                                         double shift_a) {
-  const ContactState& contact = contacts(U);
-  EffectiveMatrix matrix;
-  matrix.shift_v = shift_v;
-  matrix.shift_a = shift_a;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    matrix.body.push_back(inertia_terms(bodies_[b].eq, motion(b, U, V, A), matrix, contact.force[b].node));
-    add_geometric_stiffness(bodies_[b].eq, contact.force[b], matrix.body.back());
+Eigen::VectorXd System::joint_force(std::size_t b, const State& x) {
+  const Body& body = bodies_[b];
+  Eigen::VectorXd force = load(body, x.time, motion(b, x).s_dot);
+  const bool driven = body.n_open() < body.eq.n_s();
+  const Eigen::VectorXd missing = driven ? balance(b, x, nullptr).s : Eigen::VectorXd::Zero(force.size());
+  for (Eigen::Index i = 0; const Axis& axis : body.axis) {
+    if (axis.drive) force[i] += missing[i];
+    ++i;
   }
-  set_contact_columns(equations(), contact.pair, contact.surface, matrix);
+  return force;
+}
+
+EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shift) {
+  const ContactState& contact = contacts(x.time, x.U);
+  EffectiveMatrix matrix;
+  matrix.shift_v = shift.v;
+  matrix.shift_a = shift.a;
+  std::vector<JointTwists> twists;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const body::Equations& eq = bodies_[b].eq;
+    const body::Motion m = motion(b, x);
+    const std::vector<int>& node = contact.force[b].node;
+    const body::FrameDerivative d = body::frame_derivative(eq.joint, eq.H, {m.s, m.s_dot, m.s_ddot}, shift);
+    twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s())});
+    twists.back().P << d.r, d.theta;
+    matrix.body.push_back(body_terms(body::tangent(eq, m, environment_.gravity, shift), node));
+    matrix.body.back().C.diagonal() += shift.v * load_rate(bodies_[b], m.s_dot);
+    add_geometric_stiffness(twists.back(), contact.force[b], matrix.body.back());
+  }
+  set_contact_columns(twists, contact.pair, contact.surface, matrix);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) keep_open(matrix.body[b], bodies_[b].open);
   return matrix;
+}
+
+bool System::rebase(Eigen::Ref<Eigen::VectorXd> U) {
+  bool any = false;
+  for (Body& body : bodies_) {
+    if (body.eq.joint.type != body::JointType::free) continue;
+    body.eq.joint = body::rebased(body.eq.joint, U.segment<6>(body.first));
+    U.segment<3>(body.first + 3).setZero();
+    any = true;
+  }
+  if (any) U_of_state_.reset();
+  return any;
 }
 
 model::ResultHeader result_header(const System& system) {
   model::ResultHeader header;
   for (const System::Body& body : system.bodies())
-    header.bodies.push_back({body.name, "", name(body.eq.joint.type)});
+    header.bodies.push_back(
+        {body.name, "", body::joint_names()[static_cast<std::size_t>(body.eq.joint.type)]});
   for (const PairSetup& pair : system.pairs()) {
     model::ResultHeader::Pair entry{pair.name, {pair.body[0], pair.body[1]}, {}};
     for (int side : {0, 1})

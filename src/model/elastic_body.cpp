@@ -33,6 +33,11 @@ void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::strin
           ": C_l, C_r, S_1 do not have n_q = ", n_q, " entries");
   require(inertia.C_l.allFinite() && inertia.C_r.allFinite() && inertia.S_1.allFinite(), source,
           ": inertia coupling terms are not finite");
+  require(inertia.S_2.empty() || inertia.S_2.size() == 6, source, ": S_2 has ", inertia.S_2.size(),
+          " matrices, must have none or 6");
+  for (const BasisRows& S : inertia.S_2)
+    require(row_count(S) == n_q && std::visit([](const auto& r) { return r.cols(); }, S) == n_q && finite(S),
+            source, ": S_2 is not finite or not square of size n_q = ", n_q);
 }
 
 void validate_surface(const Surface& surface, Eigen::Index n_q, const std::string& source) {
@@ -71,6 +76,10 @@ Eigen::Index row_count(const BasisRows& rows) {
 
 Eigen::VectorXd multiply(const BasisRows& rows, const Eigen::VectorXd& q) {
   return std::visit([&](const auto& r) -> Eigen::VectorXd { return r * q; }, rows);
+}
+
+Eigen::VectorXd multiply_transposed(const BasisRows& rows, const Eigen::VectorXd& x) {
+  return std::visit([&](const auto& r) -> Eigen::VectorXd { return r.transpose() * x; }, rows);
 }
 
 Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q) {

@@ -1,135 +1,203 @@
-// The equations of motion against Lagrange's equations of their own kinetic energy, differenced numerically.
+// The equations of motion against Hamilton's equations of their own kinetic energy, differenced numerically.
 #include <gtest/gtest.h>
 
-#include <random>
+#include <Eigen/Geometry>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
-#include "elastogear/body/equations.h"
+#include "elastogear/body/shape.h"
+#include "elastogear/body/tangent.h"
+#include "random_body.h"
 
 using namespace elastogear;
 using body::Equations;
+using body::Force;
 using body::InertiaLevel;
+using body::Joint;
+using body::JointType;
 using body::Motion;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kStep = 1e-5;        // of central differences; all quantities are of order one
-constexpr double kDifference = 1e-8;  // roundoff / kStep; T is quadratic or cubic in every argument
 constexpr double kRoundoff = 1e-13;
-constexpr int kModes = 4;
+constexpr double kTwiceDifferenced = 1e-6;  // quantities are of order one to a hundred
+const Vector3d kGravity(1, -2, 3);
 
-std::shared_ptr<model::ElasticBody> random_body() {
-  std::mt19937 generator(1);
-  const auto random = [&](auto& x) {
-    for (auto& value : x.reshaped()) value = std::uniform_real_distribution<>(-1, 1)(generator);
-  };
-  auto body = std::make_shared<model::ElasticBody>();
-  model::Inertia& inertia = body->inertia;
-  inertia.m = 3;
-  random(inertia.c);
-  inertia.J = Vector3d(8, 9, 10).asDiagonal();
-  inertia.C_l.resize(kModes, 3);
-  inertia.C_r.resize(kModes, 3);
-  inertia.S_1.resize(9, kModes);
-  random(inertia.C_l);
-  random(inertia.C_r);
-  random(inertia.S_1);
-  body->M_r = Eigen::MatrixXd::Identity(kModes, kModes).sparseView();
-  body->K_r = Eigen::MatrixXd(Eigen::Vector4d(1, 2, 3, 4).asDiagonal()).sparseView();
-  return body;
+struct Case {
+  JointType type;
+  InertiaLevel level;
+};
+
+Joint joint_of(JointType type) {
+  return {type, {1, 2, -2}, {0.3, 0.2, -0.1}, rotation_matrix({0.3, -0.2, 0.9}), {0.5, -0.4, 0.2}};
 }
 
-Equations hinged(InertiaLevel level) {
-  return make_equations(random_body(), {.type = body::JointType::revolute, .axis = {1, 2, -2}}, level);
-}
+Equations equations(const Case& c) { return make_equations(test::random_body(), joint_of(c.type), c.level); }
 
 Motion some_motion(int n_s) {
   std::srand(2);
   Motion m;
   for (VectorXd* x : {&m.s, &m.s_dot, &m.s_ddot}) *x = VectorXd::Random(n_s);
-  for (VectorXd* x : {&m.q, &m.q_dot, &m.q_ddot}) *x = VectorXd::Random(kModes);
+  for (VectorXd* x : {&m.q, &m.q_dot, &m.q_ddot}) *x = 0.3 * VectorXd::Random(test::kModes);
   return m;
 }
 
-// The motion a time h later, at constant accelerations.
-Motion later(const Motion& m, double h) {
+// The motion a time h later, with the same accelerations. Free: psi advances by the inverse tangent.
+Motion later(const Equations& eq, const Motion& m, double h) {
   Motion n = m;
-  n.q = m.q + h * m.q_dot + h * h / 2 * m.q_ddot;
-  n.q_dot = m.q_dot + h * m.q_ddot;
-  n.s_dot = m.s_dot + h * m.s_ddot;
+  n.s += h * m.s_dot + h * h / 2 * m.s_ddot;
+  if (eq.joint.type == JointType::free) {
+    const Vector3d psi = m.s.tail<3>(), w = m.s_dot.tail<3>();
+    n.s.tail<3>() = psi + h * cayley_tangent(psi).inverse() * w;  // to first order
+  }
+  n.s_dot += h * m.s_ddot;
+  n.q += h * m.q_dot + h * h / 2 * m.q_ddot;
+  n.q_dot += h * m.q_ddot;
   return n;
 }
 
-double difference(const auto& f) { return (f(kStep) - f(-kStep)) / (2 * kStep); }
-
-double momentum(const Equations& eq, const Motion& m, VectorXd Motion::*velocity, int i) {
-  return difference([&](double h) {
-    Motion n = m;
-    (n.*velocity)[i] += h;
-    return kinetic_energy(eq, n);
-  });
+template <class F>
+auto difference(const F& f, double h) {
+  return ((f(h) - f(-h)) / (2 * h)).eval();
 }
 
-double momentum_rate(const Equations& eq, const Motion& m, VectorXd Motion::*velocity, int i) {
-  constexpr double kLongStep = 1e-3;  // the inner difference's roundoff must stay small; terms are cubic in h
-  const auto p = [&](double h) { return momentum(eq, later(m, h), velocity, i); };
-  return (8 * (p(kLongStep) - p(-kLongStep)) - (p(2 * kLongStep) - p(-2 * kLongStep))) / (12 * kLongStep);
-}
-
-class EquationsOfMotion : public testing::TestWithParam<InertiaLevel> {};
+struct EquationsOfMotion : testing::TestWithParam<Case> {};
+// Levels linear and full, whose equations are those of a kinetic energy.
+struct DeformableInertia : testing::TestWithParam<Case> {};
 
 }  // namespace
 
-TEST_P(EquationsOfMotion, follow_from_the_kinetic_energy) {
-  const Equations eq = hinged(GetParam());
-  const Motion m = some_motion(1);
-  const body::Force inertia = inertia_force(eq, m), quadratic = quadratic_force(eq, m);
-  constexpr double kTwiceDifferenced = 1e-6;
-  EXPECT_NEAR(inertia.s[0] - quadratic.s[0], momentum_rate(eq, m, &Motion::s_dot, 0), kTwiceDifferenced);
-  for (int k = 0; k < kModes; ++k) {
-    const double dT_dq = momentum(eq, m, &Motion::q, k);
-    EXPECT_NEAR(inertia.q[k] - quadratic.q[k], momentum_rate(eq, m, &Motion::q_dot, k) - dT_dq,
+// Newton and Euler for the body as a whole: independent of how the equations are written.
+TEST_P(DeformableInertia, changes_the_momentum_by_the_forces) {
+  const Equations eq = equations({JointType::free, GetParam().level});
+  const Motion m = some_motion(6);
+  const Force inertia = inertia_force(eq, m), quadratic = quadratic_force(eq, m);
+  const auto [r_WB, R_WB] = placement(eq.joint, m.s);
+  const Vector3d force = R_WB * (inertia.s - quadratic.s).head<3>(),
+                 torque = r_WB.cross(force) + R_WB * (inertia.s - quadratic.s).tail<3>();
+  const auto p = [&](double h) { return momentum(eq, later(eq, m, h)).linear; };
+  const auto L = [&](double h) { return momentum(eq, later(eq, m, h)).angular; };
+  EXPECT_LT((difference(p, 1e-5) - force).norm(), kTwiceDifferenced);
+  EXPECT_LT((difference(L, 1e-5) - torque).norm(), kTwiceDifferenced);
+}
+
+TEST_P(DeformableInertia, has_the_rate_of_kinetic_energy_as_its_power) {
+  const Equations eq = equations(GetParam());
+  const Motion m = some_motion(static_cast<int>(eq.n_s()));
+  const Force inertia = inertia_force(eq, m), quadratic = quadratic_force(eq, m);
+  const body::FrameMotion f = frame_motion(eq, m);
+  const VectorXd velocity =
+      eq.joint.type == JointType::free ? VectorXd((VectorXd(6) << f.v, f.w).finished()) : m.s_dot;
+  const double power = velocity.dot(inertia.s - quadratic.s) + m.q_dot.dot(inertia.q - quadratic.q);
+  const auto T = [&](double h) { return Eigen::Matrix<double, 1, 1>(kinetic_energy(eq, later(eq, m, h))); };
+  EXPECT_NEAR(power, difference(T, 1e-5)(0), kTwiceDifferenced);
+}
+
+TEST_P(DeformableInertia, gives_the_equations_of_q_from_the_kinetic_energy) {
+  const Equations eq = equations(GetParam());
+  const Motion m = some_motion(static_cast<int>(eq.n_s()));
+  const Force inertia = inertia_force(eq, m), quadratic = quadratic_force(eq, m);
+  for (int k = 0; k < test::kModes; ++k) {
+    const auto slope = [&](const Motion& at, VectorXd Motion::*x) {
+      const auto T = [&](double h) {
+        Motion n = at;
+        (n.*x)[k] += h;
+        return Eigen::Matrix<double, 1, 1>(kinetic_energy(eq, n));
+      };
+      return difference(T, 1e-2)(0);  // T is quadratic in both: any step is exact
+    };
+    const auto p = [&](double h) {
+      return Eigen::Matrix<double, 1, 1>(slope(later(eq, m, h), &Motion::q_dot));
+    };
+    EXPECT_NEAR(inertia.q[k] - quadratic.q[k], difference(p, 1e-5)(0) - slope(m, &Motion::q),
                 kTwiceDifferenced);
   }
 }
 
-TEST_P(EquationsOfMotion, power_of_inertia_is_the_rate_of_kinetic_energy) {
-  const Equations eq = hinged(GetParam());
-  const Motion m = some_motion(1);
-  const body::Force inertia = inertia_force(eq, m), quadratic = quadratic_force(eq, m);
-  const double power = m.s_dot.dot(inertia.s - quadratic.s) + m.q_dot.dot(inertia.q - quadratic.q);
-  EXPECT_NEAR(power, difference([&](double h) { return kinetic_energy(eq, later(m, h)); }), kDifference);
+TEST_P(DeformableInertia, weighs_by_the_gradient_of_its_energy) {
+  const Equations eq = equations(GetParam());
+  Motion m = some_motion(static_cast<int>(eq.n_s()));
+  const Force h = gravity_force(eq, m, kGravity);
+  const body::FrameMotion f = frame_motion(eq, m);
+  const VectorXd velocity =
+      eq.joint.type == JointType::free ? VectorXd((VectorXd(6) << f.v, f.w).finished()) : m.s_dot;
+  const auto V = [&](double t) {
+    return Eigen::Matrix<double, 1, 1>(gravity_energy(eq, later(eq, m, t), kGravity));
+  };
+  EXPECT_NEAR(velocity.dot(h.s) + m.q_dot.dot(h.q), -difference(V, 1e-5)(0), kTwiceDifferenced);
 }
 
-INSTANTIATE_TEST_SUITE_P(Levels, EquationsOfMotion,
-                         testing::Values(InertiaLevel::constant, InertiaLevel::linear));
-
-TEST(Equations, joint_inertia_is_the_moment_of_inertia_about_the_axis) {
-  const Equations eq = hinged(InertiaLevel::linear);
-  const Vector3d a = Vector3d(1, 2, -2) / 3;
-  EXPECT_NEAR(eq.M_ss(0, 0), a.dot(eq.body->inertia.J * a), kRoundoff);
-  EXPECT_NEAR(eq.M_ss_1(0, 2), a.dot(model::J_1(eq.body->inertia, 2) * a), kRoundoff);
+TEST_P(EquationsOfMotion, tangent_is_the_derivative_of_the_forces) {
+  const Equations eq = equations(GetParam());
+  const Motion m = some_motion(static_cast<int>(eq.n_s()));
+  constexpr double kShiftV = 3, kShiftA = 20;
+  const auto t = tangent(eq, m, kGravity, {kShiftV, kShiftA});
+  const Eigen::MatrixXd U = border(eq);
+  const auto forces = [&](const VectorXd& ds, const VectorXd& dq) {
+    const Motion n{m.s + ds, m.s_dot + kShiftV * ds, m.s_ddot + kShiftA * ds,
+                   m.q + dq, m.q_dot + kShiftV * dq, m.q_ddot + kShiftA * dq};
+    const Force a = inertia_force(eq, n), b = quadratic_force(eq, n), c = gravity_force(eq, n, kGravity);
+    VectorXd F(eq.n_s() + eq.n_q());
+    F << a.s - b.s - c.s, a.q - b.q - c.q - kShiftA * (eq.body->M_r * dq);
+    return F;
+  };
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(eq.n_s() + eq.n_q(), eq.n_s() + eq.n_q()), D = J;
+  J.topLeftCorner(eq.n_s(), eq.n_s()) = t.C;
+  J.topRightCorner(eq.n_s(), eq.n_q()) = (U * t.rho).transpose();
+  J.bottomLeftCorner(eq.n_q(), eq.n_s()) = U * t.beta;
+  if (t.Q_s.rows() > 0) {
+    J.topRightCorner(eq.n_s(), eq.n_q()) += t.R_q;
+    J.bottomLeftCorner(eq.n_q(), eq.n_s()) += t.Q_s;
+    for (Eigen::Index k = 0; k < eq.n_q(); ++k)
+      J.col(eq.n_s() + k).tail(eq.n_q()) =
+          body::contract(eq.body->inertia, t.Gamma, VectorXd::Unit(eq.n_q(), k));
+  }
+  for (Eigen::Index j = 0; j < J.cols(); ++j)
+    D.col(j) = difference(
+        [&](double h) {
+          const VectorXd x = h * VectorXd::Unit(J.cols(), j);
+          return forces(x.head(eq.n_s()), x.tail(eq.n_q()));
+        },
+        1e-5);
+  EXPECT_LT((J - D).norm(), 1e-8 * J.norm());
 }
+
+namespace {
+
+std::vector<Case> cases(const std::vector<InertiaLevel>& levels) {
+  std::vector<Case> all;
+  for (InertiaLevel level : levels)
+    for (JointType type :
+         {JointType::revolute, JointType::prismatic, JointType::cylindrical, JointType::free})
+      all.push_back({type, level});
+  return all;
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+  const char* const levels[] = {"_constant", "_linear", "_full"};
+  return body::joint_names()[static_cast<std::size_t>(info.param.type)] +
+         levels[static_cast<int>(info.param.level)];
+}
+
+}  // namespace
+
+using enum InertiaLevel;
+INSTANTIATE_TEST_SUITE_P(JointsAndLevels, EquationsOfMotion,
+                         testing::ValuesIn(cases({constant, linear, full})), case_name);
+INSTANTIATE_TEST_SUITE_P(JointsAndLevels, DeformableInertia, testing::ValuesIn(cases({linear, full})),
+                         case_name);
 
 TEST(Equations, a_fixed_body_has_elastic_inertia_only) {
-  const Equations eq = make_equations(random_body(), {}, InertiaLevel::linear);
+  const Equations eq = make_equations(test::random_body(), {}, InertiaLevel::linear);
   const Motion m = some_motion(0);
-  EXPECT_EQ(inertia_force(eq, m).q, m.q_ddot);
-  EXPECT_EQ(quadratic_force(eq, m).q, VectorXd::Zero(kModes));
+  EXPECT_LT((inertia_force(eq, m).q - eq.body->M_r * m.q_ddot).norm(), kRoundoff);
+  EXPECT_EQ(quadratic_force(eq, m).q, VectorXd::Zero(test::kModes));
 }
 
-TEST(Joint, revolute_turns_about_its_axis_from_its_own_placement) {
-  const Eigen::Matrix3d R_0 = rotation_matrix({0.3, -0.2, 0.9});
-  const body::Joint joint{body::JointType::revolute, {0, 0, 2}, {1, 2, 3}, R_0};
-  const auto [r_WB, R_WB] = placement(joint, motion_subspace(joint), VectorXd::Constant(1, 0.5));
-  EXPECT_EQ(r_WB, Vector3d(1, 2, 3));
-  EXPECT_NEAR((R_WB - R_0 * rotation_matrix({0, 0, 0.5})).norm(), 0, kRoundoff);
-}
-
-TEST(Joint, refuses_an_axis_without_direction) {
-  EXPECT_THROW(body::motion_subspace({body::JointType::revolute, {0, 0, 0}}), Error);
-  EXPECT_THROW(body::motion_subspace({body::JointType::revolute, {0, NAN, 1}}), Error);
+TEST(Equations, of_level_full_need_the_second_order_invariants) {
+  auto body = std::make_shared<model::ElasticBody>(*test::random_body());
+  body->inertia.S_2.clear();
+  EXPECT_THROW(make_equations(body, {}, InertiaLevel::full), Error);
 }

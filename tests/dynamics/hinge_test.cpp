@@ -37,7 +37,7 @@ model::Snapshot last_state(System system, double dt, double end_time, RunSummary
 System spinning_box(InertiaLevel level, double alpha = 0) {
   auto body = std::make_shared<model::ElasticBody>(test::make_box(soft_box(), model::Basis::modal, 10));
   body->alpha = alpha;
-  return System({{.name = "box", .body = body, .joint = hinge(), .omega0 = 2}}, {}, level);
+  return System({{.name = "box", .body = body, .joint = hinge(), .rotation = {.s_dot_0 = 2}}}, {}, {level});
 }
 
 // A point mass m on a radial spring k at radius R, on a massless arm about z, with a hub of inertia J_hub.
@@ -56,7 +56,7 @@ System radial_spring(InertiaLevel level) {
   body->K_r = Eigen::MatrixXd::Constant(1, 1, kSpring).sparseView();
   body->alpha = 10;
   body->surface.Phi = model::DenseRows(0, 1);
-  return System({{.name = "arm", .body = body, .joint = hinge(), .omega0 = 4}}, {}, level);
+  return System({{.name = "arm", .body = body, .joint = hinge(), .rotation = {.s_dot_0 = 4}}}, {}, {level});
 }
 
 double state_error(const model::Snapshot& a, const model::Snapshot& b) {
@@ -68,7 +68,8 @@ double state_error(const model::Snapshot& a, const model::Snapshot& b) {
 TEST(Hinge, turns_by_T_t2_over_2J_under_constant_torque) {
   const auto body = std::make_shared<model::ElasticBody>(test::make_rigid_box(soft_box()));
   constexpr double kTorque = 0.7, kTime = 0.5;
-  System system({{.name = "box", .body = body, .joint = hinge(), .torque = kTorque}}, {});
+  System system(
+      {{.name = "box", .body = body, .joint = hinge(), .rotation = {.load = constant_signal(kTorque)}}}, {});
   const model::Snapshot last = last_state(std::move(system), 0.01, kTime);
   const double angle = kTorque * kTime * kTime / (2 * body->inertia.J(2, 2));
   EXPECT_NEAR(last.bodies[0].s[0], angle, kNewton * angle);
@@ -111,7 +112,7 @@ TEST(Hinge, damping_is_booked_as_dissipated_energy) {
   auto body = std::make_shared<model::ElasticBody>(test::make_box(soft_box(), model::Basis::modal, 10));
   body->alpha = 5;
   System vibrating({{.name = "box", .body = body, .joint = hinge(), .q_dot0 = VectorXd::Ones(10)}}, {},
-                   InertiaLevel::constant);
+                   {InertiaLevel::constant});
   const model::Snapshot rest = last_state(std::move(vibrating), 1. / 400, 1, &summary);
   EXPECT_GT(rest.energy.dissipated, 0.5 * summary.initial_energy);
   EXPECT_LT(summary.largest_imbalance, kNewton * summary.initial_energy);  // linear: exact for rho_inf = 1

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "box_body.h"
+#include "elastogear/body/tangent.h"
 #include "elastogear/dynamics/low_rank_solver.h"
 
 using namespace elastogear;
@@ -29,7 +30,9 @@ Bodies bodies(model::Basis basis) {
   return {equations(basis, body::JointType::revolute), equations(basis, body::JointType::fixed)};
 }
 
-std::vector<const body::Equations*> pointers(const Bodies& bodies) { return {&bodies[0], &bodies[1]}; }
+std::vector<SolverBody> pointers(const Bodies& bodies) {
+  return {{&bodies[0], bodies[0].n_s()}, {&bodies[1], bodies[1].n_s()}};
+}
 
 // Contact columns of one slave node against four master nodes, with an indefinite symmetric k.
 EffectiveMatrix random_matrix(const Bodies& bodies, double shift_v, double shift_a) {
@@ -41,11 +44,12 @@ EffectiveMatrix random_matrix(const Bodies& bodies, double shift_v, double shift
   for (const body::Equations& eq : bodies) {
     BodyTerms terms;
     terms.node = {1, 4, 7};
-    const Eigen::Index n_e = eq.n_s() + eq.n_s() * eq.n_s() + 3 * 3;
+    const Eigen::Index n_e = body::border(eq).cols() + 3 * 3;
     terms.C = 50 * MatrixXd::Identity(eq.n_s(), eq.n_s());
     terms.beta = MatrixXd::Random(n_e, eq.n_s());
     terms.rho = MatrixXd::Random(n_e, eq.n_s());
     terms.W_s = MatrixXd::Random(eq.n_s(), r);
+    terms.V_s = MatrixXd::Random(eq.n_s(), r);
     terms.L = MatrixXd::Random(n_e, r).sparseView(1, 0.5);
     A.body.push_back(terms);
   }
@@ -104,12 +108,13 @@ TEST_P(Solver, matrix_is_the_block_form_it_states) {
   const body::Equations& eq = pair[0];
   const Eigen::Index n_s = eq.n_s(), n_q = eq.n_q();
   MatrixXd E(n_q, A.body[0].beta.rows());
-  E << eq.M_sq.transpose(), eq.M_ss_1.transpose(), BorderColumns(eq).node_columns(A.body[0].node);
-  MatrixXd W(n_s + n_q, A.k.rows()), block(n_s + n_q, n_s + n_q);
+  E << body::border(eq), BorderColumns(eq).node_columns(A.body[0].node);
+  MatrixXd W(n_s + n_q, A.k.rows()), V(n_s + n_q, A.k.rows()), block(n_s + n_q, n_s + n_q);
   W << A.body[0].W_s, E * A.body[0].L;
+  V << A.body[0].V_s, E * A.body[0].L;
   block << A.body[0].C, (E * A.body[0].rho).transpose(), E * A.body[0].beta,
       MatrixXd(100 * eq.body->M_r + 10 * eq.D_r + eq.body->K_r);
-  block += W * A.k * W.transpose();
+  block += W * A.k * V.transpose();
   const MatrixXd found = dense(solver, system_size(pair)).topLeftCorner(n_s + n_q, n_s + n_q);
   EXPECT_LT((found - block).norm(), kRoundoff * block.norm());
 }

@@ -22,6 +22,7 @@ namespace {
 constexpr double kStep = 1e-6;        // of central differences, against sizes of order one
 constexpr double kDifference = 1e-7;  // relative: roundoff / kStep, and kStep^2 curvature
 constexpr double kRoundoff = 1e-12;
+constexpr double kTime = 0.3;
 
 std::shared_ptr<const model::ElasticBody> box(const Vector3d& corner, const Eigen::Vector3i& cells,
                                               model::Basis basis, int n_modes) {
@@ -45,7 +46,7 @@ System two_boxes(const Options& options) {
   bodies[0] = {.name = "a",
                .body = box({0, -0.5, -0.5}, {2, 2, 2}, options.basis, 14),
                .joint = {JointType::revolute, {0, 0.2, 1}},
-               .torque = 0.3};
+               .rotation = {.load = constant_signal(0.3)}};
   bodies[1] = {
       .name = "b",
       .body = box({-2, -0.5, -0.5}, {2, 3, 2}, options.basis, 15),
@@ -55,33 +56,34 @@ System two_boxes(const Options& options) {
   pair.settings.stiffness = 50;
   pair.settings.two_pass = options.two_pass;
   pair.settings.slave = options.slave;
-  return System(bodies, {pair}, options.level);
+  return System(bodies, {pair}, {.inertia = options.level, .gravity = {1, -2, 3}});
 }
 
-struct State {
+struct Values {
   VectorXd U, V, A;
+  operator State() const { return {kTime, U, V, A}; }
 };
 
-State some_state(const System& system) {
+Values some_state(const System& system) {
   std::srand(4);
   return {0.002 * VectorXd::Random(system.size()), VectorXd::Random(system.size()),
           VectorXd::Random(system.size())};
 }
 
 // dF along (x, shift_v x, shift_a x)
-VectorXd difference(System& system, const State& s, const VectorXd& x, double shift_v, double shift_a) {
+VectorXd difference(System& system, const Values& s, const VectorXd& x, double shift_v, double shift_a) {
   const auto F = [&](double h) {
     const VectorXd dx = h * x;
-    return system.residual(s.U + dx, s.V + shift_v * dx, s.A + shift_a * dx).F;
+    return system.residual(Values{s.U + dx, s.V + shift_v * dx, s.A + shift_a * dx}).F;
   };
   return (F(kStep) - F(-kStep)) / (2 * kStep);
 }
 
 void expect_jacobian_is_derivative(System& system) {
   constexpr double kShiftV = 3, kShiftA = 20;
-  const State s = some_state(system);
-  LowRankSolver solver(system.equations());
-  solver.set(system.effective_matrix(s.U, s.V, s.A, kShiftV, kShiftA));
+  const Values s = some_state(system);
+  LowRankSolver solver(system.solver_bodies());
+  solver.set(system.effective_matrix(s, {kShiftV, kShiftA}));
   for (Eigen::Index j = 0; j < system.size(); ++j) {
     const VectorXd unit = VectorXd::Unit(system.size(), j), column = solver.multiply(unit);
     EXPECT_LT((column - difference(system, s, unit, kShiftV, kShiftA)).norm(), kDifference * column.norm())
@@ -99,7 +101,7 @@ BodySetup named(const std::string& name) {
 
 TEST_P(Jacobian, is_the_derivative_of_the_residual) {
   System system = two_boxes(GetParam());
-  ASSERT_GE(system.contacts(some_state(system).U).pair[0].points.size(), 3u);
+  ASSERT_GE(system.contacts(kTime, some_state(system).U).pair[0].points.size(), 3u);
   expect_jacobian_is_derivative(system);
 }
 
@@ -111,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Levels, Jacobian,
 
 TEST(Contact, forces_and_moments_on_both_bodies_balance) {
   System system = two_boxes({.two_pass = true});
-  const ContactState& contact = system.contacts(some_state(system).U);
+  const ContactState& contact = system.contacts(kTime, some_state(system).U);
   Eigen::Matrix<double, 6, 2> wrench = Eigen::Matrix<double, 6, 2>::Zero();
   for (int b : {0, 1}) {
     const contact::SurfaceState& surface = contact.surface[b];
@@ -129,9 +131,9 @@ TEST(Contact, forces_and_moments_on_both_bodies_balance) {
 
 TEST(Contact, snapshot_repeats_the_forces_on_body_b) {
   System system = two_boxes({.two_pass = true});
-  const State s = some_state(system);
-  const model::PairState pair = snapshot(system, 0, s.U, s.V, s.A).pairs[0];
-  const ContactState& contact = system.contacts(s.U);
+  const Values s = some_state(system);
+  const model::PairState pair = snapshot(system, s).pairs[0];
+  const ContactState& contact = system.contacts(kTime, s.U);
   const contact::SurfaceState& b = contact.surface[1];
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
   for (Eigen::Index p = 0; p < contact.force[1].f_B.cols(); ++p) {
@@ -148,10 +150,12 @@ TEST(Contact, snapshot_repeats_the_forces_on_body_b) {
 
 TEST(Contact, force_is_minus_the_gradient_of_its_energy) {
   System system = two_boxes({});
-  const State s = some_state(system);
+  const Values s = some_state(system);
   const VectorXd zero = VectorXd::Zero(system.size());
-  const auto energy = [&](const VectorXd& U) { return snapshot(system, 0, U, zero, zero).energy.contact; };
-  const ContactState contact = system.contacts(s.U);
+  const auto energy = [&](const VectorXd& U) {
+    return snapshot(system, {kTime, U, zero, zero}).energy.contact;
+  };
+  const ContactState contact = system.contacts(kTime, s.U);
   for (std::size_t b : {0u, 1u}) {
     const System::Body& body = system.bodies()[b];
     const body::Force h = contact_force(body.eq, contact.force[b]);
@@ -170,7 +174,7 @@ TEST(System, refuses_what_cannot_be_simulated) {
   EXPECT_THROW(System({named("a")}, {{"a:a", {0, 0}, {}}}), Error);
   EXPECT_THROW(System({named("a")}, {{"a:b", {0, 1}, {}}}), Error);
   BodySetup setup = named("a");
-  setup.torque = 1;  // on a fixed joint
+  setup.rotation.load = constant_signal(1);  // on a fixed joint
   EXPECT_THROW(System({setup}, {}), Error);
   setup = named("a");
   setup.joint.r_WB0[1] = NAN;

@@ -32,7 +32,7 @@ void write_mesh(std::ostream& deck, const mesh::Mesh& mesh, const std::string& e
   }
 }
 
-void write_deck(const fs::path& path, const CalculixModel& model, int n) {
+void write_deck(const fs::path& path, const CalculixModel& model, const std::string& step) {
   std::ofstream deck(path);
   deck << std::scientific << std::setprecision(12);  // CalculiX reads 20 characters of a number
   write_mesh(deck, model.mesh, model.element);
@@ -43,7 +43,7 @@ void write_deck(const fs::path& path, const CalculixModel& model, int n) {
   for (const auto& name : model.restrained_sets)
     for (int node : mesh::node_set(model.mesh, name)) held.insert(node);
   for (int node : held) deck << node + 1 << ", 1, 3\n";
-  deck << "*STEP\n*FREQUENCY\n" << n << "\n*END STEP\n";
+  deck << "*STEP\n" << step << "*END STEP\n";
   require(deck.good(), "cannot write ", path);
 }
 
@@ -61,20 +61,58 @@ std::vector<double> read_frequencies(const fs::path& path) {
   return frequencies;
 }
 
+std::string force_step(const std::map<int, Eigen::Vector3d>& forces) {
+  std::ostringstream step;
+  step << std::scientific << std::setprecision(12) << "*STATIC\n*CLOAD\n";
+  for (const auto& [node, f] : forces)
+    for (int d = 0; d < 3; ++d) step << node + 1 << ", " << d + 1 << ", " << f(d) << "\n";
+  step << "*EL FILE\nS\n";
+  return step.str();
+}
+
+// Block " -4  STRESS": rows " -1", the node in 10 columns, six numbers in 12 each, up to " -3".
+Eigen::MatrixXd read_stress(const fs::path& path, int n_nodes) {
+  std::ifstream frd(path);
+  Eigen::MatrixXd stress = Eigen::MatrixXd::Constant(6, n_nodes, NAN);
+  std::string line;
+  while (std::getline(frd, line) && !line.starts_with(" -4  STRESS")) continue;
+  while (std::getline(frd, line) && !line.starts_with(" -3")) {
+    if (!line.starts_with(" -1")) continue;
+    const int node = std::stoi(line.substr(3, 10)) - 1;
+    for (int i = 0; i < 6; ++i) stress(i, node) = std::stod(line.substr(13 + 12 * i, 12));
+  }
+  return stress;
+}
+
+// Runs ccx on the deck in the folder.
+void run(const fs::path& folder) {
+  const std::string command = "cd '" + folder.string() + "' && ccx -i deck > log.txt 2>&1";
+  require(std::system(command.c_str()) == 0, "ccx failed in ", folder.string());
+}
+
 }  // namespace
 
 bool calculix_is_installed() { return std::system("command -v ccx > /dev/null 2>&1") == 0; }
 
 std::vector<double> calculix_frequencies(const CalculixModel& model, int n) {
   const fs::path folder = make_folder();
-  write_deck(folder / "deck.inp", model, n);
-  const std::string run = "cd '" + folder.string() + "' && ccx -i deck > log.txt 2>&1";
-  const int status = std::system(run.c_str());
+  write_deck(folder / "deck.inp", model, "*FREQUENCY\n" + std::to_string(n) + "\n");
+  run(folder);
   const auto frequencies = read_frequencies(folder / "deck.dat");
-  require(status == 0 && static_cast<int>(frequencies.size()) >= n, "ccx failed in ", folder.string(), ": ",
-          frequencies.size(), " of ", n, " frequencies");
+  require(static_cast<int>(frequencies.size()) >= n, "ccx in ", folder.string(), ": ", frequencies.size(),
+          " of ", n, " frequencies");
   fs::remove_all(folder);
   return {frequencies.begin(), frequencies.begin() + n};
+}
+
+Eigen::MatrixXd calculix_stress(const CalculixModel& model, const std::map<int, Eigen::Vector3d>& forces) {
+  const fs::path folder = make_folder();
+  write_deck(folder / "deck.inp", model, force_step(forces));
+  run(folder);
+  const Eigen::MatrixXd stress = read_stress(folder / "deck.frd", model.mesh.n_nodes());
+  require(stress.allFinite(), "ccx in ", folder.string(), ": no stress at some nodes");
+  fs::remove_all(folder);
+  return stress;
 }
 
 }  // namespace elastogear::test

@@ -1,6 +1,8 @@
 #pragma once
-// Reference frequencies from CalculiX (program ccx), when it is installed.
+// Reference results from CalculiX (program ccx), when it is installed.
 
+#include <Eigen/Core>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,5 +23,9 @@ struct CalculixModel {
 /// The lowest n frequencies in Hz, ascending: writes a deck into a new temporary folder, runs ccx, reads its
 /// .dat.
 std::vector<double> calculix_frequencies(const CalculixModel& model, int n);
+
+/// Nodal stress under forces at nodes (N), 6 x n_nodes, Pa, order xx yy zz xy yz xz: extrapolated from the
+/// integration points and averaged over the cells, from ccx's .frd file (six digits).
+Eigen::MatrixXd calculix_stress(const CalculixModel& model, const std::map<int, Eigen::Vector3d>& forces);
 
 }  // namespace elastogear::test

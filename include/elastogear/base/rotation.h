@@ -11,4 +11,15 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 /// Rotation matrix exp(skew(psi)) of a rotation vector (Rodrigues).
 Eigen::Matrix3d rotation_matrix(const Eigen::Vector3d& psi);
 
+/// Cayley's rotation matrix (I - psi~/2)^-1 (I + psi~/2): angle 2 atan(|psi|/2), the rotation vector's to
+/// second order. Regular for all psi; never reaches half a turn.
+Eigen::Matrix3d cayley(const Eigen::Vector3d& psi);
+
+/// T in w = T(psi) psi' for R = cayley(psi), R' = R skew(w).
+Eigen::Matrix3d cayley_tangent(const Eigen::Vector3d& psi);
+
+/// The nearest rotation matrix to one that has lost its orthogonality to roundoff (one Newton step of the
+/// polar decomposition).
+Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R);
+
 }  // namespace elastogear

@@ -1,10 +1,11 @@
 #pragma once
 // Equations of motion of one elastic body in the floating frame of reference (the paper's Eq. 9, with the
-// signs of docs/theory.md), in minimal coordinates: s of the joint, q of the basis.
+// signs of docs/theory.md), in minimal coordinates: s of the joint, q of the basis. With the frame's
+// acceleration a and angular acceleration alpha, the first moment S(q), inertia J(q) and coupling C_r(q),
 //
-//   T = 1/2 s'.M_ss(q) s' + s'.M_sq q' + 1/2 q'.M_r q'
-//   M_ss(q) s'' + M_sq q''                 = -(dM_ss/dt) s'                       + h_s
-//   M_sq' s''   + M_r q'' + D_r q' + K_r q = 1/2 d(s'.M_ss(q) s')/dq (s' fixed)   + h_q
+//   H'[ m a + alpha x S + C_l'q'' + w x (w x S) + 2 w x S'                                     ]  = h_s
+//     [ S x a + J alpha + C_r'q'' + w x J w + J' w + w x C_r'q'                                ]
+//   C_l a + C_r alpha + M_r q'' + 2 (dC_r/dt) w - 1/2 w.(dJ/dq) w + D_r q' + K_r q                = h_q
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -15,17 +16,17 @@
 
 namespace elastogear::body {
 
-/// What the inertia keeps of the deformation. constant: nothing. linear: c and J to first order in q; the
-/// truncated T is the Lagrangian of the equations, so that they conserve energy exactly.
-enum class InertiaLevel { constant, linear };
+/// What the inertia keeps of the deformation. constant: nothing. linear: S and J to first order in q, C_r at
+/// q = 0; the truncated kinetic energy is the Lagrangian of the equations, so that they conserve energy.
+/// full: everything; needs Inertia::S_2.
+enum class InertiaLevel { constant, linear, full };
 
 struct Equations {
   std::shared_ptr<const model::ElasticBody> body;
   Joint joint;
   MotionSubspace H;
-  Eigen::MatrixXd M_ss;             ///< n_s x n_s, H' M_6 H at q = 0
-  Eigen::MatrixXd M_sq;             ///< n_s x n_q, H' [C_l'; C_r']
-  Eigen::MatrixXd M_ss_1;           ///< n_s^2 x n_q, column k: dM_ss/dq_k, column-major; zero when constant
+  InertiaLevel level;
+  Eigen::MatrixXd J_1;              ///< n_q x 6: dJ/dq at q = 0, xx yy zz xy yz xz; constant: n_q x 0
   Eigen::SparseMatrix<double> D_r;  ///< n_q x n_q, alpha M_r + beta K_r
 
   Eigen::Index n_s() const { return H.cols(); }
@@ -33,29 +34,37 @@ struct Equations {
 };
 
 struct Motion {
-  Eigen::VectorXd s, s_dot, s_ddot;  ///< n_s; revolute: rad
+  Eigen::VectorXd s, s_dot, s_ddot;  ///< n_s, see JointType
   Eigen::VectorXd q, q_dot, q_ddot;  ///< n_q
 };
 
-/// Generalised force: power = s.s' + q.q'.
+/// Generalised force; s is conjugate to the virtual twists H.
 struct Force {
   Eigen::VectorXd s, q;
 };
 
+/// Throws Error for a joint without direction, and at level full when the body has no S_2.
 Equations make_equations(std::shared_ptr<const model::ElasticBody> body, const Joint& joint,
                          InertiaLevel level);
 
-/// M_ss(q), n_s x n_s.
-Eigen::MatrixXd joint_inertia(const Equations& eq, const Eigen::VectorXd& q);
-/// sum_k x_k dM_ss/dq_k, n_s x n_s.
-Eigen::MatrixXd joint_inertia_change(const Equations& eq, const Eigen::VectorXd& x);
+FrameMotion frame_motion(const Equations& eq, const Motion& m);
 
 Force inertia_force(const Equations& eq, const Motion& m);    ///< M(q) [s''; q'']
 Force quadratic_force(const Equations& eq, const Motion& m);  ///< centrifugal and Coriolis, right-hand side
 Force inner_force(const Equations& eq, const Motion& m);      ///< h_e = [0; D_r q' + K_r q]
+/// Weight in the field g_W (m/s^2, world).
+Force gravity_force(const Equations& eq, const Motion& m, const Eigen::Vector3d& g_W);
 
 double kinetic_energy(const Equations& eq, const Motion& m);            ///< J
 double elastic_energy(const Equations& eq, const Motion& m);            ///< J, 1/2 q.K_r q
 double dissipation(const Equations& eq, const Eigen::VectorXd& q_dot);  ///< W, q'.D_r q'
+/// J, -g.(m r + R S): of the weight.
+double gravity_energy(const Equations& eq, const Motion& m, const Eigen::Vector3d& g_W);
+
+/// Linear momentum (N s) and angular momentum about the world's origin (N m s), components in W.
+struct Momentum {
+  Eigen::Vector3d linear, angular;
+};
+Momentum momentum(const Equations& eq, const Motion& m);
 
 }  // namespace elastogear::body

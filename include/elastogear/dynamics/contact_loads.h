@@ -1,7 +1,8 @@
 #pragma once
 // From contact points (15 local displacements in the world frame) to generalised coordinates: node positions
-// x = r(s) + R(s) (X + Phi q), so that dx/ds_i = R (v_i + w_i x x_B) and dx/dq = R Phi, with [v_i; w_i] =
-// H_i.
+// x = r(s) + R(s) (X + Phi q), so that a twist i moves them by R (v_i + w_i x x_B), and dx/dq = R Phi. Forces
+// act on the joint's virtual twists H, positions change by the twists P = [r; theta] of
+// body::FrameDerivative.
 
 #include <vector>
 
@@ -40,13 +41,17 @@ std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
 /// Generalised contact force: s: H' [sum f; sum x x f], q: Phi' f.
 body::Force contact_force(const body::Equations& eq, const NodalForces& forces);
 
-/// Adds -d(contact force)/dz at constant local forces: the part that comes from the turning of the BRF.
-/// s_i s_j: -f.(w_j x (v_i + w_i x x)); s_i q: -(f x w_i).Phi. `columns` n_u rows come before the nodes'.
-void add_geometric_stiffness(const body::Equations& eq, const NodalForces& forces, BodyTerms& terms);
+/// A body's virtual twists H and the twists P that its coordinates make.
+struct JointTwists {
+  body::MotionSubspace H, P;
+};
 
-/// W_s, L of every body (whose `node` are set) and k, from the tangents of all contact points.
-void set_contact_columns(const std::vector<const body::Equations*>& bodies,
-                         const std::vector<PairContacts>& pairs,
+/// Adds -d(contact force)/dz at constant local forces: the part that comes from the turning of the BRF.
+/// s_i s_j: -f.(theta_j x (v_i + w_i x x)); s_i q: -(f x w_i).Phi. The rows of U come before the nodes'.
+void add_geometric_stiffness(const JointTwists& twists, const NodalForces& forces, BodyTerms& terms);
+
+/// W_s, V_s, L of every body (whose `node` are set) and k, from the tangents of all contact points.
+void set_contact_columns(const std::vector<JointTwists>& twists, const std::vector<PairContacts>& pairs,
                          const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A);
 
 }  // namespace elastogear::dynamics

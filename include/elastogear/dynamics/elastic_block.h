@@ -12,7 +12,7 @@
 namespace elastogear::dynamics {
 
 /// The columns E = [U, Phi(node)'], n_q x n_e, through which joint and contact reach the elastic coordinates.
-/// U = [M_sq', M_ss_1'] does not change; three columns belong to each surface node.
+/// U of body/tangent.h does not change; three columns belong to each surface node.
 class BorderColumns {
  public:
   explicit BorderColumns(const body::Equations& eq);

@@ -2,11 +2,13 @@
 // The effective matrix A = shift_a dF/dA + shift_v dF/dV + dF/dU of the system and its exact inverse.
 //
 // Per body, with the columns E of BorderColumns,      A = [C, (E rho)'; E beta, D]  on [s; q],
-// and over all bodies the contact's low rank part       + W k W',   W = [W_s; E L] per body.
-// With x_q = D^-1 (y_q - E (beta x_s + L k lambda)) and lambda = W'x a dense system of n_s + r unknowns
+// and over all bodies the contact's low rank part       + W k V',   W = [W_s; E L], V = [V_s; E L] per body.
+// With x_q = D^-1 (y_q - E (beta x_s + L k lambda)) and lambda = V'x a dense system of n_s + r unknowns
 // stays:
-//   [C - rho'G beta,  (W_s - rho'G L) k;  -W_s' + L'G beta,  I + L'G L k] [x_s; lambda] = [y_s - rho'p; L'p]
-// where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory.md, "Solving for one Newton step").
+//   [C - rho'G beta,  (W_s - rho'G L) k;  -V_s' + L'G beta,  I + L'G L k] [x_s; lambda] = [y_s - rho'p; L'p]
+// where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory.md, "Solving for one Newton step"). V_s differs from W_s
+// where coordinates are not the integrals of their rates (free joints). At inertia level full A has further
+// parts, which the products with A hold and the inverse leaves out: it is then a preconditioner.
 
 #include <Eigen/LU>
 #include <vector>
@@ -20,8 +22,16 @@ struct BodyTerms {
   std::vector<int> node;          ///< surface nodes touched by contact
   Eigen::MatrixXd C;              ///< n_s x n_s
   Eigen::MatrixXd beta, rho;      ///< n_e x n_s
-  Eigen::MatrixXd W_s;            ///< n_s x r
+  Eigen::MatrixXd W_s, V_s;       ///< n_s x r
   Eigen::SparseMatrix<double> L;  ///< n_e x r
+  Eigen::MatrixXd R_q, Q_s;       ///< n_s x n_q, n_q x n_s: of level full, see body/tangent.h, or empty
+  Eigen::Matrix3d Gamma = Eigen::Matrix3d::Zero();
+};
+
+/// A body and how many of its joint coordinates are unknown.
+struct SolverBody {
+  const body::Equations* eq;
+  Eigen::Index n_s;
 };
 
 struct EffectiveMatrix {
@@ -33,20 +43,22 @@ struct EffectiveMatrix {
 /// Vectors are ordered body by body, [s; q] each.
 class LowRankSolver {
  public:
-  explicit LowRankSolver(const std::vector<const body::Equations*>& bodies);
+  explicit LowRankSolver(const std::vector<SolverBody>& bodies);
 
   /// Factorises. Throws Error when A is singular.
   void set(EffectiveMatrix A);
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< A x
-  Eigen::VectorXd solve(const Eigen::VectorXd& y) const;     ///< A^-1 y
+  Eigen::VectorXd solve(const Eigen::VectorXd& y) const;     ///< A^-1 y, without the parts of level full
 
  private:
   struct Range {
     Eigen::Index s, n_s, n_q;  ///< first entry in the global vector, sizes
     Eigen::Index joint;        ///< first entry among all bodies' joint coordinates
   };
+  void add_second_order(std::size_t b, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   void add_body(std::size_t b, Eigen::MatrixXd& small);
 
+  std::vector<const body::Equations*> eq_;
   std::vector<Range> range_;
   std::vector<ElasticBlock> block_;
   EffectiveMatrix A_;

@@ -1,22 +1,29 @@
 #pragma once
 // The state of a system at one time as results see it, and its energy ledger.
 
+#include <array>
+
 #include "elastogear/dynamics/system.h"
 #include "elastogear/model/result.h"
 
 namespace elastogear::dynamics {
 
-/// Bodies, pairs and stored energies in (U, V, A); dissipated, work and balance stay zero.
-model::Snapshot snapshot(System& system, double time, ConstVector U, ConstVector V, ConstVector A);
+/// Bodies, pairs and stored energies; dissipated, work and balance stay zero.
+model::Snapshot snapshot(System& system, const State& x);
 
 /// Completes the energies of successive snapshots. Over one step damping takes dt q'_m.D_r q'_m with the mean
-/// velocity q'_m, which is exact for the midpoint rule (rho_inf = 1), second order otherwise.
+/// velocity q'_m, which is exact for the midpoint rule (rho_inf = 1), second order otherwise. Loads and
+/// friction of joints likewise; drives by the mean of their forces at both ends. The weight's work is exact.
 class EnergyLedger {
  public:
   void enter(const System& system, model::Snapshot& snapshot);
 
  private:
+  void enter_joint(const System::Body& body, const model::BodyState& now, const model::BodyState& before,
+                   const std::array<double, 2>& times);
+
   double stored_0_ = 0, dissipated_ = 0, work_ = 0;
+  double weight_0_ = 0;
   double time_ = 0;
   std::vector<model::BodyState> bodies_;  // of the snapshot before; empty: none yet
 };

@@ -1,6 +1,7 @@
 #pragma once
-// A system of elastic bodies with joints, loads and contact pairs: F(U, V, A) = 0 and its derivatives.
-// Vectors are ordered body by body, [s; q] each: joint coordinates, then elastic coordinates.
+// A system of elastic bodies with joints, loads and contact pairs: F(t, U, V, A) = 0 and its derivatives.
+// Vectors are ordered body by body, [s; q] each: joint coordinates without prescribed motion, then elastic
+// coordinates.
 
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "elastogear/body/equations.h"
 #include "elastogear/contact/pair.h"
+#include "elastogear/dynamics/axis.h"
 #include "elastogear/dynamics/contact_loads.h"
 #include "elastogear/dynamics/low_rank_solver.h"
 #include "elastogear/model/result.h"
@@ -19,10 +21,11 @@ struct BodySetup {
   std::string name;
   std::shared_ptr<const model::ElasticBody> body = nullptr;
   body::Joint joint = {};
-  double angle0 = 0;            ///< rad, revolute only
-  double omega0 = 0;            ///< rad/s, revolute only
-  double torque = 0;            ///< N m, constant, about the hinge axis, revolute only
-  Eigen::VectorXd q_dot0 = {};  ///< n_q, initial elastic velocity; empty: zero
+  Axis rotation = {};                                   ///< revolute and cylindrical: about the axis
+  Axis translation = {};                                ///< prismatic and cylindrical: along the axis
+  Eigen::Vector3d velocity0 = Eigen::Vector3d::Zero();  ///< free: m/s, of the BRF's origin, in W
+  Eigen::Vector3d omega0 = Eigen::Vector3d::Zero();     ///< free: rad/s, in the BRF
+  Eigen::VectorXd q_dot0 = {};                          ///< n_q, initial elastic velocity; empty: zero
 };
 
 struct PairSetup {
@@ -39,11 +42,23 @@ struct Residual {
   Eigen::VectorXd norm, scale;  ///< 2 n_bodies
 };
 
-/// Everything that depends on the positions U alone.
+/// Everything that depends on the time and the positions U alone.
 struct ContactState {
   std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
+};
+
+/// A state of the system. The vectors must outlive it.
+struct State {
+  double time;  ///< s
+  ConstVector U, V, A;
+};
+
+/// What acts on all bodies.
+struct Environment {
+  body::InertiaLevel inertia = body::InertiaLevel::linear;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
 };
 
 class System {
@@ -51,44 +66,59 @@ class System {
   struct Body {
     std::string name;
     body::Equations eq;
-    Eigen::Index first;           ///< first entry of [s; q] in a system vector
-    double torque;                ///< N m
-    bool in_contact;              ///< named by a pair
-    std::vector<int> node_group;  ///< face group of each surface node: that of its lowest face
+    Eigen::Index first;              ///< first entry of [s; q] in a system vector
+    std::vector<Axis> axis;          ///< one per joint coordinate; free: none
+    std::vector<Eigen::Index> open;  ///< joint coordinates without prescribed motion, ascending
+    bool in_contact;                 ///< named by a pair
+    std::vector<int> node_group;     ///< face group of each surface node: that of its lowest face
+
+    Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
   };
 
-  /// Throws Error for what cannot be simulated: no bodies, equal names, values that are not finite, loads on
-  /// fixed joints, pairs of a body with itself or without surfaces.
-  System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs,
-         body::InertiaLevel level = body::InertiaLevel::linear);
+  /// Throws Error for what cannot be simulated: no bodies, equal names, values that are not finite, motion or
+  /// loads that the joint does not have, bodies without mass that may move, pairs of a body with itself or
+  /// without surfaces.
+  System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment = {});
 
   Eigen::Index size() const { return U_0_.size(); }
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<PairSetup>& pairs() const { return pairs_; }
+  const Environment& environment() const { return environment_; }
   const Eigen::VectorXd& initial_position() const { return U_0_; }
   const Eigen::VectorXd& initial_velocity() const { return V_0_; }
-  std::vector<const body::Equations*> equations() const;
+  std::vector<SolverBody> solver_bodies() const;
+  /// Is LowRankSolver's inverse exact?
+  bool solver_is_exact() const;
 
-  body::Motion motion(std::size_t b, ConstVector U, ConstVector V, ConstVector A) const;
-  contact::SurfaceMotion surface_motion(std::size_t b, ConstVector U) const;
-  /// Placement and contacts in U; kept, so that a second call with an equal U costs nothing.
-  const ContactState& contacts(ConstVector U);
-  /// Largest penetration in U over the depth of its pair, beyond which it would no longer be seen; -.
-  double depth_share(ConstVector U);
-  Residual residual(ConstVector U, ConstVector V, ConstVector A);
-  /// shift_v dF/dV + shift_a dF/dA + dF/dU
-  EffectiveMatrix effective_matrix(ConstVector U, ConstVector V, ConstVector A, double shift_v,
-                                   double shift_a);
+  /// Motion of a body, prescribed coordinates included.
+  body::Motion motion(std::size_t b, const State& x) const;
+  contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U) const;
+  /// Placement and contacts; kept, so that a second call with an equal time and U costs nothing.
+  const ContactState& contacts(double time, ConstVector U);
+  /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
+  double depth_share(double time, ConstVector U);
+  Residual residual(const State& x);
+  /// shift.v dF/dV + shift.a dF/dA + dF/dU
+  EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
+  /// Load, friction and, where the motion is prescribed, the force that it takes: n_s, N or N m.
+  Eigen::VectorXd joint_force(std::size_t b, const State& x);
+  /// Makes the present orientations of free bodies those from which their rotation vectors count, and sets
+  /// these to zero in U. True when there are free bodies.
+  bool rebase(Eigen::Ref<Eigen::VectorXd> U);
 
  private:
-  void add_body(const BodySetup& setup, body::InertiaLevel level);
+  void add_body(const BodySetup& setup);
   void add_pair(const PairSetup& setup);
+  /// Sum and norms of a body's terms: [F_s (n_s); F_q].
+  body::Force balance(std::size_t b, const State& x, Residual* r);
 
   std::vector<Body> bodies_;
   std::vector<PairSetup> pairs_;
+  Environment environment_;
   std::vector<contact::Pair> detectors_;
   Eigen::VectorXd U_0_, V_0_;
   std::optional<Eigen::VectorXd> U_of_state_;
+  double time_of_state_ = 0;
   ContactState state_;
 };
 

@@ -22,6 +22,8 @@ using BasisRows = std::variant<DenseRows, SparseRows>;  ///< dense: reduced base
 Eigen::Index row_count(const BasisRows& rows);
 /// rows * q
 Eigen::VectorXd multiply(const BasisRows& rows, const Eigen::VectorXd& q);
+/// rows' * x
+Eigen::VectorXd multiply_transposed(const BasisRows& rows, const Eigen::VectorXd& x);
 /// (Phi q) at one node: rows 3 node .. 3 node + 2
 Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q);
 /// h += Phi(node)' f
@@ -36,6 +38,9 @@ struct Inertia {
   Eigen::Matrix<double, Eigen::Dynamic, 3> C_l;  ///< n_q x 3, Phi' M_f S_t
   Eigen::Matrix<double, Eigen::Dynamic, 3> C_r;  ///< n_q x 3, Phi' M_f S_r
   Eigen::Matrix<double, 9, Eigen::Dynamic> S_1;  ///< 9 x n_q, row 3a+b: integral of rho X_a phi_b dV
+  /// n_q x n_q each, [k, l]: integral of rho phi_ka phi_lb dV for ab = 11 22 33 12 23 13; may be empty (only
+  /// inertia level full needs it). Their counterparts ba are the transposes.
+  std::vector<BasisRows> S_2;
 };
 
 /// First-order change of J with the elastic coordinate k: J(q) = J + sum_k q_k J_1(k), from S_1.

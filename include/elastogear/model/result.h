@@ -12,8 +12,10 @@ struct BodyState {
   Eigen::Vector3d r_WB;  ///< m, BRF origin in the world
   Eigen::Matrix3d R_WB;  ///< body to world
   Eigen::VectorXd s, s_dot,
-      s_ddot;  ///< joint coordinates (revolute: angle in rad) and their rates; empty when fixed
+      s_ddot;  ///< n_s, joint coordinates (rad or m; body/joint.h) and their rates; empty when fixed
   Eigen::VectorXd q, q_dot, q_ddot;  ///< n_q, elastic coordinates and their rates
+  /// n_s, N or N m: of load, friction and drive along the joint coordinates
+  Eigen::VectorXd joint_force = {};
 };
 
 /// One active contact of a pair.

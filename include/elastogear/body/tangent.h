@@ -1,0 +1,25 @@
+#pragma once
+// Derivative of a body's inertia, quadratic and gravity forces (docs/theory.md, section 8.1). With the
+// columns U = [C_l, C_r, J_1] through which the frame reaches q,
+//
+//   d[F_s; F_q] = [C, (U rho)' + R_q; U beta + Q_s, sum_ab Gamma_ab S^ab] d[s; q],
+//
+// beside shift_a M_r + shift_v D_r + K_r. R_q, Q_s and Gamma are those of level full, and else empty or zero.
+
+#include "elastogear/body/equations.h"
+
+namespace elastogear::body {
+
+struct Tangent {
+  Eigen::MatrixXd C;          ///< n_s x n_s
+  Eigen::MatrixXd beta, rho;  ///< n_u x n_s
+  Eigen::MatrixXd R_q, Q_s;   ///< n_s x n_q, n_q x n_s
+  Eigen::Matrix3d Gamma;
+};
+
+/// U, n_q x n_u: n_u = 12, at level constant 6, for fixed bodies 0.
+Eigen::MatrixXd border(const Equations& eq);
+
+Tangent tangent(const Equations& eq, const Motion& m, const Eigen::Vector3d& g_W, const Shifts& shift);
+
+}  // namespace elastogear::body

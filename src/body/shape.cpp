@@ -1,0 +1,81 @@
+#include "elastogear/body/shape.h"
+
+namespace elastogear::body {
+namespace {
+
+using Eigen::VectorXd;
+
+// S^ab x, with Inertia::S_2 in the order 11 22 33 12 23 13 and S^ba = (S^ab)'.
+VectorXd moment(const model::Inertia& inertia, int a, int b, const VectorXd& x) {
+  constexpr int kPlace[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  const model::BasisRows& S = inertia.S_2[kPlace[a][b]];
+  return a <= b ? model::multiply(S, x) : model::multiply_transposed(S, x);
+}
+
+}  // namespace
+
+Eigen::Matrix3d symmetric(const Vector6& j) {
+  Eigen::Matrix3d J;
+  J << j[0], j[3], j[5], j[3], j[1], j[4], j[5], j[4], j[2];
+  return J;
+}
+
+Matrix36 factor(const Eigen::Vector3d& y) {
+  Matrix36 Y;
+  Y << y[0], 0, 0, y[1], 0, y[2], 0, y[1], 0, y[0], y[2], 0, 0, 0, y[2], 0, y[1], y[0];
+  return Y;
+}
+
+SecondOrder second_order(const model::Inertia& inertia, const VectorXd& x) {
+  VectorXd S[3][3];
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) S[a][b] = moment(inertia, a, b, x);
+  SecondOrder order;
+  order.B.resize(x.size(), 3);
+  order.D.resize(x.size(), 6);
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    order.B.col(a) = S[c][b] - S[b][c];
+    order.D.col(a) = 2 * (S[b][b] + S[c][c]);
+  }
+  order.D.col(3) = -S[0][1] - S[1][0];
+  order.D.col(4) = -S[1][2] - S[2][1];
+  order.D.col(5) = -S[0][2] - S[2][0];
+  return order;
+}
+
+VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& Gamma, const VectorXd& x) {
+  VectorXd sum = VectorXd::Zero(x.size());
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) sum += Gamma(a, b) * moment(inertia, a, b, x);
+  return sum;
+}
+
+Shape shape(const Equations& eq, const Motion& m) {
+  const model::Inertia& inertia = eq.body->inertia;
+  Shape shape{inertia.m * inertia.c, Eigen::Vector3d::Zero(), inertia.J, Eigen::Matrix3d::Zero(), {}, {}, {}};
+  if (eq.level == InertiaLevel::constant) {
+    shape.spin.setZero();
+    return shape;
+  }
+  shape.S += inertia.C_l.transpose() * m.q;
+  shape.S_dot = inertia.C_l.transpose() * m.q_dot;
+  shape.J += symmetric(eq.J_1.transpose() * m.q);
+  shape.J_dot = symmetric(eq.J_1.transpose() * m.q_dot);
+  if (eq.level == InertiaLevel::full) {
+    shape.at_q = second_order(inertia, m.q);
+    shape.at_q_dot = second_order(inertia, m.q_dot);
+    shape.J += 0.5 * symmetric(shape.at_q.D.transpose() * m.q);
+    shape.J_dot += symmetric(shape.at_q.D.transpose() * m.q_dot);
+  }
+  shape.spin = project_C_r(eq, shape, m.q_dot);
+  return shape;
+}
+
+Eigen::Vector3d project_C_r(const Equations& eq, const Shape& shape, const VectorXd& x) {
+  Eigen::Vector3d projected = eq.body->inertia.C_r.transpose() * x;
+  if (eq.level == InertiaLevel::full) projected += shape.at_q.B.transpose() * x;
+  return projected;
+}
+
+}  // namespace elastogear::body

@@ -1,0 +1,48 @@
+#pragma once
+// A body of a few points with random shape functions: all its invariants are those of one mass distribution.
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::test {
+
+constexpr int kModes = 4;
+
+inline std::shared_ptr<const model::ElasticBody> random_body() {
+  constexpr int kPoints = 7;
+  std::srand(1);
+  const Eigen::VectorXd mass = 0.5 + 0.3 * Eigen::ArrayXd::Random(kPoints);
+  const Eigen::Matrix3Xd X = Eigen::Matrix3Xd::Random(3, kPoints);
+  const Eigen::MatrixXd Phi = Eigen::MatrixXd::Random(3 * kPoints, kModes);
+  const auto axis = [&](int a) -> Eigen::MatrixXd { return Phi(Eigen::seqN(a, kPoints, 3), Eigen::all); };
+  auto body = std::make_shared<model::ElasticBody>();
+  model::Inertia& inertia = body->inertia;
+  inertia.m = mass.sum();
+  inertia.c = X * mass / inertia.m;
+  const Eigen::Matrix3d P = X * mass.asDiagonal() * X.transpose();
+  inertia.J = P.trace() * Eigen::Matrix3d::Identity() - P;
+  inertia.C_l.resize(kModes, 3);
+  inertia.S_1.resize(9, kModes);
+  for (int a = 0; a < 3; ++a) {
+    inertia.C_l.col(a) = axis(a).transpose() * mass;
+    for (int b = 0; b < 3; ++b) inertia.S_1.row(3 * a + b) = X.row(a) * mass.asDiagonal() * axis(b);
+  }
+  inertia.C_r.resize(kModes, 3);
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    inertia.C_r.col(a) = (inertia.S_1.row(3 * b + c) - inertia.S_1.row(3 * c + b)).transpose();
+  }
+  Eigen::MatrixXd M_r = Eigen::MatrixXd::Zero(kModes, kModes);
+  for (const auto& [a, b] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}) {
+    const Eigen::MatrixXd S = axis(a).transpose() * mass.asDiagonal() * axis(b);
+    inertia.S_2.push_back(model::DenseRows(S));
+    if (a == b) M_r += S;
+  }
+  body->M_r = M_r.sparseView();
+  body->K_r = Eigen::MatrixXd(Eigen::Vector4d(1, 2, 3, 4).asDiagonal()).sparseView();
+  return body;
+}
+
+}  // namespace elastogear::test
