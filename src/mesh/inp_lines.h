@@ -29,6 +29,7 @@ class InpLines {
   /// Moves to the next line that is no comment and not blank; false at the end of the file.
   bool next();
   int number() const { return number_; }
+  const std::string& path() const { return path_; }
   /// Is the current line a keyword line?
   bool at_keyword() const { return line_.starts_with('*'); }
   /// The current keyword line with its continuation lines.

@@ -8,12 +8,10 @@
 #include "inp_format.h"
 #include "inp_lines.h"
 #include "inp_sets.h"
-#include "tag_table.h"
+#include "raw_mesh.h"
 
 namespace elastogear::mesh {
 namespace {
-
-using Tag = std::int64_t;
 
 constexpr int kMaxSides = 6;
 
@@ -25,13 +23,7 @@ struct SurfaceLine {
 };
 
 // The file as it stands, in its own numbers.
-struct Raw {
-  std::vector<Tag> node;
-  std::vector<double> X;  // 3 per node
-  std::vector<Tag> cell;
-  std::vector<CellType> cell_type;
-  std::vector<std::size_t> cell_offset{0};
-  std::vector<Tag> cell_node;       // cell i: cell_offset[i] .. cell_offset[i + 1]
+struct Raw : RawMesh {
   std::vector<Tag> other_elements;  // shells, beams, ...: left out, but sets may name them
   InpSets node_sets{"node"}, cell_sets{"element"};
   InpNames surfaces;
@@ -91,11 +83,8 @@ std::vector<Tag> read_cells(InpLines& in, CellType type, Raw& raw) {
   while (in.next_data()) {
     const std::vector<Tag> numbers = read_element(in, type);
     cells.push_back(numbers[0]);
-    raw.cell_type.push_back(type);
-    raw.cell_node.insert(raw.cell_node.end(), numbers.begin() + 1, numbers.end());
-    raw.cell_offset.push_back(raw.cell_node.size());
+    raw.add_cell(type, numbers[0], std::span(numbers).subspan(1));
   }
-  raw.cell.insert(raw.cell.end(), cells.begin(), cells.end());
   return cells;
 }
 
@@ -181,7 +170,8 @@ void check_end(const std::string& path, const std::string& content, Raw& raw) {
   if (!content.ends_with('\n')) raw.ignored.push_back("the last line has no line end: truncated?");
 }
 
-void build_surfaces(const InpLines& in, const Raw& raw, const TagTable& cells, Mesh& mesh) {
+void build_surfaces(const InpLines& in, const Raw& raw, const TagTable& cells, Mesh& mesh,
+                    MemberBudget& budget) {
   for (const auto& [key, name] : raw.surfaces.spelling) mesh.face_sets[name];
   for (const SurfaceLine& line : raw.surface_lines) {
     auto& faces = mesh.face_sets[line.name];
@@ -190,6 +180,7 @@ void build_surfaces(const InpLines& in, const Raw& raw, const TagTable& cells, M
       if (line.side >= std::ssize(sides))
         in.fail_at(line.line, "surface '", line.name, "' names side S", line.side + 1, " of a ",
                    name(mesh.cells.type[cell]), ", which has ", sides.size());
+      budget.spend(sides[line.side].size());
       faces.insert(faces.end(), sides[line.side].begin(), sides[line.side].end());
     };
     if (const auto number = parse<Tag>(line.members)) {
@@ -207,44 +198,35 @@ void build_surfaces(const InpLines& in, const Raw& raw, const TagTable& cells, M
   }
 }
 
-Mesh build(const std::string& path, const InpLines& in, const Raw& raw, double unit_in_m) {
-  const TagTable nodes(raw.node, "node", path), cells(raw.cell, "element", path);
-  require(cells.size() > 0, path, ": the mesh has no solid elements (C3D...)");
-  Mesh mesh;
-  mesh.X.resize(3, nodes.size());
-  for (int i = 0; i < nodes.size(); ++i)
-    mesh.X.col(i) = unit_in_m * Eigen::Map<const Eigen::Vector3d>(&raw.X[3 * nodes.position(i)]);
-  for (int i = 0; i < cells.size(); ++i) {
-    const int at = cells.position(i);
-    std::vector<int> cell_nodes;
-    for (std::size_t k = raw.cell_offset[at]; k < raw.cell_offset[at + 1]; ++k)
-      cell_nodes.push_back(
-          nodes.at(raw.cell_node[k], [&] { return "element " + std::to_string(raw.cell[at]); }));
-    mesh.cells.add(raw.cell_type[at], cell_nodes);
-  }
+Mesh build(const InpLines& in, const Raw& raw, double unit_in_m, MemberBudget& budget) {
+  auto [nodes, cells, mesh] = number(raw, in.path(), "element", unit_in_m);
   const auto fail_at = [&](int line, const std::string& text) { in.fail_at(line, text); };
-  mesh.node_sets = raw.node_sets.resolve(nodes, {}, fail_at);
+  mesh.node_sets = raw.node_sets.resolve({nodes, {}, budget, fail_at});
   mesh.cell_sets =
-      raw.cell_sets.resolve(cells, {raw.other_elements.begin(), raw.other_elements.end()}, fail_at);
-  build_surfaces(in, raw, cells, mesh);
-  validate(mesh, path);
+      raw.cell_sets.resolve({cells, {raw.other_elements.begin(), raw.other_elements.end()}, budget, fail_at});
+  build_surfaces(in, raw, cells, mesh, budget);
+  validate(mesh, in.path());
   return mesh;
 }
 
 }  // namespace
 
-Mesh read_inp(const std::string& path, double unit_in_m, ReadReport* report) {
-  std::string content = read_file(path);
+Mesh parse_inp(const std::string& path, std::string content, double unit_in_m, ReadReport* report) {
   Raw raw;
   check_end(path, content, raw);
+  MemberBudget budget(path, content.size());
   InpLines in(path, std::move(content));
   while (in.next()) {
     if (!in.at_keyword()) in.fail_here("data before the first keyword");
     read_keyword(in, raw);
   }
-  Mesh mesh = build(path, in, raw, unit_in_m);
+  Mesh mesh = build(in, raw, unit_in_m, budget);
   if (report) report->ignored = std::move(raw.ignored);
   return mesh;
+}
+
+Mesh read_inp(const std::string& path, double unit_in_m, ReadReport* report) {
+  return parse_inp(path, read_file(path), unit_in_m, report);
 }
 
 }  // namespace elastogear::mesh

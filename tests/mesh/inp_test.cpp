@@ -1,10 +1,5 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "box_mesh.h"
-#include "elastogear/base/error.h"
-#include "elastogear/base/file.h"
 #include "elastogear/mesh/inp.h"
+#include "reader_test.h"
 
 using namespace elastogear;
 using namespace elastogear::mesh;
@@ -44,26 +39,8 @@ const std::string kCube = R"(*Heading
  2.1e11, 0.3
 )";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
-
-struct Inp : testing::Test {
-  Folder folder{"inp"};
-  std::string path = folder / "cube.inp";
-
-  Mesh read(const std::string& content, ReadReport* report = nullptr) const {
-    write_file(path, content);
-    return read_inp(path, 1, report);
-  }
-  std::string error(const std::string& from, const std::string& to) const {
-    try {
-      read(replaced(kCube, from, to));
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "no error";
-  }
+struct Inp : ReaderTest {
+  Inp() : ReaderTest("cube.inp", kCube) {}
 };
 
 TEST_F(Inp, reads_nodes_elements_and_sets) {
