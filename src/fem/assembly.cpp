@@ -97,15 +97,17 @@ Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::Ma
   const BlockCounts counts = count_blocks(share);
   Matrices matrices{create_matrix(comm, share, counts), create_matrix(comm, share, counts)};
   const int n_cells = share.mesh.cells.size();
+  std::vector<Elasticity> elasticities;
+  for (const auto& region : regions) elasticities.push_back(elasticity(region.material));
   CellRows rows;
   for (int cell = 0; cell < n_cells; ++cell) {
     if (cell % kReportEvery == 0) report(progress, "assembly", static_cast<double>(cell) / n_cells);
     const ElementFunctions& functions = element_functions(share.mesh.cells.type[cell]);
-    const model::Material& material = regions[share.region[cell]].material;
+    const int region = share.region[cell];
     const Eigen::Matrix3Xd X = cell_coordinates(share.mesh, cell);
     find_rows(share, cell, rows);
-    add(matrices.K, rows, functions.stiffness(X, lame(material), element));
-    add(matrices.M, rows, in_three_directions(functions.mass(X, material.rho)));
+    add(matrices.K, rows, functions.stiffness(X, elasticities[region], element));
+    add(matrices.M, rows, in_three_directions(functions.mass(X, regions[region].material.rho)));
   }
   finish(matrices.K);
   finish(matrices.M);

@@ -11,11 +11,11 @@ constexpr ElementFunctions kHex8 = {
     8,
     [](const Eigen::Matrix3Xd& X) { return hex8::smallest_jacobian(X); },
     [](const Eigen::Matrix3Xd& X) { return hex8::volume(X); },
-    [](const Eigen::Matrix3Xd& X, const Lame& material, model::Element element) -> Eigen::MatrixXd {
+    [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element) -> Eigen::MatrixXd {
       return hex8::stiffness(X, material, element);
     },
     [](const Eigen::Matrix3Xd& X, double rho) -> Eigen::MatrixXd { return hex8::mass(X, rho); },
-    [](const Eigen::Matrix3Xd& X, const Lame& material, model::Element element) -> Eigen::MatrixXd {
+    [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element) -> Eigen::MatrixXd {
       return hex8::stress(X, material, element);
     }};
 

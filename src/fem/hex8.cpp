@@ -83,17 +83,19 @@ Gradients gradients(const Coordinates& X, const Sample& point, const Eigen::Matr
   return g;
 }
 
-// K of all kFunctions functions, before condensation.
-Eigen::Matrix<double, 3 * kFunctions, 3 * kFunctions> full_stiffness(const Coordinates& X,
-                                                                     const Lame& material) {
+using FullStiffness = Eigen::Matrix<double, 3 * kFunctions, 3 * kFunctions>;
+using Weighted = Eigen::Matrix<double, 3 * kFunctions, 8>;
+
+// Gradients at the points as fem/kernels.h takes them.
+Weighted weighted_gradients(const Coordinates& X) {
   const Eigen::Matrix3d J_0 = centre_jacobian(X);
-  Eigen::Matrix<double, 3 * kFunctions, 8> G;
+  Weighted G;
   for (int p = 0; p < 8; ++p) {
     double det = 0;
     const Gradients g = gradients(X, stiffness_points()[p], J_0, &det);
     G.col(p) = std::sqrt(det) * g.reshaped();
   }
-  return isotropic_stiffness<kFunctions, 8>(G, material);
+  return G;
 }
 
 // Amplitudes of the incompatible modes per nodal displacement: a = -K_aa^-1 K_au u.
@@ -120,17 +122,78 @@ Eigen::Matrix<double, 24, 1> mean_divergence(const Coordinates& X) {
   return sum / volume(X);
 }
 
-// The deviatoric part of the plain element and the dilatation's mean.
-Stiffness bbar_stiffness(const Coordinates& X, const Lame& material) {
+// K of all kFunctions functions, before condensation.
+FullStiffness full_stiffness(const Coordinates& X, const Lame& material, model::Element element) {
+  if (element != model::Element::bbar)
+    return isotropic_stiffness<kFunctions, 8>(weighted_gradients(X), material);
   const auto b = mean_divergence(X);
-  return full_stiffness(X, deviatoric(material)).topLeftCorner<24, 24>() +
-         bulk_modulus(material) * volume(X) * b * b.transpose();
+  FullStiffness K = isotropic_stiffness<kFunctions, 8>(weighted_gradients(X), deviatoric(material));
+  K.topLeftCorner<24, 24>() += bulk_modulus(material) * volume(X) * b * b.transpose();
+  return K;
 }
 
-// Adds the mean pressure's part to the stress at each node.
-void add_mean_pressure(const Coordinates& X, const Lame& material, StressOperator& S) {
-  const Eigen::Matrix<double, 1, 24> pressure = bulk_modulus(material) * mean_divergence(X).transpose();
-  for (int a = 0; a < 8; ++a) S.middleRows<3>(6 * a).rowwise() += pressure;
+using Strains = Eigen::Matrix<double, 6, 3 * kFunctions>;
+
+// Strains at the points, for bbar with the mean dilatation of the eight shape functions, and det J.
+std::array<Strains, 8> strains_at_points(const Coordinates& X, model::Element element,
+                                         std::array<double, 8>& det) {
+  const Eigen::Matrix3d J_0 = centre_jacobian(X);
+  std::array<Strains, 8> B;
+  for (int p = 0; p < 8; ++p) {
+    const Gradients g = gradients(X, stiffness_points()[p], J_0, &det[p]);
+    B[p] = strains<kFunctions>(g);
+    if (element != model::Element::bbar) continue;
+    const Eigen::Matrix<double, 24, 1> missing = mean_divergence(X) - g.leftCols<8>().reshaped();
+    B[p].topLeftCorner<3, 24>().rowwise() += missing.transpose() / 3;
+  }
+  return B;
+}
+
+std::vector<Matrix6> elasticity_at_points(const Coordinates& X, const Orthotropy& material) {
+  Eigen::Matrix3Xd x(3, 8);
+  for (int p = 0; p < 8; ++p) x.col(p) = X * stiffness_points()[p].N;
+  return elasticity_at(material, x);
+}
+
+FullStiffness full_stiffness(const Coordinates& X, const Orthotropy& material, model::Element element) {
+  std::array<double, 8> det;
+  const auto B = strains_at_points(X, element, det);
+  const auto H = elasticity_at_points(X, material);
+  FullStiffness K = FullStiffness::Zero();
+  for (int p = 0; p < 8; ++p) {
+    const Strains HB = det[p] * H[p] * B[p];
+    K += B[p].transpose() * HB;
+  }
+  return K;
+}
+
+FullStiffness full_stiffness(const Coordinates& X, const Elasticity& material, model::Element element) {
+  return std::visit([&](const auto& m) { return full_stiffness(X, m, element); }, material);
+}
+
+using PointStresses = std::array<Strains, 8>;
+
+PointStresses point_stresses(const Coordinates& X, const Lame& material, model::Element element) {
+  const Eigen::Matrix3d J_0 = centre_jacobian(X);
+  const bool bbar = element == model::Element::bbar;
+  PointStresses sigma;
+  for (int p = 0; p < 8; ++p) {
+    double det = 0;
+    const Gradients g = gradients(X, stiffness_points()[p], J_0, &det);
+    sigma[p] = isotropic_stress<kFunctions>(g, bbar ? deviatoric(material) : material);
+    if (!bbar) continue;
+    const Eigen::Matrix<double, 1, 24> pressure = bulk_modulus(material) * mean_divergence(X).transpose();
+    sigma[p].topLeftCorner<3, 24>().rowwise() += pressure;
+  }
+  return sigma;
+}
+
+PointStresses point_stresses(const Coordinates& X, const Orthotropy& material, model::Element element) {
+  std::array<double, 8> det;
+  PointStresses sigma = strains_at_points(X, element, det);
+  const auto H = elasticity_at_points(X, material);
+  for (int p = 0; p < 8; ++p) sigma[p] = (H[p] * sigma[p]).eval();
+  return sigma;
 }
 
 }  // namespace
@@ -146,9 +209,8 @@ double smallest_jacobian(const Coordinates& X) {
   return smallest;
 }
 
-Stiffness stiffness(const Coordinates& X, const Lame& material, model::Element element) {
-  if (element == model::Element::bbar) return bbar_stiffness(X, material);
-  const auto K = full_stiffness(X, material);
+Stiffness stiffness(const Coordinates& X, const Elasticity& material, model::Element element) {
+  const FullStiffness K = full_stiffness(X, material, element);
   Stiffness K_e = K.topLeftCorner<24, 24>();
   if (element == model::Element::incompatible) K_e += K.topRightCorner<24, 9>() * condensation(K);
   return (K_e + K_e.transpose()) / 2;
@@ -163,20 +225,15 @@ Mass mass(const Coordinates& X, double rho) {
   return M;
 }
 
-StressOperator stress(const Coordinates& X, const Lame& material, model::Element element) {
+StressOperator stress(const Coordinates& X, const Elasticity& material, model::Element element) {
   Condensation C = Condensation::Zero();
-  if (element == model::Element::incompatible) C = condensation(full_stiffness(X, material));
-  const Eigen::Matrix3d J_0 = centre_jacobian(X);
-  const bool bbar = element == model::Element::bbar;
-  const Lame at_points = bbar ? deviatoric(material) : material;
+  if (element == model::Element::incompatible) C = condensation(full_stiffness(X, material, element));
+  const auto sigma = std::visit([&](const auto& m) { return point_stresses(X, m, element); }, material);
   StressOperator S = StressOperator::Zero();
   for (int p = 0; p < 8; ++p) {
-    double det = 0;
-    const auto DB = isotropic_stress<kFunctions>(gradients(X, stiffness_points()[p], J_0, &det), at_points);
-    const Eigen::Matrix<double, 6, 24> at_point = DB.leftCols<24>() + DB.rightCols<9>() * C;
+    const Eigen::Matrix<double, 6, 24> at_point = sigma[p].leftCols<24>() + sigma[p].rightCols<9>() * C;
     for (int a = 0; a < 8; ++a) S.middleRows<6>(6 * a) += shape(std::sqrt(3.0) * corner(a))(p) * at_point;
   }
-  if (bbar) add_mean_pressure(X, material, S);
   return S;
 }
 

@@ -43,22 +43,30 @@ Eigen::Matrix<double, 3, n> gradients(const Eigen::Matrix3Xd& X, const Eigen::Ma
 }
 
 template <int n, int n_points>
-Eigen::MatrixXd stiffness(const ReferenceCell& cell, const Eigen::Matrix3Xd& X, const Lame& material) {
+Eigen::MatrixXd stiffness(const ReferenceCell& cell, const Eigen::Matrix3Xd& X, const Elasticity& material) {
   Eigen::Matrix<double, 3 * n, n_points> G;
   for (int p = 0; p < n_points; ++p) {
     double det = 0;
     const Eigen::Matrix<double, 3, n> g = gradients<n>(X, cell.stiffness.dN[p], &det);
     G.col(p) = std::sqrt(cell.stiffness.w(p) * det) * g.reshaped();
   }
-  return isotropic_stiffness<n, n_points>(G, material);
+  if (const Lame* isotropic = std::get_if<Lame>(&material))
+    return isotropic_stiffness<n, n_points>(G, *isotropic);
+  return general_stiffness<n, n_points>(G,
+                                        elasticity_at(std::get<Orthotropy>(material), X * cell.stiffness.N));
 }
 
 template <int n>
-Eigen::MatrixXd stress(const ReferenceCell& cell, const Eigen::Matrix3Xd& X, const Lame& material) {
+Eigen::MatrixXd stress(const ReferenceCell& cell, const Eigen::Matrix3Xd& X, const Elasticity& material) {
+  const Orthotropy* const orthotropy = std::get_if<Orthotropy>(&material);
+  std::vector<Matrix6> H;
+  if (orthotropy) H = elasticity_at(*orthotropy, X * cell.stress.N);
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(6 * n, 3 * n);
   for (int p = 0; p < cell.stress.size(); ++p) {
     double det = 0;
-    const auto at_point = isotropic_stress<n>(gradients<n>(X, cell.stress.dN[p], &det), material);
+    const Eigen::Matrix<double, 3, n> g = gradients<n>(X, cell.stress.dN[p], &det);
+    const Eigen::Matrix<double, 6, 3 * n> at_point =
+        orthotropy ? H[p] * strains<n>(g) : isotropic_stress<n>(g, std::get<Lame>(material));
     for (int a = 0; a < n; ++a) S.middleRows(6 * a, 6) += cell.extrapolation(a, p) * at_point;
   }
   return S;
@@ -70,11 +78,11 @@ constexpr ElementFunctions isoparametric = {
     n,
     [](const Eigen::Matrix3Xd& X) { return smallest_jacobian(reference_cell(type), X); },
     [](const Eigen::Matrix3Xd& X) { return volume(reference_cell(type), X); },
-    [](const Eigen::Matrix3Xd& X, const Lame& material, model::Element) {
+    [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element) {
       return stiffness<n, n_points>(reference_cell(type), X, material);
     },
     [](const Eigen::Matrix3Xd& X, double rho) { return mass(reference_cell(type), X, rho); },
-    [](const Eigen::Matrix3Xd& X, const Lame& material, model::Element) {
+    [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element) {
       return stress<n>(reference_cell(type), X, material);
     }};
 

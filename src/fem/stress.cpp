@@ -31,7 +31,7 @@ Averaging find_averaging(const mesh::Mesh& mesh, const std::vector<model::Materi
 Eigen::MatrixXd element_stress(const mesh::Mesh& mesh, int cell, const model::Material& material,
                                model::Element element) {
   const auto& functions = element_functions(mesh.cells.type[cell]);
-  return functions.stress(cell_coordinates(mesh, cell), lame(material), element);
+  return functions.stress(cell_coordinates(mesh, cell), elasticity(material), element);
 }
 
 Eigen::VectorXd cell_displacement(const mesh::Mesh& mesh, int cell, const Eigen::VectorXd& u) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tag_table.h"
+#include "raw_mesh.h"
 
 namespace elastogear::mesh {
 
@@ -31,11 +31,14 @@ class InpSets {
   /// First spelling of a set's name or null.
   const std::string* spelling(const std::string& name) const;
 
-  using Fail = std::function<void(int line, const std::string& text)>;  ///< must throw
-  /// Sorted 0-based members by name, without those `left_out`. Sets may be named before they are defined.
-  std::map<std::string, std::vector<int>> resolve(const TagTable& table,
-                                                  const std::set<std::int64_t>& left_out,
-                                                  const Fail& fail_at) const;
+  struct Context {
+    const TagTable& table;
+    std::set<std::int64_t> left_out;  ///< defined in the file, but not in the table
+    MemberBudget& budget;
+    std::function<void(int line, const std::string& text)> fail_at;  ///< must throw
+  };
+  /// Sorted 0-based members by name, without those left out. Sets may be named before they are defined.
+  std::map<std::string, std::vector<int>> resolve(const Context& context) const;
 
  private:
   struct Range {

@@ -6,12 +6,11 @@
 #include "face_owner.h"
 #include "msh_format.h"
 #include "msh_scanner.h"
-#include "tag_table.h"
+#include "raw_mesh.h"
 
 namespace elastogear::mesh {
 namespace {
 
-using Tag = std::int64_t;
 using DimTag = std::pair<int, Tag>;  // dimension and number of an entity or physical group
 
 using msh_format::ElementType;
@@ -23,15 +22,12 @@ struct RawElement {
 };
 
 // The file as it stands, in its own numbers.
-struct Raw {
+struct Raw : RawMesh {
+  explicit Raw(MemberBudget members) : budget(std::move(members)) {}
+
+  MemberBudget budget;
   std::map<DimTag, std::string> group_name;
   std::map<DimTag, std::vector<Tag>> groups_of;  // by entity
-  std::vector<Tag> node;
-  std::vector<double> X;  // 3 per node
-  std::vector<Tag> cell;
-  std::vector<CellType> cell_type;
-  std::vector<std::size_t> cell_offset{0};
-  std::vector<Tag> cell_node;  // cell i: cell_offset[i] .. cell_offset[i + 1]; our order
   std::map<std::string, std::vector<Tag>> cell_sets, node_sets;
   std::map<std::string, std::vector<RawElement>> face_sets;
   bool has_nodes = false, has_elements = false;
@@ -133,13 +129,11 @@ ElementType read_type(MshScanner& in, int dim) {
       "15 (point) in 0, and 1, 8 (line), which are left out");
 }
 
-void add_cell(Raw& raw, CellType type, const RawElement& element) {
-  raw.cell.push_back(element.tag);
-  raw.cell_type.push_back(type);
+void add_cell(Raw& raw, CellType type, RawElement element) {
+  const std::vector<Tag> nodes = element.nodes;
   const auto position = msh_format::gmsh_position(type);
-  for (std::size_t k = 0; k < element.nodes.size(); ++k)
-    raw.cell_node.push_back(element.nodes[position.empty() ? k : position[k]]);
-  raw.cell_offset.push_back(raw.cell_node.size());
+  for (std::size_t k = 0; k < position.size(); ++k) element.nodes[k] = nodes[position[k]];
+  raw.add_cell(type, element.tag, element.nodes);
 }
 
 // Puts an element into the sets of its entity.
@@ -160,6 +154,7 @@ void read_block(MshScanner& in, Raw& raw, std::size_t& total) {
   for (Tag group : raw.groups_of[{dim, entity}]) sets.push_back(set_name(raw, {dim, group}));
   if (dim == 1) sets.clear();
   if (sets.empty() && !type.cell) raw.left_out[std::string(type.plural) + " that are in no set"] += n;
+  raw.budget.spend(n * sets.size());
   RawElement element{0, std::vector<Tag>(static_cast<std::size_t>(type.n_nodes))};
   for (std::size_t i = 0; i < n; ++i) {
     element.tag = in.tag("an element number");
@@ -200,11 +195,11 @@ void read_section(MshScanner& in, Raw& raw, const std::string& name) {
   in.expect(end);
 }
 
-Raw read_raw(const std::string& path) {
-  MshScanner in(path, read_file(path));
+Raw read_raw(const std::string& path, std::string content) {
+  Raw raw(MemberBudget(path, content.size()));
+  MshScanner in(path, std::move(content));
   in.expect("$MeshFormat");
   read_format(in);
-  Raw raw;
   while (!in.at_end()) {
     const std::string name(in.word("a section"));
     if (name.size() < 2 || name[0] != '$' || name.starts_with("$End"))
@@ -249,22 +244,9 @@ void build_sets(const Raw& raw, const TagTable& nodes, const TagTable& cells, Me
 
 }  // namespace
 
-Mesh read_msh(const std::string& path, double unit_in_m, ReadReport* report) {
-  const Raw raw = read_raw(path);
-  const TagTable nodes(raw.node, "node", path), cells(raw.cell, "cell", path);
-  require(cells.size() > 0, path, ": the mesh has no solid cells");
-  Mesh mesh;
-  mesh.X.resize(3, nodes.size());
-  for (int i = 0; i < nodes.size(); ++i)
-    mesh.X.col(i) = unit_in_m * Eigen::Map<const Eigen::Vector3d>(&raw.X[3 * nodes.position(i)]);
-  for (int i = 0; i < cells.size(); ++i) {
-    const int at = cells.position(i);
-    std::vector<int> cell_nodes;
-    for (std::size_t k = raw.cell_offset[at]; k < raw.cell_offset[at + 1]; ++k)
-      cell_nodes.push_back(
-          nodes.at(raw.cell_node[k], [&] { return "cell " + std::to_string(raw.cell[at]); }));
-    mesh.cells.add(raw.cell_type[at], cell_nodes);
-  }
+Mesh parse_msh(const std::string& path, std::string content, double unit_in_m, ReadReport* report) {
+  const Raw raw = read_raw(path, std::move(content));
+  auto [nodes, cells, mesh] = number(raw, path, "cell", unit_in_m);
   build_sets(raw, nodes, cells, mesh);
   orient_faces(mesh);
   validate(mesh, path);
@@ -272,6 +254,10 @@ Mesh read_msh(const std::string& path, double unit_in_m, ReadReport* report) {
     for (const auto& [what, count] : raw.left_out)
       report->ignored.push_back(what + " (" + std::to_string(count) + ")");
   return mesh;
+}
+
+Mesh read_msh(const std::string& path, double unit_in_m, ReadReport* report) {
+  return parse_msh(path, read_file(path), unit_in_m, report);
 }
 
 }  // namespace elastogear::mesh

@@ -23,6 +23,7 @@ class TagTable {
     if (i < 0) fail_unknown(tag, user());
     return i;
   }
+  std::int64_t tag(int i) const { return tags_[i]; }
   /// Position in the constructor's argument of number i.
   int position(int i) const { return order_[i]; }
 

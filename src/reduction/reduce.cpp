@@ -121,12 +121,31 @@ std::string describe(const mesh::Turn& turn) {
   return text.str();
 }
 
+// Whether the turn leaves the material's directions as they are.
+bool repeats(const model::Material& material, const mesh::Turn& turn) {
+  if (!material.orthotropic) return true;
+  const model::Orientation& o = material.orthotropic->orientation;
+  const Eigen::Vector3d axis = o.axis.normalized();
+  return o.system == model::Orientation::System::cylindrical && axis.cross(turn.axis).norm() < kRounding &&
+         axis.cross(o.origin - turn.point).norm() < kRounding;
+}
+
+// Of the mesh and of all materials; or why there is none.
+mesh::RepetitionSearch search_repetition(const Job& job) {
+  auto search = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
+  if (!search.found) return search;
+  for (const model::MaterialRegion& region : job.options.regions)
+    if (!repeats(region.material, search.found->turn))
+      return {{}, "the directions of an orthotropic material do not turn with the mesh"};
+  return search;
+}
+
 // On rank 0; whether there is one is known to all.
 void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
   if (!job.modal() || job.options.symmetry == Symmetry::none) return;
   job.on_root([&] {
-    auto [found, reason] = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
+    auto [found, reason] = search_repetition(job);
     if (found) repetition = std::move(*found);
     job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
   });
@@ -287,6 +306,14 @@ void reduce_whole(Job& job) {
   pieces.clear();
 }
 
+void add(Fingerprint& f, const model::Material& material) {
+  for (double x : {material.E, material.nu, material.rho}) f.add(x);
+  if (!material.orthotropic) return;
+  const auto& [E, nu, G, o] = *material.orthotropic;
+  f.add(static_cast<double>(o.system));
+  for (const auto& v : {E, nu, G, o.axis_1, o.axis_2, o.origin, o.axis, o.rotation}) f.add_all(v);
+}
+
 std::string fingerprint_of_sectors(Job& job) {
   Fingerprint f;
   job.on_root([&] {
@@ -294,8 +321,7 @@ std::string fingerprint_of_sectors(Job& job) {
     f.add_all(job.mesh.X.reshaped());
     f.add_all(job.plan.is_free);
     f.add_all(job.plan.region);
-    for (const model::MaterialRegion& region : job.options.regions)
-      for (double x : {region.material.E, region.material.nu, region.material.rho}) f.add(x);
+    for (const model::MaterialRegion& region : job.options.regions) add(f, region.material);
     f.add(static_cast<double>(job.options.element));
   });
   return f.text();

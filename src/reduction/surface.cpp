@@ -57,9 +57,9 @@ std::vector<BoundaryFace> select_faces(const mesh::Mesh& mesh, const std::vector
   return selected;
 }
 
-double area(const mesh::Mesh& mesh, const Face& f) {
+Eigen::Vector3d vector_area(const mesh::Mesh& mesh, const Face& f) {
   const Eigen::Vector3d d_1 = mesh.X.col(f[2]) - mesh.X.col(f[0]), d_2 = mesh.X.col(f[3]) - mesh.X.col(f[1]);
-  return d_1.cross(d_2).norm() / 2;
+  return d_1.cross(d_2) / 2;
 }
 
 // Area of the whole side of the cell that the face is a part of.
@@ -67,7 +67,7 @@ double side_area(const mesh::Mesh& mesh, int cell, const Face& face) {
   double sum = 0;
   for (const auto& side : mesh::cell_sides(mesh.cells.type[cell], mesh.cells[cell])) {
     if (std::find(side.begin(), side.end(), face) == side.end()) continue;
-    for (const Face& part : side) sum += area(mesh, part);
+    for (const Face& part : side) sum += vector_area(mesh, part).norm();
   }
   return sum;
 }
@@ -117,7 +117,10 @@ model::Surface make_surface(const mesh::Mesh& mesh, const std::vector<model::Mat
   number_groups(faces, surface);
   surface.c_f.resize(static_cast<Eigen::Index>(faces.size()));
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const double E = regions[region[faces[i].cell]].material.E;
+    const Face& face = faces[i].face;
+    const Eigen::Vector3d middle = (mesh.X.col(face[0]) + mesh.X.col(face[1]) + mesh.X.col(face[2])) / 3;
+    const double E =
+        fem::youngs_modulus(regions[region[faces[i].cell]].material, vector_area(mesh, face), middle);
     surface.c_f(static_cast<Eigen::Index>(i)) =
         E * side_area(mesh, faces[i].cell, faces[i].face) / cell_volume(mesh, faces[i].cell);
   }

@@ -74,6 +74,13 @@ inline mesh::Mesh distorted(mesh::Mesh mesh, double amount) {
 }
 
 inline const model::Material kSteel{210e9, 0.3, 7850};
+/// Glass fibre in epoxy, its axes askew.
+inline const model::Material kFibre{
+    0, 0, 1900,
+    model::Orthotropic{{45e9, 12e9, 10e9},
+                       {0.28, 0.25, 0.4},
+                       {5.5e9, 4.5e9, 3.5e9},
+                       {.axis_1 = {1, 0.5, 0.2}, .axis_2 = {-0.3, 1, 0.4}, .rotation = {0.2, 0, 0}}}};
 inline const std::vector<model::MaterialRegion> kSteelBody{{"", kSteel}};
 
 }  // namespace elastogear::test

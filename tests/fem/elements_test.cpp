@@ -18,6 +18,7 @@ using model::Element;
 constexpr double kRoundoff = 1e-12;
 constexpr double kNotZero = 1e-4;  // of the largest eigenvalue
 const fem::Lame kMaterial = fem::lame(test::kSteel);
+const fem::Elasticity kFibre = fem::elasticity(test::kFibre);
 
 struct Case {
   CellType type;
@@ -88,21 +89,29 @@ TEST_P(Elements, have_only_six_modes_of_zero_energy_in_a_mesh) {
   EXPECT_GT(lambda(6), kNotZero * largest);
 }
 
+Eigen::Vector<double, 6> stress_of(const Eigen::Matrix3d& eps, const fem::Elasticity& material) {
+  if (const auto* orthotropy = std::get_if<fem::Orthotropy>(&material)) {
+    const Eigen::Vector<double, 6> strain{eps(0, 0),     eps(1, 1),     eps(2, 2),
+                                          2 * eps(0, 1), 2 * eps(1, 2), 2 * eps(0, 2)};
+    return fem::elasticity_at(*orthotropy, Eigen::Vector3d::Zero()).front() * strain;
+  }
+  const Eigen::Matrix3d s =
+      kMaterial.lambda * eps.trace() * Eigen::Matrix3d::Identity() + 2 * kMaterial.mu * eps;
+  return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+}
+
 // A linear field needs no forces at inner nodes and has the same stress everywhere.
-void expect_patch_test(const Mesh& mesh, Element element) {
+void expect_patch_test(const Mesh& mesh, Element element, const fem::Elasticity& material = kMaterial) {
   fem::require_positive_jacobians(mesh);
   Eigen::Matrix3d A;
   A << 1, 0.3, -0.2, 0.5, -0.7, 0.1, 0.4, 0.2, 0.6;
-  const Eigen::Matrix3d eps = (A + A.transpose()) / 2;
-  const Eigen::Matrix3d s =
-      kMaterial.lambda * eps.trace() * Eigen::Matrix3d::Identity() + 2 * kMaterial.mu * eps;
-  const Eigen::Vector<double, 6> expected{s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+  const Eigen::Vector<double, 6> expected = stress_of((A + A.transpose()) / 2, material);
   Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, mesh.n_nodes());
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const Eigen::Matrix3Xd X = fem::cell_coordinates(mesh, cell);
     const auto& functions = fem::element_functions(mesh.cells.type[cell]);
-    const Eigen::VectorXd u = field(A, X), f = functions.stiffness(X, kMaterial, element) * u;
-    const Eigen::VectorXd sigma = functions.stress(X, kMaterial, element) * u;
+    const Eigen::VectorXd u = field(A, X), f = functions.stiffness(X, material, element) * u;
+    const Eigen::VectorXd sigma = functions.stress(X, material, element) * u;
     for (int a = 0; a < X.cols(); ++a) {
       force.col(mesh.cells[cell][a]) += f.segment<3>(3 * a);
       EXPECT_LT((sigma.segment<6>(6 * a) - expected).norm(), 10 * kRoundoff * expected.norm());
@@ -119,6 +128,61 @@ void expect_patch_test(const Mesh& mesh, Element element) {
 }
 
 TEST_P(Elements, pass_the_patch_test) { expect_patch_test(patch, GetParam().element); }
+
+TEST_P(Elements, pass_the_patch_test_with_an_orthotropic_material) {
+  expect_patch_test(patch, GetParam().element, kFibre);
+}
+
+TEST_P(Elements, find_an_isotropic_material_written_as_an_orthotropic_one_the_same) {
+  const auto& [E, nu, rho, none] = test::kSteel;
+  const auto all = [](double value) { return Eigen::Vector3d::Constant(value); };
+  model::Material same{0, 0, rho, model::Orthotropic{all(E), all(nu), all(E / (2 * (1 + nu)))}};
+  same.orthotropic->orientation.rotation << 0.3, -0.2, 0.5;
+  const Eigen::Matrix3Xd X = fem::cell_coordinates(patch, 13);
+  const Element element = GetParam().element;
+  const Eigen::MatrixXd K = functions.stiffness(X, kMaterial, element),
+                        S = functions.stress(X, kMaterial, element);
+  EXPECT_LT((functions.stiffness(X, fem::elasticity(same), element) - K).norm(), kRoundoff * K.norm());
+  EXPECT_LT((functions.stress(X, fem::elasticity(same), element) - S).norm(), 10 * kRoundoff * S.norm());
+}
+
+// K' = Q K Q' with the rotation R of every node in Q.
+Eigen::MatrixXd rotated(const Eigen::MatrixXd& K, const Eigen::Matrix3d& R) {
+  Eigen::MatrixXd result(K.rows(), K.cols());
+  for (Eigen::Index a = 0; a < K.rows(); a += 3)
+    for (Eigen::Index b = 0; b < K.cols(); b += 3)
+      result.block<3, 3>(a, b) = R * K.block<3, 3>(a, b) * R.transpose();
+  return result;
+}
+
+TEST_P(Elements, turn_with_a_body_whose_material_turns_with_it) {
+  const Eigen::Matrix3Xd X = fem::cell_coordinates(patch, 13);
+  const Eigen::Matrix3d R = rotation_matrix({0.7, -0.4, 1.1});
+  model::Material turned = test::kFibre;
+  model::Orientation& axes = turned.orthotropic->orientation;
+  axes.axis_1 = R * axes.axis_1;
+  axes.axis_2 = R * axes.axis_2;
+  const Eigen::MatrixXd K = rotated(functions.stiffness(X, kFibre, GetParam().element), R);
+  EXPECT_LT((functions.stiffness(R * X, fem::elasticity(turned), GetParam().element) - K).norm(),
+            kRoundoff * K.norm());
+}
+
+TEST_P(Elements, are_the_same_all_around_the_axis_of_a_wound_body) {
+  model::Material wound = test::kFibre;
+  wound.orthotropic->orientation = {.system = model::Orientation::System::cylindrical,
+                                    .origin = {-2, 0.5, 1},
+                                    .axis = {0.3, 0.1, 2},
+                                    .rotation = {0.6, 0, 0}};
+  const fem::Elasticity material = fem::elasticity(wound);
+  const model::Orientation& o = wound.orthotropic->orientation;
+  const Eigen::Matrix3Xd X = fem::cell_coordinates(patch, 13);
+  const Eigen::Matrix3d R = rotation_matrix(1.3 * o.axis.normalized());
+  const Eigen::Matrix3Xd around = (R * (X.colwise() - o.origin)).colwise() + o.origin;
+  const Eigen::MatrixXd K = rotated(functions.stiffness(X, material, GetParam().element), R);
+  EXPECT_LT((functions.stiffness(around, material, GetParam().element) - K).norm(), kRoundoff * K.norm());
+  EXPECT_GT((functions.stiffness(R * X, kFibre, GetParam().element) - rotated(stiffness(X), R)).norm(),
+            kNotZero * K.norm());
+}
 
 TEST(MixedMesh, passes_the_patch_test) {
   const Mesh hexahedra = test::distorted(test::brick({4, 4, 4}, {1, 1, 1}), 0.03);

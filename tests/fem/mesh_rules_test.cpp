@@ -52,6 +52,66 @@ TEST(Materials, outside_their_range_are_errors_naming_the_value) {
   EXPECT_EQ(message_of([] { fem::validate(test::kSteelBody); }), "");
 }
 
+// A bar along axis k of the material: sigma = E_k eps, and lateral strains by nu.
+TEST(Orthotropy, of_a_bar_along_each_axis_has_the_closed_form) {
+  const model::Orthotropic& m = *test::kFibre.orthotropic;
+  model::Material aligned = test::kFibre;
+  aligned.orthotropic->orientation = {};
+  const auto H =
+      fem::elasticity_at(std::get<fem::Orthotropy>(fem::elasticity(aligned)), Eigen::Vector3d(1, 2, 3));
+  const Eigen::Matrix3d axes = fem::material_axes(m.orientation, Eigen::Vector3d::Zero());
+  const double strain[3][3] = {{1 / m.E(0), -m.nu(0) / m.E(0), -m.nu(1) / m.E(0)},
+                               {-m.nu(0) / m.E(0), 1 / m.E(1), -m.nu(2) / m.E(1)},
+                               {-m.nu(1) / m.E(0), -m.nu(2) / m.E(1), 1 / m.E(2)}};
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Vector<double, 6> eps = Eigen::Vector<double, 6>::Zero();
+    eps.head<3>() << strain[k][0], strain[k][1], strain[k][2];
+    EXPECT_LT((H[0] * eps - Eigen::Vector<double, 6>::Unit(k)).norm(), kRoundoff);
+    EXPECT_NEAR(fem::youngs_modulus(test::kFibre, axes.col(k), {1, 2, 3}) / m.E(k), 1, kRoundoff);
+  }
+  EXPECT_EQ(H[0](3, 3), m.G(0)) << "xy";
+  EXPECT_EQ(H[0](4, 4), m.G(2)) << "yz";
+  EXPECT_EQ(H[0](5, 5), m.G(1)) << "xz";
+  EXPECT_EQ(fem::youngs_modulus(test::kSteel, {1, 1, 0}, {0, 0, 0}), test::kSteel.E);
+}
+
+TEST(Orthotropy, of_a_wound_rim_follows_its_circumference) {
+  const model::Orientation o{.system = model::Orientation::System::cylindrical, .origin = {1, 0, 0}};
+  Eigen::Matrix3d expected;
+  expected.col(0) << 0, 1, 0;
+  expected.col(1) << -1, 0, 0;
+  expected.col(2) << 0, 0, 1;
+  EXPECT_LT((fem::material_axes(o, {1, 2, 5}) - expected).norm(), kRoundoff);
+  const Eigen::Matrix3d on_axis = fem::material_axes(o, {1, 0, 5});
+  EXPECT_LT((on_axis.transpose() * on_axis - Eigen::Matrix3d::Identity()).norm(), kRoundoff);
+  model::Orientation wound = o;
+  wound.rotation << M_PI / 2, 0, 0;  // about the radius: tangential becomes axial
+  EXPECT_LT((fem::material_axes(wound, {1, 2, 5}).col(1) - Eigen::Vector3d::UnitZ()).norm(), kRoundoff);
+}
+
+TEST(Orthotropy, that_is_not_positive_definite_is_an_error_naming_the_values) {
+  const auto message = [](auto&& change) {
+    model::Material m = test::kFibre;
+    change(*m.orthotropic);
+    return message_of([&] { fem::validate({{"rim", m}}); });
+  };
+  EXPECT_EQ(message([](auto&) {}), "");
+  EXPECT_NE(message([](auto& m) { m.nu(0) = 2; }).find("2, 0.25, 0.4) is not positive definite"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& m) { m.E(1) = 0; }).find("rim"), std::string::npos);
+  EXPECT_NE(message([](auto& m) { m.G(2) = -1; }).find("-1) Pa, must be positive"), std::string::npos);
+  EXPECT_NE(message([](auto& m) { m.nu(1) = NAN; }).find("nan"), std::string::npos);
+  EXPECT_NE(message([](auto& m) { m.orientation.axis_2 = -m.orientation.axis_1; }).find("parallel"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& m) {
+              m.orientation.system = model::Orientation::System::cylindrical;
+              m.orientation.axis.setZero();
+            }).find("the axis is zero"),
+            std::string::npos);
+  EXPECT_NE(message([](auto& m) { m.orientation.rotation(1) = INFINITY; }).find("not finite"),
+            std::string::npos);
+}
+
 TEST(Restraint, must_hold_every_part_by_three_nodes_off_one_line) {
   const auto mesh = test::brick({2, 2, 2}, {1, 1, 1});
   const auto held_by = [&](std::vector<int> nodes) {

@@ -9,11 +9,12 @@ import sys
 
 LEVEL = {
     "base": 1,
-    "mesh": 2, "model": 2,
-    "gear": 3, "io": 3, "body": 3,
-    "fem": 4, "contact": 4,
-    "reduction": 5, "dynamics": 5, "recovery": 5,
-    "app": 6,
+    "model": 2,
+    "mesh": 3,
+    "gear": 4, "io": 4, "body": 4,
+    "fem": 5, "contact": 5,
+    "reduction": 6, "dynamics": 6, "recovery": 6,
+    "app": 7,
 }
 BUILDING = {"gear", "mesh", "fem", "reduction"}  # makes body files
 RUNNING = {"body", "contact", "dynamics", "recovery"}  # uses body files

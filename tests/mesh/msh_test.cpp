@@ -1,13 +1,8 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 
 #include "../../src/mesh/msh_format.h"
-#include "box_mesh.h"
-#include "elastogear/base/error.h"
-#include "elastogear/base/file.h"
 #include "elastogear/mesh/msh.h"
+#include "reader_test.h"
 
 using namespace elastogear;
 using namespace elastogear::mesh;
@@ -68,26 +63,8 @@ $Elements
 $EndElements
 )";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
-
-struct Msh : testing::Test {
-  Folder folder{"msh"};
-  std::string path = folder / "cube.msh";
-
-  Mesh read(const std::string& content, ReadReport* report = nullptr) const {
-    write_file(path, content);
-    return read_msh(path, 1, report);
-  }
-  std::string error(const std::string& from, const std::string& to) const {
-    try {
-      read(replaced(kCube, from, to));
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "no error";
-  }
+struct Msh : ReaderTest {
+  Msh() : ReaderTest("cube.msh", kCube) {}
 };
 
 TEST_F(Msh, numbers_nodes_by_their_tags) {

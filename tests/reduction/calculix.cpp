@@ -32,13 +32,36 @@ void write_mesh(std::ostream& deck, const mesh::Mesh& mesh, const std::string& e
   }
 }
 
+void write_orientation(std::ostream& deck, const model::Orientation& o) {
+  const Eigen::IOFormat row(Eigen::StreamPrecision, Eigen::DontAlignCols, ", ", ", ");
+  const bool cylindrical = o.system == model::Orientation::System::cylindrical;
+  const Eigen::Vector3d a = cylindrical ? o.origin : o.axis_1, b = cylindrical ? o.origin + o.axis : o.axis_2;
+  deck << "*ORIENTATION, NAME=O, SYSTEM=" << (cylindrical ? "CYLINDRICAL" : "RECTANGULAR") << "\n"
+       << a.format(row) << ", " << b.format(row) << "\n";
+}
+
+void write_material(std::ostream& deck, const model::Material& material) {
+  const auto& m = material.orthotropic;
+  if (m) write_orientation(deck, m->orientation);
+  deck << "*MATERIAL, NAME=M\n*ELASTIC";
+  if (m) {
+    const Eigen::IOFormat row(Eigen::StreamPrecision, Eigen::DontAlignCols, ", ", ", ");
+    deck << ", TYPE=ENGINEERING CONSTANTS\n"
+         << m->E.format(row) << ", " << m->nu.format(row) << ", " << m->G(0) << ", " << m->G(1) << ",\n"
+         << m->G(2);
+  } else {
+    deck << "\n" << material.E << ", " << material.nu;
+  }
+  deck << "\n*DENSITY\n"
+       << material.rho << "\n*SOLID SECTION, ELSET=EALL, MATERIAL=M" << (m ? ", ORIENTATION=O" : "") << "\n";
+}
+
 void write_deck(const fs::path& path, const CalculixModel& model, const std::string& step) {
   std::ofstream deck(path);
   deck << std::scientific << std::setprecision(12);  // CalculiX reads 20 characters of a number
   write_mesh(deck, model.mesh, model.element);
-  deck << "*MATERIAL, NAME=M\n*ELASTIC\n"
-       << model.material.E << ", " << model.material.nu << "\n*DENSITY\n"
-       << model.material.rho << "\n*SOLID SECTION, ELSET=EALL, MATERIAL=M\n*BOUNDARY\n";
+  write_material(deck, model.material);
+  deck << "*BOUNDARY\n";
   std::set<int> held;
   for (const auto& name : model.restrained_sets)
     for (int node : mesh::node_set(model.mesh, name)) held.insert(node);

@@ -74,13 +74,14 @@ struct Comparison {
   double tolerance;
   std::optional<fem::Rule> mass_rule = std::nullopt;  // CalculiX's, where it is not exact
   std::string restrained = "xmin";
+  model::Material material = test::kSteel;
 };
 
 void compare(const Comparison& c) {
   if (!test::calculix_is_installed()) GTEST_SKIP() << "ccx is not installed";
   const auto expected =
-      test::calculix_frequencies({c.mesh, test::kSteel, {c.restrained}, c.calculix_element}, c.n_modes);
-  const auto system = test::assemble(c.mesh, {c.restrained}, PETSC_COMM_SELF, test::kSteelBody, c.element);
+      test::calculix_frequencies({c.mesh, c.material, {c.restrained}, c.calculix_element}, c.n_modes);
+  const auto system = test::assemble(c.mesh, {c.restrained}, PETSC_COMM_SELF, {{"", c.material}}, c.element);
   if (c.mass_rule) assemble_calculix_mass(c.mesh, *c.mass_rule, system.rows, system.matrices.M);
   reduction::EigenOptions options;
   options.n_modes = c.n_modes;
@@ -122,6 +123,22 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(SameElement, has_the_first_50_frequencies_of_calculix) {
   const auto& [type, name, n, mass_rule, element] = GetParam();
   compare({crooked_block(type, n), element, name, 50, kSameElement, mass_rule});
+}
+
+// CalculiX takes the axes at the integration points too.
+TEST(Frequencies, of_an_orthotropic_block_equal_calculix) {
+  model::Material fibre = test::kFibre;
+  model::Orientation& orientation = fibre.orthotropic->orientation;
+  orientation.rotation.setZero();
+  const auto block = crooked_block(CellType::hex20, {8, 2, 2});
+  const auto with_fibre = [&] {
+    compare({block, model::Element::incompatible, "C3D20", 20, kSameElement, {}, "xmin", fibre});
+  };
+  with_fibre();
+  orientation.system = model::Orientation::System::cylindrical;
+  orientation.origin << 0.1, -0.5, 0.2;
+  orientation.axis << 1, 0.2, 0.1;
+  with_fibre();
 }
 
 // The mesh is as fine as the difference between the two elements asks for: 1.7 % at 4,700 nodes, 0.36 % at

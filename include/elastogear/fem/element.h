@@ -12,9 +12,9 @@ struct ElementFunctions {
   int n_nodes;
   double (*smallest_jacobian)(const Eigen::Matrix3Xd& X);
   double (*volume)(const Eigen::Matrix3Xd& X);
-  Eigen::MatrixXd (*stiffness)(const Eigen::Matrix3Xd& X, const Lame& material, model::Element element);
+  Eigen::MatrixXd (*stiffness)(const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element);
   Eigen::MatrixXd (*mass)(const Eigen::Matrix3Xd& X, double rho);  ///< scalar, n_nodes x n_nodes
-  Eigen::MatrixXd (*stress)(const Eigen::Matrix3Xd& X, const Lame& material, model::Element element);
+  Eigen::MatrixXd (*stress)(const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element);
 };
 
 /// The functions of a cell type; Error when there is no element for it.

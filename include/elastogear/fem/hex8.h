@@ -29,13 +29,13 @@ using StressOperator = Eigen::Matrix<double, 48, 24>;  ///< Pa/m, 6 rows per nod
 double smallest_jacobian(const Coordinates& X);
 
 /// K_e, 2x2x2 Gauss points.
-Stiffness stiffness(const Coordinates& X, const Lame& material, model::Element element);
+Stiffness stiffness(const Coordinates& X, const Elasticity& material, model::Element element);
 
 /// Consistent mass, 3x3x3 Gauss points: exact for every trilinear hexahedron.
 Mass mass(const Coordinates& X, double rho);
 
 /// Stress at the 2x2x2 Gauss points, incompatible part included, extrapolated trilinearly to the nodes.
-StressOperator stress(const Coordinates& X, const Lame& material, model::Element element);
+StressOperator stress(const Coordinates& X, const Elasticity& material, model::Element element);
 
 /// m^3, exact.
 double volume(const Coordinates& X);

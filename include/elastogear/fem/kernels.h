@@ -1,7 +1,8 @@
 #pragma once
-// Isotropic elasticity from shape-function gradients alone: the part that all solid elements share.
+// Elasticity from shape-function gradients: the part that all solid elements share.
 
 #include <Eigen/Core>
+#include <span>
 
 #include "elastogear/fem/material.h"
 
@@ -39,6 +40,31 @@ Eigen::Matrix<double, 6, 3 * n> isotropic_stress(const Eigen::Matrix<double, 3, 
     DB.template middleCols<3>(3 * a) = block;
   }
   return DB;
+}
+
+/// Strains (xx yy zz xy yz xz, gamma for shear) per unit amplitude of n functions in three directions at one
+/// point with gradients g: 6 x 3n.
+template <int n>
+Eigen::Matrix<double, 6, 3 * n> strains(const Eigen::Matrix<double, 3, n>& g) {
+  Eigen::Matrix<double, 6, 3 * n> B;
+  for (int a = 0; a < n; ++a) {
+    const double x = g(0, a), y = g(1, a), z = g(2, a);
+    B.template middleCols<3>(3 * a) << x, 0, 0, 0, y, 0, 0, 0, z, y, x, 0, 0, z, y, z, 0, x;
+  }
+  return B;
+}
+
+/// K = sum_p w_p B_p' H_p B_p for any elasticity H_p at n_p points; G as for isotropic_stiffness.
+template <int n, int n_p>
+Eigen::Matrix<double, 3 * n, 3 * n> general_stiffness(const Eigen::Matrix<double, 3 * n, n_p>& G,
+                                                      std::span<const Matrix6> H) {
+  Eigen::Matrix<double, 3 * n, 3 * n> K = Eigen::Matrix<double, 3 * n, 3 * n>::Zero();
+  for (int p = 0; p < n_p; ++p) {
+    const Eigen::Matrix<double, 3, n> g = G.col(p).template reshaped<Eigen::ColMajor>(3, n);
+    const Eigen::Matrix<double, 6, 3 *n> B = strains<n>(g), HB = H[p] * B;
+    K += B.transpose() * HB;
+  }
+  return K;
 }
 
 }  // namespace elastogear::fem

@@ -1,7 +1,9 @@
 #pragma once
-// Materials of a mesh: which cell has which, and isotropic elasticity.
+// Materials of a mesh: which cell has which, and what elements need of them (docs/theory.md, section
+// Materials).
 
 #include <Eigen/Core>
+#include <variant>
 #include <vector>
 
 #include "elastogear/mesh/mesh.h"
@@ -15,7 +17,31 @@ struct Lame {
 };
 Lame lame(const model::Material& material);
 
-/// Throws Error (naming the region) unless E > 0, -1 < nu < 0.5 and rho > 0 for every region.
+/// H of sigma = H eps, Pa, order xx yy zz xy yz xz; shear strains are gamma = 2 eps.
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// H in the material's axes, and where these point.
+struct Orthotropy {
+  Matrix6 H;
+  model::Orientation orientation;
+};
+
+/// What elements need of a material. Isotropic ones take shorter ways.
+using Elasticity = std::variant<Lame, Orthotropy>;
+Elasticity elasticity(const model::Material& material);
+
+/// The material's axes at the point x (m), as columns. On the axis of a cylindrical system axis 1 is any
+/// radius.
+Eigen::Matrix3d material_axes(const model::Orientation& orientation, const Eigen::Vector3d& x);
+
+/// H in the body frame at each of the points x, 3 x n, m.
+std::vector<Matrix6> elasticity_at(const Orthotropy& material, const Eigen::Matrix3Xd& x);
+
+/// Young's modulus in the direction n at the point x (m), Pa.
+double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n, const Eigen::Vector3d& x);
+
+/// Throws Error (naming the region) unless every region's density is positive and its elasticity positive
+/// definite (isotropic: E > 0, -1 < nu < 0.5).
 void validate(const std::vector<model::MaterialRegion>& regions);
 
 /// Index into `regions` of every cell. The region with the empty name takes the cells that no other names.

@@ -5,16 +5,21 @@
 #include <vector>
 
 #include "elastogear/mesh/mesh.h"
+#include "elastogear/model/material.h"
 
 namespace elastogear::mesh {
 
-/// What a reader left out, one line each, e.g. "*MATERIAL (line 12)". Nothing is dropped without an entry.
+/// What a file says beside its mesh, and what a reader left out.
 struct ReadReport {
-  std::vector<std::string> ignored;
+  std::vector<std::string> ignored;            ///< "*STATIC (line 12)": nothing is dropped without an entry
+  std::vector<model::MaterialRegion> regions;  ///< .inp: one for each *SOLID SECTION
+  std::string restrained;         ///< .inp: node set of the mesh that *BOUNDARY holds; empty: none
+  std::string refused_restraint;  ///< why *BOUNDARY does not restrain a body; empty: it does
 };
 
-/// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm).
-/// Error naming file and place for anything that is not a complete mesh of known cells.
+/// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm);
+/// materials of the file are in N and s with it (MPa and t/mm^3 for mm). Error naming file and place for
+/// anything that is not a complete mesh of known cells.
 Mesh read_mesh(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
 
 /// Validates and writes (binary for .msh), coordinates in m; the file appears only when complete.

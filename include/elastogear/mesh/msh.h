@@ -12,6 +12,9 @@ enum class Encoding { ascii, binary };
 
 /// Either encoding. Coordinates are multiplied by `unit_in_m`. Error naming file and line or byte offset.
 Mesh read_msh(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
+/// The same from memory; `path` names the content in errors.
+Mesh parse_msh(const std::string& path, std::string content, double unit_in_m = 1,
+               ReadReport* report = nullptr);
 
 void write_msh(const std::string& path, const Mesh& mesh, Encoding encoding = Encoding::binary);
 

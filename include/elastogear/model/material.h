@@ -1,15 +1,40 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace elastogear::model {
 
-/// Isotropic linear elasticity.
+/// Where the material's axes 1, 2, 3 point, in the body frame.
+struct Orientation {
+  /// rectangular: 1 along axis_1, 2 in the plane of axis_1 and axis_2. cylindrical: radial, tangential and
+  /// axial about the line through `origin` along `axis`, at each point of the body.
+  enum class System { rectangular, cylindrical };
+  System system = System::rectangular;
+  Eigen::Vector3d axis_1 = Eigen::Vector3d::UnitX(), axis_2 = Eigen::Vector3d::UnitY();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  /// rad, rotation vector in the axes so far that turns them into the material's: the angle of a winding
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
+};
+
+/// Orthotropic linear elasticity by its engineering constants: eps_11 = sigma_11/E_1 - nu_12 sigma_22/E_1 -
+/// ..., eps_22 = -nu_12 sigma_11/E_1 + ..., gamma_12 = sigma_12/G_12.
+struct Orthotropic {
+  Eigen::Vector3d E = Eigen::Vector3d::Zero();   ///< Pa, E_1 E_2 E_3
+  Eigen::Vector3d nu = Eigen::Vector3d::Zero();  ///< -, nu_12 nu_13 nu_23
+  Eigen::Vector3d G = Eigen::Vector3d::Zero();   ///< Pa, G_12 G_13 G_23
+  Orientation orientation = {};
+};
+
+/// Linear elasticity and density. E and nu hold for isotropic materials only.
 struct Material {
-  double E = 0;    ///< Pa, Young's modulus
-  double nu = 0;   ///< -, Poisson's ratio
-  double rho = 0;  ///< kg/m^3, density
+  double E = 0;                                           ///< Pa, Young's modulus
+  double nu = 0;                                          ///< -, Poisson's ratio
+  double rho = 0;                                         ///< kg/m^3, density
+  std::optional<Orthotropic> orthotropic = std::nullopt;  ///< set: takes the place of E and nu
 };
 
 /// A material and the cell set it fills; the empty name stands for all cells that no other region names.

@@ -1,0 +1,290 @@
+// Materials, restraint, included files and parts in .inp files.
+#include "elastogear/mesh/inp.h"
+#include "reader_test.h"
+
+using namespace elastogear;
+using namespace elastogear::mesh;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+constexpr double kRoundoff = 1e-14;
+constexpr double kMillimetre = 1e-3;
+
+const std::string kDeck = R"(*NODE, NSET=ALL
+ 1, 0., 0., 0.
+ 2, 1., 0., 0.
+ 3, 0., 1., 0.
+ 4, 0., 0., 1.
+*ELEMENT, TYPE=C3D4, ELSET=Body
+ 7, 1, 2, 3, 4
+*NSET, NSET=FIX
+ 1, 2
+*MATERIAL, NAME=Steel
+*ELASTIC
+ 210000., 0.3, 20.
+*DENSITY
+ 7.85D-9,
+*MATERIAL, NAME=FIBRE
+*ELASTIC, TYPE=ENGINEERING CONSTANTS
+ 140000., 9000., 8000., 0.3, 0.25, 0.4, 5000., 4000.,
+ 3000., 293.
+*DENSITY
+ 1.6E-9
+*ORIENTATION, NAME=WOUND, SYSTEM=CYLINDRICAL
+ 2., 0., 0., 2., 0., 3.
+ 1, 30.
+*SOLID  SECTION, ELSET=BODY, MATERIAL=STEEL
+ ,
+*BOUNDARY
+ FIX, 1, 3
+ 3, 1, 3, 0.
+*STEP
+*FREQUENCY
+ 5
+*END STEP
+)";
+
+struct InpCards : ReaderTest {
+  InpCards() : ReaderTest("deck.inp", kDeck) {}
+
+  ReadReport report_of(const std::string& content, double unit_in_m = 1) const {
+    write_file(path, content);
+    ReadReport report;
+    read_inp(path, unit_in_m, &report);
+    return report;
+  }
+  ReadReport report_with(const std::string& from, const std::string& to) const {
+    return report_of(replaced(sample, from, to));
+  }
+};
+
+TEST_F(InpCards, give_a_section_its_material_in_si_units) {
+  const auto regions = report_of(kDeck, kMillimetre).regions;
+  ASSERT_EQ(regions.size(), 1u);
+  EXPECT_EQ(regions[0].cell_set, "Body");
+  EXPECT_NEAR(regions[0].material.E / 210e9, 1, kRoundoff);
+  EXPECT_EQ(regions[0].material.nu, 0.3);
+  EXPECT_NEAR(regions[0].material.rho / 7850, 1, kRoundoff);
+  EXPECT_FALSE(regions[0].material.orthotropic);
+  EXPECT_EQ(report_of(kDeck).regions[0].material.E, 210000);
+}
+
+TEST_F(InpCards, read_engineering_constants_and_orientations) {
+  const auto wound = replaced(kDeck, "MATERIAL=STEEL", "MATERIAL=Fibre, ORIENTATION=Wound");
+  const auto regions = report_of(wound, kMillimetre).regions;
+  ASSERT_TRUE(regions.at(0).material.orthotropic);
+  const model::Orthotropic& m = *regions[0].material.orthotropic;
+  EXPECT_LT((m.E - 1e9 * Eigen::Vector3d(140, 9, 8)).norm(), kRoundoff * 140e9);
+  EXPECT_EQ(m.nu, Eigen::Vector3d(0.3, 0.25, 0.4));
+  EXPECT_LT((m.G - 1e9 * Eigen::Vector3d(5, 4, 3)).norm(), kRoundoff * 5e9);
+  EXPECT_EQ(m.orientation.system, model::Orientation::System::cylindrical);
+  EXPECT_EQ(m.orientation.origin, Eigen::Vector3d(0.002, 0, 0));
+  EXPECT_EQ(m.orientation.axis, Eigen::Vector3d(0, 0, 3));
+  EXPECT_LT((m.orientation.rotation - Eigen::Vector3d(M_PI / 6, 0, 0)).norm(), kRoundoff);
+}
+
+TEST_F(InpCards, turn_an_orthotropic_stiffness_into_engineering_constants) {
+  // Isotropic: E = 2.5, nu = 0.25 have lambda = mu = 1.
+  const auto deck = replaced(kDeck, "*ELASTIC\n 210000., 0.3, 20.",
+                             "*ELASTIC, TYPE=ORTHO\n 3., 1., 3., 1., 1., 3., 1., 2.,\n 4.");
+  const auto report = report_of(deck);
+  ASSERT_TRUE(report.regions.at(0).material.orthotropic);
+  const model::Orthotropic& m = *report.regions[0].material.orthotropic;
+  EXPECT_LT((m.E - Eigen::Vector3d::Constant(2.5)).norm(), 10 * kRoundoff);
+  EXPECT_LT((m.nu - Eigen::Vector3d::Constant(0.25)).norm(), 10 * kRoundoff);
+  EXPECT_EQ(m.G, Eigen::Vector3d(1, 2, 4));
+}
+
+TEST_F(InpCards, make_a_node_set_of_what_boundary_holds) {
+  const Mesh mesh = read(kDeck);
+  EXPECT_THAT(mesh.node_sets.at("BOUNDARY"), ElementsAre(0, 1, 2));
+  EXPECT_EQ(report_of(kDeck).restrained, "BOUNDARY");
+  EXPECT_THAT(report_of(kDeck).refused_restraint, IsEmpty());
+  const auto taken = replaced(replaced(kDeck, "NSET=FIX", "NSET=BOUNDARY"), " FIX, 1, 3", " BOUNDARY, 1, 3");
+  EXPECT_EQ(report_of(taken).restrained, "BOUNDARY_");
+  const ReadReport split = report_with(" FIX, 1, 3", " FIX, 1, 2\n FIX, ZSYMM");
+  EXPECT_EQ(split.restrained, "BOUNDARY") << "directions add up over lines";
+  EXPECT_THAT(split.refused_restraint, IsEmpty());
+}
+
+TEST_F(InpCards, refuse_to_hold_a_node_in_some_directions_only) {
+  EXPECT_THAT(report_with(" FIX, 1, 3", " FIX, 2, 3").refused_restraint,
+              HasSubstr("holds node 1 in yz only"));
+  EXPECT_THAT(report_with(" FIX, 1, 3", " FIX, XASYMM").refused_restraint,
+              HasSubstr("holds node 1 in yz only"));
+}
+
+TEST_F(InpCards, name_all_they_leave_out) {
+  EXPECT_THAT(report_of(kDeck).ignored,
+              ElementsAre("*STEP (line 29)", "*FREQUENCY (line 30)", "*END STEP (line 32)"));
+  EXPECT_THAT(report_with("0.3, 20.", "0.3, 20.\n 200000., 0.3, 200.").ignored.front(),
+              HasSubstr("*ELASTIC (line 11): of its table only the first row"));
+  EXPECT_THAT(report_with("*ELASTIC\n", "*ELASTIC, TYPE=ANISO\n").ignored.front(),
+              HasSubstr("TYPE=ANISO (line 11)"));
+  EXPECT_THAT(report_with("3, 0.\n", "3, 0.5\n").ignored.front(),
+              HasSubstr("line 28): a displacement other than 0"));
+  EXPECT_THAT(report_with("*BOUNDARY", "*BOUNDARY, TYPE=VELOCITY").ignored.front(),
+              HasSubstr("TYPE=VELOCITY"));
+  EXPECT_THAT(report_with("*DENSITY", "*EXPANSION\n 1e-5\n*DENSITY").ignored.front(), "*EXPANSION (line 13)");
+}
+
+TEST_F(InpCards, name_line_and_value_of_hostile_input) {
+  EXPECT_THAT(error(" 210000., 0.3, 20.", " 210000."),
+              HasSubstr("line 11: *ELASTIC needs 2 numbers, found 1"));
+  EXPECT_THAT(error(" 210000., 0.3, 20.\n", ""), HasSubstr("*ELASTIC needs 2 numbers, found 0"));
+  EXPECT_THAT(error(" 3000., 293.\n", ""), HasSubstr("line 16: *ELASTIC needs 9 numbers, found 8"));
+  EXPECT_THAT(error("210000.", "nan"), HasSubstr("line 12: a material constant is nan"));
+  EXPECT_THAT(error("210000.", "steel"), HasSubstr("a material constant is 'steel'"));
+  EXPECT_THAT(error("210000.", "-1"), HasSubstr("line 12: Young's modulus is -1"));
+  EXPECT_THAT(error("7.85D-9", "-7.85D-9"), HasSubstr("line 14: the density is -7.85e-09"));
+  EXPECT_THAT(error("7.85D-9", "inf"), HasSubstr("a material constant is inf"));
+  EXPECT_THAT(error("*MATERIAL, NAME=Steel\n", ""), HasSubstr("line 10: *ELASTIC outside a *MATERIAL"));
+  EXPECT_THAT(error("*MATERIAL, NAME=Steel", "*MATERIAL"), HasSubstr("without NAME"));
+  EXPECT_THAT(error("NAME=FIBRE", "NAME=STEEL"), HasSubstr("material STEEL is defined twice"));
+  EXPECT_THAT(error("MATERIAL=STEEL", "MATERIAL=BRASS"),
+              HasSubstr("line 24: *SOLID SECTION of 'BODY' names the unknown material 'BRASS'"));
+  EXPECT_THAT(error("MATERIAL=STEEL", "MATERIAL=STEEL, ORIENTATION=X"), HasSubstr("unknown orientation 'X'"));
+  EXPECT_THAT(error("ELSET=BODY, M", "ELSET=RIM, M"), HasSubstr("unknown element set 'RIM'"));
+  EXPECT_THAT(error("ELSET=BODY, M", "M"), HasSubstr("without ELSET="));
+  EXPECT_THAT(error("2., 0., 0., 2., 0., 3.", "2., 0., 0., 2., 0., 0."), HasSubstr("give no directions"));
+  EXPECT_THAT(error("2., 0., 0., 2., 0., 3.", "2., 0., 0., 2., 0."), HasSubstr("found 5 numbers"));
+  EXPECT_THAT(error(" 1, 30.", " 4, 30."), HasSubstr("turns about axis 4"));
+  EXPECT_THAT(error("SYSTEM=CYLINDRICAL", "SYSTEM=SPHERICAL"), HasSubstr("SYSTEM=SPHERICAL"));
+  EXPECT_THAT(error(" FIX, 1, 3", " FIXED, 1, 3"),
+              HasSubstr("line 27: *BOUNDARY names the unknown node or node set 'FIXED'"));
+  EXPECT_THAT(error(" 3, 1, 3, 0.", " 9, 1, 3"), HasSubstr("unknown node or node set '9'"));
+  EXPECT_THAT(error(" 3, 1, 3, 0.", " 3, 3, 1"), HasSubstr("from degree of freedom 3 to 1"));
+  EXPECT_THAT(error(" 3, 1, 3, 0.", " 3"), HasSubstr("line 28: *BOUNDARY needs"));
+  EXPECT_THAT(error(" 3, 1, 3, 0.", " 3, 1, 3, nan"), HasSubstr("a displacement is nan"));
+  EXPECT_THAT(error("*MATERIAL", "*SYSTEM\n 0,0,1\n*MATERIAL"), HasSubstr("*SYSTEM is not supported"));
+}
+
+TEST_F(InpCards, of_an_impossible_stiffness_are_an_error) {
+  EXPECT_THAT(
+      error("*ELASTIC\n 210000., 0.3, 20.", "*ELASTIC, TYPE=ORTHO\n 1., 2., 1., 1., 1., 3., 1., 1.,\n 1."),
+      HasSubstr("not positive definite"));
+}
+
+struct InpInclude : ReaderTest {
+  InpInclude()
+      : ReaderTest("main.inp",
+                   "*NODE\n*INCLUDE, INPUT=parts/nodes.txt\n*ELEMENT, TYPE=C3D4\n 1, 1, 2, 3, 4\n") {
+    std::filesystem::create_directories(folder.path / "parts");
+    write_file(folder / "parts/nodes.txt", "1, 0, 0, 0\n*include, input=rest.txt\n 3, 0, 1, 0\n");
+    write_file(folder / "parts/rest.txt", "2, 1, 0, 0\n4, 0, 0, 1\n");
+  }
+};
+
+TEST_F(InpInclude, stands_for_the_content_of_a_file_beside_the_one_that_names_it) {
+  const Mesh mesh = read(sample);
+  EXPECT_EQ(mesh.X.col(1), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(mesh.X.col(2), Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(mesh.X.col(3), Eigen::Vector3d(0, 0, 1));
+}
+
+TEST_F(InpInclude, names_the_file_and_line_of_an_error) {
+  write_file(folder / "parts/rest.txt", "2, 1, 0, 0\n4, 0, 0, nan\n");
+  EXPECT_THAT(error_of(sample), HasSubstr("parts/rest.txt, line 2: a coordinate is nan"));
+  write_file(folder / "parts/rest.txt", "2, 1, 0, 0\n4, 0, 0, 1\n");
+  write_file(folder / "parts/nodes.txt", "1, 0, 0, 0\n*include, input=rest.txt\n 3, 0, one, 0\n");
+  EXPECT_THAT(error_of(sample), HasSubstr("parts/nodes.txt, line 3: a coordinate is 'one'"));
+  EXPECT_THAT(error("2, 3, 4", "2, 3, x"), HasSubstr("nodes.txt, line 3"));
+  write_file(folder / "parts/nodes.txt", "1, 0, 0, 0\n*include, input=rest.txt\n 3, 0, 1, 0\n");
+  EXPECT_THAT(error("2, 3, 4", "2, 3, x"), HasSubstr("main.inp, line 4: an element or node number is 'x'"));
+}
+
+TEST_F(InpInclude, of_a_file_that_is_missing_or_open_is_an_error) {
+  EXPECT_THAT(error("nodes.txt", "none.txt"), HasSubstr("main.inp, line 2: *INCLUDE: "));
+  EXPECT_THAT(error(", INPUT=parts/nodes.txt", ""), HasSubstr("*INCLUDE without INPUT=file"));
+  EXPECT_THAT(error("parts/nodes.txt", "main.inp"), HasSubstr("main.inp, which is read already"));
+  write_file(folder / "parts/rest.txt", "*INCLUDE, INPUT=../parts/nodes.txt\n");
+  EXPECT_THAT(error_of(sample), HasSubstr("rest.txt, line 1: *INCLUDE of "));
+}
+
+TEST_F(InpInclude, goes_ten_files_deep) {
+  for (int i = 0; i < 12; ++i)
+    write_file(folder / ("parts/" + std::to_string(i)), "*INCLUDE, INPUT=" + std::to_string(i + 1) + "\n");
+  EXPECT_THAT(error("nodes.txt", "0"), HasSubstr("more than 10 deep"));
+  write_file(folder / "parts/9", "*INCLUDE, INPUT=rest.txt\n1, 0, 0, 0\n3, 0, 1, 0\n");
+  EXPECT_THAT(error("nodes.txt", "1"), "no error");
+}
+
+// As Abaqus CAE writes a single part.
+const std::string kPart = R"(*Heading
+*Part, name=Part-1
+*Node
+ 1, 0., 0., 0.
+ 2, 1., 0., 0.
+ 3, 0., 1., 0.
+ 4, 0., 0., 1.
+*Element, type=C3D4
+ 1, 1, 2, 3, 4
+*Elset, elset=Set-1, generate
+ 1, 1, 1
+*Solid Section, elset=Set-1, material=Steel
+,
+*End Part
+*Assembly, name=Assembly
+*Instance, name=Part-1-1, part=Part-1
+*End Instance
+*Nset, nset=Fixed, instance=Part-1-1
+ 1, 2
+*Nset, nset=Again
+ Part-1-1.4, Fixed
+*Elset, elset=_Surf_S1, internal, instance=Part-1-1
+ 1
+*Surface, type=ELEMENT, name=Surf
+ _Surf_S1, S1
+*End Assembly
+*Material, name=Steel
+*Density
+ 7.8e-09,
+*Elastic
+ 210000., 0.3
+*Boundary
+ Fixed, ENCASTRE
+ Part-1-1.3, PINNED
+)";
+
+struct InpPart : ReaderTest {
+  InpPart() : ReaderTest("part.inp", kPart) {}
+};
+
+TEST_F(InpPart, is_read_as_one_body) {
+  ReadReport report;
+  const Mesh mesh = read(kPart, &report);
+  EXPECT_THAT(mesh.node_sets.at("Fixed"), ElementsAre(0, 1));
+  EXPECT_THAT(mesh.node_sets.at("Again"), ElementsAre(0, 1, 3));
+  EXPECT_THAT(mesh.node_sets.at("BOUNDARY"), ElementsAre(0, 1, 2));
+  EXPECT_THAT(mesh.face_sets.at("Surf"), ElementsAre(Face{0, 2, 1, 1}));
+  ASSERT_EQ(report.regions.size(), 1u);
+  EXPECT_EQ(report.regions[0].cell_set, "Set-1");
+  EXPECT_EQ(report.restrained, "BOUNDARY");
+  EXPECT_THAT(report.ignored, ElementsAre("*HEADING (line 1)"));
+}
+
+TEST_F(InpPart, must_be_the_only_one_and_in_place) {
+  EXPECT_THAT(error("*End Part", "*End Part\n*Part, name=B"), HasSubstr("line 15: a second *PART"));
+  EXPECT_THAT(error("*End Instance", "*End Instance\n*Instance, name=B, part=Part-1"),
+              HasSubstr("a second *INSTANCE"));
+  EXPECT_THAT(error("*End Instance", " 1., 0., 0.\n*End Instance"),
+              HasSubstr("line 17: *INSTANCE with a translation"));
+  EXPECT_THAT(error("*End Assembly", "*Node\n 1, 0., 0., 0.\n*End Assembly"),
+              HasSubstr("a reference point?"));
+  EXPECT_THAT(error("elset=_Surf_S1", "elset=Set-1"), HasSubstr("has the name of a set of the part"));
+  EXPECT_THAT(error("Part-1-1.4", "Part-2-1.4"), HasSubstr("unknown node set 'PART-2-1.4'"));
+}
+
+TEST(MemberBudget, ends_files_that_would_need_far_more_memory_than_they_have_bytes) {
+  std::string deck = kDeck.substr(0, kDeck.find("*MATERIAL"));
+  for (int i = 5; i < 3000; ++i) deck += "*NODE\n" + std::to_string(i) + ",0,0,0\n";
+  const std::string all = "*NSET, NSET=A, GENERATE\n1, 2999\n";
+  EXPECT_NO_THROW(parse_inp({"deck.inp", deck + all}));
+  for (int i = 0; i < 2000; ++i) deck += "*NSET, NSET=B" + std::to_string(i) + "\nA\n";
+  EXPECT_THROW(parse_inp({"deck.inp", deck + all}), Error);
+}
+
+}  // namespace
