@@ -243,7 +243,10 @@ Mesh read_inp(const std::string& path, double unit_in_m, ReadReport* report) {
     read_keyword(in, raw);
   }
   Mesh mesh = build(path, in, raw, unit_in_m);
-  if (report) report->ignored = std::move(raw.ignored);
+  if (!report) return mesh;
+  std::sort(raw.node.begin(), raw.node.end());
+  report->node_number = std::move(raw.node);
+  report->ignored = std::move(raw.ignored);
   return mesh;
 }
 

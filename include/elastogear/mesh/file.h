@@ -1,6 +1,7 @@
 #pragma once
 // Mesh files by their extension: Gmsh 4.1 (.msh) and Abaqus/CalculiX (.inp).
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace elastogear::mesh {
 /// What a reader left out, one line each, e.g. "*MATERIAL (line 12)". Nothing is dropped without an entry.
 struct ReadReport {
   std::vector<std::string> ignored;
+  std::vector<std::int64_t> node_number;  ///< the file's numbers of the nodes, ascending like ours
 };
 
 /// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm).
