@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "elastogear/base/error.h"
 #include "residual.h"
@@ -107,6 +108,32 @@ UniqueMat shifted_stiffness(Mat K, Mat M, double shift) {
   return shifted;
 }
 
+Eigen::VectorXd joined(const Eigen::VectorXd& head, const Eigen::VectorXd& tail) {
+  Eigen::VectorXd all(head.size() + tail.size());
+  all << head, tail;
+  return all;
+}
+
+// The same search in K + shift M, whose states count the rigid modes too.
+EigenOptions with_rigid_modes(const EigenOptions& options, double shift) {
+  EigenOptions all = options;
+  all.n_modes += kRigid;
+  if (options.start.eigenvalue.size() > 0) {
+    all.start.eigenvalue = joined(Eigen::VectorXd::Zero(kRigid), options.start.eigenvalue).array() + shift;
+    all.start.residual = joined(Eigen::VectorXd::Zero(kRigid), options.start.residual);
+  }
+  if (!options.commit) return all;
+  all.commit = [commit = options.commit, shift](const SearchState& state) {
+    const Eigen::Index elastic = state.eigenvalue.size() - kRigid;
+    if (elastic <= 0) return;
+    SearchState own = state;
+    own.eigenvalue = state.eigenvalue.tail(elastic).array() - shift;
+    own.residual = state.residual.tail(elastic);
+    commit(own);
+  };
+  return all;
+}
+
 }  // namespace
 
 RigidModes find_rigid_modes(Mat K, Mat M, const fem::VectorGather& gather, const Eigen::Matrix3Xd& X) {
@@ -135,9 +162,8 @@ Eigenmodes find_free_modes(Mat K, Mat M, const RigidModes& rigid, const EigenOpt
   const UniqueMat shifted = shifted_stiffness(K, M, rigid.shift);
   const double zero = zero_eigenvalue(K, M);
   const Residual w = make_residual(K);
-  Eigenmodes modes{Eigen::VectorXd(options.n_modes), Eigen::VectorXd(options.n_modes), 0};
-  EigenOptions all = options;
-  all.n_modes += kRigid;
+  std::vector<double> eigenvalues(options.start.eigenvalue.begin(), options.start.eigenvalue.end());
+  std::vector<double> residuals(options.start.residual.begin(), options.start.residual.end());
   const auto deliver = [&](int index, Vec phi) {
     double eigenvalue = 0, residual = 0;
     check(VecCopy(phi, w.phi));
@@ -145,12 +171,18 @@ Eigenmodes find_free_modes(Mat K, Mat M, const RigidModes& rigid, const EigenOpt
     measure(K, M, w, &eigenvalue, &residual);
     if ((index < kRigid) != (eigenvalue <= zero)) fail_count(index);
     if (index < kRigid) return;
-    modes.eigenvalue(index - kRigid) = eigenvalue;
-    modes.residual(index - kRigid) = residual;
+    const std::size_t k = static_cast<std::size_t>(index - kRigid);
+    eigenvalues.resize(k);
+    residuals.resize(k);
+    eigenvalues.push_back(eigenvalue);
+    residuals.push_back(residual);
     sink(index - kRigid, w.phi);
   };
-  modes.iterations = find_eigenmodes(shifted, M, all, deliver, progress).iterations;
-  return modes;
+  const Eigenmodes all =
+      find_eigenmodes(shifted, M, with_rigid_modes(options, rigid.shift), deliver, progress);
+  const Eigen::Index count = all.eigenvalue.size() - kRigid;
+  return {Eigen::Map<const Eigen::VectorXd>(eigenvalues.data(), count),
+          Eigen::Map<const Eigen::VectorXd>(residuals.data(), count), all.orthogonality, all.iterations};
 }
 
 }  // namespace elastogear::reduction
