@@ -32,7 +32,7 @@ void write_mesh(std::ostream& deck, const mesh::Mesh& mesh, const std::string& e
   }
 }
 
-void write_deck(const fs::path& path, const CalculixModel& model, int n) {
+void write_deck(const fs::path& path, const CalculixModel& model, int n, const std::string& solver = "") {
   std::ofstream deck(path);
   deck << std::scientific << std::setprecision(12);  // CalculiX reads 20 characters of a number
   write_mesh(deck, model.mesh, model.element);
@@ -43,7 +43,7 @@ void write_deck(const fs::path& path, const CalculixModel& model, int n) {
   for (const auto& name : model.restrained_sets)
     for (int node : mesh::node_set(model.mesh, name)) held.insert(node);
   for (int node : held) deck << node + 1 << ", 1, 3\n";
-  deck << "*STEP\n*FREQUENCY\n" << n << "\n*END STEP\n";
+  deck << "*STEP\n*FREQUENCY" << solver << "\n" << n << "\n*END STEP\n";
   require(deck.good(), "cannot write ", path);
 }
 
@@ -75,6 +75,18 @@ std::vector<double> calculix_frequencies(const CalculixModel& model, int n) {
           frequencies.size(), " of ", n, " frequencies");
   fs::remove_all(folder);
   return {frequencies.begin(), frequencies.begin() + n};
+}
+
+CalculixMatrices::CalculixMatrices(const CalculixModel& model) : folder(make_folder()) {
+  write_deck(fs::path(folder) / "deck.inp", model, 1, ", SOLVER=MATRIXSTORAGE");
+  const int status = std::system(("cd '" + folder + "' && ccx -i deck > log.txt 2>&1").c_str());
+  require(status == 0 && fs::exists(stiffness()) && fs::exists(mass()) && fs::exists(dofs()),
+          "ccx stored no matrices in ", folder);
+}
+
+CalculixMatrices::~CalculixMatrices() {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
 }
 
 }  // namespace elastogear::test

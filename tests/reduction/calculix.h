@@ -22,4 +22,17 @@ struct CalculixModel {
 /// .dat.
 std::vector<double> calculix_frequencies(const CalculixModel& model, int n);
 
+/// The matrices that ccx stores by *FREQUENCY, SOLVER=MATRIXSTORAGE, in a folder that goes with this.
+struct CalculixMatrices {
+  std::string folder;
+
+  explicit CalculixMatrices(const CalculixModel& model);
+  ~CalculixMatrices();
+  CalculixMatrices(const CalculixMatrices&) = delete;
+  CalculixMatrices& operator=(const CalculixMatrices&) = delete;
+  std::string stiffness() const { return folder + "/deck.sti"; }
+  std::string mass() const { return folder + "/deck.mas"; }
+  std::string dofs() const { return folder + "/deck.dof"; }
+};
+
 }  // namespace elastogear::test
