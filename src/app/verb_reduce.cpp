@@ -1,11 +1,15 @@
 // elastogear reduce: mesh + material + basis -> body file.
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "app/console.h"
 #include "app/verbs.h"
 #include "elastogear/base/agree.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/number.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/mesh/file.h"
 #include "elastogear/reduction/eigenmodes.h"
@@ -16,7 +20,7 @@ namespace {
 
 const OptionTable kTable = {
     {"mesh", "-", "", "volume mesh to read, Gmsh 4.1 .msh or Abaqus .inp"},
-    {"unit", "-", "m", "unit of length of the mesh file: m or mm"},
+    {"unit", "-", "m", "unit of the mesh file or node table: m, or mm (then matrices are in N/mm and t)"},
     {"output", "-", "", "body file to write (HDF5)"},
     {"material_E", "Pa", "", "Young's modulus of all cells that no material_<set> names"},
     {"material_nu", "-", "", "Poisson's ratio"},
@@ -26,7 +30,22 @@ const OptionTable kTable = {
     {"material_<set>_rho", "kg/m^3", "", "density of one cell set"},
     {"element", "-", "incompatible",
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
-    {"restrain", "-", "", "node sets that are held in all directions and carry the body frame"},
+    {"restrain", "-", "",
+     "node sets that are held in all directions and carry the body frame; none: a free body, free-free "
+     "modes"},
+    {"restrain_nodes", "-", "",
+     "nodes that are held besides, by their numbers in the mesh file or node table"},
+    {"stiffness", "-", "",
+     "stiffness matrix of another program, in place of assembly: Abaqus *MATRIX OUTPUT, CalculiX .sti, "
+     "triplets"},
+    {"mass", "-", "", "its mass matrix"},
+    {"matrix_format", "-", "auto", "of both: auto, abaqus, calculix or triplets (Matrix Market among them)"},
+    {"dofs", "-", "",
+     "file that names the rows of calculix or triplets, node.direction a line (CalculiX .dof)"},
+    {"nodes", "-", "", "table of nodes, number x y z, in place of the mesh"},
+    {"frame", "m", "",
+     "origin of the body frame: mesh, centre_of_mass, or x,y,z in the mesh's coordinates (default: "
+     "centre_of_mass for a free body, else mesh)"},
     {"surface", "-", "", "face sets of the contact surface"},
     {"stress_nodes", "-", "", "node sets at which stress modes are stored"},
     {"basis", "-", "modal",
@@ -41,9 +60,14 @@ const OptionTable kTable = {
     {"symmetry", "-", "auto",
      "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none: from the "
      "whole body"},
+    {"completeness", "-", "true",
+     "check how much of the static answer to loads on the surface the modes give: one more factorisation"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
 };
+
+// The node set that restrain_nodes makes.
+constexpr const char* kListedNodes = "restrain_nodes";
 
 model::Material material(const Options& options, const std::string& prefix) {
   return {options.positive(prefix + "E"), options.number(prefix + "nu"), options.positive(prefix + "rho")};
@@ -53,6 +77,7 @@ std::vector<model::MaterialRegion> regions(const Options& options) {
   std::vector<model::MaterialRegion> regions;
   for (const std::string& set : options.placeholder_values("material_<set>_E"))
     regions.push_back({set, material(options, "material_" + set + "_")});
+  if (regions.empty() && options.given("stiffness") && !options.given("material_E")) return regions;
   if (regions.empty() || options.given("material_E")) regions.push_back({"", material(options, "material_")});
   return regions;
 }
@@ -68,12 +93,43 @@ int window(const Options& options) {
   return asks_for_slepc(options) ? 0 : reduction::kAutomaticWindow;
 }
 
+double unit_in_m(const Options& options) { return options.choice("unit", {"m", "mm"}) == 0 ? 1 : 1e-3; }
+
+std::optional<reduction::ForeignFiles> foreign_files(const Options& options) {
+  if (!options.given("stiffness")) {
+    for (const char* name : {"mass", "matrix_format", "dofs", "nodes"})
+      require(!options.given(name), "option -", name, " needs -stiffness, a matrix of another program");
+    return {};
+  }
+  reduction::ForeignFiles files{options.text("stiffness"), options.text("mass")};
+  if (options.given("dofs")) files.dofs = options.text("dofs");
+  files.format = static_cast<io::MatrixFormat>(
+      options.choice("matrix_format", {"auto", "abaqus", "calculix", "triplets"}));
+  require(files.format != io::MatrixFormat::calculix || !files.dofs.empty(),
+          "option -matrix_format = 'calculix' needs -dofs, the .dof file beside the matrices");
+  files.stiffness_unit = files.mass_unit = 1 / unit_in_m(options);  // N and s stay: N/mm, t = N s^2/mm
+  return files;
+}
+
+void set_restraint(const Options& options, reduction::ReductionOptions& o) {
+  o.restrain = options.list("restrain");
+  o.floating = o.restrain == std::vector<std::string>{"none"};
+  if (o.floating) o.restrain.clear();
+  if (!options.list("restrain_nodes").empty()) o.restrain.push_back(kListedNodes);
+  const bool word = options.given("frame") && options.list("frame").size() == 1;
+  if (options.given("frame") && !word)
+    o.frame_origin = options.vector("frame");
+  else
+    o.frame_at_center = word ? options.choice("frame", {"mesh", "centre_of_mass"}) == 1 : o.floating;
+}
+
 reduction::ReductionOptions reduction_options(const Options& options) {
   reduction::ReductionOptions o;
   o.name = std::filesystem::path(options.text("output")).stem().string();
   o.regions = regions(options);
+  o.foreign = foreign_files(options);
   o.element = static_cast<model::Element>(options.choice("element", {"incompatible", "plain", "bbar"}));
-  o.restrain = options.list("restrain");
+  set_restraint(options, o);
   o.surface = options.list("surface");
   o.stress_nodes = options.list("stress_nodes");
   o.basis = options.choice("basis", {"modal", "full"}) == 0 ? model::Basis::modal : model::Basis::full;
@@ -85,23 +141,60 @@ reduction::ReductionOptions reduction_options(const Options& options) {
                                                                          : io::Precision::float32;
   o.symmetry = options.choice("symmetry", {"auto", "none"}) == 0 ? reduction::Symmetry::automatic
                                                                  : reduction::Symmetry::none;
+  o.completeness = options.flag("completeness");
   o.alpha = options.number("damping_alpha");
   o.beta = options.number("damping_beta");
   o.provenance = options.provenance();
   return o;
 }
 
-mesh::Mesh read_on_rank_0(const Options& options) {
-  const double unit = options.choice("unit", {"m", "mm"}) == 0 ? 1 : 1e-3;
-  int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+struct Nodes {
   mesh::Mesh mesh;
   mesh::ReadReport report;
+};
+
+Nodes read_nodes(const Options& options) {
+  Nodes nodes;
+  if (!options.given("nodes")) {
+    nodes.mesh = mesh::read_mesh(options.text("mesh"), unit_in_m(options), &nodes.report);
+    return nodes;
+  }
+  const std::string path = options.text("nodes");
+  require(!options.given("mesh"), "options -mesh and -nodes: only one of them can give the nodes");
+  std::ifstream in(path);
+  require(in.good(), path, ": cannot be opened");
+  io::NodeTable table = io::read_node_table(in, path);
+  nodes.mesh.X = unit_in_m(options) * table.X;
+  nodes.report.node_number = std::move(table.number);
+  return nodes;
+}
+
+std::vector<int> listed_nodes(const Options& options, const std::vector<std::int64_t>& numbers) {
+  std::vector<int> nodes;
+  for (const std::string& text : options.list("restrain_nodes")) {
+    const auto number = parse<std::int64_t>(text);
+    const auto found = std::lower_bound(numbers.begin(), numbers.end(), number.value_or(0));
+    require(number && found != numbers.end() && *found == *number,
+            "option -restrain_nodes: there is no node '", text, "'");
+    nodes.push_back(static_cast<int>(found - numbers.begin()));
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+Nodes read_on_rank_0(const Options& options) {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  Nodes nodes;
   agree(PETSC_COMM_WORLD, [&] {
-    if (rank == 0) mesh = mesh::read_mesh(options.text("mesh"), unit, &report);
+    if (rank != 0) return;
+    nodes = read_nodes(options);
+    const auto listed = listed_nodes(options, nodes.report.node_number);
+    if (!listed.empty()) nodes.mesh.node_sets[kListedNodes] = listed;
   });
-  for (const std::string& ignored : report.ignored) print_item("ignored in the mesh", ignored);
-  return mesh;
+  for (const std::string& ignored : nodes.report.ignored) print_item("ignored in the mesh", ignored);
+  return nodes;
 }
 
 std::string vector_text(const Eigen::Vector3d& v, const std::string& unit) {
@@ -111,12 +204,39 @@ std::string vector_text(const Eigen::Vector3d& v, const std::string& unit) {
   return text.str();
 }
 
+std::string percent(const Eigen::RowVectorXd& shares) {
+  std::string text;
+  for (double share : shares) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.1f", text.empty() ? "" : "  ", 100 * share);
+    text += number;
+  }
+  return text + " %";
+}
+
+// Tables of a row per mode are left to the file.
+void print_check(const model::Check& check) {
+  if (check.name == "captured_mass") {
+    print_item("mass captured, x y z rx ry rz", percent(check.value.row(0)) + " of what all modes carry");
+    print_item("", percent(check.value.row(1)) + " of the body's");
+  } else if (check.name == "rigid_coupling") {
+    print_item("coupling to rigid motions", "at most " + with_unit(check.value.maxCoeff(), ""));
+  } else if (check.name == "static_completeness") {
+    Eigen::Index worst = 0, best = 0;
+    const double low = check.value.col(0).minCoeff(&worst), high = check.value.col(0).maxCoeff(&best);
+    print_item("static completeness",
+               percent(Eigen::RowVectorXd::Constant(1, low)) + " (" + check.row[worst] + ") to " +
+                   percent(Eigen::RowVectorXd::Constant(1, high)) + " (" + check.row[best] + ")");
+  }
+}
+
 void print_summary(const reduction::ReductionReport& report, const std::string& output) {
   print_item("nodes / elements", std::to_string(report.n_nodes) + " / " + std::to_string(report.n_cells));
   print_item("degrees of freedom", std::to_string(report.n_dofs) + ", free " + std::to_string(report.n_free));
   print_item("ranks", std::to_string(report.n_ranks) + ", faces cut " + std::to_string(report.edge_cut) +
                           ", largest part / mean " + with_unit(report.balance, ""));
   if (!report.symmetry.empty()) print_item("symmetry", report.symmetry);
+  print_item("body frame's origin", vector_text(report.origin, "m of the mesh"));
   print_item("mass", with_unit(report.m, "kg"));
   print_item("centre of mass", vector_text(report.c, "m"));
   print_item("inertia about it, diagonal", vector_text(report.J.diagonal(), "kg m^2"));
@@ -134,6 +254,7 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
     print_item("largest phi_i' M phi_j", with_unit(report.orthogonality, ""));
     print_item("count", "complete, by the inertia of K - sigma M");
   }
+  for (const model::Check& check : report.checks) print_check(check);
   for (const reduction::StageTime& stage : report.times)
     print_item("time: " + stage.stage, duration(stage.seconds));
   print_item("written", output);
@@ -142,10 +263,11 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
 void run(const Options& options, const std::vector<std::string>&) {
   options.reject_unknown();
   const std::string output = options.text("output");
-  const reduction::ReductionOptions reduction = reduction_options(options);
-  const mesh::Mesh mesh = read_on_rank_0(options);
+  reduction::ReductionOptions reduction = reduction_options(options);
+  const Nodes nodes = read_on_rank_0(options);
+  if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
   const reduction::ReductionReport report =
-      reduction::reduce(PETSC_COMM_WORLD, mesh, reduction, output, console_progress());
+      reduction::reduce(PETSC_COMM_WORLD, nodes.mesh, reduction, output, console_progress());
   print_summary(report, output);
 }
 

@@ -60,6 +60,17 @@ body::Joint joint(const Options& options, const std::string& prefix) {
   return joint;
 }
 
+// A body reduced free has no nodes that carry its frame.
+void check_free_body(const dynamics::BodySetup& setup) {
+  if (!setup.body->floating) return;
+  require(setup.body->basis == model::Basis::modal || setup.joint.type == body::JointType::fixed, "body ",
+          setup.name,
+          " was reduced free with the full basis, which contains rigid motions: its joint must be fixed");
+  print_item("warning", "body " + setup.name +
+                            " was reduced free, but a joint holds its frame: no node is held, " +
+                            "its mean motion is");
+}
+
 dynamics::BodySetup body_setup(const Options& options, const std::string& name) {
   const std::string prefix = name + "_";
   dynamics::BodySetup setup;
@@ -69,6 +80,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   setup.rotation.s_dot_0 = options.number(prefix + "omega0");
   setup.rotation.load = dynamics::constant_signal(options.number(prefix + "torque"));
   setup.body = std::make_shared<model::ElasticBody>(io::read_body(options.text(prefix + "file")));
+  check_free_body(setup);
   return setup;
 }
 

@@ -1,16 +1,17 @@
 #include "elastogear/fem/gather.h"
 
-#include <vector>
+#include <algorithm>
+#include <numeric>
 
 namespace elastogear::fem {
 namespace {
 
-// Per scalar row of the distributed matrix its number among the free displacements in the mesh's order.
-std::vector<int> free_numbers(const RowNumbering& rows) {
-  std::vector<int> number(3 * rows.node.size());
-  int next = 0;
-  for (int row : rows.row)
-    for (int d = 0; row >= 0 && d < 3; ++d) number[3 * static_cast<std::size_t>(row) + d] = next++;
+// Per scalar row its number among the displacements in ascending order.
+std::vector<int> ranks_of(const std::vector<int>& dof) {
+  std::vector<int> row(dof.size()), number(dof.size());
+  std::iota(row.begin(), row.end(), 0);
+  std::sort(row.begin(), row.end(), [&](int i, int j) { return dof[i] < dof[j]; });
+  for (std::size_t i = 0; i < row.size(); ++i) number[row[i]] = static_cast<int>(i);
   return number;
 }
 
@@ -30,7 +31,17 @@ UniqueMat on_root(Mat A) {
 
 }  // namespace
 
-VectorGather::VectorGather(Vec layout, const RowNumbering& rows) : rows_(&rows) {
+std::vector<int> row_dofs(const RowNumbering& rows) {
+  std::vector<int> dof;
+  for (int node : rows.node) dof.insert(dof.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+  return dof;
+}
+
+VectorGather::VectorGather(Vec layout, const RowNumbering& rows)
+    : VectorGather(layout, row_dofs(rows), 3 * static_cast<int>(rows.row.size())) {}
+
+VectorGather::VectorGather(Vec layout, std::vector<int> dof, int n_dofs)
+    : dof_(std::move(dof)), n_dofs_(n_dofs) {
   check(VecScatterCreateToZero(layout, scatter_.out(), on_root_.out()));
 }
 
@@ -41,15 +52,30 @@ Eigen::VectorXd VectorGather::operator()(Vec v) const {
   const PetscScalar* values = nullptr;
   check(VecGetLocalSize(on_root_, &n));
   check(VecGetArrayRead(on_root_, &values));
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(n > 0 ? 3 * static_cast<Eigen::Index>(rows_->row.size()) : 0);
-  for (PetscInt i = 0; i < n; ++i) u(3 * rows_->node[static_cast<std::size_t>(i / 3)] + i % 3) = values[i];
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(n > 0 ? n_dofs_ : 0);
+  for (PetscInt i = 0; i < n; ++i) u(dof_[i]) = values[i];
   check(VecRestoreArrayRead(on_root_, &values));
   return u;
 }
 
+void VectorGather::scatter(const Eigen::VectorXd& u, Vec v) const {
+  PetscInt n = 0;
+  PetscScalar* values = nullptr;
+  check(VecGetLocalSize(on_root_, &n));
+  check(VecGetArrayWrite(on_root_, &values));
+  for (PetscInt i = 0; i < n; ++i) values[i] = u(dof_[i]);
+  check(VecRestoreArrayWrite(on_root_, &values));
+  check(VecScatterBegin(scatter_, on_root_, v, INSERT_VALUES, SCATTER_REVERSE));
+  check(VecScatterEnd(scatter_, on_root_, v, INSERT_VALUES, SCATTER_REVERSE));
+}
+
 Eigen::SparseMatrix<double> gather_matrix(Mat A, const RowNumbering& rows) {
+  return gather_matrix(A, row_dofs(rows));
+}
+
+Eigen::SparseMatrix<double> gather_matrix(Mat A, const std::vector<int>& dof) {
   const UniqueMat root = on_root(A);
-  const std::vector<int> number = free_numbers(rows);
+  const std::vector<int> number = ranks_of(dof);
   std::vector<Eigen::Triplet<double>> entries;
   PetscInt begin = 0, end = 0;
   check(MatGetOwnershipRange(root, &begin, &end));

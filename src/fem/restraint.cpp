@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "elastogear/base/error.h"
 
@@ -66,6 +67,14 @@ void require_held(const mesh::Mesh& mesh, const std::vector<bool>& is_free) {
     require(!on_one_line(mesh, nodes), "the stiffness is singular: the connected part of the mesh with node ",
             node, " (counted from 0) has ", nodes.size(), nodes.size() < 3 ? "" : " collinear",
             " restrained nodes, at least three that are not on one line are needed (option restrain)");
+}
+
+void require_connected(const mesh::Mesh& mesh) {
+  const std::vector<int> part = connected_parts(mesh);
+  std::set<int> parts;
+  for (int node : mesh.cells.nodes) parts.insert(part[node]);
+  require(parts.size() == 1, "a free body must hang together, the mesh has ", parts.size(),
+          " parts: restrain them, or reduce them one by one");
 }
 
 }  // namespace elastogear::fem

@@ -2,6 +2,7 @@
 
 #include "basis_rows.h"
 #include "body_schema.h"
+#include "checks.h"
 #include "elastogear/io/body_file.h"
 
 namespace elastogear::io {
@@ -99,6 +100,7 @@ model::ElasticBody read_body(const std::string& path) {
   model::ElasticBody body;
   body.name = h5::string_attribute(file, "/", "name");
   body.basis = read_basis(file);
+  body.floating = h5::string_attribute(file, "/", "restraint") == "none";
   body.provenance = h5::read_map(file, "/provenance");
   body.M_r = read_square(file, "/reduced/M");
   body.K_r = read_square(file, "/reduced/K");
@@ -119,6 +121,8 @@ BodySource read_body_source(const std::string& path) {
   source.regions = read_materials(file);
   source.element = parse_element(path, h5::string_attribute(file, "/", "element"));
   source.free_dof = read_free_dof(file, 3 * source.mesh.X.cols());
+  source.origin = Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, "/rigid/origin", {3}).data());
+  source.checks = read_checks(file);
   return source;
 }
 

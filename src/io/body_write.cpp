@@ -2,6 +2,7 @@
 
 #include "basis_rows.h"
 #include "body_schema.h"
+#include "checks.h"
 #include "elastogear/base/file.h"
 #include "elastogear/io/body_file.h"
 
@@ -136,6 +137,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   const BodyUnits& unit = body_units(body.basis);
   h5::set_attribute(file, "/", "name", body.name);
   h5::set_attribute(file, "/", "basis", basis_name(body.basis));
+  h5::set_attribute(file, "/", "restraint", std::string(body.floating ? "none" : "nodes"));
   h5::set_attribute(file, "/", "element", element_name(source.element));
   h5::write_map(file, "/provenance", body.provenance);
   write_modes(file, body);
@@ -147,6 +149,8 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   h5::write<int>(file, "/reduced/free_dof", view(source.free_dof), "1");
   write_mesh(file, source.mesh);
   write_materials(file, source.regions);
+  h5::write<double>(file, "/rigid/origin", {{3}, source.origin.data()}, "m");
+  write_checks(file, source.checks);
   data_->modes = h5::Id();
   h5::close(data_->file);
   data_->pending.commit();

@@ -89,12 +89,28 @@ void describe_modes(Out& out, const std::string& path, const model::ElasticBody&
   line(out, "damping: alpha = ", body.alpha, " 1/s, beta = ", body.beta, " s");
 }
 
+// Tables of many rows by their range.
+void describe_check(Out& out, const model::Check& check) {
+  constexpr Eigen::Index kMostRows = 12;
+  const std::string unit = check.unit == "1" ? "" : " " + check.unit;
+  line(out, "check ", check.name, ": ", check.meaning);
+  if (check.value.size() == 0) return;
+  if (check.value.rows() > kMostRows)
+    return line(out, "  ", check.value.rows(), " rows, ", check.value.minCoeff(), " to ",
+                check.value.maxCoeff(), unit);
+  for (Eigen::Index i = 0; i < check.value.rows(); ++i)
+    line(out, "  ", check.row.empty() ? "" : check.row[static_cast<std::size_t>(i)] + ": ",
+         check.value.row(i), unit);
+}
+
 void describe_body(Out& out, const std::string& path) {
   const model::ElasticBody body = read_body(path);
   const BodySource source = read_body_source(path);
   line(out, "body: ", body.name);
   describe_modes(out, path, body);
   describe_inertia(out, body.inertia);
+  if (body.floating) line(out, "restraint: none, a free body");
+  line(out, "body frame: origin at (", source.origin.transpose(), ") m of the mesh that was reduced");
   line(out, "element of hex8 cells: ", element_name(source.element), ", ",
        counted(source.free_dof.size(), "free degree"), " of freedom");
   for (const auto& [cell_set, material] : source.regions)
@@ -107,6 +123,7 @@ void describe_body(Out& out, const std::string& path) {
        groups.empty() ? "" : ":", groups);
   line(out, "stress: ", counted(body.stress.node.size(), "node"));
   describe_sets(out, "stress node", body.stress.sets);
+  for (const model::Check& check : source.checks) describe_check(out, check);
   describe_mesh(out, source.mesh);
   describe_map(out, body.provenance);
 }

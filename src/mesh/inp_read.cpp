@@ -170,6 +170,8 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   ReadReport found;
   Mesh mesh = build(in, deck, unit_in_m, found);
   found.ignored = std::move(deck.ignored);
+  std::sort(deck.node.begin(), deck.node.end());
+  found.node_number = std::move(deck.node);
   if (report) *report = std::move(found);
   return mesh;
 }

@@ -250,9 +250,11 @@ Mesh parse_msh(const std::string& path, std::string content, double unit_in_m, R
   build_sets(raw, nodes, cells, mesh);
   orient_faces(mesh);
   validate(mesh, path);
-  if (report)
-    for (const auto& [what, count] : raw.left_out)
-      report->ignored.push_back(what + " (" + std::to_string(count) + ")");
+  if (!report) return mesh;
+  report->node_number = raw.node;
+  std::sort(report->node_number.begin(), report->node_number.end());
+  for (const auto& [what, count] : raw.left_out)
+    report->ignored.push_back(what + " (" + std::to_string(count) + ")");
   return mesh;
 }
 

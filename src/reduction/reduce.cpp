@@ -18,8 +18,10 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/mesh/partition.h"
 #include "elastogear/reduction/basis.h"
+#include "elastogear/reduction/checks.h"
 #include "elastogear/reduction/cyclic.h"
 #include "elastogear/reduction/eigenmodes.h"
+#include "elastogear/reduction/free_body.h"
 #include "elastogear/reduction/surface.h"
 #include "fingerprint.h"
 #include "harmonic_pieces.h"
@@ -37,7 +39,9 @@ struct Plan {
   std::vector<int> free_dof;
   mesh::Repetition repetition;  // n_sectors = 1 (on all ranks): none
   mesh::Partition partition;
-  fem::RowNumbering rows;
+  fem::RowNumbering rows;  // own matrices only
+  fem::Matrices foreign;   // on all ranks
+  std::vector<int> dof;    // displacement of every scalar row
   fem::MassMoments moments;
   model::SparseRows S;
   model::ElasticBody body;
@@ -45,7 +49,7 @@ struct Plan {
 
 struct Job {
   MPI_Comm comm;
-  const mesh::Mesh& mesh;
+  mesh::Mesh mesh;
   const ReductionOptions& options;
   const std::string& output;
   const Progress& progress;
@@ -94,17 +98,21 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
                              const fem::MassMoments& moments) {
   model::ElasticBody body;
   body.name = options.name;
+  body.floating = options.floating;
   body.inertia = fem::rigid_inertia(mesh, moments);
   body.alpha = options.alpha;
   body.beta = options.beta;
-  body.surface = make_surface(mesh, options.regions, options.surface);
+  if (!options.surface.empty()) body.surface = make_surface(mesh, options.regions, options.surface);
   body.stress = make_stress(mesh, options.stress_nodes);
   body.provenance = options.provenance;
   return body;
 }
 
 void validate(const ReductionOptions& options) {
-  fem::validate(options.regions);
+  if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
+  require(!options.floating || options.restrain.empty(), "a free body has no restrained node sets");
+  require(options.frame_origin.allFinite(), "the origin of the body frame (",
+          options.frame_origin.transpose(), ") m must be finite");
   require(options.alpha >= 0, "damping alpha = ", options.alpha, " 1/s, must not be negative");
   require(options.beta >= 0, "damping beta = ", options.beta, " s, must not be negative");
 }
@@ -143,7 +151,7 @@ mesh::RepetitionSearch search_repetition(const Job& job) {
 // On rank 0; whether there is one is known to all.
 void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
-  if (!job.modal() || job.options.symmetry == Symmetry::none) return;
+  if (!job.modal() || job.options.floating || job.options.symmetry == Symmetry::none) return;
   job.on_root([&] {
     auto [found, reason] = search_repetition(job);
     if (found) repetition = std::move(*found);
@@ -159,7 +167,10 @@ void number(Job& job) {
   fem::require_positive_jacobians(mesh);
   plan.region = fem::cell_regions(mesh, job.options.regions);
   plan.is_free = fem::free_nodes(mesh, job.options.restrain);
-  fem::require_held(mesh, plan.is_free);
+  if (job.options.floating)
+    fem::require_connected(mesh);
+  else
+    fem::require_held(mesh, plan.is_free);
   plan.free_dof = fem::free_dofs(plan.is_free);
   require(!plan.free_dof.empty(), "all nodes are restrained, no degree of freedom is left");
   if (job.modal()) require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
@@ -167,9 +178,11 @@ void number(Job& job) {
 
 fem::Matrices assemble(Job& job) {
   Plan& plan = job.plan;
+  if (job.options.foreign) return std::move(plan.foreign);
   job.on_root([&] {
     plan.partition = mesh::partition_cells(job.mesh, job.size);
     plan.rows = fem::number_rows(job.mesh, plan.is_free, plan.partition.part, job.size);
+    plan.dof = fem::row_dofs(plan.rows);
   });
   const fem::Share share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
   job.finish_stage("partition");
@@ -179,11 +192,63 @@ fem::Matrices assemble(Job& job) {
   return matrices;
 }
 
+// What the user may still hold or not, given the displacements that the files have.
+void require_restraint(const Job& job, bool complete) {
+  const ReductionOptions& options = job.options;
+  const bool held = !complete || !options.restrain.empty();
+  require(held || options.floating,
+          "nothing holds the body: name node sets by option restrain, or reduce it ",
+          "as a free body (restrain: none)");
+  require(!held || !options.floating, "a free body needs matrices of all displacements, ",
+          options.foreign->stiffness, " lacks some: they are held");
+  require(complete || job.mesh.cells.size() > 0, options.foreign->mass,
+          " lacks displacements, so that the inertia must come from a mesh with cells and materials");
+}
+
+void read_matrices(Job& job) {
+  Plan& plan = job.plan;
+  const ForeignFiles& files = *job.options.foreign;
+  job.on_root([&] { validate(job.options); });
+  ForeignSystem system = read_foreign(job.comm, job.mesh, files, job.progress);
+  require_positive(system.matrices.M, files.mass);
+  int complete = job.rank == 0 && is_complete(job.mesh, system.dof);
+  MPI_Bcast(&complete, 1, MPI_INT, 0, job.comm);
+  job.on_root([&] { require_restraint(job, complete); });
+  if (complete) {
+    UniqueVec layout;
+    check(MatCreateVecs(system.matrices.M, layout.out(), nullptr));
+    plan.moments = mass_moments(system.matrices.M, {layout, system.dof, 3 * job.mesh.n_nodes()}, job.mesh);
+  }
+  job.on_root([&] {
+    plan.is_free.assign(static_cast<std::size_t>(job.mesh.n_nodes()), true);
+    for (const std::string& name : job.options.restrain)
+      for (int node : mesh::node_set(job.mesh, name)) plan.is_free[node] = false;
+  });
+  if (!job.options.restrain.empty()) system = restrict_to(system, plan.is_free);
+  if (!job.options.floating) require_positive(system.matrices.K, files.stiffness);
+  plan.dof = plan.free_dof = system.dof;
+  plan.foreign = std::move(system.matrices);
+}
+
+// From here on all coordinates are in the body frame.
+void place_frame(Job& job) {
+  fem::MassMoments& moments = job.plan.moments;
+  const Eigen::Vector3d origin =
+      job.options.frame_at_center ? fem::rigid_inertia(job.mesh, moments).c : job.options.frame_origin;
+  job.mesh.X.colwise() -= origin;
+  job.plan.repetition.turn.point -= origin;
+  moments.w_1 -= origin * moments.w_0.transpose();
+  job.report.origin = origin;
+}
+
 void prepare_body(Job& job) {
   Plan& plan = job.plan;
-  plan.moments = fem::mass_moments(job.mesh, job.options.regions);
+  if (plan.moments.w_0.size() == 0) plan.moments = fem::mass_moments(job.mesh, job.options.regions);
+  place_frame(job);
   plan.body = make_body(job.mesh, job.options, plan.moments);
-  plan.S = fem::stress_operator(job.mesh, job.options.regions, job.options.element, plan.body.stress.node);
+  plan.S = plan.body.stress.node.empty() ? model::SparseRows(0, 3 * job.mesh.n_nodes())
+                                         : fem::stress_operator(job.mesh, job.options.regions,
+                                                                job.options.element, plan.body.stress.node);
   const PendingFile can_be_written(job.output);
 }
 
@@ -234,7 +299,8 @@ void set_eigenmodes(Job& job, const Eigenmodes& modes) {
 }
 
 io::BodySource source_of(const Job& job) {
-  return {job.mesh, job.options.regions, job.options.element, job.plan.free_dof};
+  return {job.mesh,          job.options.regions, job.options.element,
+          job.plan.free_dof, job.report.checks,   job.report.origin};
 }
 
 // The body file of a modal basis, mode by mode. Rank 0.
@@ -261,14 +327,11 @@ class ModalWriter {
   io::BodyWriter writer_;
 };
 
-Eigenmodes find_modes(Job& job, const fem::Matrices& matrices, ModePieces& pieces) {
-  UniqueVec layout;
+Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModePieces& pieces) {
   PetscInt n_own = 0;
-  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
-  check(VecGetLocalSize(layout, &n_own));
-  const fem::VectorGather gather(layout, job.plan.rows);
+  check(MatGetLocalSize(system.K, &n_own, nullptr));
   const auto keep = [&](int k, Vec v) {
-    Eigen::VectorXd phi = gather(v);
+    Eigen::VectorXd phi = system.gather(v);
     job.on_root([&] { pieces.add(k, mode_record(job, std::move(phi))); });
   };
   EigenOptions options = eigen_options(job.options);
@@ -276,33 +339,52 @@ Eigenmodes find_modes(Job& job, const fem::Matrices& matrices, ModePieces& piece
   options.commit = [&](const SearchState& state) { pieces.commit(state); };
   report_continued(job, static_cast<int>(options.start.eigenvalue.size()), pieces.discarded(),
                    "of " + std::to_string(options.n_modes) + " modes");
-  return find_eigenmodes(matrices.K, matrices.M, options, keep, job.progress);
+  return system.rigid ? find_free_modes(system.K, system.M, *system.rigid, options, keep, job.progress)
+                      : find_eigenmodes(system.K, system.M, options, keep, job.progress);
 }
 
 std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
   Fingerprint f;
   job.on_root([&] {
     f = fingerprint_of(job);
-    f.add_all(job.plan.rows.row);
+    f.add_all(job.plan.dof);
   });
   for (std::uint64_t word : {fingerprint(matrices.K), fingerprint(matrices.M)}) f.add(word);
   return f.text();
 }
 
+void check_basis(Job& job, const ElasticSystem& system) {
+  const Plan& plan = job.plan;
+  auto& checks = job.report.checks;
+  checks = mass_checks(system, plan.body, plan.moments);
+  if (job.options.completeness)
+    for (model::Check& check : load_checks(system, plan.body, job.mesh.n_nodes()))
+      checks.push_back(std::move(check));
+  job.finish_stage("checks");
+}
+
 // From the matrices of the whole body.
 void reduce_whole(Job& job) {
   const fem::Matrices matrices = assemble(job);
+  UniqueVec layout;
+  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
+  const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
+  std::optional<RigidModes> rigid;
+  if (job.options.floating) rigid = find_rigid_modes(matrices.K, matrices.M, gather, job.mesh.X);
+  const ElasticSystem system{matrices.K, matrices.M, gather, rigid ? &*rigid : nullptr};
   ModePieces pieces(job.comm, job.output + ".partial", fingerprint_of(job, matrices), job.options.precision);
-  set_eigenmodes(job, find_modes(job, matrices, pieces));
+  set_eigenmodes(job, find_modes(job, system, pieces));
   job.finish_stage("eigenmodes");
+  std::optional<ModalWriter> writer;
   job.on_root([&] {
     const int n_q = static_cast<int>(job.report.frequency.size());
-    ModalWriter writer(job, n_q);
+    writer.emplace(job, n_q);
     pieces.visit([&](int k, const ModeRecord& mode) {
-      if (k < n_q) writer.add(k, mode);  // later ones are void
+      if (k < n_q) writer->add(k, mode);  // later ones are void
     });
-    writer.finish();
   });
+  check_basis(job, system);
+  job.on_root([&] { writer->finish(); });
   pieces.clear();
 }
 
@@ -353,7 +435,7 @@ void reduce_modal(Job& job) { job.cyclic() ? reduce_sectors(job) : reduce_whole(
 void keep_all(Job& job) {
   Plan& plan = job.plan;
   const fem::Matrices matrices = assemble(job);
-  auto K = fem::gather_matrix(matrices.K, plan.rows), M = fem::gather_matrix(matrices.M, plan.rows);
+  auto K = fem::gather_matrix(matrices.K, plan.dof), M = fem::gather_matrix(matrices.M, plan.dof);
   job.on_root([&] {
     set_full_basis(plan.body, plan.free_dof, plan.moments, plan.S);
     plan.body.K_r = std::move(K);
@@ -379,6 +461,7 @@ void fill_report(Job& job) {
   report.n_free = static_cast<int>(job.plan.free_dof.size());
   report.n_ranks = job.size;
   report.edge_cut = job.plan.partition.edge_cut;
+  if (job.options.foreign) return;
   std::vector<int> cells(static_cast<std::size_t>(job.size), 0);
   for (int part : job.plan.partition.part) ++cells[part];
   if (!job.cyclic())
@@ -393,9 +476,14 @@ ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOpt
   Job job{comm, mesh, options, output, progress};
   MPI_Comm_rank(comm, &job.rank);
   MPI_Comm_size(comm, &job.size);
-  job.on_root([&] { number(job); });
-  find_symmetry(job);
-  job.finish_stage("numbering and symmetry");
+  if (options.foreign) {
+    read_matrices(job);
+    job.finish_stage("reading matrices");
+  } else {
+    job.on_root([&] { number(job); });
+    find_symmetry(job);
+    job.finish_stage("numbering and symmetry");
+  }
   job.on_root([&] { prepare_body(job); });
   job.finish_stage("inertia, surface and stress operator");
   if (job.modal())

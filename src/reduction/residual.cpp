@@ -55,9 +55,10 @@ void measure(Mat K, Mat M, const Residual& w, double* eigenvalue, double* residu
   *residual = rest / force;
 }
 
+double zero_eigenvalue(Mat K, Mat M) { return kZeroEigenvalue * largest_ratio(K, M); }
+
 void require_definite(Mat K, Mat M, double lowest) {
-  const double scale = largest_ratio(K, M);
-  if (lowest > kZeroEigenvalue * scale) return;
+  if (lowest > zero_eigenvalue(K, M)) return;
   fail_singular("its lowest eigenvalue is " + std::to_string(lowest) + " rad^2/s^2");
 }
 

@@ -21,6 +21,9 @@ void load(Vec phi, const Eigen::Ref<const Eigen::VectorXd>& own);
 /// residual: |K phi - eigenvalue M phi| / |K phi|.
 void measure(Mat K, Mat M, const Residual& w, double* eigenvalue, double* residual);
 
+/// rad^2/s^2; eigenvalues up to it are roundoff of the largest one.
+double zero_eigenvalue(Mat K, Mat M);
+
 /// Throws Error unless the lowest eigenvalue is above roundoff of the largest.
 void require_definite(Mat K, Mat M, double lowest);
 [[noreturn]] void fail_singular(const std::string& detail);

@@ -44,6 +44,8 @@ brick() {
 brick 3 >brick.inp
 sed 's/^5, 0.01,/5, nan,/' brick.inp >nan.inp
 sed 's/^2, 5, 6, 7, 8, 9, 10, 11, 12$/2, 9, 10, 11, 12, 5, 6, 7, 8/' brick.inp >inverted.inp
+printf '1,1, 1,1, 1.0\n1,1, 1,2, nan\n' >k.mtx
+printf '1,1, 1,1, 1.0\n17,1, 17,1, 2.0\n' >k2.mtx
 reduce=("$elastogear" reduce -mesh brick.inp -material_E 210e9 -material_nu 0.3 -material_rho 7850 -restrain FIX
         -surface TOP -modes 5 -output new.h5)
 
@@ -75,6 +77,12 @@ expect_error "no restraint" 'restrain' "$elastogear" reduce -mesh brick.inp -mat
 expect_error "too little restraint" '(singular|restrain)' "${reduce[@]}" -restrain CORNER
 expect_error "too many modes" 'modes.*37.*36' "${reduce[@]}" -modes 37
 expect_error "modes no number" 'modes.*many' "${reduce[@]}" -modes many
+expect_error "restraint of an unknown node" "no node '99'" "${reduce[@]}" -restrain_nodes 1,99
+expect_error "frame at no point" 'frame.*bore' "${reduce[@]}" -frame bore
+expect_error "mass without stiffness" 'mass.*needs -stiffness' "${reduce[@]}" -mass m.mtx
+expect_error "missing matrix" 'nosuch.mtx' "${reduce[@]}" -stiffness nosuch.mtx -mass nosuch.mtx
+expect_error "NaN in a matrix" "k.mtx, line 2: 'nan'" "${reduce[@]}" -stiffness k.mtx -mass k.mtx
+expect_error "matrix of another mesh" 'k2.mtx: node 17' "${reduce[@]}" -stiffness k2.mtx -mass k2.mtx
 expect_error "missing body file" 'nosuch.h5' "${simulate[@]}" -a_file nosuch.h5
 expect_error "truncated body file" 'truncated.h5' "${simulate[@]}" -a_file truncated.h5
 expect_error "a mesh as body file" 'wheel.msh' "${simulate[@]}" -a_file wheel.msh

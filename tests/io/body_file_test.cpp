@@ -89,6 +89,22 @@ TEST_F(BodyFile, gives_mesh_materials_and_free_dof_back) {
   EXPECT_EQ(b.regions[1].material.rho, 8800);
 }
 
+TEST_F(BodyFile, gives_checks_back) {
+  BodySource source = sample_source();
+  source.checks = {{"a", "kg", "of each mode", Eigen::MatrixXd::Random(5, 3)},
+                   {"b", "1", "shares", Eigen::MatrixXd::Random(2, 1), {"tooth 1, left", "tooth 1, right"}}};
+  BodyWriter(path, source.mesh.n_nodes(), 0).finish(sample_full_body(), source);
+  const auto read = read_body_source(path).checks;
+  ASSERT_EQ(read.size(), 2u);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(read[i].name, source.checks[i].name);
+    EXPECT_EQ(read[i].unit, source.checks[i].unit);
+    EXPECT_EQ(read[i].meaning, source.checks[i].meaning);
+    EXPECT_EQ(read[i].value, source.checks[i].value);
+    EXPECT_EQ(read[i].row, source.checks[i].row);
+  }
+}
+
 TEST_F(BodyFile, gives_cells_of_every_type_and_every_element_back) {
   const auto brick = test::brick({2, 2, 2}, {1, 1, 1});
   for (mesh::CellType type : test::all_cell_types())

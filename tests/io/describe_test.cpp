@@ -54,6 +54,17 @@ TEST_F(Describe, body_files) {
             HasSubstr("tooth_01_left"), HasSubstr("material of even: E = 1.1e+11 Pa"), HasSubstr("root: 2")));
 }
 
+TEST_F(Describe, checks_of_a_body) {
+  BodySource source = sample_source();
+  source.checks = {
+      {"effective_mass", "kg", "of each mode", Eigen::MatrixXd::Constant(100, 3, 0.25)},
+      {"static_completeness", "1", "shares", Eigen::MatrixXd::Constant(1, 1, 0.5), {"flank force"}}};
+  BodyWriter(path("worm.h5"), source.mesh.n_nodes(), 0).finish(sample_full_body(), source);
+  EXPECT_THAT(describe(path("worm.h5")),
+              AllOf(HasSubstr("check effective_mass: of each mode\n  100 rows, 0.25 to 0.25 kg"),
+                    HasSubstr("check static_completeness: shares\n  flank force: 0.5")));
+}
+
 TEST_F(Describe, result_files) {
   write_result(path("impact.h5"), sample_snapshots(5));
   EXPECT_THAT(describe(path("impact.h5")),

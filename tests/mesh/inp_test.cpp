@@ -61,6 +61,7 @@ TEST_F(Inp, reports_every_keyword_it_ignores) {
   ReadReport report;
   read(kCube, &report);
   EXPECT_THAT(report.ignored, testing::ElementsAre("*HEADING (line 1)"));
+  EXPECT_THAT(report.node_number, testing::ElementsAre(10, 11, 12, 13, 20, 21, 22, 23));
 }
 
 TEST_F(Inp, leaves_shells_out_and_reports_them) {

@@ -138,4 +138,16 @@ Eigen::MatrixXd calculix_stress(const CalculixModel& model, const std::map<int, 
   return stress;
 }
 
+CalculixMatrices::CalculixMatrices(const CalculixModel& model) : folder(make_folder()) {
+  write_deck(fs::path(folder) / "deck.inp", model, "*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n");
+  run(folder);
+  require(fs::exists(stiffness()) && fs::exists(mass()) && fs::exists(dofs()),
+          "ccx stored no matrices in ", folder);
+}
+
+CalculixMatrices::~CalculixMatrices() {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+}
+
 }  // namespace elastogear::test

@@ -28,4 +28,17 @@ std::vector<double> calculix_frequencies(const CalculixModel& model, int n);
 /// integration points and averaged over the cells, from ccx's .frd file (six digits).
 Eigen::MatrixXd calculix_stress(const CalculixModel& model, const std::map<int, Eigen::Vector3d>& forces);
 
+/// The matrices that ccx stores by *FREQUENCY, SOLVER=MATRIXSTORAGE, in a folder that goes with this.
+struct CalculixMatrices {
+  std::string folder;
+
+  explicit CalculixMatrices(const CalculixModel& model);
+  ~CalculixMatrices();
+  CalculixMatrices(const CalculixMatrices&) = delete;
+  CalculixMatrices& operator=(const CalculixMatrices&) = delete;
+  std::string stiffness() const { return folder + "/deck.sti"; }
+  std::string mass() const { return folder + "/deck.mas"; }
+  std::string dofs() const { return folder + "/deck.dof"; }
+};
+
 }  // namespace elastogear::test

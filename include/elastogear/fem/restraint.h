@@ -19,4 +19,8 @@ std::vector<int> free_dofs(const std::vector<bool>& is_free);
 /// restrained nodes that are not on one line. (Hinges inside a part are found by the factorisation.)
 void require_held(const mesh::Mesh& mesh, const std::vector<bool>& is_free);
 
+/// Throws Error naming the number of parts unless all cells hang together: what a free body must do. (Parts
+/// that touch in an edge or a node only are found by their zero eigenvalues.)
+void require_connected(const mesh::Mesh& mesh);
+
 }  // namespace elastogear::fem

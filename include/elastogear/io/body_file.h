@@ -8,6 +8,7 @@
 
 #include "elastogear/io/precision.h"
 #include "elastogear/mesh/mesh.h"
+#include "elastogear/model/check.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
 
@@ -19,6 +20,9 @@ struct BodySource {
   std::vector<model::MaterialRegion> regions;
   model::Element element = model::Element::incompatible;
   std::vector<int> free_dof;  ///< n_free, ascending: dof 3 node + direction that is not restrained
+  std::vector<model::Check> checks = {};  ///< of the reduction
+  Eigen::Vector3d origin = {0, 0,
+                            0};  ///< m, of the body frame in the coordinates of the mesh that was reduced
 };
 
 /// What was checked of the modes; empty for a full basis.

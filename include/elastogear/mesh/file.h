@@ -1,6 +1,7 @@
 #pragma once
 // Mesh files by their extension: Gmsh 4.1 (.msh) and Abaqus/CalculiX (.inp).
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct ReadReport {
   std::vector<model::MaterialRegion> regions;  ///< .inp: one for each *SOLID SECTION
   std::string restrained;         ///< .inp: node set of the mesh that *BOUNDARY holds; empty: none
   std::string refused_restraint;  ///< why *BOUNDARY does not restrain a body; empty: it does
+  std::vector<std::int64_t> node_number;  ///< the file's numbers of the nodes, ascending like ours
 };
 
 /// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm);

@@ -67,6 +67,7 @@ struct Stress {
 struct ElasticBody {
   std::string name;
   Basis basis = Basis::modal;
+  bool floating = false;  ///< nothing was restrained: the basis moves about a frame that no node carries
   Inertia inertia;
   Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending; empty for full
   Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2)

@@ -5,14 +5,17 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "elastogear/base/progress.h"
 #include "elastogear/io/precision.h"
 #include "elastogear/mesh/mesh.h"
+#include "elastogear/model/check.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
+#include "elastogear/reduction/foreign.h"
 
 namespace elastogear::reduction {
 
@@ -29,10 +32,15 @@ struct ReductionOptions {
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
   model::Element element = model::Element::incompatible;
   std::vector<std::string> restrain = {};      ///< node sets, all three displacements zero
+  std::optional<ForeignFiles> foreign = {};    ///< K and M from files; a mesh without cells will do
+  bool floating = false;                       ///< a free body: `restrain` stays empty, free-free modes
+  bool frame_at_center = false;                ///< body frame at the centre of mass
+  Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise
   std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
   std::vector<std::string> stress_nodes = {};  ///< node sets
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                                   ///< modal only
+  bool completeness = true;                            ///< check it: one more factorisation of K
   int window = 0;                                      ///< modes found at a time, see EigenOptions
   Store store = Store::all;                            ///< where the modes are stored
   io::Precision precision = io::Precision::float64;    ///< of modes stored at all nodes
@@ -49,21 +57,23 @@ struct StageTime {
 
 /// What a reduction did. Complete on rank 0.
 struct ReductionReport {
-  double m = 0;                                 ///< kg
-  Eigen::Vector3d c = Eigen::Vector3d::Zero();  ///< m, centre of mass
-  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();  ///< kg m^2, about the centre of mass
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, of the body frame in the mesh's coordinates
+  double m = 0;                                      ///< kg
+  Eigen::Vector3d c = Eigen::Vector3d::Zero();       ///< m, centre of mass, body frame
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();       ///< kg m^2, about the centre of mass
   int n_nodes = 0, n_cells = 0;
   int n_dofs = 0, n_free = 0;  ///< displacements: all, not restrained
   int n_ranks = 1;
-  int edge_cut = 0;              ///< pairs of neighbouring cells on different ranks
-  double balance = 1;            ///< most cells of a rank over the mean
-  std::string symmetry;          ///< what was found, or why none; empty when it was not looked for
-  Eigen::VectorXd frequency;     ///< Hz, ascending; empty for the full basis
-  Eigen::VectorXd residual;      ///< |K phi - omega^2 M phi| / |K phi| of each mode
-  double orthogonality = 0;      ///< largest |phi_i' M phi_j|, i != j, see Eigenmodes
-  std::string continued_after;   ///< what was taken over from a run that was killed, if any
-  int discarded = 0;             ///< pieces of another run that did not fit this one
-  std::vector<StageTime> times;  ///< wall-clock time of each stage, in order
+  int edge_cut = 0;                  ///< pairs of neighbouring cells on different ranks
+  double balance = 1;                ///< most cells of a rank over the mean
+  std::string symmetry;              ///< what was found, or why none; empty when it was not looked for
+  Eigen::VectorXd frequency;         ///< Hz, ascending; empty for the full basis
+  Eigen::VectorXd residual;          ///< |K phi - omega^2 M phi| / |K phi| of each mode
+  double orthogonality = 0;          ///< largest |phi_i' M phi_j|, i != j, see Eigenmodes
+  std::string continued_after;       ///< what was taken over from a run that was killed, if any
+  int discarded = 0;                 ///< pieces of another run that did not fit this one
+  std::vector<model::Check> checks;  ///< of a modal basis that does not come from one sector
+  std::vector<StageTime> times;      ///< wall-clock time of each stage, in order
 };
 
 /// Reduces the body and writes the body file `output` (on rank 0; a failed run leaves no file). Modes are
@@ -72,6 +82,9 @@ struct ReductionReport {
 /// modes than asked for are delivered when the last one's equals would be missing. Collective; the mesh is
 /// read on rank 0 only and must be valid (mesh::validate). Memory and work for K, M and the modes are
 /// distributed; rank 0 keeps the mesh and one mode at a time.
+///
+/// With options.foreign K and M come from files. Materials and cells then serve the surface, the stress
+/// modes, and the inertia when the files lack displacements (which are held); none of these needed, none is.
 ///
 /// Throws the same Error on all ranks for wrong materials, unknown sets, inverted cells, a body that is not
 /// held, more modes than free degrees of freedom, stress nodes outside the cells, and what find_eigenmodes

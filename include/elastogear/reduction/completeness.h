@@ -1,0 +1,33 @@
+#pragma once
+// Static completeness: how much of the answer to a load on the surface the modes give (docs/theory.md,
+// section 2.3).
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/fem/gather.h"
+#include "elastogear/model/elastic_body.h"
+#include "elastogear/reduction/free_body.h"
+#include "elastogear/reduction/surface_load.h"
+
+namespace elastogear::reduction {
+
+struct Completeness {
+  std::vector<std::string> load;  ///< those that move something
+  Eigen::VectorXd share;          ///< f' Phi Lambda^-1 Phi' f / f' K^-1 f, 0..1
+};
+
+/// What it is asked of. rigid: of a free body, whose loads are balanced by inertia; else null.
+struct ElasticSystem {
+  Mat K, M;
+  const fem::VectorGather& gather;
+  const RigidModes* rigid = nullptr;
+};
+
+/// One factorisation, one solve with all loads (a few for a free body). Collective; body (modal, its modes
+/// complete, of n_nodes nodes) is read on rank 0, where the result is.
+Completeness static_completeness(const ElasticSystem& system, const model::ElasticBody& body, int n_nodes);
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,24 @@
+#pragma once
+// Unit loads on a contact surface, to ask a basis how much of the answer it gives.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::reduction {
+
+struct SurfaceLoad {
+  std::string name;
+  Eigen::VectorXd f;  ///< 3 n_s, N
+};
+
+/// Of each representative group of the surface two loads: unit normal pressure over the group ("<group>
+/// pressure"), and a unit normal force on the node nearest to its centre ("<group> force"). Groups whose
+/// names differ in digits only (tooth_01_left, tooth_02_left) count as alike: the first stands for all. At
+/// most kMostGroups.
+inline constexpr int kMostGroups = 8;
+std::vector<SurfaceLoad> representative_loads(const model::Surface& surface);
+
+}  // namespace elastogear::reduction

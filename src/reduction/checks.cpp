@@ -1,0 +1,53 @@
+#include "elastogear/reduction/checks.h"
+
+#include "elastogear/reduction/effective_mass.h"
+
+namespace elastogear::reduction {
+namespace {
+
+model::Check captured_mass(const SixDirections& sum, const SixDirections& mobile,
+                           const SixDirections& whole) {
+  model::Check check{
+      "captured_mass", "1", "sums of effective_mass (x y z) and effective_inertia (about x y z)", {}, {}};
+  check.value.resize(2, 6);
+  check.value.row(0) = sum.cwiseQuotient(mobile);
+  check.value.row(1) = sum.cwiseQuotient(whole);
+  check.row = {"share of what all modes carry together", "share of the body's mass and inertia"};
+  return check;
+}
+
+model::Check rigid_coupling(const SixDirections& largest, const SixDirections& whole) {
+  return {"rigid_coupling",
+          "1",
+          "largest coupling of a mode to translations (x y z) and rotations about the centre of mass",
+          largest.cwiseQuotient(whole).cwiseSqrt().transpose(),
+          {"coupling / sqrt(mass or inertia)"}};
+}
+
+}  // namespace
+
+std::vector<model::Check> mass_checks(const ElasticSystem& system, const model::ElasticBody& body,
+                                      const fem::MassMoments& moments) {
+  const auto masses = effective_masses(body.inertia);
+  const SixDirections whole = body_masses(body.inertia);
+  if (system.rigid) {
+    if (masses.rows() == 0) return {};
+    return {rigid_coupling(masses.colwise().maxCoeff(), whole)};
+  }
+  const SixDirections mobile = mobile_masses(system.M, system.gather, moments, body.inertia.c);
+  return {{"effective_mass", "kg", "of each mode, directions x y z", masses.leftCols<3>()},
+          {"effective_inertia", "kg m^2", "of each mode, about axes x y z through the centre of mass",
+           masses.rightCols<3>()},
+          captured_mass(masses.colwise().sum(), mobile, whole)};
+}
+
+std::vector<model::Check> load_checks(const ElasticSystem& system, const model::ElasticBody& body,
+                                      int n_nodes) {
+  const Completeness completeness = static_completeness(system, body, n_nodes);
+  if (completeness.load.empty()) return {};
+  return {{"static_completeness", "1",
+           "share of the static answer to a load on the surface that the modes give", completeness.share,
+           completeness.load}};
+}
+
+}  // namespace elastogear::reduction
