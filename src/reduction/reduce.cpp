@@ -56,6 +56,7 @@ struct Job {
   int rank = 0, size = 1;
   Plan plan = {};
   ReductionReport report = {};
+  std::vector<model::MaterialRegion> regions = options.regions;  // in the body frame, as the mesh is
   double started = MPI_Wtime();
 
   bool modal() const { return options.basis == model::Basis::modal; }
@@ -142,7 +143,7 @@ bool repeats(const model::Material& material, const mesh::Turn& turn) {
 mesh::RepetitionSearch search_repetition(const Job& job) {
   auto search = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
   if (!search.found) return search;
-  for (const model::MaterialRegion& region : job.options.regions)
+  for (const model::MaterialRegion& region : job.regions)
     if (!repeats(region.material, search.found->turn))
       return {{}, "the directions of an orthotropic material do not turn with the mesh"};
   return search;
@@ -165,7 +166,7 @@ void number(Job& job) {
   Plan& plan = job.plan;
   validate(job.options);
   fem::require_positive_jacobians(mesh);
-  plan.region = fem::cell_regions(mesh, job.options.regions);
+  plan.region = fem::cell_regions(mesh, job.regions);
   plan.is_free = fem::free_nodes(mesh, job.options.restrain);
   if (job.options.floating)
     fem::require_connected(mesh);
@@ -186,8 +187,7 @@ fem::Matrices assemble(Job& job) {
   });
   const fem::Share share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
   job.finish_stage("partition");
-  fem::Matrices matrices =
-      fem::assemble(job.comm, share, job.options.regions, job.options.element, job.progress);
+  fem::Matrices matrices = fem::assemble(job.comm, share, job.regions, job.options.element, job.progress);
   job.finish_stage("assembly");
   return matrices;
 }
@@ -230,6 +230,11 @@ void read_matrices(Job& job) {
   plan.foreign = std::move(system.matrices);
 }
 
+void move_materials(Job& job, const Eigen::Vector3d& origin) {
+  for (model::MaterialRegion& region : job.regions)
+    if (region.material.orthotropic) region.material.orthotropic->orientation.origin -= origin;
+}
+
 // From here on all coordinates are in the body frame.
 void place_frame(Job& job) {
   fem::MassMoments& moments = job.plan.moments;
@@ -237,18 +242,25 @@ void place_frame(Job& job) {
       job.options.frame_at_center ? fem::rigid_inertia(job.mesh, moments).c : job.options.frame_origin;
   job.mesh.X.colwise() -= origin;
   job.plan.repetition.turn.point -= origin;
+  move_materials(job, origin);
   moments.w_1 -= origin * moments.w_0.transpose();
   job.report.origin = origin;
 }
 
+// On the other ranks.
+void place_materials(Job& job) {
+  MPI_Bcast(job.report.origin.data(), 3, MPI_DOUBLE, 0, job.comm);
+  if (job.rank != 0) move_materials(job, job.report.origin);
+}
+
 void prepare_body(Job& job) {
   Plan& plan = job.plan;
-  if (plan.moments.w_0.size() == 0) plan.moments = fem::mass_moments(job.mesh, job.options.regions);
+  if (plan.moments.w_0.size() == 0) plan.moments = fem::mass_moments(job.mesh, job.regions);
   place_frame(job);
   plan.body = make_body(job.mesh, job.options, plan.moments);
-  plan.S = plan.body.stress.node.empty() ? model::SparseRows(0, 3 * job.mesh.n_nodes())
-                                         : fem::stress_operator(job.mesh, job.options.regions,
-                                                                job.options.element, plan.body.stress.node);
+  plan.S = plan.body.stress.node.empty()
+               ? model::SparseRows(0, 3 * job.mesh.n_nodes())
+               : fem::stress_operator(job.mesh, job.regions, job.options.element, plan.body.stress.node);
   const PendingFile can_be_written(job.output);
 }
 
@@ -299,8 +311,8 @@ void set_eigenmodes(Job& job, const Eigenmodes& modes) {
 }
 
 io::BodySource source_of(const Job& job) {
-  return {job.mesh,          job.options.regions, job.options.element,
-          job.plan.free_dof, job.report.checks,   job.report.origin};
+  return {job.mesh,          job.regions,       job.options.element,
+          job.plan.free_dof, job.report.checks, job.report.origin};
 }
 
 // The body file of a modal basis, mode by mode. Rank 0.
@@ -403,7 +415,7 @@ std::string fingerprint_of_sectors(Job& job) {
     f.add_all(job.mesh.X.reshaped());
     f.add_all(job.plan.is_free);
     f.add_all(job.plan.region);
-    for (const model::MaterialRegion& region : job.options.regions) add(f, region.material);
+    for (const model::MaterialRegion& region : job.regions) add(f, region.material);
     f.add(static_cast<double>(job.options.element));
   });
   return f.text();
@@ -413,7 +425,7 @@ std::string fingerprint_of_sectors(Job& job) {
 void reduce_sectors(Job& job) {
   HarmonicPieces pieces(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
   const Plan& plan = job.plan;
-  const fem::MeshedBody body{job.mesh, job.options.regions, plan.region, plan.is_free, job.options.element};
+  const fem::MeshedBody body{job.mesh, job.regions, plan.region, plan.is_free, job.options.element};
   std::optional<ModalWriter> writer;
   CyclicOptions options;
   options.eigen = eigen_options(job.options);
@@ -485,6 +497,7 @@ ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOpt
     job.finish_stage("numbering and symmetry");
   }
   job.on_root([&] { prepare_body(job); });
+  place_materials(job);
   job.finish_stage("inertia, surface and stress operator");
   if (job.modal())
     reduce_modal(job);
