@@ -1,4 +1,4 @@
-#include "cutoff.h"
+#include "elastogear/reduction/cutoff.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kWeyl = 2.0 / 3;       // sigma ~ N^(2/3)
 constexpr double kLargestStep = 8;      // factor of sigma between two counts
+constexpr double kSmallestStep = 1.02;  // its least while sigma is known from one side only
 constexpr double kLeastProgress = 0.1;  // of the logarithmic width of the bracket
 constexpr double kNarrow = 1e-10;       // relative width of a bracket around equal eigenvalues
 
@@ -22,9 +23,11 @@ struct Point {
 
 // By the power law through both ends, or Weyl's where only one is known.
 double next_guess(const Point& lower, const Point& upper, double target) {
-  if (!std::isfinite(upper.sigma))
-    return lower.sigma * std::min(kLargestStep, std::pow(target / std::max(1, lower.n), kWeyl));
-  if (lower.sigma == 0) return upper.sigma * std::max(1 / kLargestStep, std::pow(target / upper.n, kWeyl));
+  const auto step = [](double ratio) {
+    return std::clamp(std::pow(ratio, kWeyl), kSmallestStep, kLargestStep);
+  };
+  if (!std::isfinite(upper.sigma)) return lower.sigma * step(target / std::max(1, lower.n));
+  if (lower.sigma == 0) return upper.sigma / step(upper.n / target);
   const double fraction = lower.n == 0 ? 0.5 : std::log(target / lower.n) / std::log(upper.n * 1.0 / lower.n);
   return lower.sigma *
          std::pow(upper.sigma / lower.sigma, std::clamp(fraction, kLeastProgress, 1 - kLeastProgress));

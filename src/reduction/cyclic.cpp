@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "cutoff.h"
+#include "elastogear/reduction/cutoff.h"
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/factorisation.h"

@@ -37,7 +37,8 @@ inline int rank_of(MPI_Comm comm) {
   return rank;
 }
 
-inline Solution solve_cyclic(MPI_Comm comm, const Body& body, int n_modes) {
+inline Solution solve_cyclic(MPI_Comm comm, const Body& body, int n_modes,
+                             reduction::CyclicOptions options = {}) {
   const bool first = rank_of(comm) == 0;
   const mesh::Mesh none, &mesh = first ? body.mesh : none;
   std::vector<int> region;
@@ -58,7 +59,6 @@ inline Solution solve_cyclic(MPI_Comm comm, const Body& body, int n_modes) {
     EXPECT_EQ(i, next++);
     if (first) solution.phi.col(i) = phi;
   };
-  reduction::CyclicOptions options;
   options.eigen.n_modes = n_modes;
   solution.modes = reduction::find_cyclic_eigenmodes(
       comm, {{mesh, body.regions, region, is_free, model::Element::incompatible}, repetition}, options, keep);

@@ -1,6 +1,8 @@
 #include "cyclic_body.h"
 
 #include "../mesh/disc.h"
+#include "elastogear/base/error.h"
+#include "elastogear/reduction/cutoff.h"
 
 namespace {
 
@@ -40,6 +42,59 @@ TEST(Cyclic, modes_do_not_depend_on_the_number_of_ranks) {
     EXPECT_NEAR(many.modes.eigenvalue(i) / one.modes.eigenvalue(i), 1, kFrequency);
     EXPECT_LT((many.phi.col(i) - one.phi.col(i)).norm(), 1e-6 * one.phi.col(i).norm()) << i;
   }
+}
+
+TEST(Cyclic, harmonics_that_are_known_are_not_solved_again) {
+  std::map<int, reduction::HarmonicModes> kept;
+  reduction::CyclicOptions options;
+  options.done = [&](const reduction::HarmonicModes& modes) { kept[modes.k] = modes; };
+  const Solution first = solve_cyclic(PETSC_COMM_WORLD, even_disc(), 20, options);
+  const auto n_kept = kept.size();
+  options.known = [&](int k, double cutoff) -> std::optional<reduction::HarmonicModes> {
+    if (!kept.contains(k)) return std::nullopt;
+    EXPECT_EQ(kept.at(k).cutoff, cutoff);
+    return kept.at(k);
+  };
+  options.done = [&](const reduction::HarmonicModes&) { ADD_FAILURE() << "solved again"; };
+  const Solution second = solve_cyclic(PETSC_COMM_WORLD, even_disc(), 20, options);
+  EXPECT_EQ(first.modes.eigenvalue, second.modes.eigenvalue);
+  EXPECT_EQ(first.phi, second.phi);
+  if (rank_of(PETSC_COMM_WORLD) == 0) {
+    EXPECT_GT(n_kept, 0U);
+  }
+}
+
+TEST(Cyclic, modes_of_a_body_that_can_turn_are_an_error_on_all_ranks) {
+  Body body{disc({3, 2, 2, 2}), {"axis"}, kSteelBody, 3};
+  for (int node = 0; node < body.mesh.n_nodes(); ++node)
+    if (body.mesh.X.col(node).head<2>().norm() == 0) body.mesh.node_sets["axis"].push_back(node);
+  std::string message;
+  try {
+    solve_cyclic(PETSC_COMM_WORLD, body, 5);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("singular"), std::string::npos) << message;
+}
+
+// Eigenvalues 1, 2, 3, ..., the tenth of them hundredfold.
+int count_with_a_cluster(double sigma) {
+  const int below = static_cast<int>(std::ceil(sigma)) - 1;
+  return std::max(0, below) + (below >= 10 ? 99 : 0);
+}
+
+TEST(Cutoff, has_a_wanted_number_of_eigenvalues_below) {
+  for (int n : {1, 5, 200, 5000})
+    for (double start : {1e-3, 3.0, 1e6}) {
+      const double sigma = reduction::find_cutoff(count_with_a_cluster, {n, n + n / 20}, start);
+      EXPECT_GE(count_with_a_cluster(sigma), n) << start;
+      EXPECT_LE(count_with_a_cluster(sigma), n + n / 20) << start;
+    }
+}
+
+TEST(Cutoff, takes_more_where_eigenvalues_are_equal) {
+  const double sigma = reduction::find_cutoff(count_with_a_cluster, {50, 55}, 2);
+  EXPECT_EQ(count_with_a_cluster(sigma), 109);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "../fem/brick.h"
+#include "../mesh/disc.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/fem/stress.h"
@@ -145,6 +146,34 @@ TEST(Reduce, reports_mass_centre_inertia_and_stages) {
   EXPECT_EQ(report.n_free, 3 * (mesh.n_nodes() - 9));
   EXPECT_GE(report.balance, 1);
   EXPECT_FALSE(report.times.empty());
+}
+
+TEST(Reduce, finds_the_same_modes_in_one_sector_as_in_the_whole_body) {
+  const auto mesh = test::disc({5, 1, 3, 2});
+  auto options = example_options();
+  options.regions = test::kSteelBody;
+  options.restrain = {"bottom"};
+  options.surface = {"surface"};
+  options.stress_nodes = {"bottom"};
+  const std::string sector = output_path("sector"), whole = output_path("whole");
+  const auto with = run(mesh, options, sector);
+  options.symmetry = reduction::Symmetry::none;
+  const auto without = run(mesh, options, whole);
+  if (rank_of(PETSC_COMM_WORLD) != 0) return;
+  EXPECT_EQ(with.symmetry.find("5 sectors"), 0U) << with.symmetry;
+  EXPECT_EQ(without.symmetry, "");
+  const auto a = io::read_body(sector), b = io::read_body(whole);
+  EXPECT_LT((a.frequency - b.frequency).cwiseQuotient(b.frequency).norm(), kEigensolver);
+  // Within a pair of equal eigenvalues the basis is arbitrary, the coupling of all modes together is not.
+  const Eigen::Matrix3d C_a = a.inertia.C_r.transpose() * a.inertia.C_r,
+                        C_b = b.inertia.C_r.transpose() * b.inertia.C_r;
+  EXPECT_LT((C_a - C_b).norm(), kEigensolver * C_b.norm());
+}
+
+TEST(Reduce, reports_why_no_symmetry_was_found) {
+  const auto report = run(example_mesh(), example_options(), output_path("asymmetric"));
+  if (rank_of(PETSC_COMM_WORLD) != 0) return;
+  EXPECT_EQ(report.symmetry.find("none: "), 0U) << report.symmetry;
 }
 
 // Every rank throws the same message, which names `part`, and no file is left.
