@@ -78,6 +78,7 @@ void validate_orthotropic(const model::Orthotropic& m, const std::string& region
 }  // namespace
 
 Lame lame(const model::Material& material) {
+  require(!material.orthotropic, "an orthotropic material has no Lame constants");
   const double E = material.E, nu = material.nu;
   return {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
 }

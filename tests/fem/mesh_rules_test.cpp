@@ -75,6 +75,8 @@ TEST(Orthotropy, of_a_bar_along_each_axis_has_the_closed_form) {
   EXPECT_EQ(fem::youngs_modulus(test::kSteel, {1, 1, 0}, {0, 0, 0}), test::kSteel.E);
 }
 
+TEST(Orthotropy, has_no_lame_constants) { EXPECT_THROW(fem::lame(test::kFibre), Error); }
+
 TEST(Orthotropy, of_a_wound_rim_follows_its_circumference) {
   const model::Orientation o{.system = model::Orientation::System::cylindrical, .origin = {1, 0, 0}};
   Eigen::Matrix3d expected;

@@ -15,6 +15,7 @@ namespace elastogear::fem {
 struct Lame {
   double lambda = 0, mu = 0;
 };
+/// Error for orthotropic materials.
 Lame lame(const model::Material& material);
 
 /// H of sigma = H eps, Pa, order xx yy zz xy yz xz; shear strains are gamma = 2 eps.
