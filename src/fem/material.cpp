@@ -119,6 +119,13 @@ double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n,
   return 1 / s.dot(H.front().ldlt().solve(s));
 }
 
+Lame mean_lame(const model::Material& material) {
+  if (!material.orthotropic) return lame(material);
+  const Vector6 moduli = material_stiffness(*material.orthotropic).diagonal();
+  const double mu = moduli.tail<3>().mean();
+  return {moduli.head<3>().mean() - 2 * mu, mu};
+}
+
 void validate(const std::vector<model::MaterialRegion>& regions) {
   require(!regions.empty(), "no material given");
   for (const auto& region : regions) {
