@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/console.h"
+#include "app/material_options.h"
 #include "app/verbs.h"
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -18,21 +19,17 @@
 namespace elastogear::app {
 namespace {
 
-const OptionTable kTable = {
+const OptionTable kOptions = {
     {"mesh", "-", "", "volume mesh to read, Gmsh 4.1 .msh or Abaqus .inp"},
-    {"unit", "-", "m", "unit of the mesh file or node table: m, or mm (then matrices are in N/mm and t)"},
+    {"unit", "-", "m",
+     "unit of length of the mesh file or node table: m, or mm (then matrices and the file's materials are in "
+     "N, mm and t)"},
     {"output", "-", "", "body file to write (HDF5)"},
-    {"material_E", "Pa", "", "Young's modulus of all cells that no material_<set> names"},
-    {"material_nu", "-", "", "Poisson's ratio"},
-    {"material_rho", "kg/m^3", "", "density"},
-    {"material_<set>_E", "Pa", "", "Young's modulus of one cell set"},
-    {"material_<set>_nu", "-", "", "Poisson's ratio of one cell set"},
-    {"material_<set>_rho", "kg/m^3", "", "density of one cell set"},
     {"element", "-", "incompatible",
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
     {"restrain", "-", "",
      "node sets that are held in all directions and carry the body frame; none: a free body, free-free "
-     "modes"},
+     "modes; not given: *BOUNDARY of an .inp file"},
     {"restrain_nodes", "-", "",
      "nodes that are held besides, by their numbers in the mesh file or node table"},
     {"stiffness", "-", "",
@@ -69,17 +66,11 @@ const OptionTable kTable = {
 // The node set that restrain_nodes makes.
 constexpr const char* kListedNodes = "restrain_nodes";
 
-model::Material material(const Options& options, const std::string& prefix) {
-  return {options.positive(prefix + "E"), options.number(prefix + "nu"), options.positive(prefix + "rho")};
-}
-
-std::vector<model::MaterialRegion> regions(const Options& options) {
-  std::vector<model::MaterialRegion> regions;
-  for (const std::string& set : options.placeholder_values("material_<set>_E"))
-    regions.push_back({set, material(options, "material_" + set + "_")});
-  if (regions.empty() && options.given("stiffness") && !options.given("material_E")) return regions;
-  if (regions.empty() || options.given("material_E")) regions.push_back({"", material(options, "material_")});
-  return regions;
+OptionTable table() {
+  OptionTable table = kOptions;
+  const OptionTable materials = material_table();
+  table.insert(table.end(), materials.begin(), materials.end());
+  return table;
 }
 
 // SLEPc's own options ask for SLEPc.
@@ -126,7 +117,7 @@ void set_restraint(const Options& options, reduction::ReductionOptions& o) {
 reduction::ReductionOptions reduction_options(const Options& options) {
   reduction::ReductionOptions o;
   o.name = std::filesystem::path(options.text("output")).stem().string();
-  o.regions = regions(options);
+  o.regions = material_options(options);
   o.foreign = foreign_files(options);
   o.element = static_cast<model::Element>(options.choice("element", {"incompatible", "plain", "bbar"}));
   set_restraint(options, o);
@@ -195,6 +186,30 @@ Nodes read_on_rank_0(const Options& options) {
   });
   for (const std::string& ignored : nodes.report.ignored) print_item("ignored in the mesh", ignored);
   return nodes;
+}
+
+// Materials and restraint that the options leave open are those of the mesh file.
+void take_materials(const Options& options, const mesh::ReadReport& report, reduction::ReductionOptions& o) {
+  if (!o.regions.empty()) return;
+  o.regions = report.regions;
+  broadcast(PETSC_COMM_WORLD, o.regions);
+  if (o.regions.empty() && o.foreign) return;
+  require(!o.regions.empty(), "option -material_E is missing, and ", options.text("mesh"),
+          " gives no material to its cells (*SOLID SECTION)");
+  o.provenance["materials_from"] = "mesh";
+  print_item("materials", "from the mesh file");
+}
+
+void take_restraint(const Options& options, const mesh::ReadReport& report, reduction::ReductionOptions& o) {
+  if (options.given("restrain") || options.given("restrain_nodes")) return;
+  agree(PETSC_COMM_WORLD, [&] {
+    require(report.refused_restraint.empty(), options.text("mesh"), ": ", report.refused_restraint,
+            ". Name the nodes to hold by the option restrain");
+  });
+  if (report.restrained.empty()) return;
+  o.restrain = {report.restrained};
+  o.provenance["restraint_from"] = "mesh";
+  print_item("restraint", "from the mesh file");
 }
 
 std::string vector_text(const Eigen::Vector3d& v, const std::string& unit) {
@@ -266,6 +281,8 @@ void run(const Options& options, const std::vector<std::string>&) {
   reduction::ReductionOptions reduction = reduction_options(options);
   const Nodes nodes = read_on_rank_0(options);
   if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
+  take_materials(options, nodes.report, reduction);
+  take_restraint(options, nodes.report, reduction);
   const reduction::ReductionReport report =
       reduction::reduce(PETSC_COMM_WORLD, nodes.mesh, reduction, output, console_progress());
   print_summary(report, output);
@@ -277,7 +294,7 @@ Verb reduce_verb() {
   return {"reduce",
           "reduce body.yaml [-option value ...]",
           "finite-element mesh -> body file; run under mpirun for large meshes",
-          kTable,
+          table(),
           run,
           true};
 }

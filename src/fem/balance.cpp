@@ -32,7 +32,7 @@ Eigen::VectorXd imbalance(const MeshedBody& body, const MatrixXd& u, const Eigen
     const Eigen::Matrix3Xd X = cell_coordinates(body.mesh, cell);
     const auto nodes = body.mesh.cells[cell];
     const MatrixXd u_e = rows_of_cell(u, nodes);
-    const MatrixXd elastic = functions.stiffness(X, lame(material), body.element) * u_e;
+    const MatrixXd elastic = functions.stiffness(X, elasticity(material), body.element) * u_e;
     const MatrixXd inertial = inertia_forces(functions.mass(X, material.rho), u_e) * lambda.asDiagonal();
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (!body.is_free[nodes[a]]) continue;

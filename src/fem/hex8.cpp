@@ -138,12 +138,14 @@ using Strains = Eigen::Matrix<double, 6, 3 * kFunctions>;
 std::array<Strains, 8> strains_at_points(const Coordinates& X, model::Element element,
                                          std::array<double, 8>& det) {
   const Eigen::Matrix3d J_0 = centre_jacobian(X);
+  const bool bbar = element == model::Element::bbar;
+  const Eigen::Matrix<double, 24, 1> mean = mean_divergence(X);
   std::array<Strains, 8> B;
   for (int p = 0; p < 8; ++p) {
     const Gradients g = gradients(X, stiffness_points()[p], J_0, &det[p]);
     B[p] = strains<kFunctions>(g);
-    if (element != model::Element::bbar) continue;
-    const Eigen::Matrix<double, 24, 1> missing = mean_divergence(X) - g.leftCols<8>().reshaped();
+    if (!bbar) continue;
+    const Eigen::Matrix<double, 24, 1> missing = mean - g.leftCols<8>().reshaped();
     B[p].topLeftCorner<3, 24>().rowwise() += missing.transpose() / 3;
   }
   return B;
@@ -176,14 +178,13 @@ using PointStresses = std::array<Strains, 8>;
 PointStresses point_stresses(const Coordinates& X, const Lame& material, model::Element element) {
   const Eigen::Matrix3d J_0 = centre_jacobian(X);
   const bool bbar = element == model::Element::bbar;
+  const Eigen::Matrix<double, 1, 24> pressure = bulk_modulus(material) * mean_divergence(X).transpose();
   PointStresses sigma;
   for (int p = 0; p < 8; ++p) {
     double det = 0;
     const Gradients g = gradients(X, stiffness_points()[p], J_0, &det);
     sigma[p] = isotropic_stress<kFunctions>(g, bbar ? deviatoric(material) : material);
-    if (!bbar) continue;
-    const Eigen::Matrix<double, 1, 24> pressure = bulk_modulus(material) * mean_divergence(X).transpose();
-    sigma[p].topLeftCorner<3, 24>().rowwise() += pressure;
+    if (bbar) sigma[p].topLeftCorner<3, 24>().rowwise() += pressure;
   }
   return sigma;
 }

@@ -78,6 +78,7 @@ void validate_orthotropic(const model::Orthotropic& m, const std::string& region
 }  // namespace
 
 Lame lame(const model::Material& material) {
+  require(!material.orthotropic, "an orthotropic material has no Lame constants");
   const double E = material.E, nu = material.nu;
   return {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
 }
@@ -116,6 +117,13 @@ double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n,
   const Eigen::Vector3d d = n.normalized();
   const Vector6 s{d.x() * d.x(), d.y() * d.y(), d.z() * d.z(), d.x() * d.y(), d.y() * d.z(), d.x() * d.z()};
   return 1 / s.dot(H.front().ldlt().solve(s));
+}
+
+Lame mean_lame(const model::Material& material) {
+  if (!material.orthotropic) return lame(material);
+  const Vector6 moduli = material_stiffness(*material.orthotropic).diagonal();
+  const double mu = moduli.tail<3>().mean();
+  return {moduli.head<3>().mean() - 2 * mu, mu};
 }
 
 void validate(const std::vector<model::MaterialRegion>& regions) {

@@ -150,7 +150,7 @@ Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
     const model::Material& material = regions[sector.region[cell]].material;
     const Eigen::Matrix3Xd X = cell_coordinates(sector.mesh, cell);
     const double weight = sector.weight[cell];
-    const MatrixXd K_e = weight * functions.stiffness(X, lame(material), element);
+    const MatrixXd K_e = weight * functions.stiffness(X, elasticity(material), element);
     const MatrixXd M_e = weight * functions.mass(X, material.rho);
     const auto stiffness = [&](std::size_t a, std::size_t b) {
       const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);

@@ -54,13 +54,27 @@ model::Stress read_stress(const h5::File& file) {
   return stress;
 }
 
+model::Material read_material(const h5::File& file, const std::string& group) {
+  const auto number = [&](const char* name) { return h5::read<double>(file, group + name, {}).front(); };
+  const auto vector = [&](const char* name) -> Eigen::Vector3d {
+    return Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, group + name, {3}).data());
+  };
+  if (!h5::exists(file, group + "/G")) return {number("/E"), number("/nu"), number("/rho")};
+  model::Orthotropic m{vector("/E"), vector("/nu"), vector("/G"), {}};
+  m.orientation.system = parse_system(file.path, h5::string_attribute(file, group, "orientation"));
+  m.orientation.axis_1 = vector("/axis_1");
+  m.orientation.axis_2 = vector("/axis_2");
+  m.orientation.origin = vector("/origin");
+  m.orientation.axis = vector("/axis");
+  m.orientation.rotation = vector("/rotation");
+  return {0, 0, number("/rho"), m};
+}
+
 std::vector<model::MaterialRegion> read_materials(const h5::File& file) {
   std::vector<model::MaterialRegion> regions;
   for (std::size_t i = 0; h5::exists(file, "/material/" + std::to_string(i)); ++i) {
     const std::string group = "/material/" + std::to_string(i);
-    const auto number = [&](const char* name) { return h5::read<double>(file, group + name, {}).front(); };
-    regions.push_back(
-        {h5::string_attribute(file, group, "cell_set"), {number("/E"), number("/nu"), number("/rho")}});
+    regions.push_back({h5::string_attribute(file, group, "cell_set"), read_material(file, group)});
   }
   return regions;
 }

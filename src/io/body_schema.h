@@ -42,4 +42,14 @@ inline model::Element parse_element(const std::string& path, const std::string& 
   return static_cast<model::Element>(found - std::begin(kElementNames));
 }
 
+inline std::string system_name(model::Orientation::System system) {
+  return system == model::Orientation::System::rectangular ? "rectangular" : "cylindrical";
+}
+inline model::Orientation::System parse_system(const std::string& path, const std::string& name) {
+  if (name == "rectangular") return model::Orientation::System::rectangular;
+  require(name == "cylindrical", path, ": unknown orientation '", name,
+          "', allowed are rectangular, cylindrical");
+  return model::Orientation::System::cylindrical;
+}
+
 }  // namespace elastogear::io

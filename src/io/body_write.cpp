@@ -64,16 +64,36 @@ void write_checks(const h5::File& file, const ModeChecks& checks) {
   h5::write<double>(file, "/checks/orthogonality", view(checks.orthogonality), "1");
 }
 
+// Datasets of E, nu, rho, and for orthotropic materials of the constants and the axes.
+void write_material(const h5::File& file, const std::string& group, const model::Material& material) {
+  h5::write<double>(file, group + "/rho", view(material.rho), "kg/m^3");
+  if (!material.orthotropic) {
+    h5::write<double>(file, group + "/E", view(material.E), "Pa");
+    h5::write<double>(file, group + "/nu", view(material.nu), "1");
+    return;
+  }
+  const auto write = [&](const char* name, const Eigen::Vector3d& v, const char* unit) {
+    h5::write<double>(file, group + name, {{3}, v.data()}, unit);
+  };
+  const model::Orthotropic& m = *material.orthotropic;
+  write("/E", m.E, "Pa");
+  write("/nu", m.nu, "1");
+  write("/G", m.G, "Pa");
+  h5::set_attribute(file, group, "orientation", system_name(m.orientation.system));
+  write("/axis_1", m.orientation.axis_1, "1");
+  write("/axis_2", m.orientation.axis_2, "1");
+  write("/origin", m.orientation.origin, "m");
+  write("/axis", m.orientation.axis, "1");
+  write("/rotation", m.orientation.rotation, "rad");
+}
+
 void write_materials(const h5::File& file, const std::vector<model::MaterialRegion>& regions) {
   h5::make_group(file, "/material");
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const std::string group = "/material/" + std::to_string(i);
-    const model::Material& material = regions[i].material;
     h5::make_group(file, group);
     h5::set_attribute(file, group, "cell_set", regions[i].cell_set);
-    h5::write<double>(file, group + "/E", view(material.E), "Pa");
-    h5::write<double>(file, group + "/nu", view(material.nu), "1");
-    h5::write<double>(file, group + "/rho", view(material.rho), "kg/m^3");
+    write_material(file, group, regions[i].material);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/mesh/file.h"
+#include "elastogear/mesh/quality.h"
 #include "schema.h"
 
 namespace elastogear::io {
@@ -62,11 +63,37 @@ void describe_map(Out& out, const std::map<std::string, std::string>& provenance
   for (const auto& [key, value] : provenance) line(out, "  ", key, ": ", value);
 }
 
+void describe_materials(Out& out, const std::vector<model::MaterialRegion>& regions) {
+  for (const auto& [cell_set, material] : regions) {
+    const std::string of = "material of " + (cell_set.empty() ? "all other cells" : cell_set) + ": ";
+    if (const auto& m = material.orthotropic) {
+      line(out, of, "orthotropic, E = (", m->E.transpose().format(kRow), ") Pa, nu_12 nu_13 nu_23 = (",
+           m->nu.transpose().format(kRow), "), G_12 G_13 G_23 = (", m->G.transpose().format(kRow),
+           ") Pa, axes ", system_name(m->orientation.system), ", rho = ", material.rho, " kg/m^3");
+    } else {
+      line(out, of, "E = ", material.E, " Pa, nu = ", material.nu, ", rho = ", material.rho, " kg/m^3");
+    }
+  }
+}
+
+void describe_quality(Out& out, const mesh::Mesh& mesh) {
+  const mesh::Quality quality = mesh::quality(mesh);
+  line(out, "scaled Jacobian: at least ", quality.min_scaled_jacobian, " (cell ", quality.worst_cell,
+       "), mean ", quality.mean_scaled_jacobian);
+  if (const auto cell = mesh::first_inverted_cell(mesh))
+    line(out, "inverted: cell ", *cell, " is the first, its smallest Jacobian is ",
+         mesh::smallest_jacobian(mesh, *cell), " m^3");
+}
+
 void describe_mesh_file(Out& out, const std::string& path, const std::string& format) {
   mesh::ReadReport report;
   const mesh::Mesh mesh = mesh::read_mesh(path, 1, &report);
-  line(out, "format: ", format, " (lengths as in the file, taken as m)");
+  line(out, "format: ", format, " (units as in the file, taken as SI)");
   describe_mesh(out, mesh);
+  describe_quality(out, mesh);
+  describe_materials(out, report.regions);
+  if (!report.restrained.empty()) line(out, "restrained by the file: node set ", report.restrained);
+  if (!report.refused_restraint.empty()) line(out, "not a restraint: ", report.refused_restraint);
   for (const std::string& what : report.ignored) line(out, "not read: ", what);
 }
 
@@ -113,9 +140,7 @@ void describe_body(Out& out, const std::string& path) {
   line(out, "body frame: origin at (", source.origin.transpose(), ") m of the mesh that was reduced");
   line(out, "element of hex8 cells: ", element_name(source.element), ", ",
        counted(source.free_dof.size(), "free degree"), " of freedom");
-  for (const auto& [cell_set, material] : source.regions)
-    line(out, "material of ", cell_set.empty() ? "all other cells" : cell_set, ": E = ", material.E,
-         " Pa, nu = ", material.nu, ", rho = ", material.rho, " kg/m^3");
+  describe_materials(out, source.regions);
   std::string groups;
   for (const std::string& name : body.surface.group_name) groups += " " + name;
   line(out, "surface: ", counted(body.surface.node.size(), "node"), ", ",

@@ -99,7 +99,7 @@ void apply_boundary(const InpLines& in, const std::vector<BoundaryLine>& boundar
     if (held[i] == kAll) whole.push_back(i);
     if (held[i] != 0 && held[i] != kAll && report.refused_restraint.empty())
       report.refused_restraint =
-          "*BOUNDARY holds node " + std::to_string(nodes.tag(i)) + " in " + direction_names(held[i]) +
+          "*BOUNDARY holds node " + std::to_string(nodes.tags()[i]) + " in " + direction_names(held[i]) +
           " only; the body's frame moves with the restrained nodes, so that these are held in "
           "all directions or not at all";
   }

@@ -10,8 +10,6 @@
 namespace elastogear::mesh {
 namespace {
 
-constexpr int kMaxSides = 6;
-
 void read_nodes(InpLines& in, const Keyword& key, InpDeck& deck) {
   if (key.has("SYSTEM") && upper(key.parameters.at("SYSTEM")) != "R")
     in.fail_here("*NODE with SYSTEM=", key.parameters.at("SYSTEM"),
@@ -145,6 +143,7 @@ Mesh build(const InpLines& in, const InpDeck& deck, double unit_in_m, ReadReport
       {cells, {deck.other_elements.begin(), deck.other_elements.end()}, budget, fail_at});
   build_surfaces(in, deck, cells, mesh, budget);
   report.regions = material_regions(in, deck.materials, deck.cell_sets, mesh, unit_in_m);
+  report.node_number = nodes.tags();
   apply_boundary(in, deck.boundary, deck.node_sets, nodes, mesh, report);
   validate(mesh, in.path());
   return mesh;
@@ -170,8 +169,6 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   ReadReport found;
   Mesh mesh = build(in, deck, unit_in_m, found);
   found.ignored = std::move(deck.ignored);
-  std::sort(deck.node.begin(), deck.node.end());
-  found.node_number = std::move(deck.node);
   if (report) *report = std::move(found);
   return mesh;
 }

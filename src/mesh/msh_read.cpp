@@ -251,8 +251,7 @@ Mesh parse_msh(const std::string& path, std::string content, double unit_in_m, R
   orient_faces(mesh);
   validate(mesh, path);
   if (!report) return mesh;
-  report->node_number = raw.node;
-  std::sort(report->node_number.begin(), report->node_number.end());
+  report->node_number = nodes.tags();
   for (const auto& [what, count] : raw.left_out)
     report->ignored.push_back(what + " (" + std::to_string(count) + ")");
   return mesh;

@@ -2,7 +2,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
 
 #include "elastogear/base/error.h"
 
@@ -11,18 +15,58 @@ namespace {
 
 using Corners = Eigen::Matrix<double, 3, 8>;
 
-// Reference coordinates of the corners, and the three neighbours of each in a right-handed order.
+// Reference coordinates of the corners of hex8.
 constexpr int kCorner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-constexpr int kNeighbour[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                  {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 
-Corners corners(const Mesh& mesh, int cell) {
-  require(mesh.cells.type[cell] == CellType::hex8, "quality is known for 8-node hexahedra only, cell ", cell,
-          " is another type");
-  Corners X;
-  for (int a = 0; a < 8; ++a) X.col(a) = mesh.X.col(mesh.cells[cell][a]);
-  return X;
+// The three neighbours of each corner in a right-handed order, and the triple product of the regular cell.
+struct Frames {
+  std::vector<std::array<int, 3>> neighbours;
+  double regular;
+};
+
+const Frames& frames(CellType type) {
+  static const Frames hexahedron{
+      {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}, 1};
+  static const Frames tetrahedron{{{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}}, std::sqrt(0.5)};
+  static const Frames wedge{{{1, 2, 3}, {2, 0, 4}, {0, 1, 5}, {5, 4, 0}, {3, 5, 1}, {4, 3, 2}},
+                            std::sqrt(0.75)};
+  static const Frames pyramid{{{1, 3, 4}, {2, 0, 4}, {3, 1, 4}, {0, 2, 4}}, std::sqrt(0.5)};
+  switch (corner_count(type)) {
+    case 4:
+      return tetrahedron;
+    case 5:
+      return pyramid;
+    case 6:
+      return wedge;
+    default:
+      return hexahedron;
+  }
+}
+
+Corners hex8_corners(const Mesh& mesh, int cell) {
+  require(mesh.cells.type[cell] == CellType::hex8, "the volume is known for 8-node hexahedra only, cell ",
+          cell, " is another type");
+  return mesh.X(Eigen::all, mesh.cells[cell]);
+}
+
+// At corner a along the edge to corner b, for a reference length of 1: a parabola through a midside node.
+Eigen::Vector3d edge_tangent(const Mesh& mesh, int cell, int a, int b) {
+  const auto nodes = mesh.cells[cell];
+  const auto x = [&](std::size_t i) -> Eigen::Vector3d { return mesh.X.col(nodes[i]); };
+  const CellType type = mesh.cells.type[cell];
+  if (node_count(type) == corner_count(type)) return x(b) - x(a);
+  const auto all = edges(type);
+  const auto joins = [&](const auto& e) { return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a); };
+  const auto edge = std::find_if(all.begin(), all.end(), joins) - all.begin();
+  return 4 * x(corner_count(type) + edge) - 3 * x(a) - x(b);
+}
+
+Eigen::Matrix3d corner_jacobian(const Mesh& mesh, int cell, int corner) {
+  Eigen::Matrix3d J;
+  for (int e = 0; e < 3; ++e)
+    J.col(e) = edge_tangent(mesh, cell, corner, frames(mesh.cells.type[cell]).neighbours[corner][e]);
+  return J;
 }
 
 double normalised_triple_product(const Eigen::Matrix3d& A) {
@@ -42,7 +86,7 @@ Eigen::Matrix3d jacobian(const Corners& X, const Eigen::Vector3d& xi) {
 }
 
 Eigen::Matrix<double, 8, 1> gauss_jacobians(const Mesh& mesh, int cell) {
-  const Corners X = corners(mesh, cell);
+  const Corners X = hex8_corners(mesh, cell);
   Eigen::Matrix<double, 8, 1> det;
   for (int g = 0; g < 8; ++g) {
     const Eigen::Vector3d xi = Eigen::Vector3d(kCorner[g][0], kCorner[g][1], kCorner[g][2]) / std::sqrt(3.0);
@@ -51,39 +95,51 @@ Eigen::Matrix<double, 8, 1> gauss_jacobians(const Mesh& mesh, int cell) {
   return det;
 }
 
+// NaN, once met, stays.
+double smaller(double a, double b) { return b >= a ? a : b; }
+
 }  // namespace
 
 double scaled_jacobian(const Mesh& mesh, int cell) {
-  const Corners X = corners(mesh, cell);
-  double smallest = normalised_triple_product(jacobian(X, Eigen::Vector3d::Zero()));
-  for (int a = 0; a < 8; ++a) {
-    Eigen::Matrix3d edges;
-    for (int e = 0; e < 3; ++e) edges.col(e) = X.col(kNeighbour[a][e]) - X.col(a);
-    smallest = std::min(smallest, normalised_triple_product(edges));
-  }
-  return smallest;
+  const CellType type = mesh.cells.type[cell];
+  const Frames& frame = frames(type);
+  double smallest = frame.regular;
+  if (type == CellType::hex8)
+    smallest = normalised_triple_product(jacobian(hex8_corners(mesh, cell), Eigen::Vector3d::Zero()));
+  for (int a = 0; a < std::ssize(frame.neighbours); ++a)
+    smallest = smaller(smallest, normalised_triple_product(corner_jacobian(mesh, cell, a)));
+  return smallest / frame.regular;
 }
 
-double gauss_jacobian(const Mesh& mesh, int cell) { return gauss_jacobians(mesh, cell).minCoeff(); }
+double smallest_jacobian(const Mesh& mesh, int cell) {
+  if (mesh.cells.type[cell] == CellType::hex8) {
+    const auto det = gauss_jacobians(mesh, cell);
+    return std::accumulate(det.begin() + 1, det.end(), det[0], smaller);
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int a = 0; a < std::ssize(frames(mesh.cells.type[cell]).neighbours); ++a)
+    smallest = smaller(smallest, corner_jacobian(mesh, cell, a).determinant());
+  return smallest;
+}
 
 double volume(const Mesh& mesh, int cell) { return gauss_jacobians(mesh, cell).sum(); }
 
 Quality quality(const Mesh& mesh) {
   require(mesh.cells.size() > 0, "the mesh has no cells, so it has no quality");
-  Quality q{.min_scaled_jacobian = 2, .min_gauss_jacobian = gauss_jacobian(mesh, 0)};
+  Quality q{.min_scaled_jacobian = 2, .min_jacobian = smallest_jacobian(mesh, 0)};
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     const double sj = scaled_jacobian(mesh, cell);
     if (sj < q.min_scaled_jacobian) q.worst_cell = cell;
     q.min_scaled_jacobian = std::min(q.min_scaled_jacobian, sj);
     q.mean_scaled_jacobian += sj / mesh.cells.size();
-    q.min_gauss_jacobian = std::min(q.min_gauss_jacobian, gauss_jacobian(mesh, cell));
+    q.min_jacobian = smaller(q.min_jacobian, smallest_jacobian(mesh, cell));
   }
   return q;
 }
 
 std::optional<int> first_inverted_cell(const Mesh& mesh) {
   for (int cell = 0; cell < mesh.cells.size(); ++cell)
-    if (!(gauss_jacobian(mesh, cell) > 0)) return cell;
+    if (!(smallest_jacobian(mesh, cell) > 0)) return cell;
   return std::nullopt;
 }
 

@@ -23,7 +23,8 @@ class TagTable {
     if (i < 0) fail_unknown(tag, user());
     return i;
   }
-  std::int64_t tag(int i) const { return tags_[i]; }
+  /// Tags in the order of their numbers.
+  const std::vector<std::int64_t>& tags() const { return tags_; }
   /// Position in the constructor's argument of number i.
   int position(int i) const { return order_[i]; }
 

@@ -53,7 +53,7 @@ double weyl_cutoff(const fem::Sector& sector, const std::vector<model::MaterialR
   double density = 0;  // of modes: N = density omega^3 / (6 pi^2)
   for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
     const model::Material& material = regions[sector.region[cell]].material;
-    const auto [lambda, mu] = fem::lame(material);
+    const auto [lambda, mu] = fem::mean_lame(material);
     const double c_p = std::sqrt((lambda + 2 * mu) / material.rho), c_s = std::sqrt(mu / material.rho);
     const double volume =
         fem::element_functions(sector.mesh.cells.type[cell]).volume(fem::cell_coordinates(sector.mesh, cell));

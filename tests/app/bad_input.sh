@@ -83,6 +83,26 @@ expect_error "mass without stiffness" 'mass.*needs -stiffness' "${reduce[@]}" -m
 expect_error "missing matrix" 'nosuch.mtx' "${reduce[@]}" -stiffness nosuch.mtx -mass nosuch.mtx
 expect_error "NaN in a matrix" "k.mtx, line 2: 'nan'" "${reduce[@]}" -stiffness k.mtx -mass k.mtx
 expect_error "matrix of another mesh" 'k2.mtx: node 17' "${reduce[@]}" -stiffness k2.mtx -mass k2.mtx
+orthotropic=("$elastogear" reduce -mesh brick.inp -material_E1 40e9 -material_E2 10e9 -material_E3 10e9 -material_nu12 0.3
+             -material_nu13 0.3 -material_nu23 0.4 -material_G12 5e9 -material_G13 5e9 -material_G23 4e9 -material_rho 1900
+             -restrain FIX -modes 5 -output new.h5)
+"${orthotropic[@]}" -material_orientation cylindrical -material_axis 1,0,0 -output fibre.h5 >good.log 2>&1 ||
+  { echo "FAIL: an orthotropic body fails"; cat good.log; exit 1; }
+expect_error "impossible orthotropic material" 'nu.*not positive definite' "${orthotropic[@]}" -material_nu12 3
+expect_error "orthotropic material in part" 'material_E2 is missing' "$elastogear" reduce -mesh brick.inp -material_E1 1 -material_rho 1 -output new.h5
+expect_error "material axes in one line" 'parallel' "${orthotropic[@]}" -material_axis_2 2,0,0
+expect_error "no material anywhere" 'material_E.*brick.inp.*SOLID SECTION' "$elastogear" reduce -mesh brick.inp -restrain FIX -output new.h5
+{ sed 's/, 0\.0\([123]\),/, \10,/g; s/, 0\.0\([123]\),/, \10,/g; s/, 0\.01$/, 10/' brick.inp
+  printf '*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.85e-9\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n'
+  printf '*BOUNDARY\nFIX, 1, 3\n'; } >millimetres.inp
+"${reduce[@]}" >good.log 2>&1 && "$elastogear" reduce -mesh millimetres.inp -unit mm -surface TOP -modes 5 -output mm.h5 >mm.log 2>&1
+diff <(grep -E "mass|frequency" good.log) <(grep -E "mass|frequency" mm.log) ||
+  { echo "FAIL: a deck in mm and tonnes differs from the mesh in m with options"; cat mm.log; exit 1; }
+rm -f new.h5 mm.h5
+sed 's/^FIX, 1, 3/FIX, 1, 2/' millimetres.inp >partly.inp
+expect_error "restraint in two directions" 'node 1 in xy only' "$elastogear" reduce -mesh partly.inp -unit mm -output new.h5
+sed 's/MATERIAL=STEEL/MATERIAL=BRASS/' millimetres.inp >brass.inp
+expect_error "unknown material in the mesh" "brass.inp.*unknown material 'BRASS'" "$elastogear" reduce -mesh brass.inp -output new.h5
 expect_error "missing body file" 'nosuch.h5' "${simulate[@]}" -a_file nosuch.h5
 expect_error "truncated body file" 'truncated.h5' "${simulate[@]}" -a_file truncated.h5
 expect_error "a mesh as body file" 'wheel.msh' "${simulate[@]}" -a_file wheel.msh

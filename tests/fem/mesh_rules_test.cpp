@@ -75,6 +75,8 @@ TEST(Orthotropy, of_a_bar_along_each_axis_has_the_closed_form) {
   EXPECT_EQ(fem::youngs_modulus(test::kSteel, {1, 1, 0}, {0, 0, 0}), test::kSteel.E);
 }
 
+TEST(Orthotropy, has_no_lame_constants) { EXPECT_THROW(fem::lame(test::kFibre), Error); }
+
 TEST(Orthotropy, of_a_wound_rim_follows_its_circumference) {
   const model::Orientation o{.system = model::Orientation::System::cylindrical, .origin = {1, 0, 0}};
   Eigen::Matrix3d expected;
@@ -87,6 +89,14 @@ TEST(Orthotropy, of_a_wound_rim_follows_its_circumference) {
   model::Orientation wound = o;
   wound.rotation << M_PI / 2, 0, 0;  // about the radius: tangential becomes axial
   EXPECT_LT((fem::material_axes(wound, {1, 2, 5}).col(1) - Eigen::Vector3d::UnitZ()).norm(), kRoundoff);
+}
+
+TEST(Orthotropy, has_the_mean_moduli_of_waves_along_its_axes) {
+  const auto [lambda, mu] = fem::mean_lame(test::kFibre);
+  EXPECT_NEAR(mu / 4.5e9, 1, kRoundoff);
+  EXPECT_GT(lambda + 2 * mu, 10e9);
+  EXPECT_LT(lambda + 2 * mu, 60e9);
+  EXPECT_EQ(fem::mean_lame(test::kSteel).mu, fem::lame(test::kSteel).mu);
 }
 
 TEST(Orthotropy, that_is_not_positive_definite_is_an_error_naming_the_values) {

@@ -105,6 +105,27 @@ TEST_F(BodyFile, gives_checks_back) {
   }
 }
 
+TEST_F(BodyFile, gives_an_orthotropic_material_back) {
+  BodySource source = sample_source();
+  model::Material& material = source.regions[1].material = test::kFibre;
+  model::Orientation& o = material.orthotropic->orientation;
+  for (const auto system :
+       {model::Orientation::System::rectangular, model::Orientation::System::cylindrical}) {
+    o = {system, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, {13, 14, 15}};
+    BodyWriter(path, source.mesh.n_nodes(), 0).finish(sample_full_body(), source);
+    const auto regions = read_body_source(path).regions;
+    EXPECT_FALSE(regions.at(0).material.orthotropic);
+    ASSERT_TRUE(regions.at(1).material.orthotropic);
+    const model::Orthotropic &a = *regions[1].material.orthotropic, &b = *material.orthotropic;
+    EXPECT_EQ(regions[1].material.rho, material.rho);
+    EXPECT_TRUE(a.E == b.E && a.nu == b.nu && a.G == b.G);
+    EXPECT_EQ(a.orientation.system, system);
+    EXPECT_TRUE(a.orientation.axis_1 == o.axis_1 && a.orientation.axis_2 == o.axis_2);
+    EXPECT_TRUE(a.orientation.origin == o.origin && a.orientation.axis == o.axis);
+    EXPECT_EQ(a.orientation.rotation, o.rotation);
+  }
+}
+
 TEST_F(BodyFile, gives_cells_of_every_type_and_every_element_back) {
   const auto brick = test::brick({2, 2, 2}, {1, 1, 1});
   for (mesh::CellType type : test::all_cell_types())

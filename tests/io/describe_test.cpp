@@ -45,6 +45,34 @@ TEST_F(Describe, mesh_files) {
   }
 }
 
+TEST_F(Describe, decks_with_materials_restraint_and_an_inverted_cell) {
+  write_file(path("deck.inp"), R"(*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 0., 1., 0.
+4, 0., 0., -1.
+*ELEMENT, TYPE=C3D4, ELSET=RIM
+1, 1, 2, 3, 4
+*MATERIAL, NAME=FIBRE
+*ELASTIC, TYPE=ENGINEERING CONSTANTS
+140., 9., 8., 0.3, 0.25, 0.4, 5., 4.,
+3.
+*DENSITY
+1.6
+*SOLID SECTION, ELSET=RIM, MATERIAL=FIBRE
+*BOUNDARY
+2, PINNED
+1, 1, 2
+)");
+  EXPECT_THAT(
+      describe(path("deck.inp")),
+      AllOf(HasSubstr("scaled Jacobian: at least -1.41421 (cell 0)"),
+            HasSubstr("inverted: cell 0 is the first"),
+            HasSubstr("material of RIM: orthotropic, E = (140 9 8) Pa"),
+            HasSubstr("G_12 G_13 G_23 = (5 4 3) Pa"), HasSubstr("restrained by the file: node set BOUNDARY"),
+            HasSubstr("not a restraint: *BOUNDARY holds node 1 in xy only")));
+}
+
 TEST_F(Describe, body_files) {
   write_modal(path("worm.h5"), sample_modal_body(), sample_modes());
   EXPECT_THAT(

@@ -33,6 +33,13 @@ TEST(Cyclic, modes_of_a_prism_with_cells_around_the_axis_are_those_of_the_whole)
   expect_equals_the_general_path(body, 40);
 }
 
+TEST(Cyclic, modes_of_a_wound_disc_are_those_of_the_whole) {
+  model::Material wound = kFibre;
+  wound.orthotropic->orientation = {.system = model::Orientation::System::cylindrical,
+                                    .rotation = {0.5, 0, 0}};
+  expect_equals_the_general_path({disc({5, 2, 2, 2}), {"bottom"}, {{"", wound}}, 5}, 30);
+}
+
 TEST(Cyclic, modes_do_not_depend_on_the_number_of_ranks) {
   const Body body = even_disc();
   const Solution many = solve_cyclic(PETSC_COMM_WORLD, body, 33);

@@ -15,6 +15,7 @@ namespace elastogear::fem {
 struct Lame {
   double lambda = 0, mu = 0;
 };
+/// Error for orthotropic materials.
 Lame lame(const model::Material& material);
 
 /// H of sigma = H eps, Pa, order xx yy zz xy yz xz; shear strains are gamma = 2 eps.
@@ -39,6 +40,10 @@ std::vector<Matrix6> elasticity_at(const Orthotropy& material, const Eigen::Matr
 
 /// Young's modulus in the direction n at the point x (m), Pa.
 double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n, const Eigen::Vector3d& x);
+
+/// lame() of an isotropic material; of an orthotropic one with the mean moduli of compression and shear waves
+/// along its axes, for estimates.
+Lame mean_lame(const model::Material& material);
 
 /// Throws Error (naming the region) unless every region's density is positive and its elasticity positive
 /// definite (isotropic: E > 0, -1 < nu < 0.5).

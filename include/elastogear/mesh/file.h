@@ -13,10 +13,10 @@ namespace elastogear::mesh {
 /// What a file says beside its mesh, and what a reader left out.
 struct ReadReport {
   std::vector<std::string> ignored;            ///< "*STATIC (line 12)": nothing is dropped without an entry
+  std::vector<std::int64_t> node_number;       ///< the file's numbers of the nodes, ascending like ours
   std::vector<model::MaterialRegion> regions;  ///< .inp: one for each *SOLID SECTION
   std::string restrained;         ///< .inp: node set of the mesh that *BOUNDARY holds; empty: none
   std::string refused_restraint;  ///< why *BOUNDARY does not restrain a body; empty: it does
-  std::vector<std::int64_t> node_number;  ///< the file's numbers of the nodes, ascending like ours
 };
 
 /// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm);
