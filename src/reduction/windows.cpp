@@ -20,7 +20,9 @@ constexpr double kFirstBlocks = 24;      // more of them, until the first Ritz v
 constexpr double kFirstLook = 0.8;       // of these sizes: when Ritz values are first looked at
 constexpr double kFewestColumns = 200;   // of a basis, however small the window
 constexpr double kGrowth = 1.05;         // of the basis between two looks at its Ritz values
-constexpr double kTooMany = 1.5;         // times the wanted modes under a shift: move the shift down
+constexpr double kAim = 0.45;            // of a window's modes: to lie under its shift
+constexpr double kTooMany = 0.65;        // the same: move the shift down
+constexpr double kRoom = 1.3;            // columns there is room for, over those needed
 constexpr int kShifts = 4;               // tries to place one
 constexpr int kSpare = 2;                // modes above the wanted ones that show the gap there
 constexpr double kWeyl = 1.5;            // exponent of N(lambda) in a solid
@@ -86,36 +88,39 @@ struct End {
   double upper, gap;
 };
 
-// Numbers of modes, at least `least` and ascending, after which there is a gap.
-std::vector<End> possible_ends(const Found& modes, int least, bool all) {
+// Numbers of modes, ascending, after which there is a gap.
+std::vector<End> possible_ends(const Found& modes, bool all) {
   std::vector<End> ends;
-  for (std::size_t n = static_cast<std::size_t>(least); n < modes.size(); ++n) {
+  for (std::size_t n = 1; n < modes.size(); ++n) {
     const double below = modes[n - 1].first, above = modes[n].first, gap = (above - below) / std::abs(below);
     if (gap >= kGap) ends.push_back({n, (below + above) / 2, gap});
   }
-  if (all) ends.push_back({modes.size(), modes.back().first * (1 + kGap), kGap});
+  if (all && !modes.empty()) ends.push_back({modes.size(), modes.back().first * (1 + kGap), kGap});
   return ends;
 }
 
-// Of `found` those above the last window that end in a gap: as few as are wanted in the last window, else as
-// many as possible but for a better gap. None when `found` does not reach down, or up to enough.
-std::optional<Choice> choose(const Search& search, double sigma, const Found& found, int least) {
-  if (!reaches_down(search, sigma, found)) return {};
+// Those of `found` above the last window and the rigid modes.
+Found new_modes(const Search& search, const Found& found) {
   const auto above = std::find_if(found.begin(), found.end(),
                                   [&](const auto& mode) { return mode.first > search.state.lower; });
-  const int skipped =
-      search.delivered() == 0 ? std::min<int>(search.options.n_rigid, found.end() - above) : 0;
-  Choice choice{Found(above + skipped, found.end()), 0, 0};
+  const std::ptrdiff_t rigid = search.delivered() == 0 ? search.options.n_rigid : 0;
+  return {above + std::min(rigid, found.end() - above), found.end()};
+}
+
+// The new modes of `found` that end in a gap: as few as are wanted in the last window, else as many as
+// possible but for a better gap. None when `found` does not reach down, or no gap shows.
+std::optional<Choice> choose(const Search& search, double sigma, const Found& found) {
+  if (!reaches_down(search, sigma, found)) return {};
+  Choice choice{new_modes(search, found), 0, search.delivered() == 0 ? 0 : search.known()};
   const bool all = static_cast<int>(found.size()) == search.M_times.n();
-  const std::vector<End> ends = possible_ends(choice.modes, least, all);
+  const std::vector<End> ends = possible_ends(choice.modes, all);
   if (ends.empty()) return {};
   const auto enough = std::find_if(ends.begin(), ends.end(), [&](const End& end) {
     return static_cast<int>(end.count) >= search.wanted();
   });
   const auto first = ends.end() - std::min<std::ptrdiff_t>(kEndChoices, ends.end() - ends.begin());
-  const auto widest = std::max_element(first, ends.end(), [](auto& a, auto& b) { return a.gap < b.gap; });
+  const auto widest = std::max_element(first, ends.end(), [](auto& x, auto& y) { return x.gap < y.gap; });
   const End& end = enough != ends.end() ? *enough : *widest;
-  choice.below_shift = search.options.n_rigid + search.delivered();
   for (const auto& mode : choice.modes) choice.below_shift += mode.first < sigma;
   choice.modes.resize(end.count);
   choice.upper = end.upper;
@@ -126,7 +131,7 @@ std::optional<Choice> choose(const Search& search, double sigma, const Found& fo
 double columns(int modes, int block) { return kColumnsPerMode * modes + kFirstBlocks * block; }
 
 int room(const Search& search) {
-  const double needed = columns(search.size.modes, search.size.block);
+  const double needed = kRoom * columns(search.size.modes, search.size.block);
   return static_cast<int>(std::min<double>(std::max(needed, kFewestColumns), search.M_times.n()));
 }
 
@@ -139,7 +144,8 @@ void report_search(const Search& search, const KrylovBasis& basis) {
   report(search.progress, "eigenmodes", std::min(1.0, modes / search.options.n_modes));
 }
 
-// Grows the basis until it holds a window of `modes`, or as much of one as there is room for.
+// Grows the basis until it holds `modes` about the shift, known ones included, and reaches down to the last
+// window, or holds all that are wanted, or is full.
 std::optional<Choice> grow(Search& search, KrylovBasis& basis, RitzPairs& pairs, int modes) {
   std::optional<Choice> choice;
   for (double next = std::max(kFirstLook * columns(modes, search.size.block), kGrowth * basis.size);
@@ -151,7 +157,11 @@ std::optional<Choice> grow(Search& search, KrylovBasis& basis, RitzPairs& pairs,
     next = kGrowth * basis.size;
     pairs = ritz_pairs(basis);
     const Found found = trusted(basis, pairs, search.options.tolerance);
-    choice = choose(search, basis.sigma, found, has_room(basis) ? std::min(search.wanted(), modes) : 1);
+    choice = choose(search, basis.sigma, found);
+    const bool last = modes >= search.wanted();
+    const int reached = static_cast<int>(!last ? found.size() : choice ? choice->modes.size() : 0);
+    const bool enough = reached >= std::min(modes, search.wanted());
+    if (!enough && has_room(basis)) choice.reset();
   }
   return choice;
 }
@@ -222,7 +232,7 @@ double extrapolate(const SearchState& state, double more) {
   return state.lower * std::pow(1 + more / n, 1 / exponent);
 }
 
-// A shift with about half of the next window's modes under it, and the factor there.
+// A shift with nearly half of the next window's modes under it, and the factor there.
 Shift place_shift(Search& search, int modes) {
   const SearchState& state = search.state;
   Shift shift{search.options.first_shift, 0};
@@ -230,12 +240,12 @@ Shift place_shift(Search& search, int modes) {
     shift.below = search.factor.factorise(shift.sigma);
     return shift;
   }
-  const double half = std::max(1.0, modes / 2.0);
+  const double half = std::max(1.0, kAim * modes);
   shift.sigma = extrapolate(state, half);
   for (int i = 1;; ++i) {
     shift.below = search.factor.factorise(shift.sigma);
     const int under = shift.below - search.known();
-    if (under <= kTooMany * half || i == kShifts) return shift;
+    if (under <= std::max(1.0, kTooMany * modes) || i == kShifts) return shift;
     shift.sigma = state.lower + (shift.sigma - state.lower) * half / under;
   }
 }
@@ -261,7 +271,7 @@ void step_back(Search& search, const Shift& shift, const Choice& choice) {
           std::sqrt(std::max(0.0, shift.sigma)) / (2 * M_PI),
           " Hz; use a smaller tolerance or larger windows");
   state.lower = state.shift;
-  state.eigenvalue.conservativeResize(state.below_shift - search.options.n_rigid);
+  state.eigenvalue.conservativeResize(std::max(0, state.below_shift - search.options.n_rigid));
   state.residual.conservativeResize(state.eigenvalue.size());
   state.edge.resize(state.edge.rows(), 0);
 }
@@ -308,7 +318,7 @@ WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked) {
   for (int modes : kWindows)
     for (int block : kBlocks) {
       const WindowSize size{asked.modes > 0 ? asked.modes : modes, asked.block > 0 ? asked.block : block};
-      const bool fits = asked.modes > 0 || columns(size.modes, size.block) <= most;
+      const bool fits = asked.modes > 0 || kRoom * columns(size.modes, size.block) <= most;
       if (fits && cost_per_mode(size) < cost_per_mode(best)) best = size;
     }
   return best;

@@ -163,6 +163,35 @@ TEST_F(BodyFile, displacement_field_is_the_sum_of_modes) {
   EXPECT_THROW(read_displacement_field(path, Eigen::Vector3d(1, 2, NAN)), Error);
 }
 
+TEST_F(BodyFile, without_modes_at_all_nodes_names_the_remedy) {
+  const model::ElasticBody body = sample_modal_body();
+  const ModeChecks checks{Eigen::Vector3d(1e-11, 2e-11, 3e-11), 4e-9};
+  BodyWriter(path, sample_source().mesh.n_nodes(), 0).finish(body, sample_source(), checks);
+  expect_equal(read_body(path), body);
+  EXPECT_FALSE(has_full_modes(path));
+  EXPECT_EQ(read_mode_checks(path).residual, checks.residual);
+  EXPECT_EQ(read_mode_checks(path).orthogonality, checks.orthogonality);
+  try {
+    read_displacement_field(path, Eigen::Vector3d(1, 2, 3));
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("-store all"));
+  }
+}
+
+TEST_F(BodyFile, in_single_precision_keeps_seven_digits) {
+  const Eigen::MatrixXd modes = sample_modes();
+  const model::ElasticBody body = sample_modal_body();
+  {
+    BodyWriter writer(path, sample_source().mesh.n_nodes(), 3, Precision::float32);
+    for (int k = 0; k < 3; ++k) writer.write_mode(k, modes.col(k));
+    writer.finish(body, sample_source());
+  }
+  const Eigen::VectorXd q = Eigen::Vector3d(0, 1, 0), single = modes.col(1).cast<float>().cast<double>();
+  EXPECT_EQ(read_displacement_field(path, q).reshaped(), single);
+  EXPECT_NE(single, modes.col(1));
+}
+
 TEST_F(BodyFile, displacement_field_of_the_full_basis_leaves_restrained_nodes_at_rest) {
   write_full(path, sample_full_body());
   const Eigen::VectorXd q = Eigen::VectorXd::Random(24);

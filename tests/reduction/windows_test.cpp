@@ -86,6 +86,72 @@ TEST(Windows, do_not_depend_on_the_number_of_ranks) {
                solve(test::assemble(mesh, {"xmin"}, PETSC_COMM_SELF), options).modes.eigenvalue);
 }
 
+TEST(Windows, continued_from_any_state_give_the_same_modes_to_the_bit) {
+  const test::System system = square_beam();
+  reduction::EigenOptions options{.n_modes = kModes, .window = 5, .block = 4};
+  std::vector<reduction::SearchState> states;
+  options.commit = [&](const reduction::SearchState& state) { states.push_back(state); };
+  const auto ignore = [](int, Vec) {};
+  const auto& [K, M] = system.matrices;
+  const auto whole = reduction::find_eigenmodes(K, M, options, ignore);
+  ASSERT_GE(states.size(), 4u);
+  int size = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  for (const auto& state : std::vector(states)) {
+    options.start = state;
+    int first = -1;
+    const auto rest = reduction::find_eigenmodes(K, M, options, [&](int k, Vec) {
+      if (first < 0) first = k;
+    });
+    const auto known = state.eigenvalue.size();
+    EXPECT_EQ(first, known < kModes ? static_cast<int>(known) : -1);
+    expect_equal(rest.eigenvalue, whole.eigenvalue);
+    // MUMPS adds up in the order of arrival on several ranks.
+    if (size > 1) continue;
+    EXPECT_EQ(rest.eigenvalue, whole.eigenvalue);
+    EXPECT_EQ(rest.residual, whole.residual);
+    EXPECT_EQ(rest.orthogonality, whole.orthogonality);
+  }
+}
+
+TEST(Windows, keep_equal_eigenvalues_together_when_asked_to) {
+  const test::System system = square_beam();
+  for (int window : {0, 8}) {
+    const Eigen::VectorXd first = solve(system, {.n_modes = 2, .window = window}).modes.eigenvalue;
+    ASSERT_NEAR(first(1) / first(0), 1, kEigensolver) << "the first two are no pair";
+    const reduction::EigenOptions options{.n_modes = 1, .window = window, .whole_pairs = true};
+    int count = 0;
+    const auto& [K, M] = system.matrices;
+    const auto modes = reduction::find_eigenmodes(K, M, options, [&](int, Vec) { ++count; });
+    EXPECT_EQ(modes.eigenvalue.size(), 2);
+    EXPECT_EQ(count, 2);
+  }
+}
+
+TEST(Windows, measure_the_orthogonality_of_their_modes) {
+  const test::System system = cube();
+  for (int window : {0, 6}) {
+    const Solution solution = solve(system, {.n_modes = kModes, .window = window, .block = 4});
+    const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(kModes, kModes);
+    const double largest = (solution.gram - I).cwiseAbs().maxCoeff();
+    EXPECT_GT(solution.modes.orthogonality, 0);
+    EXPECT_LT(solution.modes.orthogonality, kOrthogonality);
+    EXPECT_LT(std::abs(solution.modes.orthogonality - largest), kOrthogonality);
+  }
+}
+
+TEST(Windows, of_a_free_body_leave_the_six_rigid_modes_out) {
+  const test::System system = test::assemble(test::brick({4, 3, 2}, {1, 0.6, 0.3}), {});
+  const double scale = 1e6;  // rad^2/s^2, far below the first elastic mode
+  const reduction::EigenOptions options{
+      .n_modes = 10, .window = 4, .block = 4, .first_shift = -scale, .n_rigid = 6};
+  const Solution solution = solve(system, options);
+  EXPECT_GT(solution.modes.eigenvalue(0), scale);
+  expect_orthonormal(solution);
+  const auto& [K, M] = system.matrices;
+  EXPECT_EQ(reduction::count_eigenvalues_below(K, M, 0.999 * solution.modes.eigenvalue(0)), 6);
+}
+
 TEST(Windows, that_lost_a_mode_are_an_error_naming_both_counts) {
   const test::System system = square_beam();
   const Eigen::VectorXd all = solve(system, {.n_modes = 13}).modes.eigenvalue;

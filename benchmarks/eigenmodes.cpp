@@ -1,0 +1,175 @@
+// Block Lanczos in windows against SLEPc's Krylov-Schur, on the same matrices in the same run.
+//
+//   benchmark_eigenmodes -mesh worm.msh [-restrain seats] [-modes 500] [-window auto] [-slepc 100,200,400]
+//   [-at 0,0.5,1]
+//
+// First all modes by windows. Then SLEPc at some places of the spectrum (0: its lower end, 1: below the last
+// mode): for each size one EPSSolve for so many modes, the shift in their middle, factorisation by MUMPS with
+// its own ordering included. A whole walk up the spectrum costs about the mean of the seconds per mode.
+
+#include <slepceps.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <ctime>
+#include <sstream>
+
+#include "elastogear/base/error.h"
+#include "elastogear/fem/assembly.h"
+#include "elastogear/fem/element.h"
+#include "elastogear/fem/restraint.h"
+#include "elastogear/mesh/file.h"
+#include "elastogear/mesh/partition.h"
+#include "elastogear/reduction/eigenmodes.h"
+
+namespace {
+
+using namespace elastogear;
+using UniqueEPS = Handle<EPS, EPSDestroy>;
+
+const std::vector<model::MaterialRegion> kSteel{{"", {210e9, 0.3, 7850}}};
+
+std::string text_option(const char* name, const std::string& fallback) {
+  char text[1024] = "";
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsGetString(nullptr, nullptr, name, text, sizeof text, &given));
+  return given ? text : fallback;
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, ',');) values.push_back(std::stod(word));
+  return values;
+}
+
+struct Time {
+  double wall = MPI_Wtime(), cpu = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+};
+
+template <class... Arguments>
+void print(const char* format, Arguments... arguments) {
+  check(PetscPrintf(PETSC_COMM_WORLD, format, arguments...));
+}
+
+// Per mode, and in all; CPU time of rank 0.
+void print_time(const std::string& what, const Time& start, int modes) {
+  const Time end;
+  print("%-44s %5d modes %9.2f s wall %9.2f s cpu %8.4f s wall/mode %8.4f s cpu/mode\n", what.c_str(), modes,
+        end.wall - start.wall, end.cpu - start.cpu, (end.wall - start.wall) / modes,
+        (end.cpu - start.cpu) / modes);
+}
+
+fem::Matrices read_and_assemble() {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  mesh::Mesh mesh;
+  std::vector<int> region;
+  fem::RowNumbering rows;
+  if (rank == 0) {
+    mesh::ReadReport report;
+    mesh = mesh::read_mesh(text_option("-mesh", ""), 1, &report);
+    region = fem::cell_regions(mesh, kSteel);
+    const auto is_free = fem::free_nodes(mesh, {text_option("-restrain", "seats")});
+    rows = fem::number_rows(mesh, is_free, mesh::partition_cells(mesh, size).part, size);
+  }
+  const fem::Share share = fem::distribute(PETSC_COMM_WORLD, mesh, region, rows);
+  const Time start;
+  fem::Matrices matrices = fem::assemble(PETSC_COMM_WORLD, share, kSteel, model::Element::incompatible);
+  print("assembly %.2f s wall\n", MPI_Wtime() - start.wall);
+  return matrices;
+}
+
+double peak_gigabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double kilobyte = 1024, gigabyte = 1e9;
+  return usage.ru_maxrss * kilobyte / gigabyte;
+}
+
+Eigen::VectorXd run_windows(const fem::Matrices& matrices, int n_modes) {
+  reduction::EigenOptions options;
+  const std::string window = text_option("-window", "auto");
+  options.n_modes = n_modes;
+  options.window = window == "auto" ? reduction::kAutomaticWindow : std::stoi(window);
+  options.block = std::stoi(text_option("-block", "0"));
+  Time last;
+  int before = 0, blocks = 0;
+  options.commit = [&](const reduction::SearchState& state) {
+    const int now = static_cast<int>(state.eigenvalue.size());
+    print_time("  window, blocks " + std::to_string(state.iterations - blocks), last, now - before);
+    last = Time{};
+    before = now;
+    blocks = state.iterations;
+  };
+  const Time start;
+  const auto modes = reduction::find_eigenmodes(matrices.K, matrices.M, options, [](int, Vec) {});
+  print_time("block Lanczos in windows, all", start, n_modes);
+  print("  largest residual %.2e, largest phi_i' M phi_j %.2e, peak memory of rank 0 %.2f GB\n",
+        modes.residual.maxCoeff(), modes.orthogonality, peak_gigabytes());
+  return modes.eigenvalue;
+}
+
+// `size` modes about the one with number `middle`.
+void run_slepc(const fem::Matrices& matrices, const Eigen::VectorXd& lambda, int first, int size) {
+  const int middle = first == 0 ? 0 : first + size / 2;
+  const double sigma = middle == 0 ? 0 : (lambda(middle - 1) + lambda(middle)) / 2;
+  UniqueEPS eps;
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  const Time start;
+  check(EPSCreate(PETSC_COMM_WORLD, eps.out()));
+  check(EPSSetOperators(eps, matrices.K, matrices.M));
+  check(EPSSetProblemType(eps, EPS_GHEP));
+  check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
+  check(EPSSetTarget(eps, sigma));
+  check(EPSSetDimensions(eps, size, PETSC_DEFAULT, PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, reduction::EigenOptions{}.tolerance, PETSC_DEFAULT));
+  check(EPSSetPurify(eps, PETSC_FALSE));
+  check(EPSGetST(eps, &st));
+  check(STSetType(st, STSINVERT));
+  check(STGetKSP(st, &ksp));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(EPSSetFromOptions(eps));
+  check(EPSSolve(eps));
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps, &converged));
+  require(converged > 0, "Krylov-Schur found no mode about number ", middle);
+  print_time("Krylov-Schur, " + std::to_string(size) + " modes about number " + std::to_string(middle), start,
+             static_cast<int>(converged));
+}
+
+void run() {
+  const int n_modes = std::stoi(text_option("-modes", "500"));
+  const fem::Matrices matrices = read_and_assemble();
+  PetscInt n = 0;
+  check(MatGetSize(matrices.K, &n, nullptr));
+  print("%d free degrees of freedom, %d modes\n", static_cast<int>(n), n_modes);
+  const Eigen::VectorXd lambda = run_windows(matrices, n_modes);
+  check(MatSetOption(matrices.K, MAT_SPD, PETSC_FALSE));
+  check(MatSetOption(matrices.K, MAT_SYMMETRIC, PETSC_TRUE));
+  for (double place : numbers(text_option("-at", "0,0.5,1")))
+    for (double size : numbers(text_option("-slepc", "100,200,400"))) {
+      if (size > n_modes) continue;
+      const int first = static_cast<int>(place * (static_cast<double>(lambda.size()) - size));
+      run_slepc(matrices, lambda, first, static_cast<int>(size));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Session session(argc, argv);
+  try {
+    run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
