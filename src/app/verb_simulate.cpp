@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "app/console.h"
+#include "app/motion.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/body/rigid.h"
 #include "elastogear/dynamics/simulate.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/io/result_file.h"
@@ -18,14 +21,34 @@ namespace {
 
 const OptionTable kTable = {
     {"bodies", "-", "", "names of the bodies; each has its own <body>_... keys"},
-    {"<body>_file", "-", "", "body file made by reduce"},
+    {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
+    {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
+    {"<body>_mass", "kg", "", "rigid body without a file: mass"},
+    {"<body>_center", "m", "0,0,0", "rigid body without a file: centre of mass in the body frame"},
+    {"<body>_inertia", "kg m^2", "", "rigid body without a file: xx,yy,zz,xy,yz,xz about the centre of mass"},
     {"<body>_position", "m", "0,0,0", "origin of the body frame in the world"},
     {"<body>_rotation", "rad", "0,0,0", "rotation vector from the body frame to the world"},
-    {"<body>_joint", "-", "fixed", "fixed, or revolute about an axis through the origin of the body frame"},
-    {"<body>_axis", "-", "0,0,1", "revolute: direction of the axis in the body frame"},
-    {"<body>_angle0", "rad", "0", "revolute: initial angle"},
-    {"<body>_omega0", "rad/s", "0", "revolute: initial angular velocity"},
-    {"<body>_torque", "N m", "0", "revolute: constant torque about the axis"},
+    {"<body>_joint", "-", "fixed", "fixed, revolute, prismatic, cylindrical, spherical or free"},
+    {"<body>_axis", "-", "0,0,1", "direction of the joint's axis in the body frame"},
+    {"<body>_point", "m", "0,0,0", "point of the axis, or centre of a spherical joint, in the body frame"},
+    {"<body>_angle0", "rad", "0", "initial angle about the axis"},
+    {"<body>_omega0", "rad/s", "0",
+     "initial angular velocity: about the axis; free, spherical: x,y,z in the body frame"},
+    {"<body>_displacement0", "m", "0", "initial displacement along the axis"},
+    {"<body>_velocity0", "m/s", "0", "initial velocity: along the axis; free: x,y,z in the world"},
+    {"<body>_torque", "N m", "0", "about the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_force", "N", "0", "along the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_rotation_motion", "rad", "",
+     "prescribed rotation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_translation_motion", "m", "",
+     "prescribed translation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_rotation_damping", "N m s", "0", "viscous damping about the axis"},
+    {"<body>_rotation_friction", "N m", "0", "Coulomb friction about the axis"},
+    {"<body>_rotation_friction_rate", "rad/s", "0", "speed at which friction is tanh(1) of its full value"},
+    {"<body>_translation_damping", "N s/m", "0", "viscous damping along the axis"},
+    {"<body>_translation_friction", "N", "0", "Coulomb friction along the axis"},
+    {"<body>_translation_friction_rate", "m/s", "0", "speed at which friction is tanh(1) of its full value"},
+    {"gravity", "m/s^2", "0,0,0", "acceleration of gravity in the world"},
     {"contact_pairs", "-", "", "pairs of bodies that may touch, a:b"},
     {"contact_slave", "-", "first", "which body of a pair gives the slave nodes: first or second"},
     {"contact_two_pass", "-", "false",
@@ -41,7 +64,8 @@ const OptionTable kTable = {
      "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
      "(leaf-up from the deformed surface) or realign (hull points)"},
     {"contact_tangent", "-", "full", "contact tangent: full, or normal (without its geometric part)"},
-    {"inertia", "-", "linear", "dependence of the inertia on the deformation: constant or linear"},
+    {"inertia", "-", "linear",
+     "what the inertia keeps of the deformation: constant, linear or full (second order)"},
     {"analysis", "-", "dynamic", "dynamic"},
     {"ts_dt", "s", "", "time step"},
     {"ts_max_time", "s", "", "end of the simulation"},
@@ -52,9 +76,9 @@ const OptionTable kTable = {
 
 body::Joint joint(const Options& options, const std::string& prefix) {
   body::Joint joint;
-  joint.type = options.choice(prefix + "joint", {"fixed", "revolute"}) == 0 ? body::JointType::fixed
-                                                                            : body::JointType::revolute;
+  joint.type = static_cast<body::JointType>(options.choice(prefix + "joint", body::joint_names()));
   joint.axis = options.vector(prefix + "axis");
+  joint.point = options.vector(prefix + "point");
   joint.r_WB0 = options.vector(prefix + "position");
   joint.R_WB0 = rotation_matrix(options.vector(prefix + "rotation"));
   return joint;
@@ -62,13 +86,55 @@ body::Joint joint(const Options& options, const std::string& prefix) {
 
 // A body reduced free has no nodes that carry its frame.
 void check_free_body(const dynamics::BodySetup& setup) {
-  if (!setup.body->floating) return;
-  require(setup.body->basis == model::Basis::modal || setup.joint.type == body::JointType::fixed, "body ",
-          setup.name,
+  const bool modal = setup.body->basis == model::Basis::modal;
+  if (!setup.body->floating || (modal && setup.joint.type == body::JointType::free)) return;
+  require(modal || setup.joint.type == body::JointType::fixed, "body ", setup.name,
           " was reduced free with the full basis, which contains rigid motions: its joint must be fixed");
   print_item("warning", "body " + setup.name +
                             " was reduced free, but a joint holds its frame: no node is held, " +
                             "its mean motion is");
+}
+
+// kind: "rotation" or "translation"; load: "torque" or "force". Initial values are set already.
+void set_axis(const Options& options, const std::string& prefix, const char* kind, const char* load_name,
+              dynamics::Axis& axis) {
+  const std::string name = prefix + kind;
+  axis.load = signal(options, prefix + load_name);
+  axis.damping = options.number(name + "_damping");
+  axis.friction = options.number(name + "_friction");
+  axis.friction_rate = options.number(name + "_friction_rate");
+  if (!options.given(name + "_motion")) return;
+  axis.drive = drive(options, name + "_motion", std::exchange(axis.s_0, 0));
+}
+
+// A number, or three where the joint takes a vector.
+void set_rate(const Options& options, const std::string& name, double& scalar, Eigen::Vector3d& vector) {
+  const std::size_t n = options.numbers(name).size();
+  require(n == 1 || n == 3, "option -", name, ": must be one number, or three x,y,z for a free body");
+  if (n == 3)
+    vector = options.vector(name);
+  else
+    scalar = options.number(name);
+}
+
+std::shared_ptr<const model::ElasticBody> read_or_make_body(const Options& options,
+                                                            const std::string& prefix) {
+  if (options.given(prefix + "file")) {
+    require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
+            "file and -", prefix, "mass, _inertia exclude each other");
+    const model::ElasticBody body = io::read_body(options.text(prefix + "file"));
+    return std::make_shared<model::ElasticBody>(options.flag(prefix + "rigid") ? body::rigid_copy(body)
+                                                                               : body);
+  }
+  require(options.given(prefix + "mass"), "option -", prefix,
+          "file is missing: body file made by reduce (or give -", prefix, "mass and -", prefix,
+          "inertia of a rigid body)");
+  const std::vector<double> J = options.numbers(prefix + "inertia");
+  require(J.size() == 6, "option -", prefix, "inertia: must be six numbers xx,yy,zz,xy,yz,xz (kg m^2)");
+  Eigen::Matrix3d J_c;
+  J_c << J[0], J[3], J[5], J[3], J[1], J[4], J[5], J[4], J[2];
+  return std::make_shared<model::ElasticBody>(
+      body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c));
 }
 
 dynamics::BodySetup body_setup(const Options& options, const std::string& name) {
@@ -77,11 +143,19 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   setup.name = name;
   setup.joint = joint(options, prefix);
   setup.rotation.s_0 = options.number(prefix + "angle0");
-  setup.rotation.s_dot_0 = options.number(prefix + "omega0");
-  setup.rotation.load = dynamics::constant_signal(options.number(prefix + "torque"));
-  setup.body = std::make_shared<model::ElasticBody>(io::read_body(options.text(prefix + "file")));
+  setup.translation.s_0 = options.number(prefix + "displacement0");
+  set_rate(options, prefix + "omega0", setup.rotation.s_dot_0, setup.omega0);
+  set_rate(options, prefix + "velocity0", setup.translation.s_dot_0, setup.velocity0);
+  set_axis(options, prefix, "rotation", "torque", setup.rotation);
+  set_axis(options, prefix, "translation", "force", setup.translation);
+  setup.body = read_or_make_body(options, prefix);
   check_free_body(setup);
   return setup;
+}
+
+dynamics::Environment environment(const Options& options) {
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
+          options.vector("gravity")};
 }
 
 contact::Settings contact_settings(const Options& options) {
@@ -151,14 +225,16 @@ void run(const Options& options, const std::vector<std::string>&) {
   const std::string output = options.text("output");
   const dynamics::TimeSettings time = time_settings(options);
   const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
-  const auto level = options.choice("inertia", {"constant", "linear"}) == 0 ? body::InertiaLevel::constant
-                                                                            : body::InertiaLevel::linear;
+  const dynamics::Environment surroundings = environment(options);
   std::vector<dynamics::BodySetup> bodies;
   for (const std::string& name : names) bodies.push_back(body_setup(options, name));
 
-  dynamics::System system(std::move(bodies), pairs, {level});
+  dynamics::System system(std::move(bodies), pairs, surroundings);
   model::ResultHeader header = result_header(system);
-  for (auto& body : header.bodies) body.file = options.text(body.name + "_file");
+  for (auto& body : header.bodies) {
+    const std::string file = body.name + "_file";
+    body.file = options.given(file) ? options.text(file) : "";
+  }
   header.provenance = options.provenance();
   io::ResultWriter writer(output, header);
   const dynamics::RunSummary summary = dynamics::simulate(

@@ -14,6 +14,11 @@ using Eigen::Vector3d;
 // Every cross product a x of the columns.
 Matrix3Xd cross(const Vector3d& a, const Matrix3Xd& columns) { return skew(a) * columns; }
 
+// Turned about the joint's point, then moved.
+Placement about_point(const Joint& joint, const Eigen::Matrix3d& turn, const Vector3d& move) {
+  return {joint.r_WB0 + joint.R_WB0 * (joint.point - turn * joint.point + move), joint.R_WB0 * turn};
+}
+
 }  // namespace
 
 int coordinate_count(JointType type) {
@@ -25,6 +30,8 @@ int coordinate_count(JointType type) {
       return 1;
     case JointType::cylindrical:
       return 2;
+    case JointType::spherical:
+      return 3;
     case JointType::free:
       return 6;
   }
@@ -32,31 +39,37 @@ int coordinate_count(JointType type) {
 }
 
 const std::vector<std::string>& joint_names() {
-  static const std::vector<std::string> names = {"fixed", "revolute", "prismatic", "cylindrical", "free"};
+  static const std::vector<std::string> names = {"fixed",       "revolute",  "prismatic",
+                                                 "cylindrical", "spherical", "free"};
   return names;
 }
 
 bool turns(JointType type) { return type == JointType::revolute || type == JointType::cylindrical; }
 bool slides(JointType type) { return type == JointType::prismatic || type == JointType::cylindrical; }
+bool tumbles(JointType type) { return type == JointType::spherical || type == JointType::free; }
 
 Placement placement(const Joint& joint, const Eigen::VectorXd& s) {
   if (joint.type == JointType::free) return {s.head<3>(), joint.R_WB0 * cayley(s.tail<3>())};
   if (joint.type == JointType::fixed) return {joint.r_WB0, joint.R_WB0};
+  if (joint.type == JointType::spherical) return about_point(joint, cayley(s), Vector3d::Zero());
   const Vector3d axis = joint.axis.normalized();
   const double angle = turns(joint.type) ? s[0] : 0, slid = slides(joint.type) ? s[s.size() - 1] : 0;
-  const Eigen::Matrix3d turn = rotation_matrix(angle * axis);
-  return {joint.r_WB0 + joint.R_WB0 * (joint.point - turn * joint.point + slid * axis), joint.R_WB0 * turn};
+  return about_point(joint, rotation_matrix(angle * axis), slid * axis);
 }
 
 MotionSubspace motion_subspace(const Joint& joint) {
   const int n_s = coordinate_count(joint.type);
   if (n_s == 0 || n_s == 6) return MotionSubspace::Identity(6, n_s);
+  require(joint.point.allFinite(), "joint point (", joint.point.transpose(), ") must be finite");
+  MotionSubspace H = MotionSubspace::Zero(6, n_s);
+  if (joint.type == JointType::spherical) {
+    H << skew(joint.point), Eigen::Matrix3d::Identity();
+    return H;
+  }
   const double length = joint.axis.norm();
   require(std::isfinite(length) && length > 0, "joint axis (", joint.axis.transpose(),
           ") must be finite and not zero");
-  require(joint.point.allFinite(), "joint point (", joint.point.transpose(), ") must be finite");
   const Vector3d axis = joint.axis / length;
-  MotionSubspace H = MotionSubspace::Zero(6, n_s);
   if (turns(joint.type)) H.col(0) << joint.point.cross(axis), axis;
   if (slides(joint.type)) H.col(n_s - 1) << axis, Vector3d::Zero();
   return H;
@@ -94,12 +107,18 @@ FrameDerivative frame_derivative(const Joint& joint, const MotionSubspace& H, co
   } else {
     d.a = shift.a * d.r + shift.v * (cross(f.w, d.r) - cross(f.v, d.theta));
   }
+  if (joint.type == JointType::spherical) {
+    d.theta = cayley_tangent(m.s);
+    d.r = cross(joint.point, d.theta);
+  }
   return d;
 }
 
 Joint rebased(const Joint& joint, const Eigen::VectorXd& s) {
   Joint result = joint;
-  if (joint.type == JointType::free) result.R_WB0 = orthonormalised(placement(joint, s).R_WB);
+  if (!tumbles(joint.type)) return result;
+  result.R_WB0 = orthonormalised(placement(joint, s).R_WB);
+  result.r_WB0 += (joint.R_WB0 - result.R_WB0) * joint.point;
   return result;
 }
 

@@ -14,12 +14,12 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 void require_table(const std::vector<double>& time, const std::vector<double>& value) {
   require(time.size() == value.size(), "a table has ", time.size(), " times and ", value.size(), " values");
   require(time.size() >= 2, "a table has ", time.size(), " rows, must have at least two");
-  for (std::size_t i = 0; i < time.size(); ++i) {
+  for (std::size_t i = 0; i < time.size(); ++i)
     require(std::isfinite(time[i]) && std::isfinite(value[i]), "table row ", i + 1, " (", time[i], ", ",
             value[i], ") is not finite");
-    require(i == 0 || time[i] > time[i - 1], "table row ", i + 1, ": time ", time[i],
-            " s does not come after ", time[i - 1], " s");
-  }
+  for (std::size_t i = 1; i < time.size(); ++i)
+    require(time[i] > time[i - 1], "table row ", i + 1, ": time ", time[i], " s does not come after ",
+            time[i - 1], " s");
 }
 
 // Number of the interval that holds t; the outer ones reach beyond their ends.

@@ -33,8 +33,10 @@ void validate_motion(const BodySetup& setup, const std::string& who) {
       body::slides(type) || is_default(setup.translation), who, "a ", joint,
       " joint has no axis to slide along: no initial displacement or speed, force, friction or prescribed "
       "translation");
-  require(type == body::JointType::free || (setup.velocity0.isZero(0) && setup.omega0.isZero(0)), who,
-          "only a free body takes an initial velocity and angular velocity as vectors");
+  require(type == body::JointType::free || setup.velocity0.isZero(0), who,
+          "only a free body takes an initial velocity as a vector");
+  require(body::tumbles(type) || setup.omega0.isZero(0), who,
+          "only a free or spherical joint takes an initial angular velocity as a vector");
   require(setup.velocity0.allFinite() && setup.omega0.allFinite(), who, "initial velocity (",
           setup.velocity0.transpose(), ") and angular velocity (", setup.omega0.transpose(),
           ") must be finite");
@@ -148,8 +150,9 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> initial_motion(const BodySetup& setu
   Eigen::VectorXd s = Eigen::VectorXd::Zero(n_s), s_dot = s;
   if (setup.joint.type == body::JointType::free) {
     s.head<3>() = setup.joint.r_WB0;
-    s_dot << setup.velocity0, setup.omega0;
+    s_dot.head<3>() = setup.velocity0;
   }
+  if (body::tumbles(setup.joint.type)) s_dot.tail<3>() = setup.omega0;
   for (Eigen::Index i = 0; const Axis& axis : axes(setup)) {
     s[i] = axis.s_0;
     s_dot[i++] = axis.s_dot_0;
@@ -367,9 +370,9 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
 bool System::rebase(Eigen::Ref<Eigen::VectorXd> U) {
   bool any = false;
   for (Body& body : bodies_) {
-    if (body.eq.joint.type != body::JointType::free) continue;
-    body.eq.joint = body::rebased(body.eq.joint, U.segment<6>(body.first));
-    U.segment<3>(body.first + 3).setZero();
+    if (!body::tumbles(body.eq.joint.type)) continue;
+    body.eq.joint = body::rebased(body.eq.joint, U.segment(body.first, body.eq.n_s()));
+    U.segment<3>(body.first + body.eq.n_s() - 3).setZero();
     any = true;
   }
   if (any) U_of_state_.reset();

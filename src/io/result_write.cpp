@@ -84,6 +84,7 @@ void ResultWriter::Data::append_body(const std::string& group, const model::Body
   append(group + "/rigid", body.s, "rad or m");
   append(group + "/rigid_velocity", body.s_dot, "rad/s or m/s");
   append(group + "/rigid_acceleration", body.s_ddot, "rad/s^2 or m/s^2");
+  append(group + "/joint_force", body.joint_force, "N m or N");
   append(group + "/position", body.r_WB, "m");
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = body.R_WB;
   series_at(group + "/rotation", {{3, 3}, "1"}).append(R.data());

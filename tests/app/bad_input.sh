@@ -111,6 +111,21 @@ expect_error "pair of unknown body" "'c'" "${simulate[@]}" -contact_pairs a:c
 expect_error "zero step" 'ts_dt.*0' "${simulate[@]}" -ts_dt 0
 expect_error "zero axis" 'axis' "${simulate[@]}" -a_joint revolute -a_axis 0,0,0
 expect_error "bodies deep inside each other" '(deep|penetrat)' "${simulate[@]}" -b_position 0.003,0,0.004 -b_rotation 3.14159265,0,0
+printf 'time,torque\n0,1\n5e-7,2\n' >short.csv
+printf '0,1\n0,2\n' >twice.csv
+hinged=("${simulate[@]}" -a_joint revolute)
+expect_error "table that ends early" 'covers 0 .. 5e-07 s, the run needs 0 .. 1e-06 s' "${hinged[@]}" -a_torque table,short.csv
+expect_error "table with equal times" 'twice.csv: table row 2: time 0 s' "${hinged[@]}" -a_torque table,twice.csv
+expect_error "table that is not there" 'nosuch.csv: cannot be read' "${hinged[@]}" -a_rotation_motion table,nosuch.csv
+expect_error "torque beside a prescribed motion" 'takes no load' "${hinged[@]}" -a_torque 1 -a_rotation_motion speed,2
+expect_error "force on a hinge" 'no axis to slide along' "${hinged[@]}" -a_force 1
+expect_error "torque on a free body" 'no axis to turn about' "${simulate[@]}" -a_joint free -a_torque 1
+expect_error "unknown prescribed motion" 'a_rotation_motion: must be .speed' "${hinged[@]}" -a_rotation_motion fast
+expect_error "body without mass" 'mass 0 kg must be positive' "$elastogear" simulate -bodies a -a_mass 0 -a_inertia 1,1,1,0,0,0 \
+  -ts_dt 1e-7 -ts_max_time 1e-6 -output new.h5
+expect_error "inertia of no mass distribution" 'principal inertias' "$elastogear" simulate -bodies a -a_mass 1 \
+  -a_inertia 1,1,3,0,0,0 -ts_dt 1e-7 -ts_max_time 1e-6 -output new.h5
+expect_error "invariants that the body lacks" "lacks the second-order invariants" "${simulate[@]}" -inertia full
 expect_error "undercut gear" "undercut" "$elastogear" mesh -part wheel -pressure_angle 8 -mesh new.msh
 expect_error "centre distance that does not exist" 'centre distance' "$elastogear" mesh -part worm -centre_distance 0.02 -mesh new.msh
 expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all

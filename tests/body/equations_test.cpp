@@ -48,7 +48,7 @@ Motion some_motion(int n_s) {
 Motion later(const Equations& eq, const Motion& m, double h) {
   Motion n = m;
   n.s += h * m.s_dot + h * h / 2 * m.s_ddot;
-  if (eq.joint.type == JointType::free) {
+  if (tumbles(eq.joint.type)) {
     const Vector3d psi = m.s.tail<3>(), w = m.s_dot.tail<3>();
     n.s.tail<3>() = psi + h * cayley_tangent(psi).inverse() * w;  // to first order
   }
@@ -169,8 +169,8 @@ namespace {
 std::vector<Case> cases(const std::vector<InertiaLevel>& levels) {
   std::vector<Case> all;
   for (InertiaLevel level : levels)
-    for (JointType type :
-         {JointType::revolute, JointType::prismatic, JointType::cylindrical, JointType::free})
+    for (JointType type : {JointType::revolute, JointType::prismatic, JointType::cylindrical,
+                           JointType::spherical, JointType::free})
       all.push_back({type, level});
   return all;
 }

@@ -25,7 +25,7 @@ Joint joint_of(JointType type) {
 struct Moving : testing::TestWithParam<JointType> {};
 INSTANTIATE_TEST_SUITE_P(Joints, Moving,
                          testing::Values(JointType::revolute, JointType::prismatic, JointType::cylindrical,
-                                         JointType::free));
+                                         JointType::spherical, JointType::free));
 
 }  // namespace
 
@@ -34,15 +34,11 @@ TEST_P(Moving, velocity_and_acceleration_are_the_rates_of_the_placement) {
   const Joint joint = joint_of(GetParam());
   const int n = body::coordinate_count(GetParam());
   std::srand(1);
-  const VectorXd s = VectorXd::Random(n), s_dot = VectorXd::Random(n), s_ddot = VectorXd::Random(n);
+  VectorXd s = VectorXd::Random(n), s_dot = VectorXd::Random(n), s_ddot = VectorXd::Random(n);
+  if (tumbles(GetParam())) s.tail<3>().setZero();  // where psi' and psi'' are w and w'
   const auto H = body::motion_subspace(joint);
   const body::FrameMotion f = body::frame_motion(joint, H, {s, s_dot, s_ddot});
-  const bool is_free = GetParam() == JointType::free;
-  const auto at = [&](double h) {
-    VectorXd x = s + h * s_dot + h * h / 2 * s_ddot;
-    if (is_free) x.tail<3>() = s.tail<3>() + h * cayley_tangent(s.tail<3>()).inverse() * s_dot.tail<3>();
-    return placement(joint, x);
-  };
+  const auto at = [&](double h) { return placement(joint, s + h * s_dot + h * h / 2 * s_ddot); };
   const auto now = at(0), next = at(kStep), before = at(-kStep);
   const Eigen::Matrix3d R_BW = now.R_WB.transpose();
   const Vector3d v = R_BW * (next.r_WB - before.r_WB) / (2 * kStep);
@@ -91,16 +87,17 @@ TEST(Cylindrical, turns_and_slides_along_one_axis) {
   EXPECT_LT((R_WB - rotation_matrix({0, 0, 0.5})).norm(), kRoundoff);
 }
 
-TEST(Free, rebasing_keeps_the_placement_and_empties_the_rotation_vector) {
-  const Joint joint = joint_of(JointType::free);
-  VectorXd s(6);
-  s << 1, 2, 3, 0.4, -0.5, 0.6;
-  const Joint next = rebased(joint, s);
-  const auto before = placement(joint, s);
-  s.tail<3>().setZero();
-  const auto after = placement(next, s);
-  EXPECT_EQ(before.r_WB, after.r_WB);
-  EXPECT_LT((before.R_WB - after.R_WB).norm(), kRoundoff);
+TEST(LocalRotationVector, is_emptied_without_a_change_of_the_placement) {
+  for (JointType type : {JointType::spherical, JointType::free}) {
+    const Joint joint = joint_of(type);
+    VectorXd s = VectorXd::LinSpaced(body::coordinate_count(type), 0.3, -0.6);
+    const auto before = placement(joint, s);
+    const Joint next = rebased(joint, s);
+    s.tail<3>().setZero();
+    const auto after = placement(next, s);
+    EXPECT_LT((before.r_WB - after.r_WB).norm(), kRoundoff);
+    EXPECT_LT((before.R_WB - after.R_WB).norm(), kRoundoff);
+  }
 }
 
 TEST(Joint, refuses_an_axis_without_direction_and_a_point_that_is_nowhere) {

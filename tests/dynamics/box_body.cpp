@@ -143,6 +143,24 @@ model::Inertia inertia(const Model& model, const Sparse& Phi) {
   return result;
 }
 
+// S^ab over all displacements: the scalar mass between directions a and b.
+Sparse mass_between(const Sparse& M, int a, int b) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < M.outerSize(); j += 3)
+    for (Sparse::InnerIterator it(M, j); it; ++it)
+      if (it.row() % 3 == 0) entries.emplace_back(static_cast<int>(it.row()) + a, j + b, it.value());
+  Sparse S(M.rows(), M.cols());
+  S.setFromTriplets(entries.begin(), entries.end());
+  return S;
+}
+
+std::vector<model::BasisRows> second_moments(const Sparse& M, const Sparse& Phi) {
+  std::vector<model::BasisRows> S_2;
+  for (const auto& [a, b] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}})
+    S_2.push_back(model::SparseRows(Phi.transpose() * mass_between(M, a, b) * Phi));
+  return S_2;
+}
+
 void add_end_faces(const BoxSpec& spec, const Grid& grid, int group, model::Surface& surface) {
   const int i = group == 0 ? 0 : grid.n[0] - 1;
   for (int k = 0; k < spec.cells[2]; ++k)
@@ -183,6 +201,7 @@ model::ElasticBody full_box(const BoxSpec& spec) {
   body.name = "box";
   body.basis = model::Basis::full;
   body.inertia = inertia(model, Phi);
+  body.inertia.S_2 = second_moments(model.M, Phi);
   body.M_r = Phi.transpose() * model.M * Phi;
   body.K_r = Phi.transpose() * model.K * Phi;
   body.surface = surface(spec, model, Phi);
@@ -201,6 +220,8 @@ void project(model::ElasticBody& body, const MatrixXd& V) {
   body.inertia.C_l = V.transpose() * MatrixXd(body.inertia.C_l);
   body.inertia.C_r = V.transpose() * MatrixXd(body.inertia.C_r);
   body.inertia.S_1 = MatrixXd(body.inertia.S_1) * V;
+  for (model::BasisRows& S : body.inertia.S_2)
+    S = model::DenseRows(V.transpose() * (std::get<model::SparseRows>(S) * V));
   body.surface.Phi = model::DenseRows(std::get<model::SparseRows>(body.surface.Phi) * V);
 }
 
@@ -210,9 +231,9 @@ model::ElasticBody make_box(const BoxSpec& spec, model::Basis basis, int n_modes
   model::ElasticBody body = full_box(spec);
   if (basis == model::Basis::full) return body;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes{MatrixXd(body.K_r), MatrixXd(body.M_r)};
-  const auto n = n_modes > 0 ? n_modes : body.n_q();
-  const Eigen::VectorXd lambda = modes.eigenvalues().head(n).cwiseMax(0);
-  project(body, modes.eigenvectors().leftCols(n));
+  const auto n = n_modes > 0 ? n_modes : body.n_q() - spec.rigid_modes;
+  const Eigen::VectorXd lambda = modes.eigenvalues().segment(spec.rigid_modes, n).cwiseMax(0);
+  project(body, modes.eigenvectors().middleCols(spec.rigid_modes, n));
   body.frequency = lambda.cwiseSqrt() / (2 * std::numbers::pi);
   body.M_r = diagonal(Eigen::VectorXd::Ones(n));
   body.K_r = diagonal(lambda);

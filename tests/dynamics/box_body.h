@@ -15,6 +15,7 @@ struct BoxSpec {
   model::Material material;
   /// Is this degree of freedom (0..2) of the node at X held?
   std::function<bool(const Eigen::Vector3d& X, int direction)> held = [](const auto&, int) { return false; };
+  int rigid_modes = 0;  ///< lowest modes that a modal basis leaves out
 };
 
 /// Surface: the faces at x_min and x_max, groups of those names. n_modes = 0: all.

@@ -38,6 +38,8 @@ struct Options {
   bool two_pass = false;
   int slave = 0;
   model::Basis basis = model::Basis::modal;
+  JointType joint = JointType::revolute;  // of a
+  Axis rotation = {.load = constant_signal(0.3)};
 };
 
 // Two hinged boxes, end against end, tilted a little, 0.02 deep in each other.
@@ -45,8 +47,8 @@ System two_boxes(const Options& options) {
   std::vector<BodySetup> bodies(2);
   bodies[0] = {.name = "a",
                .body = box({0, -0.5, -0.5}, {2, 2, 2}, options.basis, 14),
-               .joint = {JointType::revolute, {0, 0.2, 1}},
-               .rotation = {.load = constant_signal(0.3)}};
+               .joint = {.type = options.joint, .axis = {0, 0.2, 1}, .point = {0.1, 0.2, -0.3}},
+               .rotation = options.rotation};
   bodies[1] = {
       .name = "b",
       .body = box({-2, -0.5, -0.5}, {2, 3, 2}, options.basis, 15),
@@ -66,8 +68,8 @@ struct Values {
 
 Values some_state(const System& system) {
   std::srand(4);
-  return {0.002 * VectorXd::Random(system.size()), VectorXd::Random(system.size()),
-          VectorXd::Random(system.size())};
+  return {system.initial_position() + 0.002 * VectorXd::Random(system.size()),
+          VectorXd::Random(system.size()), VectorXd::Random(system.size())};
 }
 
 // dF along (x, shift_v x, shift_a x)
@@ -105,11 +107,20 @@ TEST_P(Jacobian, is_the_derivative_of_the_residual) {
   expect_jacobian_is_derivative(system);
 }
 
-INSTANTIATE_TEST_SUITE_P(Levels, Jacobian,
-                         testing::Values(Options{InertiaLevel::constant}, Options{InertiaLevel::linear},
-                                         Options{InertiaLevel::linear, true},
-                                         Options{InertiaLevel::linear, false, 1},
-                                         Options{.basis = model::Basis::full}));
+INSTANTIATE_TEST_SUITE_P(
+    Levels, Jacobian,
+    testing::Values(Options{InertiaLevel::constant}, Options{InertiaLevel::linear},
+                    Options{InertiaLevel::linear, true}, Options{InertiaLevel::linear, false, 1},
+                    Options{.basis = model::Basis::full},
+                    Options{.rotation = {.damping = 0.7, .friction = 0.5, .friction_rate = 0.4}},
+                    Options{.rotation = {.drive = spin_up_drive(-0.0045, 0.1, 1)}},
+                    Options{.joint = JointType::cylindrical,
+                            .rotation = {.drive = spin_up_drive(-0.0045, 0.1, 1)}},
+                    Options{.level = InertiaLevel::full},
+                    Options{.level = InertiaLevel::full, .basis = model::Basis::full},
+                    Options{.joint = JointType::spherical, .rotation = {}},
+                    Options{.joint = JointType::free, .rotation = {}},
+                    Options{.level = InertiaLevel::full, .joint = JointType::free, .rotation = {}}));
 
 TEST(Contact, forces_and_moments_on_both_bodies_balance) {
   System system = two_boxes({.two_pass = true});

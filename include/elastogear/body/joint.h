@@ -9,9 +9,11 @@ namespace elastogear::body {
 
 /// Coordinates s and their rates:
 /// revolute: angle (rad); prismatic: displacement (m); cylindrical: angle, then displacement;
-/// free: r_WB in W (m), then a local rotation vector in B (rad) that is re-based to zero after every step:
-/// R_WB = R_WB0 cayley(psi). Its rates are r' and the angular velocity w_WB_B, not psi'.
-enum class JointType { fixed, revolute, prismatic, cylindrical, free };
+/// spherical: a local rotation vector in B (rad) about `point`;
+/// free: r_WB in W (m), then a local rotation vector.
+/// Local rotation vectors are re-based to zero after every step: R_WB = R_WB0 cayley(psi). Their rates are
+/// the angular velocity w_WB_B and its derivative, not psi' and psi''.
+enum class JointType { fixed, revolute, prismatic, cylindrical, spherical, free };
 
 /// A joint between the world and a BRF.
 struct Joint {
@@ -19,15 +21,17 @@ struct Joint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();      ///< -, in the BRF, any length but zero
   Eigen::Vector3d r_WB0 = Eigen::Vector3d::Zero();      ///< m, BRF origin at s = 0; free: not used
   Eigen::Matrix3d R_WB0 = Eigen::Matrix3d::Identity();  ///< body to world at s = 0
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();      ///< m, in the BRF, through which the axis passes
+  Eigen::Vector3d point =
+      Eigen::Vector3d::Zero();  ///< m, in the BRF, through which the axis passes; spherical: the centre
 };
 
 /// Number of coordinates, 0..6.
 int coordinate_count(JointType type);
 /// "fixed", "revolute", ...; in the order of JointType.
 const std::vector<std::string>& joint_names();
-bool turns(JointType type);   ///< has an angle about an axis
-bool slides(JointType type);  ///< has a displacement along an axis
+bool turns(JointType type);    ///< has an angle about an axis
+bool slides(JointType type);   ///< has a displacement along an axis
+bool tumbles(JointType type);  ///< its last three coordinates are a local rotation vector
 
 struct Placement {
   Eigen::Vector3d r_WB;  ///< m
@@ -71,8 +75,8 @@ struct Shifts {
 FrameDerivative frame_derivative(const Joint& joint, const MotionSubspace& H, const JointMotion& m,
                                  const Shifts& shift);
 
-/// Free: the joint whose R_WB0 is the present orientation, where the rotation vector is zero. Others as they
-/// are.
+/// The joint that has the same placement where its local rotation vector is zero. Joints without one stay as
+/// they are.
 Joint rebased(const Joint& joint, const Eigen::VectorXd& s);
 
 }  // namespace elastogear::body

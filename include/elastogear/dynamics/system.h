@@ -24,7 +24,7 @@ struct BodySetup {
   Axis rotation = {};                                   ///< revolute and cylindrical: about the axis
   Axis translation = {};                                ///< prismatic and cylindrical: along the axis
   Eigen::Vector3d velocity0 = Eigen::Vector3d::Zero();  ///< free: m/s, of the BRF's origin, in W
-  Eigen::Vector3d omega0 = Eigen::Vector3d::Zero();     ///< free: rad/s, in the BRF
+  Eigen::Vector3d omega0 = Eigen::Vector3d::Zero();     ///< free and spherical: rad/s, in the BRF
   Eigen::VectorXd q_dot0 = {};                          ///< n_q, initial elastic velocity; empty: zero
 };
 
@@ -67,7 +67,7 @@ class System {
     std::string name;
     body::Equations eq;
     Eigen::Index first;              ///< first entry of [s; q] in a system vector
-    std::vector<Axis> axis;          ///< one per joint coordinate; free: none
+    std::vector<Axis> axis;          ///< one per joint coordinate; free, spherical: none
     std::vector<Eigen::Index> open;  ///< joint coordinates without prescribed motion, ascending
     bool in_contact;                 ///< named by a pair
     std::vector<int> node_group;     ///< face group of each surface node: that of its lowest face
@@ -102,8 +102,8 @@ class System {
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
   /// Load, friction and, where the motion is prescribed, the force that it takes: n_s, N or N m.
   Eigen::VectorXd joint_force(std::size_t b, const State& x);
-  /// Makes the present orientations of free bodies those from which their rotation vectors count, and sets
-  /// these to zero in U. True when there are free bodies.
+  /// Makes the present orientations those from which local rotation vectors count, and sets these to zero in
+  /// U. True when a joint has one.
   bool rebase(Eigen::Ref<Eigen::VectorXd> U);
 
  private:

@@ -1,0 +1,15 @@
+#pragma once
+// What acts along a joint's axis, from the options: words and numbers to loads and prescribed motions.
+
+#include "app/options.h"
+#include "elastogear/dynamics/axis.h"
+
+namespace elastogear::app {
+
+/// "5", "ramp,5,0.01" (value, duration) or "table,FILE.csv" (time, value).
+dynamics::Signal signal(const Options& options, const std::string& name);
+
+/// "speed,14", "spin_up,14,0.01" (speed, duration) or "table,FILE.csv" (time, coordinate), from s_0 on.
+dynamics::Drive drive(const Options& options, const std::string& name, double s_0);
+
+}  // namespace elastogear::app
