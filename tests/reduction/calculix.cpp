@@ -141,8 +141,8 @@ Eigen::MatrixXd calculix_stress(const CalculixModel& model, const std::map<int, 
 CalculixMatrices::CalculixMatrices(const CalculixModel& model) : folder(make_folder()) {
   write_deck(fs::path(folder) / "deck.inp", model, "*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n");
   run(folder);
-  require(fs::exists(stiffness()) && fs::exists(mass()) && fs::exists(dofs()),
-          "ccx stored no matrices in ", folder);
+  require(fs::exists(stiffness()) && fs::exists(mass()) && fs::exists(dofs()), "ccx stored no matrices in ",
+          folder);
 }
 
 CalculixMatrices::~CalculixMatrices() {
