@@ -96,6 +96,19 @@ TEST(FreeModes, do_not_depend_on_the_number_of_ranks_nor_on_the_solver) {
   }
 }
 
+TEST(FreeModes, continue_after_a_window) {
+  const auto mesh = test::brick({12, 4, 4}, {1, 0.35, 0.3});
+  reduction::EigenOptions options{.n_modes = 60, .window = 15};
+  std::vector<reduction::SearchState> states;
+  options.commit = [&](const reduction::SearchState& state) { states.push_back(state); };
+  const Eigen::VectorXd whole = solve(mesh, options).modes.eigenvalue;
+  ASSERT_GE(states.size(), 2u);
+  options.start = states.front();
+  const Eigen::VectorXd continued = solve(mesh, options).modes.eigenvalue;
+  EXPECT_LT(states.front().eigenvalue.size(), 60);
+  EXPECT_LT((continued - whole).cwiseQuotient(whole).cwiseAbs().maxCoeff(), 2 * kEigensolver);
+}
+
 // (beta L)^2 of the free-free Euler-Bernoulli beam.
 TEST(FreeModes, of_a_slender_beam_have_euler_bernoulli_frequencies) {
   if (n_ranks() > 1) GTEST_SKIP() << "compared on one rank";
