@@ -56,8 +56,8 @@ dynamics::System worm_drive(const gear::Design& design, const std::string& folde
   wheel.body =
       reduced(gear::wheel_mesh(design, gear::wheel_counts(gear::Size::tiny)), "bore", folder + "/wheel.h5");
   wheel.joint.type = body::JointType::revolute;
-  wheel.angle0 = std::numbers::pi / design.z2;
-  wheel.omega0 = kOmega;
+  wheel.rotation.s_0 = std::numbers::pi / design.z2;
+  wheel.rotation.s_dot_0 = kOmega;
   return dynamics::System({worm, wheel}, {{"worm:wheel", {0, 1}, contact::Settings{.two_pass = true}}});
 }
 

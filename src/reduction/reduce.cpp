@@ -1,5 +1,6 @@
 #include "elastogear/reduction/reduce.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 #include <set>
