@@ -275,9 +275,12 @@ Eigenmodes deliver(const Search& search, const FieldSink& sink) {
     result.residual(i) = entry.residual;
     sink(i, field(search, entry));
   }
-  for (const HarmonicModes& modes : search.modes)
+  for (const HarmonicModes& modes : search.modes) {
     result.iterations += search.group->first ? modes.iterations : 0;
+    result.orthogonality = std::max(result.orthogonality, modes.orthogonality);
+  }
   MPI_Allreduce(MPI_IN_PLACE, &result.iterations, 1, MPI_INT, MPI_SUM, search.comm);
+  MPI_Allreduce(MPI_IN_PLACE, &result.orthogonality, 1, MPI_DOUBLE, MPI_MAX, search.comm);
   return result;
 }
 

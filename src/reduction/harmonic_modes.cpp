@@ -81,6 +81,16 @@ void measure_all(const Problem& problem, const MatrixXd& Z, HarmonicModes& modes
   }
 }
 
+// |z_i^H M_k z_j|, i != j.
+double largest_product(const Problem& problem, const MatrixXd& Z) {
+  const Mat M = problem.matrices.M;
+  MatrixXcd gram = problem.harmonic.real
+                       ? MatrixXcd(sum_over_ranks(comm_of(M), Z.transpose() * BlockProduct(M)(Z)))
+                       : complex_gram(M, problem, Z);
+  gram.diagonal().setZero();
+  return gram.size() > 0 ? gram.cwiseAbs().maxCoeff() : 0;
+}
+
 // All rows on rank 0.
 MatrixXd gathered(MPI_Comm comm, const MatrixXd& own) {
   int rank = 0, size = 1, rows = static_cast<int>(own.rows());
@@ -132,6 +142,7 @@ HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harm
   modes.iterations = found.iterations;
   if (!harmonic.real) W = one_of_each_pair(problem, W, found.eigenvalue);
   measure_all(problem, W, modes);
+  modes.orthogonality = largest_product(problem, W);
   modes.z = gathered(comm_of(K), W);
   for (Eigen::Index j = 0; j < modes.z.cols() && modes.z.rows() > 0; ++j) {
     VectorXd z = modes.z.col(j);

@@ -52,6 +52,7 @@ std::optional<HarmonicModes> HarmonicPieces::read(int k, double cutoff) const {
   modes.iterations = static_cast<int>(piece.read("iterations")(0));
   modes.eigenvalue = piece.read("eigenvalue");
   modes.residual = piece.read("residual");
+  modes.orthogonality = piece.read("orthogonality")(0);
   modes.z = piece.read("z");
   if (modes.cutoff != cutoff) return {};
   return modes;
@@ -63,6 +64,7 @@ void HarmonicPieces::write(const HarmonicModes& modes) {
   piece.write("iterations", Eigen::VectorXd::Constant(1, modes.iterations));
   piece.write("eigenvalue", modes.eigenvalue);
   piece.write("residual", modes.residual);
+  piece.write("orthogonality", Eigen::VectorXd::Constant(1, modes.orthogonality));
   piece.write("z", modes.z);
   piece.commit();
 }

@@ -16,6 +16,7 @@ struct HarmonicModes {
   int iterations = 0;          ///< of the eigensolver
   Eigen::VectorXd eigenvalue;  ///< rad^2/s^2, of each column, ascending
   Eigen::VectorXd residual;    ///< |K_k z - lambda M_k z| / |K_k z|
+  double orthogonality = 0;    ///< largest |z_i^H M_k z_j|, i != j
   Eigen::MatrixXd z;           ///< coordinates x columns, z' M_k z = 1; on rank 0 of the communicator
 };
 

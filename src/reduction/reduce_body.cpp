@@ -1,0 +1,206 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/fem/element.h"
+#include "elastogear/fem/gather.h"
+#include "elastogear/fem/restraint.h"
+#include "elastogear/fem/stress.h"
+#include "elastogear/reduction/eigenmodes.h"
+#include "elastogear/reduction/surface.h"
+#include "reduce_job.h"
+
+namespace elastogear::reduction {
+namespace {
+
+constexpr double kRounding = 1e-9;  // m and -: of an axis in a report
+
+model::Stress make_stress(const mesh::Mesh& mesh, const std::vector<std::string>& sets) {
+  std::set<int> nodes;
+  for (const std::string& name : sets) {
+    const auto& members = mesh::node_set(mesh, name);
+    nodes.insert(members.begin(), members.end());
+  }
+  model::Stress stress;
+  stress.node.assign(nodes.begin(), nodes.end());
+  stress.X = mesh.X(Eigen::all, stress.node);
+  for (const std::string& name : sets) {
+    auto& local = stress.sets[name];
+    local.clear();
+    for (int node : mesh::node_set(mesh, name))
+      local.push_back(static_cast<int>(std::lower_bound(stress.node.begin(), stress.node.end(), node) -
+                                       stress.node.begin()));
+  }
+  return stress;
+}
+
+model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& options,
+                             const fem::MassMoments& moments) {
+  model::ElasticBody body;
+  body.name = options.name;
+  body.floating = options.floating;
+  body.inertia = fem::rigid_inertia(mesh, moments);
+  body.alpha = options.alpha;
+  body.beta = options.beta;
+  if (!options.surface.empty()) body.surface = make_surface(mesh, options.regions, options.surface);
+  body.stress = make_stress(mesh, options.stress_nodes);
+  body.provenance = options.provenance;
+  return body;
+}
+
+void validate(const ReductionOptions& options) {
+  if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
+  require(!options.floating || options.restrain.empty(), "a free body has no restrained node sets");
+  require(options.frame_origin.allFinite(), "the origin of the body frame (",
+          options.frame_origin.transpose(), ") m must be finite");
+  require(options.alpha >= 0, "damping alpha = ", options.alpha, " 1/s, must not be negative");
+  require(options.beta >= 0, "damping beta = ", options.beta, " s, must not be negative");
+}
+
+// Without the roundoff of zeros.
+Eigen::RowVector3d rounded(const Eigen::Vector3d& v) {
+  return (v / kRounding).array().round() * kRounding + 0.0;
+}
+
+std::string describe(const mesh::Turn& turn) {
+  std::ostringstream text;
+  text << turn.n_sectors << " sectors around the direction (" << rounded(turn.axis) << ") through ("
+       << rounded(turn.point) << ") m";
+  return text.str();
+}
+
+// Whether the turn leaves the material's directions as they are.
+bool repeats(const model::Material& material, const mesh::Turn& turn) {
+  if (!material.orthotropic) return true;
+  const model::Orientation& o = material.orthotropic->orientation;
+  const Eigen::Vector3d axis = o.axis.normalized();
+  return o.system == model::Orientation::System::cylindrical && axis.cross(turn.axis).norm() < kRounding &&
+         axis.cross(o.origin - turn.point).norm() < kRounding;
+}
+
+// Of the mesh and of all materials; or why there is none.
+mesh::RepetitionSearch search_repetition(const Job& job) {
+  auto search = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
+  if (!search.found) return search;
+  for (const model::MaterialRegion& region : job.regions)
+    if (!repeats(region.material, search.found->turn))
+      return {{}, "the directions of an orthotropic material do not turn with the mesh"};
+  return search;
+}
+
+// On rank 0; whether there is one is known to all.
+void find_symmetry(Job& job) {
+  mesh::Repetition& repetition = job.plan.repetition;
+  if (!job.modal() || job.options.floating || job.options.symmetry == Symmetry::none) return;
+  job.on_root([&] {
+    auto [found, reason] = search_repetition(job);
+    if (found) repetition = std::move(*found);
+    job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
+  });
+  MPI_Bcast(&repetition.turn.n_sectors, 1, MPI_INT, 0, job.comm);
+}
+
+void number_on_root(Job& job) {
+  const mesh::Mesh& mesh = job.mesh;
+  Plan& plan = job.plan;
+  validate(job.options);
+  fem::require_positive_jacobians(mesh);
+  plan.region = fem::cell_regions(mesh, job.regions);
+  plan.is_free = fem::free_nodes(mesh, job.options.restrain);
+  if (job.options.floating)
+    fem::require_connected(mesh);
+  else
+    fem::require_held(mesh, plan.is_free);
+  plan.free_dof = fem::free_dofs(plan.is_free);
+  require(!plan.free_dof.empty(), "all nodes are restrained, no degree of freedom is left");
+  if (job.modal()) require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
+}
+
+// What the user may still hold or not, given the displacements that the files have.
+void require_restraint(const Job& job, bool complete) {
+  const ReductionOptions& options = job.options;
+  const bool held = !complete || !options.restrain.empty();
+  require(held || options.floating,
+          "nothing holds the body: name node sets by option restrain, or reduce it ",
+          "as a free body (restrain: none)");
+  require(!held || !options.floating, "a free body needs matrices of all displacements, ",
+          options.foreign->stiffness, " lacks some: they are held");
+  require(complete || job.mesh.cells.size() > 0, options.foreign->mass,
+          " lacks displacements, so that the inertia must come from a mesh with cells and materials");
+}
+
+void move_materials(Job& job, const Eigen::Vector3d& origin) {
+  for (model::MaterialRegion& region : job.regions)
+    if (region.material.orthotropic) region.material.orthotropic->orientation.origin -= origin;
+}
+
+// From here on all coordinates are in the body frame.
+void place_frame(Job& job) {
+  fem::MassMoments& moments = job.plan.moments;
+  const Eigen::Vector3d origin =
+      job.options.frame_at_center ? fem::rigid_inertia(job.mesh, moments).c : job.options.frame_origin;
+  job.mesh.X.colwise() -= origin;
+  job.plan.repetition.turn.point -= origin;
+  move_materials(job, origin);
+  moments.w_1 -= origin * moments.w_0.transpose();
+  job.report.origin = origin;
+}
+
+// On the other ranks.
+void place_materials(Job& job) {
+  MPI_Bcast(job.report.origin.data(), 3, MPI_DOUBLE, 0, job.comm);
+  if (job.rank != 0) move_materials(job, job.report.origin);
+}
+
+void prepare_on_root(Job& job) {
+  Plan& plan = job.plan;
+  if (plan.moments.w_0.size() == 0) plan.moments = fem::mass_moments(job.mesh, job.regions);
+  place_frame(job);
+  plan.body = make_body(job.mesh, job.options, plan.moments);
+  plan.S = plan.body.stress.node.empty()
+               ? model::SparseRows(0, 3 * job.mesh.n_nodes())
+               : fem::stress_operator(job.mesh, job.regions, job.options.element, plan.body.stress.node);
+  const PendingFile can_be_written(job.output);
+}
+
+}  // namespace
+
+void number(Job& job) {
+  job.on_root([&] { number_on_root(job); });
+  find_symmetry(job);
+}
+
+void read_matrices(Job& job) {
+  Plan& plan = job.plan;
+  const ForeignFiles& files = *job.options.foreign;
+  job.on_root([&] { validate(job.options); });
+  ForeignSystem system = read_foreign(job.comm, job.mesh, files, job.progress);
+  require_positive(system.matrices.M, files.mass);
+  int complete = job.rank == 0 && is_complete(job.mesh, system.dof);
+  MPI_Bcast(&complete, 1, MPI_INT, 0, job.comm);
+  job.on_root([&] { require_restraint(job, complete); });
+  if (complete) {
+    UniqueVec layout;
+    check(MatCreateVecs(system.matrices.M, layout.out(), nullptr));
+    plan.moments = mass_moments(system.matrices.M, {layout, system.dof, 3 * job.mesh.n_nodes()}, job.mesh);
+  }
+  job.on_root([&] {
+    plan.is_free.assign(static_cast<std::size_t>(job.mesh.n_nodes()), true);
+    for (const std::string& name : job.options.restrain)
+      for (int node : mesh::node_set(job.mesh, name)) plan.is_free[node] = false;
+  });
+  if (!job.options.restrain.empty()) system = restrict_to(system, plan.is_free);
+  if (!job.options.floating) require_positive(system.matrices.K, files.stiffness);
+  plan.dof = plan.free_dof = system.dof;
+  plan.foreign = std::move(system.matrices);
+}
+
+void prepare_body(Job& job) {
+  job.on_root([&] { prepare_on_root(job); });
+  place_materials(job);
+}
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,77 @@
+#pragma once
+// One reduction while it runs: what its stages hand on to each other. reduce_body.cpp reads, numbers and
+// places the body, reduce_modal.cpp finds its modes, reduce.cpp assembles and ends it.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "elastogear/base/agree.h"
+#include "elastogear/fem/assembly.h"
+#include "elastogear/fem/inertia.h"
+#include "elastogear/io/body_file.h"
+#include "elastogear/mesh/partition.h"
+#include "elastogear/mesh/repetition.h"
+#include "elastogear/reduction/reduce.h"
+
+namespace elastogear::reduction {
+
+/// What rank 0 alone knows: the numbering, and everything of the body that needs no solution.
+struct Plan {
+  std::vector<int> region;    // of each cell
+  std::vector<bool> is_free;  // of each node
+  std::vector<int> free_dof;
+  mesh::Repetition repetition;  // n_sectors = 1 (on all ranks): none
+  mesh::Partition partition;
+  fem::RowNumbering rows;  // own matrices only
+  fem::Matrices foreign;   // on all ranks
+  std::vector<int> dof;    // displacement of every scalar row
+  fem::MassMoments moments;
+  model::SparseRows S;
+  model::ElasticBody body;
+};
+
+struct Job {
+  MPI_Comm comm;
+  mesh::Mesh mesh;
+  const ReductionOptions& options;
+  const std::string& output;
+  const Progress& progress;
+  int rank = 0, size = 1;
+  Plan plan = {};
+  ReductionReport report = {};
+  std::vector<model::MaterialRegion> regions = options.regions;  // in the body frame, as the mesh is
+  double started = MPI_Wtime();
+
+  bool modal() const { return options.basis == model::Basis::modal; }
+  bool cyclic() const { return plan.repetition.turn.n_sectors > 1; }
+
+  /// Runs `f` on rank 0; its errors reach all ranks.
+  void on_root(const std::function<void()>& f) {
+    agree(comm, [&] {
+      if (rank == 0) f();
+    });
+  }
+
+  void finish_stage(const char* stage) {
+    const double now = MPI_Wtime();
+    report.times.push_back({stage, now - started});
+    started = now;
+  }
+};
+
+/// Checks options and mesh, numbers the displacements and looks for symmetry. Collective.
+void number(Job& job);
+/// The same for matrices of another program, which it reads. Collective.
+void read_matrices(Job& job);
+/// Moves all coordinates into the body frame and makes what needs no solution. Collective.
+void prepare_body(Job& job);
+
+/// K and M of the whole body, assembled or as they were read; once. Collective.
+fem::Matrices assemble(Job& job);
+io::BodySource source_of(const Job& job);
+
+/// Finds the modes and writes the body file. Collective.
+void reduce_modal(Job& job);
+
+}  // namespace elastogear::reduction

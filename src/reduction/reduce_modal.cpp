@@ -1,0 +1,196 @@
+#include <optional>
+#include <span>
+
+#include "elastogear/base/version.h"
+#include "elastogear/fem/gather.h"
+#include "elastogear/reduction/basis.h"
+#include "elastogear/reduction/checks.h"
+#include "elastogear/reduction/cyclic.h"
+#include "elastogear/reduction/eigenmodes.h"
+#include "elastogear/reduction/free_body.h"
+#include "fingerprint.h"
+#include "harmonic_pieces.h"
+#include "mode_pieces.h"
+#include "reduce_job.h"
+
+namespace elastogear::reduction {
+namespace {
+
+// What the modes depend on, but for what the way of finding them adds. Rank 0.
+Fingerprint fingerprint_of(const Job& job) {
+  const ReductionOptions& o = job.options;
+  Fingerprint f;
+  f.add(std::string(version()) + git_hash() + o.prefix);
+  for (int option : {o.n_modes, o.window, static_cast<int>(o.store), static_cast<int>(o.precision)})
+    f.add(static_cast<double>(option));
+  f.add_all(job.plan.moments.w_0);
+  f.add_all(job.plan.moments.w_1.reshaped());
+  f.add_all(job.plan.body.surface.node);
+  f.add_all(job.plan.body.stress.node);
+  f.add_all(std::span(job.plan.S.valuePtr(), static_cast<std::size_t>(job.plan.S.nonZeros())));
+  return f;
+}
+
+EigenOptions eigen_options(const ReductionOptions& o) {
+  EigenOptions options;
+  options.n_modes = o.n_modes;
+  options.window = o.window;
+  options.prefix = o.prefix;
+  options.whole_pairs = true;
+  return options;
+}
+
+void report_continued(Job& job, int pieces, int discarded, const std::string& what) {
+  job.report.discarded = discarded;
+  if (pieces == 0) return;
+  job.report.continued_after = std::to_string(pieces) + " " + what;
+  report(job.progress, "continues after " + job.report.continued_after, 1);
+}
+
+// The numbers that the body keeps of a mode, and its field where that is stored too. Rank 0.
+ModeRecord mode_record(const Job& job, Eigen::VectorXd phi) {
+  fix_sign(phi);
+  Eigen::VectorXd column = mode_column(job.plan.body, phi, job.plan.moments, job.plan.S);
+  if (job.options.store == Store::surface) phi.resize(0);
+  return {std::move(column), std::move(phi)};
+}
+
+void set_eigenmodes(Job& job, const Eigenmodes& modes) {
+  set_modal_matrices(job.plan.body, modes.eigenvalue);
+  job.report.frequency = job.plan.body.frequency;
+  job.report.residual = modes.residual;
+  job.report.orthogonality = modes.orthogonality;
+}
+
+// The body file of a modal basis, mode by mode. Rank 0.
+class ModalWriter {
+ public:
+  ModalWriter(Job& job, int n_q)
+      : job_(job),
+        full_(job.options.store == Store::all),
+        writer_(job.output, job.mesh.n_nodes(), full_ ? n_q : 0, job.options.precision) {
+    allocate_modes(job.plan.body, n_q);
+  }
+  void add(int k, const ModeRecord& mode) {
+    set_mode(job_.plan.body, k, mode.column);
+    if (full_) writer_.write_mode(k, mode.phi);
+  }
+  void finish() {
+    model::validate(job_.plan.body, job_.output);
+    writer_.finish(job_.plan.body, source_of(job_), {job_.report.residual, job_.report.orthogonality});
+  }
+
+ private:
+  Job& job_;
+  bool full_;
+  io::BodyWriter writer_;
+};
+
+Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModePieces& pieces) {
+  PetscInt n_own = 0;
+  check(MatGetLocalSize(system.K, &n_own, nullptr));
+  const auto keep = [&](int k, Vec v) {
+    Eigen::VectorXd phi = system.gather(v);
+    job.on_root([&] { pieces.add(k, mode_record(job, std::move(phi))); });
+  };
+  EigenOptions options = eigen_options(job.options);
+  options.start = pieces.resume(static_cast<int>(n_own));
+  options.commit = [&](const SearchState& state) { pieces.commit(state); };
+  report_continued(job, static_cast<int>(options.start.eigenvalue.size()), pieces.discarded(),
+                   "of " + std::to_string(options.n_modes) + " modes");
+  return system.rigid ? find_free_modes(system.K, system.M, *system.rigid, options, keep, job.progress)
+                      : find_eigenmodes(system.K, system.M, options, keep, job.progress);
+}
+
+std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
+  Fingerprint f;
+  job.on_root([&] {
+    f = fingerprint_of(job);
+    f.add_all(job.plan.dof);
+  });
+  for (std::uint64_t word : {fingerprint(matrices.K), fingerprint(matrices.M)}) f.add(word);
+  return f.text();
+}
+
+void check_basis(Job& job, const ElasticSystem& system) {
+  const Plan& plan = job.plan;
+  auto& checks = job.report.checks;
+  checks = mass_checks(system, plan.body, plan.moments);
+  if (job.options.completeness)
+    for (model::Check& check : load_checks(system, plan.body, job.mesh.n_nodes()))
+      checks.push_back(std::move(check));
+  job.finish_stage("checks");
+}
+
+// From the matrices of the whole body.
+void reduce_whole(Job& job) {
+  const fem::Matrices matrices = assemble(job);
+  UniqueVec layout;
+  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
+  const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
+  std::optional<RigidModes> rigid;
+  if (job.options.floating) rigid = find_rigid_modes(matrices.K, matrices.M, gather, job.mesh.X);
+  const ElasticSystem system{matrices.K, matrices.M, gather, rigid ? &*rigid : nullptr};
+  ModePieces pieces(job.comm, job.output + ".partial", fingerprint_of(job, matrices), job.options.precision);
+  set_eigenmodes(job, find_modes(job, system, pieces));
+  job.finish_stage("eigenmodes");
+  std::optional<ModalWriter> writer;
+  job.on_root([&] {
+    const int n_q = static_cast<int>(job.report.frequency.size());
+    writer.emplace(job, n_q);
+    pieces.visit([&](int k, const ModeRecord& mode) {
+      if (k < n_q) writer->add(k, mode);  // later ones are void
+    });
+  });
+  check_basis(job, system);
+  job.on_root([&] { writer->finish(); });
+  pieces.clear();
+}
+
+void add(Fingerprint& f, const model::Material& material) {
+  for (double x : {material.E, material.nu, material.rho}) f.add(x);
+  if (!material.orthotropic) return;
+  const auto& [E, nu, G, o] = *material.orthotropic;
+  f.add(static_cast<double>(o.system));
+  for (const auto& v : {E, nu, G, o.axis_1, o.axis_2, o.origin, o.axis, o.rotation}) f.add_all(v);
+}
+
+std::string fingerprint_of_sectors(Job& job) {
+  Fingerprint f;
+  job.on_root([&] {
+    f = fingerprint_of(job);
+    f.add_all(job.mesh.X.reshaped());
+    f.add_all(job.plan.is_free);
+    f.add_all(job.plan.region);
+    for (const model::MaterialRegion& region : job.regions) add(f, region.material);
+    f.add(static_cast<double>(job.options.element));
+  });
+  return f.text();
+}
+
+// From one sector of a body that repeats.
+void reduce_sectors(Job& job) {
+  HarmonicPieces pieces(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
+  const Plan& plan = job.plan;
+  const fem::MeshedBody body{job.mesh, job.regions, plan.region, plan.is_free, job.options.element};
+  std::optional<ModalWriter> writer;
+  CyclicOptions options;
+  options.eigen = eigen_options(job.options);
+  options.known = [&](int k, double cutoff) { return pieces.read(k, cutoff); };
+  options.done = [&](const HarmonicModes& modes) { pieces.write(modes); };
+  options.begin = [&](int n_q) { job.on_root([&] { writer.emplace(job, n_q); }); };
+  report_continued(job, pieces.n_known(), pieces.discarded(), "harmonics");
+  const auto keep = [&](int k, const Eigen::VectorXd& phi) {
+    job.on_root([&] { writer->add(k, mode_record(job, phi)); });
+  };
+  set_eigenmodes(job, find_cyclic_eigenmodes(job.comm, {body, plan.repetition}, options, keep, job.progress));
+  job.finish_stage("eigenmodes");
+  job.on_root([&] { writer->finish(); });
+  pieces.clear();
+}
+
+}  // namespace
+
+void reduce_modal(Job& job) { job.cyclic() ? reduce_sectors(job) : reduce_whole(job); }
+
+}  // namespace elastogear::reduction
