@@ -7,9 +7,9 @@
 #include <set>
 #include <tuple>
 
-#include "elastogear/reduction/cutoff.h"
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
+#include "elastogear/reduction/cutoff.h"
 #include "elastogear/reduction/factorisation.h"
 
 namespace elastogear::reduction {

@@ -30,8 +30,8 @@ constexpr int kFewModes = 16;            // too few to see an exponent of their 
 
 // The cost of a flop in a solve, over that in a matrix product: kSolve + kSolveOnce / block.
 constexpr double kSolve = 2, kSolveOnce = 24;
-constexpr double kLargestBasis = 1;    // entries, over those of the factor
-constexpr double kSmallBasis = 4e7;    // entries that are always allowed
+constexpr double kLargestBasis = 1;  // entries, over those of the factor
+constexpr double kSmallBasis = 4e7;  // entries that are always allowed
 constexpr std::array kWindows{60, 100, 150, 200, 250, 300, 400, 500, 600};
 constexpr std::array kBlocks{8, 16, 24, 32};
 

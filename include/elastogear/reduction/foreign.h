@@ -50,8 +50,8 @@ fem::MassMoments mass_moments(Mat M, const fem::VectorGather& gather, const mesh
 /// The rows and columns of the displacements of free nodes (flags read on rank 0). Collective.
 ForeignSystem restrict_to(const ForeignSystem& system, const std::vector<bool>& is_free);
 
-/// Throws Error naming `what` when conjugate gradients (a few hundred steps) meet a direction in which A is not
-/// positive. Collective.
+/// Throws Error naming `what` when conjugate gradients (a few hundred steps) meet a direction in which A is
+/// not positive. Collective.
 void require_positive(Mat A, const std::string& what);
 
 }  // namespace elastogear::reduction
