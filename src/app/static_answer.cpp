@@ -1,5 +1,7 @@
 #include "app/static_answer.h"
 
+#include "elastogear/base/error.h"
+
 namespace elastogear::app {
 namespace {
 
@@ -15,8 +17,15 @@ std::vector<recovery::PairContacts> contacts_of(const BodyOfRun& body) {
 
 }  // namespace
 
+void require_same_coordinates(const model::ElasticBody& body, const io::BodyHistory& history,
+                              const std::string& file) {
+  require(body.n_q() == history.q.rows(), file, ": ", body.n_q(), " elastic coordinates, the run has ",
+          history.q.rows(), ": name the body file of the run by option -<body>_file");
+}
+
 std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body) {
   const model::ElasticBody elastic = io::read_body(body.file);
+  require_same_coordinates(elastic, body.history, body.file);
   if (elastic.basis == model::Basis::full) return nullptr;
   const recovery::ForceHistory forces =
       recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);

@@ -25,6 +25,10 @@ struct BodyOfRun {
   const io::BodyHistory& history;
 };
 
+/// Throws Error unless the run has as many elastic coordinates as the body file.
+void require_same_coordinates(const model::ElasticBody& body, const io::BodyHistory& history,
+                              const std::string& file);
+
 /// Nothing for a body in its full basis, whose answer is complete already.
 std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body);
 

@@ -80,6 +80,12 @@ Body& find_body(Run& run, const std::string& name) {
   fail("option -stress_", name, ": ", run.result, " has no body '", name, "'; it has: ", known);
 }
 
+model::ElasticBody read_elastic(const Body& body) {
+  model::ElasticBody elastic = io::read_body(body.file);
+  require_same_coordinates(elastic, body.history, body.file);
+  return elastic;
+}
+
 const std::vector<int>& stress_set(const model::Stress& stress, const std::string& set,
                                    const std::string& file) {
   const auto found = stress.sets.find(set);
@@ -135,7 +141,7 @@ void write_stresses(const Options& options, Run& run) {
   for (const std::string& name : options.placeholder_values("stress_<body>")) {
     if (name == "nodes") continue;  // reduce's key in a shared file
     Body& body = find_body(run, name);
-    const model::Stress stress = io::read_body(body.file).stress;
+    const model::Stress stress = read_elastic(body).stress;
     for (const std::string& set : options.list("stress_" + name)) {
       auto h = history(body, stress, set);
       file.sets.push_back(
@@ -228,7 +234,7 @@ void write_trees(const Options& options, const Run& run, const std::vector<int>&
   if (levels.empty()) return;
   std::vector<contact::Bvh> trees;
   for (const Body& body : run.bodies) {
-    const model::Surface surface = io::read_body(body.file).surface;
+    const model::Surface surface = read_elastic(body).surface;
     const FieldState state = state_at(body, step);
     Eigen::Matrix3Xd x = surface.X;
     Eigen::Map<Eigen::VectorXd>(x.data(), x.size()) += model::multiply(surface.Phi, state.q);

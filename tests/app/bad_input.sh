@@ -129,6 +129,10 @@ expect_error "an inertia level that is none" "-inertia" "${simulate[@]}" -inerti
 expect_error "undercut gear" "undercut" "$elastogear" mesh -part wheel -pressure_angle 8 -mesh new.msh
 expect_error "centre distance that does not exist" 'centre distance' "$elastogear" mesh -part worm -centre_distance 0.02 -mesh new.msh
 expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all
+"$elastogear" simulate -bodies a -a_file body.h5 -ts_dt 1e-7 -ts_max_time 3e-7 -output run.h5 >good.log 2>&1 &&
+  "${reduce[@]}" -modes 7 -output seven.h5 >>good.log 2>&1 || { echo "FAIL: a good run fails"; cat good.log; exit 1; }
+expect_error "body file of another reduction" 'seven.h5: [78] elastic coordinates, the run has [56]' "$elastogear" recover -result run.h5 \
+  -a_file seven.h5 -stress_a FIX -output new.h5
 expect_error "info on a foreign file" 'good.log' "$elastogear" info good.log
 
 echo "$passed passed, $failed failed"
