@@ -27,6 +27,8 @@ std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body) {
   const model::ElasticBody elastic = io::read_body(body.file);
   require_same_coordinates(elastic, body.history, body.file);
   if (elastic.basis == model::Basis::full) return nullptr;
+  require(!elastic.floating, body.file,
+          ": mode acceleration needs a held body, this one was reduced free (restrain: none)");
   const recovery::ForceHistory forces =
       recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);
   auto answer = std::make_unique<StaticAnswer>();

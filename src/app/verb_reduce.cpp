@@ -55,8 +55,8 @@ const OptionTable kOptions = {
      "modes at all nodes, or at the surface and stress nodes only (no whole fields): all or surface"},
     {"precision", "-", "float64", "of modes stored at all nodes: float64 or float32"},
     {"symmetry", "-", "auto",
-     "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none: from the "
-     "whole body"},
+     "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none, and "
+     "when SLEPc is asked for: from the whole body"},
     {"completeness", "-", "true",
      "check how much of the static answer to loads on the surface the modes give: one more factorisation"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
@@ -130,8 +130,9 @@ reduction::ReductionOptions reduction_options(const Options& options) {
       options.choice("store", {"surface", "all"}) == 0 ? reduction::Store::surface : reduction::Store::all;
   o.precision = options.choice("precision", {"float64", "float32"}) == 0 ? io::Precision::float64
                                                                          : io::Precision::float32;
-  o.symmetry = options.choice("symmetry", {"auto", "none"}) == 0 ? reduction::Symmetry::automatic
-                                                                 : reduction::Symmetry::none;
+  // SLEPc's solver, when it was asked for, works on the whole body.
+  const bool sectors = options.choice("symmetry", {"auto", "none"}) == 0 && o.window != 0;
+  o.symmetry = sectors ? reduction::Symmetry::automatic : reduction::Symmetry::none;
   o.completeness = options.flag("completeness");
   o.alpha = options.number("damping_alpha");
   o.beta = options.number("damping_beta");
