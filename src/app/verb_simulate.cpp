@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/advice.h"
 #include "app/console.h"
 #include "app/kept_run.h"
 #include "app/motion.h"
@@ -231,12 +232,14 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
     print_item("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at " +
                                            with_unit(pair.peak_time, "s") + ", penetration " +
                                            with_unit(pair.penetration, "m"));
+  print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
   if (analysis(options) == Analysis::relax)
     print_item(run.at_rest ? "at rest after" : "warning",
                run.at_rest ? with_unit(run.time, "s") : "not yet at rest");
-  print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
-  print_item("energy at the start", with_unit(run.initial_energy, "J"));
-  print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
+  if (analysis(options) == Analysis::dynamic) {
+    print_item("energy at the start", with_unit(run.initial_energy, "J"));
+    print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
+  }
   print_item("time", duration(run.wall_time));
   print_item("written", options.text("output"));
 }
@@ -254,10 +257,12 @@ Computation computation(const Options& options, dynamics::System& system) {
   if (analysis(options) == Analysis::equilibrium)
     return
         [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer, const auto&) {
-          return dynamics::solve_static(system, {steps}, observer, console_progress());
+          return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress());
         };
-  return [&system, time = time_settings(options)](const auto& observer, const auto& checkpoints) {
-    return dynamics::simulate(system, time, observer, console_progress(), checkpoints);
+  const dynamics::TimeSettings time = time_settings(options);
+  if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
+  return [&system, time](const auto& observer, const auto& checkpoints) {
+    return dynamics::simulate(system, time, guarded(system, observer), console_progress(), checkpoints);
   };
 }
 

@@ -80,7 +80,7 @@ double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& 
   for (std::size_t p = 0; p < system.pairs().size(); ++p)
     for (int b : system.pairs()[p].body)
       most = std::max(most, way(system.bodies()[b].eq.body->surface, before[b], after[b]) /
-                                (kWayPerDepth * system.contact_depth(p)));
+                                (kWayPerDepth * system.contact_settings(p).depth));
   return most;
 }
 

@@ -16,9 +16,9 @@ struct TimeSettings {
   double end_time = 0;   ///< s
   double rho_inf = 1;    ///< -, 0..1, spectral radius at infinite frequency; 1: no numerical dissipation
   int output_every = 1;  ///< observe every n-th step, and the first and last state
-  /// Not the motion is wanted but where it comes to rest: velocities are set to zero at each peak of the kinetic
-  /// energy, and the run ends when without velocities the residual of every block is below rest_tolerance times
-  /// the sum of the norms of its forces. Loads should be constant by then.
+  /// Not the motion is wanted but where it comes to rest: velocities are set to zero at each peak of the
+  /// kinetic energy, and the run ends when without velocities the residual of every block is below
+  /// rest_tolerance times the sum of the norms of its forces. Loads should be constant by then.
   bool settle = false;
   double rest_tolerance = 1e-6;
 };

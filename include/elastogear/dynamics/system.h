@@ -99,7 +99,8 @@ class System {
   const ContactState& contacts(double time, ConstVector U);
   /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
   double depth_share(double time, ConstVector U);
-  double contact_depth(std::size_t pair) const { return detectors_[pair].settings().depth; }  ///< m
+  /// In force: with what was left open filled in.
+  const contact::Settings& contact_settings(std::size_t pair) const { return detectors_[pair].settings(); }
   Residual residual(const State& x);
   /// shift.v dF/dV + shift.a dF/dA + dF/dU
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
