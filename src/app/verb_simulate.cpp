@@ -64,7 +64,9 @@ const OptionTable kTable = {
      "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
      "(leaf-up from the deformed surface) or realign (hull points)"},
     {"contact_tangent", "-", "full", "contact tangent: full, or normal (without its geometric part)"},
-    {"inertia", "-", "linear", "what the inertia keeps of the deformation: constant or linear"},
+    {"inertia", "-", "linear",
+     "what the inertia keeps of the deformation: constant, linear, or full (needs bodies "
+     "reduced with -invariants full)"},
     {"analysis", "-", "dynamic", "dynamic"},
     {"ts_dt", "s", "", "time step"},
     {"ts_max_time", "s", "", "end of the simulation"},
@@ -153,7 +155,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
 }
 
 dynamics::Environment environment(const Options& options) {
-  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear"})),
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
           options.vector("gravity")};
 }
 
