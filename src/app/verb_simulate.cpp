@@ -65,11 +65,12 @@ const OptionTable kOwnTable = {
      "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
      "(leaf-up from the deformed surface) or realign (hull points)"},
     {"contact_tangent", "-", "full", "contact tangent: full, or normal (without its geometric part)"},
-    {"inertia", "-", "linear", "what the inertia keeps of the deformation: constant or linear"},
+    {"inertia", "-", "linear",
+     "what the inertia keeps of the deformation: constant, linear, or full (needs bodies "
+     "reduced with -invariants full)"},
     {"analysis", "-", "dynamic",
      "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
-     "or "
-     "relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
+     "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
     {"static_steps", "-", "10", "load steps of a static analysis"},
     {"rest_tolerance", "-", "1e-6", "relax: largest unbalanced share of the forces at rest"},
     {"ts_dt", "s", "", "time step"},
@@ -173,7 +174,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
 }
 
 dynamics::Environment environment(const Options& options) {
-  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear"})),
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
           options.vector("gravity")};
 }
 
