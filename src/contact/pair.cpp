@@ -119,6 +119,7 @@ struct Pair::Data {
   void find_vicinity(const SurfaceMotion* motion[2]);
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
+  void visit_vicinity(Tape& tape);
 };
 
 std::vector<int> Pair::Data::passes() const {
@@ -273,6 +274,23 @@ std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R_WB) {
   return contacts;
 }
 
+// The candidates follow from where they were found.
+void Pair::Data::visit_vicinity(Tape& tape) {
+  bool found = vicinity.has_value();
+  tape(found);
+  if (!found) return vicinity.reset();
+  SurfaceMotion at[2];
+  for (int i : {0, 1}) {
+    if (!tape.plays()) at[i] = vicinity->found_at[i];
+    tape(at[i].q);
+    tape(at[i].r_WB);
+    tape(at[i].R_WB);
+    validate(at[i], *side[i].surface, i);
+  }
+  const SurfaceMotion* motion[2] = {&at[0], &at[1]};
+  if (tape.plays()) find_vicinity(motion);
+}
+
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion) {
   SurfaceState state{surface.X, motion.r_WB, motion.R_WB};
   if (motion.q.size() > 0) state.x_B += model::multiply(surface.Phi, motion.q).reshaped(3, surface.X.cols());
@@ -301,6 +319,15 @@ Pair::Pair(Pair&&) noexcept = default;
 const Settings& Pair::settings() const { return data_->settings; }
 int Pair::n_searches() const { return data_->n_searches; }
 int Pair::n_displaced() const { return data_->n_displaced; }
+
+void Pair::visit_memory(Tape& tape) {
+  data_->visit_vicinity(tape);
+  for (Side& side : data_->side) {
+    const std::size_t n_nodes = side.last_face.size();
+    tape(side.last_face);
+    require(side.last_face.size() == n_nodes, "the stored contacts are of other surfaces");
+  }
+}
 
 std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState& b) {
   Data& d = *data_;

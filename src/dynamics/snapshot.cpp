@@ -107,4 +107,15 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
   bodies_ = snapshot.bodies;
 }
 
+void EnergyLedger::visit_memory(Tape& tape) {
+  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_0_, &time_}) tape(*x);
+  tape.each(bodies_, [&](model::BodyState& body) {
+    tape(body.r_WB);
+    tape(body.R_WB);
+    for (Eigen::VectorXd* x :
+         {&body.s, &body.s_dot, &body.s_ddot, &body.q, &body.q_dot, &body.q_ddot, &body.joint_force})
+      tape(*x);
+  });
+}
+
 }  // namespace elastogear::dynamics

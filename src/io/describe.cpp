@@ -184,6 +184,7 @@ void describe_result(Out& out, const std::string& path) {
   const model::ResultHeader header = read_result_header(path);
   const Eigen::VectorXd time = read_times(path);
   describe_times(out, path, time);
+  if (!is_complete(path)) line(out, "incomplete: the run has not reached its end");
   for (const auto& body : header.bodies) {
     const h5::Shape q = h5::shape(h5::open(path), "/bodies/" + body.name + "/q");
     line(out, "body ", body.name, ": ", body.file, ", joint ", body.joint, ", ",
