@@ -51,4 +51,11 @@ void add_nodes_to_place(const Candidates& candidates, int slave_side, const Topo
   for (auto& list : nodes) sort_unique(list);
 }
 
+void add_face(const Eigen::Matrix4Xi& face, int number, std::vector<int>& nodes) {
+  for (int node : face.col(number)) {
+    const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
+    if (at == nodes.end() || *at != node) nodes.insert(at, node);
+  }
+}
+
 }  // namespace elastogear::contact

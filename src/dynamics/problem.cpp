@@ -32,7 +32,7 @@ PetscErrorCode function(TS ts, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* ct
     const ReadView u(U), v(V), a(A);
     if (!(*u).allFinite() || !(*v).allFinite() || !(*a).allFinite())
       return set_inadmissible(problem, ts, "the motion is not finite");
-    if (problem.system.depth_share(t, *u) > kDeepest)
+    if (problem.system.depth_share(t, *u, *v) > kDeepest)
       return set_inadmissible(problem, ts, "bodies penetrate each other by nearly the contact depth");
     problem.residual = problem.system.residual({t, *u, *v, *a});
     if (!problem.residual.F.allFinite()) return set_inadmissible(problem, ts, "forces are not finite");

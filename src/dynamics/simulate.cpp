@@ -49,7 +49,8 @@ void require_bodies_apart(System& system) {
     const int a = pair.body[0], b = pair.body[1];
     const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
     const auto state = [&](int i) {
-      return contact::surface_state(surface(i), system.surface_motion(i, 0, system.initial_position()));
+      return contact::surface_state(
+          surface(i), system.surface_motion(i, 0, system.initial_position(), system.initial_velocity()));
     };
     contact::require_apart(
         contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b)), pair.name);
@@ -115,6 +116,14 @@ PetscErrorCode recover_dt(TS ts) {
   return 0;
 }
 
+void accept(System& system, TS ts) {
+  Vec U = nullptr, V = nullptr, A = nullptr;
+  PetscReal time = 0;
+  check(TSGetTime(ts, &time));
+  generalized_alpha_state(ts, &U, &V, &A);
+  system.accept({time, *ReadView(U), *ReadView(V), *ReadView(A)});
+}
+
 // Rotation vectors of free bodies begin at zero in every step.
 void rebase(System& system, TS ts) {
   Vec U = nullptr, V = nullptr, A = nullptr;
@@ -128,7 +137,10 @@ void rebase(System& system, TS ts) {
 PetscErrorCode post_step(TS ts) {
   Run* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
-  PetscCall(guard(run->problem.pending, [&] { rebase(run->problem.system, ts); }));
+  PetscCall(guard(run->problem.pending, [&] {
+    accept(run->problem.system, ts);
+    rebase(run->problem.system, ts);
+  }));
   return recover_dt(ts);
 }
 
@@ -201,6 +213,7 @@ RunSummary simulate(System& system, const TimeSettings& settings, const Observer
   const UniqueTS ts = make_ts(run, J);
   const UniqueVec U = vector(system.initial_position()), V = vector(system.initial_velocity());
   check(TS2SetSolution(ts, U, V));
+  system.accept({0, system.initial_position(), system.initial_velocity(), system.initial_velocity()});
   check(TSSolve(ts, U), run.problem.pending);
   if (!run.last_observed) observe(run);
   finish(run, ts);

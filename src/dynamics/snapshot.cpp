@@ -58,7 +58,7 @@ double weight_energy(const System& system, std::size_t b, const model::BodyState
 }  // namespace
 
 model::Snapshot snapshot(System& system, const State& x) {
-  const ContactState& contact = system.contacts(x.time, x.U);
+  const ContactState& contact = system.contacts(x.time, x.U, x.V);
   model::Snapshot result;
   result.time = x.time;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
@@ -100,9 +100,10 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
     dissipated_ += (snapshot.time - time_) * body::dissipation(body.eq, q_dot_m);
     enter_joint(body, snapshot.bodies[b], bodies_[b], {time_, snapshot.time});
   }
-  snapshot.energy.dissipated = dissipated_;
+  snapshot.energy.dissipated = dissipated_ + system.contact_loss();
   snapshot.energy.work = work_ + weight_0_ - weight;
-  snapshot.energy.balance = stored(snapshot.energy) + dissipated_ - snapshot.energy.work - stored_0_;
+  snapshot.energy.balance =
+      stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
   bodies_ = snapshot.bodies;
 }

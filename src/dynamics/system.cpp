@@ -267,13 +267,13 @@ body::Motion System::motion(std::size_t b, const State& x) const {
   return m;
 }
 
-const ContactState& System::contacts(double time, ConstVector U) {
-  if (U_of_state_ && time == time_of_state_ && *U_of_state_ == U) return state_;
+const ContactState& System::contacts(double time, ConstVector U, ConstVector V) {
+  if (U_of_state_ && time == time_of_state_ && *U_of_state_ == U && V_of_state_ == V) return state_;
   U_of_state_.reset();
   std::vector<contact::SurfaceMotion> motion;
   state_.surface.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    motion.push_back(surface_motion(b, time, U));
+    motion.push_back(surface_motion(b, time, U, V));
     const bool first = state_.surface[b].x_B.cols() == 0 && bodies_[b].in_contact;
     if (first) state_.surface[b].x_B = bodies_[b].eq.body->surface.X;
     state_.surface[b].r_WB = motion[b].r_WB;
@@ -289,23 +289,62 @@ const ContactState& System::contacts(double time, ConstVector U) {
   }
   state_.force = nodal_forces(state_.pair, state_.surface);
   U_of_state_ = U;
+  V_of_state_ = V;
   time_of_state_ = time;
   return state_;
 }
 
-contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U) const {
-  const body::Motion m = motion(b, {time, U, U, U});
+contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U,
+                                              ConstVector V) const {
+  const body::Motion m = motion(b, {time, U, V, V});
   const auto [r_WB, R_WB] = body::placement(bodies_[b].eq.joint, m.s);
-  return {m.q, r_WB, R_WB};
+  const body::FrameMotion frame = body::frame_motion(bodies_[b].eq, m);
+  return {m.q, r_WB, R_WB, m.q_dot, frame.v, frame.w};
 }
 
-double System::depth_share(double time, ConstVector U) {
+double System::depth_share(double time, ConstVector U, ConstVector V) {
   double share = 0;
-  const ContactState& contact = contacts(time, U);
+  const ContactState& contact = contacts(time, U, V);
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     for (const contact::ContactPoint& point : contact.pair[p].points)
       share = std::max(share, -point.g_n / detectors_[p].settings().depth);
   return share;
+}
+
+void System::accept(const State& x) {
+  const ContactState& contact = contacts(x.time, x.U, x.V);
+  double power = 0;
+  bool any_sticks = false;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const contact::FrictionSettings& friction = pairs_[p].settings.friction;
+    const bool sticks = friction.mu > 0 && friction.law == contact::FrictionLaw::stick;
+    any_sticks |= sticks;
+    for (const contact::ContactPoint& point : contact.pair[p].points) {
+      history_.loss += point.slip_work;
+      power += point.power + (sticks ? 0 : point.friction_power);
+    }
+    detectors_[p].accept(contact.pair[p].points);
+  }
+  if (accepted_) history_.loss += 0.5 * (x.time - history_.time) * (power + history_.power);
+  history_.time = x.time;
+  history_.power = power;
+  accepted_ = true;
+  if (any_sticks) U_of_state_.reset();  // forces of the same state start from the new history
+}
+
+ContactHistory System::contact_history() const {
+  ContactHistory history = history_;
+  for (const contact::Pair& pair : detectors_) history.stuck.push_back(pair.history());
+  return history;
+}
+
+void System::restore(const ContactHistory& history) {
+  require(history.stuck.size() == pairs_.size(), "contact history of ", history.stuck.size(),
+          " pairs, the system has ", pairs_.size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p) detectors_[p].restore(history.stuck[p]);
+  history_ = {history.time, history.power, history.loss, {}};
+  accepted_ = true;
+  U_of_state_.reset();
 }
 
 body::Force System::balance(std::size_t b, const State& x, Residual* r) {
@@ -314,7 +353,7 @@ body::Force System::balance(std::size_t b, const State& x, Residual* r) {
   const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
                     inner = body::inner_force(body.eq, m),
                     weight = body::gravity_force(body.eq, m, environment_.gravity),
-                    touch = contact_force(body.eq, contacts(x.time, x.U).force[b]);
+                    touch = contact_force(body.eq, contacts(x.time, x.U, x.V).force[b]);
   const Terms s{inertia.s, -quadratic.s, -touch.s, -weight.s, -load(body, x.time, m.s_dot)},
       q{inertia.q, inner.q, -quadratic.q, -touch.q, -weight.q};
   const body::Force total{sum(s), sum(q)};
@@ -346,7 +385,7 @@ Eigen::VectorXd System::joint_force(std::size_t b, const State& x) {
 }
 
 EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shift) {
-  const ContactState& contact = contacts(x.time, x.U);
+  const ContactState& contact = contacts(x.time, x.U, x.V);
   EffectiveMatrix matrix;
   matrix.shift_v = shift.v;
   matrix.shift_a = shift.a;
@@ -355,8 +394,10 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     const body::Equations& eq = bodies_[b].eq;
     const body::Motion m = motion(b, x);
     const std::vector<int>& node = contact.force[b].node;
-    const body::FrameDerivative d = body::frame_derivative(eq.joint, eq.H, {m.s, m.s_dot, m.s_ddot}, shift);
-    twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s())});
+    const body::JointMotion joint{m.s, m.s_dot, m.s_ddot};
+    const body::FrameDerivative d = body::frame_derivative(eq.joint, eq.H, joint, shift);
+    twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s()),
+                      velocity_twists(eq.joint, eq.H, joint, shift.v), body::frame_motion(eq, m).w, shift.v});
     twists.back().P << d.r, d.theta;
     matrix.body.push_back(body_terms(body::tangent(eq, m, environment_.gravity, shift), node));
     matrix.body.back().C.diagonal() += shift.v * load_rate(bodies_[b], m.s_dot);

@@ -21,6 +21,8 @@ namespace {
 
 constexpr double kStep = 1e-6;        // of central differences, against sizes of order one
 constexpr double kDifference = 1e-7;  // relative: roundoff / kStep, and kStep^2 curvature
+// What the tangent of friction leaves out: (penetration / half a face's width)^2
+constexpr double kThinLayer = 0.02 * 0.02 / (0.25 * 0.25);
 constexpr double kRoundoff = 1e-12;
 constexpr double kTime = 0.3;
 
@@ -40,6 +42,7 @@ struct Options {
   model::Basis basis = model::Basis::modal;
   JointType joint = JointType::revolute;  // of a
   Axis rotation = {.load = constant_signal(0.3)};
+  double damping = 0, friction = 0;  // of the contact
 };
 
 // Two hinged boxes, end against end, tilted a little, 0.02 deep in each other.
@@ -58,6 +61,9 @@ System two_boxes(const Options& options) {
   pair.settings.stiffness = 50;
   pair.settings.two_pass = options.two_pass;
   pair.settings.slave = options.slave;
+  pair.settings.damping = options.damping;
+  pair.settings.hysteresis = options.damping;
+  pair.settings.friction = {.mu = options.friction, .v_0 = 0.4};
   return System(bodies, {pair}, {.inertia = options.level, .gravity = {1, -2, 3}});
 }
 
@@ -81,14 +87,14 @@ VectorXd difference(System& system, const Values& s, const VectorXd& x, double s
   return (F(kStep) - F(-kStep)) / (2 * kStep);
 }
 
-void expect_jacobian_is_derivative(System& system) {
+void expect_jacobian_is_derivative(System& system, double tolerance) {
   constexpr double kShiftV = 3, kShiftA = 20;
   const Values s = some_state(system);
   LowRankSolver solver(system.solver_bodies());
   solver.set(system.effective_matrix(s, {kShiftV, kShiftA}));
   for (Eigen::Index j = 0; j < system.size(); ++j) {
     const VectorXd unit = VectorXd::Unit(system.size(), j), column = solver.multiply(unit);
-    EXPECT_LT((column - difference(system, s, unit, kShiftV, kShiftA)).norm(), kDifference * column.norm())
+    EXPECT_LT((column - difference(system, s, unit, kShiftV, kShiftA)).norm(), tolerance * column.norm())
         << "column " << j;
   }
 }
@@ -103,8 +109,9 @@ BodySetup named(const std::string& name) {
 
 TEST_P(Jacobian, is_the_derivative_of_the_residual) {
   System system = two_boxes(GetParam());
-  ASSERT_GE(system.contacts(kTime, some_state(system).U).pair[0].points.size(), 3u);
-  expect_jacobian_is_derivative(system);
+  const Values s = some_state(system);
+  ASSERT_GE(system.contacts(kTime, s.U, s.V).pair[0].points.size(), 3u);
+  expect_jacobian_is_derivative(system, GetParam().friction > 0 ? kThinLayer : kDifference);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -117,14 +124,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Options{.joint = JointType::cylindrical,
                             .rotation = {.drive = spin_up_drive(-0.0045, 0.1, 1)}},
                     Options{.level = InertiaLevel::full},
-                    Options{.level = InertiaLevel::full, .basis = model::Basis::full},
+                    Options{.level = InertiaLevel::full, .basis = model::Basis::full}, Options{.damping = 2},
+                    Options{.basis = model::Basis::full, .damping = 2},
+                    Options{.joint = JointType::spherical, .rotation = {}, .damping = 2},
+                    Options{.joint = JointType::free, .rotation = {}, .damping = 2},
+                    Options{.two_pass = true, .damping = 2, .friction = 0.4},
+                    Options{.joint = JointType::free, .rotation = {}, .friction = 0.4},
                     Options{.joint = JointType::spherical, .rotation = {}},
                     Options{.joint = JointType::free, .rotation = {}},
                     Options{.level = InertiaLevel::full, .joint = JointType::free, .rotation = {}}));
 
 TEST(Contact, forces_and_moments_on_both_bodies_balance) {
-  System system = two_boxes({.two_pass = true});
-  const ContactState& contact = system.contacts(kTime, some_state(system).U);
+  System system = two_boxes({.two_pass = true, .damping = 2, .friction = 0.4});
+  const Values s = some_state(system);
+  const ContactState& contact = system.contacts(kTime, s.U, s.V);
   Eigen::Matrix<double, 6, 2> wrench = Eigen::Matrix<double, 6, 2>::Zero();
   for (int b : {0, 1}) {
     const contact::SurfaceState& surface = contact.surface[b];
@@ -144,7 +157,7 @@ TEST(Contact, snapshot_repeats_the_forces_on_body_b) {
   System system = two_boxes({.two_pass = true});
   const Values s = some_state(system);
   const model::PairState pair = snapshot(system, s).pairs[0];
-  const ContactState& contact = system.contacts(kTime, s.U);
+  const ContactState& contact = system.contacts(kTime, s.U, s.V);
   const contact::SurfaceState& b = contact.surface[1];
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
   for (Eigen::Index p = 0; p < contact.force[1].f_B.cols(); ++p) {
@@ -166,7 +179,7 @@ TEST(Contact, force_is_minus_the_gradient_of_its_energy) {
   const auto energy = [&](const VectorXd& U) {
     return snapshot(system, {kTime, U, zero, zero}).energy.contact;
   };
-  const ContactState contact = system.contacts(kTime, s.U);
+  const ContactState contact = system.contacts(kTime, s.U, s.V);
   for (std::size_t b : {0u, 1u}) {
     const System::Body& body = system.bodies()[b];
     const body::Force h = contact_force(body.eq, contact.force[b]);

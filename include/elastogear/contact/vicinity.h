@@ -39,4 +39,7 @@ double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion
 void add_nodes_to_place(const Candidates& candidates, int slave_side, const Topology* topology[2],
                         const Eigen::Matrix4Xi* face[2], std::array<std::vector<int>, 2>& nodes);
 
+/// Adds the nodes of one face to an ascending list.
+void add_face(const Eigen::Matrix4Xi& face, int number, std::vector<int>& nodes);
+
 }  // namespace elastogear::contact

@@ -42,11 +42,19 @@ struct Residual {
   Eigen::VectorXd norm, scale;  ///< 2 n_bodies
 };
 
-/// Everything that depends on the time and the positions U alone.
+/// Everything that depends on time, positions U and velocities V alone.
 struct ContactState {
   std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
+};
+
+/// What contact remembers from step to step; a run that goes on from a stored state needs it.
+struct ContactHistory {
+  double time = 0;                                      ///< s, of the last accepted state
+  double power = 0;                                     ///< W, taken by damping and regularised friction then
+  double loss = 0;                                      ///< J, taken since the start
+  std::vector<std::vector<contact::StickPoint>> stuck;  ///< per pair
 };
 
 /// A state of the system. The vectors must outlive it.
@@ -92,11 +100,19 @@ class System {
 
   /// Motion of a body, prescribed coordinates included.
   body::Motion motion(std::size_t b, const State& x) const;
-  contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U) const;
-  /// Placement and contacts; kept, so that a second call with an equal time and U costs nothing.
-  const ContactState& contacts(double time, ConstVector U);
+  contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U, ConstVector V) const;
+  /// Placement and contacts; kept, so that a second call with equal time, U and V costs nothing.
+  const ContactState& contacts(double time, ConstVector U, ConstVector V);
   /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
-  double depth_share(double time, ConstVector U);
+  double depth_share(double time, ConstVector U, ConstVector V);
+  /// To be called once for the initial state and after every accepted step: what sticks now does so from
+  /// here, and the energy that contact has taken is added up.
+  void accept(const State& x);
+  ContactHistory contact_history() const;
+  /// Throws Error for another number of pairs, or nodes and faces that they do not have.
+  void restore(const ContactHistory& history);
+  /// J, taken by damping and friction of contact up to the last accepted state.
+  double contact_loss() const { return history_.loss; }
   Residual residual(const State& x);
   /// shift.v dF/dV + shift.a dF/dA + dF/dU
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
@@ -118,7 +134,10 @@ class System {
   std::vector<contact::Pair> detectors_;
   Eigen::VectorXd U_0_, V_0_;
   std::optional<Eigen::VectorXd> U_of_state_;
+  Eigen::VectorXd V_of_state_;
   double time_of_state_ = 0;
+  ContactHistory history_;  // stuck: kept by the detectors
+  bool accepted_ = false;   // is there an accepted state?
   ContactState state_;
 };
 
