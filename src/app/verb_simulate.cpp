@@ -49,7 +49,9 @@ const OptionTable kOwnTable = {
     {"<body>_translation_friction", "N", "0", "Coulomb friction along the axis"},
     {"<body>_translation_friction_rate", "m/s", "0", "speed at which friction is tanh(1) of its full value"},
     {"gravity", "m/s^2", "0,0,0", "acceleration of gravity in the world"},
-    {"inertia", "-", "linear", "what the inertia keeps of the deformation: constant or linear"},
+    {"inertia", "-", "linear",
+     "what the inertia keeps of the deformation: constant, linear, or full (needs bodies "
+     "reduced with -invariants full)"},
     {"analysis", "-", "dynamic", "dynamic"},
     {"ts_dt", "s", "", "time step"},
     {"ts_max_time", "s", "", "end of the simulation"},
@@ -144,7 +146,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
 }
 
 dynamics::Environment environment(const Options& options) {
-  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear"})),
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
           options.vector("gravity")};
 }
 

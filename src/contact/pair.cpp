@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -48,6 +49,8 @@ Side make_side(const model::Surface& surface, const Settings& settings,
           {}};
 }
 
+// Shares of the skin and of the way so far up to whose clearance candidates are looked at.
+constexpr double kFirstLimit = 0.125, kNextLimit = 2;
 constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
 
 double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
@@ -104,7 +107,10 @@ struct Pair::Data {
   void place(const SurfaceState& a, const SurfaceState& b);
   void place(const SurfaceMotion* motion[2], bool deformed);
   void place_vicinity(const SurfaceMotion* motion[2]);
-  bool is_valid(const SurfaceMotion* motion[2]) const;
+  double way(const SurfaceMotion* motion[2]) const;
+  void update_vicinity(const SurfaceMotion* motion[2]);
+  void limit_vicinity(double limit);
+  void measure_clearance();
   void find_vicinity(double margin);
   void find_vicinity(const SurfaceMotion* motion[2]);
   Eigen::Vector3d velocity(int i, int node) const;
@@ -153,32 +159,62 @@ void Pair::Data::place_vicinity(const SurfaceMotion* motion[2]) {
   n_displaced = static_cast<int>(vicinity->node[0].size() + vicinity->node[1].size());
 }
 
-bool Pair::Data::is_valid(const SurfaceMotion* motion[2]) const {
-  if (!vicinity) return false;
+// Bound of the relative motion since the last search; infinite before the first.
+double Pair::Data::way(const SurfaceMotion* motion[2]) const {
+  if (!vicinity) return std::numeric_limits<double>::infinity();
   const SurfaceMotion* then = vicinity->found_at;
   double way = 0;
   for (int i : {0, 1}) way += largest_displacement(side[i].bound, motion[i]->q - then[i].q);
   Ball ball = side[0].ball;
   ball.radius += largest_displacement(side[0].bound, then[0].q);
-  way += travel(ball, relative_motion(then[0], then[1]), relative_motion(*motion[0], *motion[1]));
-  return way <= settings.skin;
+  return way + travel(ball, relative_motion(then[0], then[1]), relative_motion(*motion[0], *motion[1]));
+}
+
+void Pair::Data::limit_vicinity(double limit) {
+  const Topology* topologies[2] = {&side[0].topology, &side[1].topology};
+  const Eigen::Matrix4Xi* faces[2] = {&side[0].surface->face, &side[1].surface->face};
+  set_limit(*vicinity, limit);
+  for (auto& nodes : vicinity->node) nodes.clear();
+  for (int slave : passes()) add_nodes_to_place(*vicinity, slave, topologies, faces);
+  for (int slave : passes())
+    for (const auto& [node, point] : side[slave].stuck)
+      add_face(*faces[1 - slave], point.face, vicinity->node[1 - slave]);
+}
+
+// Of all candidates, where the nodes are placed now.
+void Pair::Data::measure_clearance() {
+  for (int slave : passes()) {
+    const SurfaceView master = view(1 - slave, settings.extension);
+    const Candidates& candidates = vicinity->candidates[slave];
+    const double searched = std::max(limits.depth, limits.outside) + settings.skin;
+    for (int node : candidates.nodes())
+      vicinity->clearance[slave].push_back(
+          clearance(master, configuration.x[slave].col(node), searched, candidates[node]) - limits.outside);
+  }
+}
+
+// Searches where the skin is used up, and lets more candidates in where the surfaces have moved by the limit.
+void Pair::Data::update_vicinity(const SurfaceMotion* motion[2]) {
+  const double moved = way(motion);
+  if (moved > settings.skin) {
+    find_vicinity(motion);
+    place_vicinity(motion);
+    measure_clearance();
+    limit_vicinity(kFirstLimit * settings.skin);
+  } else if (moved > vicinity->limit) {
+    limit_vicinity(std::min(kNextLimit * moved, settings.skin));
+  }
 }
 
 // Candidates within `margin` of each other where the nodes are placed now.
 void Pair::Data::find_vicinity(double margin) {
   const auto& face_pairs = search.face_pairs(configuration, margin);
-  const Topology* topologies[2] = {&side[0].topology, &side[1].topology};
-  const Eigen::Matrix4Xi* faces[2] = {&side[0].surface->face, &side[1].surface->face};
   if (!vicinity) vicinity.emplace();
-  for (auto& nodes : vicinity->node) nodes.clear();
-  for (int slave : passes()) {
-    Candidates& candidates = vicinity->candidates[slave];
-    candidates.collect(face_pairs, slave, view(slave, 0), view(1 - slave, settings.extension), margin);
-    add_nodes_to_place(candidates, slave, topologies, faces, vicinity->node);
-  }
-  for (int slave : {0, 1})
-    for (const auto& [node, point] : side[slave].stuck)
-      add_face(*faces[1 - slave], point.face, vicinity->node[1 - slave]);
+  for (auto& clearance : vicinity->clearance) clearance.clear();
+  for (int slave : passes())
+    vicinity->candidates[slave].collect(face_pairs, slave, view(slave, 0),
+                                        view(1 - slave, settings.extension), margin);
+  limit_vicinity(std::numeric_limits<double>::infinity());
   ++n_searches;
 }
 
@@ -222,7 +258,7 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const MasterSide master{surface, side[1 - slave_side].bulge, radians(settings.crease)};
   const Candidates& candidates = vicinity->candidates[slave_side];
   Side& slaves = side[slave_side];
-  for (int node : candidates.nodes()) {
+  for (int node : vicinity->slave[slave_side]) {
     const SlaveNode q{slave.x.col(node), [&] { return node_normal(slave, node); }};
     const auto winner = find_winner(surface, q, limits, candidates[node], slaves.last_face[node]);
     slaves.last_face[node] = winner ? winner->face : -1;
@@ -324,7 +360,7 @@ std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState
 std::vector<ContactPoint> Pair::detect(const SurfaceMotion& a, const SurfaceMotion& b) {
   const SurfaceMotion* motion[2] = {&a, &b};
   for (int i : {0, 1}) validate(*motion[i], *data_->side[i].surface, i);
-  if (!data_->is_valid(motion)) data_->find_vicinity(motion);
+  data_->update_vicinity(motion);
   data_->place_vicinity(motion);
   for (int i : {0, 1}) data_->moving[i] = motion[i];
   std::vector<ContactPoint> contacts = data_->contacts(b.R_WB);

@@ -33,11 +33,24 @@ double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion
   return (dR * ball.centre + to.r - from.r).norm() + dR.norm() / std::sqrt(2.0) * ball.radius;
 }
 
-void add_nodes_to_place(const Candidates& candidates, int slave_side, const Topology* topology[2],
-                        const Eigen::Matrix4Xi* face[2], std::array<std::vector<int>, 2>& nodes) {
+void set_limit(Vicinity& vicinity, double limit) {
+  vicinity.limit = limit;
+  for (int side : {0, 1}) {
+    const std::vector<int>& all = vicinity.candidates[side].nodes();
+    const std::vector<double>& clearance = vicinity.clearance[side];
+    vicinity.slave[side].clear();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (clearance.empty() || clearance[i] <= limit) vicinity.slave[side].push_back(all[i]);
+  }
+}
+
+void add_nodes_to_place(Vicinity& vicinity, int slave_side, const Topology* topology[2],
+                        const Eigen::Matrix4Xi* face[2]) {
   const int master = 1 - slave_side;
+  const Candidates& candidates = vicinity.candidates[slave_side];
+  auto& nodes = vicinity.node;
   std::vector<int> faces;
-  for (int node : candidates.nodes()) {
+  for (int node : vicinity.slave[slave_side]) {
     add_ring(node, *topology[slave_side], *face[slave_side], nodes[slave_side]);
     const auto near = candidates[node];
     faces.insert(faces.end(), near.begin(), near.end());

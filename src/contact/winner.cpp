@@ -111,4 +111,11 @@ std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& sl
   return make_winner(master, slave.x, best);
 }
 
+double clearance(const SurfaceView& master, const Eigen::Vector3d& x, double reach,
+                 std::span<const int> faces) {
+  const Nearest any = nearest({master, x, reach, faces, -1}, [](auto&&...) { return true; });
+  if (!any.found()) return std::numeric_limits<double>::infinity();
+  return place(master, x, any) == Place::outside ? std::sqrt(any.distance2) : 0;
+}
+
 }  // namespace elastogear::contact

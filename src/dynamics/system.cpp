@@ -6,6 +6,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/body/tangent.h"
+#include "elastogear/contact/topology.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -211,7 +212,8 @@ void System::add_body(const BodySetup& setup) {
   const auto [s, s_dot] = initial_motion(setup, body::coordinate_count(setup.joint.type));
   const std::vector<Eigen::Index> open = open_coordinates(axis, s.size());
   bodies_.push_back({setup.name, body::make_equations(setup.body, setup.joint, environment_.inertia), size(),
-                     axis, open, false, node_groups(setup.body->surface)});
+                     axis, open, false, node_groups(setup.body->surface),
+                     contact::node_areas(setup.body->surface.X, setup.body->surface.face)});
   require_inertia(bodies_.back());
   const Eigen::Index n_q = setup.body->n_q();
   append(U_0_, s(open));

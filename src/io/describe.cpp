@@ -101,6 +101,7 @@ void describe_inertia(Out& out, const model::Inertia& inertia) {
   line(out, "mass: ", inertia.m, " kg");
   line(out, "centre of mass: (", inertia.c.transpose(), ") m, body frame");
   line(out, "inertia about the origin: [", inertia.J.format(kRow), "] kg m^2");
+  if (!inertia.S_2.empty()) line(out, "invariants: full");
 }
 
 void describe_modes(Out& out, const std::string& path, const model::ElasticBody& body) {

@@ -53,6 +53,9 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
 
 void validate(const ReductionOptions& options) {
   if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
+  require(!options.foreign || options.invariants == Invariants::linear,
+          "full invariants need the program's own mass matrix, not one from ",
+          options.foreign ? options.foreign->mass : std::string());
   require(!options.floating || options.restrain.empty(), "a free body has no restrained node sets");
   require(options.frame_origin.allFinite(), "the origin of the body frame (",
           options.frame_origin.transpose(), ") m must be finite");

@@ -131,6 +131,9 @@ expect_error "body without mass" 'mass 0 kg must be positive' "$elastogear" simu
 expect_error "inertia of no mass distribution" 'principal inertias' "$elastogear" simulate -bodies a -a_mass 1 \
   -a_inertia 1,1,3,0,0,0 -ts_dt 1e-7 -ts_max_time 1e-6 -output new.h5
 expect_error "an inertia level that is none" "-inertia" "${simulate[@]}" -inertia cubic
+expect_error "inertia level full without its invariants" "body 'body' lacks .*-invariants full" "${simulate[@]}" -inertia full
+expect_error "invariants that are none" 'invariants.*linear, full' "${reduce[@]}" -invariants all
+expect_error "full invariants of a foreign matrix" "program's own mass" "${reduce[@]}" -stiffness k.mtx -mass k.mtx -invariants full
 expect_error "undercut gear" "undercut" "$elastogear" mesh -part wheel -pressure_angle 8 -mesh new.msh
 expect_error "centre distance that does not exist" 'centre distance' "$elastogear" mesh -part worm -centre_distance 0.02 -mesh new.msh
 expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all

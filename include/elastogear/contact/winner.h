@@ -38,4 +38,10 @@ struct Winner {
 std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
                                   std::span<const int> faces, int likely = -1);
 
+/// m, by how much node and master must approach each other before the node can touch: its distance when it is
+/// outside, infinity when no face is within `reach`, else 0. `faces` must hold all that are; `reach`: at
+/// least the depth limit and the largest approach that is of interest.
+double clearance(const SurfaceView& master, const Eigen::Vector3d& x, double reach,
+                 std::span<const int> faces);
+
 }  // namespace elastogear::contact

@@ -79,6 +79,7 @@ class System {
     std::vector<Eigen::Index> open;  ///< joint coordinates without prescribed motion, ascending
     bool in_contact;                 ///< named by a pair
     std::vector<int> node_group;     ///< face group of each surface node: that of its lowest face
+    Eigen::VectorXd node_area;       ///< m^2, share of the surface of each of its nodes
 
     Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
   };
