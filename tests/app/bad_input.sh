@@ -109,6 +109,11 @@ expect_error "a mesh as body file" 'wheel.msh' "${simulate[@]}" -a_file wheel.ms
 expect_error "misspelt body key" 'a_jonit.*a_joint' "${simulate[@]}" -a_jonit fixed
 expect_error "pair of unknown body" "'c'" "${simulate[@]}" -contact_pairs a:c
 expect_error "zero step" 'ts_dt.*0' "${simulate[@]}" -ts_dt 0
+expect_error "friction that never fades" 'regularised friction needs the speed' "${simulate[@]}" -contact_friction 0.1
+expect_error "static friction below that of sliding" 'static friction 0.1' "${simulate[@]}" -contact_friction 0.2 \
+  -contact_friction_law stick -contact_friction_static 0.1
+expect_error "a gap moved out of sight" 'offset 1 m must not exceed' "${simulate[@]}" -contact_offset 1
+expect_error "negative contact damping" 'damping -1' "${simulate[@]}" -contact_damping -1
 expect_error "zero axis" 'axis' "${simulate[@]}" -a_joint revolute -a_axis 0,0,0
 expect_error "bodies deep inside each other" '(deep|penetrat)' "${simulate[@]}" -b_position 0.003,0,0.004 -b_rotation 3.14159265,0,0
 printf 'time,torque\n0,1\n5e-7,2\n' >short.csv
