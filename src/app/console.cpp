@@ -27,32 +27,35 @@ struct Stage {
 
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
-void show(const Stage& stage, double fraction, bool terminal) {
+void show(const Stage& stage, double fraction, bool terminal, const std::string& detail) {
   const double elapsed = seconds_since(stage.start);
   const bool done = fraction >= 1;
   const std::string time = done ? duration(elapsed) : "remaining " + duration(elapsed * (1 / fraction - 1));
-  std::fprintf(stderr, "%s%-28s %3.0f %%  %s%s", terminal ? "\r\033[K" : "", stage.name.c_str(),
-               100 * fraction, time.c_str(), terminal && !done ? "" : "\n");
+  std::fprintf(stderr, "%s%-28s %3.0f %%  %s%s%s", terminal ? "\r\033[K" : "", stage.name.c_str(),
+               100 * fraction, time.c_str(), detail.c_str(), terminal && !done ? "" : "\n");
 }
 
-void update(Stage& stage, std::string_view name, double fraction, bool terminal) {
+// Is a line due? Then the stage counts as shown.
+bool is_due(Stage& stage, std::string_view name, double fraction, bool terminal) {
   if (name != stage.name) stage = {std::string(name), Clock::now(), Clock::now(), 0};
   const bool due = terminal ? seconds_since(stage.shown) > 0.2
                             : seconds_since(stage.shown) > 2 && fraction - stage.shown_fraction > 0.09;
   const bool done = fraction >= 1 && stage.shown_fraction < 1;
-  if (fraction <= 0 || (!due && !done)) return;
+  if (fraction <= 0 || (!due && !done)) return false;
   stage.shown = Clock::now();
   stage.shown_fraction = fraction;
-  show(stage, fraction, terminal);
+  return true;
 }
 
 }  // namespace
 
-Progress console_progress() {
+Progress console_progress(std::function<std::string()> detail) {
   if (world_rank() > 0) return {};
   const bool terminal = isatty(STDERR_FILENO);
   auto stage = std::make_shared<Stage>();
-  return [=](std::string_view name, double fraction) { update(*stage, name, fraction, terminal); };
+  return [=](std::string_view name, double fraction) {
+    if (is_due(*stage, name, fraction, terminal)) show(*stage, fraction, terminal, detail ? detail() : "");
+  };
 }
 
 void print_item(const std::string& name, const std::string& text) {

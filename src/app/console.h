@@ -1,6 +1,7 @@
 #pragma once
 // What the program prints: progress with time remaining, and aligned summaries. Rank 0 only.
 
+#include <functional>
 #include <string>
 
 #include "elastogear/base/progress.h"
@@ -9,7 +10,8 @@ namespace elastogear::app {
 
 /// Progress lines on stderr with the time remaining of the stage; at most a few per second on a terminal,
 /// every tenth elsewhere. Silent on ranks > 0.
-Progress console_progress();
+/// `detail`: what is added behind, asked for when a line is shown.
+Progress console_progress(std::function<std::string()> detail = {});
 
 /// "  name ............ text"
 void print_item(const std::string& name, const std::string& text);

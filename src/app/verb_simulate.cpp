@@ -81,6 +81,11 @@ const OptionTable kOwnTable = {
      "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: 1; relax: 0)"},
     {"output", "-", "", "result file to write (HDF5)"},
     {"output_every", "-", "1", "write every n-th step"},
+    {"output_dt", "s", "0",
+     "write at multiples of this time in place of every n-th step, between steps by interpolation"},
+    {"step_tolerance", "m", "0",
+     "choose the steps so that the local error moves no surface node farther; 0: all steps are ts_dt"},
+    {"velocity_tolerance", "m/s", "0", "with step_tolerance: the same for velocities; 0: without"},
 };
 
 OptionTable table() {
@@ -222,6 +227,9 @@ dynamics::TimeSettings time_settings(const Options& options) {
   time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.settle ? 0 : 1;
   time.rest_tolerance = options.positive("rest_tolerance");
   time.output_every = options.count("output_every", 1);
+  time.output_dt = options.number("output_dt");
+  time.step_tolerance = options.number("step_tolerance");
+  time.velocity_tolerance = options.number("velocity_tolerance");
   return time;
 }
 
@@ -254,16 +262,26 @@ void make_static(const Options& options, std::vector<dynamics::BodySetup>& bodie
   dynamics::scale_by_load_factor(surroundings);
 }
 
+std::string step_text(const dynamics::StepInfo& step) {
+  return ", t " + with_unit(step.time, "s") + ", dt " + with_unit(step.dt, "s") + ", " +
+         std::to_string(step.newton_iterations) + " iterations in " + std::to_string(step.step) + " steps, " +
+         std::to_string(step.contacts) + " contacts " + with_unit(step.penetration, "m") + " deep, balance " +
+         with_unit(step.balance, "J");
+}
+
 Computation computation(const Options& options, dynamics::System& system) {
   if (analysis(options) == Analysis::equilibrium)
     return
         [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer, const auto&) {
           return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress());
         };
-  const dynamics::TimeSettings time = time_settings(options);
+  dynamics::TimeSettings time = time_settings(options);
   if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
-  return [&system, time](const auto& observer, const auto& checkpoints) {
-    return dynamics::simulate(system, time, guarded(system, observer), console_progress(), checkpoints);
+  auto info = std::make_shared<dynamics::StepInfo>();
+  time.monitor = [info](const dynamics::StepInfo& step) { *info = step; };
+  return [&system, time, info](const auto& observer, const auto& checkpoints) {
+    return dynamics::simulate(system, time, guarded(system, observer),
+                              console_progress([info] { return step_text(*info); }), checkpoints);
   };
 }
 

@@ -82,6 +82,7 @@ void visit_state(Run& run, TS ts, Tape& tape) {
   run.problem.solver.visit_memory(tape);
   run.ledger.visit_memory(tape);
   tape(run.kinetic_energy);
+  tape(run.n_outputs);
   visit_summary(run.summary, tape);
   double wall_time = run.summary.wall_time + seconds_since(run.start);
   tape(wall_time);

@@ -112,6 +112,23 @@ PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   return VecMAXPY(U, 4, weights, ends);
 }
 
+// Derivative of that polynomial.
+PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V) {
+  const Method& m = method(ts);
+  const PetscReal dt = m.step_size, s = (t - m.step_time) / dt, slope = 6 * s * (1 - s) / dt;
+  const PetscScalar weights[] = {-slope, slope, (1 - s) * (1 - 3 * s), s * (3 * s - 2)};
+  Vec ends[] = {m.start.U, m.end.U, m.start.V, m.end.V};
+  PetscCall(VecZeroEntries(V));
+  return VecMAXPY(V, 4, weights, ends);
+}
+
+PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A) {
+  const Method& m = method(ts);
+  const PetscReal s = (t - m.step_time) / m.step_size;
+  PetscCall(VecCopy(m.start.A, A));
+  return VecAXPBY(A, s, 1 - s, m.end.A);
+}
+
 // ---- error estimate
 
 // norm := weighted norm of scale * (A1 - A0), as an error of x
@@ -128,7 +145,7 @@ PetscErrorCode error_norm(TS ts, Vec x, PetscReal scale, NormType type, PetscRea
 PetscErrorCode velocity_error_norm(TS ts, NormType type, PetscReal* norm) {
   const Method& m = method(ts);
   const PetscReal atol = ts->atol, rtol = ts->rtol;
-  Vec vatol = nullptr, vrtol = nullptr;
+  Vec vatol = m.velocity_vatol, vrtol = nullptr;
   std::swap(vatol, ts->vatol);
   std::swap(vrtol, ts->vrtol);
   ts->atol = m.velocity_atol;
@@ -149,7 +166,8 @@ PetscErrorCode evaluate_wlte(TS ts, NormType type, PetscInt* order, PetscReal* w
   const PetscReal C_U = PetscAbsReal(p.beta - (p.alpha_m - p.alpha_f) / 2 - PetscReal(1) / 6);
   PetscReal velocity = 0;
   PetscCall(error_norm(ts, m.end.U, C_U * dt * dt, type, wlte));
-  if (m.velocity_atol > 0 || m.velocity_rtol > 0) PetscCall(velocity_error_norm(ts, type, &velocity));
+  if (m.velocity_vatol || m.velocity_atol > 0 || m.velocity_rtol > 0)
+    PetscCall(velocity_error_norm(ts, type, &velocity));
   *wlte = PetscMax(*wlte, PetscPowReal(velocity, 1.5));  // asks for the step that second order would
   if (order) *order = 3;
   return 0;
@@ -264,6 +282,7 @@ PetscErrorCode compose(TS ts, decltype(&set_radius) radius, decltype(&set_parame
 PetscErrorCode destroy(TS ts) {
   PetscCall(reset(ts));
   PetscCall(compose(ts, nullptr, nullptr, nullptr));
+  PetscCall(VecDestroy(&method(ts).velocity_vatol));
   delete static_cast<Method*>(ts->data);
   ts->data = nullptr;
   return 0;
@@ -328,6 +347,28 @@ void generalized_alpha_set_state(TS ts, Vec U, Vec V, Vec A) {
   Method& m = ready_method(ts);
   check(set_solution(ts, {U, V, A}));
   m.solution_state = -1;
+}
+
+void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x) {
+  ready_method(ts);
+  check(interpolate(ts, t, x.U));
+  check(interpolate_velocity(ts, t, x.V));
+  check(interpolate_acceleration(ts, t, x.A));
+}
+
+void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity) {
+  Method& m = ready_method(ts);
+  UniqueVec absolute;
+  check(VecDuplicate(scale, absolute.out()));
+  check(VecCopy(scale, absolute));
+  check(VecScale(absolute, position));
+  check(TSSetTolerances(ts, PETSC_DEFAULT, absolute, 0, nullptr));
+  ts->adapt->wnormtype = NORM_INFINITY;
+  check(VecDestroy(&m.velocity_vatol));
+  if (velocity <= 0) return;
+  check(VecDuplicate(scale, &m.velocity_vatol));
+  check(VecCopy(scale, m.velocity_vatol));
+  check(VecScale(m.velocity_vatol, velocity));
 }
 
 void generalized_alpha_restart(TS ts) { ready_method(ts).acceleration_known = false; }

@@ -30,6 +30,7 @@ struct Method {
   Parameters parameters;
   Predictor predictor;
   PetscReal velocity_rtol, velocity_atol;
+  Vec velocity_vatol;  ///< in place of velocity_atol, or null
 
   Motion current;  ///< accepted state; U and V are copies of the solution, to notice changes made outside
   bool acceleration_known;

@@ -29,6 +29,8 @@ struct Run {
   bool last_observed = true;  // nothing to observe yet
   double nominal_dt = 0;      // s, at the start
   RunSummary summary;         // its counts: of the time before this run was continued
+  int n_outputs = 1;          // of those output_dt apart; the first is the start
+  bool step_is_due = false;   // an output falls on the end of the last step
   double kinetic_energy = 0;  // J, after the last step of a settling run
   int first_step = -1;        // that of the state from which it was continued
   Clock::time_point start = Clock::now(), kept = start;
@@ -40,6 +42,19 @@ RunSummary new_summary(const System& system);
 /// Enters peaks.
 void update(RunSummary& summary, const model::Snapshot& snapshot);
 UniqueVec vector(const Eigen::VectorXd& values);
+
+/// Hands the last snapshot to the observer.
+void observe(Run& run);
+/// Observes the output times before the end of the last step; coordinates must not be re-based yet.
+void observe_since_last_step(Run& run, TS ts);
+/// Enters the state after a step into ledger and summary, and observes it when it is due.
+void enter_step(Run& run, TS ts, int step, double time);
+void report_step(const Run& run, TS ts, int step);
+
+/// Changes of the coordinates that move a body's surface by up to 1 m.
+Eigen::VectorXd coordinates_per_length(const System& system);
+/// Step-size control, when there is a tolerance.
+void control_steps(const Run& run, TS ts);
 
 /// After a step of a settling run: rest at each peak of the kinetic energy; the end when nothing moves any
 /// more.

@@ -20,6 +20,11 @@ void validate(const TimeSettings& settings) {
   require(settings.rho_inf >= 0 && settings.rho_inf <= 1, "rho_inf = ", settings.rho_inf,
           " must lie in 0..1");
   require(settings.rest_tolerance > 0, "rest tolerance ", settings.rest_tolerance, " must be positive");
+  require(settings.output_dt >= 0 && std::isfinite(settings.output_dt), "output_dt = ", settings.output_dt,
+          " s must not be negative");
+  require(settings.step_tolerance >= 0 && settings.velocity_tolerance >= 0, "step tolerance ",
+          settings.step_tolerance, " m and velocity tolerance ", settings.velocity_tolerance,
+          " m/s must not be negative");
   require(settings.output_every >= 1, "output_every = ", settings.output_every, " must be at least 1");
 }
 
@@ -31,24 +36,6 @@ void validate(const Checkpoints& checkpoints) {
 void require_tables_cover(const System& system, double end_time) {
   for (const System::Body& body : system.bodies())
     for (const Axis& axis : body.axis) require_covers(axis, end_time, "body '" + body.name + "': ");
-}
-
-void observe(Run& run) {
-  if (run.observer) run.observer(run.last);
-  run.last_observed = true;
-}
-
-void enter_state(Run& run, TS ts, PetscInt step, PetscReal time) {
-  Vec U = nullptr, V = nullptr, A = nullptr;
-  generalized_alpha_state(ts, &U, &V, &A);
-  const ReadView u(U), v(V), a(A);
-  run.last = snapshot(run.problem.system, {time, *u, *v, *a});
-  run.ledger.enter(run.problem.system, run.last);
-  run.last_observed = false;
-  const model::Energies& energy = run.last.energy;
-  if (step == 0) run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact;
-  update(run.summary, run.last);
-  if (step % run.settings.output_every == 0) observe(run);
 }
 
 // After everything else that happens between two steps.
@@ -66,7 +53,8 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
   auto& run = *static_cast<Run*>(ctx);
   if (step == run.first_step) return 0;  // entered before the run was interrupted
   return guard(run.problem.pending, [&] {
-    enter_state(run, ts, step, time);
+    enter_step(run, ts, step, time);
+    report_step(run, ts, step);
     keep_if_due(run, ts, time);
   });
 }
@@ -113,6 +101,7 @@ PetscErrorCode post_step(TS ts) {
   Run* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
   PetscCall(guard(run->problem.pending, [&] {
+    observe_since_last_step(*run, ts);
     rebase(run->problem.system, ts);
     if (run->settings.settle) settle(*run, ts);
     stop_if_asked(*run, ts);
@@ -129,7 +118,11 @@ void set_time(TS ts, const TimeSettings& settings) {
   check(TSSetErrorIfStepFails(ts, PETSC_FALSE));
 }
 
-UniqueTS make_ts(Run& run, UniqueMat& J) {
+struct Start {
+  UniqueVec U, V;
+};
+
+UniqueTS make_ts(Run& run, const Start& motion, UniqueMat& J) {
   UniqueTS ts;
   check(TSCreate(PETSC_COMM_SELF, ts.out()));
   register_generalized_alpha();
@@ -143,6 +136,8 @@ UniqueTS make_ts(Run& run, UniqueMat& J) {
   check(TSSetApplicationContext(ts, &run));
   check(TSSetPostStep(ts, post_step));
   check(TSMonitorSet(ts, monitor, &run, nullptr));
+  check(TS2SetSolution(ts, motion.U, motion.V));
+  control_steps(run, ts);
   check(TSSetFromOptions(ts));
   check(TSGetTimeStep(ts, &run.nominal_dt));
   require(run.nominal_dt > 0, "time step dt = ", run.nominal_dt, " s must be positive");
@@ -215,22 +210,6 @@ RunSummary new_summary(const System& system) {
   return summary;
 }
 
-void update(RunSummary& summary, const model::Snapshot& snapshot) {
-  int contacts = 0;
-  for (std::size_t p = 0; p < snapshot.pairs.size(); ++p) {
-    const model::PairState& pair = snapshot.pairs[p];
-    PairSummary& entry = summary.pair[p];
-    contacts += pair.count;
-    entry.penetration = std::max(entry.penetration, pair.penetration);
-    if (pair.force.norm() > entry.peak_force) {
-      entry.peak_force = pair.force.norm();
-      entry.peak_time = snapshot.time;
-    }
-  }
-  summary.most_contacts = std::max(summary.most_contacts, contacts);
-  summary.largest_imbalance = std::max(summary.largest_imbalance, std::abs(snapshot.energy.balance));
-}
-
 UniqueVec vector(const Eigen::VectorXd& values) {
   UniqueVec vec;
   check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(values.size()), vec.out()));
@@ -247,11 +226,10 @@ RunSummary simulate(System& system, const TimeSettings& settings, const Observer
   Run run(system, settings, observer, progress, checkpoints);
   run.summary = new_summary(system);
   UniqueMat J;
-  const UniqueTS ts = make_ts(run, J);
-  const UniqueVec U = vector(system.initial_position()), V = vector(system.initial_velocity());
-  check(TS2SetSolution(ts, U, V));
+  const Start motion{vector(system.initial_position()), vector(system.initial_velocity())};
+  const UniqueTS ts = make_ts(run, motion, J);
   if (!checkpoints.state.empty()) go_on_from(run, ts, checkpoints.state);
-  solve(run, ts, U);
+  solve(run, ts, motion.U);
   finish(run, ts);
   return run.summary;
 }

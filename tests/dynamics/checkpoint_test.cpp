@@ -50,7 +50,7 @@ Observer into(Rows& rows) {
   };
 }
 
-constexpr TimeSettings kSettings{.dt = 0.004, .end_time = 0.4, .rho_inf = 0.8};
+const TimeSettings kSettings{.dt = 0.004, .end_time = 0.4, .rho_inf = 0.8};
 
 Recording record(System system, const TimeSettings& settings = kSettings) {
   Recording recording;
@@ -62,7 +62,7 @@ Recording record(System system, const TimeSettings& settings = kSettings) {
 
 void expect_every_continuation_equal(model::Basis basis, const TimeSettings& settings = kSettings) {
   const Recording whole = record(impact(basis), settings);
-  ASSERT_GE(whole.states.size(), 90u);
+  ASSERT_GE(whole.states.size(), 70u);
   double contacts = 0;
   for (std::size_t k = 0; k < whole.states.size(); k += 7) {
     System system = impact(basis);
@@ -71,7 +71,7 @@ void expect_every_continuation_equal(model::Basis basis, const TimeSettings& set
     simulate(system, settings, into(rows), {}, checkpoints);
     const Rows expected(whole.rows.end() - static_cast<std::ptrdiff_t>(rows.size()), whole.rows.end());
     EXPECT_EQ(rows, expected) << "from checkpoint " << k;
-    EXPECT_EQ(rows.size() + k + 1, whole.rows.size());
+    if (settings.output_dt == 0) EXPECT_EQ(rows.size() + k + 1, whole.rows.size());
     for (const auto& row : rows) contacts += row[4];
   }
   EXPECT_GT(contacts, 10);
@@ -90,6 +90,13 @@ TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_in_the_full_basis)
 TEST(Checkpoint, continuation_of_a_settling_run_equals_the_whole_one_to_the_bit) {
   TimeSettings settings = kSettings;
   settings.settle = true;
+  expect_every_continuation_equal(model::Basis::modal, settings);
+}
+
+TEST(Checkpoint, continuation_with_step_control_and_interpolated_output_equals_the_whole_run_to_the_bit) {
+  TimeSettings settings = kSettings;
+  settings.step_tolerance = 1e-6;
+  settings.output_dt = 0.003;
   expect_every_continuation_equal(model::Basis::modal, settings);
 }
 

@@ -35,6 +35,15 @@ void generalized_alpha_state(TS ts, Vec* U, Vec* V, Vec* A);
 /// nullptr.
 void generalized_alpha_set_state(TS ts, Vec U, Vec V, Vec A);
 
+struct MotionVectors {
+  Vec U, V, A;
+};
+/// U by (8.10), V its derivative, A linear between the ends of the last step, as integrated.
+void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x);
+
+/// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.
+void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
+
 /// After a discontinuity of F: the next step starts from the acceleration that solves F(t, U, V, A) = 0.
 /// Changing U or V without set_state does the same.
 void generalized_alpha_restart(TS ts);

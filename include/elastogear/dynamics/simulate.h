@@ -11,6 +11,16 @@
 
 namespace elastogear::dynamics {
 
+/// The state of a run after a step.
+struct StepInfo {
+  int step = 0;
+  double time = 0, dt = 0;    ///< s, reached; of the next step
+  int newton_iterations = 0;  ///< so far
+  int contacts = 0;
+  double penetration = 0;  ///< m, largest
+  double balance = 0;      ///< J, of the energy ledger
+};
+
 struct TimeSettings {
   double dt = 0;         ///< s
   double end_time = 0;   ///< s
@@ -21,6 +31,14 @@ struct TimeSettings {
   /// rest_tolerance times the sum of the norms of its forces. Loads should be constant by then.
   bool settle = false;
   double rest_tolerance = 1e-6;
+  /// s; > 0: observe at its multiples in place of every n-th step. Between steps U follows (8.10), V its
+  /// derivative, A is linear.
+  double output_dt = 0;
+  /// m; > 0: steps are chosen so that the local error moves no surface node farther (PETSc's basic
+  /// adaptivity, -ts_adapt_*), and the step in which bodies first touch is short. velocity_tolerance, m/s, >
+  /// 0: velocities too.
+  double step_tolerance = 0, velocity_tolerance = 0;
+  std::function<void(const StepInfo&)> monitor = {};  ///< after every step
 };
 
 struct PairSummary {

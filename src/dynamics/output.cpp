@@ -1,0 +1,98 @@
+// Observing a run: at steps, or at given times between them.
+#include <algorithm>
+
+#include "elastogear/dynamics/generalized_alpha.h"
+#include "run.h"
+#include "vec_view.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+constexpr double kSameTime = 1e-9;  // of a step: roundoff in times
+
+void enter(Run& run, const State& x) {
+  run.last = snapshot(run.problem.system, x);
+  run.ledger.enter(run.problem.system, run.last);
+  run.last_observed = false;
+  update(run.summary, run.last);
+}
+
+void observe_between(Run& run, TS ts, double time) {
+  Vec U = nullptr;
+  UniqueVec u, v, a;
+  check(TSGetSolution(ts, &U));
+  for (UniqueVec* x : {&u, &v, &a}) check(VecDuplicate(U, x->out()));
+  generalized_alpha_interpolate(ts, time, {u, v, a});
+  const ReadView at_u(u), at_v(v), at_a(a);
+  enter(run, {time, *at_u, *at_v, *at_a});
+  observe(run);
+}
+
+bool is_due(const Run& run, int step) {
+  return step == 0 || (run.settings.output_dt > 0 ? run.step_is_due : step % run.settings.output_every == 0);
+}
+
+}  // namespace
+
+void update(RunSummary& summary, const model::Snapshot& snapshot) {
+  int contacts = 0;
+  for (std::size_t p = 0; p < snapshot.pairs.size(); ++p) {
+    const model::PairState& pair = snapshot.pairs[p];
+    PairSummary& entry = summary.pair[p];
+    contacts += pair.count;
+    entry.penetration = std::max(entry.penetration, pair.penetration);
+    if (pair.force.norm() > entry.peak_force) {
+      entry.peak_force = pair.force.norm();
+      entry.peak_time = snapshot.time;
+    }
+  }
+  summary.most_contacts = std::max(summary.most_contacts, contacts);
+  summary.largest_imbalance = std::max(summary.largest_imbalance, std::abs(snapshot.energy.balance));
+}
+
+void observe(Run& run) {
+  if (run.observer) run.observer(run.last);
+  run.last_observed = true;
+}
+
+void observe_since_last_step(Run& run, TS ts) {
+  PetscReal time = 0, before = 0;
+  if (run.settings.output_dt <= 0) return;
+  check(TSGetTime(ts, &time));
+  check(TSGetPrevTime(ts, &before));
+  const double same = kSameTime * (time - before);
+  run.step_is_due = false;
+  for (;; ++run.n_outputs) {
+    const double due = run.n_outputs * run.settings.output_dt;
+    if (due > time + same) return;
+    if (due >= time - same)
+      run.step_is_due = true;
+    else
+      observe_between(run, ts, due);
+  }
+}
+
+void enter_step(Run& run, TS ts, int step, double time) {
+  Vec U = nullptr, V = nullptr, A = nullptr;
+  generalized_alpha_state(ts, &U, &V, &A);
+  const ReadView u(U), v(V), a(A);
+  enter(run, {time, *u, *v, *a});
+  const model::Energies& energy = run.last.energy;
+  if (step == 0) run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact;
+  if (is_due(run, step)) observe(run);
+}
+
+void report_step(const Run& run, TS ts, int step) {
+  StepInfo info{.step = step, .time = run.last.time, .balance = run.last.energy.balance};
+  PetscInt newton = 0;
+  check(TSGetTimeStep(ts, &info.dt));
+  check(TSGetSNESIterations(ts, &newton));
+  info.newton_iterations = run.summary.newton_iterations + newton;
+  for (const model::PairState& pair : run.last.pairs) {
+    info.contacts += pair.count;
+    info.penetration = std::max(info.penetration, pair.penetration);
+  }
+  if (run.settings.monitor) run.settings.monitor(info);
+}
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,122 @@
+// Output at given times, and steps chosen by tolerances in lengths.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "box_body.h"
+#include "elastogear/dynamics/simulate.h"
+
+using namespace elastogear;
+using namespace elastogear::dynamics;
+
+namespace {
+
+// A heavy rigid box on a hinge along y through the origin: a pendulum that swings about z = down by phi0
+// cos(w t).
+struct Pendulum {
+  static constexpr double g = 9.81, phi_0 = 1e-3;
+  std::shared_ptr<const model::ElasticBody> body = std::make_shared<model::ElasticBody>(
+      test::make_rigid_box({.corner = {-0.5, -0.5, -2}, .size = {1, 1, 1}, .material = {1, 0, 1}}));
+  double omega = std::sqrt(body->inertia.m * g * 1.5 / body->inertia.J(1, 1));
+
+  System system() const {
+    return System({{.name = "box",
+                    .body = body,
+                    .joint = {.type = body::JointType::revolute, .axis = {0, 1, 0}},
+                    .rotation = {.s_0 = phi_0}}},
+                  {}, {.gravity = {0, 0, -g}});
+  }
+  double angle(double t) const { return phi_0 * std::cos(omega * t); }
+};
+
+std::vector<model::Snapshot> snapshots(System system, const TimeSettings& settings,
+                                       RunSummary* summary = nullptr) {
+  std::vector<model::Snapshot> seen;
+  const RunSummary run = simulate(system, settings, [&](const model::Snapshot& s) { seen.push_back(s); });
+  if (summary) *summary = run;
+  return seen;
+}
+
+// A box flies freely against a wall, 0.5 m away.
+System flight() {
+  const test::BoxSpec spec{.size = {1, 1, 1}, .material = {100, 0.3, 1}};
+  const auto box = std::make_shared<model::ElasticBody>(test::make_rigid_box(spec));
+  return System({{.name = "box",
+                  .body = box,
+                  .joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}},
+                  .translation = {.s_dot_0 = 1}},
+                 {.name = "wall", .body = box, .joint = {.r_WB0 = {1.5, 0, 0}}}},
+                {{"box:wall", {0, 1}, {.depth = 0.2}}});
+}
+
+double largest_error(double dt) {
+  const Pendulum pendulum;
+  double error = 0;
+  for (const auto& s : snapshots(pendulum.system(), {.dt = dt, .end_time = 2, .output_dt = 0.013}))
+    error = std::max(error, std::abs(s.bodies[0].s[0] - pendulum.angle(s.time)));
+  return error;
+}
+
+}  // namespace
+
+TEST(Output, comes_at_the_given_times_and_at_the_end) {
+  const auto seen = snapshots(Pendulum().system(), {.dt = 0.01, .end_time = 1, .output_dt = 0.03});
+  ASSERT_EQ(seen.size(), 35u);
+  for (std::size_t i = 0; i + 1 < seen.size(); ++i) EXPECT_NEAR(seen[i].time, 0.03 * double(i), 1e-12);
+  EXPECT_EQ(seen.back().time, 1);
+}
+
+TEST(Output, between_steps_is_of_second_order) {
+  EXPECT_NEAR(std::log2(largest_error(0.04) / largest_error(0.02)), 2, 0.1);
+}
+
+TEST(Output, between_steps_has_the_velocity_of_the_motion) {
+  const Pendulum pendulum;
+  for (const auto& s : snapshots(pendulum.system(), {.dt = 0.01, .end_time = 1, .output_dt = 0.0037})) {
+    const double speed = -pendulum.phi_0 * pendulum.omega * std::sin(pendulum.omega * s.time);
+    const double acceleration = -pendulum.omega * pendulum.omega * pendulum.angle(s.time);
+    EXPECT_NEAR(s.bodies[0].s_dot[0], speed, 2e-3 * pendulum.phi_0 * pendulum.omega);
+    EXPECT_NEAR(s.bodies[0].s_ddot[0], acceleration, 5e-3 * pendulum.phi_0 * std::pow(pendulum.omega, 2));
+  }
+}
+
+// The local error per step is a length: ten times less of it takes about 10^(1/3) times the steps.
+TEST(StepControl, keeps_the_local_error_below_a_length) {
+  const Pendulum pendulum;
+  RunSummary coarse, fine;
+  const TimeSettings settings{.dt = 1e-3, .end_time = 5, .step_tolerance = 1e-6};
+  TimeSettings finer = settings;
+  finer.step_tolerance = 1e-7;
+  double error = 0;
+  for (const auto& s : snapshots(pendulum.system(), settings, &coarse))
+    error = std::max(error, std::abs(s.bodies[0].s[0] - pendulum.angle(s.time)));
+  snapshots(pendulum.system(), finer, &fine);
+  EXPECT_LT(error * 2, coarse.steps * settings.step_tolerance) << "2 m from the hinge";
+  EXPECT_LT(coarse.steps, 1000);
+  EXPECT_NEAR(double(fine.steps) / coarse.steps, std::cbrt(10), 0.3);
+}
+
+TEST(StepControl, first_touch_is_not_deep) {
+  double first = 0;
+  RunSummary summary;
+  const TimeSettings settings{.dt = 0.01, .end_time = 1, .step_tolerance = 1e-3};
+  for (const auto& s : snapshots(flight(), settings, &summary)) {
+    if (first == 0) first = s.pairs[0].penetration;
+  }
+  EXPECT_GT(summary.rejected_steps, 0);
+  EXPECT_GT(first, 0);
+  EXPECT_LE(first, 0.1 * 0.2 * 1.5) << "a step ends beyond its stage";
+}
+
+TEST(Monitor, tells_of_every_step) {
+  std::vector<StepInfo> told;
+  TimeSettings settings{.dt = 0.01, .end_time = 0.1, .output_every = 100};
+  settings.monitor = [&](const StepInfo& info) { told.push_back(info); };
+  snapshots(Pendulum().system(), settings);
+  ASSERT_EQ(told.size(), 11u);
+  EXPECT_EQ(told[3].step, 3);
+  EXPECT_NEAR(told[3].time, 0.03, 1e-15);
+  EXPECT_EQ(told[3].dt, 0.01);
+  EXPECT_GE(told[10].newton_iterations, 10);
+}
