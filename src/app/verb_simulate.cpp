@@ -142,9 +142,9 @@ std::shared_ptr<const model::ElasticBody> read_or_make_body(const Options& optio
   if (options.given(prefix + "file")) {
     require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
             "file and -", prefix, "mass, _inertia exclude each other");
-    const model::ElasticBody body = io::read_body(options.text(prefix + "file"));
-    return std::make_shared<model::ElasticBody>(options.flag(prefix + "rigid") ? body::rigid_copy(body)
-                                                                               : body);
+    auto body = std::make_shared<model::ElasticBody>(io::read_body(options.text(prefix + "file")));
+    if (options.flag(prefix + "rigid")) *body = body::rigid_copy(*body);
+    return body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,
           "file is missing: body file made by reduce (or give -", prefix, "mass and -", prefix,

@@ -1,20 +1,23 @@
 #include "elastogear/contact/vicinity.h"
 
-#include <algorithm>
-
 namespace elastogear::contact {
 namespace {
 
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
+// A set of numbers below n, for many insertions and one look.
+class Marks {
+ public:
+  explicit Marks(Eigen::Index n) : is_set_(static_cast<std::size_t>(n), 0) {}
+  void set(int i) { is_set_[static_cast<std::size_t>(i)] = 1; }
+  std::vector<int> ascending() const {
+    std::vector<int> numbers;
+    for (std::size_t i = 0; i < is_set_.size(); ++i)
+      if (is_set_[i]) numbers.push_back(static_cast<int>(i));
+    return numbers;
+  }
 
-void add_ring(int node, const Topology& topology, const Eigen::Matrix4Xi& face, std::vector<int>& nodes) {
-  nodes.push_back(node);
-  for (int corner : topology.node_corners[node])
-    for (int neighbour : face.col(corner / 4)) nodes.push_back(neighbour);
-}
+ private:
+  std::vector<char> is_set_;
+};
 
 }  // namespace
 
@@ -50,20 +53,22 @@ Nearby everything(const Candidates& candidates) {
 
 std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,
                               const Eigen::Matrix4Xi& face) {
-  std::vector<int> distinct(faces.begin(), faces.end()), corners;
-  sort_unique(distinct);
-  for (int f : distinct)
-    for (int node : face.col(f)) corners.push_back(node);
-  sort_unique(corners);
-  return nodes_around_nodes(corners, topology, face);
+  Marks distinct(face.cols()), corners(topology.node_corners.size());
+  for (int f : faces) distinct.set(f);
+  for (int f : distinct.ascending())
+    for (int node : face.col(f)) corners.set(node);
+  return nodes_around_nodes(corners.ascending(), topology, face);
 }
 
 std::vector<int> nodes_around_nodes(const std::vector<int>& nodes, const Topology& topology,
                                     const Eigen::Matrix4Xi& face) {
-  std::vector<int> around;
-  for (int node : nodes) add_ring(node, topology, face, around);
-  sort_unique(around);
-  return around;
+  Marks around(topology.node_corners.size());
+  for (int node : nodes) {
+    around.set(node);
+    for (int corner : topology.node_corners[node])
+      for (int neighbour : face.col(corner / 4)) around.set(neighbour);
+  }
+  return around.ascending();
 }
 
 }  // namespace elastogear::contact

@@ -58,10 +58,12 @@ void write_rows(const h5::File& file, const std::string& name, const model::Basi
 
 model::BasisRows read_rows(const h5::File& file, const std::string& name, int block) {
   if (is_group(file, name)) return read_sparse(file, name);
-  const auto values = h5::read<double>(file, name, {h5::kAny, extent(block), h5::kAny});
   const h5::Shape shape = h5::shape(file, name);
-  return DenseRows(Eigen::Map<const DenseRows>(values.data(), static_cast<Eigen::Index>(shape[0]) * block,
-                                               static_cast<Eigen::Index>(shape[2])));
+  require(shape.size() == 3 && shape[1] == extent(block), file.path, ": ", name, " must have the shape n x ",
+          block, " x n_q");
+  DenseRows rows(static_cast<Eigen::Index>(shape[0]) * block, static_cast<Eigen::Index>(shape[2]));
+  if (rows.size() > 0) h5::read_rows(file, name, {0, shape}, rows.data());  // gigabytes: no second copy
+  return rows;
 }
 
 void write_matrix(const h5::File& file, const std::string& name, const model::BasisRows& matrix,

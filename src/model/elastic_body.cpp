@@ -7,12 +7,17 @@
 namespace elastogear::model {
 namespace {
 
+// 0 x is zero unless x is infinite or no number; the sum runs at the speed of memory, allFinite() does not.
+bool finite(const double* x, Eigen::Index n) {
+  return n == 0 || (0 * Eigen::Map<const Eigen::ArrayXd>(x, n)).sum() == 0;
+}
+
 template <class Rows>
 bool finite(const Rows& rows) {
   if constexpr (std::is_same_v<Rows, DenseRows>) {
-    return rows.allFinite();
+    return finite(rows.data(), rows.size());
   } else {
-    return Eigen::Map<const Eigen::VectorXd>(rows.valuePtr(), rows.nonZeros()).allFinite();
+    return finite(rows.valuePtr(), rows.nonZeros());
   }
 }
 

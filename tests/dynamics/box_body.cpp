@@ -232,12 +232,16 @@ model::ElasticBody make_box(const BoxSpec& spec, model::Basis basis, int n_modes
   if (basis == model::Basis::full) return body;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes{MatrixXd(body.K_r), MatrixXd(body.M_r)};
   const auto n = n_modes > 0 ? n_modes : body.n_q() - spec.rigid_modes;
-  const Eigen::VectorXd lambda = modes.eigenvalues().segment(spec.rigid_modes, n).cwiseMax(0);
-  project(body, modes.eigenvectors().middleCols(spec.rigid_modes, n));
-  body.frequency = lambda.cwiseSqrt() / (2 * std::numbers::pi);
-  body.M_r = diagonal(Eigen::VectorXd::Ones(n));
-  body.K_r = diagonal(lambda);
-  return body;
+  return in_modes(std::move(body), modes.eigenvectors().middleCols(spec.rigid_modes, n),
+                  modes.eigenvalues().segment(spec.rigid_modes, n).cwiseMax(0));
+}
+
+model::ElasticBody in_modes(model::ElasticBody full, const MatrixXd& V, const Eigen::VectorXd& lambda) {
+  project(full, V);
+  full.frequency = lambda.cwiseSqrt() / (2 * std::numbers::pi);
+  full.M_r = diagonal(Eigen::VectorXd::Ones(lambda.size()));
+  full.K_r = diagonal(lambda);
+  return full;
 }
 
 model::ElasticBody make_rigid_box(const BoxSpec& spec) {

@@ -21,6 +21,9 @@ struct BoxSpec {
 /// Surface: the faces at x_min and x_max, groups of those names. n_modes = 0: all.
 model::ElasticBody make_box(const BoxSpec& spec, model::Basis basis, int n_modes = 0);
 
+/// A body of the full basis in the modes V of its K_r and M_r, mass-normalised, with the eigenvalues lambda.
+model::ElasticBody in_modes(model::ElasticBody full, const Eigen::MatrixXd& V, const Eigen::VectorXd& lambda);
+
 /// The same box with no elastic coordinate.
 model::ElasticBody make_rigid_box(const BoxSpec& spec);
 

@@ -268,4 +268,28 @@ TEST_P(FlyingBox, keeps_momentum_and_energy_to_second_order) {
             << fine.energy << "; elastic share " << fine.deformation << "\n";
 }
 
+// No drift: what the steps lose and gain averages out, which the second half of the flight shows.
+TEST(LongFlight, of_a_vibrating_box_bounds_energy_and_angular_momentum) {
+  System system = flying_box(InertiaLevel::linear);
+  constexpr double kRevolution = 2 * M_PI / 1.06, kEnd = 20 * kRevolution;
+  double E_0 = 0, energy_error[2] = {0, 0}, momentum_error[2] = {0, 0};
+  Vector3d L_0;
+  run(system, 0.02, kEnd, [&](const model::Snapshot& x) {
+    const model::BodyState& s = x.bodies[0];
+    const Vector3d p = momentum(system, x).linear, L = momentum(system, x).angular - s.r_WB.cross(p);
+    if (x.time == 0) {
+      E_0 = energy(x);
+      L_0 = L;
+    }
+    const int half = x.time > kEnd / 2;
+    energy_error[half] = std::max(energy_error[half], std::abs(energy(x) / E_0 - 1));
+    momentum_error[half] = std::max(momentum_error[half], (L - L_0).norm() / L_0.norm());
+  });
+  std::cout << "energy " << energy_error[0] << ", " << energy_error[1] << "; momentum " << momentum_error[0]
+            << ", " << momentum_error[1] << "\n";
+  EXPECT_LT(energy_error[1], 1.5 * energy_error[0]);
+  EXPECT_LT(momentum_error[1], 1.5 * momentum_error[0]);
+  EXPECT_LT(energy_error[1], 0.01);
+}
+
 INSTANTIATE_TEST_SUITE_P(Levels, FlyingBox, testing::Values(InertiaLevel::linear, InertiaLevel::full));

@@ -56,7 +56,42 @@ void write_material(std::ostream& deck, const model::Material& material) {
        << material.rho << "\n*SOLID SECTION, ELSET=EALL, MATERIAL=M" << (m ? ", ORIENTATION=O" : "") << "\n";
 }
 
-void write_deck(const fs::path& path, const CalculixModel& model, const std::string& step) {
+std::string initial_velocity(const Eigen::Matrix3Xd& velocity) {
+  std::ostringstream cards;
+  cards << std::scientific << std::setprecision(12) << "*INITIAL CONDITIONS, TYPE=VELOCITY\n";
+  for (Eigen::Index node = 0; node < velocity.cols(); ++node)
+    for (int d = 0; d < 3; ++d) cards << node + 1 << ", " << d + 1 << ", " << velocity(d, node) << "\n";
+  return cards.str();
+}
+
+// Newton's method until residual and correction are roundoff of the printed digits.
+std::string motion_step(const CalculixMotion& motion) {
+  std::ostringstream step;
+  step << std::scientific << std::setprecision(12) << "*DYNAMIC, DIRECT, ALPHA=0.\n"
+       << motion.dt << ", " << motion.n_steps * motion.dt << "\n*CONTROLS, PARAMETERS=FIELD\n1e-7, 1e-6\n"
+       << "*NODE PRINT, NSET=NALL, FREQUENCY=" << motion.print_every << "\nU\n";
+  return step.str();
+}
+
+// Blocks of rows "node, three displacements", each below a heading.
+std::vector<Eigen::Matrix3Xd> read_displacements(const fs::path& path, int n_nodes) {
+  std::ifstream dat(path);
+  std::vector<Eigen::Matrix3Xd> fields;
+  std::string line;
+  while (std::getline(dat, line)) {
+    std::istringstream row(line);
+    int node = 0;
+    Eigen::Vector3d u;
+    if (line.find("displacements") != std::string::npos)
+      fields.emplace_back(Eigen::Matrix3Xd::Constant(3, n_nodes, NAN));
+    else if (row >> node >> u[0] >> u[1] >> u[2])
+      fields.back().col(node - 1) = u;
+  }
+  return fields;
+}
+
+void write_deck(const fs::path& path, const CalculixModel& model, const std::string& step,
+                const std::string& before = "", const std::string& options = "") {
   std::ofstream deck(path);
   deck << std::scientific << std::setprecision(12);  // CalculiX reads 20 characters of a number
   write_mesh(deck, model.mesh, model.element);
@@ -66,7 +101,7 @@ void write_deck(const fs::path& path, const CalculixModel& model, const std::str
   for (const auto& name : model.restrained_sets)
     for (int node : mesh::node_set(model.mesh, name)) held.insert(node);
   for (int node : held) deck << node + 1 << ", 1, 3\n";
-  deck << "*STEP\n" << step << "*END STEP\n";
+  deck << before << "*STEP" << options << "\n" << step << "*END STEP\n";
   require(deck.good(), "cannot write ", path);
 }
 
@@ -136,6 +171,18 @@ Eigen::MatrixXd calculix_stress(const CalculixModel& model, const std::map<int, 
   require(stress.allFinite(), "ccx in ", folder.string(), ": no stress at some nodes");
   fs::remove_all(folder);
   return stress;
+}
+
+std::vector<Eigen::Matrix3Xd> calculix_motion(const CalculixModel& model, const CalculixMotion& motion) {
+  const fs::path folder = make_folder();
+  write_deck(folder / "deck.inp", model, motion_step(motion), initial_velocity(motion.velocity),
+             ", NLGEOM, INC=" + std::to_string(motion.n_steps + 1));
+  run(folder);
+  const auto fields = read_displacements(folder / "deck.dat", model.mesh.n_nodes());
+  require(static_cast<int>(fields.size()) == motion.n_steps / motion.print_every && fields.back().allFinite(),
+          "ccx in ", folder.string(), ": ", fields.size(), " printed states");
+  fs::remove_all(folder);
+  return fields;
 }
 
 CalculixMatrices::CalculixMatrices(const CalculixModel& model) : folder(make_folder()) {

@@ -28,6 +28,16 @@ std::vector<double> calculix_frequencies(const CalculixModel& model, int n);
 /// integration points and averaged over the cells, from ccx's .frd file (six digits).
 Eigen::MatrixXd calculix_stress(const CalculixModel& model, const std::map<int, Eigen::Vector3d>& forces);
 
+/// A free motion of the whole body, geometrically nonlinear, by Newmark's average acceleration.
+struct CalculixMotion {
+  Eigen::Matrix3Xd velocity;  ///< m/s, of the nodes at the start, which is without deformation
+  double dt = 0;              ///< s
+  int n_steps = 0;
+  int print_every = 1;
+};
+/// Displacements (m, 3 x n_nodes each, seven digits) after every print_every-th step.
+std::vector<Eigen::Matrix3Xd> calculix_motion(const CalculixModel& model, const CalculixMotion& motion);
+
 /// The matrices that ccx stores by *FREQUENCY, SOLVER=MATRIXSTORAGE, in a folder that goes with this.
 struct CalculixMatrices {
   std::string folder;
