@@ -25,9 +25,9 @@ VectorXd on_joint(const Equations& eq, const Vector3d& F_v, const Vector3d& F_w)
 }
 
 // [m a; S x a; C_l a]: inertia of an accelerated frame that does not turn.
-Force of_acceleration(const Equations& eq, const Shape& shape, const Vector3d& a) {
+Force of_acceleration(const Equations& eq, const Vector3d& S, const Vector3d& a) {
   const model::Inertia& inertia = eq.body->inertia;
-  return {on_joint(eq, inertia.m * a, shape.S.cross(a)), inertia.C_l * a};
+  return {on_joint(eq, inertia.m * a, S.cross(a)), inertia.C_l * a};
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ Force inertia_force(const Equations& eq, const Motion& m) {
   const model::Inertia& inertia = eq.body->inertia;
   const FrameMotion f = frame_motion(eq, m);
   const Shape x = shape(eq, m);
-  Force h = of_acceleration(eq, x, f.a_s);
+  Force h = of_acceleration(eq, x.S, f.a_s);
   h.s += on_joint(eq, f.alpha.cross(x.S) + inertia.C_l.transpose() * m.q_ddot,
                   x.J * f.alpha + project_C_r(eq, x, m.q_ddot));
   h.q += inertia.C_r * f.alpha + eq.body->M_r * m.q_ddot;
@@ -69,7 +69,7 @@ Force quadratic_force(const Equations& eq, const Motion& m) {
   const FrameMotion f = frame_motion(eq, m);
   const Vector3d w = f.w;
   const Shape x = shape(eq, m);
-  Force h = of_acceleration(eq, x, -f.a_c);
+  Force h = of_acceleration(eq, x.S, -f.a_c);
   h.s -= on_joint(eq, w.cross(w.cross(x.S) + 2 * x.S_dot), w.cross(x.J * w + x.spin) + x.J_dot * w);
   if (eq.level == InertiaLevel::constant) return h;
   const Vector6 half_w_w = 0.5 * factor(w).transpose() * w;
@@ -83,7 +83,7 @@ Force inner_force(const Equations& eq, const Motion& m) {
 }
 
 Force gravity_force(const Equations& eq, const Motion& m, const Vector3d& g_W) {
-  return of_acceleration(eq, shape(eq, m), placement(eq.joint, m.s).R_WB.transpose() * g_W);
+  return of_acceleration(eq, first_moment(eq, m.q), placement(eq.joint, m.s).R_WB.transpose() * g_W);
 }
 
 double kinetic_energy(const Equations& eq, const Motion& m) {
@@ -101,7 +101,7 @@ double dissipation(const Equations& eq, const VectorXd& q_dot) { return q_dot.do
 
 double gravity_energy(const Equations& eq, const Motion& m, const Vector3d& g_W) {
   const Placement p = placement(eq.joint, m.s);
-  return -g_W.dot(eq.body->inertia.m * p.r_WB + p.R_WB * shape(eq, m).S);
+  return -g_W.dot(eq.body->inertia.m * p.r_WB + p.R_WB * first_moment(eq, m.q));
 }
 
 Momentum momentum(const Equations& eq, const Motion& m) {

@@ -51,14 +51,19 @@ VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& Gamma, c
   return sum;
 }
 
+Eigen::Vector3d first_moment(const Equations& eq, const VectorXd& q) {
+  const model::Inertia& inertia = eq.body->inertia;
+  if (eq.level == InertiaLevel::constant) return inertia.m * inertia.c;
+  return inertia.m * inertia.c + inertia.C_l.transpose() * q;
+}
+
 Shape shape(const Equations& eq, const Motion& m) {
   const model::Inertia& inertia = eq.body->inertia;
-  Shape shape{inertia.m * inertia.c, Eigen::Vector3d::Zero(), inertia.J, Eigen::Matrix3d::Zero(), {}, {}, {}};
+  Shape shape{first_moment(eq, m.q), Eigen::Vector3d::Zero(), inertia.J, Eigen::Matrix3d::Zero(), {}, {}, {}};
   if (eq.level == InertiaLevel::constant) {
     shape.spin.setZero();
     return shape;
   }
-  shape.S += inertia.C_l.transpose() * m.q;
   shape.S_dot = inertia.C_l.transpose() * m.q_dot;
   shape.J += symmetric(eq.J_1.transpose() * m.q);
   shape.J_dot = symmetric(eq.J_1.transpose() * m.q_dot);

@@ -27,6 +27,9 @@ SecondOrder second_order(const model::Inertia& inertia, const Eigen::VectorXd& x
 Eigen::VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& Gamma,
                          const Eigen::VectorXd& x);
 
+/// m c(q), kg m, about the BRF's origin.
+Eigen::Vector3d first_moment(const Equations& eq, const Eigen::VectorXd& q);
+
 /// Inertia about the BRF's origin in the deformed state, and its rates.
 struct Shape {
   Eigen::Vector3d S, S_dot;    ///< kg m, kg m/s
