@@ -14,11 +14,12 @@ void write_field(const std::string& path, const std::string& body_file, const io
   const Eigen::MatrixXd tensors = Eigen::Map<const Eigen::MatrixXd>(stress.data(), stress.size(), 1);
   mesh::Mesh placed = source.mesh;
   placed.X = (state.R_WB * placed.X).colwise() + state.r_WB;
-  io::write_vtu(path, placed,
-                {{"displacement [m]", state.R_WB * u_B},
-                 {"stress [Pa]", stress},
-                 {"von_mises [Pa]", recovery::von_mises(tensors).transpose()},
-                 {"rankine [Pa]", recovery::rankine(tensors).transpose()}});
+  std::vector<io::NodeField> fields = {{"displacement [m]", state.R_WB * u_B},
+                                       {"stress [Pa]", stress},
+                                       {"von_mises [Pa]", recovery::von_mises(tensors).transpose()},
+                                       {"rankine [Pa]", recovery::rankine(tensors).transpose()}};
+  fields.insert(fields.end(), state.more.begin(), state.more.end());
+  io::write_vtu(path, placed, fields);
 }
 
 }  // namespace elastogear::app

@@ -16,10 +16,11 @@ struct FieldState {
   Eigen::Matrix3d R_WB;
   Eigen::VectorXd q;
   Eigen::VectorXd u_static = {};  ///< 3 n_nodes, m, BRF, added to Phi q; empty: nothing
+  std::vector<io::NodeField> more = {};
 };
 
 /// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),
-/// von_mises and rankine. `body_file` gives Phi.
+/// von_mises, rankine and the fields in `more`. `body_file` gives Phi.
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
                  const FieldState& state);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/console.h"
+#include "app/contact_field.h"
 #include "app/field.h"
 #include "app/static_answer.h"
 #include "app/verbs.h"
@@ -185,6 +186,29 @@ FieldState recovered_state(const Body& body, int step) {
   return state;
 }
 
+// All contacts of a pair, and which of its surfaces is the body's.
+struct BodyPair {
+  int side;
+  std::vector<std::vector<model::ContactRecord>> contacts;
+};
+
+std::vector<BodyPair> pairs_of(const std::string& result, const std::string& body) {
+  const model::ResultHeader header = io::read_result_header(result);
+  std::vector<BodyPair> pairs;
+  for (const auto& pair : header.pairs)
+    for (int side : {0, 1})
+      if (header.bodies[pair.body[side]].name == body)
+        pairs.push_back({side, io::read_contacts(result, pair.name)});
+  return pairs;
+}
+
+std::vector<PairAtTime> at_time(const std::vector<BodyPair>& pairs, int step) {
+  std::vector<PairAtTime> now;
+  for (const BodyPair& pair : pairs)
+    now.push_back({pair.side, pair.contacts[static_cast<std::size_t>(step)]});
+  return now;
+}
+
 std::string field_prefix(const Options& options) {
   return options.given("fields") ? options.text("fields") : stem(options.text("result"));
 }
@@ -199,11 +223,15 @@ void write_fields(const Options& options, const Run& run, const std::vector<int>
   for (const Body& body : run.bodies) {
     if (steps.empty()) break;
     const io::BodySource source = io::read_body_source(body.file);
+    const std::vector<BodyPair> pairs = pairs_of(run.result, body.name);
+    const model::Surface surface = read_elastic(body).surface;
     const std::string base = field_prefix(options) + "_" + body.name;
     std::vector<io::TimeStep> series;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const std::string path = steps.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
-      write_field(path, body.file, source, recovered_state(body, steps[i]));
+      FieldState state = recovered_state(body, steps[i]);
+      state.more = contact_fields(at_time(pairs, steps[i]), surface, source.mesh.X.cols());
+      write_field(path, body.file, source, state);
       series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string()});
       print_item("written", path);
     }

@@ -1,12 +1,12 @@
 // elastogear simulate: bodies + joints + loads + contact -> result file.
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include "app/advice.h"
 #include "app/console.h"
+#include "app/contact_options.h"
 #include "app/kept_run.h"
 #include "app/motion.h"
 #include "app/verbs.h"
@@ -50,21 +50,6 @@ const OptionTable kOwnTable = {
     {"<body>_translation_friction", "N", "0", "Coulomb friction along the axis"},
     {"<body>_translation_friction_rate", "m/s", "0", "speed at which friction is tanh(1) of its full value"},
     {"gravity", "m/s^2", "0,0,0", "acceleration of gravity in the world"},
-    {"contact_pairs", "-", "", "pairs of bodies that may touch, a:b"},
-    {"contact_slave", "-", "first", "which body of a pair gives the slave nodes: first or second"},
-    {"contact_two_pass", "-", "false",
-     "check both bodies' nodes against the other's faces, half the stiffness each"},
-    {"contact_penalty", "-", "per_area", "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
-    {"contact_stiffness", "Pa/m or N/m", "0",
-     "penalty stiffness; 0: from material and size of the cells, both sides in series"},
-    {"contact_depth", "m", "0", "deepest penetration still taken for contact; 0: from the size of the faces"},
-    {"contact_kdop", "-", "24", "directions of the bounding volumes: 6, 14, 18, 24 or 26"},
-    {"contact_skin", "m", "0",
-     "relative motion after which the surfaces are searched anew; 0: from the size of the faces"},
-    {"contact_update", "-", "bound",
-     "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
-     "(leaf-up from the deformed surface) or realign (hull points)"},
-    {"contact_tangent", "-", "full", "contact tangent: full, or normal (without its geometric part)"},
     {"inertia", "-", "linear",
      "what the inertia keeps of the deformation: constant, linear, or full (needs bodies "
      "reduced with -invariants full)"},
@@ -89,9 +74,10 @@ const OptionTable kOwnTable = {
 };
 
 OptionTable table() {
-  OptionTable table = kOwnTable;
-  for (const OptionSpec& spec : kept_run_table()) table.push_back(spec);
-  return table;
+  OptionTable all = kOwnTable;
+  for (const OptionTable& part : {contact_table(), kept_run_table()})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 body::Joint joint(const Options& options, const std::string& prefix) {
@@ -176,41 +162,6 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
 dynamics::Environment environment(const Options& options) {
   return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
           options.vector("gravity")};
-}
-
-contact::Settings contact_settings(const Options& options) {
-  contact::Settings settings;
-  settings.k = options.count("contact_kdop");
-  settings.slave = options.choice("contact_slave", {"first", "second"});
-  settings.two_pass = options.flag("contact_two_pass");
-  settings.penalty = options.choice("contact_penalty", {"per_area", "per_node"}) == 0
-                         ? contact::Penalty::per_area
-                         : contact::Penalty::per_node;
-  settings.stiffness = options.number("contact_stiffness");
-  settings.depth = options.number("contact_depth");
-  settings.skin = options.number("contact_skin");
-  settings.update =
-      static_cast<contact::Update>(options.choice("contact_update", {"bound", "refit", "realign"}));
-  settings.full_tangent = options.choice("contact_tangent", {"full", "normal"}) == 0;
-  return settings;
-}
-
-int body_index(const std::vector<std::string>& bodies, const std::string& name, const std::string& pair) {
-  const auto found = std::find(bodies.begin(), bodies.end(), name);
-  require(found != bodies.end(), "option -contact_pairs = '", pair, "': there is no body '", name, "'");
-  return static_cast<int>(found - bodies.begin());
-}
-
-std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies) {
-  std::vector<dynamics::PairSetup> setups;
-  for (const std::string& pair : options.list("contact_pairs")) {
-    const auto colon = pair.find(':');
-    require(colon != std::string::npos, "option -contact_pairs = '", pair, "': must be two bodies, a:b");
-    const int a = body_index(bodies, pair.substr(0, colon), pair);
-    const int b = body_index(bodies, pair.substr(colon + 1), pair);
-    setups.push_back({pair, {a, b}, contact_settings(options)});
-  }
-  return setups;
 }
 
 enum class Analysis { dynamic, equilibrium, relax };

@@ -11,7 +11,7 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr int n_bins = 16;
+constexpr int n_bins = 16;  // at most; no more than faces
 
 struct Builder {
   const Directions& B;
@@ -24,13 +24,14 @@ struct Builder {
 
 struct Split {
   int direction = -1;
+  int bins = n_bins;
   double lo = 0, scale = 0;  // bin = (centre - lo) * scale
   int bin = 0;               // bins below go left
   double cost = std::numeric_limits<double>::infinity();
 };
 
 int bin_of(double centre, const Split& s) {
-  return std::clamp(static_cast<int>((centre - s.lo) * s.scale), 0, n_bins - 1);
+  return std::clamp(static_cast<int>((centre - s.lo) * s.scale), 0, s.bins - 1);
 }
 
 struct Bin {
@@ -41,7 +42,7 @@ using Bins = std::array<Bin, n_bins>;
 
 Bins fill_bins(const Builder& b, std::span<const int> faces, const Split& s) {
   Bins bins;
-  bins.fill({empty_kdop(b.bvh.k), 0});
+  std::fill_n(bins.begin(), s.bins, Bin{empty_kdop(b.bvh.k), 0});
   for (int f : faces) {
     Bin& bin = bins[bin_of(b.centre(f, s.direction), s)];
     merge(bin.dop, b.dop[f]);
@@ -53,16 +54,16 @@ Bins fill_bins(const Builder& b, std::span<const int> faces, const Split& s) {
 // Best plane among the bins' borders of one direction.
 Split sweep(const Bins& bins, Split s) {
   std::array<double, n_bins> right_cost{};
-  Kdop dop = bins.back().dop;
+  Kdop dop = bins[s.bins - 1].dop;
   int count = 0;
-  for (int i = n_bins - 1; i > 0; --i) {
+  for (int i = s.bins - 1; i > 0; --i) {
     merge(dop, bins[i].dop);
     count += bins[i].count;
     right_cost[i] = area(dop) * count;
   }
   dop = bins.front().dop;
   count = 0;
-  for (int i = 1; i < n_bins; ++i) {
+  for (int i = 1; i < s.bins; ++i) {
     merge(dop, bins[i - 1].dop);
     count += bins[i - 1].count;
     const double cost = area(dop) * count + right_cost[i];
@@ -78,7 +79,8 @@ Split best_split(const Builder& b, std::span<const int> faces) {
     for (int f : faces) lo = std::min(lo, b.centre(f, i)), hi = std::max(hi, b.centre(f, i));
     if (!(hi > lo)) continue;
     Split s;
-    s.direction = i, s.lo = lo, s.scale = n_bins / (hi - lo);
+    s.bins = std::min(n_bins, static_cast<int>(faces.size()));
+    s.direction = i, s.lo = lo, s.scale = s.bins / (hi - lo);
     s = sweep(fill_bins(b, faces, s), s);
     if (s.cost < best.cost) best = s;
   }

@@ -1,17 +1,21 @@
 #include "elastogear/contact/pair.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "elastogear/base/error.h"
+#include "elastogear/contact/bulge.h"
 #include "elastogear/contact/candidates.h"
 #include "elastogear/contact/coarse_search.h"
+#include "elastogear/contact/contact_point.h"
 #include "elastogear/contact/deformation_bound.h"
 #include "elastogear/contact/penalty.h"
-#include "elastogear/contact/tangent.h"
 #include "elastogear/contact/vicinity.h"
 
 namespace elastogear::contact {
@@ -22,19 +26,27 @@ struct Side {
   Topology topology;
   DeformationBound bound;
   Ball ball;
-  Eigen::VectorXd c_p;         // N/m, of each node as slave
-  std::vector<int> last_face;  // master face each node touched last; -1
+  std::vector<Law> law;             // of each node as slave
+  std::vector<CornerSlopes> bulge;  // of each face as master; empty: facets
+  std::vector<int> last_face;       // master face each node touched last; -1
+  std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
 };
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 Side make_side(const model::Surface& surface, const Settings& settings,
                const Eigen::SparseMatrix<double>* K_r) {
   const int n_s = static_cast<int>(surface.X.cols());
+  const Topology map = topology(surface.face, n_s);
+  const SurfaceView undeformed{surface.face, map, surface.X, 0};
   return {&surface,
-          topology(surface.face, n_s),
+          map,
           deformation_bound(surface.Phi, K_r ? *K_r : Eigen::SparseMatrix<double>()),
           enclosing_ball(surface.X),
-          node_stiffness(settings, surface),
-          std::vector<int>(n_s, -1)};
+          node_laws(settings, surface),
+          settings.smooth ? corner_slopes(undeformed, radians(settings.crease)) : std::vector<CornerSlopes>(),
+          std::vector<int>(n_s, -1),
+          {}};
 }
 
 // The relative motion for which one measurement of clearance serves: at first this share of the skin, twice
@@ -70,26 +82,16 @@ double next_limit(const Vicinity& vicinity, double skin) {
 void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
   contact.n = R * contact.n;
   contact.f = R * contact.f;
-  for (int i = 0; i < 5; ++i) contact.W.middleRows<3>(3 * i) = (R * contact.W.middleRows<3>(3 * i)).eval();
+  contact.F = (R * contact.F).eval();
+  contact.slip = R * contact.slip;
+  contact.elastic_slip = R * contact.elastic_slip;
+  contact.v = (R * contact.v).eval();
+  for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot})
+    for (int i = 0; i < 5; ++i) columns->middleRows<3>(3 * i) = (R * columns->middleRows<3>(3 * i)).eval();
 }
 
-ContactPoint make_contact(const SurfaceView& master, const Winner& w, double c_p, bool full_tangent) {
-  const Face face = face_of(master, w.face);
-  const Eigen::Vector2d natural = natural_coordinates(face.sides, w.point.u, w.point.v);
-  ContactPoint contact;
-  contact.face = w.face;
-  contact.master_node = master.face.col(w.face);
-  contact.N = w.point.N;
-  contact.xi = natural[0];
-  contact.eta = natural[1];
-  contact.n = w.n;
-  contact.g_n = w.g_n;
-  contact.f = -c_p * w.g_n * w.n;
-  contact.energy = 0.5 * c_p * w.g_n * w.g_n;
-  Tangent tangent = contact_tangent(face, w, c_p, full_tangent);
-  contact.W = std::move(tangent.W);
-  contact.k = std::move(tangent.k);
-  return contact;
+Limits limits_of(const Settings& settings) {
+  return {settings.depth, std::cos(radians(settings.normal_angle))};
 }
 
 }  // namespace
@@ -98,6 +100,7 @@ struct Pair::Data {
   Settings settings;
   Side side[2];
   CoarseSearch search;
+  Limits limits;
   double reach;  // m, largest distance of a slave node from a master face's corners that can still matter
   Configuration configuration = {};
   std::optional<Vicinity> vicinity = {};
@@ -108,6 +111,7 @@ struct Pair::Data {
     return {side[i].surface->face, side[i].topology, configuration.x[i], extension};
   }
   std::vector<int> passes() const;
+  bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   void place(const SurfaceState& a, const SurfaceState& b);
   void place(const SurfaceMotion* motion[2], bool deformed);
   void place_nodes(int i, const std::vector<int>& nodes);
@@ -117,6 +121,9 @@ struct Pair::Data {
   void measure_clearance(double limit);
   void find_vicinity(double margin);
   void find_vicinity(const SurfaceMotion* motion[2]);
+  Eigen::Vector3d velocity(int i, int node) const;
+  std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, int node,
+                                      const Winner& w) const;
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
   void visit_vicinity(Tape& tape);
@@ -148,6 +155,8 @@ void Pair::Data::place(const SurfaceMotion* motion[2], bool deformed) {
 void Pair::Data::place_nodes(int i, const std::vector<int>& nodes) {
   const RelativeMotion relative = relative_motion(*now[0], *now[1]);
   const model::Surface& surface = *side[i].surface;
+  configuration.R = relative.R;
+  configuration.r = relative.r;
   for (int node : nodes) {
     const Eigen::Vector3d x_B = surface.X.col(node) + model::displacement(surface.Phi, node, now[i]->q);
     require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
@@ -179,6 +188,9 @@ void Pair::Data::list_nodes() {
           i == slave ? nodes_around_nodes(near.slave, t, face) : nodes_around(near.face, t, face);
       lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
     }
+  for (int slave : passes())
+    for (const auto& [node, point] : side[slave].stuck)
+      for (int corner : side[1 - slave].surface->face.col(point.face)) lists[1 - slave].push_back(corner);
   for (auto& list : lists) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -192,7 +204,8 @@ void Pair::Data::measure_clearance(double limit) {
   for (int i : {0, 1}) place_nodes(i, vicinity->node[i]);
   vicinity->limit = limit;
   vicinity->uses = 0;
-  const std::array reach_and_limit{settings.depth + settings.skin, vicinity->limit};
+  const std::array reach_and_limit{std::max(limits.depth, limits.outside) + settings.skin,
+                                   vicinity->limit + limits.outside};
   for (int slave : passes()) {
     Nearby& near = vicinity->near[slave] = {};
     const SurfaceView master = view(1 - slave, settings.extension);
@@ -200,7 +213,7 @@ void Pair::Data::measure_clearance(double limit) {
     for (int node : candidates.nodes()) {
       const auto [clearance, faces] =
           approach(master, configuration.x[slave].col(node), reach_and_limit, candidates[node]);
-      if (clearance > vicinity->limit) continue;
+      if (clearance > vicinity->limit + limits.outside) continue;
       near.slave.push_back(node);
       near.face.insert(near.face.end(), faces.begin(), faces.end());
       near.end.push_back(static_cast<int>(near.face.size()));
@@ -239,15 +252,40 @@ void Pair::Data::find_vicinity(const SurfaceMotion* motion[2]) {
     if (!deformed) margin += largest_displacement(side[i].bound, motion[i]->q);
   place(motion, deformed);
   find_vicinity(margin);
-  for (int i : {0, 1}) vicinity->found_at[i] = *motion[i];
+  for (int i : {0, 1}) vicinity->found_at[i] = {motion[i]->q, motion[i]->r_WB, motion[i]->R_WB};
+}
+
+// Components in the common frame.
+Eigen::Vector3d Pair::Data::velocity(int i, int node) const {
+  if (!now[i]) return Eigen::Vector3d::Zero();
+  const SurfaceMotion& m = *now[i];
+  const model::Surface& surface = *side[i].surface;
+  const Eigen::Vector3d x = configuration.x[i].col(node);
+  const Eigen::Vector3d x_B =
+      i == 0 ? Eigen::Vector3d(configuration.R.transpose() * (x - configuration.r)) : x;
+  Eigen::Vector3d v = m.v_WB_B + m.w_WB_B.cross(x_B);
+  if (m.q_dot.size() > 0) v += model::displacement(surface.Phi, node, m.q_dot);
+  return i == 0 ? Eigen::Vector3d(configuration.R * v) : v;
+}
+
+std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int slave_side, int node,
+                                                const Winner& w) const {
+  const Side& slaves = side[slave_side];
+  const Law& law = slaves.law[node];
+  if (has_potential(settings)) return potential_contact(master, w, law.c_p, settings.full_tangent);
+  const auto rate = [&](int i, int n) { return velocity(i == 0 ? slave_side : 1 - slave_side, n); };
+  const auto stuck = slaves.stuck.find(node);
+  const Eigen::Vector3d x = configuration.x[slave_side].col(node);
+  return general_contact(master, {w, node, x, rate, stuck == slaves.stuck.end() ? nullptr : &stuck->second},
+                         law);
 }
 
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
-  const SurfaceView slave = view(slave_side, 0), master = view(1 - slave_side, settings.extension);
-  const Limits limits{settings.depth, std::cos(settings.normal_angle * std::numbers::pi / 180)};
+  const SurfaceView slave = view(slave_side, 0), surface = view(1 - slave_side, settings.extension);
+  const MasterSide master{surface, side[1 - slave_side].bulge, radians(settings.crease)};
   const Candidates& candidates = vicinity->candidates[slave_side];
   const auto around = [&](std::span<const int> faces) {
-    return nodes_around(faces, side[1 - slave_side].topology, master.face);
+    return nodes_around(faces, side[1 - slave_side].topology, surface.face);
   };
   Side& slaves = side[slave_side];
   const Nearby& near = vicinity->near[slave_side];
@@ -258,12 +296,14 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
       return candidates[node];
     };
     const SlaveNode q{slave.x.col(node), [&] { return node_normal(slave, node); }, all_faces};
-    const auto winner = find_winner(master, q, limits, near.faces(i), slaves.last_face[node]);
+    const auto winner = find_winner(surface, q, limits, near.faces(i), slaves.last_face[node]);
     slaves.last_face[node] = winner ? winner->face : -1;
     if (!winner) continue;
-    contacts.push_back(make_contact(master, *winner, slaves.c_p[node], settings.full_tangent));
-    contacts.back().slave_side = slave_side;
-    contacts.back().slave_node = node;
+    auto found = contact(master, slave_side, node, *winner);
+    if (!found) continue;
+    found->slave_side = found->stick.slave_side = slave_side;
+    found->slave_node = found->stick.slave_node = node;
+    contacts.push_back(std::move(*found));
   }
 }
 
@@ -308,6 +348,36 @@ SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& m
   return state;
 }
 
+void Pair::accept(const std::vector<ContactPoint>& contacts) {
+  for (Side& side : data_->side) side.stuck.clear();
+  if (!data_->sticks()) return;
+  for (const ContactPoint& contact : contacts)
+    data_->side[contact.slave_side].stuck[contact.slave_node] = contact.stick;
+}
+
+std::vector<StickPoint> Pair::history() const {
+  std::vector<StickPoint> all;
+  for (const Side& side : data_->side)
+    for (const auto& [node, point] : side.stuck) all.push_back(point);
+  return all;
+}
+
+void Pair::restore(const std::vector<StickPoint>& history) {
+  for (Side& side : data_->side) side.stuck.clear();
+  for (const StickPoint& point : history) {
+    require(point.slave_side == 0 || point.slave_side == 1, "contact history: slave side ", point.slave_side,
+            ", allowed are 0 and 1");
+    Side& slave = data_->side[point.slave_side];
+    const auto n_nodes = slave.surface->X.cols(),
+               n_faces = data_->side[1 - point.slave_side].surface->face.cols();
+    require(point.slave_node >= 0 && point.slave_node < n_nodes && point.face >= 0 && point.face < n_faces,
+            "contact history: node ", point.slave_node, " on face ", point.face, ", there are ", n_nodes,
+            " nodes and ", n_faces, " faces");
+    slave.stuck[point.slave_node] = point;
+  }
+  data_->vicinity.reset();  // must hold the nodes of all faces remembered
+}
+
 Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
            const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r) {
   validate(given);
@@ -317,11 +387,16 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
   data_.reset(new Data{settings,
                        {make_side(a, settings, K_r[0]), make_side(b, settings, K_r[1])},
                        CoarseSearch(a, b, settings.k, settings.update),
-                       settings.depth});
+                       limits_of(settings),
+                       0});
   for (int i : {0, 1}) data_->configuration.x[i] = data_->side[i].surface->X;
   const double reach[2] = {extension_reach(data_->view(0, settings.extension)),
                            extension_reach(data_->view(1, settings.extension))};
-  data_->reach += kStretch * std::max(reach[0], reach[1]);
+  Limits& limits = data_->limits;
+  const double height = std::max(largest_height(data_->side[0].bulge), largest_height(data_->side[1].bulge));
+  limits.outside = height + std::max(0.0, -settings.offset);
+  limits.depth += height + std::max(0.0, settings.offset);
+  data_->reach = limits.depth + kStretch * std::max(reach[0], reach[1]);
 }
 
 Pair::~Pair() = default;

@@ -73,6 +73,11 @@ Place place(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& 
   return side < 0 ? Place::inside : side > 0 ? Place::outside : Place::unknown;
 }
 
+bool is_taken(const SurfaceView& master, const SlaveNode& slave, const Nearest& best, double outside) {
+  const Place at = place(master, slave.x, best);
+  return at == Place::inside || (at == Place::outside && best.point.distance2 <= outside * outside);
+}
+
 Winner make_winner(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
   Winner w{best.face, best.point, {}, 0};
   const Eigen::Vector3d d = q - w.point.x;
@@ -80,7 +85,8 @@ Winner make_winner(const SurfaceView& master, const Eigen::Vector3d& q, const Ne
     w.n = outward(master, w.face, w.point);
     w.g_n = w.n.dot(d);
   } else {  // x_slave lies in the normal cone of the edge or vertex: n follows it
-    w.g_n = -d.stableNorm();
+    const double side = place(master, q, best) == Place::outside ? 1 : -1;
+    w.g_n = side * d.stableNorm();
     w.n = d / w.g_n;
   }
   return w;
@@ -92,15 +98,17 @@ std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& sl
                                   std::span<const int> faces, int likely) {
   const Trial trial{master, slave.x, limits.depth, faces, likely};
   const Nearest any = nearest(trial, [](auto&&...) { return true; });
-  if (!any.found() || place(master, slave.x, any) == Place::outside) return {};
+  if (!any.found()) return {};
+  if (place(master, slave.x, any) == Place::outside && !is_taken(master, slave, any, limits.outside))
+    return {};
   const Eigen::Vector3d n_slave = slave.normal();
   const auto opposes = [&](const Face& face, const ClosestPoint& p) {
     return normal(face, p.u, p.v).dot(n_slave) <= limits.cos_angle;
   };
   const bool settled = opposes(face_of(master, any.face), any.point);
   const auto all = [&] { return slave.all_faces ? slave.all_faces() : faces; };
-  const Nearest best = settled ? any : nearest({master, slave.x, limits.depth, all(), likely}, opposes);
-  if (place(master, slave.x, best) != Place::inside) return {};
+  const Nearest best = settled ? any : nearest({master, slave.x, trial.depth, all(), likely}, opposes);
+  if (!is_taken(master, slave, best, limits.outside)) return {};
   return make_winner(master, slave.x, best);
 }
 

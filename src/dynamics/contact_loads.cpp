@@ -22,20 +22,43 @@ Eigen::Vector3d twist_at(const body::MotionSubspace& H, Eigen::Index i, const Ei
   return H.col(i).head<3>() + H.col(i).tail<3>().cross(x_B);
 }
 
-// Rows of W at one local node, turned into one body's frame, added to its W_s, V_s and L from `column` on.
+// Rows of W, V and V_dot at one local node, turned into one body's frame, added to its W_s, V_s and L from
+// `column` on.
 struct NodeColumns {
+  using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, contact::kColumns>;
   Eigen::Index column, first_row;  // first_row: of the node in L
-  Eigen::Vector3d x_B;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 5> W_B;
+  Eigen::Vector3d x_B, v_B;
+  Rows W_B, V_B, V_dot_B;
 };
 
-void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms, Triplets& L) {
+// Sparse columns of W and V on the body's E.
+struct SparseColumns {
+  Triplets L, L_V;
+};
+
+void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms, SparseColumns& sparse) {
   for (Eigen::Index j = 0; j < c.W_B.cols(); ++j) {
     for (Eigen::Index i = 0; i < twists.H.cols(); ++i) {
       terms.W_s(i, c.column + j) += twist_at(twists.H, i, c.x_B).dot(c.W_B.col(j));
-      terms.V_s(i, c.column + j) += twist_at(twists.P, i, c.x_B).dot(c.W_B.col(j));
+      terms.V_s(i, c.column + j) += twist_at(twists.P, i, c.x_B).dot(c.V_B.col(j));
     }
-    for (Eigen::Index d = 0; d < 3; ++d) L.emplace_back(c.first_row + d, c.column + j, c.W_B(d, j));
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      sparse.L.emplace_back(c.first_row + d, c.column + j, c.W_B(d, j));
+      sparse.L_V.emplace_back(c.first_row + d, c.column + j, c.V_B(d, j));
+    }
+  }
+}
+
+// d(velocity): s_i turns it and adds P_dot_i at x_B; Phi q' grows by shift_v Phi q and turns with w.
+void add_rate_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms,
+                      SparseColumns& sparse) {
+  for (Eigen::Index j = 0; j < c.V_dot_B.cols(); ++j) {
+    const Eigen::Vector3d row = c.V_dot_B.col(j);
+    for (Eigen::Index i = 0; i < twists.P.cols(); ++i)
+      terms.V_s(i, c.column + j) +=
+          row.dot(twist_at(twists.P_dot, i, c.x_B) + twists.P.col(i).tail<3>().cross(c.v_B));
+    const Eigen::Vector3d elastic = twists.shift_v * row + row.cross(twists.w);
+    for (Eigen::Index d = 0; d < 3; ++d) sparse.L_V.emplace_back(c.first_row + d, c.column + j, elastic[d]);
   }
 }
 
@@ -43,8 +66,14 @@ NodeColumns node_columns(const contact::ContactPoint& point, int i, Eigen::Index
                          const BodyTerms& terms, const contact::SurfaceState& state) {
   const int node = local_node(point, i).node;
   const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
-  return {column, n_u + 3 * slot(terms.node, node), state.x_B.col(node),
-          state.R_WB.transpose() * point.W.middleRows(3 * i, 3)};
+  const Eigen::Matrix3d R_BW = state.R_WB.transpose();
+  return {column,
+          n_u + 3 * slot(terms.node, node),
+          state.x_B.col(node),
+          R_BW * point.v.col(i),
+          R_BW * point.W.middleRows(3 * i, 3),
+          R_BW * point.V.middleRows(3 * i, 3),
+          R_BW * point.V_dot.middleRows(3 * i, 3)};
 }
 
 template <class Matrix>
@@ -66,6 +95,13 @@ Eigen::Index column_count(const std::vector<PairContacts>& pairs) {
   return r;
 }
 
+bool without_potential(const std::vector<PairContacts>& pairs) {
+  for (const PairContacts& pair : pairs)
+    for (const auto& point : pair.points)
+      if (point.V_dot.cols() > 0 || point.V != point.W) return true;
+  return false;
+}
+
 }  // namespace
 
 LocalNode local_node(const contact::ContactPoint& point, int i) {
@@ -73,9 +109,7 @@ LocalNode local_node(const contact::ContactPoint& point, int i) {
   return {1 - point.slave_side, point.master_node[i - 1]};
 }
 
-Eigen::Vector3d local_force(const contact::ContactPoint& point, int i) {
-  return i == 0 ? point.f : Eigen::Vector3d(-point.N[i - 1] * point.f);
-}
+Eigen::Vector3d local_force(const contact::ContactPoint& point, int i) { return point.F.col(i); }
 
 std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
                                       const std::vector<contact::SurfaceState>& states) {
@@ -127,10 +161,21 @@ void add_geometric_stiffness(const JointTwists& twists, const NodalForces& force
   }
 }
 
+body::MotionSubspace velocity_twists(const body::Joint& joint, const body::MotionSubspace& H,
+                                     const body::JointMotion& m, double shift_v) {
+  body::MotionSubspace P_dot = shift_v * H;
+  if (joint.type != body::JointType::free) return P_dot;
+  const body::FrameDerivative d = body::frame_derivative(joint, H, m, {shift_v, 0});
+  const Eigen::Vector3d v = body::frame_motion(joint, H, m).v;  // keeps its components in W
+  for (Eigen::Index i = 0; i < H.cols(); ++i)
+    P_dot.col(i).head<3>() = shift_v * d.r.col(i) + v.cross(d.theta.col(i));
+  return P_dot;
+}
+
 void set_contact_columns(const std::vector<JointTwists>& twists, const std::vector<PairContacts>& pairs,
                          const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A) {
   const Eigen::Index r = column_count(pairs);
-  std::vector<Triplets> L(twists.size());
+  std::vector<SparseColumns> sparse(twists.size());
   Triplets k;
   for (std::size_t b = 0; b < twists.size(); ++b) {
     A.body[b].W_s.setZero(twists[b].H.cols(), r);
@@ -141,13 +186,20 @@ void set_contact_columns(const std::vector<JointTwists>& twists, const std::vect
     for (const auto& point : pair.points) {
       for (int i = 0; i < kLocalNodes; ++i) {
         const int b = pair.body[local_node(point, i).side];
-        add_columns(twists[b], node_columns(point, i, column, A.body[b], states[b]), A.body[b], L[b]);
+        const NodeColumns columns = node_columns(point, i, column, A.body[b], states[b]);
+        add_columns(twists[b], columns, A.body[b], sparse[b]);
+        add_rate_columns(twists[b], columns, A.body[b], sparse[b]);
       }
       add_block(point.k, column, k);
       column += point.W.cols();
     }
   set_sparse(A.k, r, r, k);
-  for (std::size_t b = 0; b < twists.size(); ++b) set_sparse(A.body[b].L, A.body[b].beta.rows(), r, L[b]);
+  const bool two = without_potential(pairs);
+  for (std::size_t b = 0; b < twists.size(); ++b) {
+    const Eigen::Index n_e = A.body[b].beta.rows();
+    set_sparse(A.body[b].L, n_e, r, sparse[b].L);
+    if (two) set_sparse(A.body[b].L_V, n_e, r, sparse[b].L_V);
+  }
 }
 
 }  // namespace elastogear::dynamics

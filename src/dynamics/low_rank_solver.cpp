@@ -4,6 +4,11 @@
 #include "elastogear/body/shape.h"
 
 namespace elastogear::dynamics {
+namespace {
+
+const Eigen::SparseMatrix<double>& rows_of(const BodyTerms& t) { return t.L_V.rows() > 0 ? t.L_V : t.L; }
+
+}  // namespace
 
 LowRankSolver::LowRankSolver(const std::vector<SolverBody>& bodies) {
   Eigen::Index start = 0;
@@ -24,8 +29,8 @@ void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
   const Eigen::MatrixXd G_beta = G * t.beta, G_rho = G * t.rho, G_L = G * t.L;
   small.block(joint, joint, n_s, n_s) += t.C - t.rho.transpose() * G_beta;
   small.block(joint, n_s_, n_s, r) += (t.W_s - G_rho.transpose() * t.L) * A_.k;
-  small.block(n_s_, joint, r, n_s) += t.L.transpose() * G_beta - t.V_s.transpose();
-  const Eigen::MatrixXd L_G_L = t.L.transpose() * G_L;
+  small.block(n_s_, joint, r, n_s) += rows_of(t).transpose() * G_beta - t.V_s.transpose();
+  const Eigen::MatrixXd L_G_L = rows_of(t).transpose() * G_L;
   small.bottomRightCorner(r, r) += L_G_L * A_.k;
 }
 
@@ -51,7 +56,7 @@ Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
     const auto [s, n_s, n_q, joint] = range_[b];
     const BodyTerms& t = A_.body[b];
     projected.push_back(block_[b].columns().project(t.node, x.segment(s + n_s, n_q)));
-    lambda += t.V_s.transpose() * x.segment(s, n_s) + t.L.transpose() * projected[b];
+    lambda += t.V_s.transpose() * x.segment(s, n_s) + rows_of(t).transpose() * projected[b];
   }
   const Eigen::VectorXd k_lambda = A_.k * lambda;
   for (std::size_t b = 0; b < block_.size(); ++b) {
@@ -82,7 +87,7 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
     x.segment(s + n_s, n_q) = block_[b].solve(y.segment(s + n_s, n_q));
     const Eigen::VectorXd p = block_[b].columns().project(t.node, x.segment(s + n_s, n_q));
     right.segment(joint, n_s) = y.segment(s, n_s) - t.rho.transpose() * p;
-    right.tail(A_.k.rows()) += t.L.transpose() * p;
+    right.tail(A_.k.rows()) += rows_of(t).transpose() * p;
   }
   const Eigen::VectorXd small = right.size() ? Eigen::VectorXd(lu_.solve(right)) : right;
   const Eigen::VectorXd k_lambda = A_.k * small.tail(A_.k.rows());

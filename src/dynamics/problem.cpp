@@ -31,7 +31,7 @@ PetscErrorCode function(TS ts, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* ct
   return guard(problem.pending, [&] {
     const ReadView u(U), v(V), a(A);
     problem.trouble = (*v).allFinite() && (*a).allFinite() ? "" : kNotFinite;
-    if (!problem.trouble.empty() || !is_admissible(problem, t, *u)) return set_inadmissible(ts);
+    if (!problem.trouble.empty() || !is_admissible(problem, t, *u, *v)) return set_inadmissible(ts);
     problem.residual = problem.system.residual({t, *u, *v, *a});
     if (problem.residual.F.allFinite()) return assign(F, problem.residual.F);
     problem.trouble = "forces are not finite";
@@ -112,11 +112,11 @@ void assemble(Mat J, Mat P) {
   }
 }
 
-bool is_admissible(Problem& problem, double time, ConstVector U) {
+bool is_admissible(Problem& problem, double time, ConstVector U, ConstVector V) {
   problem.trouble.clear();
   if (!U.allFinite())
     problem.trouble = kNotFinite;
-  else if (problem.system.depth_share(time, U) > kDeepest)
+  else if (problem.system.depth_share(time, U, V) > kDeepest)
     problem.trouble = "bodies penetrate each other by nearly the contact depth";
   return problem.trouble.empty();
 }

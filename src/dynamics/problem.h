@@ -28,6 +28,6 @@ void assemble(Mat J, Mat P);
 /// Largest norm of a block over the sum of the norms of its forces: 0 in balance, at most 1.
 double imbalance(const Residual& r);
 /// Can forces be computed there? If not, `trouble` says why.
-bool is_admissible(Problem& problem, double time, ConstVector U);
+bool is_admissible(Problem& problem, double time, ConstVector U, ConstVector V);
 
 }  // namespace elastogear::dynamics

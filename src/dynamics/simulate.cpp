@@ -87,6 +87,14 @@ void stop_if_asked(const Run& run, TS ts) {
   if (reason == TS_CONVERGED_ITERATING) check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
 }
 
+void accept(System& system, TS ts) {
+  Vec U = nullptr, V = nullptr, A = nullptr;
+  PetscReal time = 0;
+  check(TSGetTime(ts, &time));
+  generalized_alpha_state(ts, &U, &V, &A);
+  system.accept({time, *ReadView(U), *ReadView(V), *ReadView(A)});
+}
+
 // Rotation vectors of free bodies begin at zero in every step.
 void rebase(System& system, TS ts) {
   Vec U = nullptr, V = nullptr, A = nullptr;
@@ -102,6 +110,7 @@ PetscErrorCode post_step(TS ts) {
   PetscCall(TSGetApplicationContext(ts, &run));
   PetscCall(guard(run->problem.pending, [&] {
     observe_since_last_step(*run, ts);
+    accept(run->problem.system, ts);
     rebase(run->problem.system, ts);
     if (run->settings.settle) settle(*run, ts);
     stop_if_asked(*run, ts);
@@ -197,7 +206,8 @@ void require_bodies_apart(System& system) {
     const int a = pair.body[0], b = pair.body[1];
     const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
     const auto state = [&](int i) {
-      return contact::surface_state(surface(i), system.surface_motion(i, 0, system.initial_position()));
+      return contact::surface_state(
+          surface(i), system.surface_motion(i, 0, system.initial_position(), system.initial_velocity()));
     };
     contact::require_apart(
         contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b)), pair.name);
@@ -228,7 +238,10 @@ RunSummary simulate(System& system, const TimeSettings& settings, const Observer
   UniqueMat J;
   const Start motion{vector(system.initial_position()), vector(system.initial_velocity())};
   const UniqueTS ts = make_ts(run, motion, J);
-  if (!checkpoints.state.empty()) go_on_from(run, ts, checkpoints.state);
+  if (checkpoints.state.empty())
+    system.accept({0, system.initial_position(), system.initial_velocity(), system.initial_velocity()});
+  else
+    go_on_from(run, ts, checkpoints.state);
   solve(run, ts, motion.U);
   finish(run, ts);
   return run.summary;

@@ -1,7 +1,6 @@
 #include "elastogear/dynamics/snapshot.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
+#include "pair_state.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -9,43 +8,6 @@ namespace {
 model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& placement,
                             const Eigen::VectorXd& joint_force) {
   return {placement.r_WB, placement.R_WB, m.s, m.s_dot, m.s_ddot, m.q, m.q_dot, m.q_ddot, joint_force};
-}
-
-model::ContactRecord record(const contact::ContactPoint& point) {
-  return {point.slave_side, point.slave_node, point.face, point.xi, point.eta, point.g_n, point.f};
-}
-
-// Moment of local node i's force about the world origin.
-Eigen::Vector3d local_moment(const contact::ContactPoint& point, int i,
-                             const contact::SurfaceState& surface) {
-  const Eigen::Vector3d x_W = surface.r_WB + surface.R_WB * surface.x_B.col(local_node(point, i).node);
-  return x_W.cross(local_force(point, i));
-}
-
-Eigen::Vector3d moment_on_b(const contact::ContactPoint& point, const contact::SurfaceState& b) {
-  if (point.slave_side == 1) return local_moment(point, 0, b);
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (int i = 1; i <= 4; ++i) moment += local_moment(point, i, b);
-  return moment;
-}
-
-model::PairState pair_state(const System& system, const ContactState& contact, const PairContacts& pair) {
-  model::PairState state;
-  const System::Body* body[2] = {&system.bodies()[pair.body[0]], &system.bodies()[pair.body[1]]};
-  for (int side : {0, 1})
-    state.group_force[side].assign(body[side]->eq.body->surface.group_name.size(), Eigen::Vector3d::Zero());
-  for (const contact::ContactPoint& point : pair.points) {
-    const int slave = point.slave_side, master = 1 - slave;
-    const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
-    state.force += f_b;
-    state.torque += moment_on_b(point, contact.surface[pair.body[1]]);
-    state.group_force[slave][body[slave]->node_group[point.slave_node]] += f_b;
-    state.group_force[master][body[master]->eq.body->surface.group[point.face]] += f_b;
-    state.penetration = std::max(state.penetration, -point.g_n);
-    state.contacts.push_back(record(point));
-  }
-  state.count = static_cast<int>(pair.points.size());
-  return state;
 }
 
 double stored(const model::Energies& energy) { return energy.kinetic + energy.elastic + energy.contact; }
@@ -58,7 +20,7 @@ double weight_energy(const System& system, std::size_t b, const model::BodyState
 }  // namespace
 
 model::Snapshot snapshot(System& system, const State& x) {
-  const ContactState& contact = system.contacts(x.time, x.U);
+  const ContactState& contact = system.contacts(x.time, x.U, x.V);
   model::Snapshot result;
   result.time = x.time;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
@@ -67,9 +29,9 @@ model::Snapshot snapshot(System& system, const State& x) {
     result.energy.kinetic += body::kinetic_energy(system.bodies()[b].eq, m);
     result.energy.elastic += body::elastic_energy(system.bodies()[b].eq, m);
   }
-  for (const PairContacts& pair : contact.pair) {
-    result.pairs.push_back(pair_state(system, contact, pair));
-    for (const contact::ContactPoint& point : pair.points) result.energy.contact += point.energy;
+  for (std::size_t p = 0; p < contact.pair.size(); ++p) {
+    result.pairs.push_back(pair_state(system, x, p));
+    for (const contact::ContactPoint& point : contact.pair[p].points) result.energy.contact += point.energy;
   }
   return result;
 }
@@ -100,9 +62,10 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
     dissipated_ += (snapshot.time - time_) * body::dissipation(body.eq, q_dot_m);
     enter_joint(body, snapshot.bodies[b], bodies_[b], {time_, snapshot.time});
   }
-  snapshot.energy.dissipated = dissipated_;
+  snapshot.energy.dissipated = dissipated_ + system.contact_loss();
   snapshot.energy.work = work_ + weight_0_ - weight;
-  snapshot.energy.balance = stored(snapshot.energy) + dissipated_ - snapshot.energy.work - stored_0_;
+  snapshot.energy.balance =
+      stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
   bodies_ = snapshot.bodies;
 }

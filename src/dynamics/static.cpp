@@ -36,7 +36,8 @@ PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
   auto& at = *static_cast<Equilibrium*>(ctx);
   return guard(at.problem.pending, [&] {
     const ReadView u(U);
-    if (!is_admissible(at.problem, at.factor, *u)) return check(SNESSetFunctionDomainError(snes));
+    if (!is_admissible(at.problem, at.factor, *u, Eigen::VectorXd::Zero((*u).size())))
+      return check(SNESSetFunctionDomainError(snes));
     at.problem.residual = at.problem.system.residual(at.state(*u));
     assign(F, at.problem.residual.F);
   });
@@ -71,11 +72,12 @@ double way(const model::Surface& surface, const contact::SurfaceMotion& from,
 // How much too far a change of U goes: at most 1 when every body and surface stays within its limit.
 double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& to) {
   System& system = at.problem.system;
+  const Eigen::VectorXd V = Eigen::VectorXd::Zero(U.size());
   std::vector<contact::SurfaceMotion> before, after;
   double most = 0;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
-    before.push_back(system.surface_motion(b, at.factor, U));
-    after.push_back(system.surface_motion(b, at.factor, to));
+    before.push_back(system.surface_motion(b, at.factor, U, V));
+    after.push_back(system.surface_motion(b, at.factor, to, V));
     most = std::max(most, (after[b].R_WB - before[b].R_WB).norm() / std::sqrt(2.0) / kTurn);
   }
   for (std::size_t p = 0; p < system.pairs().size(); ++p)

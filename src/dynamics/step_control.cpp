@@ -47,7 +47,9 @@ PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accep
     PetscReal dt = 0;
     check(TSGetTimeStep(ts, &dt));
     if (run->touches || dt <= kShortestStep * run->nominal_dt) return;
-    if (run->problem.system.depth_share(t, *ReadView(U)) > kFirstTouch) *accept = PETSC_FALSE;
+    System& system = run->problem.system;
+    const Eigen::VectorXd V = Eigen::VectorXd::Zero(system.size());  // without influence on the depth
+    if (system.depth_share(t, *ReadView(U), V) > kFirstTouch) *accept = PETSC_FALSE;
   });
 }
 

@@ -6,6 +6,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/body/tangent.h"
+#include "elastogear/contact/topology.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -217,7 +218,8 @@ void System::add_body(const BodySetup& setup) {
   const auto [s, s_dot] = initial_motion(setup, body::coordinate_count(setup.joint.type));
   const std::vector<Eigen::Index> open = open_coordinates(axis, s.size());
   bodies_.push_back({setup.name, body::make_equations(setup.body, setup.joint, environment_.inertia), size(),
-                     axis, open, false, node_groups(setup.body->surface)});
+                     axis, open, false, node_groups(setup.body->surface),
+                     contact::node_areas(setup.body->surface.X, setup.body->surface.face)});
   require_inertia(bodies_.back());
   const Eigen::Index n_q = setup.body->n_q();
   append(U_0_, s(open));
@@ -273,13 +275,13 @@ body::Motion System::motion(std::size_t b, const State& x) const {
   return m;
 }
 
-const ContactState& System::contacts(double time, ConstVector U) {
-  if (U_of_state_ && time == time_of_state_ && *U_of_state_ == U) return state_;
+const ContactState& System::contacts(double time, ConstVector U, ConstVector V) {
+  if (U_of_state_ && time == time_of_state_ && *U_of_state_ == U && V_of_state_ == V) return state_;
   U_of_state_.reset();
   std::vector<contact::SurfaceMotion> motion;
   state_.surface.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    motion.push_back(surface_motion(b, time, U));
+    motion.push_back(surface_motion(b, time, U, V));
     const bool first = state_.surface[b].x_B.cols() == 0 && bodies_[b].in_contact;
     if (first) state_.surface[b].x_B = bodies_[b].eq.body->surface.X;
     state_.surface[b].r_WB = motion[b].r_WB;
@@ -295,23 +297,62 @@ const ContactState& System::contacts(double time, ConstVector U) {
   }
   state_.force = nodal_forces(state_.pair, state_.surface);
   U_of_state_ = U;
+  V_of_state_ = V;
   time_of_state_ = time;
   return state_;
 }
 
-contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U) const {
-  const body::Motion m = motion(b, {time, U, U, U});
+contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U,
+                                              ConstVector V) const {
+  const body::Motion m = motion(b, {time, U, V, V});
   const auto [r_WB, R_WB] = body::placement(bodies_[b].eq.joint, m.s);
-  return {m.q, r_WB, R_WB};
+  const body::FrameMotion frame = body::frame_motion(bodies_[b].eq, m);
+  return {m.q, r_WB, R_WB, m.q_dot, frame.v, frame.w};
 }
 
-double System::depth_share(double time, ConstVector U) {
+double System::depth_share(double time, ConstVector U, ConstVector V) {
   double share = 0;
-  const ContactState& contact = contacts(time, U);
+  const ContactState& contact = contacts(time, U, V);
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     for (const contact::ContactPoint& point : contact.pair[p].points)
       share = std::max(share, -point.g_n / detectors_[p].settings().depth);
   return share;
+}
+
+void System::accept(const State& x) {
+  const ContactState& contact = contacts(x.time, x.U, x.V);
+  double power = 0;
+  bool any_sticks = false;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const contact::FrictionSettings& friction = pairs_[p].settings.friction;
+    const bool sticks = friction.mu > 0 && friction.law == contact::FrictionLaw::stick;
+    any_sticks |= sticks;
+    for (const contact::ContactPoint& point : contact.pair[p].points) {
+      history_.loss += point.slip_work;
+      power += point.power + (sticks ? 0 : point.friction_power);
+    }
+    detectors_[p].accept(contact.pair[p].points);
+  }
+  if (accepted_) history_.loss += 0.5 * (x.time - history_.time) * (power + history_.power);
+  history_.time = x.time;
+  history_.power = power;
+  accepted_ = true;
+  if (any_sticks) U_of_state_.reset();  // forces of the same state start from the new history
+}
+
+ContactHistory System::contact_history() const {
+  ContactHistory history = history_;
+  for (const contact::Pair& pair : detectors_) history.stuck.push_back(pair.history());
+  return history;
+}
+
+void System::restore(const ContactHistory& history) {
+  require(history.stuck.size() == pairs_.size(), "contact history of ", history.stuck.size(),
+          " pairs, the system has ", pairs_.size());
+  for (std::size_t p = 0; p < pairs_.size(); ++p) detectors_[p].restore(history.stuck[p]);
+  history_ = {history.time, history.power, history.loss, {}};
+  accepted_ = true;
+  U_of_state_.reset();
 }
 
 body::Force System::balance(std::size_t b, const State& x, Residual* r) {
@@ -320,7 +361,7 @@ body::Force System::balance(std::size_t b, const State& x, Residual* r) {
   const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
                     inner = body::inner_force(body.eq, m),
                     weight = body::gravity_force(body.eq, m, gravity(environment_, x.time)),
-                    touch = contact_force(body.eq, contacts(x.time, x.U).force[b]);
+                    touch = contact_force(body.eq, contacts(x.time, x.U, x.V).force[b]);
   const Terms s{inertia.s, -quadratic.s, -touch.s, -weight.s, -load(body, x.time, m.s_dot)},
       q{inertia.q, inner.q, -quadratic.q, -touch.q, -weight.q};
   const body::Force total{sum(s), sum(q)};
@@ -352,7 +393,7 @@ Eigen::VectorXd System::joint_force(std::size_t b, const State& x) {
 }
 
 EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shift) {
-  const ContactState& contact = contacts(x.time, x.U);
+  const ContactState& contact = contacts(x.time, x.U, x.V);
   EffectiveMatrix matrix;
   matrix.shift_v = shift.v;
   matrix.shift_a = shift.a;
@@ -361,8 +402,10 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     const body::Equations& eq = bodies_[b].eq;
     const body::Motion m = motion(b, x);
     const std::vector<int>& node = contact.force[b].node;
-    const body::FrameDerivative d = body::frame_derivative(eq.joint, eq.H, {m.s, m.s_dot, m.s_ddot}, shift);
-    twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s())});
+    const body::JointMotion joint{m.s, m.s_dot, m.s_ddot};
+    const body::FrameDerivative d = body::frame_derivative(eq.joint, eq.H, joint, shift);
+    twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s()),
+                      velocity_twists(eq.joint, eq.H, joint, shift.v), body::frame_motion(eq, m).w, shift.v});
     twists.back().P << d.r, d.theta;
     matrix.body.push_back(body_terms(body::tangent(eq, m, gravity(environment_, x.time), shift), node));
     matrix.body.back().C.diagonal() += shift.v * load_rate(bodies_[b], m.s_dot);
@@ -385,11 +428,24 @@ bool System::rebase(Eigen::Ref<Eigen::VectorXd> U) {
   return any;
 }
 
+void System::visit_contact_history(Tape& tape) {
+  ContactHistory history = contact_history();
+  for (double* x : {&history.time, &history.power, &history.loss}) tape(*x);
+  for (auto& points : history.stuck)
+    tape.each(points, [&](contact::StickPoint& point) {
+      for (int* n : {&point.slave_side, &point.slave_node, &point.face}) tape(*n);
+      for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) tape(*x);
+      tape(point.slides);
+    });
+  if (tape.plays()) restore(history);
+}
+
 void System::visit_memory(Tape& tape) {
   for (Body& body : bodies_) {
     tape(body.eq.joint.r_WB0);
     tape(body.eq.joint.R_WB0);
   }
+  visit_contact_history(tape);
   for (contact::Pair& pair : detectors_) pair.visit_memory(tape);
   if (tape.plays()) U_of_state_.reset();
 }

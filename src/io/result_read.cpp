@@ -107,6 +107,14 @@ PairHistory read_pair_history(const std::string& path, const std::string& pair) 
   history.torque = read_columns(file, group + "/torque", {3});
   history.count = read_columns(file, group + "/count", {}).transpose().cast<int>();
   history.penetration = read_columns(file, group + "/penetration", {}).transpose();
+  const auto figure = [&](const char* name) {
+    return Eigen::VectorXd(read_columns(file, group + "/" + name, {}).transpose());
+  };
+  history.area = figure("area");
+  history.pressure = figure("pressure");
+  history.sliding_speed = figure("sliding_speed");
+  history.friction_power = figure("friction_power");
+  history.damping_power = figure("damping_power");
   for (int side : {0, 1}) {
     const std::string groups = group + "/groups/" + kSide[side];
     history.group_name[side] = h5::read_strings(file, groups + "/name");
@@ -136,12 +144,17 @@ std::vector<std::vector<model::ContactRecord>> read_contacts(const std::string& 
   const auto side = integers("slave_side"), node = integers("slave_node"), face = integers("face");
   const Eigen::VectorXd xi = read_vector(file, group + "xi", n), eta = read_vector(file, group + "eta", n),
                         gap = read_vector(file, group + "gap", n);
-  const auto force = h5::read<double>(file, group + "force", {n, 3});
+  const Eigen::VectorXd pressure = read_vector(file, group + "pressure", n);
+  const auto vectors = [&](const char* name) { return h5::read<double>(file, group + name, {n, 3}); };
+  const auto force = vectors("force"), slip = vectors("slip");
+  const auto at = [](const std::vector<double>& values, int i) {
+    return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(&values[3 * static_cast<std::size_t>(i)]));
+  };
   std::vector<std::vector<model::ContactRecord>> contacts(offset.size() - 1);
   for (std::size_t step = 0; step < contacts.size(); ++step)
     for (int i = offset[step]; i < offset[step + 1]; ++i)
-      contacts[step].push_back({side[i], node[i], face[i], xi[i], eta[i], gap[i],
-                                Eigen::Map<const Eigen::Vector3d>(&force[3 * static_cast<std::size_t>(i)])});
+      contacts[step].push_back(
+          {side[i], node[i], face[i], xi[i], eta[i], gap[i], at(force, i), pressure[i], at(slip, i)});
   return contacts;
 }
 

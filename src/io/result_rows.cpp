@@ -1,5 +1,6 @@
 #include "result_rows.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -70,12 +71,44 @@ void ResultRows::append_pair(std::size_t index, const model::PairState& pair) {
             pair.group_force[side].size(), " group forces for ", n, " groups");
     series_at(group + "/groups/" + kSide[side] + "/force", {{n, 3}, "N"})
         .append(n == 0 ? nullptr : pair.group_force[side].front().data());
+    append_areas(group + "/groups/" + kSide[side], pair.area[side], n);
   }
+  append_total(group, pair.total);
   append_contacts(group + "/points", pair.contacts);
   const std::string offset = group + "/points/offset";
   if (first_ && !series_.contains(offset)) append(offset, 0, "1", true);
   count_.contacts[index] += static_cast<double>(pair.contacts.size());
   append(offset, count_.contacts[index], "1", true);
+}
+
+void ResultRows::append_total(const std::string& group, const model::ContactFigures& total) {
+  append(group + "/area", total.area, "m^2");
+  append(group + "/pressure", total.pressure, "Pa");
+  append(group + "/sliding_speed", total.sliding_speed, "m/s");
+  append(group + "/friction_power", total.friction_power, "W");
+  append(group + "/damping_power", total.damping_power, "W");
+}
+
+// areas: one per face group, or none for zeros.
+void ResultRows::append_areas(const std::string& group, std::vector<model::ContactFigures> areas,
+                              std::size_t n) {
+  using Figures = model::ContactFigures;
+  require(areas.empty() || areas.size() == n, file_.path, ": ", group, " has ", areas.size(), " areas for ",
+          n, " groups");
+  areas.resize(n);
+  const auto all = [&](const char* name, const Item& item, double (*value)(const Figures&)) {
+    Eigen::VectorXd values(n);
+    std::transform(areas.begin(), areas.end(), values.begin(), value);
+    series_at(group + "/" + name, item).append(values.data());
+  };
+  Eigen::MatrixXd torque(3, n);
+  for (std::size_t i = 0; i < n; ++i) torque.col(static_cast<Eigen::Index>(i)) = areas[i].torque;
+  series_at(group + "/torque", {{n, 3}, "N m"}).append(torque.data());
+  all("count", {{n}, "1", true}, [](const Figures& f) { return double(f.count); });
+  all("area", {{n}, "m^2"}, [](const Figures& f) { return f.area; });
+  all("pressure", {{n}, "Pa"}, [](const Figures& f) { return f.pressure; });
+  all("sliding_speed", {{n}, "m/s"}, [](const Figures& f) { return f.sliding_speed; });
+  all("friction_power", {{n}, "W"}, [](const Figures& f) { return f.friction_power; });
 }
 
 void ResultRows::append_contacts(const std::string& group,
@@ -94,8 +127,14 @@ void ResultRows::append_contacts(const std::string& group,
       {"xi", {{}, "1"}, [](const Record& c) { return Values{c.xi}; }},
       {"eta", {{}, "1"}, [](const Record& c) { return Values{c.eta}; }},
       {"gap", {{}, "m"}, [](const Record& c) { return Values{c.g_n}; }},
-      {"force", {{3}, "N"}, [](const Record& c) {
+      {"force",
+       {{3}, "N"},
+       [](const Record& c) {
          return Values{c.f[0], c.f[1], c.f[2]};
+       }},
+      {"pressure", {{}, "Pa"}, [](const Record& c) { return Values{c.pressure}; }},
+      {"slip", {{3}, "m/s"}, [](const Record& c) {
+         return Values{c.slip[0], c.slip[1], c.slip[2]};
        }}};
   for (const Column& column : columns) {
     h5::Series& values = series_at(group + "/" + column.name, column.item);

@@ -35,6 +35,8 @@ class ResultRows {
   void append(const std::string& name, const Eigen::VectorXd& value, const std::string& unit);
   void append_body(const std::string& group, const model::BodyState& body);
   void append_pair(std::size_t index, const model::PairState& pair);
+  void append_total(const std::string& group, const model::ContactFigures& total);
+  void append_areas(const std::string& group, std::vector<model::ContactFigures> areas, std::size_t n);
   void append_contacts(const std::string& group, const std::vector<model::ContactRecord>& contacts);
   void append_energy(const model::Energies& energy);
   void check(const model::Snapshot& snapshot) const;

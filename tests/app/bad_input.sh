@@ -109,6 +109,11 @@ expect_error "a mesh as body file" 'wheel.msh' "${simulate[@]}" -a_file wheel.ms
 expect_error "misspelt body key" 'a_jonit.*a_joint' "${simulate[@]}" -a_jonit fixed
 expect_error "pair of unknown body" "'c'" "${simulate[@]}" -contact_pairs a:c
 expect_error "zero step" 'ts_dt.*0' "${simulate[@]}" -ts_dt 0
+expect_error "friction that never fades" 'regularised friction needs the speed' "${simulate[@]}" -contact_friction 0.1
+expect_error "static friction below that of sliding" 'static friction 0.1' "${simulate[@]}" -contact_friction 0.2 \
+  -contact_friction_law stick -contact_friction_static 0.1
+expect_error "a gap moved out of sight" 'offset 1 m must not exceed' "${simulate[@]}" -contact_offset 1
+expect_error "negative contact damping" 'damping -1' "${simulate[@]}" -contact_damping -1
 expect_error "negative step" 'ts_dt = -1e-07' "${simulate[@]}" -ts_dt -1e-7
 expect_error "no end" 'ts_max_time = 0 s: must be positive' "${simulate[@]}" -ts_max_time 0
 expect_error "negative time of output" 'output_dt = -1e-07 s' "${simulate[@]}" -output_dt -1e-7

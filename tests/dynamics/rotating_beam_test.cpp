@@ -277,7 +277,7 @@ TEST_F(SpinUp, bends_and_stretches_as_beam_theory_says_at_level_linear) {
   const auto expected = expected_spin_up(kNone, kDt, kEnd);
   EXPECT_LT(largest_difference(history.lag, expected), 0.01 * largest(expected));
   const double extension = kSpinUp.rho * std::pow(kSpeed, 2) * std::pow(kSpinUp.L, 3) / (3 * kSpinUp.E);
-  EXPECT_NEAR(history.extension.back(), extension, 0.03 * extension);  // published: 5.14e-4 m
+  EXPECT_NEAR(history.extension.back(), extension, 0.03 * extension);
   std::cout << "largest lag " << largest(history.lag) << " m, extension " << history.extension.back()
             << " m\n";
 }

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kStep = 1e-6;        // of central differences, against sizes of order one
 constexpr double kDifference = 1e-7;  // relative: roundoff / kStep, and kStep^2 curvature
+constexpr double kThinLayer = 2e-3;   // relative: what the tangent of friction leaves out, (0.01 / 0.25)^2
 constexpr double kRoundoff = 1e-12;
 constexpr double kTime = 0.3;
 
@@ -40,6 +41,8 @@ struct Options {
   model::Basis basis = model::Basis::modal;
   JointType joint = JointType::revolute;  // of a
   Axis rotation = {.load = constant_signal(0.3)};
+  double damping = 0, friction = 0;  // of the contact
+  double depth = 0.02;
 };
 
 // Two hinged boxes, end against end, tilted a little, 0.02 deep in each other.
@@ -49,15 +52,20 @@ System two_boxes(const Options& options) {
                .body = box({0, -0.5, -0.5}, {2, 2, 2}, options.basis, 14),
                .joint = {.type = options.joint, .axis = {0, 0.2, 1}, .point = {0.1, 0.2, -0.3}},
                .rotation = options.rotation};
-  bodies[1] = {
-      .name = "b",
-      .body = box({-2, -0.5, -0.5}, {2, 3, 2}, options.basis, 15),
-      .joint = {JointType::revolute, {1, 3, -1}, {3.98, 0.03, 0.04}, rotation_matrix({0.2, 0.005, -0.01})}};
+  bodies[1] = {.name = "b",
+               .body = box({-2, -0.5, -0.5}, {2, 3, 2}, options.basis, 15),
+               .joint = {JointType::revolute,
+                         {1, 3, -1},
+                         {4 - options.depth, 0.03, 0.04},
+                         rotation_matrix({0.2, 0.005, -0.01})}};
   PairSetup pair{"a:b", {0, 1}, {}};
   pair.settings.penalty = contact::Penalty::per_node;
   pair.settings.stiffness = 50;
   pair.settings.two_pass = options.two_pass;
   pair.settings.slave = options.slave;
+  pair.settings.damping = options.damping;
+  pair.settings.hysteresis = options.damping;
+  pair.settings.friction = {.mu = options.friction, .v_0 = 0.4};
   return System(bodies, {pair}, {.inertia = options.level, .gravity = {1, -2, 3}});
 }
 
@@ -81,14 +89,14 @@ VectorXd difference(System& system, const Values& s, const VectorXd& x, double s
   return (F(kStep) - F(-kStep)) / (2 * kStep);
 }
 
-void expect_jacobian_is_derivative(System& system) {
+void expect_jacobian_is_derivative(System& system, double tolerance) {
   constexpr double kShiftV = 3, kShiftA = 20;
   const Values s = some_state(system);
   LowRankSolver solver(system.solver_bodies());
   solver.set(system.effective_matrix(s, {kShiftV, kShiftA}));
   for (Eigen::Index j = 0; j < system.size(); ++j) {
     const VectorXd unit = VectorXd::Unit(system.size(), j), column = solver.multiply(unit);
-    EXPECT_LT((column - difference(system, s, unit, kShiftV, kShiftA)).norm(), kDifference * column.norm())
+    EXPECT_LT((column - difference(system, s, unit, kShiftV, kShiftA)).norm(), tolerance * column.norm())
         << "column " << j;
   }
 }
@@ -103,8 +111,9 @@ BodySetup named(const std::string& name) {
 
 TEST_P(Jacobian, is_the_derivative_of_the_residual) {
   System system = two_boxes(GetParam());
-  ASSERT_GE(system.contacts(kTime, some_state(system).U).pair[0].points.size(), 3u);
-  expect_jacobian_is_derivative(system);
+  const Values s = some_state(system);
+  ASSERT_GE(system.contacts(kTime, s.U, s.V).pair[0].points.size(), 3u);
+  expect_jacobian_is_derivative(system, GetParam().friction > 0 ? kThinLayer : kDifference);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -117,14 +126,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Options{.joint = JointType::cylindrical,
                             .rotation = {.drive = spin_up_drive(-0.0045, 0.1, 1)}},
                     Options{.level = InertiaLevel::full},
-                    Options{.level = InertiaLevel::full, .basis = model::Basis::full},
+                    Options{.level = InertiaLevel::full, .basis = model::Basis::full}, Options{.damping = 2},
+                    Options{.basis = model::Basis::full, .damping = 2},
+                    Options{.joint = JointType::spherical, .rotation = {}, .damping = 2},
+                    Options{.joint = JointType::free, .rotation = {}, .damping = 2},
+                    Options{.two_pass = true, .friction = 0.4, .depth = 0.006},
+                    Options{.joint = JointType::free, .rotation = {}, .friction = 0.4, .depth = 0.006},
                     Options{.joint = JointType::spherical, .rotation = {}},
                     Options{.joint = JointType::free, .rotation = {}},
                     Options{.level = InertiaLevel::full, .joint = JointType::free, .rotation = {}}));
 
 TEST(Contact, forces_and_moments_on_both_bodies_balance) {
-  System system = two_boxes({.two_pass = true});
-  const ContactState& contact = system.contacts(kTime, some_state(system).U);
+  System system = two_boxes({.two_pass = true, .damping = 2, .friction = 0.4, .depth = 0.006});
+  const Values s = some_state(system);
+  const ContactState& contact = system.contacts(kTime, s.U, s.V);
   Eigen::Matrix<double, 6, 2> wrench = Eigen::Matrix<double, 6, 2>::Zero();
   for (int b : {0, 1}) {
     const contact::SurfaceState& surface = contact.surface[b];
@@ -144,7 +159,7 @@ TEST(Contact, snapshot_repeats_the_forces_on_body_b) {
   System system = two_boxes({.two_pass = true});
   const Values s = some_state(system);
   const model::PairState pair = snapshot(system, s).pairs[0];
-  const ContactState& contact = system.contacts(kTime, s.U);
+  const ContactState& contact = system.contacts(kTime, s.U, s.V);
   const contact::SurfaceState& b = contact.surface[1];
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
   for (Eigen::Index p = 0; p < contact.force[1].f_B.cols(); ++p) {
@@ -159,6 +174,45 @@ TEST(Contact, snapshot_repeats_the_forces_on_body_b) {
   EXPECT_GT(pair.penetration, 0);
 }
 
+TEST(Contact, figures_are_those_of_the_contacts_and_add_up_over_the_areas) {
+  for (bool two_pass : {false, true}) {
+    System system = two_boxes({.two_pass = two_pass, .damping = 2, .friction = 0.4});
+    const model::PairState pair = snapshot(system, some_state(system)).pairs[0];
+    double power = 0, pressure = 0;
+    for (const model::ContactRecord& c : pair.contacts) {
+      power -= c.f.dot(c.slip);
+      pressure = std::max(pressure, c.pressure);
+    }
+    EXPECT_GT(power, 0);
+    EXPECT_NEAR(pair.total.friction_power, power, kRoundoff * power);
+    EXPECT_EQ(pair.total.pressure, pressure);
+    EXPECT_GT(pair.total.damping_power, 0);
+    for (int side : {0, 1}) {
+      Vector3d torque = Vector3d::Zero();
+      double area = 0;
+      int count = 0;
+      for (const model::ContactFigures& f : pair.area[side])
+        torque += f.torque, count += f.count, area += f.area;
+      EXPECT_LT((torque - pair.torque).norm(), kRoundoff * torque.norm());
+      EXPECT_EQ(count, pair.count);
+      EXPECT_NEAR(area, pair.total.area, kRoundoff);
+      EXPECT_LE(area, two_pass ? 2 : 1);  // m^2, of the ends
+    }
+  }
+}
+
+TEST(Contact, slip_does_not_depend_on_who_asks_for_it) {
+  System plain = two_boxes({}), rated = two_boxes({.damping = 1e-12});
+  const model::PairState a = snapshot(plain, some_state(plain)).pairs[0],
+                         b = snapshot(rated, some_state(rated)).pairs[0];
+  ASSERT_EQ(a.contacts.size(), b.contacts.size());
+  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    EXPECT_GT(a.contacts[i].slip.norm(), 0.01);
+    // against the master's surface, or its material carried along over the gap
+    EXPECT_LT((a.contacts[i].slip - b.contacts[i].slip).norm(), -10 * a.contacts[i].g_n);
+  }
+}
+
 TEST(Contact, force_is_minus_the_gradient_of_its_energy) {
   System system = two_boxes({});
   const Values s = some_state(system);
@@ -166,7 +220,7 @@ TEST(Contact, force_is_minus_the_gradient_of_its_energy) {
   const auto energy = [&](const VectorXd& U) {
     return snapshot(system, {kTime, U, zero, zero}).energy.contact;
   };
-  const ContactState contact = system.contacts(kTime, s.U);
+  const ContactState contact = system.contacts(kTime, s.U, s.V);
   for (std::size_t b : {0u, 1u}) {
     const System::Body& body = system.bodies()[b];
     const body::Force h = contact_force(body.eq, contact.force[b]);

@@ -85,6 +85,10 @@ TEST_F(ResultFile, gives_pair_histories_back_to_the_bit) {
     EXPECT_TRUE(history.force.col(i) == pair.force && history.torque.col(i) == pair.torque);
     EXPECT_TRUE(history.count[i] == pair.count && history.penetration[i] == pair.penetration);
     EXPECT_EQ(history.group_force[0].col(i).tail(3), pair.group_force[0][1]);
+    EXPECT_TRUE(history.area[i] == pair.total.area && history.pressure[i] == pair.total.pressure);
+    EXPECT_TRUE(history.sliding_speed[i] == pair.total.sliding_speed &&
+                history.friction_power[i] == pair.total.friction_power &&
+                history.damping_power[i] == pair.total.damping_power);
   }
 }
 
@@ -100,6 +104,7 @@ TEST_F(ResultFile, gives_contacts_back_to_the_bit) {
       const model::ContactRecord &a = contacts[i][k], &b = expected[k];
       EXPECT_TRUE(a.slave_side == b.slave_side && a.slave_node == b.slave_node && a.face == b.face);
       EXPECT_TRUE(a.xi == b.xi && a.eta == b.eta && a.g_n == b.g_n && a.f == b.f);
+      EXPECT_TRUE(a.pressure == b.pressure && a.slip == b.slip);
     }
   }
 }

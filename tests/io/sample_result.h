@@ -34,7 +34,10 @@ inline model::Snapshot sample_snapshot(int step) {
   pair.penetration = 1e-6 * (step % 4);
   pair.group_force[0] = {Eigen::Vector3d::Random(), Eigen::Vector3d::Random()};
   for (int i = 0; i < pair.count; ++i)
-    pair.contacts.push_back({i % 2, 10 + i, 20 + i, 0.1 * i, -0.1 * i, -1e-6 * i, Eigen::Vector3d::Random()});
+    pair.contacts.push_back({i % 2, 10 + i, 20 + i, 0.1 * i, -0.1 * i, -1e-6 * i, Eigen::Vector3d::Random(),
+                             1e6 * i, Eigen::Vector3d::Random()});
+  pair.total = {Eigen::Vector3d::Random(), pair.count, 1e-6, 2e6, 0.3, 4, 5};
+  pair.area[0] = {pair.total, {Eigen::Vector3d::Random(), 1, 6, 7, 8, 9, 10}};
   snapshot.pairs = {pair};
   snapshot.energy = {1.0 + step, 2, 3, 4, 5, 6e-3};
   return snapshot;

@@ -18,6 +18,18 @@ namespace elastogear::contact {
 /// points, wider by the bound.
 enum class Update { bound, refit, realign };
 enum class Penalty { per_node, per_area };
+/// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
+/// standstill.
+enum class FrictionLaw { regularised, stick };
+
+/// Coulomb friction; none when mu = 0.
+struct FrictionSettings {
+  double mu = 0;         ///< -, of sliding nodes
+  double mu_static = 0;  ///< -, stick only: of a node that sticks; 0: mu
+  FrictionLaw law = FrictionLaw::regularised;
+  double v_0 = 0;        ///< m/s, regularised only
+  double stiffness = 1;  ///< -, stick only: tangential over normal penalty stiffness
+};
 
 struct Settings {
   int k = 24;  ///< k-DOP directions: 6, 14, 18, 24, 26
@@ -31,7 +43,13 @@ struct Settings {
   double skin = 0;            ///< m, relative motion after which a search is due; 0 = from the face size
   double normal_angle = 100;  ///< deg, slave and master normals must be at least this far apart
   bool full_tangent = true;   ///< with the geometric part; false: normal part only
-  double extension = 0.025;   ///< by which open ends of the master are prolonged, share of a face's length
+  double damping = 0;         ///< d_p while approaching; per_node: N s/m, per_area: Pa s/m
+  double hysteresis = 0;      ///< s/m, Hunt and Crossley's factor of the penalty force while approaching
+  double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
+  bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
+  double crease = 30;         ///< deg, edges that turn by more stay sharp
+  FrictionSettings friction;
+  double extension = 0.025;  ///< by which open ends of the master are prolonged, share of a face's length
 };
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.
@@ -41,18 +59,36 @@ struct SurfaceState {
   Eigen::Matrix3d R_WB;
 };
 
-/// The same by elastic coordinates: x_B = X + Phi q.
+/// The same by elastic coordinates, x_B = X + Phi q, with velocities.
 struct SurfaceMotion {
   Eigen::VectorXd q;
   Eigen::Vector3d r_WB;
   Eigen::Matrix3d R_WB;
+  Eigen::VectorXd q_dot = {};                        ///< empty: zero
+  Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< m/s, of the BRF's origin
+  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< rad/s
 };
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion);
 
+inline constexpr int kColumns = 7;  ///< most columns of a contact's tangent
+using LocalVectors = Eigen::Matrix<double, 3, 5>;
+using LocalColumns = Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, kColumns>;
+using LocalStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kColumns, kColumns>;
+
+/// What a sticking node remembers from one step to the next: where on the master it was, and how far its
+/// tangential spring was stretched, in the face's tangents.
+struct StickPoint {
+  int slave_side = 0, slave_node = 0;
+  int face = 0;
+  double u = 0, v = 0;      ///< local coordinates on the master face (contact/face.h)
+  double e_u = 0, e_v = 0;  ///< -, stretch e_u dx/du + e_v dx/dv
+  bool slides = false;
+};
+
 /// One active contact: x_slave - x_c = g_n n with the closest point x_c = sum_i N_i x_i of the master
 /// surface. On an edge or vertex n has the direction of that line, within the normals of the faces there.
-/// Local vectors have 15 rows: slave node, then the four master nodes (x y z each, world frame). Local force
-/// F = -c_p g_n [n; -N_i n]; tangent dF = -W k W' dx.
+/// Local vectors have 15 rows: slave node, then the four master nodes (x y z each, world frame). The local
+/// force F changes by dF = -W k (V' dx + V_dot' dv), v the velocities of the local nodes.
 struct ContactPoint {
   int slave_side = 0;
   int slave_node = 0;
@@ -60,12 +96,21 @@ struct ContactPoint {
   Eigen::Vector4i master_node;
   Eigen::Vector4d N;  ///< master shape functions at the closest point
   double xi = 0, eta = 0;
-  Eigen::Vector3d n;  ///< outward master normal, world frame
-  double g_n = 0;     ///< m, < 0
-  Eigen::Vector3d f;  ///< N, force on the slave node, world frame
-  double energy = 0;  ///< J, c_p g_n^2 / 2
-  Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, 5> W;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5> k;  ///< symmetric, N/m
+  Eigen::Vector3d n;                      ///< outward master normal, world frame
+  double g_n = 0;                         ///< m, < 0
+  Eigen::Vector3d f;                      ///< N, force on the slave node, world frame
+  LocalVectors F = LocalVectors::Zero();  ///< N, forces on the local nodes; they and their moments balance
+  double energy = 0;                      ///< J, c_p g_n^2 / 2 and that of the tangential spring
+  double power = 0;                       ///< W, taken by damping
+  double friction_power = 0;              ///< W, taken by friction
+  double slip_work = 0;                   ///< J, taken since the last accepted step where a node sticks
+  Eigen::Vector3d slip =
+      Eigen::Vector3d::Zero();  ///< m/s, tangential velocity on the master, where rates count
+  Eigen::Vector3d elastic_slip = Eigen::Vector3d::Zero();  ///< m, of the tangential spring
+  StickPoint stick;                                        ///< becomes history when the step is accepted
+  LocalVectors v = LocalVectors::Zero();                   ///< m/s, of the local nodes, where rates count
+  LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
+  LocalStiffness k;          ///< N/m
 };
 
 /// Two surfaces in contact, with their trees and the faces found last. The surfaces must outlive the pair.
@@ -84,6 +129,13 @@ class Pair {
   /// The same contacts, but only nodes that can touch are displaced, and a search is made only when the
   /// surfaces have moved by the skin since the last one.
   std::vector<ContactPoint> detect(const SurfaceMotion& a, const SurfaceMotion& b);
+
+  /// Makes the sticking of these contacts what the next step starts from.
+  void accept(const std::vector<ContactPoint>& contacts);
+  /// What accept has kept: the state that a run must store to go on from here.
+  std::vector<StickPoint> history() const;
+  /// Throws Error for nodes or faces that the surfaces do not have.
+  void restore(const std::vector<StickPoint>& history);
 
   /// The settings in force: as given, with stiffness, depth and skin filled in where they were 0.
   const Settings& settings() const;

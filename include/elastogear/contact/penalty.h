@@ -1,12 +1,15 @@
 #pragma once
 // Penalty stiffness of a pair and of its slave nodes; checks of what the user gave.
 
+#include "elastogear/contact/law.h"
 #include "elastogear/contact/pair.h"
 
 namespace elastogear::contact {
 
 /// Throws Error naming the setting and what is allowed.
 void validate(const Settings& settings);
+
+void validate(const FrictionSettings& settings);
 
 /// Throws Error naming surface a (0) or b (1).
 void validate(const model::Surface& surface, int side);
@@ -20,5 +23,11 @@ Settings with_defaults(Settings settings, const model::Surface& a, const model::
 
 /// N/m per node of the slave surface, settings complete.
 Eigen::VectorXd node_stiffness(const Settings& settings, const model::Surface& slave);
+
+/// The law of each node of the slave surface, settings complete.
+std::vector<Law> node_laws(const Settings& settings, const model::Surface& slave);
+
+/// No more than the penalty on facets.
+bool has_potential(const Settings& settings);
 
 }  // namespace elastogear::contact

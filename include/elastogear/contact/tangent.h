@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "elastogear/contact/pair.h"
 #include "elastogear/contact/winner.h"
 
 namespace elastogear::contact {
@@ -10,8 +11,8 @@ namespace elastogear::contact {
 /// Stiffness W k W' of the 15 coordinates (slave node, four master nodes; x y z each): the force
 /// F = -c_p g_n [n; -N_i n] changes by dF = -W k W' dx.
 struct Tangent {
-  Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, 5> W;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5> k;  ///< symmetric, N/m
+  LocalColumns W;
+  LocalStiffness k;  ///< symmetric, N/m
 };
 
 /// full: normal and geometric part; otherwise the normal part c_p [n; -N_i n] [n; -N_i n]' only.

@@ -26,18 +26,20 @@ struct SlaveNode {
 struct Limits {
   double depth = 0;         ///< m, largest distance to the surface
   double cos_angle = -0.1;  ///< n_slave . n_master must not exceed this
+  double outside = 0;       ///< m, how far outside the surface a node is still taken
 };
 
 struct Winner {
   int face = 0;
   ClosestPoint point;
   Eigen::Vector3d n;  ///< outward, x_slave - x_c = g_n n
-  double g_n = 0;     ///< m, < 0
+  double g_n = 0;     ///< m, < 0 inside
 };
 
-/// Nothing when the node is outside the master body, beyond an open end, deeper than the limit, or when only
-/// faces that do not oppose it are near. `faces` must hold all master faces within `depth` of the node; they
-/// ascend. `likely`, one of them or -1, is tried first: the search is quickest when it is right.
+/// Nothing when the node is outside the master body (further than the limit), beyond an open end, deeper than
+/// the limit, or when only faces that do not oppose it are near. `faces` must hold all master faces within
+/// `depth` of the node; they ascend. `likely`, one of them or -1, is tried first: the search is quickest when
+/// it is right.
 std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
                                   std::span<const int> faces, int likely = -1);
 

@@ -41,16 +41,23 @@ std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
 /// Generalised contact force: s: H' [sum f; sum x x f], q: Phi' f.
 body::Force contact_force(const body::Equations& eq, const NodalForces& forces);
 
-/// A body's virtual twists H and the twists P that its coordinates make.
+/// A body's virtual twists H, the twists P that its coordinates make, and how these change velocities.
 struct JointTwists {
   body::MotionSubspace H, P;
+  body::MotionSubspace P_dot = {};  ///< change of [R_WB' r_WB'; w] with s, velocity turned by P left out
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< rad/s, w_WB_B
+  double shift_v = 0;                           ///< 1/s
 };
 
 /// Adds -d(contact force)/dz at constant local forces: the part that comes from the turning of the BRF.
 /// s_i s_j: -f.(theta_j x (v_i + w_i x x)); s_i q: -(f x w_i).Phi. The rows of U come before the nodes'.
 void add_geometric_stiffness(const JointTwists& twists, const NodalForces& forces, BodyTerms& terms);
 
-/// W_s, V_s, L of every body (whose `node` are set) and k, from the tangents of all contact points.
+/// P_dot of a body.
+body::MotionSubspace velocity_twists(const body::Joint& joint, const body::MotionSubspace& H,
+                                     const body::JointMotion& m, double shift_v);
+
+/// W_s, V_s, L, L_V of every body (whose `node` are set) and k, from the tangents of all contact points.
 void set_contact_columns(const std::vector<JointTwists>& twists, const std::vector<PairContacts>& pairs,
                          const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A);
 

@@ -2,12 +2,14 @@
 // The effective matrix A = shift_a dF/dA + shift_v dF/dV + dF/dU of the system and its exact inverse.
 //
 // Per body, with the columns E of BorderColumns,      A = [C, (E rho)'; E beta, D]  on [s; q],
-// and over all bodies the contact's low rank part       + W k V',   W = [W_s; E L], V = [V_s; E L] per body.
-// With x_q = D^-1 (y_q - E (beta x_s + L k lambda)) and lambda = V'x a dense system of n_s + r unknowns
+// and over all bodies the contact's low rank part       + W k V',   W = [W_s; E L], V = [V_s; E L_V] per
+// body. With x_q = D^-1 (y_q - E (beta x_s + L k lambda)) and lambda = V'x a dense system of n_s + r unknowns
 // stays:
-//   [C - rho'G beta,  (W_s - rho'G L) k;  -V_s' + L'G beta,  I + L'G L k] [x_s; lambda] = [y_s - rho'p; L'p]
+//   [C - rho'G beta,  (W_s - rho'G L) k;  -V_s' + L_V'G beta,  I + L_V'G L k] [x_s; lambda]
+//     = [y_s - rho'p; L_V'p]
 // where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory.md, "Solving for one Newton step"). V_s differs from W_s
-// where coordinates are not the integrals of their rates (free joints). At inertia level full A has further
+// where coordinates are not the integrals of their rates (free joints), and both from W for forces that have
+// no potential. At inertia level full A has further
 // parts, which the products with A hold and the inverse leaves out: it is then a preconditioner.
 
 #include <Eigen/LU>
@@ -19,12 +21,13 @@ namespace elastogear::dynamics {
 
 /// One body's entries. n_e = BorderColumns::size(node); r contact columns in the whole system.
 struct BodyTerms {
-  std::vector<int> node;          ///< surface nodes touched by contact
-  Eigen::MatrixXd C;              ///< n_s x n_s
-  Eigen::MatrixXd beta, rho;      ///< n_e x n_s
-  Eigen::MatrixXd W_s, V_s;       ///< n_s x r
-  Eigen::SparseMatrix<double> L;  ///< n_e x r
-  Eigen::MatrixXd R_q, Q_s;       ///< n_s x n_q, n_q x n_s: of level full, see body/tangent.h, or empty
+  std::vector<int> node;                 ///< surface nodes touched by contact
+  Eigen::MatrixXd C;                     ///< n_s x n_s
+  Eigen::MatrixXd beta, rho;             ///< n_e x n_s
+  Eigen::MatrixXd W_s, V_s;              ///< n_s x r
+  Eigen::SparseMatrix<double> L;         ///< n_e x r
+  Eigen::SparseMatrix<double> L_V = {};  ///< n_e x r, of V where it differs from that of W; or empty
+  Eigen::MatrixXd R_q, Q_s;  ///< n_s x n_q, n_q x n_s: of level full, see body/tangent.h, or empty
   Eigen::Matrix3d Gamma = Eigen::Matrix3d::Zero();
 };
 

@@ -42,11 +42,19 @@ struct Residual {
   Eigen::VectorXd norm, scale;  ///< 2 n_bodies
 };
 
-/// Everything that depends on the time and the positions U alone.
+/// Everything that depends on time, positions U and velocities V alone.
 struct ContactState {
   std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
+};
+
+/// What contact remembers from step to step; a run that goes on from a stored state needs it.
+struct ContactHistory {
+  double time = 0;                                      ///< s, of the last accepted state
+  double power = 0;                                     ///< W, taken by damping and regularised friction then
+  double loss = 0;                                      ///< J, taken since the start
+  std::vector<std::vector<contact::StickPoint>> stuck;  ///< per pair
 };
 
 /// A state of the system. The vectors must outlive it.
@@ -73,6 +81,7 @@ class System {
     std::vector<Eigen::Index> open;  ///< joint coordinates without prescribed motion, ascending
     bool in_contact;                 ///< named by a pair
     std::vector<int> node_group;     ///< face group of each surface node: that of its lowest face
+    Eigen::VectorXd node_area;       ///< m^2, share of the surface of each of its nodes
 
     Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
   };
@@ -94,13 +103,21 @@ class System {
 
   /// Motion of a body, prescribed coordinates included.
   body::Motion motion(std::size_t b, const State& x) const;
-  contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U) const;
-  /// Placement and contacts; kept, so that a second call with an equal time and U costs nothing.
-  const ContactState& contacts(double time, ConstVector U);
+  contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U, ConstVector V) const;
+  /// Placement and contacts; kept, so that a second call with equal time, U and V costs nothing.
+  const ContactState& contacts(double time, ConstVector U, ConstVector V);
   /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
-  double depth_share(double time, ConstVector U);
+  double depth_share(double time, ConstVector U, ConstVector V);
   /// In force: with what was left open filled in.
   const contact::Settings& contact_settings(std::size_t pair) const { return detectors_[pair].settings(); }
+  /// To be called once for the initial state and after every accepted step: what sticks now does so from
+  /// here, and the energy that contact has taken is added up.
+  void accept(const State& x);
+  ContactHistory contact_history() const;
+  /// Throws Error for another number of pairs, or nodes and faces that they do not have.
+  void restore(const ContactHistory& history);
+  /// J, taken by damping and friction of contact up to the last accepted state.
+  double contact_loss() const { return history_.loss; }
   Residual residual(const State& x);
   /// shift.v dF/dV + shift.a dF/dA + dF/dU
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
@@ -115,6 +132,7 @@ class System {
  private:
   void add_body(const BodySetup& setup);
   void add_pair(const PairSetup& setup);
+  void visit_contact_history(Tape& tape);
   /// Sum and norms of a body's terms: [F_s (n_s); F_q].
   body::Force balance(std::size_t b, const State& x, Residual* r);
 
@@ -124,7 +142,10 @@ class System {
   std::vector<contact::Pair> detectors_;
   Eigen::VectorXd U_0_, V_0_;
   std::optional<Eigen::VectorXd> U_of_state_;
+  Eigen::VectorXd V_of_state_;
   double time_of_state_ = 0;
+  ContactHistory history_;  // stuck: kept by the detectors
+  bool accepted_ = false;   // is there an accepted state?
   ContactState state_;
 };
 

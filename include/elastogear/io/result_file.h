@@ -56,12 +56,14 @@ struct BodyHistory {
 /// Histories of one pair, one column per output time. Forces on body b in the world frame, see
 /// model::PairState.
 struct PairHistory {
-  Eigen::MatrixXd force;                   ///< 3 x n_t, N
-  Eigen::MatrixXd torque;                  ///< 3 x n_t, N m, about the world origin
-  Eigen::VectorXi count;                   ///< n_t
-  Eigen::VectorXd penetration;             ///< n_t, m
-  std::vector<std::string> group_name[2];  ///< face groups of surface a, b
-  Eigen::MatrixXd group_force[2];          ///< 3 n_g x n_t, N, rows 3 g .. 3 g + 2
+  Eigen::MatrixXd force;           ///< 3 x n_t, N
+  Eigen::MatrixXd torque;          ///< 3 x n_t, N m, about the world origin
+  Eigen::VectorXi count;           ///< n_t
+  Eigen::VectorXd penetration;     ///< n_t, m
+  Eigen::VectorXd area, pressure;  ///< n_t, m^2, Pa; these and the following: model::ContactFigures
+  Eigen::VectorXd sliding_speed, friction_power, damping_power;  ///< n_t, m/s, W
+  std::vector<std::string> group_name[2];                        ///< face groups of surface a, b
+  Eigen::MatrixXd group_force[2];                                ///< 3 n_g x n_t, N, rows 3 g .. 3 g + 2
 };
 
 /// n_t each, J; see model::Energies.

@@ -26,6 +26,18 @@ struct ContactRecord {
   double xi = 0, eta = 0;  ///< closest point on the master face
   double g_n = 0;          ///< m, negative = penetration
   Eigen::Vector3d f;       ///< N, force on the slave node, world frame
+  double pressure = 0;     ///< Pa, normal force over the slave node's share of its surface
+  Eigen::Vector3d slip = Eigen::Vector3d::Zero();  ///< m/s, of the slave node on the master, world frame
+};
+
+/// What happens in a pair, or in one of its areas of contact.
+struct ContactFigures {
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, on body b, about the world origin
+  int count = 0;                                     ///< active contacts
+  double area = 0;                               ///< m^2, the share of the surface that the slave nodes have
+  double pressure = 0;                           ///< Pa, largest
+  double sliding_speed = 0;                      ///< m/s, largest
+  double friction_power = 0, damping_power = 0;  ///< W, taken
 };
 
 /// One contact pair a:b. Forces are those on body b; body a receives the opposite.
@@ -36,6 +48,8 @@ struct PairState {
   double penetration = 0;                            ///< m, largest (>= 0)
   std::vector<Eigen::Vector3d>
       group_force[2];  ///< N, force on body b through each face group of surface a, b
+  ContactFigures total;
+  std::vector<ContactFigures> area[2];  ///< of each face group of surface a, b
   std::vector<ContactRecord> contacts;
 };
 

@@ -1,0 +1,138 @@
+#include "elastogear/contact/contact_point.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "elastogear/base/rotation.h"
+#include "elastogear/contact/tangent.h"
+
+namespace elastogear::contact {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be prolonged over a smooth edge
+constexpr int kNewtonSteps = 8;
+
+ContactPoint geometry(const SurfaceView& master, const Winner& w) {
+  const int sides = side_count(master.face, w.face);
+  const Eigen::Vector2d natural = natural_coordinates(sides, w.point.u, w.point.v);
+  ContactPoint contact;
+  contact.face = w.face;
+  contact.master_node = master.face.col(w.face);
+  contact.N = w.point.N;
+  contact.xi = natural[0];
+  contact.eta = natural[1];
+  contact.n = w.n;
+  contact.g_n = w.g_n;
+  return contact;
+}
+
+// Foot point on the face prolonged over its sides; nothing when there is none near.
+std::optional<Winner> prolonged(const Face& face, const Vector3d& q, Winner w) {
+  const Eigen::Vector2d start(w.point.u, w.point.v);
+  Eigen::Vector2d at = start;
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const Shape s = shape(face.sides, at[0], at[1]);
+    Eigen::Matrix<double, 3, 2> a;
+    a << combine(face, s.N_u), combine(face, s.N_v);
+    const Vector3d d = q - combine(face, s.N);
+    Eigen::Matrix2d A = a.transpose() * a;
+    A(0, 1) -= d.dot(combine(face, s.N_uv));
+    A(1, 0) = A(0, 1);
+    at += A.inverse() * (a.transpose() * d);
+    if (!((at - start).cwiseAbs().maxCoeff() <= kBeyond)) return {};
+  }
+  const Shape s = shape(face.sides, at[0], at[1]);
+  w.point = {Feature::face, 0, at[0], at[1], s.N, combine(face, s.N), 0};
+  w.n = normal(face, at[0], at[1]);
+  w.g_n = w.n.dot(q - w.point.x);
+  return w;
+}
+
+Winner smooth_winner(const MasterSide& master, const Winner& w, const Vector3d& q) {
+  const bool on_face = w.point.feature == Feature::face;
+  if (master.bulge.empty() || on_face) return w;
+  const Face face = face_of(master.surface, w.face);
+  if (normal(face, w.point.u, w.point.v).dot(w.n) < std::cos(master.crease)) return w;
+  return prolonged(face, q, w).value_or(w);
+}
+
+// Height over the face, along the directions in which the closest point can move.
+Height height_at(const MasterSide& master, const Face& face, const Winner& w) {
+  if (master.bulge.empty() || w.point.feature == Feature::vertex) return {};
+  const Height full = height(face.sides, master.bulge[w.face], w.point.u, w.point.v);
+  if (w.point.feature == Feature::face) return full;
+  const Eigen::Vector2d along = on_side(face.sides, w.point.part, 1) - on_side(face.sides, w.point.part, 0);
+  Height side;
+  side.h = full.h;
+  side.h_a[0] = full.h_a.dot(along);
+  side.h_ab(0, 0) = along.dot(full.h_ab * along);
+  return side;
+}
+
+// Way of the closest point over the master since the last step, and what the spring held then.
+StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Winner& w,
+                         const Foot& foot) {
+  const Face face = face_of(master, stuck.face);
+  const Shape s = shape(face.sides, stuck.u, stuck.v);
+  const Eigen::Vector4d anchor = s.N - stuck.e_u * s.N_u - stuck.e_v * s.N_v;
+  StickMotion motion;
+  motion.slides = stuck.slides;
+  motion.u = w.point.x - combine(face, anchor);
+  motion.u_x = foot.a * foot.D;
+  if (stuck.face == w.face)
+    motion.u_x += spread(0, w.point.N - anchor);
+  else  // the anchor's own nodes are not among the local ones: it turns with the present face
+    motion.u_x -= skew(motion.u) * foot.spin;
+  return motion;
+}
+
+StickPoint stick_point(const Face& face, const Winner& w, const ContactPoint& contact) {
+  const Shape s = shape(face.sides, w.point.u, w.point.v);
+  Eigen::Matrix<double, 3, 2> a;
+  a << combine(face, s.N_u), combine(face, s.N_v);
+  const Eigen::Vector2d e = (a.transpose() * a).inverse() * (a.transpose() * contact.elastic_slip);
+  StickPoint point = contact.stick;
+  point.slave_node = contact.slave_node;
+  point.face = w.face;
+  point.u = w.point.u;
+  point.v = w.point.v;
+  if (e.allFinite()) point.e_u = e[0], point.e_v = e[1];
+  return point;
+}
+
+}  // namespace
+
+ContactPoint potential_contact(const MasterSide& master, const Winner& w, double c_p, bool full_tangent) {
+  const Face face = face_of(master.surface, w.face);
+  ContactPoint contact = geometry(master.surface, w);
+  contact.f = -c_p * w.g_n * w.n;
+  contact.F << contact.f, -contact.f * w.point.N.transpose();
+  contact.energy = 0.5 * c_p * w.g_n * w.g_n;
+  const Tangent tangent = contact_tangent(face, w, c_p, full_tangent);
+  contact.W = contact.V = tangent.W;
+  contact.V_dot.resize(15, 0);
+  contact.k = tangent.k;
+  return contact;
+}
+
+std::optional<ContactPoint> general_contact(const MasterSide& master, const Touch& touch, const Law& law) {
+  const Winner w = smooth_winner(master, touch.winner, touch.x_slave);
+  const Face face = face_of(master.surface, w.face);
+  const Foot foot = make_foot(face, w, touch.x_slave);
+  const Gap open = gap(foot, height_at(master, face, w), law.offset);
+  if (!(open.g < 0)) return {};
+  ContactPoint contact = geometry(master.surface, w);
+  contact.slave_node = touch.slave_node;
+  contact.v.col(0) = touch.velocity(0, touch.slave_node);
+  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = touch.velocity(1, contact.master_node[i]);
+  std::optional<StickMotion> motion;
+  if (touch.stuck) motion = stick_motion(master.surface, *touch.stuck, w, foot);
+  apply_law(law, foot, open, motion ? &*motion : nullptr, contact);
+  contact.stick = stick_point(face, w, contact);
+  return contact;
+}
+
+}  // namespace elastogear::contact
