@@ -33,8 +33,8 @@ void print_advice(const dynamics::System& system, double dt) {
                               " what the fastest vibration asks for: a longer one would do");
 }
 
-dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer) {
-  auto guard = std::make_shared<dynamics::ValidityGuard>(system);
+dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer, double dt) {
+  auto guard = std::make_shared<dynamics::ValidityGuard>(system, dt);
   return [guard, observer = std::move(observer)](const model::Snapshot& snapshot) {
     for (const std::string& warning : guard->warnings(snapshot)) print_item("warning", warning);
     observer(snapshot);

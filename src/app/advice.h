@@ -8,7 +8,7 @@ namespace elastogear::app {
 /// Prints the steps that the highest mode and the contact ask for, and warns when dt (s) is far from them.
 void print_advice(const dynamics::System& system, double dt);
 
-/// The same observer, which also prints warnings; the system must outlive it.
-dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer);
+/// The same observer, which also prints warnings; the system must outlive it. dt: s, of a step; 0: none.
+dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer, double dt = 0);
 
 }  // namespace elastogear::app

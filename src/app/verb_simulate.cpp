@@ -231,7 +231,7 @@ Computation computation(const Options& options, dynamics::System& system) {
   auto info = std::make_shared<dynamics::StepInfo>();
   time.monitor = [info](const dynamics::StepInfo& step) { *info = step; };
   return [&system, time, info](const auto& observer, const auto& checkpoints) {
-    return dynamics::simulate(system, time, guarded(system, observer),
+    return dynamics::simulate(system, time, guarded(system, observer, time.dt),
                               console_progress([info] { return step_text(*info); }), checkpoints);
   };
 }

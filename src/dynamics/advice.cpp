@@ -47,10 +47,10 @@ double contact_frequency(const System& system, std::size_t p) {
   return std::sqrt(rate) / (2 * std::numbers::pi);
 }
 
-std::string sentence(const std::string& body, double time, double value, const char* meaning) {
+std::string sentence(const std::string& who, double time, double value, const char* meaning) {
   std::ostringstream text;
   text.precision(3);
-  text << "body '" << body << "' at t = " << time << " s: " << meaning << " " << value;
+  text << who << " at t = " << time << " s: " << meaning << " " << value;
   return text.str();
 }
 
@@ -71,7 +71,8 @@ Advice advise(const System& system) {
   return advice;
 }
 
-ValidityGuard::ValidityGuard(const System& system) : system_(&system) {
+ValidityGuard::ValidityGuard(const System& system, double dt)
+    : system_(&system), dt_(dt), too_fast_(system.pairs().size(), false) {
   for (const System::Body& body : system.bodies()) {
     const model::Surface& surface = body.eq.body->surface;
     Watch watch;
@@ -84,6 +85,7 @@ ValidityGuard::ValidityGuard(const System& system) : system_(&system) {
       }
     const Eigen::VectorXd& frequency = body.eq.body->frequency;
     if (frequency.size() > 0) watch.lowest_mode = 2 * std::numbers::pi * frequency.minCoeff();
+    if (surface.X.cols() > 0) watch.radius = std::sqrt(surface.X.colwise().squaredNorm().maxCoeff());
     watch_.push_back(std::move(watch));
   }
 }
@@ -100,29 +102,51 @@ double ValidityGuard::gradient(std::size_t b, const Eigen::VectorXd& q) const {
   return largest;
 }
 
-std::vector<std::string> ValidityGuard::warnings(const model::Snapshot& snapshot) {
-  std::vector<std::string> said;
-  for (std::size_t b = 0; b < watch_.size(); ++b) {
-    const System::Body& body = system_->bodies()[b];
-    const model::BodyState& state = snapshot.bodies[b];
-    Watch& watch = watch_[b];
-    const double bent = watch.deformed ? 0 : gradient(b, state.q);
-    const double speed =
-        body::frame_motion(body.eq.joint, body.eq.H, {state.s, state.s_dot, state.s_ddot}).w.norm();
-    if (bent > kLargestGradient) {
-      watch.deformed = true;
-      said.push_back(
-          sentence(body.name, snapshot.time, bent,
-                   "elastic rotation or strain is no longer small, the body's equations are linear in it:"));
-    }
-    if (!watch.fast && watch.lowest_mode > 0 && speed > kLargestSpeed * watch.lowest_mode) {
-      watch.fast = true;
-      said.push_back(
-          sentence(body.name, snapshot.time, speed / watch.lowest_mode,
-                   "turns too fast to leave out how rotation changes the stiffness; speed over that of "
-                   "the lowest mode:"));
-    }
+// Bound of the speed of its surface but for the vibration, m/s.
+double ValidityGuard::surface_speed(std::size_t b, const model::BodyState& state) const {
+  const body::Equations& eq = system_->bodies()[b].eq;
+  const body::FrameMotion f = body::frame_motion(eq.joint, eq.H, {state.s, state.s_dot, state.s_ddot});
+  return f.v.norm() + f.w.norm() * watch_[b].radius;
+}
+
+void ValidityGuard::watch_body(std::size_t b, const model::Snapshot& snapshot, Warnings& said) {
+  const System::Body& body = system_->bodies()[b];
+  const model::BodyState& state = snapshot.bodies[b];
+  const std::string who = "body '" + body.name + "'";
+  Watch& watch = watch_[b];
+  const double bent = watch.deformed ? 0 : gradient(b, state.q);
+  const double speed =
+      body::frame_motion(body.eq.joint, body.eq.H, {state.s, state.s_dot, state.s_ddot}).w.norm();
+  if (bent > kLargestGradient) {
+    watch.deformed = true;
+    said.push_back(
+        sentence(who, snapshot.time, bent,
+                 "elastic rotation or strain is no longer small, the equations are linear in it:"));
   }
+  if (!watch.fast && watch.lowest_mode > 0 && speed > kLargestSpeed * watch.lowest_mode) {
+    watch.fast = true;
+    said.push_back(
+        sentence(who, snapshot.time, speed / watch.lowest_mode,
+                 "turns too fast to leave out how rotation changes the stiffness; speed over that of the "
+                 "lowest mode:"));
+  }
+}
+
+void ValidityGuard::watch_pair(std::size_t p, const model::Snapshot& snapshot, Warnings& said) {
+  double way = 0;
+  for (int b : system_->pairs()[p].body) way += dt_ * surface_speed(b, snapshot.bodies[b]);
+  const double share = way / system_->contact_settings(p).depth;
+  if (too_fast_[p] || share <= 1) return;
+  too_fast_[p] = true;
+  said.push_back(
+      sentence("pair " + system_->pairs()[p].name, snapshot.time, share,
+               "surfaces may pass through each other unseen; way in a step over the contact depth:"));
+}
+
+std::vector<std::string> ValidityGuard::warnings(const model::Snapshot& snapshot) {
+  Warnings said;
+  for (std::size_t b = 0; b < watch_.size(); ++b) watch_body(b, snapshot, said);
+  for (std::size_t p = 0; p < too_fast_.size(); ++p) watch_pair(p, snapshot, said);
   return said;
 }
 

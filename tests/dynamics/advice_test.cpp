@@ -90,3 +90,21 @@ TEST(ValidityGuard, warns_once_of_a_fast_rotation) {
   EXPECT_NE(warnings[0].find("lowest mode: 0.2"), std::string::npos) << warnings[0];
   EXPECT_TRUE(guard.warnings(start(system, 0)).empty());
 }
+
+TEST(ValidityGuard, warns_once_of_steps_longer_than_the_contact_depth) {
+  PairSetup pair{"a:b", {0, 1}, {.depth = 0.01}};
+  const auto rigid = std::make_shared<model::ElasticBody>(test::make_rigid_box({.material = {1, 0, 1}}));
+  pair.settings.stiffness = 1;
+  const body::Joint slide{.type = body::JointType::prismatic, .axis = {1, 0, 0}};
+  System system({{.name = "a", .body = rigid, .joint = slide, .translation = {.s_dot_0 = 3}},
+                 {.name = "b", .body = rigid, .joint = {.r_WB0 = {5, 0, 0}}}},
+                {pair});
+  const Eigen::VectorXd U = system.initial_position(), V = system.initial_velocity();
+  const model::Snapshot now = snapshot(system, {0, U, V, V});
+  EXPECT_TRUE(ValidityGuard(system, 0.003).warnings(now).empty());
+  ValidityGuard guard(system, 0.004);
+  const auto warnings = guard.warnings(now);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("pair a:b at t = 0 s: surfaces may pass"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(guard.warnings(now).empty());
+}

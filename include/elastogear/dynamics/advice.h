@@ -21,10 +21,12 @@ struct Advice {
 };
 Advice advise(const System& system);
 
-/// Watches whether elastic rotations and strains stay small and bodies turn slowly against their lowest mode.
+/// Watches whether elastic rotations and strains stay small, bodies turn slowly against their lowest mode,
+/// and surfaces of a pair go by less than the contact depth in a step.
 class ValidityGuard {
  public:
-  explicit ValidityGuard(const System& system);
+  /// dt: s, of a step; 0: there are no steps in time.
+  explicit ValidityGuard(const System& system, double dt = 0);
   /// What is left behind for the first time, one sentence each.
   std::vector<std::string> warnings(const model::Snapshot& snapshot);
 
@@ -36,12 +38,19 @@ class ValidityGuard {
   struct Watch {
     std::vector<Edge> edge;               // of some faces all over the surface
     double lowest_mode = 0;               // rad/s; 0: none
+    double radius = 0;                    // m, of the surface around the body frame's origin
     bool deformed = false, fast = false;  // said
   };
+  using Warnings = std::vector<std::string>;
   double gradient(std::size_t b, const Eigen::VectorXd& q) const;
+  double surface_speed(std::size_t b, const model::BodyState& state) const;
+  void watch_body(std::size_t b, const model::Snapshot& snapshot, Warnings& said);
+  void watch_pair(std::size_t p, const model::Snapshot& snapshot, Warnings& said);
 
   const System* system_;
+  double dt_;
   std::vector<Watch> watch_;
+  std::vector<bool> too_fast_;  // pairs, said
 };
 
 }  // namespace elastogear::dynamics
