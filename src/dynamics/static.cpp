@@ -212,6 +212,7 @@ RunSummary solve_static(System& system, const StaticSettings& settings, const Ob
     reached = at.factor;
     step = std::min(2 * step, first_step);
     good = *ReadView(U);
+    system.accept(at.state(good));
     const model::Snapshot found = snapshot(system, at.state(good));
     update(summary, found);
     if (observer) observer(found);
