@@ -228,6 +228,7 @@ RunSummary solve_static(System& system, const StaticSettings& settings, const Ob
   const UniqueSNES snes = make_snes(at, J);
   while (path.reached < 1) {
     if (!advance(at, snes, path, summary)) continue;
+    system.accept(at.state(path.good));
     const model::Snapshot found = snapshot(system, at.state(path.good));
     update(summary, found);
     if (observer) observer(found);

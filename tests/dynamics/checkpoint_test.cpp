@@ -23,6 +23,8 @@ System impact(model::Basis basis) {
   PairSetup pair{"box:wall", {0, 1}, {}};
   pair.settings.two_pass = true;
   pair.settings.skin = 0.01;
+  pair.settings.hysteresis = 0.1;
+  pair.settings.friction = {.mu = 0.3, .law = contact::FrictionLaw::stick};
   const body::JointType joint =
       basis == model::Basis::full ? body::JointType::spherical : body::JointType::free;
   BodySetup box{.name = "box", .body = soft_box(basis), .joint = {.type = joint}, .omega0 = {0, 0.3, 0.2}};

@@ -1,0 +1,105 @@
+// Line contact of a rigid cylinder on an elastic block in plane strain against H. Hertz: peak pressure and
+// half width follow from the total force, however far away the block is held.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "../contact/surfaces.h"
+#include "box_body.h"
+#include "elastogear/body/rigid.h"
+#include "elastogear/dynamics/snapshot.h"
+
+using namespace elastogear;
+using namespace elastogear::dynamics;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kE = 2e9, kNu = 0.3, kRadius = 1, kDepth = 0.003;  // Pa, -, m, m
+
+std::shared_ptr<const model::ElasticBody> rigid(model::Surface surface) {
+  auto body = std::make_shared<model::ElasticBody>(
+      body::rigid_body(1, Vector3d::Zero(), Eigen::Matrix3d::Identity()));
+  const auto n_s = surface.X.cols();
+  for (int i = 0; i < n_s; ++i) surface.node.push_back(i);
+  surface.group.assign(static_cast<std::size_t>(surface.face.cols()), 0);
+  surface.group_name = {"all"};
+  surface.Phi = model::DenseRows(3 * n_s, 0);
+  body->surface = surface;
+  return body;
+}
+
+// 1 x 2 m, one cell of size h thick, x <= 0; held at x = -1 m and nowhere free to move along z.
+std::shared_ptr<const model::ElasticBody> block(int cells) {
+  const double h = 2.0 / cells;
+  const test::BoxSpec spec{.corner = {-1, -1, 0},
+                           .size = {1, 2, h},
+                           .cells = {cells / 2, cells, 1},
+                           .material = {kE, kNu, 1000},
+                           .held = [](const Vector3d& X, int d) { return d == 2 || X.x() < -1 + 1e-9; }};
+  return std::make_shared<model::ElasticBody>(test::make_box(spec, model::Basis::full));
+}
+
+// Its underside touches x = 0 from above when depth = 0.
+model::Surface cylinder(double depth) {
+  return contact::test::flipped(contact::test::grid(200, 1, [=](double u, double v) {
+    const double phi = 0.8 * (u - 0.5);
+    return Vector3d(kRadius - depth - kRadius * std::cos(phi), kRadius * std::sin(phi), 4 * v - 2);
+  }));
+}
+
+// Newton's method with all rates at zero.
+model::PairState static_contact(System& system) {
+  VectorXd U = system.initial_position();
+  const VectorXd zero = VectorXd::Zero(system.size());
+  LowRankSolver solver(system.solver_bodies());
+  for (int i = 0; i < 40; ++i) {
+    const State x{0, U, zero, zero};
+    const Residual r = system.residual(x);
+    if (i > 0 && (r.norm.array() <= 1e-10 * r.scale.array()).all()) break;
+    solver.set(system.effective_matrix(x, {0, 0}));
+    U -= solver.solve(r.F);
+  }
+  return snapshot(system, {0, U, zero, zero}).pairs[0];
+}
+
+struct Hertz {
+  double peak, width;  // relative errors
+};
+
+Hertz hertz(int cells) {
+  const auto body = block(cells);
+  PairSetup pair{"block:cylinder", {0, 1}, {}};
+  pair.settings.stiffness = 20 * body->surface.c_f[0];
+  pair.settings.smooth = true;
+  pair.settings.depth = 2 * kDepth;
+  System system({{.name = "block", .body = body}, {.name = "cylinder", .body = rigid(cylinder(kDepth))}},
+                {pair});
+  const model::PairState state = static_contact(system);
+  const double thickness = 2.0 / cells, W = state.force.x() / thickness, E_star = kE / (1 - kNu * kNu);
+  double moment = 0, total = 0;
+  for (const model::ContactRecord& c : state.contacts) {
+    const double y = body->surface.X(1, c.slave_node);
+    moment += std::abs(c.f.x()) * y * y;
+    total += std::abs(c.f.x());
+  }
+  const double peak = std::sqrt(W * E_star / (std::numbers::pi * kRadius)),
+               width = std::sqrt(4 * W * kRadius / (std::numbers::pi * E_star));
+  return {state.total.pressure / peak - 1, 2 * std::sqrt(moment / total) / width - 1};
+}
+
+}  // namespace
+
+TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
+  constexpr double kDiscretisation = 0.01;  // with 4.7 cells over the half width; found: -0.4 %, -0.3 %
+  Hertz last{1, 1};
+  for (int cells : {60, 120, 240}) {
+    const Hertz error = hertz(cells);
+    EXPECT_LT(std::abs(error.peak), std::abs(last.peak) / 2);
+    EXPECT_LT(std::abs(error.width), std::abs(last.width) / 2);
+    last = error;
+  }
+  EXPECT_LT(std::abs(last.peak), kDiscretisation);
+  EXPECT_LT(std::abs(last.width), kDiscretisation);
+}
