@@ -13,10 +13,11 @@ namespace elastogear::io {
 
 /// Units follow from those of q: m sqrt(kg) when mass-normalised (modal), m for the unit basis (full).
 struct BodyUnits {
-  const char *Phi, *Psi, *M, *K, *C_l, *C_r, *S_1;
+  const char *Phi, *Psi, *M, *K, *C_l, *C_r, *S_1, *marker;
 };
-constexpr BodyUnits kModalUnits{"kg^-1/2", "Pa m^-1 kg^-1/2", "1", "s^-2", "kg^1/2", "m kg^1/2", "m kg^1/2"};
-constexpr BodyUnits kFullUnits{"1", "Pa/m", "kg", "N/m", "kg", "kg m", "kg m"};
+constexpr BodyUnits kModalUnits{"kg^-1/2", "Pa m^-1 kg^-1/2", "1",        "s^-2",
+                                "kg^1/2",  "m kg^1/2",        "m kg^1/2", "kg^-1/2 or rad m^-1 kg^-1/2"};
+constexpr BodyUnits kFullUnits{"1", "Pa/m", "kg", "N/m", "kg", "kg m", "kg m", "1 or rad/m"};
 
 inline const BodyUnits& body_units(model::Basis basis) {
   return basis == model::Basis::modal ? kModalUnits : kFullUnits;

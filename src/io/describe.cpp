@@ -114,6 +114,7 @@ void describe_modes(Out& out, const std::string& path, const model::ElasticBody&
     line(out, "largest residual: ", checks.residual.maxCoeff(),
          ", largest phi_i' M phi_j: ", checks.orthogonality, ", count proved by inertia");
   line(out, "damping: alpha = ", body.alpha, " 1/s, beta = ", body.beta, " s");
+  if (body.zeta.size() > 0) line(out, "damping ratios: ", body.zeta.minCoeff(), " to ", body.zeta.maxCoeff());
 }
 
 // Tables of many rows by their range.
@@ -147,6 +148,9 @@ void describe_body(Out& out, const std::string& path) {
        counted(body.surface.face.cols(), "face"), " in ", counted(body.surface.group_name.size(), "group"),
        groups.empty() ? "" : ":", groups);
   line(out, "stress: ", counted(body.stress.node.size(), "node"));
+  for (const model::Marker& marker : body.markers)
+    line(out, "marker ", marker.name, ": (", marker.X.transpose().format(kRow), ") m",
+         marker.turns ? "" : ", without rotation: its nodes lie on a line");
   describe_sets(out, "stress node", body.stress.sets);
   for (const model::Check& check : source.checks) describe_check(out, check);
   describe_mesh(out, source.mesh);
