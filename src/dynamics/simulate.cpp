@@ -42,6 +42,7 @@ void validate(const TimeSettings& settings) {
 void require_tables_cover(const System& system, double end_time) {
   for (const System::Body& body : system.bodies())
     for (const Axis& axis : body.axis) require_covers(axis, end_time, "body '" + body.name + "': ");
+  system.marker_forces().require_tables_cover(end_time);
 }
 
 void require_bodies_apart(System& system) {
@@ -88,7 +89,8 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
     run.ledger.enter(run.problem.system, run.last);
     run.last_observed = false;
     const model::Energies& energy = run.last.energy;
-    if (step == 0) run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact;
+    if (step == 0)
+      run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact + energy.bushing;
     update(run.summary, run.last);
     if (step % run.settings.output_every == 0) observe(run);
     check(TSGetMaxTime(ts, &end));

@@ -193,6 +193,12 @@ void describe_result(Out& out, const std::string& path) {
          counted(q.back(), "elastic coordinate"));
   }
   for (const auto& pair : header.pairs) describe_pair(out, path, pair.name, time);
+  for (const std::string& name : header.bushings) {
+    const BushingHistory history = read_bushing_history(path, name);
+    line(out, "bushing ", name, ": peak force ", history.force.colwise().norm().maxCoeff(),
+         " N, peak torque ", history.torque.colwise().norm().maxCoeff(), " N m");
+  }
+  for (const std::string& name : header.sensors) line(out, "sensor ", name);
   describe_energies(out, read_energies(path));
   describe_map(out, header.provenance);
 }

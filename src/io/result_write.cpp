@@ -38,6 +38,17 @@ void write_header(const h5::File& file, const model::ResultHeader& header) {
   }
 }
 
+// Their order in the snapshots is that of the attribute `number`.
+void write_names(const h5::File& file, const std::string& group, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  h5::make_group(file, group);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    require_name(file, names[i]);
+    h5::make_group(file, group + "/" + names[i]);
+    h5::set_attribute(file, group + "/" + names[i], "number", static_cast<int>(i));
+  }
+}
+
 bool finite(const model::Snapshot& snapshot) {
   bool good = std::isfinite(snapshot.time);
   for (const auto& body : snapshot.bodies)
@@ -46,6 +57,9 @@ bool finite(const model::Snapshot& snapshot) {
            body.q_dot.allFinite() && body.q_ddot.allFinite();
   for (const auto& pair : snapshot.pairs)
     good = good && pair.force.allFinite() && pair.torque.allFinite() && std::isfinite(pair.penetration);
+  for (const auto& bushing : snapshot.bushings)
+    good = good && bushing.force.allFinite() && bushing.torque.allFinite();
+  for (const auto& sensor : snapshot.sensors) good = good && sensor.acceleration.allFinite();
   return good;
 }
 
@@ -71,10 +85,15 @@ struct ResultWriter::Data {
   void append(const std::string& name, const Eigen::VectorXd& value, const std::string& unit) {
     series_at(name, {{static_cast<hsize_t>(value.size())}, unit}).append(value.data());
   }
+  void append_rotation(const std::string& name, const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>& R) {
+    series_at(name, {{3, 3}, "1"}).append(R.data());
+  }
   void append_body(const std::string& group, const model::BodyState& body);
   void append_pair(std::size_t index, const model::PairState& pair);
   void append_contacts(const std::string& group, const std::vector<model::ContactRecord>& contacts);
   void append_energy(const model::Energies& energy);
+  void append_bushing(const std::string& group, const model::BushingState& bushing);
+  void append_sensor(const std::string& group, const model::SensorState& sensor);
   void check(const model::Snapshot& snapshot) const;
 };
 
@@ -86,8 +105,7 @@ void ResultWriter::Data::append_body(const std::string& group, const model::Body
   append(group + "/rigid_acceleration", body.s_ddot, "rad/s^2 or m/s^2");
   append(group + "/joint_force", body.joint_force, "N m or N");
   append(group + "/position", body.r_WB, "m");
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = body.R_WB;
-  series_at(group + "/rotation", {{3, 3}, "1"}).append(R.data());
+  append_rotation(group + "/rotation", body.R_WB);
   append(group + "/q", body.q, "as in the body file");
   append(group + "/q_velocity", body.q_dot, "as q, per s");
   append(group + "/q_acceleration", body.q_ddot, "as q, per s^2");
@@ -145,12 +163,32 @@ void ResultWriter::Data::append_energy(const model::Energies& energy) {
   append("/energy/dissipated", energy.dissipated, "J");
   append("/energy/work", energy.work, "J");
   append("/energy/balance", energy.balance, "J");
+  if (!header.bushings.empty()) append("/energy/bushing", energy.bushing, "J");
+}
+
+void ResultWriter::Data::append_bushing(const std::string& group, const model::BushingState& bushing) {
+  append(group + "/displacement", bushing.displacement, "m");
+  append(group + "/angle", bushing.angle, "rad");
+  append(group + "/force", bushing.force, "N");
+  append(group + "/torque", bushing.torque, "N m");
+}
+
+void ResultWriter::Data::append_sensor(const std::string& group, const model::SensorState& sensor) {
+  append(group + "/position", sensor.position, "m");
+  append(group + "/velocity", sensor.velocity, "m/s");
+  append(group + "/acceleration", sensor.acceleration, "m/s^2");
+  append_rotation(group + "/rotation", sensor.rotation);
+  append(group + "/angular_velocity", sensor.angular_velocity, "rad/s");
 }
 
 void ResultWriter::Data::check(const model::Snapshot& snapshot) const {
   require(snapshot.bodies.size() == header.bodies.size() && snapshot.pairs.size() == header.pairs.size(),
           file.path, ": a snapshot has ", snapshot.bodies.size(), " bodies and ", snapshot.pairs.size(),
           " pairs, the header ", header.bodies.size(), " and ", header.pairs.size());
+  require(
+      snapshot.bushings.size() == header.bushings.size() && snapshot.sensors.size() == header.sensors.size(),
+      file.path, ": a snapshot has ", snapshot.bushings.size(), " bushings and ", snapshot.sensors.size(),
+      " sensors, the header ", header.bushings.size(), " and ", header.sensors.size());
   require(finite(snapshot), file.path, ": the state at t = ", snapshot.time, " s is not finite");
   require(snapshot.time > last_time, file.path, ": time ", snapshot.time, " s does not come after ",
           last_time, " s");
@@ -161,6 +199,8 @@ ResultWriter::ResultWriter(const std::string& path, const model::ResultHeader& h
   data_->file = h5::create(path, data_->pending.temporary());
   data_->n_contacts.assign(header.pairs.size(), 0);
   write_header(data_->file, header);
+  write_names(data_->file, "/bushings", header.bushings);
+  write_names(data_->file, "/sensors", header.sensors);
 }
 
 ResultWriter::~ResultWriter() = default;
@@ -173,6 +213,10 @@ void ResultWriter::append(const model::Snapshot& snapshot) {
     data_->append_body("/bodies/" + data_->header.bodies[i].name, snapshot.bodies[i]);
   for (std::size_t i = 0; i < snapshot.pairs.size(); ++i) data_->append_pair(i, snapshot.pairs[i]);
   data_->append_energy(snapshot.energy);
+  for (std::size_t i = 0; i < snapshot.bushings.size(); ++i)
+    data_->append_bushing("/bushings/" + data_->header.bushings[i], snapshot.bushings[i]);
+  for (std::size_t i = 0; i < snapshot.sensors.size(); ++i)
+    data_->append_sensor("/sensors/" + data_->header.sensors[i], snapshot.sensors[i]);
 }
 
 void ResultWriter::finish() {
