@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/console.h"
+#include "app/marker_options.h"
 #include "app/motion.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
@@ -19,7 +20,7 @@
 namespace elastogear::app {
 namespace {
 
-const OptionTable kTable = {
+const OptionTable kOptions = {
     {"bodies", "-", "", "names of the bodies; each has its own <body>_... keys"},
     {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
     {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
@@ -73,6 +74,13 @@ const OptionTable kTable = {
     {"output_every", "-", "1", "write every n-th step"},
 };
 
+OptionTable table() {
+  OptionTable table = kOptions;
+  const OptionTable markers = marker_table();
+  table.insert(table.end(), markers.begin(), markers.end());
+  return table;
+}
+
 body::Joint joint(const Options& options, const std::string& prefix) {
   body::Joint joint;
   joint.type = static_cast<body::JointType>(options.choice(prefix + "joint", body::joint_names()));
@@ -116,14 +124,12 @@ void set_rate(const Options& options, const std::string& name, double& scalar, E
     scalar = options.number(name);
 }
 
-std::shared_ptr<const model::ElasticBody> read_or_make_body(const Options& options,
-                                                            const std::string& prefix) {
+model::ElasticBody read_or_make_body(const Options& options, const std::string& prefix) {
   if (options.given(prefix + "file")) {
     require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
             "file and -", prefix, "mass, _inertia exclude each other");
     const model::ElasticBody body = io::read_body(options.text(prefix + "file"));
-    return std::make_shared<model::ElasticBody>(options.flag(prefix + "rigid") ? body::rigid_copy(body)
-                                                                               : body);
+    return options.flag(prefix + "rigid") ? body::rigid_copy(body) : body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,
           "file is missing: body file made by reduce (or give -", prefix, "mass and -", prefix,
@@ -132,8 +138,7 @@ std::shared_ptr<const model::ElasticBody> read_or_make_body(const Options& optio
   require(J.size() == 6, "option -", prefix, "inertia: must be six numbers xx,yy,zz,xy,yz,xz (kg m^2)");
   Eigen::Matrix3d J_c;
   J_c << J[0], J[3], J[5], J[3], J[1], J[4], J[5], J[4], J[2];
-  return std::make_shared<model::ElasticBody>(
-      body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c));
+  return body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c);
 }
 
 dynamics::BodySetup body_setup(const Options& options, const std::string& name) {
@@ -147,7 +152,9 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   set_rate(options, prefix + "velocity0", setup.translation.s_dot_0, setup.velocity0);
   set_axis(options, prefix, "rotation", "torque", setup.rotation);
   set_axis(options, prefix, "translation", "force", setup.translation);
-  setup.body = read_or_make_body(options, prefix);
+  model::ElasticBody body = read_or_make_body(options, prefix);
+  change_body(options, prefix, body);
+  setup.body = std::make_shared<model::ElasticBody>(std::move(body));
   check_free_body(setup);
   return setup;
 }
@@ -219,16 +226,17 @@ void print_summary(const dynamics::RunSummary& run, const std::string& output) {
 void run(const Options& options, const std::vector<std::string>&) {
   const std::vector<std::string> names = options.list("bodies");
   require(!names.empty(), "option -bodies is missing: names of the bodies");
-  options.reject_unknown(names);
+  options.reject_unknown(simulate_names(options));
   options.choice("analysis", {"dynamic"});
   const std::string output = options.text("output");
   const dynamics::TimeSettings time = time_settings(options);
   const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
   const dynamics::Environment surroundings = environment(options);
+  const dynamics::MarkerSetups markers = marker_setups(options);
   std::vector<dynamics::BodySetup> bodies;
   for (const std::string& name : names) bodies.push_back(body_setup(options, name));
 
-  dynamics::System system(std::move(bodies), pairs, surroundings);
+  dynamics::System system(std::move(bodies), pairs, surroundings, markers);
   model::ResultHeader header = result_header(system);
   for (auto& body : header.bodies) {
     const std::string file = body.name + "_file";
@@ -246,7 +254,7 @@ void run(const Options& options, const std::vector<std::string>&) {
 
 Verb simulate_verb() {
   return {"simulate", "simulate system.yaml [-option value ...]",
-          "bodies, joints, loads, contact -> result file", kTable, run};
+          "bodies, joints, loads, contact -> result file", table(), run};
 }
 
 }  // namespace elastogear::app
