@@ -56,7 +56,9 @@ Progress console_progress() {
 }
 
 void print_item(const std::string& name, const std::string& text) {
-  if (world_rank() == 0) std::printf("  %-30s %s\n", name.c_str(), text.c_str());
+  if (world_rank() > 0) return;
+  std::printf("  %-30s %s\n", name.c_str(), text.c_str());
+  std::fflush(stdout);  // a killed run has said it
 }
 
 std::string with_unit(double value, const std::string& unit) {

@@ -29,6 +29,9 @@ std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body) {
   if (elastic.basis == model::Basis::full) return nullptr;
   require(!elastic.floating, body.file,
           ": mode acceleration needs a held body, this one was reduced free (restrain: none)");
+  require(!elastic.provenance.contains("option_stiffness"), body.file,
+          ": mode acceleration solves with the stiffness of the mesh, this body was reduced from matrices of "
+          "another program (-stiffness)");
   const recovery::ForceHistory forces =
       recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);
   auto answer = std::make_unique<StaticAnswer>();

@@ -58,6 +58,9 @@ const OptionTable kOptions = {
     {"store", "-", "all",
      "modes at all nodes, or at the surface and stress nodes only (no whole fields): all or surface"},
     {"precision", "-", "float64", "of modes stored at all nodes: float64 or float32"},
+    {"invariants", "-", "linear",
+     "of inertia: linear, or full for simulate's inertia level full (6 n_q^2 numbers more; modal: all modes "
+     "wait on disk, beside the output)"},
     {"symmetry", "-", "auto",
      "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none, and "
      "when SLEPc is asked for: from the whole body"},
@@ -138,6 +141,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
       options.choice("store", {"surface", "all"}) == 0 ? reduction::Store::surface : reduction::Store::all;
   o.precision = options.choice("precision", {"float64", "float32"}) == 0 ? io::Precision::float64
                                                                          : io::Precision::float32;
+  o.invariants = static_cast<reduction::Invariants>(options.choice("invariants", {"linear", "full"}));
   // SLEPc's solver, when it was asked for, works on the whole body.
   const bool sectors = options.choice("symmetry", {"auto", "none"}) == 0 && o.window != 0;
   o.symmetry = sectors ? reduction::Symmetry::automatic : reduction::Symmetry::none;

@@ -1,11 +1,13 @@
 // elastogear simulate: bodies + joints + loads + contact -> result file.
 
 #include <algorithm>
-#include <cstdio>
+#include <limits>
 #include <memory>
 #include <utility>
 
+#include "app/advice.h"
 #include "app/console.h"
+#include "app/kept_run.h"
 #include "app/marker_options.h"
 #include "app/motion.h"
 #include "app/verbs.h"
@@ -13,14 +15,13 @@
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/body/rigid.h"
-#include "elastogear/dynamics/simulate.h"
+#include "elastogear/dynamics/static.h"
 #include "elastogear/io/body_file.h"
-#include "elastogear/io/result_file.h"
 
 namespace elastogear::app {
 namespace {
 
-const OptionTable kOptions = {
+const OptionTable kOwnTable = {
     {"bodies", "-", "", "names of the bodies; each has its own <body>_... keys"},
     {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
     {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
@@ -65,19 +66,28 @@ const OptionTable kOptions = {
      "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
      "(leaf-up from the deformed surface) or realign (hull points)"},
     {"contact_tangent", "-", "full", "contact tangent: full, or normal (without its geometric part)"},
-    {"inertia", "-", "linear", "what the inertia keeps of the deformation: constant or linear"},
-    {"analysis", "-", "dynamic", "dynamic"},
+    {"inertia", "-", "linear",
+     "what the inertia keeps of the deformation: constant, linear, or full (needs bodies "
+     "reduced with -invariants full)"},
+    {"analysis", "-", "dynamic",
+     "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
+     "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
+    {"static_steps", "-", "10", "load steps of a static analysis"},
+    {"rest_tolerance", "-", "1e-6", "relax: largest unbalanced share of the forces at rest"},
     {"ts_dt", "s", "", "time step"},
-    {"ts_max_time", "s", "", "end of the simulation"},
-    {"ts_alpha_radius", "-", "1", "spectral radius rho_inf of generalised-alpha, 1: no numerical damping"},
+    {"ts_max_time", "s", "",
+     "end of the simulation; static: time of loads and prescribed motions, without it loads take their last "
+     "value"},
+    {"ts_alpha_radius", "-", "",
+     "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: 1; relax: 0)"},
     {"output", "-", "", "result file to write (HDF5)"},
     {"output_every", "-", "1", "write every n-th step"},
 };
 
 OptionTable table() {
-  OptionTable table = kOptions;
-  const OptionTable markers = marker_table();
-  table.insert(table.end(), markers.begin(), markers.end());
+  OptionTable table = kOwnTable;
+  for (const OptionTable& more : {kept_run_table(), marker_table()})
+    table.insert(table.end(), more.begin(), more.end());
   return table;
 }
 
@@ -160,7 +170,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
 }
 
 dynamics::Environment environment(const Options& options) {
-  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear"})),
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
           options.vector("gravity")};
 }
 
@@ -199,16 +209,24 @@ std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::
   return setups;
 }
 
+enum class Analysis { dynamic, equilibrium, relax };
+
+Analysis analysis(const Options& options) {
+  return static_cast<Analysis>(options.choice("analysis", {"dynamic", "static", "relax"}));
+}
+
 dynamics::TimeSettings time_settings(const Options& options) {
   dynamics::TimeSettings time;
   time.dt = options.positive("ts_dt");
   time.end_time = options.positive("ts_max_time");
-  time.rho_inf = options.number("ts_alpha_radius");
+  time.settle = analysis(options) == Analysis::relax;
+  time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.settle ? 0 : 1;
+  time.rest_tolerance = options.positive("rest_tolerance");
   time.output_every = options.count("output_every", 1);
   return time;
 }
 
-void print_summary(const dynamics::RunSummary& run, const std::string& output) {
+void print_summary(const Options& options, const dynamics::RunSummary& run) {
   print_item("time steps",
              std::to_string(run.steps) + " (" + std::to_string(run.rejected_steps) + " rejected)");
   print_item("Newton iterations", std::to_string(run.newton_iterations));
@@ -217,37 +235,69 @@ void print_summary(const dynamics::RunSummary& run, const std::string& output) {
                                            with_unit(pair.peak_time, "s") + ", penetration " +
                                            with_unit(pair.penetration, "m"));
   print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
-  print_item("energy at the start", with_unit(run.initial_energy, "J"));
-  print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
+  if (analysis(options) == Analysis::relax)
+    print_item(run.at_rest ? "at rest after" : "warning",
+               run.at_rest ? with_unit(run.time, "s") : "not yet at rest");
+  if (analysis(options) == Analysis::dynamic) {
+    print_item("energy at the start", with_unit(run.initial_energy, "J"));
+    print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
+  }
   print_item("time", duration(run.wall_time));
-  print_item("written", output);
+  print_item("written", options.text("output"));
 }
 
-void run(const Options& options, const std::vector<std::string>&) {
-  const std::vector<std::string> names = options.list("bodies");
-  require(!names.empty(), "option -bodies is missing: names of the bodies");
-  options.reject_unknown(simulate_names(options));
-  options.choice("analysis", {"dynamic"});
-  const std::string output = options.text("output");
-  const dynamics::TimeSettings time = time_settings(options);
-  const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
-  const dynamics::Environment surroundings = environment(options);
-  const dynamics::MarkerSetups markers = marker_setups(options);
-  std::vector<dynamics::BodySetup> bodies;
-  for (const std::string& name : names) bodies.push_back(body_setup(options, name));
+// Load steps in place of time steps.
+void make_static(const Options& options, std::vector<dynamics::BodySetup>& bodies,
+                 dynamics::MarkerSetups& markers, dynamics::Environment& surroundings) {
+  constexpr double kLastValue = std::numeric_limits<double>::infinity();
+  const double time = options.given("ts_max_time") ? options.positive("ts_max_time") : kLastValue;
+  for (dynamics::BodySetup& setup : bodies) dynamics::scale_by_load_factor(setup, time);
+  dynamics::scale_by_load_factor(markers, time);
+  dynamics::scale_by_load_factor(surroundings);
+}
 
-  dynamics::System system(std::move(bodies), pairs, surroundings, markers);
+Computation computation(const Options& options, dynamics::System& system) {
+  if (analysis(options) == Analysis::equilibrium)
+    return
+        [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer, const auto&) {
+          return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress());
+        };
+  const dynamics::TimeSettings time = time_settings(options);
+  if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
+  return [&system, time](const auto& observer, const auto& checkpoints) {
+    return dynamics::simulate(system, time, guarded(system, observer), console_progress(), checkpoints);
+  };
+}
+
+model::ResultHeader header(const Options& options, const dynamics::System& system) {
   model::ResultHeader header = result_header(system);
   for (auto& body : header.bodies) {
     const std::string file = body.name + "_file";
     body.file = options.given(file) ? options.text(file) : "";
   }
   header.provenance = options.provenance();
-  io::ResultWriter writer(output, header);
-  const dynamics::RunSummary summary = dynamics::simulate(
-      system, time, [&](const model::Snapshot& snapshot) { writer.append(snapshot); }, console_progress());
-  writer.finish();
-  print_summary(summary, output);
+  return header;
+}
+
+void run(const Options& options, const std::vector<std::string>&) {
+  const std::vector<std::string> names = options.list("bodies");
+  require(!names.empty(), "option -bodies is missing: names of the bodies");
+  options.reject_unknown(simulate_names(options));
+  options.text("output");
+  if (analysis(options) != Analysis::equilibrium) time_settings(options);
+  const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
+  dynamics::Environment surroundings = environment(options);
+  dynamics::MarkerSetups markers = marker_setups(options);
+  std::vector<dynamics::BodySetup> bodies;
+  for (const std::string& name : names) bodies.push_back(body_setup(options, name));
+  std::map<std::string, std::string> inputs;
+  add_inputs(options, bodies, inputs);
+  if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, markers, surroundings);
+
+  dynamics::System system(std::move(bodies), pairs, surroundings, markers);
+  model::ResultHeader head = header(options, system);
+  head.provenance.merge(inputs);
+  print_summary(options, keep(options, head, computation(options, system)));
 }
 
 }  // namespace

@@ -46,8 +46,9 @@ Equations make_equations(std::shared_ptr<const model::ElasticBody> body, const J
   eq.joint = joint;
   eq.H = motion_subspace(joint);
   eq.level = level;
-  require(level != InertiaLevel::full || body->n_q() == 0 || !body->inertia.S_2.empty(), "body '", body->name,
-          "' lacks the second-order invariants that inertia level 'full' needs");
+  require(
+      level != InertiaLevel::full || body->n_q() == 0 || !body->inertia.S_2.empty(), "body '", body->name,
+      "' lacks the second-order invariants that inertia level 'full' needs: reduce it with -invariants full");
   if (body->n_q() == 0 && level == InertiaLevel::full) eq.level = InertiaLevel::linear;
   eq.J_1 =
       level == InertiaLevel::constant ? Eigen::MatrixXd(body->n_q(), 0) : inertia_derivatives(body->inertia);

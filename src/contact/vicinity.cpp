@@ -33,22 +33,37 @@ double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion
   return (dR * ball.centre + to.r - from.r).norm() + dR.norm() / std::sqrt(2.0) * ball.radius;
 }
 
-void add_nodes_to_place(const Candidates& candidates, int slave_side, const Topology* topology[2],
-                        const Eigen::Matrix4Xi* face[2], std::array<std::vector<int>, 2>& nodes) {
-  const int master = 1 - slave_side;
-  std::vector<int> faces;
-  for (int node : candidates.nodes()) {
-    add_ring(node, *topology[slave_side], *face[slave_side], nodes[slave_side]);
-    const auto near = candidates[node];
-    faces.insert(faces.end(), near.begin(), near.end());
+std::span<const int> Nearby::faces(std::size_t i) const {
+  const int begin = i == 0 ? 0 : end[i - 1];
+  return std::span(face).subspan(begin, end[i] - begin);
+}
+
+Nearby everything(const Candidates& candidates) {
+  Nearby all{candidates.nodes(), {}, {}};
+  for (int node : all.slave) {
+    const auto faces = candidates[node];
+    all.face.insert(all.face.end(), faces.begin(), faces.end());
+    all.end.push_back(static_cast<int>(all.face.size()));
   }
-  sort_unique(faces);
-  std::vector<int> corners;
-  for (int f : faces)
-    for (int node : face[master]->col(f)) corners.push_back(node);
+  return all;
+}
+
+std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,
+                              const Eigen::Matrix4Xi& face) {
+  std::vector<int> distinct(faces.begin(), faces.end()), corners;
+  sort_unique(distinct);
+  for (int f : distinct)
+    for (int node : face.col(f)) corners.push_back(node);
   sort_unique(corners);
-  for (int node : corners) add_ring(node, *topology[master], *face[master], nodes[master]);
-  for (auto& list : nodes) sort_unique(list);
+  return nodes_around_nodes(corners, topology, face);
+}
+
+std::vector<int> nodes_around_nodes(const std::vector<int>& nodes, const Topology& topology,
+                                    const Eigen::Matrix4Xi& face) {
+  std::vector<int> around;
+  for (int node : nodes) add_ring(node, topology, face, around);
+  sort_unique(around);
+  return around;
 }
 
 }  // namespace elastogear::contact

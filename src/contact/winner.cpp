@@ -98,9 +98,23 @@ std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& sl
     return normal(face, p.u, p.v).dot(n_slave) <= limits.cos_angle;
   };
   const bool settled = opposes(face_of(master, any.face), any.point);
-  const Nearest best = settled ? any : nearest(trial, opposes);
+  const auto all = [&] { return slave.all_faces ? slave.all_faces() : faces; };
+  const Nearest best = settled ? any : nearest({master, slave.x, limits.depth, all(), likely}, opposes);
   if (place(master, slave.x, best) != Place::inside) return {};
   return make_winner(master, slave.x, best);
+}
+
+Approach approach(const SurfaceView& master, const Eigen::Vector3d& x,
+                  const std::array<double, 2>& reach_and_limit, std::span<const int> faces) {
+  const auto [reach, limit] = reach_and_limit;
+  const Nearest any = nearest({master, x, reach, faces, -1}, [](auto&&...) { return true; });
+  if (!any.found()) return {std::numeric_limits<double>::infinity(), {}};
+  const double distance = std::sqrt(any.distance2);
+  Approach result{place(master, x, any) == Place::outside ? distance : 0, {}};
+  if (result.clearance > limit) return result;
+  for (int f : faces)  // the nearest moves away and another one comes nearer, by `limit` each
+    if (distance_bound(face_of(master, f), x) <= distance + 2 * limit) result.faces.push_back(f);
+  return result;
 }
 
 }  // namespace elastogear::contact

@@ -93,6 +93,8 @@ Drive speed_drive(double s_0, double v) {
   return {Drive::Type::speed, s_0, v, 0, {}, {}, {}};
 }
 
+Drive still_drive(double s_0, double v) { return {Drive::Type::still, s_0, v, 0, {}, {}, {}}; }
+
 Drive spin_up_drive(double s_0, double v, double duration) {
   require(std::isfinite(s_0) && std::isfinite(v), "prescribed start ", s_0, " and speed ", v,
           " must be finite");
@@ -114,6 +116,8 @@ Prescribed at(const Drive& drive, double t) {
       return spinning_up(drive, t);
     case Drive::Type::table:
       return on_spline(drive, t);
+    case Drive::Type::still:
+      return {drive.s_0 + drive.v * t, 0, 0};
   }
   fail("unknown type of drive");
 }

@@ -1,6 +1,7 @@
 #include "elastogear/dynamics/elastic_block.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "elastogear/base/error.h"
 #include "elastogear/body/tangent.h"
@@ -121,6 +122,7 @@ Eigen::MatrixXd ElasticBlock::solve(const Eigen::MatrixXd& Y) const {
 
 void ElasticBlock::reset_compliance() {
   kept_.clear();
+  batches_.clear();
   std::fill(slot_.begin(), slot_.end(), -1);
   G_ = columns_.U().transpose() * solve(columns_.U());
 }
@@ -128,6 +130,7 @@ void ElasticBlock::reset_compliance() {
 void ElasticBlock::add_to_compliance(const std::vector<int>& node) {
   const Eigen::Index before = G_.rows();
   const Eigen::MatrixXd X = solve(columns_.node_columns(node));
+  batches_.push_back(node);
   for (int i : node) {
     slot_[i] = static_cast<int>(kept_.size());
     kept_.push_back(i);
@@ -151,6 +154,22 @@ Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
   for (int i : node)
     for (Eigen::Index d = 0; d < 3; ++d) index.push_back(columns_.n_u() + 3 * slot_[i] + d);
   return G_(index, index);
+}
+
+void ElasticBlock::visit_memory(Tape& tape) {
+  double shift_v = shift_v_, shift_a = shift_a_;
+  std::vector<std::vector<int>> batches = batches_;
+  tape(shift_v);
+  tape(shift_a);
+  tape(batches);
+  if (!tape.plays() || std::isnan(shift_v)) return;
+  set_shifts(shift_v, shift_a);
+  for (const std::vector<int>& nodes : batches) {
+    for (int node : nodes)
+      require(node >= 0 && node < static_cast<int>(slot_.size()), "body '", body_->name,
+              "': the stored state names node ", node, " of a surface of ", slot_.size(), " nodes");
+    add_to_compliance(nodes);
+  }
 }
 
 }  // namespace elastogear::dynamics

@@ -97,4 +97,8 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
   return x;
 }
 
+void LowRankSolver::visit_memory(Tape& tape) {
+  for (ElasticBlock& block : block_) block.visit_memory(tape);
+}
+
 }  // namespace elastogear::dynamics

@@ -9,6 +9,7 @@ namespace {
 constexpr double kResidualTolerance = 1e-8;  // of the forces in balance
 constexpr double kLinearTolerance = 1e-10;   // where the solver is only a preconditioner
 constexpr int kNewtonLimit = 25;
+constexpr const char* kNotFinite = "the motion is not finite";
 constexpr double kDeepest = 0.9;  // share of the contact depth that may be used before a step is cut
 
 template <class Object>
@@ -19,8 +20,7 @@ Problem& context(Object object, PetscErrorCode (*get)(Object, void*)) {
 }
 
 // Makes SNES give the step up, so that it is cut.
-void set_inadmissible(Problem& problem, TS ts, const char* trouble) {
-  problem.trouble = trouble;
+void set_inadmissible(TS ts) {
   SNES snes = nullptr;
   check(TSGetSNES(ts, &snes));
   check(SNESSetFunctionDomainError(snes));
@@ -30,14 +30,12 @@ PetscErrorCode function(TS ts, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* ct
   auto& problem = *static_cast<Problem*>(ctx);
   return guard(problem.pending, [&] {
     const ReadView u(U), v(V), a(A);
-    if (!(*u).allFinite() || !(*v).allFinite() || !(*a).allFinite())
-      return set_inadmissible(problem, ts, "the motion is not finite");
-    if (problem.system.depth_share(t, *u) > kDeepest)
-      return set_inadmissible(problem, ts, "bodies penetrate each other by nearly the contact depth");
+    problem.trouble = (*v).allFinite() && (*a).allFinite() ? "" : kNotFinite;
+    if (!problem.trouble.empty() || !is_admissible(problem, t, *u)) return set_inadmissible(ts);
     problem.residual = problem.system.residual({t, *u, *v, *a});
-    if (!problem.residual.F.allFinite()) return set_inadmissible(problem, ts, "forces are not finite");
-    problem.trouble.clear();
-    assign(F, problem.residual.F);
+    if (problem.residual.F.allFinite()) return assign(F, problem.residual.F);
+    problem.trouble = "forces are not finite";
+    set_inadmissible(ts);
   });
 }
 
@@ -47,10 +45,7 @@ PetscErrorCode jacobian(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v,
   return guard(problem.pending, [&] {
     const ReadView u(U), v(V), a(A);
     problem.solver.set(problem.system.effective_matrix({t, *u, *v, *a}, {shift_v, shift_a}));
-    for (Mat matrix : {J, P}) {
-      check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-      check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-    }
+    assemble(J, P);
   });
 }
 
@@ -81,12 +76,19 @@ PetscErrorCode converged(SNES snes, PetscInt, PetscReal, PetscReal, PetscReal no
   return 0;
 }
 
-void set_solvers(Problem& problem, TS ts) {
-  SNES snes = nullptr;
+}  // namespace
+
+double imbalance(const Residual& r) {
+  double share = 0;
+  for (Eigen::Index i = 0; i < r.norm.size(); ++i)
+    if (r.scale[i] > 0) share = std::max(share, r.norm[i] / r.scale[i]);
+  return share;
+}
+
+void set_solvers(Problem& problem, SNES snes) {
   KSP ksp = nullptr;
   PC pc = nullptr;
   SNESLineSearch search = nullptr;
-  check(TSGetSNES(ts, &snes));
   check(SNESSetConvergenceTest(snes, converged, &problem, nullptr));
   check(
       SNESSetTolerances(snes, PETSC_DEFAULT, kResidualTolerance, PETSC_DEFAULT, kNewtonLimit, PETSC_DEFAULT));
@@ -103,15 +105,35 @@ void set_solvers(Problem& problem, TS ts) {
   check(PCShellSetName(pc, "low-rank solver"));
 }
 
-}  // namespace
+void assemble(Mat J, Mat P) {
+  for (Mat matrix : {J, P}) {
+    check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+  }
+}
 
-void attach(Problem& problem, TS ts, UniqueMat& J) {
+bool is_admissible(Problem& problem, double time, ConstVector U) {
+  problem.trouble.clear();
+  if (!U.allFinite())
+    problem.trouble = kNotFinite;
+  else if (problem.system.depth_share(time, U) > kDeepest)
+    problem.trouble = "bodies penetrate each other by nearly the contact depth";
+  return problem.trouble.empty();
+}
+
+void make_matrix(Problem& problem, UniqueMat& J) {
   const auto n = static_cast<PetscInt>(problem.system.size());
   check(MatCreateShell(PETSC_COMM_SELF, n, n, n, n, &problem, J.out()));
   check(MatShellSetOperation(J, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+}
+
+void attach(Problem& problem, TS ts, UniqueMat& J) {
+  SNES snes = nullptr;
+  make_matrix(problem, J);
   check(TSSetI2Function(ts, nullptr, function, &problem));
   check(TSSetI2Jacobian(ts, J, J, jacobian, &problem));
-  set_solvers(problem, ts);
+  check(TSGetSNES(ts, &snes));
+  set_solvers(problem, snes);
 }
 
 }  // namespace elastogear::dynamics

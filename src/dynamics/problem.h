@@ -20,4 +20,14 @@ struct Problem {
 /// Sets F, its Jacobian, the convergence test and the solvers of a TS whose type is known. `J` is created.
 void attach(Problem& problem, TS ts, UniqueMat& J);
 
+/// The same in parts. A shell matrix for the solver's products:
+void make_matrix(Problem& problem, UniqueMat& J);
+/// The convergence test by blocks, and the exact solver as preconditioner.
+void set_solvers(Problem& problem, SNES snes);
+void assemble(Mat J, Mat P);
+/// Largest norm of a block over the sum of the norms of its forces: 0 in balance, at most 1.
+double imbalance(const Residual& r);
+/// Can forces be computed there? If not, `trouble` says why.
+bool is_admissible(Problem& problem, double time, ConstVector U);
+
 }  // namespace elastogear::dynamics

@@ -1,33 +1,16 @@
 #include "elastogear/dynamics/simulate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "elastogear/base/error.h"
 #include "elastogear/contact/initial_overlap.h"
 #include "elastogear/dynamics/generalized_alpha.h"
-#include "elastogear/dynamics/snapshot.h"
-#include "problem.h"
+#include "run.h"
 #include "vec_view.h"
 
 namespace elastogear::dynamics {
 namespace {
-
-struct Run {
-  Run(System& system, const TimeSettings& s, const Observer& o, const Progress& p)
-      : problem(system), settings(s), observer(o), progress(p) {}
-
-  Problem problem;
-  const TimeSettings& settings;
-  const Observer& observer;
-  const Progress& progress;
-  EnergyLedger ledger;
-  model::Snapshot last;
-  bool last_observed = false;
-  double nominal_dt = 0;  // s, at the start
-  RunSummary summary;
-};
 
 void validate(const TimeSettings& settings) {
   require(std::isfinite(settings.dt) && settings.dt > 0, "time step dt = ", settings.dt,
@@ -36,7 +19,13 @@ void validate(const TimeSettings& settings) {
           " s must be positive");
   require(settings.rho_inf >= 0 && settings.rho_inf <= 1, "rho_inf = ", settings.rho_inf,
           " must lie in 0..1");
+  require(settings.rest_tolerance > 0, "rest tolerance ", settings.rest_tolerance, " must be positive");
   require(settings.output_every >= 1, "output_every = ", settings.output_every, " must be at least 1");
+}
+
+void validate(const Checkpoints& checkpoints) {
+  require(checkpoints.every >= 0, "time between two checkpoints ", checkpoints.every,
+          " s must not be negative");
 }
 
 void require_tables_cover(const System& system, double end_time) {
@@ -45,56 +34,42 @@ void require_tables_cover(const System& system, double end_time) {
   system.marker_forces().require_tables_cover(end_time);
 }
 
-void require_bodies_apart(System& system) {
-  for (const PairSetup& pair : system.pairs()) {
-    const int a = pair.body[0], b = pair.body[1];
-    const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
-    const auto state = [&](int i) {
-      return contact::surface_state(surface(i), system.surface_motion(i, 0, system.initial_position()));
-    };
-    contact::require_apart(
-        contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b)), pair.name);
-  }
-}
-
-void update(RunSummary& summary, const model::Snapshot& snapshot) {
-  int contacts = 0;
-  for (std::size_t p = 0; p < snapshot.pairs.size(); ++p) {
-    const model::PairState& pair = snapshot.pairs[p];
-    PairSummary& entry = summary.pair[p];
-    contacts += pair.count;
-    entry.penetration = std::max(entry.penetration, pair.penetration);
-    if (pair.force.norm() > entry.peak_force) {
-      entry.peak_force = pair.force.norm();
-      entry.peak_time = snapshot.time;
-    }
-  }
-  summary.most_contacts = std::max(summary.most_contacts, contacts);
-  summary.largest_imbalance = std::max(summary.largest_imbalance, std::abs(snapshot.energy.balance));
-}
-
 void observe(Run& run) {
   if (run.observer) run.observer(run.last);
   run.last_observed = true;
 }
 
+void enter_state(Run& run, TS ts, PetscInt step, PetscReal time) {
+  Vec U = nullptr, V = nullptr, A = nullptr;
+  generalized_alpha_state(ts, &U, &V, &A);
+  const ReadView u(U), v(V), a(A);
+  run.last = snapshot(run.problem.system, {time, *u, *v, *a});
+  run.ledger.enter(run.problem.system, run.last);
+  run.last_observed = false;
+  const model::Energies& energy = run.last.energy;
+  if (step == 0)
+    run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact + energy.bushing;
+  update(run.summary, run.last);
+  if (step % run.settings.output_every == 0) observe(run);
+}
+
+// After everything else that happens between two steps.
+void keep_if_due(Run& run, TS ts, PetscReal time) {
+  PetscReal end = 0;
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  check(TSGetMaxTime(ts, &end));
+  check(TSGetConvergedReason(ts, &reason));
+  const bool stopped = reason == TS_CONVERGED_USER, goes_on = reason == TS_CONVERGED_ITERATING && time < end;
+  report(run.progress, "simulate", goes_on || stopped ? time / end : 1);
+  if (stopped || (goes_on && seconds_since(run.kept) >= run.checkpoints.every)) keep_state(run, ts);
+}
+
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
   auto& run = *static_cast<Run*>(ctx);
+  if (step == run.first_step) return 0;  // entered before the run was interrupted
   return guard(run.problem.pending, [&] {
-    Vec U = nullptr, V = nullptr, A = nullptr;
-    PetscReal end = 0;
-    generalized_alpha_state(ts, &U, &V, &A);
-    const ReadView u(U), v(V), a(A);
-    run.last = snapshot(run.problem.system, {time, *u, *v, *a});
-    run.ledger.enter(run.problem.system, run.last);
-    run.last_observed = false;
-    const model::Energies& energy = run.last.energy;
-    if (step == 0)
-      run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact + energy.bushing;
-    update(run.summary, run.last);
-    if (step % run.settings.output_every == 0) observe(run);
-    check(TSGetMaxTime(ts, &end));
-    report(run.progress, "simulate", std::min(1.0, time / end));
+    enter_state(run, ts, step, time);
+    keep_if_due(run, ts, time);
   });
 }
 
@@ -109,12 +84,21 @@ PetscErrorCode recover_dt(TS ts) {
   PetscCall(TSGetAdapt(ts, &adapt));
   PetscCall(PetscObjectTypeCompare((PetscObject)adapt, TSADAPTNONE, &fixed));
   PetscCall(TSGetStepRejections(ts, &rejected));
+  rejected += run->summary.rejected_steps;
   PetscCall(TSGetTime(ts, &time));
   PetscCall(TSGetMaxTime(ts, &end));
   PetscCall(TSGetTimeStep(ts, &dt));
   if (fixed && rejected > 0 && dt < run->nominal_dt && time < end)
     PetscCall(TSSetTimeStep(ts, std::min({2 * dt, run->nominal_dt, end - time})));
   return 0;
+}
+
+// The monitor could not: a step clears the reason.
+void stop_if_asked(const Run& run, TS ts) {
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  if (!run.checkpoints.stop || !run.checkpoints.stop()) return;
+  check(TSGetConvergedReason(ts, &reason));
+  if (reason == TS_CONVERGED_ITERATING) check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
 }
 
 // Rotation vectors of free bodies begin at zero in every step.
@@ -130,15 +114,12 @@ void rebase(System& system, TS ts) {
 PetscErrorCode post_step(TS ts) {
   Run* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
-  PetscCall(guard(run->problem.pending, [&] { rebase(run->problem.system, ts); }));
+  PetscCall(guard(run->problem.pending, [&] {
+    rebase(run->problem.system, ts);
+    if (run->settings.settle) settle(*run, ts);
+    stop_if_asked(*run, ts);
+  }));
   return recover_dt(ts);
-}
-
-UniqueVec vector(const Eigen::VectorXd& values) {
-  UniqueVec vec;
-  check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(values.size()), vec.out()));
-  assign(vec, values);
-  return vec;
 }
 
 void set_time(TS ts, const TimeSettings& settings) {
@@ -170,7 +151,7 @@ UniqueTS make_ts(Run& run, UniqueMat& J) {
   return ts;
 }
 
-void finish(Run& run, TS ts) {
+void require_solved(const Run& run, TS ts) {
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   PetscReal time = 0, dt = 0;
   check(TSGetConvergedReason(ts, &reason));
@@ -179,34 +160,101 @@ void finish(Run& run, TS ts) {
   const std::string& trouble = run.problem.trouble;
   require(reason > 0, "the step at t = ", time, " s cannot be solved, not even with dt cut to ", dt,
           " s: ", trouble.empty() ? "Newton's method does not converge" : trouble, " (",
-          TSConvergedReasons[reason], ")");
+          TSConvergedReasons[reason], "). Try a smaller time step",
+          run.summary.pair.empty() ? "" : ", a softer contact or a larger contact depth");
+}
+
+void solve(Run& run, TS ts, Vec U) {
+  try {
+    check(TSSolve(ts, U), run.problem.pending);
+    require_solved(run, ts);
+  } catch (const Error&) {
+    if (run.ledger.has_entries()) keep_state(run, ts);
+    if (!run.last_observed) observe(run);
+    throw;
+  }
+  if (!run.last_observed) observe(run);
+}
+
+void finish(Run& run, TS ts) {
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
   PetscInt steps = 0, rejected = 0, newton = 0;
+  check(TSGetConvergedReason(ts, &reason));
+  check(TSGetTime(ts, &run.summary.time));
   check(TSGetStepNumber(ts, &steps));
   check(TSGetStepRejections(ts, &rejected));
   check(TSGetSNESIterations(ts, &newton));
+  run.summary.complete = reason != TS_CONVERGED_USER;
   run.summary.steps = steps;
-  run.summary.rejected_steps = rejected;
-  run.summary.newton_iterations = newton;
+  run.summary.rejected_steps += rejected;
+  run.summary.newton_iterations += newton;
+  run.summary.wall_time += seconds_since(run.start);
+}
+
+void go_on_from(Run& run, TS ts, const std::vector<double>& state) {
+  Tape tape(state);
+  visit_state(run, ts, tape);
+  tape.finish();
 }
 
 }  // namespace
 
+void require_bodies_apart(System& system) {
+  for (const PairSetup& pair : system.pairs()) {
+    const int a = pair.body[0], b = pair.body[1];
+    const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
+    const auto state = [&](int i) {
+      return contact::surface_state(surface(i), system.surface_motion(i, 0, system.initial_position()));
+    };
+    contact::require_apart(
+        contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b)), pair.name);
+  }
+}
+
+RunSummary new_summary(const System& system) {
+  RunSummary summary;
+  for (const PairSetup& pair : system.pairs()) summary.pair.push_back({pair.name});
+  return summary;
+}
+
+void update(RunSummary& summary, const model::Snapshot& snapshot) {
+  int contacts = 0;
+  for (std::size_t p = 0; p < snapshot.pairs.size(); ++p) {
+    const model::PairState& pair = snapshot.pairs[p];
+    PairSummary& entry = summary.pair[p];
+    contacts += pair.count;
+    entry.penetration = std::max(entry.penetration, pair.penetration);
+    if (pair.force.norm() > entry.peak_force) {
+      entry.peak_force = pair.force.norm();
+      entry.peak_time = snapshot.time;
+    }
+  }
+  summary.most_contacts = std::max(summary.most_contacts, contacts);
+  summary.largest_imbalance = std::max(summary.largest_imbalance, std::abs(snapshot.energy.balance));
+}
+
+UniqueVec vector(const Eigen::VectorXd& values) {
+  UniqueVec vec;
+  check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(values.size()), vec.out()));
+  assign(vec, values);
+  return vec;
+}
+
 RunSummary simulate(System& system, const TimeSettings& settings, const Observer& observer,
-                    const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
+                    const Progress& progress, const Checkpoints& checkpoints) {
   validate(settings);
+  validate(checkpoints);
   require_tables_cover(system, settings.end_time);
-  require_bodies_apart(system);
-  Run run(system, settings, observer, progress);
-  for (const PairSetup& pair : system.pairs()) run.summary.pair.push_back({pair.name});
+  if (checkpoints.state.empty()) require_bodies_apart(system);
+  Run run(system, settings, observer, progress, checkpoints);
+  run.summary = new_summary(system);
   UniqueMat J;
   const UniqueTS ts = make_ts(run, J);
   const UniqueVec U = vector(system.initial_position()), V = vector(system.initial_velocity());
   check(TS2SetSolution(ts, U, V));
-  check(TSSolve(ts, U), run.problem.pending);
-  if (!run.last_observed) observe(run);
+  if (!checkpoints.state.empty()) go_on_from(run, ts, checkpoints.state);
+  solve(run, ts, U);
   finish(run, ts);
-  run.summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run.summary;
 }
 

@@ -146,4 +146,22 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
   loads_ = snapshot.loads;
 }
 
+void EnergyLedger::visit_memory(Tape& tape) {
+  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_0_, &time_}) tape(*x);
+  tape.each(bodies_, [&](model::BodyState& body) {
+    tape(body.r_WB);
+    tape(body.R_WB);
+    for (Eigen::VectorXd* x :
+         {&body.s, &body.s_dot, &body.s_ddot, &body.q, &body.q_dot, &body.q_ddot, &body.joint_force})
+      tape(*x);
+  });
+  tape.each(bushings_, [&](model::BushingState& b) {
+    for (Eigen::Vector3d* x : {&b.displacement, &b.velocity, &b.angle, &b.rate, &b.force, &b.torque})
+      tape(*x);
+  });
+  tape.each(loads_, [&](model::LoadState& load) {
+    for (Eigen::Vector3d* x : {&load.force, &load.torque, &load.x, &load.w}) tape(*x);
+  });
+}
+
 }  // namespace elastogear::dynamics

@@ -198,6 +198,12 @@ void keep_open(BodyTerms& terms, const std::vector<Eigen::Index>& open) {
 
 }  // namespace
 
+Eigen::Vector3d gravity(const Environment& environment, double time) {
+  const double rise = environment.gravity_rise;
+  return rise > 0 ? Eigen::Vector3d(std::clamp(time / rise, 0.0, 1.0) * environment.gravity)
+                  : environment.gravity;
+}
+
 System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment,
                const MarkerSetups& markers)
     : environment_(environment) {
@@ -338,7 +344,7 @@ body::Force System::balance(std::size_t b, const State& x, const body::Force& ma
   const body::Motion m = motion(b, x);
   const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
                     inner = body::inner_force(body.eq, m),
-                    weight = body::gravity_force(body.eq, m, environment_.gravity),
+                    weight = body::gravity_force(body.eq, m, gravity(environment_, x.time)),
                     touch = contact_force(body.eq, contacts(x.time, x.U).force[b]);
   const Terms s{inertia.s, -quadratic.s, -touch.s, -weight.s, -marker_force.s, -load(body, x.time, m.s_dot)},
       q{inertia.q, inner.q, -quadratic.q, -touch.q, -weight.q, -marker_force.q};
@@ -385,8 +391,8 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     const body::FrameDerivative d = body::frame_derivative(eq.joint, eq.H, {m.s, m.s_dot, m.s_ddot}, shift);
     twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s())});
     twists.back().P << d.r, d.theta;
-    matrix.body.push_back(
-        body_terms(body::tangent(eq, m, environment_.gravity, shift), marker_forces_.row_count(b), node));
+    matrix.body.push_back(body_terms(body::tangent(eq, m, gravity(environment_, x.time), shift),
+                                     marker_forces_.row_count(b), node));
     matrix.body.back().C.diagonal() += shift.v * load_rate(bodies_[b], m.s_dot);
     add_geometric_stiffness(twists.back(), contact.force[b], matrix.body.back());
   }
@@ -406,6 +412,15 @@ bool System::rebase(Eigen::Ref<Eigen::VectorXd> U) {
   }
   if (any) U_of_state_.reset();
   return any;
+}
+
+void System::visit_memory(Tape& tape) {
+  for (Body& body : bodies_) {
+    tape(body.eq.joint.r_WB0);
+    tape(body.eq.joint.R_WB0);
+  }
+  for (contact::Pair& pair : detectors_) pair.visit_memory(tape);
+  if (tape.plays()) U_of_state_.reset();
 }
 
 model::ResultHeader result_header(const System& system) {

@@ -3,14 +3,10 @@
 #include <algorithm>
 
 #include "elastogear/fem/element.h"
+#include "spd_matrix.h"
 
 namespace elastogear::fem {
 namespace {
-
-// Number of blocks in each owned block row: in columns of this rank, and in columns of others.
-struct BlockCounts {
-  std::vector<PetscInt> diagonal, other;
-};
 
 // Per owned block row the cells at its node.
 std::vector<std::vector<int>> cells_of_rows(const Share& share) {
@@ -39,19 +35,6 @@ BlockCounts count_blocks(const Share& share) {
     counts.other.push_back(static_cast<PetscInt>(columns.size()) - counts.diagonal.back());
   }
   return counts;
-}
-
-UniqueMat create_matrix(MPI_Comm comm, const Share& share, const BlockCounts& counts) {
-  UniqueMat A;
-  const PetscInt n = 3 * (share.row_end - share.row_begin);
-  check(MatCreate(comm, A.out()));
-  check(MatSetSizes(A, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
-  check(MatSetType(A, MATAIJ));
-  check(MatXAIJSetPreallocation(A, 3, counts.diagonal.data(), counts.other.data(), nullptr, nullptr));
-  check(MatSetOption(A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
-  check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
-  check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
-  return A;
 }
 
 // Block columns of a cell, and its block rows with those of other ranks masked by -1 (PETSc skips them).
@@ -84,18 +67,13 @@ void add(Mat A, const CellRows& rows, const Eigen::MatrixXd& A_e) {
   check(MatSetValuesBlocked(A, n, rows.row.data(), n, rows.column.data(), A_e.data(), ADD_VALUES));
 }
 
-void finish(Mat A) {
-  check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
-}
-
 }  // namespace
 
 Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::MaterialRegion>& regions,
                   model::Element element, const Progress& progress) {
   constexpr int kReportEvery = 4096;
   const BlockCounts counts = count_blocks(share);
-  Matrices matrices{create_matrix(comm, share, counts), create_matrix(comm, share, counts)};
+  Matrices matrices{create_spd_matrix(comm, 3, counts), create_spd_matrix(comm, 3, counts)};
   const int n_cells = share.mesh.cells.size();
   std::vector<Elasticity> elasticities;
   for (const auto& region : regions) elasticities.push_back(elasticity(region.material));
@@ -109,8 +87,8 @@ Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::Ma
     add(matrices.K, rows, functions.stiffness(X, elasticities[region], element));
     add(matrices.M, rows, in_three_directions(functions.mass(X, regions[region].material.rho)));
   }
-  finish(matrices.K);
-  finish(matrices.M);
+  finish_assembly(matrices.K);
+  finish_assembly(matrices.M);
   report(progress, "assembly", 1);
   return matrices;
 }

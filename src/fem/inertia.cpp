@@ -11,6 +11,22 @@ Eigen::Map<const Eigen::Matrix3Xd> by_node(const Eigen::VectorXd& phi) {
 
 }  // namespace
 
+model::SparseRows scalar_mass(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions) {
+  const std::vector<int> region = cell_regions(mesh, regions);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto nodes = mesh.cells[cell];
+    const auto& functions = element_functions(mesh.cells.type[cell]);
+    const Eigen::MatrixXd M_e =
+        functions.mass(cell_coordinates(mesh, cell), regions[region[cell]].material.rho);
+    for (int a = 0; a < M_e.rows(); ++a)
+      for (int b = 0; b < M_e.cols(); ++b) entries.emplace_back(nodes[a], nodes[b], M_e(a, b));
+  }
+  model::SparseRows M_s(mesh.n_nodes(), mesh.n_nodes());
+  M_s.setFromTriplets(entries.begin(), entries.end());
+  return M_s;
+}
+
 MassMoments mass_moments(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions) {
   const std::vector<int> region = cell_regions(mesh, regions);
   MassMoments moments{Eigen::VectorXd::Zero(mesh.n_nodes()), Eigen::Matrix3Xd::Zero(3, mesh.n_nodes())};

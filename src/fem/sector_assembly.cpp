@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elastogear/fem/element.h"
+#include "spd_matrix.h"
 
 namespace elastogear::fem {
 namespace {
@@ -10,8 +11,8 @@ namespace {
 using Eigen::MatrixXd;
 
 struct Rows {
-  int begin, end;                         // orbits whose rows this rank owns
-  std::vector<PetscInt> diagonal, other;  // entries of each own row in own columns and in others
+  int begin, end;     // orbits whose rows this rank owns
+  BlockCounts count;  // of single entries
 };
 
 // Own orbits with the orbits beside them.
@@ -33,7 +34,7 @@ std::vector<std::vector<int>> neighbours(const Sector& sector, int begin, int en
 
 Rows count_entries(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic) {
   const auto [begin, end] = own_orbits(comm, sector);
-  Rows rows{begin, end, {}, {}};
+  Rows rows{begin, end, {}};
   const auto width = [&](std::size_t orbit) { return harmonic.first[orbit + 1] - harmonic.first[orbit]; };
   int orbit = begin;
   for (const auto& near : neighbours(sector, begin, end)) {
@@ -42,23 +43,10 @@ Rows count_entries(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic
       all += width(other);
       if (other >= begin && other < end) own += width(other);
     }
-    rows.diagonal.insert(rows.diagonal.end(), width(orbit), own);
-    rows.other.insert(rows.other.end(), width(orbit++), all - own);
+    rows.count.diagonal.insert(rows.count.diagonal.end(), width(orbit), own);
+    rows.count.other.insert(rows.count.other.end(), width(orbit++), all - own);
   }
   return rows;
-}
-
-UniqueMat create_matrix(MPI_Comm comm, const Rows& rows) {
-  UniqueMat A;
-  const auto n = static_cast<PetscInt>(rows.diagonal.size());
-  check(MatCreate(comm, A.out()));
-  check(MatSetSizes(A, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
-  check(MatSetType(A, MATAIJ));
-  check(MatXAIJSetPreallocation(A, 1, rows.diagonal.data(), rows.other.data(), nullptr, nullptr));
-  check(MatSetOption(A, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
-  check(MatSetOption(A, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
-  check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
-  return A;
 }
 
 // Q of a cell: displacements of its nodes from the coordinates of their orbits, and where these are.
@@ -123,11 +111,6 @@ void add(Mat A, const CellBasis& basis, const MatrixXd& A_e) {
   check(MatSetValues(A, n, basis.row.data(), n, basis.column.data(), A_e.data(), ADD_VALUES));
 }
 
-void finish(Mat A) {
-  check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
-}
-
 }  // namespace
 
 std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector) {
@@ -141,7 +124,7 @@ std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector) {
 Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
                   const std::vector<model::MaterialRegion>& regions, model::Element element) {
   const Rows rows = count_entries(comm, sector, harmonic);
-  Matrices matrices{create_matrix(comm, rows), create_matrix(comm, rows)};
+  Matrices matrices{create_spd_matrix(comm, 1, rows.count), create_spd_matrix(comm, 1, rows.count)};
   for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
     const CellBasis basis = cell_basis(sector, harmonic, rows, cell);
     const auto is_own = [](PetscInt row) { return row >= 0; };
@@ -162,8 +145,8 @@ Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
     add(matrices.K, basis, project(basis, stiffness));
     add(matrices.M, basis, project(basis, mass));
   }
-  finish(matrices.K);
-  finish(matrices.M);
+  finish_assembly(matrices.K);
+  finish_assembly(matrices.M);
   return matrices;
 }
 

@@ -64,6 +64,21 @@ model::BasisRows read_rows(const h5::File& file, const std::string& name, int bl
                                                static_cast<Eigen::Index>(shape[2])));
 }
 
+void write_matrix(const h5::File& file, const std::string& name, const model::BasisRows& matrix,
+                  const std::string& unit) {
+  if (const auto* sparse = std::get_if<SparseRows>(&matrix)) return write_sparse(file, name, *sparse, unit);
+  const auto& dense = std::get<DenseRows>(matrix);
+  h5::write<double>(file, name, {{extent(dense.rows()), extent(dense.cols())}, dense.data()}, unit);
+}
+
+model::BasisRows read_matrix(const h5::File& file, const std::string& name) {
+  if (is_group(file, name)) return read_sparse(file, name);
+  const auto values = h5::read<double>(file, name, {h5::kAny, h5::kAny});
+  const h5::Shape shape = h5::shape(file, name);
+  return DenseRows(Eigen::Map<const DenseRows>(values.data(), static_cast<Eigen::Index>(shape[0]),
+                                               static_cast<Eigen::Index>(shape[1])));
+}
+
 void write_square(const h5::File& file, const std::string& name, const Eigen::SparseMatrix<double>& A,
                   const std::pair<model::Basis, std::string>& basis_and_unit) {
   const auto& [basis, unit] = basis_and_unit;

@@ -17,6 +17,11 @@ void write_sparse(const h5::File& file, const std::string& group, const model::S
 /// Error unless the rows are consistent, with ascending column numbers in range.
 model::SparseRows read_sparse(const h5::File& file, const std::string& group);
 
+/// One matrix, dense as a dataset of rows x columns or sparse as a group.
+void write_matrix(const h5::File& file, const std::string& name, const model::BasisRows& matrix,
+                  const std::string& unit);
+model::BasisRows read_matrix(const h5::File& file, const std::string& name);
+
 /// n_q x n_q, dense and compressed for a modal basis, sparse for the full basis.
 void write_square(const h5::File& file, const std::string& name, const Eigen::SparseMatrix<double>& A,
                   const std::pair<model::Basis, std::string>& basis_and_unit);

@@ -27,6 +27,9 @@ model::Inertia read_inertia(const h5::File& file, Eigen::Index n_q) {
   inertia.C_r = read_coupling(file, "/reduced/C_r", n_q);
   const auto S_1 = h5::read<double>(file, "/reduced/S_1", {extent(n_q), 3, 3});
   inertia.S_1 = Eigen::Map<const Eigen::Matrix<double, 9, Eigen::Dynamic>>(S_1.data(), 9, n_q);
+  if (h5::exists(file, "/reduced/S_2"))
+    for (const char* moment : kMoments)
+      inertia.S_2.push_back(read_matrix(file, std::string("/reduced/S_2/") + moment));
   return inertia;
 }
 

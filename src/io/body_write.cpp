@@ -11,6 +11,13 @@ namespace {
 
 using model::Basis;
 
+void write_second_moments(const h5::File& file, const model::Inertia& inertia, const BodyUnits& unit) {
+  if (inertia.S_2.empty()) return;
+  h5::make_group(file, "/reduced/S_2");
+  for (std::size_t i = 0; i < inertia.S_2.size(); ++i)
+    write_matrix(file, std::string("/reduced/S_2/") + kMoments[i], inertia.S_2[i], unit.S_2);
+}
+
 void write_inertia(const h5::File& file, const model::Inertia& inertia, const BodyUnits& unit) {
   h5::write<double>(file, "/rigid/mass", view(inertia.m), "kg");
   h5::write<double>(file, "/rigid/center", {{3}, inertia.c.data()}, "m");
@@ -20,6 +27,7 @@ void write_inertia(const h5::File& file, const model::Inertia& inertia, const Bo
   h5::write<double>(file, "/reduced/C_l", {{n_q, 3}, C_l.data()}, unit.C_l);
   h5::write<double>(file, "/reduced/C_r", {{n_q, 3}, C_r.data()}, unit.C_r);
   h5::write<double>(file, "/reduced/S_1", {{n_q, 3, 3}, inertia.S_1.data()}, unit.S_1);
+  write_second_moments(file, inertia, unit);
 }
 
 void write_surface(const h5::File& file, const model::Surface& surface, const BodyUnits& unit) {

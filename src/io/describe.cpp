@@ -101,6 +101,7 @@ void describe_inertia(Out& out, const model::Inertia& inertia) {
   line(out, "mass: ", inertia.m, " kg");
   line(out, "centre of mass: (", inertia.c.transpose(), ") m, body frame");
   line(out, "inertia about the origin: [", inertia.J.format(kRow), "] kg m^2");
+  if (!inertia.S_2.empty()) line(out, "invariants: full");
 }
 
 void describe_modes(Out& out, const std::string& path, const model::ElasticBody& body) {
@@ -187,6 +188,7 @@ void describe_result(Out& out, const std::string& path) {
   const model::ResultHeader header = read_result_header(path);
   const Eigen::VectorXd time = read_times(path);
   describe_times(out, path, time);
+  if (!is_complete(path)) line(out, "incomplete: the run has not reached its end");
   for (const auto& body : header.bodies) {
     const h5::Shape q = h5::shape(h5::open(path), "/bodies/" + body.name + "/q");
     line(out, "body ", body.name, ": ", body.file, ", joint ", body.joint, ", ",

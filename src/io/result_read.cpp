@@ -80,6 +80,11 @@ model::ResultHeader read_result_header(const std::string& path) {
   return header;
 }
 
+bool is_complete(const std::string& path) {
+  const h5::File file = open_format(path, kResultFormat);
+  return H5Aexists(file.id, "complete") <= 0 || h5::int_attribute(file, "/", "complete").front() != 0;
+}
+
 Eigen::VectorXd read_times(const std::string& path) {
   return read_vector(open_format(path, kResultFormat), "/time");
 }

@@ -167,19 +167,27 @@ Cutoff choose_cutoff(const Search& search) {
 std::optional<HarmonicModes> recall(const Search& search, int k, double sigma) {
   std::optional<HarmonicModes> known;
   if (!search.options.known) return known;
-  if (search.group->first) known = search.options.known(k, sigma);
+  agree(search.group->comm, [&] {
+    if (search.group->first) known = search.options.known(k, sigma);
+  });
   int is_known = known.has_value();
   MPI_Bcast(&is_known, 1, MPI_INT, 0, search.group->comm);
   if (is_known && !known) known.emplace();
   return known;
 }
 
+void keep(const Search& search, int k) {
+  if (!search.options.done) return;
+  agree(search.group->comm, [&] {
+    if (search.group->first) search.options.done(search.modes[k]);
+  });
+}
+
 HarmonicModes solve(const Search& search, int k, const Cutoff& cutoff, const Progress& progress) {
   EigenOptions options = search.options.eigen;
   options.n_modes = cutoff.count[k];
   options.window = std::min(options.window > 0 ? options.window : kWindow, options.n_modes + options.block);
-  options.verify_count = false;  // counted already
-  options.whole_pairs = false;   // the cutoff cuts none
+  options.whole_pairs = false;  // the cutoff cuts none
   const fem::Matrices matrices = search.assemble(k);
   const int first_orbit = fem::own_orbits(search.group->comm, search.sector).first;
   HarmonicModes modes = find_harmonic_modes(matrices, search.harmonics[k], first_orbit, options, progress);
@@ -202,7 +210,7 @@ void solve_all(Search& search, const Cutoff& cutoff) {
       };
       auto known = recall(search, k, cutoff.sigma);
       search.modes[k] = known ? std::move(*known) : solve(search, k, cutoff, progress);
-      if (!known && search.group->first && search.options.done) search.options.done(search.modes[k]);
+      if (!known) keep(search, k);
     }
   });
 }

@@ -83,12 +83,17 @@ void measure_all(const Problem& problem, const MatrixXd& Z, HarmonicModes& modes
 
 // |z_i^H M_k z_j|, i != j.
 double largest_product(const Problem& problem, const MatrixXd& Z) {
-  const Mat M = problem.matrices.M;
-  MatrixXcd gram = problem.harmonic.real
-                       ? MatrixXcd(sum_over_ranks(comm_of(M), Z.transpose() * BlockProduct(M)(Z)))
-                       : complex_gram(M, problem, Z);
+  MatrixXcd gram = complex_gram(problem.matrices.M, problem, Z);
   gram.diagonal().setZero();
   return gram.size() > 0 ? gram.cwiseAbs().maxCoeff() : 0;
+}
+
+// The real vectors W of a complex harmonic become its modes z, half as many.
+MatrixXd complex_modes(const Problem& problem, const MatrixXd& W, HarmonicModes& modes) {
+  MatrixXd Z = one_of_each_pair(problem, W, modes.eigenvalue);
+  measure_all(problem, Z, modes);
+  modes.orthogonality = largest_product(problem, Z);
+  return Z;
 }
 
 // All rows on rank 0.
@@ -139,10 +144,11 @@ HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harm
   const Eigenmodes found = find_by_windows(K, M, options, keep, progress);
   HarmonicModes modes;
   modes.k = harmonic.k;
+  modes.eigenvalue = found.eigenvalue;
+  modes.residual = found.residual;
+  modes.orthogonality = found.orthogonality;
   modes.iterations = found.iterations;
-  if (!harmonic.real) W = one_of_each_pair(problem, W, found.eigenvalue);
-  measure_all(problem, W, modes);
-  modes.orthogonality = largest_product(problem, W);
+  if (!harmonic.real) W = complex_modes(problem, W, modes);
   modes.z = gathered(comm_of(K), W);
   for (Eigen::Index j = 0; j < modes.z.cols() && modes.z.rows() > 0; ++j) {
     VectorXd z = modes.z.col(j);

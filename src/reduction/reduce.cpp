@@ -5,6 +5,7 @@
 #include "elastogear/fem/gather.h"
 #include "elastogear/fem/restraint.h"
 #include "elastogear/reduction/basis.h"
+#include "elastogear/reduction/second_moments.h"
 #include "reduce_job.h"
 
 namespace elastogear::reduction {
@@ -18,6 +19,8 @@ void keep_all(Job& job) {
     set_full_basis(plan.body, plan.free_dof, plan.moments, plan.S);
     plan.body.K_r = std::move(K);
     plan.body.M_r = std::move(M);
+    if (job.options.invariants == Invariants::full)
+      plan.body.inertia.S_2 = unit_second_moments(scalar_mass(job), plan.free_dof);
   });
   job.finish_stage("gathering");
   job.on_root([&] {

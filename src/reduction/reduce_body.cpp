@@ -55,6 +55,9 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
 
 void validate(const ReductionOptions& options) {
   if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
+  require(!options.foreign || options.invariants == Invariants::linear,
+          "full invariants need the program's own mass matrix, not one from ",
+          options.foreign ? options.foreign->mass : std::string());
   require(!options.floating || options.restrain.empty(), "a free body has no restrained node sets");
   require(options.frame_origin.allFinite(), "the origin of the body frame (",
           options.frame_origin.transpose(), ") m must be finite");
@@ -220,6 +223,12 @@ std::map<int, double> point_masses(const Job& job) {
     for (int node : nodes) masses[node] += mass / static_cast<double>(nodes.size());
   }
   return masses;
+}
+
+model::SparseRows scalar_mass(const Job& job) {
+  model::SparseRows M_s = fem::scalar_mass(job.mesh, job.regions);
+  for (const auto& [node, mass] : point_masses(job)) M_s.coeffRef(node, node) += mass;
+  return M_s;
 }
 
 void read_matrices(Job& job) {

@@ -67,6 +67,8 @@ void number(Job& job);
 void read_matrices(Job& job);
 /// kg, of every node that has some. Rank 0.
 std::map<int, double> point_masses(const Job& job);
+/// The scalar mass of all nodes, point masses included. Rank 0.
+model::SparseRows scalar_mass(const Job& job);
 /// Moves all coordinates into the body frame and makes what needs no solution. Collective.
 void prepare_body(Job& job);
 

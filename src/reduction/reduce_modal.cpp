@@ -8,6 +8,7 @@
 #include "elastogear/reduction/cyclic.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/free_body.h"
+#include "elastogear/reduction/second_moments.h"
 #include "fingerprint.h"
 #include "harmonic_pieces.h"
 #include "mode_pieces.h"
@@ -21,7 +22,8 @@ Fingerprint fingerprint_of(const Job& job) {
   const ReductionOptions& o = job.options;
   Fingerprint f;
   f.add(std::string(version()) + git_hash() + o.prefix);
-  for (int option : {o.n_modes, o.window, static_cast<int>(o.store), static_cast<int>(o.precision)})
+  for (int option : {o.n_modes, o.window, static_cast<int>(o.store), static_cast<int>(o.precision),
+                     static_cast<int>(o.invariants)})
     f.add(static_cast<double>(option));
   f.add_all(job.plan.moments.w_0);
   f.add_all(job.plan.moments.w_1.reshaped());
@@ -48,11 +50,20 @@ void report_continued(Job& job, int pieces, int discarded, const std::string& wh
   report(job.progress, "continues after " + job.report.continued_after, 1);
 }
 
-// The numbers that the body keeps of a mode, and its field where that is stored too. Rank 0.
+bool needs_fields(const ReductionOptions& o) {
+  return o.store == Store::all || o.invariants == Invariants::full;
+}
+
+// Of fields until the body file is written.
+io::Precision precision(const ReductionOptions& o) {
+  return o.invariants == Invariants::full ? io::Precision::float64 : o.precision;
+}
+
+// The numbers that the body keeps of a mode, and its field where that is needed too. Rank 0.
 ModeRecord mode_record(const Job& job, Eigen::VectorXd phi) {
   fix_sign(phi);
   Eigen::VectorXd column = mode_column(job.plan.body, phi, job.plan.moments, job.plan.S);
-  if (job.options.store == Store::surface) phi.resize(0);
+  if (!needs_fields(job.options)) phi.resize(0);
   return {std::move(column), std::move(phi)};
 }
 
@@ -72,12 +83,16 @@ class ModalWriter {
         full_(job.options.store == Store::all),
         writer_(job.output, job.mesh.n_nodes(), full_ ? n_q : 0, job.options.precision) {
     allocate_modes(job.plan.body, n_q);
+    if (job.options.invariants == Invariants::full)
+      moments_.emplace(job.output + ".shapes", scalar_mass(job));
   }
   void add(int k, const ModeRecord& mode) {
     set_mode(job_.plan.body, k, mode.column);
     if (full_) writer_.write_mode(k, mode.phi);
+    if (moments_) moments_->add(mode.phi);
   }
   void finish() {
+    if (moments_) job_.plan.body.inertia.S_2 = moments_->finish();
     model::validate(job_.plan.body, job_.output);
     writer_.finish(job_.plan.body, source_of(job_), {job_.report.residual, job_.report.orthogonality});
   }
@@ -86,6 +101,7 @@ class ModalWriter {
   Job& job_;
   bool full_;
   io::BodyWriter writer_;
+  std::optional<SecondMoments> moments_;
 };
 
 Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModePieces& pieces) {
@@ -133,7 +149,7 @@ void reduce_whole(Job& job) {
   std::optional<RigidModes> rigid;
   if (job.options.floating) rigid = find_rigid_modes(matrices.K, matrices.M, gather, job.mesh.X);
   const ElasticSystem system{matrices.K, matrices.M, gather, rigid ? &*rigid : nullptr};
-  ModePieces pieces(job.comm, job.output + ".partial", fingerprint_of(job, matrices), job.options.precision);
+  ModePieces pieces(job.comm, job.output + ".partial", fingerprint_of(job, matrices), precision(job.options));
   set_eigenmodes(job, find_modes(job, system, pieces));
   job.finish_stage("eigenmodes");
   std::optional<ModalWriter> writer;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "elastogear/base/error.h"
 #include "elastogear/fem/assembly.h"
 #include "elastogear/fem/material.h"
 #include "elastogear/fem/stress.h"
@@ -15,6 +16,10 @@ constexpr Eigen::Index kBlock = 32;  // right-hand sides that go through the fac
 fem::RowNumbering number_free_nodes(const io::BodySource& source) {
   std::vector<bool> is_free(source.mesh.n_nodes(), false);
   for (int dof : source.free_dof) is_free[dof / 3] = true;
+  const auto n_free = std::count(is_free.begin(), is_free.end(), true);
+  require(3 * n_free == static_cast<std::ptrdiff_t>(source.free_dof.size()), "a static solution needs ",
+          "nodes that are held in all three directions or in none; here ", n_free, " nodes have ",
+          source.free_dof.size(), " free displacements");
   return fem::number_rows(source.mesh, is_free, std::vector<int>(source.mesh.cells.size(), 0), 1);
 }
 

@@ -25,6 +25,7 @@ constexpr double kTooMany = 0.65;        // the same: move the shift down
 constexpr double kRoom = 1.3;            // columns there is room for, over those needed
 constexpr int kShifts = 4;               // tries to place one
 constexpr int kSpare = 2;                // modes above the wanted ones that show the gap there
+constexpr double kStretch = 0.2;         // by which windows may be larger than chosen, to save the last one
 constexpr double kWeyl = 1.5;            // exponent of N(lambda) in a solid
 constexpr int kFewModes = 16;            // too few to see an exponent of their own
 
@@ -135,8 +136,13 @@ int room(const Search& search) {
   return static_cast<int>(std::min<double>(std::max(needed, kFewestColumns), search.M_times.n()));
 }
 
-// Modes that one basis is to yield.
-int target(const Search& search) { return std::min(search.size.modes, search.wanted() + kSpare); }
+// Modes that one basis is to yield: windows of equal size up to the end, for a small last one costs as much
+// as any to begin.
+int target(const Search& search) {
+  const double windows = static_cast<double>(search.wanted()) / search.size.modes;
+  const int n_windows = std::max(1, static_cast<int>(std::ceil(windows - kStretch)));
+  return (search.wanted() + n_windows - 1) / n_windows + kSpare;
+}
 
 void report_search(const Search& search, const KrylovBasis& basis) {
   const double inside = std::min(1.0, static_cast<double>(basis.size) / room(search));

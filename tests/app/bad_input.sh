@@ -148,6 +148,9 @@ expect_error "damping ratio of a full basis" 'full basis' "${reduce[@]}" -dampin
 expect_error "point mass on an unknown set" 'NOSUCH' "${reduce[@]}" -point_mass_NOSUCH 1
 expect_error "point mass of nothing" 'point_mass_FIX.*positive' "${reduce[@]}" -point_mass_FIX 0
 expect_error "marker on an unknown set" 'NOSUCH' "${reduce[@]}" -markers NOSUCH
+expect_error "inertia level full without its invariants" "body 'body' lacks .*-invariants full" "${simulate[@]}" -inertia full
+expect_error "invariants that are none" 'invariants.*linear, full' "${reduce[@]}" -invariants all
+expect_error "full invariants of a foreign matrix" "program's own mass" "${reduce[@]}" -stiffness k.mtx -mass k.mtx -invariants full
 expect_error "undercut gear" "undercut" "$elastogear" mesh -part wheel -pressure_angle 8 -mesh new.msh
 expect_error "centre distance that does not exist" 'centre distance' "$elastogear" mesh -part worm -centre_distance 0.02 -mesh new.msh
 expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all

@@ -14,6 +14,7 @@
 #include "elastogear/body/rigid.h"
 #include "elastogear/dynamics/simulate.h"
 #include "elastogear/dynamics/snapshot.h"
+#include "elastogear/dynamics/static.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 #include "markers.h"
@@ -29,6 +30,7 @@ namespace {
 
 constexpr double kNewton = 1e-9;  // relative, of a converged equilibrium
 constexpr double kBeam = 5e-3;    // relative: beam theory against solid elements of this size
+constexpr double kSnes = 1e-7;    // relative, of the static analysis' own equilibria
 constexpr double kOrder = 0.1;    // of a measured order of convergence
 
 // Newton's method for F(0, U, 0, 0) = 0 from the initial position.
@@ -296,6 +298,23 @@ TEST(Load, table_must_cover_the_run) {
   setups.loads = {{"push", {"box", "frame"}, {1, 0, 0}, {0, 0, 0}, false, table_signal({0, 0.5}, {1, 1})}};
   System system({{.name = "box", .body = rigid_shaft(1), .joint = {JointType::free}}}, {}, {}, setups);
   EXPECT_THROW(simulate(system, {.dt = 0.1, .end_time = 1}, {}), Error);
+}
+
+TEST(Load, grows_with_the_load_factor_of_a_static_analysis) {
+  MarkerSetups setups;
+  setups.bushings = {
+      spring("hold", {}, {"shaft", "frame"}, {Vector3d::Constant(kSpring), Vector3d::Constant(10)})};
+  setups.loads = {{"push", {"shaft", "frame"}, {0, kForce, 0}, {0, 0, 0}, false, ramp_signal(2, 0.5)}};
+  scale_by_load_factor(setups, 0.25);  // where the ramp is at 1
+  System system({{.name = "shaft", .body = rigid_shaft(1), .joint = {JointType::free}}}, {}, {}, setups);
+  int n = 0;
+  solve_static(system, {4}, [&](const model::Snapshot& x) {
+    const double expected = x.time * kForce / kSpring;
+    EXPECT_NEAR(x.bodies[0].r_WB.y(), expected, kSnes * expected);
+    EXPECT_NEAR(x.bushings[0].force.y(), -x.time * kForce, kSnes * kForce);
+    ++n;
+  });
+  EXPECT_EQ(n, 5);
 }
 
 // ---- sensors

@@ -26,7 +26,9 @@ bool equal(const model::BasisRows& a, const model::BasisRows& b) {
 }
 
 bool equal(const model::Inertia& a, const model::Inertia& b) {
-  return a.m == b.m && a.c == b.c && a.J == b.J && a.C_l == b.C_l && a.C_r == b.C_r && a.S_1 == b.S_1;
+  return a.m == b.m && a.c == b.c && a.J == b.J && a.C_l == b.C_l && a.C_r == b.C_r && a.S_1 == b.S_1 &&
+         std::equal(a.S_2.begin(), a.S_2.end(), b.S_2.begin(), b.S_2.end(),
+                    [](const auto& x, const auto& y) { return equal(x, y); });
 }
 
 bool equal(const model::Surface& a, const model::Surface& b) {
@@ -79,6 +81,20 @@ TEST_F(BodyFile, gives_a_full_body_back_to_the_bit) {
   const model::ElasticBody body = sample_full_body();
   write_full(path, body);
   expect_equal(read_body(path), body);
+}
+
+TEST_F(BodyFile, gives_second_moments_back) {
+  model::ElasticBody modal = sample_modal_body(), full = sample_full_body();
+  for (int i = 0; i < 6; ++i) {
+    modal.inertia.S_2.emplace_back(model::DenseRows(model::DenseRows::Random(3, 3)));
+    model::SparseRows S(24, 24);
+    S.insert(i, 2 * i) = 1.0 / 3;
+    full.inertia.S_2.emplace_back(S);
+  }
+  write_modal(path, modal, sample_modes());
+  expect_equal(read_body(path), modal);
+  write_full(path, full);
+  expect_equal(read_body(path), full);
 }
 
 TEST_F(BodyFile, gives_mesh_materials_and_free_dof_back) {

@@ -108,6 +108,25 @@ TEST(Reduce, does_not_depend_on_the_number_of_ranks) {
   EXPECT_LT((Psi_a - Psi_b).norm(), kVector * Psi_b.norm());
 }
 
+// Modes of one file in the coordinates of the full basis in the other.
+Eigen::MatrixXd modes_in_full_basis(const std::string& modal, const std::string& full) {
+  const auto dof = io::read_body_source(full).free_dof;
+  const Eigen::Index n_q = io::read_body(modal).n_q();
+  Eigen::MatrixXd Phi(dof.size(), n_q);
+  for (Eigen::Index k = 0; k < n_q; ++k) {
+    const Eigen::VectorXd phi = io::read_displacement_field(modal, Eigen::VectorXd::Unit(n_q, k)).reshaped();
+    Phi.col(k) = phi(dof);
+  }
+  return Phi;
+}
+
+Eigen::MatrixXd trace(const model::ElasticBody& body) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(body.n_q(), body.n_q());
+  for (int i = 0; i < 3; ++i)
+    std::visit([&](const auto& S) { sum += Eigen::MatrixXd(S); }, body.inertia.S_2[i]);
+  return sum;
+}
+
 TEST(Reduce, keeps_every_degree_of_freedom_in_the_full_basis) {
   const auto mesh = example_mesh();
   auto options = example_options();
@@ -120,12 +139,7 @@ TEST(Reduce, keeps_every_degree_of_freedom_in_the_full_basis) {
   const auto source = io::read_body_source(full);
   EXPECT_EQ(a.n_q(), static_cast<Eigen::Index>(source.free_dof.size()));
   EXPECT_EQ(a.frequency.size(), 0);
-  Eigen::MatrixXd Phi(a.n_q(), b.n_q());  // modes in coordinates of the full basis
-  for (int k = 0; k < b.n_q(); ++k) {
-    const Eigen::VectorXd phi =
-        io::read_displacement_field(modal, Eigen::VectorXd::Unit(b.n_q(), k)).reshaped();
-    Phi.col(k) = phi(source.free_dof);
-  }
+  const Eigen::MatrixXd Phi = modes_in_full_basis(modal, full);
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(b.n_q(), b.n_q()), K_r = b.K_r;
   EXPECT_LT((Phi.transpose() * a.M_r * Phi - I).norm(), kEigensolver);
   EXPECT_LT((Phi.transpose() * a.K_r * Phi - K_r).norm(), kEigensolver * K_r.norm());
@@ -133,6 +147,53 @@ TEST(Reduce, keeps_every_degree_of_freedom_in_the_full_basis) {
   EXPECT_LT((a.inertia.S_1 * Phi - b.inertia.S_1).norm(), kRoundoff * b.inertia.S_1.norm());
   const Eigen::VectorXd q = Eigen::VectorXd::Random(b.n_q()), u = model::multiply(b.stress.Psi, q);
   EXPECT_LT((model::multiply(a.stress.Psi, Phi * q) - u).norm(), kRoundoff * u.norm());
+}
+
+// S^ab of both bases, and their sum over a = b, which is the mass matrix.
+TEST(Reduce, stores_the_same_second_moments_in_both_bases) {
+  const auto mesh = example_mesh();
+  auto options = example_options();
+  options.invariants = reduction::Invariants::full;
+  options.store = reduction::Store::all;
+  const std::string modal = output_path("moments"), full = output_path("full_moments");
+  run(mesh, options, modal);
+  options.basis = model::Basis::full;
+  run(mesh, options, full);
+  if (rank_of(PETSC_COMM_WORLD) != 0) return;
+  const auto a = io::read_body(full), b = io::read_body(modal);
+  const Eigen::MatrixXd Phi = modes_in_full_basis(modal, full);
+  ASSERT_EQ(a.inertia.S_2.size(), 6U);
+  ASSERT_EQ(b.inertia.S_2.size(), 6U);
+  for (int i = 0; i < 6; ++i) {
+    const Eigen::MatrixXd S = std::get<model::SparseRows>(a.inertia.S_2[i]),
+                          S_r = std::get<model::DenseRows>(b.inertia.S_2[i]);
+    EXPECT_LT((Phi.transpose() * S * Phi - S_r).norm(), kRoundoff * S_r.norm()) << i;
+  }
+  EXPECT_LT((trace(a) - a.M_r.toDense()).norm(), kRoundoff * trace(a).norm());
+  EXPECT_LT((trace(b) - b.M_r.toDense()).norm(), kEigensolver);
+  EXPECT_FALSE(fs::exists(modal + ".shapes"));
+}
+
+// Norms do not depend on the basis within a pair of equal eigenvalues.
+TEST(Reduce, finds_the_same_second_moments_in_one_sector_and_without_whole_fields) {
+  const auto mesh = test::disc({5, 1, 3, 2});
+  auto options = example_options();
+  options.regions = test::kSteelBody;
+  options.restrain = {"bottom"};
+  options.surface = options.stress_nodes = {};
+  options.invariants = reduction::Invariants::full;
+  options.store = reduction::Store::surface;
+  const std::string sector = output_path("sector_moments"), whole = output_path("whole_moments");
+  run(mesh, options, sector);
+  options.symmetry = reduction::Symmetry::none;
+  run(mesh, options, whole);
+  if (rank_of(PETSC_COMM_WORLD) != 0) return;
+  const auto a = io::read_body(sector), b = io::read_body(whole);
+  for (int i = 0; i < 6; ++i) {
+    const double norm = std::get<model::DenseRows>(b.inertia.S_2[i]).norm();
+    EXPECT_NEAR(std::get<model::DenseRows>(a.inertia.S_2[i]).norm(), norm, kEigensolver * norm) << i;
+  }
+  EXPECT_LT((trace(a) - a.M_r.toDense()).norm(), kEigensolver);
 }
 
 TEST(Reduce, reports_mass_centre_inertia_and_stages) {

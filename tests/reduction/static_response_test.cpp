@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "../fem/brick.h"
+#include "elastogear/base/error.h"
 #include "elastogear/reduction/reduce.h"
 
 namespace {
@@ -73,6 +74,13 @@ TEST_F(StaticResponse, of_all_modes_together_is_that_of_the_body) {
   const Eigen::VectorXd found =
       reduction::StaticResponse(source).stress({body.surface.node[node]}, body.stress.node) * f;
   EXPECT_LT((found - sigma).norm(), kEigensolver * sigma.norm());
+}
+
+TEST_F(StaticResponse, is_refused_where_nodes_are_held_in_some_directions_only) {
+  reduce(model::Basis::full);
+  io::BodySource source = io::read_body_source(path_);
+  source.free_dof.pop_back();
+  EXPECT_THROW(reduction::StaticResponse{source}, Error);
 }
 
 TEST_F(StaticResponse, to_a_force_on_a_restrained_node_is_nothing) {

@@ -71,6 +71,22 @@ TEST(Windows, many_give_the_modes_of_one) {
   }
 }
 
+TEST(Windows, are_of_equal_size_up_to_the_last) {
+  const test::System system = cube();
+  const auto& [K, M] = system.matrices;
+  std::vector<Eigen::Index> ends;
+  const auto note = [&](const reduction::SearchState& state) { ends.push_back(state.eigenvalue.size()); };
+  reduction::find_eigenmodes(K, M, {.n_modes = 46, .window = 40, .block = 4, .commit = note},
+                             [](int, Vec) {});
+  EXPECT_EQ(ends.size(), 1u) << "a window may be a fifth larger";
+  ends.clear();
+  reduction::find_eigenmodes(K, M, {.n_modes = 52, .window = 40, .block = 4, .commit = note},
+                             [](int, Vec) {});
+  ASSERT_EQ(ends.size(), 2u);
+  const double gap_search = 8;  // modes by which an end may move to the widest gap
+  EXPECT_NEAR(static_cast<double>(ends[0]), 26, gap_search);
+}
+
 TEST(Windows, give_the_modes_of_krylov_schur) {
   const test::System system = square_beam();
   const Solution theirs = solve(system, {.n_modes = kModes});

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "elastogear/base/tape.h"
 #include "elastogear/model/elastic_body.h"
 
 namespace elastogear::contact {
@@ -89,6 +90,9 @@ class Pair {
   /// Searches made so far, and nodes displaced in the last call of detect.
   int n_searches() const;
   int n_displaced() const;
+
+  /// All that later calls of detect (by motion) take from earlier ones.
+  void visit_memory(Tape& tape);
 
  private:
   struct Data;

@@ -3,6 +3,7 @@
 // that the stages between neither search nor displace nodes that cannot touch.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "elastogear/contact/candidates.h"
@@ -11,10 +12,23 @@
 
 namespace elastogear::contact {
 
+/// Slave nodes and for each the master faces that it is tried against.
+struct Nearby {
+  std::vector<int> slave;  ///< ascending
+  std::vector<int> end;    ///< of each one's range of face
+  std::vector<int> face;   ///< ascending within a range
+
+  std::span<const int> faces(std::size_t i) const;
+};
+
 struct Vicinity {
-  SurfaceMotion found_at[2];             ///< of both surfaces when it was found
+  SurfaceMotion found_at[2];             ///< of both surfaces when the candidates were found
   std::array<Candidates, 2> candidates;  ///< by slave side; only those of the passes that are run
-  std::array<std::vector<int>, 2> node;  ///< per surface: whose positions the fine search reads, ascending
+  SurfaceMotion measured_at[2];          ///< when their clearance was measured
+  double limit = 0;                      ///< m, relative motion since for which `near` is sufficient
+  int uses = 0;                          ///< of `near` since
+  std::array<Nearby, 2> near;            ///< by slave side: the candidates that can touch
+  std::array<std::vector<int>, 2> node;  ///< per surface: whose positions their fine search reads, ascending
 };
 
 /// Ball around the undeformed nodes of a surface in its own frame.
@@ -34,9 +48,15 @@ RelativeMotion relative_motion(const SurfaceMotion& a, const SurfaceMotion& b);
 /// Bound of the way that the ball's points have gone from one placement to the other, m.
 double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion& to);
 
-/// Nodes of the candidates of one pass, with all nodes of the faces around them: edges and vertices take
-/// their normals from there. Added to `nodes` (by surface), without duplicates, ascending.
-void add_nodes_to_place(const Candidates& candidates, int slave_side, const Topology* topology[2],
-                        const Eigen::Matrix4Xi* face[2], std::array<std::vector<int>, 2>& nodes);
+/// All candidates, with all faces they are near.
+Nearby everything(const Candidates& candidates);
+
+/// Nodes of these faces, with all nodes of the faces around them: edges and vertices take their normals from
+/// there. Ascending, without duplicates.
+std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,
+                              const Eigen::Matrix4Xi& face);
+/// The same for nodes.
+std::vector<int> nodes_around_nodes(const std::vector<int>& nodes, const Topology& topology,
+                                    const Eigen::Matrix4Xi& face);
 
 }  // namespace elastogear::contact

@@ -3,9 +3,11 @@
 // Winner).
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "elastogear/contact/closest_point.h"
 #include "elastogear/contact/topology.h"
@@ -16,6 +18,9 @@ struct SlaveNode {
   Eigen::Vector3d x;  ///< m
   std::function<Eigen::Vector3d()>
       normal;  ///< outward unit normal of the slave surface; asked for when inside
+  /// All master faces within the depth limit, where `faces` of find_winner are only those that can be the
+  /// nearest; asked for when the nearest does not oppose the node.
+  std::function<std::span<const int>()> all_faces = {};
 };
 
 struct Limits {
@@ -35,5 +40,16 @@ struct Winner {
 /// ascend. `likely`, one of them or -1, is tried first: the search is quickest when it is right.
 std::optional<Winner> find_winner(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
                                   std::span<const int> faces, int likely = -1);
+
+struct Approach {
+  double clearance = 0;    ///< m: before moving by as much the node cannot touch
+  std::vector<int> faces;  ///< ascending: those that can be the nearest until it has moved by the limit
+};
+
+/// For moves of node and master towards each other by up to `limit`. The clearance of a node outside is its
+/// distance, infinite when no face is within `reach` (>= depth limit + limit); otherwise 0. `faces` must hold
+/// all that are.
+Approach approach(const SurfaceView& master, const Eigen::Vector3d& x,
+                  const std::array<double, 2>& reach_and_limit, std::span<const int> faces);
 
 }  // namespace elastogear::contact

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "elastogear/base/petsc.h"
+#include "elastogear/base/tape.h"
 #include "elastogear/body/equations.h"
 
 namespace elastogear::dynamics {
@@ -45,6 +46,8 @@ class ElasticBlock {
   /// E' D^-1 E for the given nodes, from columns kept since the shifts last changed: n_e x n_e.
   Eigen::MatrixXd compliance(const std::vector<int>& node);
   const BorderColumns& columns() const { return columns_; }
+  /// Shifts and the order in which nodes came, on which the roundoff of the kept columns depends.
+  void visit_memory(Tape& tape);
 
  private:
   void factorise();
@@ -60,9 +63,10 @@ class ElasticBlock {
   Eigen::SparseMatrix<double, Eigen::RowMajor> D_;
   UniqueMat D_mat_;  // borrows D_'s arrays
   UniqueKSP ksp_;
-  std::vector<int> kept_;  // nodes in the order of G_
-  std::vector<int> slot_;  // surface node -> position in kept_, or -1
-  Eigen::MatrixXd G_;      // E' D^-1 E of the kept nodes
+  std::vector<int> kept_;                  // nodes in the order of G_
+  std::vector<std::vector<int>> batches_;  // of kept_, as they were added together
+  std::vector<int> slot_;                  // surface node -> position in kept_, or -1
+  Eigen::MatrixXd G_;                      // E' D^-1 E of the kept nodes
 };
 
 }  // namespace elastogear::dynamics

@@ -50,6 +50,8 @@ class LowRankSolver {
   void set(EffectiveMatrix A);
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< A x
   Eigen::VectorXd solve(const Eigen::VectorXd& y) const;     ///< A^-1 y, without the parts of level full
+  /// What set() takes from earlier calls.
+  void visit_memory(Tape& tape);
 
  private:
   struct Range {

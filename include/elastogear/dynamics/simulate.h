@@ -16,6 +16,11 @@ struct TimeSettings {
   double end_time = 0;   ///< s
   double rho_inf = 1;    ///< -, 0..1, spectral radius at infinite frequency; 1: no numerical dissipation
   int output_every = 1;  ///< observe every n-th step, and the first and last state
+  /// Not the motion is wanted but where it comes to rest: velocities are set to zero at each peak of the
+  /// kinetic energy, and the run ends when without velocities the residual of every block is below
+  /// rest_tolerance times the sum of the norms of its forces. Loads should be constant by then.
+  bool settle = false;
+  double rest_tolerance = 1e-6;
 };
 
 struct PairSummary {
@@ -32,15 +37,31 @@ struct RunSummary {
   double initial_energy = 0;     ///< J, stored at the start
   double largest_imbalance = 0;  ///< J, largest |balance| of the energy ledger
   double wall_time = 0;          ///< s
+  bool complete = false;         ///< reached the end time; else stopped before
+  double time = 0;               ///< s, reached
+  bool at_rest = false;          ///< of a settling run: came to rest before its end time
 };
 
 using Observer = std::function<void(const model::Snapshot&)>;
 
+/// How a run is made to survive its end by force.
+struct Checkpoints {
+  double every = 60;  ///< s of wall time between two; 0: after each step
+  /// Takes a state from which the run can go on, also before an Error; empty: none are made.
+  std::function<void(const std::vector<double>& state)> keep = {};
+  /// Asked after each step; true ends the run with a last checkpoint.
+  std::function<bool()> stop = {};
+  /// Such a state of an equal system, to go on from instead of the initial one; empty: none.
+  std::vector<double> state = {};
+};
+
 /// Runs from the system's initial state to the end time. Newton has converged when in every block (joint and
 /// elastic coordinates of each body) the residual is below -snes_rtol (default 1e-8) times the sum of the
 /// norms of the forces it balances; a step that cannot be solved is cut by TSAdapt, and dt recovers
-/// afterwards. Throws Error for settings that make no sense, and when a step cannot be cut further.
+/// afterwards. Throws Error for settings that make no sense, and when a step cannot be cut further; the last
+/// good state has then been observed. Continued from a checkpoint with equal settings, all that is observed
+/// from there on equals the uninterrupted run to the bit.
 RunSummary simulate(System& system, const TimeSettings& settings, const Observer& observer,
-                    const Progress& progress = {});
+                    const Progress& progress = {}, const Checkpoints& checkpoints = {});
 
 }  // namespace elastogear::dynamics

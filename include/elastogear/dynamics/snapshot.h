@@ -18,6 +18,8 @@ model::Snapshot snapshot(System& system, const State& x);
 class EnergyLedger {
  public:
   void enter(const System& system, model::Snapshot& snapshot);
+  bool has_entries() const { return !bodies_.empty(); }
+  void visit_memory(Tape& tape);
 
  private:
   void enter_joint(const System::Body& body, const model::BodyState& now, const model::BodyState& before,

@@ -60,7 +60,9 @@ struct State {
 struct Environment {
   body::InertiaLevel inertia = body::InertiaLevel::linear;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
+  double gravity_rise = 0;  ///< s, from time 0 on, within which gravity grows from zero
 };
+Eigen::Vector3d gravity(const Environment& environment, double time);
 
 class System {
  public:
@@ -101,6 +103,8 @@ class System {
   const ContactState& contacts(double time, ConstVector U);
   /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
   double depth_share(double time, ConstVector U);
+  /// In force: with what was left open filled in.
+  const contact::Settings& contact_settings(std::size_t pair) const { return detectors_[pair].settings(); }
   Residual residual(const State& x);
   /// shift.v dF/dV + shift.a dF/dA + dF/dU
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
@@ -109,6 +113,8 @@ class System {
   /// Makes the present orientations those from which local rotation vectors count, and sets these to zero in
   /// U. True when a joint has one.
   bool rebase(Eigen::Ref<Eigen::VectorXd> U);
+  /// All that later evaluations take from earlier ones: re-based orientations, contact history.
+  void visit_memory(Tape& tape);
 
  private:
   void add_body(const BodySetup& setup);

@@ -2,7 +2,9 @@
 // The result file (HDF5, docs/file_format.md): written by simulate, read by recover, compare, info and
 // scripts.
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,22 +12,38 @@
 
 namespace elastogear::io {
 
-/// Appends snapshots under a temporary name beside `path`; finish() renames it. Destroyed unfinished: nothing
-/// stays.
+/// Appends snapshots to parts in the folder `path`.partial; finish() joins them to the file. Each part
+/// appears under its name only when whole and is never changed again. Destroyed unfinished: what was appended
+/// since the last checkpoint is lost, the rest stays in the folder.
 class ResultWriter {
  public:
-  ResultWriter(const std::string& path, const model::ResultHeader& header);
+  /// goes_on: after the last checkpoint of an earlier run; otherwise what that left is removed.
+  ResultWriter(const std::string& path, const model::ResultHeader& header, bool goes_on = false);
   ~ResultWriter();
   /// Error when the time does not increase, numbers are not finite, or sizes differ from the header or the
   /// first snapshot.
   void append(const model::Snapshot& snapshot);
-  /// Error when nothing was appended.
-  void finish();
+  /// Ends a part. From here on a killed run can go on from `state`.
+  void checkpoint(const std::vector<double>& state);
+  int n_times() const;  ///< appended, in earlier runs too
+  /// Nothing can be appended afterwards. Not complete: the parts stay beside the file, to go on from. Error
+  /// when nothing was appended.
+  void finish(bool complete = true);
 
  private:
+  struct Part;
   struct Data;
   std::unique_ptr<Data> data_;
 };
+
+/// What a run that did not end left in the folder `path`.partial.
+struct UnfinishedRun {
+  std::map<std::string, std::string> provenance;
+  std::vector<double> state;  ///< of its last checkpoint
+  double time = 0;            ///< s, last that it wrote before
+};
+/// Nothing when there is no checkpoint. Error when it is damaged.
+std::optional<UnfinishedRun> read_unfinished_run(const std::string& path);
 
 /// Histories of one body, one column per output time.
 struct BodyHistory {
@@ -64,6 +82,8 @@ struct SensorHistory {
 
 /// Readers throw Error naming the file and what is missing or wrong. Bodies and pairs go by name.
 model::ResultHeader read_result_header(const std::string& path);
+/// Did the run reach its end? Files that do not say so are taken to be complete.
+bool is_complete(const std::string& path);
 Eigen::VectorXd read_times(const std::string& path);
 BodyHistory read_body_history(const std::string& path, const std::string& body);
 PairHistory read_pair_history(const std::string& path, const std::string& pair);

@@ -24,6 +24,9 @@ namespace elastogear::reduction {
 /// simulation and stress histories need. all: at every node, for whole fields.
 enum class Store { surface, all };
 
+/// linear: what inertia levels constant and linear need. full: S_2 too (docs/theory.md, 3.11a).
+enum class Invariants { linear, full };
+
 /// Modes from one sector where the mesh, materials and restraint repeat around an axis, or from the whole
 /// body.
 enum class Symmetry { automatic, none };
@@ -47,6 +50,7 @@ struct ReductionOptions {
   Store store = Store::all;                            ///< where the modes are stored
   io::Precision precision = io::Precision::float64;    ///< of modes stored at all nodes
   Symmetry symmetry = Symmetry::automatic;             ///< modal only, see reduction/cyclic.h
+  Invariants invariants = Invariants::linear;          ///< of inertia, stored in the file
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
   model::DampingRatio ratio = {};                      ///< modal only, beside it
   std::map<std::string, double> point_mass = {};       ///< kg, spread evenly over each node set

@@ -14,7 +14,8 @@ namespace elastogear::reduction {
 /// nodes do nothing.
 class StaticResponse {
  public:
-  /// The source must outlive this. Throws Error when the body is not held or the factorisation fails.
+  /// The source must outlive this. Throws Error when the body is not held, a node is held in some directions
+  /// only, or the factorisation fails.
   explicit StaticResponse(const io::BodySource& source);
   ~StaticResponse();
   StaticResponse(const StaticResponse&) = delete;

@@ -1,0 +1,129 @@
+#include "elastogear/dynamics/advice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+
+#include "elastogear/contact/penalty.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+constexpr double kStepsPerPeriod = 10;
+constexpr Eigen::Index kMostFaces = 100;   // whose edges are watched, of each body
+constexpr double kLargestGradient = 0.05;  // elastic rotation (rad) and strain: second-order terms reach 5 %
+constexpr double kLargestSpeed = 0.1;      // of the lowest mode: centrifugal softening of its stiffness, 1 %
+
+void raise(Vibration& to, const std::string& name, double frequency) {
+  if (frequency > to.frequency) to = {name, frequency};
+}
+
+// Inverse of the mass that a unit force on a surface node meets in the elastic coordinates, largest over the
+// nodes, 1/kg, times the stiffness there.
+double largest_rate(const model::ElasticBody& body, const Eigen::VectorXd& stiffness) {
+  const Eigen::VectorXd flexibility = Eigen::VectorXd(body.M_r.diagonal()).cwiseInverse();
+  double largest = 0;
+  for (Eigen::Index node = 0; node < stiffness.size(); ++node) {
+    Eigen::Vector3d mobility;
+    for (int d : {0, 1, 2}) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(body.n_q());
+      model::add_force(body.surface.Phi, static_cast<int>(node), Eigen::Vector3d::Unit(d), row);
+      mobility[d] = row.cwiseAbs2().dot(flexibility);
+    }
+    largest = std::max(largest, stiffness[node] * mobility.maxCoeff());
+  }
+  return largest;
+}
+
+double contact_frequency(const System& system, std::size_t p) {
+  const contact::Settings& settings = system.contact_settings(p);
+  double rate = 0;
+  for (int b : system.pairs()[p].body) {
+    const model::ElasticBody& body = *system.bodies()[b].eq.body;
+    rate = std::max(rate, largest_rate(body, contact::node_stiffness(settings, body.surface)));
+  }
+  return std::sqrt(rate) / (2 * std::numbers::pi);
+}
+
+std::string sentence(const std::string& body, double time, double value, const char* meaning) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "body '" << body << "' at t = " << time << " s: " << meaning << " " << value;
+  return text.str();
+}
+
+}  // namespace
+
+double Vibration::step() const {
+  return frequency > 0 ? 1 / (kStepsPerPeriod * frequency) : std::numeric_limits<double>::infinity();
+}
+
+double Advice::step() const { return std::min(mode.step(), contact.step()); }
+
+Advice advise(const System& system) {
+  Advice advice;
+  for (const System::Body& body : system.bodies())
+    if (body.eq.body->frequency.size() > 0) raise(advice.mode, body.name, body.eq.body->frequency.maxCoeff());
+  for (std::size_t p = 0; p < system.pairs().size(); ++p)
+    raise(advice.contact, system.pairs()[p].name, contact_frequency(system, p));
+  return advice;
+}
+
+ValidityGuard::ValidityGuard(const System& system) : system_(&system) {
+  for (const System::Body& body : system.bodies()) {
+    const model::Surface& surface = body.eq.body->surface;
+    Watch watch;
+    const Eigen::Index n_f = surface.face.cols(), stride = std::max<Eigen::Index>(1, n_f / kMostFaces);
+    for (Eigen::Index f = 0; f < n_f && body.eq.n_q() > 0; f += stride)
+      for (int i : {0, 1, 2}) {
+        const int a = surface.face(i, f), b = surface.face(i + 1, f);
+        const double length = (surface.X.col(a) - surface.X.col(b)).norm();
+        if (length > 0) watch.edge.push_back({{a, b}, length});
+      }
+    const Eigen::VectorXd& frequency = body.eq.body->frequency;
+    if (frequency.size() > 0) watch.lowest_mode = 2 * std::numbers::pi * frequency.minCoeff();
+    watch_.push_back(std::move(watch));
+  }
+}
+
+// Largest change of an edge's vector over its length: rotation and strain together.
+double ValidityGuard::gradient(std::size_t b, const Eigen::VectorXd& q) const {
+  const model::BasisRows& Phi = system_->bodies()[b].eq.body->surface.Phi;
+  double largest = 0;
+  for (const Edge& edge : watch_[b].edge) {
+    const Eigen::Vector3d u =
+        model::displacement(Phi, edge.node[0], q) - model::displacement(Phi, edge.node[1], q);
+    largest = std::max(largest, u.norm() / edge.length);
+  }
+  return largest;
+}
+
+std::vector<std::string> ValidityGuard::warnings(const model::Snapshot& snapshot) {
+  std::vector<std::string> said;
+  for (std::size_t b = 0; b < watch_.size(); ++b) {
+    const System::Body& body = system_->bodies()[b];
+    const model::BodyState& state = snapshot.bodies[b];
+    Watch& watch = watch_[b];
+    const double bent = watch.deformed ? 0 : gradient(b, state.q);
+    const double speed =
+        body::frame_motion(body.eq.joint, body.eq.H, {state.s, state.s_dot, state.s_ddot}).w.norm();
+    if (bent > kLargestGradient) {
+      watch.deformed = true;
+      said.push_back(
+          sentence(body.name, snapshot.time, bent,
+                   "elastic rotation or strain is no longer small, the body's equations are linear in it:"));
+    }
+    if (!watch.fast && watch.lowest_mode > 0 && speed > kLargestSpeed * watch.lowest_mode) {
+      watch.fast = true;
+      said.push_back(
+          sentence(body.name, snapshot.time, speed / watch.lowest_mode,
+                   "turns too fast to leave out how rotation changes the stiffness; speed over that of "
+                   "the lowest mode:"));
+    }
+  }
+  return said;
+}
+
+}  // namespace elastogear::dynamics

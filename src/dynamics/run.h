@@ -1,0 +1,54 @@
+#pragma once
+// One time integration in progress. Private to module dynamics.
+
+#include <chrono>
+
+#include "elastogear/dynamics/simulate.h"
+#include "elastogear/dynamics/snapshot.h"
+#include "problem.h"
+
+namespace elastogear::dynamics {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Run {
+  Run(System& system, const TimeSettings& s, const Observer& o, const Progress& p, const Checkpoints& c)
+      : problem(system), settings(s), observer(o), progress(p), checkpoints(c) {}
+
+  Problem problem;
+  const TimeSettings& settings;
+  const Observer& observer;
+  const Progress& progress;
+  const Checkpoints& checkpoints;
+  EnergyLedger ledger;
+  model::Snapshot last;
+  bool last_observed = true;  // nothing to observe yet
+  double nominal_dt = 0;      // s, at the start
+  RunSummary summary;         // its counts: of the time before this run was continued
+  double kinetic_energy = 0;  // J, after the last step of a settling run
+  int first_step = -1;        // that of the state from which it was continued
+  Clock::time_point start = Clock::now(), kept = start;
+};
+
+/// Throws Error when surfaces of a pair lie inside each other at the start.
+void require_bodies_apart(System& system);
+RunSummary new_summary(const System& system);
+/// Enters peaks.
+void update(RunSummary& summary, const model::Snapshot& snapshot);
+UniqueVec vector(const Eigen::VectorXd& values);
+
+/// After a step of a settling run: rest at each peak of the kinetic energy; the end when nothing moves any
+/// more.
+void settle(Run& run, TS ts);
+
+/// Everything on which the rest of the run depends, between two steps. Played back into a TS that is set up.
+void visit_state(Run& run, TS ts, Tape& tape);
+
+/// Hands the present state to the keeper of checkpoints, if there is one.
+void keep_state(Run& run, TS ts);
+
+}  // namespace elastogear::dynamics

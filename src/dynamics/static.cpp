@@ -1,0 +1,229 @@
+#include "elastogear/dynamics/static.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elastogear/base/error.h"
+#include "run.h"
+#include "vec_view.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+// The joint block of the matrix is C + sigma M: no coordinate is without resistance before contact holds it.
+// The relative imbalance scales it down, so that Newton's method converges superlinearly in the end.
+constexpr double kResistance = 1;  // 1/s^2, sigma at full imbalance
+constexpr double kWayPerDepth =
+    0.5;                       // that a surface may go in one iteration, as a share of the contact depth
+constexpr double kTurn = 0.3;  // rad, that a body may
+constexpr int kMostIterations = 300;    // contact that is far away is approached depth by depth
+constexpr double kSmallestStep = 1e-3;  // of the first one
+constexpr double kHeldBySigma = 0.5;    // share of sigma in a coordinate's stiffness: nothing else holds it
+
+struct Equilibrium {
+  explicit Equilibrium(System& system) : problem(system) {}
+
+  Problem problem;
+  double factor = 0;
+  Eigen::VectorXd zero;
+  std::vector<Eigen::VectorXd> resistance;  // sigma M of each body's joint coordinates, its diagonal
+
+  State state(ConstVector U) const { return {factor, U, zero, zero}; }
+};
+
+PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
+  auto& at = *static_cast<Equilibrium*>(ctx);
+  return guard(at.problem.pending, [&] {
+    const ReadView u(U);
+    if (!is_admissible(at.problem, at.factor, *u)) return check(SNESSetFunctionDomainError(snes));
+    at.problem.residual = at.problem.system.residual(at.state(*u));
+    assign(F, at.problem.residual.F);
+  });
+}
+
+PetscErrorCode jacobian(SNES, Vec U, Mat J, Mat P, void* ctx) {
+  auto& at = *static_cast<Equilibrium*>(ctx);
+  return guard(at.problem.pending, [&] {
+    const ReadView u(U);
+    const double sigma = kResistance * imbalance(at.problem.residual);
+    EffectiveMatrix A = at.problem.system.effective_matrix(at.state(*u), {0, 0});
+    EffectiveMatrix resisting = at.problem.system.effective_matrix(at.state(*u), {0, sigma});
+    at.resistance.clear();
+    for (std::size_t b = 0; b < A.body.size(); ++b) {
+      at.resistance.push_back((resisting.body[b].C - A.body[b].C).diagonal());
+      A.body[b].C = std::move(resisting.body[b].C);
+    }
+    at.problem.solver.set(std::move(A));
+    assemble(J, P);
+  });
+}
+
+// Largest way of a node, m.
+double way(const model::Surface& surface, const contact::SurfaceMotion& from,
+           const contact::SurfaceMotion& to) {
+  const contact::SurfaceState a = contact::surface_state(surface, from),
+                              b = contact::surface_state(surface, to);
+  const Eigen::Matrix3Xd moved = (b.R_WB * b.x_B - a.R_WB * a.x_B).colwise() + (b.r_WB - a.r_WB);
+  return std::sqrt(moved.colwise().squaredNorm().maxCoeff());
+}
+
+// How much too far a change of U goes: at most 1 when every body and surface stays within its limit.
+double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& to) {
+  System& system = at.problem.system;
+  std::vector<contact::SurfaceMotion> before, after;
+  double most = 0;
+  for (std::size_t b = 0; b < system.bodies().size(); ++b) {
+    before.push_back(system.surface_motion(b, at.factor, U));
+    after.push_back(system.surface_motion(b, at.factor, to));
+    most = std::max(most, (after[b].R_WB - before[b].R_WB).norm() / std::sqrt(2.0) / kTurn);
+  }
+  for (std::size_t p = 0; p < system.pairs().size(); ++p)
+    for (int b : system.pairs()[p].body)
+      most = std::max(most, way(system.bodies()[b].eq.body->surface, before[b], after[b]) /
+                                (kWayPerDepth * system.contact_settings(p).depth));
+  return most;
+}
+
+// Surfaces must not pass through each other unseen.
+PetscErrorCode limit(SNESLineSearch, Vec X, Vec Y, PetscBool* changed, void* ctx) {
+  auto& at = *static_cast<Equilibrium*>(ctx);
+  return guard(at.problem.pending, [&] {
+    const ReadView x(X);
+    Eigen::VectorXd y = *ReadView(Y);
+    if (!y.allFinite()) return;
+    double share = 1;
+    while (true) {
+      const double too_far = excess(at, *x, *x - y);
+      if (too_far <= 1) break;
+      share = std::min(0.5, 1 / too_far);  // rotations are not linear in y: look again
+      y *= share;
+    }
+    *changed = share < 1 ? PETSC_TRUE : PETSC_FALSE;
+    if (share < 1) assign(Y, y);
+  });
+}
+
+UniqueSNES make_snes(Equilibrium& at, UniqueMat& J) {
+  UniqueSNES snes;
+  check(SNESCreate(PETSC_COMM_SELF, snes.out()));
+  make_matrix(at.problem, J);
+  check(SNESSetFunction(snes, nullptr, function, &at));
+  check(SNESSetJacobian(snes, J, J, jacobian, &at));
+  set_solvers(at.problem, snes);
+  check(SNESSetTolerances(snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, kMostIterations, -1));
+  SNESLineSearch search = nullptr;
+  check(SNESGetLineSearch(snes, &search));
+  check(SNESLineSearchSetPreCheck(search, limit, &at));
+  check(SNESSetFromOptions(snes));
+  return snes;
+}
+
+std::string coordinate_name(body::JointType type, Eigen::Index i) {
+  static const char* const kFree[] = {
+      "x", "y", "z", "the rotation about x", "the rotation about y", "the rotation about z"};
+  if (body::tumbles(type)) return kFree[type == body::JointType::free ? i : i + 3];
+  return body::turns(type) && i == 0 ? "the rotation about its axis" : "the displacement along its axis";
+}
+
+// Coordinates that only sigma holds.
+std::string free_coordinates(const Equilibrium& at) {
+  std::string names;
+  const System& system = at.problem.system;
+  for (std::size_t b = 0; b < at.resistance.size(); ++b) {
+    const System::Body& body = system.bodies()[b];
+    for (Eigen::Index i = 0; i < body.n_open(); ++i) {
+      const Eigen::VectorXd force = Eigen::VectorXd::Unit(system.size(), body.first + i);
+      const double flexibility = at.problem.solver.solve(force)[body.first + i];
+      if (!(std::abs(flexibility * at.resistance[b][i]) > kHeldBySigma)) continue;
+      names += (names.empty() ? "" : ", ") + ("body '" + body.name + "': ") +
+               coordinate_name(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]);
+    }
+  }
+  return names;
+}
+
+[[noreturn]] void fail_without_equilibrium(const Equilibrium& at) {
+  const std::string free = free_coordinates(at);
+  require(free.empty(), "no equilibrium at load factor ", at.factor,
+          ": nothing holds (neither contact nor a spring) ", free);
+  fail("no equilibrium found at load factor ", at.factor, ": ",
+       at.problem.trouble.empty() ? "Newton's method does not converge" : at.problem.trouble,
+       ". Try more load steps, a softer contact, or a dynamic settling in place of the static analysis");
+}
+
+bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  PetscInt iterations = 0;
+  at.problem.trouble.clear();
+  check(SNESSolve(snes, nullptr, U), at.problem.pending);
+  check(SNESGetConvergedReason(snes, &reason));
+  check(SNESGetIterationNumber(snes, &iterations));
+  summary.newton_iterations += iterations;
+  return reason > 0;
+}
+
+Signal scaled(const Signal& load, double time) {
+  return load.value.empty() ? load : ramp_signal(at(load, time), 1);
+}
+
+}  // namespace
+
+void scale_by_load_factor(BodySetup& setup, double time) {
+  require(setup.velocity0.isZero(0) && setup.omega0.isZero(0), "body '", setup.name,
+          "': a static analysis takes no initial velocity");
+  for (Axis* axis : {&setup.rotation, &setup.translation}) {
+    require(axis->s_dot_0 == 0, "body '", setup.name, "': a static analysis takes no initial velocity");
+    axis->load = scaled(axis->load, time);
+    if (!axis->drive) continue;
+    const double from = at(*axis->drive, 0).s, to = at(*axis->drive, time).s;
+    require(std::isfinite(to), "body '", setup.name,
+            "': a prescribed motion needs the time up to which it goes");
+    axis->drive = still_drive(from, to - from);
+  }
+}
+
+void scale_by_load_factor(MarkerSetups& markers, double time) {
+  for (LoadSetup& load : markers.loads) load.signal = scaled(load.signal, time);
+}
+
+void scale_by_load_factor(Environment& environment) { environment.gravity_rise = 1; }
+
+RunSummary solve_static(System& system, const StaticSettings& settings, const Observer& observer,
+                        const Progress& progress) {
+  require(settings.steps >= 1, "load steps ", settings.steps, " must be at least 1");
+  require_bodies_apart(system);
+  Equilibrium at(system);
+  RunSummary summary = new_summary(system);
+  at.zero = Eigen::VectorXd::Zero(system.size());
+  const auto start = Clock::now();
+  const UniqueVec U = vector(system.initial_position());
+  UniqueMat J;
+  const UniqueSNES snes = make_snes(at, J);
+  const double first_step = 1.0 / settings.steps;
+  double reached = -1, step = first_step;
+  Eigen::VectorXd good = system.initial_position();
+  while (reached < 1) {
+    at.factor = reached < 0 ? 0 : std::min(1.0, reached + step);
+    if (!find_equilibrium(at, snes, U, summary)) {
+      ++summary.rejected_steps;
+      step /= 2;
+      if (reached < 0 || step < kSmallestStep * first_step) fail_without_equilibrium(at);
+      assign(U, good);
+      continue;
+    }
+    reached = at.factor;
+    step = std::min(2 * step, first_step);
+    good = *ReadView(U);
+    const model::Snapshot found = snapshot(system, at.state(good));
+    update(summary, found);
+    if (observer) observer(found);
+    ++summary.steps;
+    report(progress, "static", reached);
+  }
+  summary.complete = true;
+  summary.time = 1;
+  summary.wall_time = seconds_since(start);
+  return summary;
+}
+
+}  // namespace elastogear::dynamics

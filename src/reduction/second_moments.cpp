@@ -1,0 +1,101 @@
+#include "elastogear/reduction/second_moments.h"
+
+#include <algorithm>
+#include <array>
+
+#include "elastogear/io/pieces.h"
+
+namespace elastogear::reduction {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kBytes = 5e8;  // of a block of modes in memory, of which there are two
+constexpr const char *kPiece = "modes", *kArray = "phi";
+constexpr std::array<std::array<int, 2>, 6> kPairs = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+
+// Some modes, n_nodes x columns for each direction.
+using Block = std::array<MatrixXd, 3>;
+
+Block read_block(const io::PieceReader& piece, Index first, Index columns) {
+  Block block;
+  for (Index k = 0; k < columns; ++k) {
+    const Eigen::VectorXd phi = piece.read_row(kArray, static_cast<int>(first + k));
+    for (int a = 0; a < 3; ++a) {
+      block[a].conservativeResize(phi.size() / 3, columns);
+      block[a].col(k) = phi(Eigen::seqN(a, phi.size() / 3, 3));
+    }
+  }
+  return block;
+}
+
+}  // namespace
+
+struct SecondMoments::Data {
+  model::SparseRows M_s;
+  io::PieceStore store;
+  std::unique_ptr<io::PieceWriter> writer;
+  int n_q = 0;
+
+  ~Data() {
+    writer.reset();
+    store.clear();
+  }
+};
+
+SecondMoments::SecondMoments(const std::string& folder, model::SparseRows M_s)
+    : data_(new Data{std::move(M_s), io::PieceStore(folder, kPiece), {}}) {
+  data_->store.clear();  // of a run that was killed
+  data_->writer = std::make_unique<io::PieceWriter>(data_->store, kPiece);
+}
+
+SecondMoments::~SecondMoments() = default;
+
+void SecondMoments::add(const Eigen::VectorXd& phi) {
+  data_->writer->append(kArray, phi);
+  ++data_->n_q;
+}
+
+std::vector<model::BasisRows> SecondMoments::finish() {
+  Data& d = *data_;
+  d.writer->commit();
+  const io::PieceReader piece(d.store, kPiece);
+  const Index n_q = d.n_q,
+              width = std::clamp<Index>(static_cast<Index>(kBytes / (24. * d.M_s.rows())), 1, n_q);
+  std::vector<model::DenseRows> S(kPairs.size(), model::DenseRows(n_q, n_q));
+  for (Index l = 0; l < n_q; l += width) {
+    Block mass_times = read_block(piece, l, std::min(width, n_q - l));
+    for (MatrixXd& x : mass_times) x = (d.M_s * x).eval();
+    for (Index k = 0; k < n_q; k += width) {
+      const Block phi = read_block(piece, k, std::min(width, n_q - k));
+      for (std::size_t i = 0; i < kPairs.size(); ++i) {
+        const auto [a, b] = kPairs[i];
+        S[i].block(k, l, phi[a].cols(), mass_times[b].cols()).noalias() = phi[a].transpose() * mass_times[b];
+      }
+    }
+  }
+  return {std::make_move_iterator(S.begin()), std::make_move_iterator(S.end())};
+}
+
+std::vector<model::BasisRows> unit_second_moments(const model::SparseRows& M_s,
+                                                  const std::vector<int>& free_dof) {
+  std::vector<int> coordinate(static_cast<std::size_t>(3 * M_s.rows()), -1);
+  for (std::size_t j = 0; j < free_dof.size(); ++j) coordinate[free_dof[j]] = static_cast<int>(j);
+  const auto n_q = static_cast<Index>(free_dof.size());
+  std::vector<model::BasisRows> moments;
+  for (const auto [a, b] : kPairs) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index i = 0; i < M_s.rows(); ++i)
+      for (model::SparseRows::InnerIterator it(M_s, i); it; ++it) {
+        const int k = coordinate[3 * i + a], l = coordinate[3 * it.col() + b];
+        if (k >= 0 && l >= 0) entries.emplace_back(k, l, it.value());
+      }
+    model::SparseRows S(n_q, n_q);
+    S.setFromTriplets(entries.begin(), entries.end());
+    moments.emplace_back(std::move(S));
+  }
+  return moments;
+}
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# A simulation that is killed (SIGKILL) 20 times at random moments, and once asked to stop (SIGTERM), ends in the
+# result file of one that was not: equal to the bit in every dataset. A kill loses no more than the work since the
+# last checkpoint.
+#   killed_simulate.sh PATH/TO/elastogear
+set -u
+elastogear=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+fail() { echo "FAIL: $*"; exit 1; }
+
+# A brick of 4 x 2 x 2 hexahedra of 10 mm, held at its left end FIX; surface TOP.
+awk -v n=4 'function node(i, j, k) { return 1 + k + 3 * (j + 3 * i) }
+  BEGIN {
+    print "*NODE";
+    for (i = 0; i <= n; ++i) for (j = 0; j < 3; ++j) for (k = 0; k < 3; ++k)
+      printf "%d, %g, %g, %g\n", node(i, j, k), 0.01 * i, 0.01 * j, 0.01 * k;
+    print "*ELEMENT, TYPE=C3D8, ELSET=ALL";
+    for (i = 0; i < n; ++i) for (j = 0; j < 2; ++j) for (k = 0; k < 2; ++k)
+      printf "%d, %d, %d, %d, %d, %d, %d, %d, %d\n", ++e, node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
+        node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1);
+    print "*NSET, NSET=FIX";
+    for (m = 1; m <= 9; ++m) print m;
+    print "*SURFACE, NAME=TOP, TYPE=ELEMENT";
+    for (e = 2; e <= 4 * n; e += 2) printf "%d, S2\n", e;
+  }' >brick.inp
+"$elastogear" reduce -mesh brick.inp -material_E 2e9 -material_nu 0.3 -material_rho 1200 -restrain FIX -surface TOP \
+  -modes 20 -output body.h5 >reduce.log 2>&1 || { cat reduce.log; fail "the body"; }
+
+# One brick held, one that falls on it upside down, slides and bounces, and a rigid one that tumbles.
+simulate=("$elastogear" simulate -bodies low,high,top -low_file body.h5 -high_file body.h5 -high_joint free
+          -high_position 0.005,0.021,0.0402 -high_rotation 3.14159265,0,0 -high_velocity0 0.3,0,-1 -high_omega0 4,1,2
+          -top_mass 1 -top_inertia 1,2,3,0,0,0 -top_joint free -top_omega0 0.1,300,0.1
+          -contact_pairs high:low -contact_two_pass -contact_skin 2e-5 -gravity 0,0,-9.81
+          -ts_dt 2e-6 -ts_max_time 4e-3 -output_every 3)
+"${simulate[@]}" -output whole.h5 -checkpoint_every 1000 >whole.log 2>&1 || { cat whole.log; fail "the undisturbed run"; }
+[ -e whole.h5.partial ] && fail "the folder of parts stays after a run that ended well"
+
+compare() {
+  /usr/bin/python3 - "$@" <<'PYTHON'
+import sys
+import h5py
+import numpy as np
+
+def datasets(path):
+    found = {}
+    with h5py.File(path) as file:
+        assert file.attrs["complete"] == 1, path
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+a, b = (datasets(path) for path in sys.argv[1:])
+assert a.keys() == b.keys() and len(a) > 40, a.keys() ^ b.keys()
+assert a["contact/high:low/count"].max() > 3
+different = [name for name in a if a[name].dtype != object
+             and (a[name].shape != b[name].shape or np.asarray(a[name]).tobytes() != np.asarray(b[name]).tobytes())]
+assert not different, different
+print(len(a), "datasets equal to the bit,", len(a["time"]), "times")
+PYTHON
+}
+
+# Asked to stop, the run leaves what it has.
+"${simulate[@]}" -output cut.h5 -checkpoint_every 0 >run.log 2>&1 &
+run=$!
+while kill -0 $run 2>/dev/null && [ ! -e cut.h5.partial/state.h5 ]; do sleep 0.005; done
+kill -TERM $run
+wait $run && fail "a stopped run ends as if all were well"
+grep -q "stopped by signal 15" run.log || { cat run.log; fail "a stopped run does not say so"; }
+"$elastogear" info cut.h5 >info.log 2>&1 || { cat info.log; fail "info on the result of a stopped run"; }
+grep -q "incomplete" info.log || { cat info.log; fail "the result of a stopped run is not called incomplete"; }
+
+rm cut.h5
+
+RANDOM=7
+stamp() { stat -c '%i %y' cut.h5.partial/state.h5 2>/dev/null; }
+reached=0
+for ((kills = 0; kills < 20; ++kills)); do
+  before=$(stamp)
+  "${simulate[@]}" -output cut.h5 -checkpoint_every "0.00$((RANDOM % 10))" >run.log 2>&1 &
+  run=$!
+  while kill -0 $run 2>/dev/null && [ "$(stamp)" == "$before" ]; do sleep 0.005; done
+  sleep "0.00$((RANDOM % 10))"
+  kill -KILL $run 2>/dev/null || { cat run.log; fail "the run ended after $kills kills: the test is too fast"; }
+  wait $run 2>/dev/null
+  [ -e cut.h5 ] && fail "a result appears although the run was killed"
+  now=$(grep -Eo 'continued after +[0-9.e+-]+' run.log | grep -Eo '[0-9.e+-]+$')
+  [ -n "$now" ] || { cat run.log; fail "a run does not say that it continues"; }
+  awk -v a="$reached" -v b="$now" 'BEGIN { exit !(b + 0 >= a + 0) }' || fail "went back from $reached s to $now s"
+  reached=$now
+done
+
+# Other input is refused and named, and nothing is lost by asking.
+"${simulate[@]}" -output cut.h5 -ts_dt 1e-6 >run.log 2>&1 && fail "continued with another step"
+grep -Eq "error: .*ts_dt 1e-6 \(was 2e-6\)" run.log || { cat run.log; fail "the message on another step"; }
+
+"${simulate[@]}" -output cut.h5 >run.log 2>&1 || { cat run.log; fail "the last run"; }
+[ -e cut.h5.partial ] && fail "the folder of parts stays"
+echo "killed 20 times, the last time after $reached s"
+compare whole.h5 cut.h5 || fail "the result files differ"
+echo "all good"

@@ -1,0 +1,92 @@
+// What a run is advised to do, against vibrations known by hand.
+#include "elastogear/dynamics/advice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "box_body.h"
+#include "elastogear/dynamics/snapshot.h"
+
+using namespace elastogear;
+using namespace elastogear::dynamics;
+
+namespace {
+
+constexpr double kRoundoff = 1e-12;
+
+std::shared_ptr<const model::ElasticBody> block(model::Basis basis = model::Basis::modal) {
+  test::BoxSpec spec{.size = {1, 1, 1}, .cells = {2, 1, 1}, .material = {1e4, 0.3, 1}};
+  spec.held = [](const auto& X, int) { return X.x() == 0; };
+  return std::make_shared<model::ElasticBody>(test::make_box(spec, basis));
+}
+
+System turning(double speed) {
+  return System({{.name = "block",
+                  .body = block(),
+                  .joint = {.type = body::JointType::revolute},
+                  .rotation = {.s_dot_0 = speed}}},
+                {});
+}
+
+model::Snapshot start(System& system, double stretch) {
+  Eigen::VectorXd U = system.initial_position(), V = system.initial_velocity();
+  U[1] = stretch;
+  return snapshot(system, {0, U, V, V});
+}
+
+}  // namespace
+
+TEST(Advice, asks_for_ten_steps_in_a_period_of_the_highest_mode) {
+  const System system = turning(0);
+  const Advice advice = advise(system);
+  const double highest = block()->frequency.maxCoeff();
+  EXPECT_EQ(advice.mode.name, "block");
+  EXPECT_NEAR(advice.step() * highest, 0.1, kRoundoff);
+  EXPECT_EQ(advice.contact.frequency, 0);
+  EXPECT_TRUE(std::isinf(advice.contact.step()));
+}
+
+TEST(Advice, contact_vibrates_by_the_penalty_on_the_mass_of_a_node) {
+  constexpr double kStiffness = 1e6;
+  const auto body = block(model::Basis::full);
+  PairSetup pair{"a:b", {0, 1}, {}};
+  pair.settings.penalty = contact::Penalty::per_node;
+  pair.settings.stiffness = kStiffness;
+  pair.settings.depth = 0.1;
+  const System system(
+      {{.name = "a", .body = body}, {.name = "b", .body = body, .joint = {.r_WB0 = {2, 0, 0}}}}, {pair});
+  const Advice advice = advise(system);
+  double mass = 0;  // of the touched nodes at x = 1: all are corners of one cell
+  for (int k = 0; k < body->M_r.rows(); ++k)
+    mass = mass == 0 ? body->M_r.coeff(k, k) : std::min(mass, body->M_r.coeff(k, k));
+  EXPECT_NEAR(advice.contact.frequency, std::sqrt(kStiffness / mass) / (2 * std::numbers::pi),
+              kRoundoff * advice.contact.frequency);
+  EXPECT_EQ(advice.mode.frequency, 0) << "a full basis has no modes";
+}
+
+TEST(ValidityGuard, is_silent_while_all_is_small) {
+  System system = turning(0.01);
+  ValidityGuard guard(system);
+  EXPECT_TRUE(guard.warnings(start(system, 1e-9)).empty());
+}
+
+TEST(ValidityGuard, warns_once_of_a_large_deformation) {
+  System system = turning(0);
+  ValidityGuard guard(system);
+  const auto warnings = guard.warnings(start(system, 1));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("body 'block' at t = 0 s: elastic rotation or strain"), std::string::npos)
+      << warnings[0];
+  EXPECT_TRUE(guard.warnings(start(system, 1)).empty());
+}
+
+TEST(ValidityGuard, warns_once_of_a_fast_rotation) {
+  System system = turning(2 * std::numbers::pi * 0.2 * block()->frequency.minCoeff());
+  ValidityGuard guard(system);
+  const auto warnings = guard.warnings(start(system, 0));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("lowest mode: 0.2"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(guard.warnings(start(system, 0)).empty());
+}

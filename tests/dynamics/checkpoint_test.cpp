@@ -1,0 +1,120 @@
+// A run that goes on from a checkpoint equals the uninterrupted one to the bit.
+#include <gtest/gtest.h>
+
+#include "box_body.h"
+#include "elastogear/base/error.h"
+#include "elastogear/dynamics/simulate.h"
+
+using namespace elastogear;
+using namespace elastogear::dynamics;
+
+namespace {
+
+std::shared_ptr<const model::ElasticBody> soft_box(model::Basis basis) {
+  test::BoxSpec box{.size = {1, 1, 1}, .cells = {2, 2, 2}, .material = {100, 0.3, 1}};
+  box.held = [](const auto& X, int) { return X.x() == 0; };
+  return std::make_shared<model::ElasticBody>(test::make_box(box, basis));
+}
+
+// A soft box, held at one end, flies and tumbles against a rigid wall.
+System impact(model::Basis basis) {
+  const auto wall = std::make_shared<model::ElasticBody>(
+      test::make_rigid_box({.corner = {0, -1, -1}, .size = {1, 3, 3}, .material = {100, 0.3, 1}}));
+  PairSetup pair{"box:wall", {0, 1}, {}};
+  pair.settings.two_pass = true;
+  pair.settings.skin = 0.01;
+  const body::JointType joint =
+      basis == model::Basis::full ? body::JointType::spherical : body::JointType::free;
+  BodySetup box{.name = "box", .body = soft_box(basis), .joint = {.type = joint}, .omega0 = {0, 0.3, 0.2}};
+  if (joint == body::JointType::free) box.velocity0 = {0.3, 0.1, 0};
+  return System({box, {.name = "wall", .body = wall, .joint = {.r_WB0 = {1.001, 0, 0}}}}, {pair});
+}
+
+using Rows = std::vector<std::vector<double>>;
+
+struct Recording {
+  Rows rows;
+  std::vector<std::vector<double>> states;
+};
+
+Observer into(Rows& rows) {
+  return [&rows](const model::Snapshot& s) {
+    std::vector<double> row{s.time, s.energy.work, s.energy.dissipated, s.energy.balance,
+                            double(s.pairs[0].count)};
+    for (const model::BodyState& body : s.bodies)
+      for (const Eigen::VectorXd& x : {body.s, body.s_dot, body.s_ddot, body.q, body.q_dot, body.q_ddot})
+        row.insert(row.end(), x.begin(), x.end());
+    for (const model::ContactRecord& c : s.pairs[0].contacts)
+      row.insert(row.end(), {double(c.face), c.xi, c.eta, c.g_n, c.f.x(), c.f.y(), c.f.z()});
+    rows.push_back(row);
+  };
+}
+
+constexpr TimeSettings kSettings{.dt = 0.004, .end_time = 0.4, .rho_inf = 0.8};
+
+Recording record(System system, const TimeSettings& settings = kSettings) {
+  Recording recording;
+  Checkpoints checkpoints{.every = 0};
+  checkpoints.keep = [&](const auto& state) { recording.states.push_back(state); };
+  simulate(system, settings, into(recording.rows), {}, checkpoints);
+  return recording;
+}
+
+void expect_every_continuation_equal(model::Basis basis, const TimeSettings& settings = kSettings) {
+  const Recording whole = record(impact(basis), settings);
+  ASSERT_GE(whole.states.size(), 90u);
+  double contacts = 0;
+  for (std::size_t k = 0; k < whole.states.size(); k += 7) {
+    System system = impact(basis);
+    Rows rows;
+    const Checkpoints checkpoints{.state = whole.states[k]};
+    simulate(system, settings, into(rows), {}, checkpoints);
+    const Rows expected(whole.rows.end() - static_cast<std::ptrdiff_t>(rows.size()), whole.rows.end());
+    EXPECT_EQ(rows, expected) << "from checkpoint " << k;
+    EXPECT_EQ(rows.size() + k + 1, whole.rows.size());
+    for (const auto& row : rows) contacts += row[4];
+  }
+  EXPECT_GT(contacts, 10);
+}
+
+}  // namespace
+
+TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit) {
+  expect_every_continuation_equal(model::Basis::modal);
+}
+
+TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_in_the_full_basis) {
+  expect_every_continuation_equal(model::Basis::full);
+}
+
+TEST(Checkpoint, continuation_of_a_settling_run_equals_the_whole_one_to_the_bit) {
+  TimeSettings settings = kSettings;
+  settings.settle = true;
+  expect_every_continuation_equal(model::Basis::modal, settings);
+}
+
+TEST(Checkpoint, stop_ends_the_run_with_a_state_to_go_on_from) {
+  System first = impact(model::Basis::modal), second = impact(model::Basis::modal);
+  Rows rows;
+  std::vector<double> state;
+  Checkpoints checkpoints{.every = 1e9};
+  checkpoints.keep = [&](const auto& s) { state = s; };
+  checkpoints.stop = [&] { return rows.size() == 30; };
+  const RunSummary summary = simulate(first, kSettings, into(rows), {}, checkpoints);
+  EXPECT_FALSE(summary.complete);
+  EXPECT_EQ(rows.size(), 31u);  // the step after which it was asked
+  ASSERT_FALSE(state.empty());
+  EXPECT_TRUE(simulate(second, kSettings, into(rows), {}, {.state = state}).complete);
+  EXPECT_EQ(rows, record(impact(model::Basis::modal)).rows);
+}
+
+TEST(Checkpoint, of_another_system_is_refused) {
+  const Recording whole = record(impact(model::Basis::modal));
+  const auto rigid = std::make_shared<model::ElasticBody>(test::make_rigid_box({.material = {1, 0, 1}}));
+  System other({{.name = "box", .body = rigid, .joint = {body::JointType::free}}}, {});
+  EXPECT_THROW(simulate(other, kSettings, {}, {}, {.state = whole.states[3]}), Error);
+  System same = impact(model::Basis::modal);
+  std::vector<double> cut = whole.states[3];
+  cut.pop_back();
+  EXPECT_THROW(simulate(same, kSettings, {}, {}, {.state = cut}), Error);
+}

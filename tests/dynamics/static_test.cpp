@@ -1,0 +1,146 @@
+// Static equilibria against beam theory, against springs by hand, and against where a settling run comes to
+// rest.
+#include "elastogear/dynamics/static.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "box_body.h"
+#include "elastogear/base/error.h"
+
+using namespace elastogear;
+using namespace elastogear::dynamics;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kNewton = 1e-7;  // relative
+constexpr double kEnd = std::numeric_limits<double>::infinity();
+
+std::shared_ptr<const model::ElasticBody> held_block(double x_held) {
+  test::BoxSpec spec{.size = {1, 1, 1}, .cells = {2, 1, 1}, .material = {1e4, 0, 1}};
+  spec.held = [x_held](const Vector3d& X, int) { return std::abs(X.x() - x_held) < 1e-9; };
+  return std::make_shared<model::ElasticBody>(test::make_box(spec, model::Basis::modal));
+}
+
+// A block of E = 10 kPa on a slide is pushed along x against an equal one that is fixed, `gap` away.
+std::vector<BodySetup> press(double gap, double force) {
+  std::vector<BodySetup> setups{{.name = "ram", .body = held_block(0)},
+                                {.name = "wall", .body = held_block(1)}};
+  setups[0].joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}};
+  setups[0].translation.load = constant_signal(force);
+  setups[1].joint.r_WB0.x() = 1 + gap;
+  return setups;
+}
+
+PairSetup contact_with(double stiffness) {
+  PairSetup pair{"ram:wall", {0, 1}, {}};
+  pair.settings.stiffness = stiffness;
+  pair.settings.depth = 0.05;
+  return pair;
+}
+
+System scaled(std::vector<BodySetup> setups, std::vector<PairSetup> pairs, Environment environment = {}) {
+  for (BodySetup& setup : setups) scale_by_load_factor(setup, kEnd);
+  scale_by_load_factor(environment);
+  return System(std::move(setups), std::move(pairs), environment);
+}
+
+std::vector<model::Snapshot> equilibria(System system, int steps = 4) {
+  std::vector<model::Snapshot> found;
+  solve_static(system, {steps}, [&](const model::Snapshot& snapshot) { found.push_back(snapshot); });
+  return found;
+}
+
+std::string message_of(const auto& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+// Three springs in series: two blocks E A / l and the penalty over the area.
+TEST(Static, pressed_blocks_move_by_the_compliances_in_series) {
+  constexpr double kGap = 0.2, kForce = 20, kPenalty = 4e4;
+  const auto found = equilibria(scaled(press(kGap, kForce), {contact_with(kPenalty)}));
+  ASSERT_GE(found.size(), 5u);
+  EXPECT_EQ(found.back().time, 1);
+  const double expected = kGap + kForce * (2 / 1e4 + 1 / kPenalty);
+  EXPECT_NEAR(found.back().bodies[0].s[0], expected, kNewton * expected);
+  EXPECT_NEAR(found.back().pairs[0].force.x(), kForce, kNewton * kForce);
+  EXPECT_EQ(found.back().bodies[0].s_dot[0], 0);
+}
+
+TEST(Static, forces_grow_with_the_load_factor) {
+  for (const model::Snapshot& snapshot : equilibria(scaled(press(0.01, 20), {contact_with(4e4)}))) {
+    const double expected = 20 * snapshot.time;
+    EXPECT_NEAR(snapshot.pairs[0].force.x(), expected, kNewton * expected) << snapshot.time;
+  }
+}
+
+TEST(Static, prescribed_motion_presses_as_far_as_it_goes) {
+  std::vector<BodySetup> setups = press(0, 0);
+  setups[0].translation = {.drive = speed_drive(0, 0.002)};
+  for (BodySetup& setup : setups) scale_by_load_factor(setup, 5);
+  const auto found = equilibria(System(std::move(setups), {contact_with(4e4)}));
+  const double force = 0.01 / (2 / 1e4 + 1 / 4e4);
+  EXPECT_NEAR(found.back().bodies[0].s[0], 0.01, 1e-15);
+  EXPECT_NEAR(found.back().pairs[0].force.x(), force, kNewton * force);
+  EXPECT_NEAR(found.back().bodies[0].joint_force[0], force, kNewton * force);
+}
+
+// A bar hanging from its upper end: rho g l^2 / 2 E at the tip; linear elements are exact at nodes.
+TEST(Static, weight_stretches_a_hanging_bar) {
+  const auto bar = held_block(0);
+  const Vector3d g(10, 0, 0);
+  const auto found = equilibria(scaled({{.name = "bar", .body = bar}}, {}, {.gravity = g}));
+  const int tip = static_cast<int>(bar->surface.X.cols()) - 1;
+  ASSERT_EQ(bar->surface.X(0, tip), 1);
+  const double expected = 1 * 10 / (2 * 1e4);
+  EXPECT_NEAR(model::displacement(bar->surface.Phi, tip, found.back().bodies[0].q).x(), expected,
+              kNewton * expected);
+}
+
+TEST(Static, names_the_coordinate_that_nothing_holds) {
+  const std::string message = message_of([] { equilibria(scaled({press(0, 20)[0]}, {})); });
+  EXPECT_NE(message.find("body 'ram': the displacement along its axis"), std::string::npos) << message;
+}
+
+TEST(Static, refuses_initial_velocities_and_motions_without_end) {
+  std::vector<BodySetup> setups = press(0, 0);
+  setups[0].translation.s_dot_0 = 1;
+  EXPECT_THROW(scale_by_load_factor(setups[0], kEnd), Error);
+  setups[0].translation = {.drive = speed_drive(0, 1)};
+  EXPECT_THROW(scale_by_load_factor(setups[0], kEnd), Error);
+}
+
+TEST(Relax, comes_to_rest_where_the_static_analysis_ends) {
+  const std::vector<model::Snapshot> still = equilibria(scaled(press(0.02, 20), {contact_with(4e4)}));
+  System system(press(0.02, 20), {contact_with(4e4)});
+  model::Snapshot last;
+  const TimeSettings settings{
+      .dt = 0.002, .end_time = 20, .rho_inf = 0, .output_every = 1 << 20, .settle = true};
+  const RunSummary summary =
+      simulate(system, settings, [&](const model::Snapshot& snapshot) { last = snapshot; });
+  EXPECT_TRUE(summary.at_rest);
+  EXPECT_LT(summary.steps, 2000);
+  const double tolerance = 10 * settings.rest_tolerance;
+  EXPECT_NEAR(last.bodies[0].s[0], still.back().bodies[0].s[0], tolerance);
+  EXPECT_NEAR(last.pairs[0].force.x(), 20, 20 * tolerance);
+  EXPECT_LT((last.bodies[1].q - still.back().bodies[1].q).norm(),
+            tolerance * still.back().bodies[1].q.norm());
+  EXPECT_EQ(last.bodies[0].s_dot[0], 0);
+}
+
+TEST(Relax, says_when_the_time_was_too_short) {
+  System system(press(0.02, 20), {contact_with(4e4)});
+  const RunSummary summary = simulate(system, {.dt = 0.002, .end_time = 0.02, .settle = true}, {});
+  EXPECT_FALSE(summary.at_rest);
+  EXPECT_TRUE(summary.complete);
+}
