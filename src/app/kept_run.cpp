@@ -59,6 +59,11 @@ std::string fingerprint(const model::ElasticBody& body) {
   f.add_all(body.surface.face.reshaped());
   f.add_all(body.surface.group);
   add(f, body.surface.Phi);
+  f.add_all(body.zeta);
+  for (const model::Marker& marker : body.markers) {
+    f.add_all(marker.X);
+    add(f, marker.Phi);
+  }
   return f.text();
 }
 

@@ -33,8 +33,7 @@ Table read_table(const std::string& path) {
     const bool numbers = static_cast<bool>(stream >> time >> value);
     const bool blank = line.find_first_not_of(" \t\r") == std::string::npos;
     if (blank || (row == 1 && !numbers)) continue;
-    require(numbers && (stream >> std::ws).eof(), path, ", line ", row,
-            ": must be two numbers, time and value");
+    require(numbers && (stream >> std::ws).eof(), path, ", line ", row, ": must be two numbers");
     table.time.push_back(time);
     table.value.push_back(value);
   }
@@ -66,6 +65,22 @@ dynamics::Signal signal(const Options& options, const std::string& name) {
     return dynamics::ramp_signal(number(name, words[1]), number(name, words[2]));
   if (words.size() == 2 && words[0] == "table") return from_table(words[1], dynamics::table_signal);
   refuse(name, "a number, [ramp, VALUE, DURATION] or [table, FILE.csv]");
+}
+
+model::DampingRatio damping_ratio(const Options& options, const std::string& name) {
+  if (!options.given(name)) return {};
+  const std::vector<std::string> words = options.list(name);
+  model::DampingRatio damping;
+  if (words.size() == 1) {
+    damping = {{0}, {number(name, words[0])}};
+  } else {
+    if (words.size() != 2 || words[0] != "table") refuse(name, "a number or [table, FILE.csv]");
+    Table table = read_table(words[1]);
+    require(!table.time.empty(), words[1], ": the table is empty");
+    damping = {std::move(table.time), std::move(table.value)};
+  }
+  validate(damping);
+  return damping;
 }
 
 dynamics::Drive drive(const Options& options, const std::string& name, double s_0) {

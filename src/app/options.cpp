@@ -47,18 +47,20 @@ int edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// Tables with "<body>_x" written out for each value.
-OptionTable expand(const OptionTable& table, const std::vector<std::string>& values) {
+// Tables with "<body>_x" written out for each value of "body".
+OptionTable expand(const OptionTable& table, const PlaceholderValues& values) {
   OptionTable result;
   for (const OptionSpec& spec : table) {
-    const auto open = spec.name.find("<body>");
-    if (open == std::string::npos || values.empty()) {
+    const auto open = spec.name.find('<'), close = spec.name.find('>');
+    const auto found =
+        open == std::string::npos ? values.end() : values.find(spec.name.substr(open + 1, close - open - 1));
+    if (found == values.end()) {
       result.push_back(spec);
       continue;
     }
-    for (const std::string& value : values) {
+    for (const std::string& value : found->second) {
       result.push_back(spec);
-      result.back().name.replace(open, 6, value);
+      result.back().name.replace(open, close - open + 1, value);
     }
   }
   return result;
@@ -121,14 +123,14 @@ void Options::load(const std::vector<std::string>& files, int argc, char** argv)
       check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
 }
 
-void Options::reject_unknown(const std::vector<std::string>& placeholder_values) const {
-  const OptionTable known = expand(known_, placeholder_values);
+void Options::reject_unknown(const PlaceholderValues& values) const {
+  const OptionTable known = expand(known_, values);
   for (const auto& [name, value] : given_) {
     const auto fits = [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); };
     if (std::any_of(known.begin(), known.end(), fits)) continue;
     const auto is_petsc = [&](const std::string& prefix) { return name.starts_with(prefix); };
     if (std::any_of(kPetscPrefixes.begin(), kPetscPrefixes.end(), is_petsc)) continue;
-    const OptionTable candidates = expand(own_, placeholder_values);
+    const OptionTable candidates = expand(own_, values);
     const auto nearest =
         std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
           return edit_distance(name, a.name) < edit_distance(name, b.name);

@@ -20,6 +20,9 @@ struct OptionSpec {
 
 using OptionTable = std::vector<OptionSpec>;
 
+/// What a placeholder, "body", may stand for.
+using PlaceholderValues = std::map<std::string, std::vector<std::string>>;
+
 /// The options in force: files given on the command line first, then the command line again, so that it wins.
 class Options {
  public:
@@ -31,8 +34,8 @@ class Options {
   void load(const std::vector<std::string>& files, int argc, char** argv);
 
   /// Throws Error for the first key that no table knows and that is not PETSc's, naming the nearest known
-  /// key. `placeholder` values restrict "<body>"-like names; empty: any.
-  void reject_unknown(const std::vector<std::string>& placeholder_values = {}) const;
+  /// key. `values` restrict "<body>"-like names; placeholders without an entry stand for any word.
+  void reject_unknown(const PlaceholderValues& values = {}) const;
 
   bool given(const std::string& name) const;
   std::string text(const std::string& name) const;  ///< Error when neither given nor defaulted

@@ -61,7 +61,7 @@ Run read_run(const Options& options) {
   run.time = io::read_times(run.result);
   std::vector<std::string> names;
   for (const auto& body : header.bodies) names.push_back(body.name);
-  options.reject_unknown(names);
+  options.reject_unknown({{"body", names}});
   for (const auto& body : header.bodies) {
     const std::string key = body.name + "_file";
     run.bodies.push_back({body.name, options.given(key) ? options.text(key) : body.file,

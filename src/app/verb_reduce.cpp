@@ -7,6 +7,7 @@
 
 #include "app/console.h"
 #include "app/material_options.h"
+#include "app/motion.h"
 #include "app/verbs.h"
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -45,6 +46,9 @@ const OptionTable kOptions = {
      "centre_of_mass for a free body, else mesh)"},
     {"surface", "-", "", "face sets of the contact surface"},
     {"stress_nodes", "-", "", "node sets at which stress modes are stored"},
+    {"markers", "-", "",
+     "node sets whose mean motion is stored, for loads, bushings and sensors of simulate (which always has "
+     "the body frame)"},
     {"basis", "-", "modal",
      "modal: eigenmodes; full: every free degree of freedom (the finite-element reference)"},
     {"modes", "-", "100", "number of eigenmodes"},
@@ -64,6 +68,9 @@ const OptionTable kOptions = {
      "check how much of the static answer to loads on the surface the modes give: one more factorisation"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
+    {"damping_ratio", "-", "",
+     "damping ratios of the modes besides: a number or [table, FILE.csv] (frequency in Hz, ratio)"},
+    {"point_mass_<set>", "kg", "", "mass spread evenly over the nodes of a node set"},
 };
 
 // The node set that restrain_nodes makes.
@@ -126,6 +133,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   set_restraint(options, o);
   o.surface = options.list("surface");
   o.stress_nodes = options.list("stress_nodes");
+  o.markers = options.list("markers");
   o.basis = options.choice("basis", {"modal", "full"}) == 0 ? model::Basis::modal : model::Basis::full;
   o.n_modes = options.count("modes", 1);
   o.window = window(options);
@@ -140,6 +148,9 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.completeness = options.flag("completeness");
   o.alpha = options.number("damping_alpha");
   o.beta = options.number("damping_beta");
+  o.ratio = damping_ratio(options, "damping_ratio");
+  for (const std::string& set : options.placeholder_values("point_mass_<set>"))
+    o.point_mass[set] = options.positive("point_mass_" + set);
   o.provenance = options.provenance();
   return o;
 }

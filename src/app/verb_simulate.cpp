@@ -8,6 +8,7 @@
 #include "app/console.h"
 #include "app/contact_options.h"
 #include "app/kept_run.h"
+#include "app/marker_options.h"
 #include "app/motion.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
@@ -75,7 +76,7 @@ const OptionTable kOwnTable = {
 
 OptionTable table() {
   OptionTable all = kOwnTable;
-  for (const OptionTable& part : {contact_table(), kept_run_table()})
+  for (const OptionTable& part : {contact_table(), kept_run_table(), marker_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -123,14 +124,12 @@ void set_rate(const Options& options, const std::string& name, double& scalar, E
     scalar = options.number(name);
 }
 
-std::shared_ptr<const model::ElasticBody> read_or_make_body(const Options& options,
-                                                            const std::string& prefix) {
+model::ElasticBody read_or_make_body(const Options& options, const std::string& prefix) {
   if (options.given(prefix + "file")) {
     require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
             "file and -", prefix, "mass, _inertia exclude each other");
-    auto body = std::make_shared<model::ElasticBody>(io::read_body(options.text(prefix + "file")));
-    if (options.flag(prefix + "rigid")) *body = body::rigid_copy(*body);
-    return body;
+    model::ElasticBody body = io::read_body(options.text(prefix + "file"));
+    return options.flag(prefix + "rigid") ? body::rigid_copy(body) : body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,
           "file is missing: body file made by reduce (or give -", prefix, "mass and -", prefix,
@@ -139,8 +138,7 @@ std::shared_ptr<const model::ElasticBody> read_or_make_body(const Options& optio
   require(J.size() == 6, "option -", prefix, "inertia: must be six numbers xx,yy,zz,xy,yz,xz (kg m^2)");
   Eigen::Matrix3d J_c;
   J_c << J[0], J[3], J[5], J[3], J[1], J[4], J[5], J[4], J[2];
-  return std::make_shared<model::ElasticBody>(
-      body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c));
+  return body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c);
 }
 
 dynamics::BodySetup body_setup(const Options& options, const std::string& name) {
@@ -154,7 +152,9 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   set_rate(options, prefix + "velocity0", setup.translation.s_dot_0, setup.velocity0);
   set_axis(options, prefix, "rotation", "torque", setup.rotation);
   set_axis(options, prefix, "translation", "force", setup.translation);
-  setup.body = read_or_make_body(options, prefix);
+  model::ElasticBody body = read_or_make_body(options, prefix);
+  change_body(options, prefix, body);
+  setup.body = std::make_shared<model::ElasticBody>(std::move(body));
   check_free_body(setup);
   return setup;
 }
@@ -206,10 +206,11 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
 
 // Load steps in place of time steps.
 void make_static(const Options& options, std::vector<dynamics::BodySetup>& bodies,
-                 dynamics::Environment& surroundings) {
+                 dynamics::MarkerSetups& markers, dynamics::Environment& surroundings) {
   constexpr double kLastValue = std::numeric_limits<double>::infinity();
   const double time = options.given("ts_max_time") ? options.positive("ts_max_time") : kLastValue;
   for (dynamics::BodySetup& setup : bodies) dynamics::scale_by_load_factor(setup, time);
+  dynamics::scale_by_load_factor(markers, time);
   dynamics::scale_by_load_factor(surroundings);
 }
 
@@ -249,18 +250,19 @@ model::ResultHeader header(const Options& options, const dynamics::System& syste
 void run(const Options& options, const std::vector<std::string>&) {
   const std::vector<std::string> names = options.list("bodies");
   require(!names.empty(), "option -bodies is missing: names of the bodies");
-  options.reject_unknown(names);
+  options.reject_unknown(simulate_names(options));
   options.text("output");
   if (analysis(options) != Analysis::equilibrium) time_settings(options);
   const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
   dynamics::Environment surroundings = environment(options);
+  dynamics::MarkerSetups markers = marker_setups(options);
   std::vector<dynamics::BodySetup> bodies;
   for (const std::string& name : names) bodies.push_back(body_setup(options, name));
   std::map<std::string, std::string> inputs;
   add_inputs(options, bodies, inputs);
-  if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, surroundings);
+  if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, markers, surroundings);
 
-  dynamics::System system(std::move(bodies), pairs, surroundings);
+  dynamics::System system(std::move(bodies), pairs, surroundings, markers);
   model::ResultHeader head = header(options, system);
   head.provenance.merge(inputs);
   print_summary(options, keep(options, head, computation(options, system)));

@@ -1,6 +1,7 @@
 #include "elastogear/body/equations.h"
 
 #include <Eigen/Geometry>
+#include <numbers>
 
 #include "elastogear/base/error.h"
 #include "elastogear/body/shape.h"
@@ -18,6 +19,13 @@ Eigen::MatrixXd inertia_derivatives(const model::Inertia& inertia) {
     J_1.row(k) << J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(1, 2), J(0, 2);
   }
   return J_1;
+}
+
+Eigen::SparseMatrix<double> damping_matrix(const model::ElasticBody& body) {
+  Eigen::SparseMatrix<double> D_r = body.alpha * body.M_r + body.beta * body.K_r;
+  if (body.zeta.size() == 0) return D_r;
+  const VectorXd d = 4 * std::numbers::pi * body.zeta.cwiseProduct(body.frequency);
+  return D_r + Eigen::SparseMatrix<double>(d.asDiagonal());
 }
 
 VectorXd on_joint(const Equations& eq, const Vector3d& F_v, const Vector3d& F_w) {
@@ -44,7 +52,7 @@ Equations make_equations(std::shared_ptr<const model::ElasticBody> body, const J
   if (body->n_q() == 0 && level == InertiaLevel::full) eq.level = InertiaLevel::linear;
   eq.J_1 =
       level == InertiaLevel::constant ? Eigen::MatrixXd(body->n_q(), 0) : inertia_derivatives(body->inertia);
-  eq.D_r = body->alpha * body->M_r + body->beta * body->K_r;
+  eq.D_r = damping_matrix(*body);
   eq.body = std::move(body);
   return eq;
 }

@@ -25,10 +25,12 @@ void drop_elastic_coordinates(model::ElasticBody& body) {
   body.inertia.S_1.resize(9, 0);
   body.inertia.S_2.clear();
   body.frequency.resize(0);
+  body.zeta.resize(0);
   body.M_r.resize(0, 0);
   body.K_r.resize(0, 0);
   body.surface.Phi = model::DenseRows(model::row_count(body.surface.Phi), 0);
   body.stress = {};
+  for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows(6, 0);
 }
 
 }  // namespace

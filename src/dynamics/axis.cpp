@@ -152,8 +152,12 @@ void validate(const Axis& axis, const std::string& who) {
           "a prescribed motion takes no load, initial coordinate or initial rate beside it");
 }
 
+void require_covers(const Signal& signal, double end_time, const std::string& who) {
+  if (signal.table) require_span(signal.time, end_time, who);
+}
+
 void require_covers(const Axis& axis, double end_time, const std::string& who) {
-  if (axis.load.table) require_span(axis.load.time, end_time, who);
+  require_covers(axis.load, end_time, who);
   if (axis.drive && axis.drive->type == Drive::Type::table) require_span(axis.drive->time, end_time, who);
 }
 

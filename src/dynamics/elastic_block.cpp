@@ -21,7 +21,13 @@ bool is_diagonal(const Eigen::SparseMatrix<double>& A) {
 
 }  // namespace
 
-BorderColumns::BorderColumns(const body::Equations& eq) : Phi_(&eq.body->surface.Phi), U_(body::border(eq)) {}
+BorderColumns::BorderColumns(const body::Equations& eq, const Eigen::MatrixXd& markers)
+    : Phi_(&eq.body->surface.Phi) {
+  const Eigen::MatrixXd U = body::border(eq);
+  U_.resize(eq.n_q(), U.cols() + markers.cols());
+  U_.leftCols(U.cols()) = U;
+  U_.rightCols(markers.cols()) = markers;
+}
 
 Eigen::Index BorderColumns::size(const std::vector<int>& node) const {
   return n_u() + 3 * static_cast<Eigen::Index>(node.size());
@@ -58,8 +64,8 @@ Eigen::MatrixXd BorderColumns::node_columns(const std::vector<int>& node) const 
   return columns;
 }
 
-ElasticBlock::ElasticBlock(const body::Equations& eq)
-    : body_(eq.body.get()), D_r_(eq.D_r), columns_(eq), slot_(eq.body->surface.node.size(), -1) {
+ElasticBlock::ElasticBlock(const body::Equations& eq, const Eigen::MatrixXd& markers)
+    : body_(eq.body.get()), D_r_(eq.D_r), columns_(eq, markers), slot_(eq.body->surface.node.size(), -1) {
   diagonal_ = is_diagonal(body_->M_r) && is_diagonal(body_->K_r);
 }
 

@@ -12,10 +12,10 @@ const Eigen::SparseMatrix<double>& rows_of(const BodyTerms& t) { return t.L_V.ro
 
 LowRankSolver::LowRankSolver(const std::vector<SolverBody>& bodies) {
   Eigen::Index start = 0;
-  for (const auto& [eq, n_s] : bodies) {
+  for (const auto& [eq, n_s, markers] : bodies) {
     eq_.push_back(eq);
     range_.push_back({start, n_s, eq->n_q(), n_s_});
-    block_.emplace_back(*eq);
+    block_.emplace_back(*eq, markers);
     start += n_s + eq->n_q();
     n_s_ += n_s;
   }

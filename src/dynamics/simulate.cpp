@@ -36,6 +36,7 @@ void validate(const Checkpoints& checkpoints) {
 void require_tables_cover(const System& system, double end_time) {
   for (const System::Body& body : system.bodies())
     for (const Axis& axis : body.axis) require_covers(axis, end_time, "body '" + body.name + "': ");
+  system.marker_forces().require_tables_cover(end_time);
 }
 
 // After everything else that happens between two steps.

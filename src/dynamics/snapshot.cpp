@@ -10,7 +10,29 @@ model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& 
   return {placement.r_WB, placement.R_WB, m.s, m.s_dot, m.s_ddot, m.q, m.q_dot, m.q_ddot, joint_force};
 }
 
-double stored(const model::Energies& energy) { return energy.kinetic + energy.elastic + energy.contact; }
+double stored(const model::Energies& energy) {
+  return energy.kinetic + energy.elastic + energy.contact + energy.bushing;
+}
+
+void add_markers(const System& system, const State& x, model::Snapshot& result) {
+  const MarkerForces& forces = system.marker_forces();
+  const std::vector<MovingBody> bodies = system.moving_bodies(x);
+  const MarkerSetups& setups = forces.setups();
+  for (std::size_t i = 0; i < setups.bushings.size(); ++i) {
+    const BushingState b = forces.bushing_state(i, bodies);
+    result.bushings.push_back({b.d, b.d_dot, b.angle, b.w, b.force, b.torque});
+    result.energy.bushing += b.energy;
+  }
+  for (std::size_t i = 0; i < setups.loads.size(); ++i) {
+    const body::MarkerMotion at = forces.load_motion(i, bodies);
+    const body::Wrench wrench = forces.load_wrench(i, x.time, at);
+    result.loads.push_back({wrench.head<3>(), wrench.tail<3>(), at.x, at.w});
+  }
+  for (std::size_t i = 0; i < setups.sensors.size(); ++i) {
+    const body::MarkerMotion at = forces.sensor_motion(i, bodies);
+    result.sensors.push_back({at.x, at.v, at.a, at.R, at.w});
+  }
+}
 
 double weight_energy(const System& system, std::size_t b, const model::BodyState& x) {
   return body::gravity_energy(system.bodies()[b].eq, {x.s, x.s_dot, x.s_ddot, x.q, x.q_dot, x.q_ddot},
@@ -33,6 +55,7 @@ model::Snapshot snapshot(System& system, const State& x) {
     result.pairs.push_back(pair_state(system, x, p));
     for (const contact::ContactPoint& point : contact.pair[p].points) result.energy.contact += point.energy;
   }
+  add_markers(system, x, result);
   return result;
 }
 
@@ -45,6 +68,19 @@ void EnergyLedger::enter_joint(const System::Body& body, const model::BodyState&
     work_ += axis.drive ? 0.5 * (now.joint_force[i] + before.joint_force[i]) * way + lost
                         : at(axis.load, 0.5 * (times[0] + times[1])) * way;
     ++i;
+  }
+}
+
+void EnergyLedger::enter_markers(const MarkerForces& forces, const model::Snapshot& now) {
+  const double dt = now.time - time_;
+  for (std::size_t i = 0; i < bushings_.size(); ++i) {
+    const model::BushingState &a = bushings_[i], &b = now.bushings[i];
+    dissipated_ += dt * dissipation(forces.setups().bushings[i].law, 0.5 * (a.velocity + b.velocity),
+                                    0.5 * (a.rate + b.rate));
+  }
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const model::LoadState &a = loads_[i], &b = now.loads[i];
+    work_ += 0.5 * (a.force + b.force).dot(b.x - a.x) + 0.25 * dt * (a.torque + b.torque).dot(a.w + b.w);
   }
 }
 
@@ -62,12 +98,15 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
     dissipated_ += (snapshot.time - time_) * body::dissipation(body.eq, q_dot_m);
     enter_joint(body, snapshot.bodies[b], bodies_[b], {time_, snapshot.time});
   }
+  enter_markers(system.marker_forces(), snapshot);
   snapshot.energy.dissipated = dissipated_ + system.contact_loss();
   snapshot.energy.work = work_ + weight_0_ - weight;
   snapshot.energy.balance =
       stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
   bodies_ = snapshot.bodies;
+  bushings_ = snapshot.bushings;
+  loads_ = snapshot.loads;
 }
 
 void EnergyLedger::visit_memory(Tape& tape) {
@@ -78,6 +117,13 @@ void EnergyLedger::visit_memory(Tape& tape) {
     for (Eigen::VectorXd* x :
          {&body.s, &body.s_dot, &body.s_ddot, &body.q, &body.q_dot, &body.q_ddot, &body.joint_force})
       tape(*x);
+  });
+  tape.each(bushings_, [&](model::BushingState& b) {
+    for (Eigen::Vector3d* x : {&b.displacement, &b.velocity, &b.angle, &b.rate, &b.force, &b.torque})
+      tape(*x);
+  });
+  tape.each(loads_, [&](model::LoadState& load) {
+    for (Eigen::Vector3d* x : {&load.force, &load.torque, &load.x, &load.w}) tape(*x);
   });
 }
 

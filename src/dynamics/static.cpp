@@ -210,6 +210,10 @@ void scale_by_load_factor(BodySetup& setup, double time) {
   }
 }
 
+void scale_by_load_factor(MarkerSetups& markers, double time) {
+  for (LoadSetup& load : markers.loads) load.signal = scaled(load.signal, time);
+}
+
 void scale_by_load_factor(Environment& environment) { environment.gravity_rise = 1; }
 
 RunSummary solve_static(System& system, const StaticSettings& settings, const Observer& observer,

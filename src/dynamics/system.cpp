@@ -119,8 +119,9 @@ Eigen::MatrixXd extended(const Eigen::MatrixXd& top, Eigen::Index rows) {
   return all;
 }
 
-BodyTerms body_terms(body::Tangent tangent, const std::vector<int>& node) {
-  const Eigen::Index n_e = tangent.beta.rows() + 3 * static_cast<Eigen::Index>(node.size());
+// n_m: rows of the body's markers.
+BodyTerms body_terms(body::Tangent tangent, Eigen::Index n_m, const std::vector<int>& node) {
+  const Eigen::Index n_e = tangent.beta.rows() + n_m + 3 * static_cast<Eigen::Index>(node.size());
   BodyTerms terms;
   terms.node = node;
   terms.C = std::move(tangent.C);
@@ -204,12 +205,14 @@ Eigen::Vector3d gravity(const Environment& environment, double time) {
                   : environment.gravity;
 }
 
-System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment)
+System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment,
+               const MarkerSetups& markers)
     : environment_(environment) {
   require(!bodies.empty(), "there is no body to simulate");
   require(environment.gravity.allFinite(), "gravity (", environment.gravity.transpose(), ") must be finite");
   for (const BodySetup& setup : bodies) add_body(setup);
   for (const PairSetup& setup : pairs) add_pair(setup);
+  add_marker_forces(markers);
 }
 
 void System::add_body(const BodySetup& setup) {
@@ -243,9 +246,17 @@ void System::add_pair(const PairSetup& setup) {
   detectors_.emplace_back(a.surface, b.surface, setup.settings, std::array{&a.K_r, &b.K_r});
 }
 
+void System::add_marker_forces(const MarkerSetups& setups) {
+  std::vector<MarkerForces::Body> bodies;
+  for (const Body& body : bodies_) bodies.push_back({body.name, body.eq.body.get()});
+  marker_forces_ = MarkerForces(setups, bodies);
+  marker_forces_.set_unloaded(moving_bodies({0, U_0_, V_0_, V_0_}));
+}
+
 std::vector<SolverBody> System::solver_bodies() const {
   std::vector<SolverBody> bodies;
-  for (const Body& body : bodies_) bodies.push_back({&body.eq, body.n_open()});
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    bodies.push_back({&bodies_[b].eq, bodies_[b].n_open(), marker_forces_.columns(b)});
   return bodies;
 }
 
@@ -273,6 +284,12 @@ body::Motion System::motion(std::size_t b, const State& x) const {
     ++i;
   }
   return m;
+}
+
+std::vector<MovingBody> System::moving_bodies(const State& x) const {
+  std::vector<MovingBody> bodies;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies.push_back({&bodies_[b].eq, motion(b, x)});
+  return bodies;
 }
 
 const ContactState& System::contacts(double time, ConstVector U, ConstVector V) {
@@ -355,15 +372,23 @@ void System::restore(const ContactHistory& history) {
   U_of_state_.reset();
 }
 
-body::Force System::balance(std::size_t b, const State& x, Residual* r) {
+std::vector<body::Force> System::at_markers(const State& x) const {
+  if (!marker_forces_.empty()) return marker_forces_.forces(x.time, moving_bodies(x));
+  std::vector<body::Force> none;
+  for (const Body& body : bodies_)
+    none.push_back({Eigen::VectorXd::Zero(body.eq.n_s()), Eigen::VectorXd::Zero(body.eq.n_q())});
+  return none;
+}
+
+body::Force System::balance(std::size_t b, const State& x, const body::Force& marker_force, Residual* r) {
   const Body& body = bodies_[b];
   const body::Motion m = motion(b, x);
   const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
                     inner = body::inner_force(body.eq, m),
                     weight = body::gravity_force(body.eq, m, gravity(environment_, x.time)),
                     touch = contact_force(body.eq, contacts(x.time, x.U, x.V).force[b]);
-  const Terms s{inertia.s, -quadratic.s, -touch.s, -weight.s, -load(body, x.time, m.s_dot)},
-      q{inertia.q, inner.q, -quadratic.q, -touch.q, -weight.q};
+  const Terms s{inertia.s, -quadratic.s, -touch.s, -weight.s, -marker_force.s, -load(body, x.time, m.s_dot)},
+      q{inertia.q, inner.q, -quadratic.q, -touch.q, -weight.q, -marker_force.q};
   const body::Force total{sum(s), sum(q)};
   if (!r) return total;
   r->F.segment(body.first, body.n_open()) = total.s(body.open);
@@ -376,7 +401,8 @@ body::Force System::balance(std::size_t b, const State& x, Residual* r) {
 Residual System::residual(const State& x) {
   const auto n_blocks = static_cast<Eigen::Index>(2 * bodies_.size());
   Residual r{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(n_blocks), Eigen::VectorXd::Zero(n_blocks)};
-  for (std::size_t b = 0; b < bodies_.size(); ++b) balance(b, x, &r);
+  const std::vector<body::Force> marker_force = at_markers(x);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) balance(b, x, marker_force[b], &r);
   return r;
 }
 
@@ -384,7 +410,8 @@ Eigen::VectorXd System::joint_force(std::size_t b, const State& x) {
   const Body& body = bodies_[b];
   Eigen::VectorXd force = load(body, x.time, motion(b, x).s_dot);
   const bool driven = body.n_open() < body.eq.n_s();
-  const Eigen::VectorXd missing = driven ? balance(b, x, nullptr).s : Eigen::VectorXd::Zero(force.size());
+  if (!driven) return force;
+  const Eigen::VectorXd missing = balance(b, x, at_markers(x)[b], nullptr).s;
   for (Eigen::Index i = 0; const Axis& axis : body.axis) {
     if (axis.drive) force[i] += missing[i];
     ++i;
@@ -407,11 +434,13 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s()),
                       velocity_twists(eq.joint, eq.H, joint, shift.v), body::frame_motion(eq, m).w, shift.v});
     twists.back().P << d.r, d.theta;
-    matrix.body.push_back(body_terms(body::tangent(eq, m, gravity(environment_, x.time), shift), node));
+    matrix.body.push_back(body_terms(body::tangent(eq, m, gravity(environment_, x.time), shift),
+                                     marker_forces_.row_count(b), node));
     matrix.body.back().C.diagonal() += shift.v * load_rate(bodies_[b], m.s_dot);
     add_geometric_stiffness(twists.back(), contact.force[b], matrix.body.back());
   }
   set_contact_columns(twists, contact.pair, contact.surface, matrix);
+  if (!marker_forces_.empty()) marker_forces_.add_tangent(x.time, moving_bodies(x), shift, matrix);
   for (std::size_t b = 0; b < bodies_.size(); ++b) keep_open(matrix.body[b], bodies_[b].open);
   return matrix;
 }
@@ -461,6 +490,9 @@ model::ResultHeader result_header(const System& system) {
       entry.group_name[side] = system.bodies()[pair.body[side]].eq.body->surface.group_name;
     header.pairs.push_back(entry);
   }
+  const MarkerSetups& markers = system.marker_forces().setups();
+  for (const BushingSetup& bushing : markers.bushings) header.bushings.push_back(bushing.name);
+  for (const SensorSetup& sensor : markers.sensors) header.sensors.push_back(sensor.name);
   return header;
 }
 

@@ -57,6 +57,19 @@ model::Stress read_stress(const h5::File& file) {
   return stress;
 }
 
+std::vector<model::Marker> read_markers(const h5::File& file) {
+  std::vector<model::Marker> markers;
+  if (!h5::exists(file, "/markers")) return markers;
+  for (const std::string& name : h5::members(file, "/markers")) {
+    const std::string group = "/markers/" + name;
+    const auto X = h5::read<double>(file, group + "/X", {3});
+    markers.push_back({name, Eigen::Map<const Eigen::Vector3d>(X.data()),
+                       h5::int_attribute(file, group, "turns").front() != 0,
+                       read_rows(file, group + "/Phi", 6)});
+  }
+  return markers;
+}
+
 model::Material read_material(const h5::File& file, const std::string& group) {
   const auto number = [&](const char* name) { return h5::read<double>(file, group + name, {}).front(); };
   const auto vector = [&](const char* name) -> Eigen::Vector3d {
@@ -124,9 +137,11 @@ model::ElasticBody read_body(const std::string& path) {
   body.alpha = h5::number_attribute(file, "/reduced", "alpha");
   body.beta = h5::number_attribute(file, "/reduced", "beta");
   if (body.basis == Basis::modal) body.frequency = read_vector(file, "/modes/frequency", extent(body.n_q()));
+  if (h5::exists(file, "/modes/damping_ratio")) body.zeta = read_vector(file, "/modes/damping_ratio");
   body.inertia = read_inertia(file, body.n_q());
   body.surface = read_surface(file);
   body.stress = read_stress(file);
+  body.markers = read_markers(file);
   model::validate(body, path);
   return body;
 }

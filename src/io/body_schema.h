@@ -13,11 +13,18 @@ namespace elastogear::io {
 
 /// Units follow from those of q: m sqrt(kg) when mass-normalised (modal), m for the unit basis (full).
 struct BodyUnits {
-  const char *Phi, *Psi, *M, *K, *C_l, *C_r, *S_1, *S_2;
+  const char *Phi, *Psi, *M, *K, *C_l, *C_r, *S_1, *S_2, *marker;
 };
-constexpr BodyUnits kModalUnits{"kg^-1/2", "Pa m^-1 kg^-1/2", "1",        "s^-2",
-                                "kg^1/2",  "m kg^1/2",        "m kg^1/2", "1"};
-constexpr BodyUnits kFullUnits{"1", "Pa/m", "kg", "N/m", "kg", "kg m", "kg m", "kg"};
+constexpr BodyUnits kModalUnits{"kg^-1/2",
+                                "Pa m^-1 kg^-1/2",
+                                "1",
+                                "s^-2",
+                                "kg^1/2",
+                                "m kg^1/2",
+                                "m kg^1/2",
+                                "1",
+                                "kg^-1/2 or rad m^-1 kg^-1/2"};
+constexpr BodyUnits kFullUnits{"1", "Pa/m", "kg", "N/m", "kg", "kg m", "kg m", "kg", "1 or rad/m"};
 
 // In the order of model::Inertia::S_2.
 inline constexpr const char* kMoments[] = {"11", "22", "33", "12", "23", "13"};

@@ -52,6 +52,18 @@ void write_stress(const h5::File& file, const model::Stress& stress, const BodyU
   }
 }
 
+void write_markers(const h5::File& file, const model::ElasticBody& body, const BodyUnits& unit) {
+  h5::make_group(file, "/markers");
+  for (const model::Marker& marker : body.markers) {
+    require_name(file, marker.name);
+    const std::string group = "/markers/" + marker.name;
+    h5::make_group(file, group);
+    h5::set_attribute(file, group, "turns", static_cast<int>(marker.turns));
+    h5::write<double>(file, group + "/X", {{3}, marker.X.data()}, "m");
+    write_rows(file, group + "/Phi", marker.Phi, 6, unit.marker);
+  }
+}
+
 void write_reduced(const h5::File& file, const model::ElasticBody& body, const BodyUnits& unit) {
   write_square(file, "/reduced/M", body.M_r, {body.basis, unit.M});
   write_square(file, "/reduced/K", body.K_r, {body.basis, unit.K});
@@ -64,6 +76,7 @@ void write_modes(const h5::File& file, const model::ElasticBody& body) {
   const Eigen::VectorXd eigenvalue = body.K_r.diagonal();
   h5::write<double>(file, "/modes/frequency", view(body.frequency), "Hz");
   h5::write<double>(file, "/modes/eigenvalue", view(eigenvalue), "rad^2/s^2");
+  if (body.zeta.size() > 0) h5::write<double>(file, "/modes/damping_ratio", view(body.zeta), "1");
 }
 
 void write_checks(const h5::File& file, const ModeChecks& checks) {
@@ -174,6 +187,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   write_inertia(file, body.inertia, unit);
   write_surface(file, body.surface, unit);
   write_stress(file, body.stress, unit);
+  write_markers(file, body, unit);
   h5::write<int>(file, "/reduced/free_dof", view(source.free_dof), "1");
   write_mesh(file, source.mesh);
   write_materials(file, source.regions);

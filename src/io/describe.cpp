@@ -115,6 +115,7 @@ void describe_modes(Out& out, const std::string& path, const model::ElasticBody&
     line(out, "largest residual: ", checks.residual.maxCoeff(),
          ", largest phi_i' M phi_j: ", checks.orthogonality, ", count proved by inertia");
   line(out, "damping: alpha = ", body.alpha, " 1/s, beta = ", body.beta, " s");
+  if (body.zeta.size() > 0) line(out, "damping ratios: ", body.zeta.minCoeff(), " to ", body.zeta.maxCoeff());
 }
 
 // Tables of many rows by their range.
@@ -148,6 +149,9 @@ void describe_body(Out& out, const std::string& path) {
        counted(body.surface.face.cols(), "face"), " in ", counted(body.surface.group_name.size(), "group"),
        groups.empty() ? "" : ":", groups);
   line(out, "stress: ", counted(body.stress.node.size(), "node"));
+  for (const model::Marker& marker : body.markers)
+    line(out, "marker ", marker.name, ": (", marker.X.transpose().format(kRow), ") m",
+         marker.turns ? "" : ", without rotation: its nodes lie on a line");
   describe_sets(out, "stress node", body.stress.sets);
   for (const model::Check& check : source.checks) describe_check(out, check);
   describe_mesh(out, source.mesh);
@@ -191,6 +195,12 @@ void describe_result(Out& out, const std::string& path) {
          counted(q.back(), "elastic coordinate"));
   }
   for (const auto& pair : header.pairs) describe_pair(out, path, pair.name, time);
+  for (const std::string& name : header.bushings) {
+    const BushingHistory history = read_bushing_history(path, name);
+    line(out, "bushing ", name, ": peak force ", history.force.colwise().norm().maxCoeff(),
+         " N, peak torque ", history.torque.colwise().norm().maxCoeff(), " N m");
+  }
+  for (const std::string& name : header.sensors) line(out, "sensor ", name);
   describe_energies(out, read_energies(path));
   describe_map(out, header.provenance);
 }

@@ -21,9 +21,13 @@ std::vector<std::string> in_order(const h5::File& file, const std::string& group
   return ordered;
 }
 
+std::vector<std::string> members_if_any(const h5::File& file, const std::string& group) {
+  return h5::exists(file, group) ? h5::members(file, group) : std::vector<std::string>();
+}
+
 h5::File open_with(const std::string& path, const std::string& group, const std::string& name) {
   h5::File file = open_format(path, kResultFormat);
-  const std::vector<std::string> names = h5::members(file, group);
+  const std::vector<std::string> names = members_if_any(file, group);
   std::string known;
   for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
   require(std::find(names.begin(), names.end(), name) != names.end(), path, ": has no ", group, "/", name,
@@ -71,6 +75,8 @@ model::ResultHeader read_result_header(const std::string& path) {
                              h5::string_attribute(file, "/bodies/" + name, "joint")});
   for (const std::string& name : in_order(file, "/contact"))
     header.pairs.push_back(read_pair(file, name, header.bodies.size()));
+  if (h5::exists(file, "/bushings")) header.bushings = in_order(file, "/bushings");
+  if (h5::exists(file, "/sensors")) header.sensors = in_order(file, "/sensors");
   return header;
 }
 
@@ -128,8 +134,31 @@ EnergyHistory read_energies(const std::string& path) {
   const auto read = [&](const std::string& name) {
     return read_vector(file, "/energy/" + name, time_count(file));
   };
-  return {read("kinetic"),    read("elastic"), read("contact"),
-          read("dissipated"), read("work"),    read("balance")};
+  EnergyHistory energy{read("kinetic"),
+                       read("elastic"),
+                       read("contact"),
+                       read("dissipated"),
+                       read("work"),
+                       read("balance"),
+                       {}};
+  energy.bushing = h5::exists(file, "/energy/bushing")
+                       ? read("bushing")
+                       : Eigen::VectorXd(Eigen::VectorXd::Zero(energy.kinetic.size()));
+  return energy;
+}
+
+BushingHistory read_bushing_history(const std::string& path, const std::string& bushing) {
+  const h5::File file = open_with(path, "/bushings", bushing);
+  const auto read = [&](const char* name) { return read_columns(file, "/bushings/" + bushing + name, {3}); };
+  return {read("/displacement"), read("/angle"), read("/force"), read("/torque")};
+}
+
+SensorHistory read_sensor_history(const std::string& path, const std::string& sensor) {
+  const h5::File file = open_with(path, "/sensors", sensor);
+  const std::string group = "/sensors/" + sensor;
+  const auto read = [&](const char* name) { return read_columns(file, group + name, {3}); };
+  return {read("/position"), read("/velocity"), read("/acceleration"),
+          read_columns(file, group + "/rotation", {3, 3}), read("/angular_velocity")};
 }
 
 std::vector<std::vector<model::ContactRecord>> read_contacts(const std::string& path,

@@ -19,6 +19,9 @@ bool finite(const model::Snapshot& snapshot) {
            body.q_dot.allFinite() && body.q_ddot.allFinite();
   for (const auto& pair : snapshot.pairs)
     good = good && pair.force.allFinite() && pair.torque.allFinite() && std::isfinite(pair.penetration);
+  for (const auto& bushing : snapshot.bushings)
+    good = good && bushing.force.allFinite() && bushing.torque.allFinite();
+  for (const auto& sensor : snapshot.sensors) good = good && sensor.acceleration.allFinite();
   return good;
 }
 
@@ -44,6 +47,11 @@ void ResultRows::append(const std::string& name, const Eigen::VectorXd& value, c
   series_at(name, {{static_cast<hsize_t>(value.size())}, unit}).append(value.data());
 }
 
+void ResultRows::append_rotation(const std::string& name,
+                                 const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>& R) {
+  series_at(name, {{3, 3}, "1"}).append(R.data());
+}
+
 // Joint coordinates are lengths or angles, q depends on the basis: their unit is told by the attributes joint
 // and file of the body.
 void ResultRows::append_body(const std::string& group, const model::BodyState& body) {
@@ -52,8 +60,7 @@ void ResultRows::append_body(const std::string& group, const model::BodyState& b
   append(group + "/rigid_acceleration", body.s_ddot, "rad/s^2 or m/s^2");
   append(group + "/joint_force", body.joint_force, "N m or N");
   append(group + "/position", body.r_WB, "m");
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = body.R_WB;
-  series_at(group + "/rotation", {{3, 3}, "1"}).append(R.data());
+  append_rotation(group + "/rotation", body.R_WB);
   append(group + "/q", body.q, "as in the body file");
   append(group + "/q_velocity", body.q_dot, "as q, per s");
   append(group + "/q_acceleration", body.q_ddot, "as q, per s^2");
@@ -149,12 +156,33 @@ void ResultRows::append_energy(const model::Energies& energy) {
   append("/energy/dissipated", energy.dissipated, "J");
   append("/energy/work", energy.work, "J");
   append("/energy/balance", energy.balance, "J");
+  if (!header_.bushings.empty()) append("/energy/bushing", energy.bushing, "J");
+}
+
+void ResultRows::append_bushing(const std::string& group, const model::BushingState& bushing) {
+  append(group + "/displacement", bushing.displacement, "m");
+  append(group + "/angle", bushing.angle, "rad");
+  append(group + "/force", bushing.force, "N");
+  append(group + "/torque", bushing.torque, "N m");
+}
+
+void ResultRows::append_sensor(const std::string& group, const model::SensorState& sensor) {
+  append(group + "/position", sensor.position, "m");
+  append(group + "/velocity", sensor.velocity, "m/s");
+  append(group + "/acceleration", sensor.acceleration, "m/s^2");
+  append_rotation(group + "/rotation", sensor.rotation);
+  append(group + "/angular_velocity", sensor.angular_velocity, "rad/s");
 }
 
 void ResultRows::check(const model::Snapshot& snapshot) const {
   require(snapshot.bodies.size() == header_.bodies.size() && snapshot.pairs.size() == header_.pairs.size(),
           file_.path, ": a snapshot has ", snapshot.bodies.size(), " bodies and ", snapshot.pairs.size(),
           " pairs, the header ", header_.bodies.size(), " and ", header_.pairs.size());
+  require(snapshot.bushings.size() == header_.bushings.size() &&
+              snapshot.sensors.size() == header_.sensors.size(),
+          file_.path, ": a snapshot has ", snapshot.bushings.size(), " bushings and ",
+          snapshot.sensors.size(), " sensors, the header ", header_.bushings.size(), " and ",
+          header_.sensors.size());
   require(finite(snapshot), file_.path, ": the state at t = ", snapshot.time, " s is not finite");
   require(snapshot.time > count_.last_time, file_.path, ": time ", snapshot.time, " s does not come after ",
           count_.last_time, " s");
@@ -169,6 +197,10 @@ void ResultRows::append(const model::Snapshot& snapshot) {
     append_body("/bodies/" + header_.bodies[i].name, snapshot.bodies[i]);
   for (std::size_t i = 0; i < snapshot.pairs.size(); ++i) append_pair(i, snapshot.pairs[i]);
   append_energy(snapshot.energy);
+  for (std::size_t i = 0; i < snapshot.bushings.size(); ++i)
+    append_bushing("/bushings/" + header_.bushings[i], snapshot.bushings[i]);
+  for (std::size_t i = 0; i < snapshot.sensors.size(); ++i)
+    append_sensor("/sensors/" + header_.sensors[i], snapshot.sensors[i]);
 }
 
 void ResultRows::close() {

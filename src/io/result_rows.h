@@ -33,12 +33,15 @@ class ResultRows {
   h5::Series& series_at(const std::string& name, const h5::Item& item);
   void append(const std::string& name, double value, const std::string& unit, bool integer = false);
   void append(const std::string& name, const Eigen::VectorXd& value, const std::string& unit);
+  void append_rotation(const std::string& name, const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>& R);
   void append_body(const std::string& group, const model::BodyState& body);
   void append_pair(std::size_t index, const model::PairState& pair);
   void append_total(const std::string& group, const model::ContactFigures& total);
   void append_areas(const std::string& group, std::vector<model::ContactFigures> areas, std::size_t n);
   void append_contacts(const std::string& group, const std::vector<model::ContactRecord>& contacts);
   void append_energy(const model::Energies& energy);
+  void append_bushing(const std::string& group, const model::BushingState& bushing);
+  void append_sensor(const std::string& group, const model::SensorState& sensor);
   void check(const model::Snapshot& snapshot) const;
 
   const h5::File& file_;

@@ -9,6 +9,17 @@ namespace {
 
 constexpr const char* kSide[2] = {"a", "b"};
 
+// Their order in the snapshots is that of the attribute `number`.
+void write_names(const h5::File& file, const std::string& group, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  h5::make_group(file, group);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    require_name(file, names[i]);
+    h5::make_group(file, group + "/" + names[i]);
+    h5::set_attribute(file, group + "/" + names[i], "number", static_cast<int>(i));
+  }
+}
+
 void write_header(const h5::File& file, const model::ResultHeader& header) {
   write_format(file, kResultFormat);
   h5::write_map(file, "/provenance", header.provenance);
@@ -32,6 +43,8 @@ void write_header(const h5::File& file, const model::ResultHeader& header) {
     for (int side : {0, 1})
       h5::write_strings(file, group + "/groups/" + kSide[side] + "/name", pair.group_name[side]);
   }
+  write_names(file, "/bushings", header.bushings);
+  write_names(file, "/sensors", header.sensors);
 }
 
 void mark(const h5::File& file, bool complete) { h5::set_attribute(file, "/", "complete", complete ? 1 : 0); }

@@ -1,6 +1,7 @@
 #include "elastogear/model/elastic_body.h"
 
 #include <algorithm>
+#include <set>
 
 #include "elastogear/base/error.h"
 
@@ -73,6 +74,18 @@ void validate_stress(const Stress& stress, Eigen::Index n_q, const std::string& 
     require(in_range(members, n_e), source, ": stress set '", name, "' names a node outside 0..", n_e - 1);
 }
 
+void validate_markers(const std::vector<Marker>& markers, Eigen::Index n_q, const std::string& source) {
+  std::set<std::string> names = {kFrameMarker};
+  for (const Marker& marker : markers) {
+    require(!marker.name.empty() && names.insert(marker.name).second, source, ": two markers are named '",
+            marker.name, "'");
+    require(marker.X.allFinite() && finite(marker.Phi), source, ": marker '", marker.name, "' is not finite");
+    require(
+        row_count(marker.Phi) == 6 && std::visit([](const auto& r) { return r.cols(); }, marker.Phi) == n_q,
+        source, ": marker '", marker.name, "' does not have 6 rows of n_q = ", n_q, " entries");
+  }
+}
+
 }  // namespace
 
 Eigen::Index row_count(const BasisRows& rows) {
@@ -107,9 +120,15 @@ void validate(const ElasticBody& body, const std::string& source) {
           ": reduced matrices are not square of size n_q = ", n_q);
   require(body.alpha >= 0 && body.beta >= 0, source, ": damping alpha = ", body.alpha, ", beta = ", body.beta,
           " must not be negative");
+  require(body.zeta.size() == 0 ||
+              (body.zeta.size() == n_q && body.zeta.allFinite() && (body.zeta.array() >= 0).all()),
+          source, ": there must be n_q = ", n_q, " damping ratios, finite and not negative, or none");
+  require(body.zeta.size() == 0 || body.frequency.size() == n_q, source,
+          ": damping ratios need modes; the full basis takes Rayleigh's alpha and beta only");
   validate_inertia(body.inertia, n_q, source);
   validate_surface(body.surface, n_q, source);
   validate_stress(body.stress, n_q, source);
+  validate_markers(body.markers, n_q, source);
 }
 
 }  // namespace elastogear::model

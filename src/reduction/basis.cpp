@@ -20,6 +20,10 @@ void resize_coupling(model::Inertia& inertia, Eigen::Index n_q) {
   inertia.S_1.setZero(9, n_q);
 }
 
+Eigen::Index stress_rows(const model::ElasticBody& body) {
+  return 6 * static_cast<Eigen::Index>(body.stress.node.size());
+}
+
 // 3 n_nodes x n_free selection: column j is the unit vector of free_dof[j].
 Eigen::SparseMatrix<double> unit_columns(const std::vector<int>& free_dof, Eigen::Index n_dofs) {
   Eigen::SparseMatrix<double> I(n_dofs, static_cast<Eigen::Index>(free_dof.size()));
@@ -46,7 +50,8 @@ void allocate_modes(model::ElasticBody& body, int n_q) {
   body.basis = model::Basis::modal;
   resize_coupling(body.inertia, n_q);
   body.surface.Phi = model::DenseRows::Zero(3 * static_cast<Eigen::Index>(body.surface.node.size()), n_q);
-  body.stress.Psi = model::DenseRows::Zero(6 * static_cast<Eigen::Index>(body.stress.node.size()), n_q);
+  body.stress.Psi = model::DenseRows::Zero(stress_rows(body), n_q);
+  for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows::Zero(6, n_q);
 }
 
 void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
@@ -72,6 +77,10 @@ void set_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& column) {
   auto& Psi = std::get<model::DenseRows>(body.stress.Psi);
   Phi.col(k) = column.head(Phi.rows());
   Psi.col(k) = column.segment(Phi.rows(), Psi.rows());
+  for (Eigen::Index row = Phi.rows() + Psi.rows(); model::Marker & marker : body.markers) {
+    std::get<model::DenseRows>(marker.Phi).col(k) = column.segment<6>(row);
+    row += 6;
+  }
   const auto tail = column.tail<kInertiaRows>();
   body.inertia.S_1.col(k) = tail.head<9>();
   body.inertia.C_l.row(k) = tail.segment<3>(9);
@@ -90,7 +99,13 @@ void set_full_basis(model::ElasticBody& body, const std::vector<int>& free_dof,
   const Eigen::Index n_dofs = 3 * moments.w_0.size();
   const auto Phi = unit_columns(free_dof, n_dofs);
   body.surface.Phi = model::SparseRows(node_rows(body.surface.node, n_dofs) * Phi);
-  body.stress.Psi = model::SparseRows(S * Phi);
+  const model::SparseRows rows = S * Phi;
+  Eigen::Index row = stress_rows(body);
+  body.stress.Psi = model::SparseRows(rows.topRows(row));
+  for (model::Marker& marker : body.markers) {
+    marker.Phi = model::SparseRows(rows.middleRows(row, 6));
+    row += 6;
+  }
   resize_coupling(body.inertia, Phi.cols());
   for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
     const int node = free_dof[static_cast<std::size_t>(j)] / 3, d = free_dof[static_cast<std::size_t>(j)] % 3;

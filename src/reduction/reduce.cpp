@@ -20,7 +20,7 @@ void keep_all(Job& job) {
     plan.body.K_r = std::move(K);
     plan.body.M_r = std::move(M);
     if (job.options.invariants == Invariants::full)
-      plan.body.inertia.S_2 = unit_second_moments(fem::scalar_mass(job.mesh, job.regions), plan.free_dof);
+      plan.body.inertia.S_2 = unit_second_moments(scalar_mass(job), plan.free_dof);
   });
   job.finish_stage("gathering");
   job.on_root([&] {
@@ -50,11 +50,8 @@ void fill_report(Job& job) {
         *std::max_element(cells.begin(), cells.end()) * static_cast<double>(job.size) / report.n_cells;
 }
 
-}  // namespace
-
-fem::Matrices assemble(Job& job) {
+fem::Matrices assemble_cells(Job& job) {
   Plan& plan = job.plan;
-  if (job.options.foreign) return std::move(plan.foreign);
   job.on_root([&] {
     plan.partition = mesh::partition_cells(job.mesh, job.size);
     plan.rows = fem::number_rows(job.mesh, plan.is_free, plan.partition.part, job.size);
@@ -64,6 +61,28 @@ fem::Matrices assemble(Job& job) {
   job.finish_stage("partition");
   fem::Matrices matrices = fem::assemble(job.comm, share, job.regions, job.options.element, job.progress);
   job.finish_stage("assembly");
+  return matrices;
+}
+
+// On the diagonal, from rank 0: few.
+void add_point_masses(Job& job, Mat M) {
+  if (job.options.point_mass.empty()) return;
+  check(MatSetOption(M, MAT_NO_OFF_PROC_ENTRIES, PETSC_FALSE));
+  job.on_root([&] {
+    const std::map<int, double> masses = point_masses(job);
+    for (std::size_t row = 0; row < job.plan.dof.size(); ++row)
+      if (const auto at = masses.find(job.plan.dof[row] / 3); at != masses.end())
+        check(MatSetValue(M, static_cast<PetscInt>(row), static_cast<PetscInt>(row), at->second, ADD_VALUES));
+  });
+  check(MatAssemblyBegin(M, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(M, MAT_FINAL_ASSEMBLY));
+}
+
+}  // namespace
+
+fem::Matrices assemble(Job& job) {
+  fem::Matrices matrices = job.options.foreign ? std::move(job.plan.foreign) : assemble_cells(job);
+  add_point_masses(job, matrices.M);
   return matrices;
 }
 

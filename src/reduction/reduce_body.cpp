@@ -10,6 +10,7 @@
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/eigenmodes.h"
+#include "elastogear/reduction/marker.h"
 #include "elastogear/reduction/surface.h"
 #include "reduce_job.h"
 
@@ -47,6 +48,7 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
   body.beta = options.beta;
   if (!options.surface.empty()) body.surface = make_surface(mesh, options.regions, options.surface);
   body.stress = make_stress(mesh, options.stress_nodes);
+  body.markers = make_markers(mesh, options.markers);
   body.provenance = options.provenance;
   return body;
 }
@@ -61,6 +63,12 @@ void validate(const ReductionOptions& options) {
           options.frame_origin.transpose(), ") m must be finite");
   require(options.alpha >= 0, "damping alpha = ", options.alpha, " 1/s, must not be negative");
   require(options.beta >= 0, "damping beta = ", options.beta, " s, must not be negative");
+  model::validate(options.ratio);
+  require(options.ratio.ratio.empty() || options.basis == model::Basis::modal,
+          "damping ratios belong to modes: the full basis takes Rayleigh's alpha and beta only");
+  for (const auto& [set, mass] : options.point_mass)
+    require(std::isfinite(mass) && mass > 0, "point mass ", mass, " kg on '", set,
+            "' must be finite and positive");
 }
 
 // Without the roundoff of zeros.
@@ -98,6 +106,10 @@ mesh::RepetitionSearch search_repetition(const Job& job) {
 void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
   if (!job.modal() || job.options.floating || job.options.symmetry == Symmetry::none) return;
+  if (!job.options.point_mass.empty()) {
+    job.report.symmetry = "none: point masses";
+    return;
+  }
   job.on_root([&] {
     auto [found, reason] = search_repetition(job);
     if (found) repetition = std::move(*found);
@@ -158,14 +170,41 @@ void place_materials(Job& job) {
   if (job.rank != 0) move_materials(job, job.report.origin);
 }
 
+// Nodes that hang on nothing would seem to rest.
+void require_on_body(const Job& job) {
+  if (job.options.foreign) return;
+  const std::vector<bool> in_cell = fem::free_nodes(job.mesh, {});
+  std::vector<std::string> sets = job.options.markers;
+  for (const auto& [set, mass] : job.options.point_mass) sets.push_back(set);
+  for (const std::string& set : sets)
+    for (int node : mesh::node_set(job.mesh, set))
+      require(in_cell[node], "node set '", set, "' of a marker or point mass: node ", node,
+              " belongs to no cell");
+}
+
+model::SparseRows field_operator(const Job& job) {
+  const mesh::Mesh& mesh = job.mesh;
+  const model::Stress& stress = job.plan.body.stress;
+  const model::SparseRows Q = marker_operator(mesh, job.options.markers);
+  if (stress.node.empty()) return Q;
+  const model::SparseRows S = fem::stress_operator(mesh, job.regions, job.options.element, stress.node);
+  model::SparseRows both(S.rows() + Q.rows(), S.cols());
+  both.topRows(S.rows()) = S;
+  both.bottomRows(Q.rows()) = Q;
+  return both;
+}
+
 void prepare_on_root(Job& job) {
+  require_on_body(job);
   Plan& plan = job.plan;
   if (plan.moments.w_0.size() == 0) plan.moments = fem::mass_moments(job.mesh, job.regions);
+  for (const auto& [node, mass] : point_masses(job)) {
+    plan.moments.w_0[node] += mass;
+    plan.moments.w_1.col(node) += mass * job.mesh.X.col(node);
+  }
   place_frame(job);
   plan.body = make_body(job.mesh, job.options, plan.moments);
-  plan.S = plan.body.stress.node.empty()
-               ? model::SparseRows(0, 3 * job.mesh.n_nodes())
-               : fem::stress_operator(job.mesh, job.regions, job.options.element, plan.body.stress.node);
+  plan.S = field_operator(job);
   const PendingFile can_be_written(job.output);
 }
 
@@ -174,6 +213,22 @@ void prepare_on_root(Job& job) {
 void number(Job& job) {
   job.on_root([&] { number_on_root(job); });
   find_symmetry(job);
+}
+
+std::map<int, double> point_masses(const Job& job) {
+  std::map<int, double> masses;
+  for (const auto& [set, mass] : job.options.point_mass) {
+    const std::vector<int>& nodes = mesh::node_set(job.mesh, set);
+    require(!nodes.empty(), "point mass on '", set, "': the node set is empty");
+    for (int node : nodes) masses[node] += mass / static_cast<double>(nodes.size());
+  }
+  return masses;
+}
+
+model::SparseRows scalar_mass(const Job& job) {
+  model::SparseRows M_s = fem::scalar_mass(job.mesh, job.regions);
+  for (const auto& [node, mass] : point_masses(job)) M_s.coeffRef(node, node) += mass;
+  return M_s;
 }
 
 void read_matrices(Job& job) {

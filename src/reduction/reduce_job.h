@@ -3,6 +3,7 @@
 // places the body, reduce_modal.cpp finds its modes, reduce.cpp assembles and ends it.
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct Plan {
   fem::Matrices foreign;   // on all ranks
   std::vector<int> dof;    // displacement of every scalar row
   fem::MassMoments moments;
-  model::SparseRows S;
+  model::SparseRows S;  // of stress, then of markers: see reduction/basis.h
   model::ElasticBody body;
 };
 
@@ -64,6 +65,10 @@ struct Job {
 void number(Job& job);
 /// The same for matrices of another program, which it reads. Collective.
 void read_matrices(Job& job);
+/// kg, of every node that has some. Rank 0.
+std::map<int, double> point_masses(const Job& job);
+/// The scalar mass of all nodes, point masses included. Rank 0.
+model::SparseRows scalar_mass(const Job& job);
 /// Moves all coordinates into the body frame and makes what needs no solution. Collective.
 void prepare_body(Job& job);
 

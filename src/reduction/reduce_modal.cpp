@@ -29,6 +29,7 @@ Fingerprint fingerprint_of(const Job& job) {
   f.add_all(job.plan.moments.w_1.reshaped());
   f.add_all(job.plan.body.surface.node);
   f.add_all(job.plan.body.stress.node);
+  for (const model::Marker& marker : job.plan.body.markers) f.add_all(marker.X);
   f.add_all(std::span(job.plan.S.valuePtr(), static_cast<std::size_t>(job.plan.S.nonZeros())));
   return f;
 }
@@ -68,6 +69,7 @@ ModeRecord mode_record(const Job& job, Eigen::VectorXd phi) {
 
 void set_eigenmodes(Job& job, const Eigenmodes& modes) {
   set_modal_matrices(job.plan.body, modes.eigenvalue);
+  job.plan.body.zeta = model::ratios_at(job.options.ratio, job.plan.body.frequency);
   job.report.frequency = job.plan.body.frequency;
   job.report.residual = modes.residual;
   job.report.orthogonality = modes.orthogonality;
@@ -82,7 +84,7 @@ class ModalWriter {
         writer_(job.output, job.mesh.n_nodes(), full_ ? n_q : 0, job.options.precision) {
     allocate_modes(job.plan.body, n_q);
     if (job.options.invariants == Invariants::full)
-      moments_.emplace(job.output + ".shapes", fem::scalar_mass(job.mesh, job.regions));
+      moments_.emplace(job.output + ".shapes", scalar_mass(job));
   }
   void add(int k, const ModeRecord& mode) {
     set_mode(job_.plan.body, k, mode.column);

@@ -146,6 +146,28 @@ expect_error "body without mass" 'mass 0 kg must be positive' "$elastogear" simu
 expect_error "inertia of no mass distribution" 'principal inertias' "$elastogear" simulate -bodies a -a_mass 1 \
   -a_inertia 1,1,3,0,0,0 -ts_dt 1e-7 -ts_max_time 1e-6 -output new.h5
 expect_error "an inertia level that is none" "-inertia" "${simulate[@]}" -inertia cubic
+mass=("$elastogear" simulate -bodies a -a_mass 1 -a_inertia 1,1,1,0,0,0 -a_joint free -ts_dt 1e-7 -ts_max_time 1e-6 -output new.h5)
+push=("${mass[@]}" -loads push -push_marker a.frame -push_force 1,0,0)
+expect_error "load on an unknown body" "push.*no body 'b'" "${push[@]}" -push_marker b.frame
+expect_error "load on an unknown marker" "push.*no marker 'tip'; it has: frame" "${push[@]}" -push_marker a.tip
+expect_error "load on no marker" 'push_marker.*BODY.MARKER' "${push[@]}" -push_marker tip
+expect_error "load without force" 'push_force or -push_torque' "${mass[@]}" -loads push -push_marker a.frame
+expect_error "load that is not finite" 'push_force.*nan' "${push[@]}" -push_force 1,nan,0
+expect_error "load's table that ends early" "load 'push': the table covers 0 .. 5e-07 s" "${push[@]}" -push_signal table,short.csv
+expect_error "key of a load that is not listed" 'pull_force' "${push[@]}" -pull_force 1,0,0
+expect_error "load named as a body" "'a' is taken" "${mass[@]}" -loads a -a_marker a.frame
+bearing=("${mass[@]}" -bushings bearing -bearing_markers ground,a.frame -bearing_stiffness 1,1,1)
+expect_error "bushing with one end" 'bearing_markers: must be two' "${bearing[@]}" -bearing_markers a.frame
+expect_error "bushing from ground to ground" "bearing.*must lie between" "${bearing[@]}" -bearing_markers ground,ground
+expect_error "negative stiffness" "bearing.*stiffness.*-1" "${bearing[@]}" -bearing_stiffness 1,1,-1
+expect_error "sensor on the ground" "sensors_s.*BODY.MARKER" "${mass[@]}" -sensors_s ground
+expect_error "point without coordinates" 'a_points.*x,y,z' "${mass[@]}" -a_points tip,1,2
+expect_error "two points of a name" "two markers are named 'tip'" "${mass[@]}" -a_points tip,1,2,3,tip,1,2,3
+expect_error "negative damping ratio" 'damping ratio -0.1' "${reduce[@]}" -damping_ratio -0.1
+expect_error "damping ratio of a full basis" 'full basis' "${reduce[@]}" -damping_ratio 0.1 -basis full
+expect_error "point mass on an unknown set" 'NOSUCH' "${reduce[@]}" -point_mass_NOSUCH 1
+expect_error "point mass of nothing" 'point_mass_FIX.*positive' "${reduce[@]}" -point_mass_FIX 0
+expect_error "marker on an unknown set" 'NOSUCH' "${reduce[@]}" -markers NOSUCH
 expect_error "inertia level full without its invariants" "body 'body' lacks .*-invariants full" "${simulate[@]}" -inertia full
 expect_error "invariants that are none" 'invariants.*linear, full' "${reduce[@]}" -invariants all
 expect_error "full invariants of a foreign matrix" "program's own mass" "${reduce[@]}" -stiffness k.mtx -mass k.mtx -invariants full

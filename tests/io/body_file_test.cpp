@@ -36,16 +36,22 @@ bool equal(const model::Surface& a, const model::Surface& b) {
          a.group_name == b.group_name && equal(a.Phi, b.Phi);
 }
 
+bool equal(const model::Marker& a, const model::Marker& b) {
+  return a.name == b.name && a.X == b.X && a.turns == b.turns && equal(a.Phi, b.Phi);
+}
+
 void expect_equal(const model::ElasticBody& a, const model::ElasticBody& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.basis, b.basis);
   EXPECT_EQ(a.frequency, b.frequency);
   EXPECT_TRUE(equal_sparse(a.M_r, b.M_r) && equal_sparse(a.K_r, b.K_r));
-  EXPECT_TRUE(a.alpha == b.alpha && a.beta == b.beta);
+  EXPECT_TRUE(a.alpha == b.alpha && a.beta == b.beta && a.zeta == b.zeta);
   EXPECT_TRUE(equal(a.inertia, b.inertia));
   EXPECT_TRUE(equal(a.surface, b.surface));
   EXPECT_TRUE(a.stress.node == b.stress.node && a.stress.X == b.stress.X && a.stress.sets == b.stress.sets);
   EXPECT_TRUE(equal(a.stress.Psi, b.stress.Psi));
+  ASSERT_EQ(a.markers.size(), b.markers.size());
+  for (std::size_t i = 0; i < a.markers.size(); ++i) EXPECT_TRUE(equal(a.markers[i], b.markers[i]));
   EXPECT_EQ(a.provenance, b.provenance);
 }
 

@@ -53,6 +53,30 @@ TEST_F(ResultFile, gives_the_header_back_in_order) {
 // More snapshots than are buffered, and not a multiple of them.
 constexpr int kSteps = 150;
 
+TEST_F(ResultFile, gives_bushings_and_sensors_back_to_the_bit) {
+  const auto snapshots = sample_snapshots(kSteps);
+  write_result(path, snapshots);
+  EXPECT_EQ(read_result_header(path).bushings, sample_header().bushings);
+  EXPECT_EQ(read_result_header(path).sensors, sample_header().sensors);
+  const BushingHistory left = read_bushing_history(path, "left");
+  const SensorHistory tip = read_sensor_history(path, "tip");
+  for (int i = 0; i < kSteps; ++i) {
+    const model::BushingState& bushing = snapshots[i].bushings[1];
+    const model::SensorState& sensor = snapshots[i].sensors[0];
+    EXPECT_EQ(left.force.col(i), bushing.force);
+    EXPECT_EQ(left.torque.col(i), bushing.torque);
+    EXPECT_EQ(left.displacement.col(i), bushing.displacement);
+    EXPECT_EQ(left.angle.col(i), bushing.angle);
+    EXPECT_EQ(tip.position.col(i), sensor.position);
+    EXPECT_EQ(tip.velocity.col(i), sensor.velocity);
+    EXPECT_EQ(tip.acceleration.col(i), sensor.acceleration);
+    EXPECT_EQ(tip.rotation.col(i), sensor.rotation.reshaped<Eigen::RowMajor>());
+    EXPECT_EQ(tip.angular_velocity.col(i), sensor.angular_velocity);
+  }
+  EXPECT_EQ(read_energies(path).bushing, Eigen::VectorXd::Constant(kSteps, 7));
+  EXPECT_THAT(message([&] { read_sensor_history(path, "tap"); }), HasSubstr("it has: tip"));
+}
+
 TEST_F(ResultFile, gives_body_histories_back_to_the_bit) {
   const auto snapshots = sample_snapshots(kSteps);
   write_result(path, snapshots);

@@ -46,10 +46,13 @@ inline model::ElasticBody sample_modal_body(Eigen::Index n_q = 3) {
   body.K_r = Eigen::MatrixXd(omega.cwiseAbs2().asDiagonal()).sparseView();
   body.alpha = 0.1;
   body.beta = 1e-7;
+  body.zeta = Eigen::VectorXd::LinSpaced(n_q, 0.01, 0.03);
   add_inertia(body, n_q);
   add_surface_and_stress(body, sample_source().mesh);
   body.surface.Phi = model::DenseRows(model::DenseRows::Random(15, n_q));
   body.stress.Psi = model::DenseRows(model::DenseRows::Random(12, n_q));
+  body.markers = {{"bearing", {1, 2, 3}, true, model::DenseRows::Random(6, n_q)},
+                  {"line", {4, 5, 6}, false, model::DenseRows::Random(6, n_q)}};
   body.provenance = {{"options", std::string(100000, 'x')}, {"elastogear", "0.1.0"}};
   return body;
 }
@@ -60,6 +63,7 @@ inline model::ElasticBody sample_full_body() {
   model::ElasticBody body = sample_modal_body(n_q);
   body.basis = model::Basis::full;
   body.frequency.resize(0);
+  body.zeta.resize(0);
   body.K_r.coeffRef(0, 1) = body.K_r.coeffRef(1, 0) = -1.0 / 7;
   model::SparseRows Phi(15, n_q), Psi(12, n_q);
   Phi.insert(12, 6) = 1;
@@ -67,6 +71,8 @@ inline model::ElasticBody sample_full_body() {
   Psi.insert(3, 5) = 1e11 / 3;
   body.surface.Phi = Phi;
   body.stress.Psi = Psi;
+  for (model::Marker& marker : body.markers)
+    marker.Phi = model::SparseRows(std::get<model::DenseRows>(marker.Phi).sparseView());
   return body;
 }
 

@@ -10,6 +10,8 @@ inline model::ResultHeader sample_header() {
   header.bodies = {{"wheel", "wheel.h5", "revolute"}, {"ground", "rigid.h5", "fixed"}};
   header.pairs = {{"wheel:ground", {0, 1}, {{"tooth_1", "tooth_2"}, {}}}};
   header.provenance = {{"options", "-ts_dt 1e-6"}};
+  header.bushings = {"right", "left"};
+  header.sensors = {"tip"};
   return header;
 }
 
@@ -39,7 +41,13 @@ inline model::Snapshot sample_snapshot(int step) {
   pair.total = {Eigen::Vector3d::Random(), pair.count, 1e-6, 2e6, 0.3, 4, 5};
   pair.area[0] = {pair.total, {Eigen::Vector3d::Random(), 1, 6, 7, 8, 9, 10}};
   snapshot.pairs = {pair};
-  snapshot.energy = {1.0 + step, 2, 3, 4, 5, 6e-3};
+  snapshot.energy = {1.0 + step, 2, 3, 4, 5, 6e-3, 7};
+  const auto random = [] { return Eigen::Vector3d(Eigen::Vector3d::Random()); };
+  for (int i : {0, 1}) {
+    snapshot.bushings.push_back({random(), random(), random(), random(), random(), random()});
+    snapshot.bushings[i].force[0] = 100 + i;
+  }
+  snapshot.sensors = {{random(), random(), random(), Eigen::Matrix3d::Random(), random()}};
   return snapshot;
 }
 

@@ -39,6 +39,7 @@ reduction::ReductionOptions example_options() {
   options.restrain = {"xmin"};
   options.surface = {"zmax", "ymin"};
   options.stress_nodes = {"xmax", "ymax"};
+  options.markers = {"xmax", "xmin"};
   options.n_modes = 12;
   options.alpha = 3;
   options.beta = 1e-7;
@@ -83,6 +84,9 @@ TEST(Reduce, writes_a_body_that_fits_its_own_modes) {
     EXPECT_EQ(model::multiply(body.surface.Phi, q), u(Eigen::all, body.surface.node).reshaped());
     EXPECT_LT((model::multiply(body.stress.Psi, q) - S * phi).norm(), kRoundoff * (S * phi).norm());
     EXPECT_EQ(u(Eigen::all, mesh.node_sets.at("xmin")).norm(), 0);
+    const Eigen::Vector3d mean = u(Eigen::all, mesh.node_sets.at("xmax")).rowwise().mean();
+    EXPECT_LT((model::displacement(body.markers[0].Phi, 0, q) - mean).norm(), kRoundoff * u.norm());
+    EXPECT_EQ(model::multiply(body.markers[1].Phi, q).norm(), 0);  // on the restrained nodes
     EXPECT_NEAR(body.K_r.coeff(k, k), std::pow(2 * M_PI * body.frequency(k), 2), 1e-9 * body.K_r.coeff(k, k));
   }
 }
@@ -210,12 +214,14 @@ TEST(Reduce, reports_mass_centre_inertia_and_stages) {
 }
 
 TEST(Reduce, finds_the_same_modes_in_one_sector_as_in_the_whole_body) {
-  const auto mesh = test::disc({5, 1, 3, 2});
+  auto mesh = test::disc({5, 1, 3, 2});
+  for (int i = 1; i <= 4; ++i) mesh.node_sets["top"].push_back(mesh.n_nodes() - i);
   auto options = example_options();
   options.regions = test::kSteelBody;
   options.restrain = {"bottom"};
   options.surface = {"surface"};
   options.stress_nodes = {"bottom"};
+  options.markers = {"top"};
   const std::string sector = output_path("sector"), whole = output_path("whole");
   const auto with = run(mesh, options, sector);
   options.symmetry = reduction::Symmetry::none;
@@ -225,7 +231,11 @@ TEST(Reduce, finds_the_same_modes_in_one_sector_as_in_the_whole_body) {
   EXPECT_EQ(without.symmetry, "");
   const auto a = io::read_body(sector), b = io::read_body(whole);
   EXPECT_LT((a.frequency - b.frequency).cwiseQuotient(b.frequency).norm(), kEigensolver);
-  // Within a pair of equal eigenvalues the basis is arbitrary, the coupling of all modes together is not.
+  // Within a pair of equal eigenvalues the basis is arbitrary, what all modes make together is not.
+  const auto &Phi_a = std::get<model::DenseRows>(a.markers[0].Phi),
+             &Phi_b = std::get<model::DenseRows>(b.markers[0].Phi);
+  EXPECT_LT((Phi_a * Phi_a.transpose() - Phi_b * Phi_b.transpose()).norm(),
+            kEigensolver * Phi_b.squaredNorm());
   const Eigen::Matrix3d C_a = a.inertia.C_r.transpose() * a.inertia.C_r,
                         C_b = b.inertia.C_r.transpose() * b.inertia.C_r;
   EXPECT_LT((C_a - C_b).norm(), kEigensolver * C_b.norm());

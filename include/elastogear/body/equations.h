@@ -27,7 +27,7 @@ struct Equations {
   MotionSubspace H;
   InertiaLevel level;
   Eigen::MatrixXd J_1;              ///< n_q x 6: dJ/dq at q = 0, xx yy zz xy yz xz; constant: n_q x 0
-  Eigen::SparseMatrix<double> D_r;  ///< n_q x n_q, alpha M_r + beta K_r
+  Eigen::SparseMatrix<double> D_r;  ///< n_q x n_q, alpha M_r + beta K_r + diag(2 zeta omega)
 
   Eigen::Index n_s() const { return H.cols(); }
   Eigen::Index n_q() const { return body->n_q(); }

@@ -10,7 +10,7 @@ namespace elastogear::body {
 /// distribution.
 model::ElasticBody rigid_body(double m, const Eigen::Vector3d& c, const Eigen::Matrix3d& J_c);
 
-/// The body that does not deform: its inertia and surface, no elastic coordinates and no stress.
+/// The body that does not deform: its inertia, surface and markers, no elastic coordinates and no stress.
 model::ElasticBody rigid_copy(const model::ElasticBody& body);
 
 }  // namespace elastogear::body

@@ -65,6 +65,7 @@ double resistance_rate(const Axis& axis, double s_dot);
 void validate(const Axis& axis, const std::string& who);
 
 /// Throws Error when a table ends before `end_time` or begins after 0.
+void require_covers(const Signal& signal, double end_time, const std::string& who);
 void require_covers(const Axis& axis, double end_time, const std::string& who);
 
 }  // namespace elastogear::dynamics

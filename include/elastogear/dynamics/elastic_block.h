@@ -13,11 +13,13 @@
 
 namespace elastogear::dynamics {
 
-/// The columns E = [U, Phi(node)'], n_q x n_e, through which joint and contact reach the elastic coordinates.
-/// U of body/tangent.h does not change; three columns belong to each surface node.
+/// The columns E = [U, Phi(marker)', Phi(node)'], n_q x n_e, through which joint, markers and contact reach
+/// the elastic coordinates. U of body/tangent.h and the markers (six columns each) do not change; three
+/// columns belong to each surface node.
 class BorderColumns {
  public:
-  explicit BorderColumns(const body::Equations& eq);
+  /// markers: n_q x 6 n_m, or empty.
+  explicit BorderColumns(const body::Equations& eq, const Eigen::MatrixXd& markers = {});
 
   Eigen::Index n_u() const { return U_.cols(); }
   Eigen::Index size(const std::vector<int>& node) const;
@@ -28,14 +30,14 @@ class BorderColumns {
 
  private:
   const model::BasisRows* Phi_;
-  Eigen::MatrixXd U_;
+  Eigen::MatrixXd U_;  // U, then the markers'
 };
 
 /// D factorised once per pair of shifts: a division when the basis is modal, else a sparse Cholesky
 /// factorisation (PETSc KSP, prefix "elastic_", MUMPS by default). The body must outlive the block.
 class ElasticBlock {
  public:
-  explicit ElasticBlock(const body::Equations& eq);
+  explicit ElasticBlock(const body::Equations& eq, const Eigen::MatrixXd& markers = {});
 
   /// Throws Error when D is not positive definite. Does nothing when the shifts are those in force.
   void set_shifts(double shift_v, double shift_a);

@@ -2,7 +2,7 @@
 // The effective matrix A = shift_a dF/dA + shift_v dF/dV + dF/dU of the system and its exact inverse.
 //
 // Per body, with the columns E of BorderColumns,      A = [C, (E rho)'; E beta, D]  on [s; q],
-// and over all bodies the contact's low rank part       + W k V',   W = [W_s; E L], V = [V_s; E L_V] per
+// and over all bodies the low rank part of contact and markers + W k V', W = [W_s; E L], V = [V_s; E L_V] per
 // body. With x_q = D^-1 (y_q - E (beta x_s + L k lambda)) and lambda = V'x a dense system of n_s + r unknowns
 // stays:
 //   [C - rho'G beta,  (W_s - rho'G L) k;  -V_s' + L_V'G beta,  I + L_V'G L k] [x_s; lambda]
@@ -31,10 +31,11 @@ struct BodyTerms {
   Eigen::Matrix3d Gamma = Eigen::Matrix3d::Zero();
 };
 
-/// A body and how many of its joint coordinates are unknown.
+/// A body, how many of its joint coordinates are unknown, and the columns of its markers, see BorderColumns.
 struct SolverBody {
   const body::Equations* eq;
   Eigen::Index n_s;
+  Eigen::MatrixXd markers = {};
 };
 
 struct EffectiveMatrix {

@@ -8,12 +8,13 @@
 
 namespace elastogear::dynamics {
 
-/// Bodies, pairs and stored energies; dissipated, work and balance stay zero.
+/// Bodies, pairs, bushings, loads, sensors and stored energies; dissipated, work and balance stay zero.
 model::Snapshot snapshot(System& system, const State& x);
 
 /// Completes the energies of successive snapshots. Over one step damping takes dt q'_m.D_r q'_m with the mean
 /// velocity q'_m, which is exact for the midpoint rule (rho_inf = 1), second order otherwise. Loads and
-/// friction of joints likewise; drives by the mean of their forces at both ends. The weight's work is exact.
+/// friction of joints likewise, and the dampers of bushings; drives and loads at markers by the mean of their
+/// forces at both ends. The weight's work is exact.
 class EnergyLedger {
  public:
   void enter(const System& system, model::Snapshot& snapshot);
@@ -24,10 +25,14 @@ class EnergyLedger {
   void enter_joint(const System::Body& body, const model::BodyState& now, const model::BodyState& before,
                    const std::array<double, 2>& times);
 
+  void enter_markers(const MarkerForces& forces, const model::Snapshot& now);
+
   double stored_0_ = 0, dissipated_ = 0, work_ = 0;
   double weight_0_ = 0;
   double time_ = 0;
   std::vector<model::BodyState> bodies_;  // of the snapshot before; empty: none yet
+  std::vector<model::BushingState> bushings_;
+  std::vector<model::LoadState> loads_;
 };
 
 }  // namespace elastogear::dynamics

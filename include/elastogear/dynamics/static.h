@@ -14,6 +14,7 @@ struct StaticSettings {
 /// zero, motions from time 0, to those at `time` (s; infinite: the last values). Error when a motion has no
 /// value there, or the body an initial velocity.
 void scale_by_load_factor(BodySetup& setup, double time);
+void scale_by_load_factor(MarkerSetups& markers, double time);
 void scale_by_load_factor(Environment& environment);
 
 /// The equilibria at load factors 0 .. 1, of a system whose bodies and environment are scaled; observed with

@@ -13,6 +13,7 @@
 #include "elastogear/dynamics/axis.h"
 #include "elastogear/dynamics/contact_loads.h"
 #include "elastogear/dynamics/low_rank_solver.h"
+#include "elastogear/dynamics/marker_forces.h"
 #include "elastogear/model/result.h"
 
 namespace elastogear::dynamics {
@@ -89,7 +90,8 @@ class System {
   /// Throws Error for what cannot be simulated: no bodies, equal names, values that are not finite, motion or
   /// loads that the joint does not have, bodies without mass that may move, pairs of a body with itself or
   /// without surfaces.
-  System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment = {});
+  System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment = {},
+         const MarkerSetups& markers = {});
 
   Eigen::Index size() const { return U_0_.size(); }
   const std::vector<Body>& bodies() const { return bodies_; }
@@ -97,12 +99,14 @@ class System {
   const Environment& environment() const { return environment_; }
   const Eigen::VectorXd& initial_position() const { return U_0_; }
   const Eigen::VectorXd& initial_velocity() const { return V_0_; }
+  const MarkerForces& marker_forces() const { return marker_forces_; }
   std::vector<SolverBody> solver_bodies() const;
   /// Is LowRankSolver's inverse exact?
   bool solver_is_exact() const;
 
   /// Motion of a body, prescribed coordinates included.
   body::Motion motion(std::size_t b, const State& x) const;
+  std::vector<MovingBody> moving_bodies(const State& x) const;
   contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U, ConstVector V) const;
   /// Placement and contacts; kept, so that a second call with equal time, U and V costs nothing.
   const ContactState& contacts(double time, ConstVector U, ConstVector V);
@@ -133,13 +137,17 @@ class System {
   void add_body(const BodySetup& setup);
   void add_pair(const PairSetup& setup);
   void visit_contact_history(Tape& tape);
+  void add_marker_forces(const MarkerSetups& setups);
+  /// Of all loads and bushings, one per body.
+  std::vector<body::Force> at_markers(const State& x) const;
   /// Sum and norms of a body's terms: [F_s (n_s); F_q].
-  body::Force balance(std::size_t b, const State& x, Residual* r);
+  body::Force balance(std::size_t b, const State& x, const body::Force& marker_force, Residual* r);
 
   std::vector<Body> bodies_;
   std::vector<PairSetup> pairs_;
   Environment environment_;
   std::vector<contact::Pair> detectors_;
+  MarkerForces marker_forces_;
   Eigen::VectorXd U_0_, V_0_;
   std::optional<Eigen::VectorXd> U_of_state_;
   Eigen::VectorXd V_of_state_;

@@ -69,6 +69,17 @@ struct PairHistory {
 /// n_t each, J; see model::Energies.
 struct EnergyHistory {
   Eigen::VectorXd kinetic, elastic, contact, dissipated, work, balance;
+  Eigen::VectorXd bushing;  ///< zero in a run without bushings
+};
+
+/// Histories of one bushing, 3 x n_t each; see model::BushingState.
+struct BushingHistory {
+  Eigen::MatrixXd displacement, angle, force, torque;
+};
+
+/// Histories of one sensor, 3 x n_t each but for the rotation, 9 x n_t: row-major matrix.
+struct SensorHistory {
+  Eigen::MatrixXd position, velocity, acceleration, rotation, angular_velocity;
 };
 
 /// Readers throw Error naming the file and what is missing or wrong. Bodies and pairs go by name.
@@ -79,6 +90,8 @@ Eigen::VectorXd read_times(const std::string& path);
 BodyHistory read_body_history(const std::string& path, const std::string& body);
 PairHistory read_pair_history(const std::string& path, const std::string& pair);
 EnergyHistory read_energies(const std::string& path);
+BushingHistory read_bushing_history(const std::string& path, const std::string& bushing);
+SensorHistory read_sensor_history(const std::string& path, const std::string& sensor);
 /// The active contacts of a pair, one list per output time.
 std::vector<std::vector<model::ContactRecord>> read_contacts(const std::string& path,
                                                              const std::string& pair);

@@ -64,6 +64,17 @@ struct Stress {
   BasisRows Psi;                                 ///< 6 n_e x n_q, Pa per q, order xx yy zz xy yz xz
 };
 
+/// Name of the marker that every body has without storing it: its frame.
+inline constexpr const char* kFrameMarker = "frame";
+
+/// A place on the body that moves with the mean of a node set: loads, bushings and sensors act there.
+struct Marker {
+  std::string name;    ///< of the node set
+  Eigen::Vector3d X;   ///< m, mean reference position
+  bool turns = true;   ///< has a rotation; not when the set lies on one line
+  BasisRows Phi = {};  ///< 6 x n_q: mean displacement, mean small rotation (rad); zero where it does not turn
+};
+
 struct ElasticBody {
   std::string name;
   Basis basis = Basis::modal;
@@ -71,9 +82,11 @@ struct ElasticBody {
   Inertia inertia;
   Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending; empty for full
   Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2)
-  double alpha = 0, beta = 0;            ///< 1/s, s: D_r = alpha M_r + beta K_r
+  double alpha = 0, beta = 0;            ///< 1/s, s: Rayleigh's part of D_r, alpha M_r + beta K_r
+  Eigen::VectorXd zeta;                  ///< modal: n_q, ratios: D_r also has diag(2 zeta omega); or empty
   Surface surface;
   Stress stress;
+  std::vector<Marker> markers;
   std::map<std::string, std::string> provenance;  ///< options in force, program and library versions
 
   Eigen::Index n_q() const { return K_r.rows(); }

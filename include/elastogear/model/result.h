@@ -53,10 +53,31 @@ struct PairState {
   std::vector<ContactRecord> contacts;
 };
 
+/// A spring and damper between two markers. Along the axes, which turn with the first marker:
+struct BushingState {
+  Eigen::Vector3d displacement, velocity;  ///< m, m/s, of the second marker against the first
+  Eigen::Vector3d angle, rate;             ///< rad, tilt about x and y, turn about z; rad/s
+  Eigen::Vector3d force, torque;           ///< N, N m, on the second marker, in the world
+};
+
+/// A load at a marker, components in the world.
+struct LoadState {
+  Eigen::Vector3d force, torque;  ///< N, N m
+  Eigen::Vector3d x, w;           ///< m, rad/s, position and angular velocity of the marker
+};
+
+/// Motion of a marker, components in the world.
+struct SensorState {
+  Eigen::Vector3d position, velocity, acceleration;  ///< m, m/s, m/s^2
+  Eigen::Matrix3d rotation;                          ///< marker to world
+  Eigen::Vector3d angular_velocity;                  ///< rad/s
+};
+
 struct Energies {
   double kinetic = 0, elastic = 0, contact = 0;  ///< J, stored
   double dissipated = 0, work = 0;               ///< J, since the start: by damping; by loads
   double balance = 0;                            ///< J, stored + dissipated - work - stored at the start
+  double bushing = 0;                            ///< J, stored
 };
 
 struct Snapshot {
@@ -64,6 +85,9 @@ struct Snapshot {
   std::vector<BodyState> bodies;
   std::vector<PairState> pairs;
   Energies energy;
+  std::vector<BushingState> bushings = {};
+  std::vector<LoadState> loads = {};
+  std::vector<SensorState> sensors = {};
 };
 
 /// What does not change over a run.
@@ -79,6 +103,7 @@ struct ResultHeader {
   std::vector<Body> bodies;
   std::vector<Pair> pairs;
   std::map<std::string, std::string> provenance;
+  std::vector<std::string> bushings = {}, sensors = {};  ///< names
 };
 
 }  // namespace elastogear::model

@@ -13,8 +13,9 @@ namespace elastogear::reduction {
 /// Sizes the body's dense fields for n_q modes: zero until add_mode.
 void allocate_modes(model::ElasticBody& body, int n_q);
 
-/// Enters one mode: column k of Phi (surface) and Psi = S phi (stress), row k of C_l and C_r, column k of
-/// S_1. phi: 3 n_nodes, node-major. S: the stress operator at body.stress.node.
+/// Enters one mode: column k of Phi (surface), Psi = S phi (stress) and the markers' Phi, row k of C_l and
+/// C_r, column k of S_1. phi: 3 n_nodes, node-major. S: the stress operator at body.stress.node, then the
+/// operator of body.markers (reduction/marker.h).
 void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
               const model::SparseRows& S);
 

@@ -13,6 +13,7 @@
 #include "elastogear/io/precision.h"
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/model/check.h"
+#include "elastogear/model/damping.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
 #include "elastogear/reduction/foreign.h"
@@ -41,6 +42,7 @@ struct ReductionOptions {
   Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise
   std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
   std::vector<std::string> stress_nodes = {};  ///< node sets
+  std::vector<std::string> markers = {};       ///< node sets, see reduction/marker.h
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                                   ///< modal only
   bool completeness = true;                            ///< check it: one more factorisation of K
@@ -50,6 +52,8 @@ struct ReductionOptions {
   Symmetry symmetry = Symmetry::automatic;             ///< modal only, see reduction/cyclic.h
   Invariants invariants = Invariants::linear;          ///< of inertia, stored in the file
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
+  model::DampingRatio ratio = {};                      ///< modal only, beside it
+  std::map<std::string, double> point_mass = {};       ///< kg, spread evenly over each node set
   std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
 };

@@ -1,0 +1,20 @@
+#pragma once
+// Markers: node sets whose mean motion loads, bushings and sensors use (docs/theory.md, section 3.4).
+
+#include <string>
+#include <vector>
+
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::reduction {
+
+/// One marker for each node set, of that name; Phi stays empty. Throws Error for an unknown, empty or
+/// repeated set, and for one that is named as the body frame.
+std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vector<std::string>& sets);
+
+/// From the displacements of all nodes to mean displacement and mean small rotation of each set:
+/// 6 n_markers x 3 n_nodes. The rotation's rows are zero where the set lies on one line.
+model::SparseRows marker_operator(const mesh::Mesh& mesh, const std::vector<std::string>& sets);
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,101 @@
+#include "elastogear/reduction/marker.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "../fem/brick.h"
+#include "elastogear/base/error.h"
+#include "elastogear/fem/restraint.h"
+#include "elastogear/reduction/basis.h"
+
+namespace {
+
+using namespace elastogear;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kRoundoff = 1e-12;
+
+mesh::Mesh example_mesh() {
+  auto mesh = test::distorted(test::brick({3, 2, 2}, {2, 1, 0.5}), 0.03);
+  mesh.node_sets["line"] = {0, 1};
+  return mesh;
+}
+
+// u = a + b x X at all nodes.
+VectorXd rigid_field(const mesh::Mesh& mesh, const Vector3d& a, const Vector3d& b) {
+  VectorXd u(3 * mesh.n_nodes());
+  for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = a + b.cross(Vector3d(mesh.X.col(i)));
+  return u;
+}
+
+TEST(Marker, moves_with_a_rigid_motion_of_its_nodes) {
+  const mesh::Mesh mesh = example_mesh();
+  const Vector3d a(1, -2, 3), b(0.3, 0.2, -0.7);
+  const auto markers = reduction::make_markers(mesh, {"xmax", "zmin"});
+  const VectorXd motion = reduction::marker_operator(mesh, {"xmax", "zmin"}) * rigid_field(mesh, a, b);
+  for (int i : {0, 1}) {
+    EXPECT_TRUE(markers[i].turns);
+    EXPECT_LT((motion.segment<3>(6 * i) - a - b.cross(markers[i].X)).norm(), kRoundoff);
+    EXPECT_LT((motion.segment<3>(6 * i + 3) - b).norm(), kRoundoff);
+  }
+}
+
+// The rotation that leaves the least squares of u - mean - theta x r.
+TEST(Marker, has_the_rotation_of_least_squares) {
+  const mesh::Mesh mesh = example_mesh();
+  const auto& nodes = mesh.node_sets.at("xmax");
+  const VectorXd u = VectorXd::Random(3 * mesh.n_nodes());
+  const Vector6 motion = reduction::marker_operator(mesh, {"xmax"}) * u;
+  Vector3d gradient = Vector3d::Zero(), mean = mesh.X(Eigen::all, nodes).rowwise().mean();
+  double size = 0;
+  for (int node : nodes) {
+    const Vector3d r = mesh.X.col(node) - mean;
+    const Vector3d rest = u.segment<3>(3 * node) - motion.head<3>() - motion.tail<3>().cross(r);
+    gradient += r.cross(rest);
+    size += r.norm() * rest.norm();
+  }
+  EXPECT_LT(gradient.norm(), kRoundoff * size);
+}
+
+TEST(Marker, on_a_line_has_no_rotation) {
+  const mesh::Mesh mesh = example_mesh();
+  EXPECT_FALSE(reduction::make_markers(mesh, {"line"})[0].turns);
+  const auto Q = reduction::marker_operator(mesh, {"line"});
+  EXPECT_EQ(Eigen::MatrixXd(Q).bottomRows<3>().norm(), 0);
+  EXPECT_GT(Eigen::MatrixXd(Q).topRows<3>().norm(), 0);
+}
+
+TEST(Marker, refuses_sets_that_make_none) {
+  const mesh::Mesh mesh = example_mesh();
+  EXPECT_THROW(reduction::make_markers(mesh, {"nowhere"}), Error);
+  EXPECT_THROW(reduction::make_markers(mesh, {"xmax", "xmax"}), Error);
+  auto named_frame = mesh;
+  named_frame.node_sets["frame"] = {0, 1, 2};
+  EXPECT_THROW(reduction::make_markers(named_frame, {"frame"}), Error);
+}
+
+TEST(Marker, has_the_same_rows_in_the_full_basis_as_in_unit_modes) {
+  const mesh::Mesh mesh = example_mesh();
+  const std::vector<std::string> sets = {"xmax", "zmin"};
+  const auto moments = fem::mass_moments(mesh, test::kSteelBody);
+  const auto free_dof = fem::free_dofs(fem::free_nodes(mesh, {"xmin"}));
+  const auto n = static_cast<int>(free_dof.size());
+  const auto Q = reduction::marker_operator(mesh, sets);
+  model::ElasticBody full, modal;
+  full.markers = modal.markers = reduction::make_markers(mesh, sets);
+  reduction::set_full_basis(full, free_dof, moments, Q);
+  reduction::allocate_modes(modal, n);
+  for (int k = 0; k < n; ++k)
+    reduction::add_mode(modal, k, VectorXd::Unit(3 * mesh.n_nodes(), free_dof[k]), moments, Q);
+  const VectorXd q = VectorXd::Random(n);
+  for (int i : {0, 1}) {
+    const VectorXd motion = model::multiply(full.markers[i].Phi, q);
+    EXPECT_LT((motion - model::multiply(modal.markers[i].Phi, q)).norm(), kRoundoff * motion.norm());
+    EXPECT_GT(motion.norm(), 0);
+  }
+}
+
+}  // namespace
