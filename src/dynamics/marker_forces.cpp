@@ -177,10 +177,15 @@ std::vector<MarkerMotion> MarkerForces::motions(const std::vector<MovingBody>& b
   return all;
 }
 
-std::vector<Wrench> MarkerForces::wrenches(double time, const std::vector<MarkerMotion>& motion) const {
+std::vector<Wrench> MarkerForces::load_wrenches(double time, const std::vector<MarkerMotion>& motion) const {
   std::vector<Wrench> wrench(place_.size(), Wrench::Zero());
   for (std::size_t i = 0; i < load_at_.size(); ++i)
     wrench[load_at_[i]] += wrench_of(setups_.loads[i], time, motion[load_at_[i]]);
+  return wrench;
+}
+
+std::vector<Wrench> MarkerForces::bushing_wrenches(const std::vector<MarkerMotion>& motion) const {
+  std::vector<Wrench> wrench(place_.size(), Wrench::Zero());
   for (std::size_t i = 0; i < bushing_.size(); ++i) {
     const auto [first, second] = bushing_at_[i];
     const BushingState state = dynamics::bushing_state(bushing_[i], motion[first], motion[second]);
@@ -211,18 +216,24 @@ MatrixXd MarkerForces::stiffness(double time, const std::vector<MarkerMotion>& m
   return K;
 }
 
-std::vector<body::Force> MarkerForces::forces(double time, const std::vector<MovingBody>& bodies) const {
-  std::vector<body::Force> h;
-  for (const MovingBody& body : bodies)
-    h.push_back({VectorXd::Zero(body.eq->n_s()), VectorXd::Zero(body.eq->n_q())});
-  const std::vector<Wrench> wrench = wrenches(time, motions(bodies));
+std::vector<MarkerForce> MarkerForces::forces(double time, const std::vector<MovingBody>& bodies) const {
+  std::vector<MarkerForce> h;
+  for (const MovingBody& body : bodies) {
+    const body::Force none{VectorXd::Zero(body.eq->n_s()), VectorXd::Zero(body.eq->n_q())};
+    h.push_back({none, none});
+  }
+  const std::vector<MarkerMotion> motion = motions(bodies);
+  const auto loads = load_wrenches(time, motion), bushings = bushing_wrenches(motion);
   for (std::size_t i = 0; i < place_.size(); ++i) {
     if (place_[i].body < 0) continue;
     const auto b = static_cast<std::size_t>(place_[i].body);
-    const body::Force force =
-        body::marker_force(*bodies[b].eq, place_[i].marker, bodies[b].motion, wrench[i]);
-    h[b].s += force.s;
-    h[b].q += force.q;
+    const auto add = [&](const Wrench& wrench, body::Force& sum) {
+      const body::Force force = body::marker_force(*bodies[b].eq, place_[i].marker, bodies[b].motion, wrench);
+      sum.s += force.s;
+      sum.q += force.q;
+    };
+    add(loads[i], h[b].loads);
+    add(bushings[i], h[b].bushings);
   }
   return h;
 }
@@ -259,12 +270,12 @@ void MarkerForces::add_tangent(double time, const std::vector<MovingBody>& bodie
     for (auto* L : elastic_rows(terms)) L->conservativeResize(L->rows(), r);
   }
   const std::vector<MarkerMotion> motion = motions(bodies);
-  const std::vector<Wrench> wrench = wrenches(time, motion);
+  const std::vector<Wrench> loads = load_wrenches(time, motion), bushings = bushing_wrenches(motion);
   const MatrixXd K = stiffness(time, motion);
   for (std::size_t i = 0; i < place_.size(); ++i) {
     if (place_[i].body < 0) continue;
     const auto b = static_cast<std::size_t>(place_[i].body);
-    add_place(place_[i], bodies[b], {shift, wrench[i], first, &A.k}, A.body[b]);
+    add_place(place_[i], bodies[b], {shift, loads[i] + bushings[i], first, &A.k}, A.body[b]);
     for (std::size_t j = 0; j < place_.size(); ++j)
       if (place_[j].body >= 0)
         add_block(first + place_[i].column, first + place_[j].column,

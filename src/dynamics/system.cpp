@@ -372,23 +372,37 @@ void System::restore(const ContactHistory& history) {
   U_of_state_.reset();
 }
 
-std::vector<body::Force> System::at_markers(const State& x) const {
+std::vector<MarkerForce> System::at_markers(const State& x) const {
   if (!marker_forces_.empty()) return marker_forces_.forces(x.time, moving_bodies(x));
-  std::vector<body::Force> none;
-  for (const Body& body : bodies_)
-    none.push_back({Eigen::VectorXd::Zero(body.eq.n_s()), Eigen::VectorXd::Zero(body.eq.n_q())});
-  return none;
+  std::vector<MarkerForce> all;
+  for (const Body& body : bodies_) {
+    const body::Force none{Eigen::VectorXd::Zero(body.eq.n_s()), Eigen::VectorXd::Zero(body.eq.n_q())};
+    all.push_back({none, none});
+  }
+  return all;
 }
 
-body::Force System::balance(std::size_t b, const State& x, const body::Force& marker_force, Residual* r) {
+body::Force System::balance(std::size_t b, const State& x, const MarkerForce& marker_force, Residual* r) {
   const Body& body = bodies_[b];
   const body::Motion m = motion(b, x);
   const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
                     inner = body::inner_force(body.eq, m),
                     weight = body::gravity_force(body.eq, m, gravity(environment_, x.time)),
                     touch = contact_force(body.eq, contacts(x.time, x.U, x.V).force[b]);
-  const Terms s{inertia.s, -quadratic.s, -touch.s, -weight.s, -marker_force.s, -load(body, x.time, m.s_dot)},
-      q{inertia.q, inner.q, -quadratic.q, -touch.q, -weight.q, -marker_force.q};
+  const Terms s{inertia.s,
+                -quadratic.s,
+                -touch.s,
+                -weight.s,
+                -marker_force.loads.s,
+                -marker_force.bushings.s,
+                -load(body, x.time, m.s_dot)},
+      q{inertia.q,
+        inner.q,
+        -quadratic.q,
+        -touch.q,
+        -weight.q,
+        -marker_force.loads.q,
+        -marker_force.bushings.q};
   const body::Force total{sum(s), sum(q)};
   if (!r) return total;
   r->F.segment(body.first, body.n_open()) = total.s(body.open);
@@ -401,7 +415,7 @@ body::Force System::balance(std::size_t b, const State& x, const body::Force& ma
 Residual System::residual(const State& x) {
   const auto n_blocks = static_cast<Eigen::Index>(2 * bodies_.size());
   Residual r{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(n_blocks), Eigen::VectorXd::Zero(n_blocks)};
-  const std::vector<body::Force> marker_force = at_markers(x);
+  const std::vector<MarkerForce> marker_force = at_markers(x);
   for (std::size_t b = 0; b < bodies_.size(); ++b) balance(b, x, marker_force[b], &r);
   return r;
 }

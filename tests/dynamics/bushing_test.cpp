@@ -302,8 +302,9 @@ TEST(Load, table_must_cover_the_run) {
 
 TEST(Load, grows_with_the_load_factor_of_a_static_analysis) {
   MarkerSetups setups;
-  setups.bushings = {
-      spring("hold", {}, {"shaft", "frame"}, {Vector3d::Constant(kSpring), Vector3d::Constant(10)})};
+  const BushingLaw half = {Vector3d::Constant(kSpring / 2), Vector3d::Constant(10)};
+  setups.bushings = {spring("left", {}, {"shaft", "left"}, half),
+                     spring("right", {}, {"shaft", "right"}, half)};
   setups.loads = {{"push", {"shaft", "frame"}, {0, kForce, 0}, {0, 0, 0}, false, ramp_signal(2, 0.5)}};
   scale_by_load_factor(setups, 0.25);  // where the ramp is at 1
   System system({{.name = "shaft", .body = rigid_shaft(1), .joint = {JointType::free}}}, {}, {}, setups);
@@ -311,7 +312,7 @@ TEST(Load, grows_with_the_load_factor_of_a_static_analysis) {
   solve_static(system, {4}, [&](const model::Snapshot& x) {
     const double expected = x.time * kForce / kSpring;
     EXPECT_NEAR(x.bodies[0].r_WB.y(), expected, kSnes * expected);
-    EXPECT_NEAR(x.bushings[0].force.y(), -x.time * kForce, kSnes * kForce);
+    EXPECT_NEAR(x.bushings[0].force.y(), -x.time * kForce / 2, kSnes * kForce);
     ++n;
   });
   EXPECT_EQ(n, 5);

@@ -54,6 +54,11 @@ struct MovingBody {
   body::Motion motion;
 };
 
+/// Apart, because they may cancel: what is left is small against each of them.
+struct MarkerForce {
+  body::Force loads, bushings;
+};
+
 class MarkerForces {
  public:
   struct Body {
@@ -73,7 +78,7 @@ class MarkerForces {
   /// Sets where bushings are unloaded.
   void set_unloaded(const std::vector<MovingBody>& bodies);
   /// Generalised forces of all loads and bushings, one per body.
-  std::vector<body::Force> forces(double time, const std::vector<MovingBody>& bodies) const;
+  std::vector<MarkerForce> forces(double time, const std::vector<MovingBody>& bodies) const;
   /// Adds their tangent to A, which holds that of contact, if any.
   void add_tangent(double time, const std::vector<MovingBody>& bodies, const body::Shifts& shift,
                    EffectiveMatrix& A) const;
@@ -115,7 +120,8 @@ class MarkerForces {
   static void require_turning(const Place& place, const std::string& who);
   static body::MarkerMotion motion(const Place& place, const std::vector<MovingBody>& bodies);
   std::vector<body::MarkerMotion> motions(const std::vector<MovingBody>& bodies) const;
-  std::vector<body::Wrench> wrenches(double time, const std::vector<body::MarkerMotion>& motion) const;
+  std::vector<body::Wrench> load_wrenches(double time, const std::vector<body::MarkerMotion>& motion) const;
+  std::vector<body::Wrench> bushing_wrenches(const std::vector<body::MarkerMotion>& motion) const;
   Eigen::MatrixXd stiffness(double time, const std::vector<body::MarkerMotion>& motion) const;
   void add_place(const Place& place, const MovingBody& body, const Tangent& tangent, BodyTerms& terms) const;
 

@@ -139,9 +139,9 @@ class System {
   void visit_contact_history(Tape& tape);
   void add_marker_forces(const MarkerSetups& setups);
   /// Of all loads and bushings, one per body.
-  std::vector<body::Force> at_markers(const State& x) const;
+  std::vector<MarkerForce> at_markers(const State& x) const;
   /// Sum and norms of a body's terms: [F_s (n_s); F_q].
-  body::Force balance(std::size_t b, const State& x, const body::Force& marker_force, Residual* r);
+  body::Force balance(std::size_t b, const State& x, const MarkerForce& marker_force, Residual* r);
 
   std::vector<Body> bodies_;
   std::vector<PairSetup> pairs_;
