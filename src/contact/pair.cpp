@@ -118,7 +118,7 @@ struct Pair::Data {
   double way(const SurfaceMotion then[2]) const;
   bool update_vicinity(const SurfaceMotion* motion[2]);
   void list_nodes();
-  void measure_clearance();
+  void measure_clearance(double limit);
   void find_vicinity(double margin);
   void find_vicinity(const SurfaceMotion* motion[2]);
   Eigen::Vector3d velocity(int i, int node) const;
@@ -198,11 +198,11 @@ void Pair::Data::list_nodes() {
 }
 
 // Of all candidates: those that cannot touch soon are left out, and faces that cannot be nearest.
-void Pair::Data::measure_clearance() {
+void Pair::Data::measure_clearance(double limit) {
   for (int slave : passes()) vicinity->near[slave] = everything(vicinity->candidates[slave]);
   list_nodes();
   for (int i : {0, 1}) place_nodes(i, vicinity->node[i]);
-  vicinity->limit = next_limit(*vicinity, settings.skin);
+  vicinity->limit = limit;
   vicinity->uses = 0;
   const std::array reach_and_limit{std::max(limits.depth, limits.outside) + settings.skin,
                                    vicinity->limit + limits.outside};
@@ -228,7 +228,7 @@ bool Pair::Data::update_vicinity(const SurfaceMotion* motion[2]) {
   const bool search_is_due = !vicinity || !(way(vicinity->found_at) <= settings.skin);
   if (search_is_due) find_vicinity(motion);
   const bool is_used_up = search_is_due || !(way(vicinity->measured_at) <= vicinity->limit);
-  if (is_used_up) measure_clearance();
+  if (is_used_up) measure_clearance(next_limit(*vicinity, settings.skin));
   ++vicinity->uses;
   return is_used_up;
 }
@@ -314,25 +314,32 @@ std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R_WB) {
   return contacts;
 }
 
-// The candidates follow from where they were found.
+void visit_motion(SurfaceMotion (&motion)[2], const Side (&side)[2], Tape& tape) {
+  for (int i : {0, 1}) {
+    tape(motion[i].q);
+    tape(motion[i].r_WB);
+    tape(motion[i].R_WB);
+    validate(motion[i], *side[i].surface, i);
+  }
+}
+
+// Candidates and their clearance follow from where they were found.
 void Pair::Data::visit_vicinity(Tape& tape) {
   bool found = vicinity.has_value();
   tape(found);
   if (!found) return vicinity.reset();
-  SurfaceMotion at[2];
-  for (int i : {0, 1}) {
-    if (!tape.plays()) at[i] = vicinity->found_at[i];
-    tape(at[i].q);
-    tape(at[i].r_WB);
-    tape(at[i].R_WB);
-    validate(at[i], *side[i].surface, i);
-  }
+  Vicinity then = vicinity.value_or(Vicinity{});
+  visit_motion(then.found_at, side, tape);
+  visit_motion(then.measured_at, side, tape);
+  tape(then.limit);
+  tape(then.uses);
   if (!tape.plays()) return;
-  const SurfaceMotion* motion[2] = {&at[0], &at[1]};
+  const SurfaceMotion* motion[2] = {&then.found_at[0], &then.found_at[1]};
   find_vicinity(motion);
-  vicinity->limit = 0;  // all of them serve until their clearance is measured
-  for (int i : {0, 1}) vicinity->measured_at[i] = vicinity->found_at[i];
-  list_nodes();
+  for (int i : {0, 1}) now[i] = &then.measured_at[i];
+  measure_clearance(then.limit);
+  vicinity->uses = then.uses;
+  std::fill_n(now, 2, nullptr);
 }
 
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion) {

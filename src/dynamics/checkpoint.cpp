@@ -83,6 +83,7 @@ void visit_state(Run& run, TS ts, Tape& tape) {
   run.ledger.visit_memory(tape);
   tape(run.kinetic_energy);
   tape(run.n_outputs);
+  tape(run.touches);
   visit_summary(run.summary, tape);
   double wall_time = run.summary.wall_time + seconds_since(run.start);
   tape(wall_time);

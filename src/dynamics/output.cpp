@@ -77,6 +77,8 @@ void enter_step(Run& run, TS ts, int step, double time) {
   generalized_alpha_state(ts, &U, &V, &A);
   const ReadView u(U), v(V), a(A);
   enter(run, {time, *u, *v, *a});
+  run.touches = std::any_of(run.last.pairs.begin(), run.last.pairs.end(),
+                            [](const model::PairState& pair) { return pair.count > 0; });
   const model::Energies& energy = run.last.energy;
   if (step == 0) run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact;
   if (is_due(run, step)) observe(run);

@@ -31,6 +31,7 @@ struct Run {
   RunSummary summary;         // its counts: of the time before this run was continued
   int n_outputs = 1;          // of those output_dt apart; the first is the start
   bool step_is_due = false;   // an output falls on the end of the last step
+  bool touches = false;       // some bodies touch at the end of the last step
   double kinetic_energy = 0;  // J, after the last step of a settling run
   int first_step = -1;        // that of the state from which it was continued
   Clock::time_point start = Clock::now(), kept = start;

@@ -18,6 +18,7 @@ constexpr double kWayPerDepth =
 constexpr double kTurn = 0.3;  // rad, that a body may
 constexpr int kMostIterations = 300;    // contact that is far away is approached depth by depth
 constexpr double kSmallestStep = 1e-3;  // of the first one
+constexpr double kRoundoff = 1e-9;      // of a load step
 constexpr double kHeldBySigma = 0.5;    // share of sigma in a coordinate's stiffness: nothing else holds it
 
 struct Equilibrium {
@@ -164,6 +165,31 @@ bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   return reason > 0;
 }
 
+struct Path {
+  UniqueVec U;
+  Eigen::VectorXd good;  // the last equilibrium
+  double first_step, step;
+  double reached = -1;  // load factor; negative: not even the unloaded state
+};
+
+// One load step; false: cut.
+bool advance(Equilibrium& at, SNES snes, Path& path, RunSummary& summary) {
+  const bool last = path.reached + (1 + kRoundoff) * path.step >= 1;
+  at.factor = path.reached < 0 ? 0 : last ? 1 : path.reached + path.step;
+  if (!find_equilibrium(at, snes, path.U, summary)) {
+    ++summary.rejected_steps;
+    path.step /= 2;
+    if (path.reached < 0 || path.step < kSmallestStep * path.first_step) fail_without_equilibrium(at);
+    assign(path.U, path.good);
+    return false;
+  }
+  ++summary.steps;
+  path.reached = at.factor;
+  path.step = std::min(2 * path.step, path.first_step);
+  path.good = *ReadView(path.U);
+  return true;
+}
+
 Signal scaled(const Signal& load, double time) {
   return load.value.empty() ? load : ramp_signal(at(load, time), 1);
 }
@@ -190,34 +216,23 @@ RunSummary solve_static(System& system, const StaticSettings& settings, const Ob
                         const Progress& progress) {
   require(settings.steps >= 1, "load steps ", settings.steps, " must be at least 1");
   require_bodies_apart(system);
-  Equilibrium at(system);
-  RunSummary summary = new_summary(system);
-  at.zero = Eigen::VectorXd::Zero(system.size());
   const auto start = Clock::now();
-  const UniqueVec U = vector(system.initial_position());
+  Equilibrium at(system);
+  at.zero = Eigen::VectorXd::Zero(system.size());
+  RunSummary summary = new_summary(system);
+  Path path{.U = vector(system.initial_position()),
+            .good = system.initial_position(),
+            .first_step = 1.0 / settings.steps,
+            .step = 1.0 / settings.steps};
   UniqueMat J;
   const UniqueSNES snes = make_snes(at, J);
-  const double first_step = 1.0 / settings.steps;
-  double reached = -1, step = first_step;
-  Eigen::VectorXd good = system.initial_position();
-  while (reached < 1) {
-    at.factor = reached < 0 ? 0 : std::min(1.0, reached + step);
-    if (!find_equilibrium(at, snes, U, summary)) {
-      ++summary.rejected_steps;
-      step /= 2;
-      if (reached < 0 || step < kSmallestStep * first_step) fail_without_equilibrium(at);
-      assign(U, good);
-      continue;
-    }
-    reached = at.factor;
-    step = std::min(2 * step, first_step);
-    good = *ReadView(U);
-    system.accept(at.state(good));
-    const model::Snapshot found = snapshot(system, at.state(good));
+  while (path.reached < 1) {
+    if (!advance(at, snes, path, summary)) continue;
+    system.accept(at.state(path.good));
+    const model::Snapshot found = snapshot(system, at.state(path.good));
     update(summary, found);
     if (observer) observer(found);
-    ++summary.steps;
-    report(progress, "static", reached);
+    report(progress, "static", path.reached);
   }
   summary.complete = true;
   summary.time = 1;

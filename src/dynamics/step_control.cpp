@@ -45,10 +45,8 @@ PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accep
   PetscCall(TSGetApplicationContext(ts, &run));
   return guard(run->problem.pending, [&] {
     PetscReal dt = 0;
-    const bool touched = std::any_of(run->last.pairs.begin(), run->last.pairs.end(),
-                                     [](const model::PairState& pair) { return pair.count > 0; });
     check(TSGetTimeStep(ts, &dt));
-    if (touched || dt <= kShortestStep * run->nominal_dt) return;
+    if (run->touches || dt <= kShortestStep * run->nominal_dt) return;
     System& system = run->problem.system;
     const Eigen::VectorXd V = Eigen::VectorXd::Zero(system.size());  // without influence on the depth
     if (system.depth_share(t, *ReadView(U), V) > kFirstTouch) *accept = PETSC_FALSE;

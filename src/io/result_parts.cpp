@@ -159,7 +159,8 @@ void ResultParts::remove() const {
 }
 
 void ResultParts::remove_if_empty() const {
-  if (n_parts_ == 0) remove();
+  std::error_code error;
+  fs::remove(folder_, error);  // fails when it is not
 }
 
 std::optional<UnfinishedRun> read_unfinished_run(const std::string& path) {

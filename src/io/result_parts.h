@@ -30,7 +30,7 @@ class ResultParts {
   void publish(const std::string& file) const;
   std::string path(const std::string& file) const;
   void remove() const;
-  /// Unless there are parts.
+  /// The folder, unless there are files in it.
   void remove_if_empty() const;
 
  private:

@@ -114,6 +114,14 @@ expect_error "static friction below that of sliding" 'static friction 0.1' "${si
   -contact_friction_law stick -contact_friction_static 0.1
 expect_error "a gap moved out of sight" 'offset 1 m must not exceed' "${simulate[@]}" -contact_offset 1
 expect_error "negative contact damping" 'damping -1' "${simulate[@]}" -contact_damping -1
+expect_error "negative step" 'ts_dt = -1e-07' "${simulate[@]}" -ts_dt -1e-7
+expect_error "no end" 'ts_max_time = 0 s: must be positive' "${simulate[@]}" -ts_max_time 0
+expect_error "negative time of output" 'output_dt = -1e-07 s' "${simulate[@]}" -output_dt -1e-7
+expect_error "negative tolerance" 'step tolerance -1' "${simulate[@]}" -step_tolerance -1
+expect_error "negative time between checkpoints" 'between two checkpoints -1 s' "${simulate[@]}" -checkpoint_every -1
+expect_error "way to resume that is none" 'resume.*auto, anyway, discard' "${simulate[@]}" -resume perhaps
+expect_error "unknown analysis" 'analysis.*dynamic, static, relax' "${simulate[@]}" -analysis modal
+expect_error "static without steps" 'static_steps.*at least 1' "${simulate[@]}" -analysis static -static_steps 0
 expect_error "zero axis" 'axis' "${simulate[@]}" -a_joint revolute -a_axis 0,0,0
 expect_error "bodies deep inside each other" '(deep|penetrat)' "${simulate[@]}" -b_position 0.003,0,0.004 -b_rotation 3.14159265,0,0
 printf 'time,torque\n0,1\n5e-7,2\n' >short.csv
@@ -122,6 +130,13 @@ hinged=("${simulate[@]}" -a_joint revolute)
 expect_error "table that ends early" 'covers 0 .. 5e-07 s, the run needs 0 .. 1e-06 s' "${hinged[@]}" -a_torque table,short.csv
 expect_error "table with equal times" 'twice.csv: table row 2: time 0 s' "${hinged[@]}" -a_torque table,twice.csv
 expect_error "table that is not there" 'nosuch.csv: cannot be read' "${hinged[@]}" -a_rotation_motion table,nosuch.csv
+expect_error "static motion without end" 'needs the time' "$elastogear" simulate -bodies a -a_file body.h5 -a_joint revolute \
+  -a_rotation_motion speed,2 -analysis static -output new.h5
+expect_error "static with an initial speed" 'no initial velocity' "${hinged[@]}" -a_omega0 1 -analysis static
+expect_error "speed as a vector on a hinge" 'free or spherical' "${hinged[@]}" -a_omega0 1,2,3
+expect_error "two numbers for a speed" 'a_omega0: must be one number, or three' "${hinged[@]}" -a_omega0 1,2
+expect_error "initial angle of a fixed body" 'no axis to turn about' "${simulate[@]}" -a_angle0 1
+expect_error "mass beside a body file" 'exclude each other' "${simulate[@]}" -a_mass 1
 expect_error "torque beside a prescribed motion" 'takes no load' "${hinged[@]}" -a_torque 1 -a_rotation_motion speed,2
 expect_error "force on a hinge" 'no axis to slide along' "${hinged[@]}" -a_force 1
 expect_error "torque on a free body" 'no axis to turn about' "${simulate[@]}" -a_joint free -a_torque 1

@@ -98,4 +98,14 @@ grep -Eq "error: .*ts_dt 1e-6 \(was 2e-6\)" run.log || { cat run.log; fail "the 
 [ -e cut.h5.partial ] && fail "the folder of parts stays"
 echo "killed 20 times, the last time after $reached s"
 compare whole.h5 cut.h5 || fail "the result files differ"
+
+# A step that cannot be solved: the last good state is in the file, and a run with other options goes on from it.
+"${simulate[@]}" -output deep.h5 -contact_depth 2e-5 >run.log 2>&1 && fail "penetrates by more than the contact depth"
+grep -Eq "error: .*nearly the contact depth.*Try a smaller time step.*The result until t = .* is in deep.h5" run.log ||
+  { cat run.log; fail "the message on a step that cannot be solved"; }
+"$elastogear" info deep.h5 | grep -q "incomplete" || fail "the result of a failed run is not called incomplete"
+"${simulate[@]}" -output deep.h5 -contact_depth 1e-3 >run.log 2>&1 && fail "continued with another depth unasked"
+"${simulate[@]}" -output deep.h5 -contact_depth 1e-3 -resume anyway >run.log 2>&1 || { cat run.log; fail "another depth"; }
+grep -q "warning .*contact_depth 1e-3 (was 2e-5)" run.log || { cat run.log; fail "no warning on the other depth"; }
+"$elastogear" info deep.h5 | grep -q "incomplete" && fail "a result that was completed is called incomplete"
 echo "all good"

@@ -73,7 +73,9 @@ void expect_every_continuation_equal(model::Basis basis, const TimeSettings& set
     simulate(system, settings, into(rows), {}, checkpoints);
     const Rows expected(whole.rows.end() - static_cast<std::ptrdiff_t>(rows.size()), whole.rows.end());
     EXPECT_EQ(rows, expected) << "from checkpoint " << k;
-    if (settings.output_dt == 0) EXPECT_EQ(rows.size() + k + 1, whole.rows.size());
+    if (settings.output_dt == 0) {
+      EXPECT_EQ(rows.size() + k + 1, whole.rows.size());
+    }
     for (const auto& row : rows) contacts += row[4];
   }
   EXPECT_GT(contacts, 10);

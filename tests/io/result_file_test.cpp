@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "../mesh/box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -134,6 +136,86 @@ TEST_F(ResultFile, appears_only_when_finished) {
   EXPECT_EQ(read_file(path), "old");
   EXPECT_THROW(ResultWriter(path, sample_header()).finish(), Error);
   EXPECT_EQ(folder.files(), 1);
+}
+
+// What a file holds, byte for byte, but for its attributes.
+void expect_equal_histories(const std::string& a, const std::string& b) {
+  EXPECT_EQ(read_times(a), read_times(b));
+  EXPECT_EQ(read_body_history(a, "wheel").q, read_body_history(b, "wheel").q);
+  EXPECT_EQ(read_body_history(a, "ground").q.cols(), read_body_history(b, "ground").q.cols());
+  EXPECT_EQ(read_pair_history(a, "wheel:ground").group_force[0],
+            read_pair_history(b, "wheel:ground").group_force[0]);
+  const auto of_a = read_contacts(a, "wheel:ground"), of_b = read_contacts(b, "wheel:ground");
+  ASSERT_EQ(of_a.size(), of_b.size());
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    ASSERT_EQ(of_a[i].size(), of_b[i].size());
+    for (std::size_t k = 0; k < of_a[i].size(); ++k) EXPECT_EQ(of_a[i][k].f, of_b[i][k].f);
+  }
+}
+
+TEST_F(ResultFile, goes_on_after_the_last_checkpoint_of_a_writer_that_vanished) {
+  const auto snapshots = sample_snapshots(kSteps);
+  {
+    ResultWriter writer(path, sample_header());
+    for (int i = 0; i < 90; ++i) {
+      if (i == 40 || i == 70) writer.checkpoint({1.0 * i, 0.5});
+      writer.append(snapshots[i]);
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+  const auto unfinished = read_unfinished_run(path);
+  ASSERT_TRUE(unfinished);
+  EXPECT_EQ(unfinished->state, (std::vector<double>{70, 0.5}));
+  EXPECT_EQ(unfinished->time, snapshots[69].time);
+  EXPECT_EQ(unfinished->provenance, sample_header().provenance);
+  ResultWriter writer(path, sample_header(), true);
+  EXPECT_EQ(writer.n_times(), 70);
+  writer.checkpoint({7});  // without anything new
+  for (int i = 70; i < kSteps; ++i) writer.append(snapshots[i]);
+  writer.finish();
+  EXPECT_TRUE(is_complete(path));
+  write_result(folder / "whole.h5", snapshots);
+  expect_equal_histories(path, folder / "whole.h5");
+  EXPECT_FALSE(read_unfinished_run(path));
+}
+
+TEST_F(ResultFile, unfinished_is_marked_and_can_still_go_on) {
+  const auto snapshots = sample_snapshots(20);
+  {
+    ResultWriter writer(path, sample_header());
+    for (int i = 0; i < 10; ++i) writer.append(snapshots[i]);
+    writer.checkpoint({1});
+    writer.finish(false);
+  }
+  EXPECT_FALSE(is_complete(path));
+  EXPECT_EQ(read_times(path).size(), 10);
+  ResultWriter writer(path, sample_header(), true);
+  for (int i = 10; i < 20; ++i) writer.append(snapshots[i]);
+  writer.finish();
+  EXPECT_TRUE(is_complete(path));
+  EXPECT_EQ(read_times(path).size(), 20);
+}
+
+TEST_F(ResultFile, begun_anew_forgets_what_was_unfinished) {
+  {
+    ResultWriter writer(path, sample_header());
+    writer.append(sample_snapshot(1));
+    writer.checkpoint({1});
+  }
+  write_result(path, sample_snapshots(3));
+  EXPECT_EQ(read_times(path).size(), 3);
+  EXPECT_FALSE(read_unfinished_run(path));
+}
+
+TEST_F(ResultFile, parts_that_do_not_follow_each_other_are_an_error) {
+  ResultWriter writer(path, sample_header());
+  for (int i = 0; i < 3; ++i) {
+    writer.append(sample_snapshot(i));
+    writer.checkpoint({1});
+  }
+  std::filesystem::copy_file(path + ".partial/part_000001.h5", path + ".partial/part_000002.h5",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_THAT(message([&] { writer.finish(); }), HasSubstr("does not follow the part before"));
 }
 
 TEST_F(ResultFile, refuses_snapshots_that_do_not_fit) {
