@@ -407,6 +407,13 @@ int Pair::n_searches() const { return data_->n_searches; }
 int Pair::n_displaced() const { return data_->n_displaced; }
 
 void Pair::visit_memory(Tape& tape) {
+  std::vector<StickPoint> stuck = history();
+  tape.each(stuck, [&](StickPoint& point) {
+    for (int* n : {&point.slave_side, &point.slave_node, &point.face}) tape(*n);
+    for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) tape(*x);
+    tape(point.slides);
+  });
+  if (tape.plays()) restore(stuck);  // before the vicinity, which it resets
   data_->visit_vicinity(tape);
   for (Side& side : data_->side) {
     const std::size_t n_nodes = side.last_face.size();

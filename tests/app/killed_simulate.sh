@@ -32,7 +32,7 @@ awk -v n=4 'function node(i, j, k) { return 1 + k + 3 * (j + 3 * i) }
 simulate=("$elastogear" simulate -bodies low,high,top -low_file body.h5 -high_file body.h5 -high_joint free
           -high_position 0.005,0.021,0.0402 -high_rotation 3.14159265,0,0 -high_velocity0 0.3,0,-1 -high_omega0 4,1,2
           -top_mass 1 -top_inertia 1,2,3,0,0,0 -top_joint free -top_omega0 0.1,300,0.1
-          -contact_pairs high:low -contact_two_pass -contact_skin 2e-5 -gravity 0,0,-9.81
+          -contact_pairs high:low -contact_friction 0.3 -contact_friction_law stick -contact_two_pass -contact_skin 2e-5 -gravity 0,0,-9.81
           -ts_dt 2e-6 -ts_max_time 4e-3 -output_every 3)
 "${simulate[@]}" -output whole.h5 -checkpoint_every 1000 >whole.log 2>&1 || { cat whole.log; fail "the undisturbed run"; }
 [ -e whole.h5.partial ] && fail "the folder of parts stays after a run that ended well"
