@@ -107,7 +107,7 @@ void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
   if (!job.modal() || job.options.floating || job.options.symmetry == Symmetry::none) return;
   if (!job.options.point_mass.empty()) {
-    job.report.symmetry = "none: point masses";
+    if (job.rank == 0) job.report.symmetry = "none: point masses";
     return;
   }
   job.on_root([&] {

@@ -180,7 +180,7 @@ TEST(Reduce, finds_the_same_second_moments_in_one_sector_and_without_whole_field
   auto options = example_options();
   options.regions = test::kSteelBody;
   options.restrain = {"bottom"};
-  options.surface = options.stress_nodes = {};
+  options.surface = options.stress_nodes = options.markers = {};
   options.invariants = reduction::Invariants::full;
   options.store = reduction::Store::surface;
   const std::string sector = output_path("sector_moments"), whole = output_path("whole_moments");
