@@ -1,0 +1,169 @@
+// How a System is set up: what of bodies, pairs and forces at markers is refused, and where everything
+// starts.
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/rotation.h"
+#include "elastogear/contact/topology.h"
+#include "elastogear/dynamics/system.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+constexpr double kRotationTolerance = 1e-6;  // on R'R = I and det R = 1, of matrices typed by hand
+
+void append(Eigen::VectorXd& x, const Eigen::VectorXd& tail) {
+  x.conservativeResize(x.size() + tail.size());
+  x.tail(tail.size()) = tail;
+}
+
+bool is_default(const Axis& axis) {
+  return axis.s_0 == 0 && axis.s_dot_0 == 0 && axis.load.value.empty() && axis.damping == 0 &&
+         axis.friction == 0 && !axis.drive;
+}
+
+// What a joint does not have must not be set.
+void validate_motion(const BodySetup& setup, const std::string& who) {
+  const body::JointType type = setup.joint.type;
+  const std::string& joint = body::joint_names()[static_cast<std::size_t>(type)];
+  require(body::turns(type) || is_default(setup.rotation), who, "a ", joint,
+          " joint has no axis to turn about: no initial angle or speed, torque, friction or prescribed "
+          "rotation");
+  require(
+      body::slides(type) || is_default(setup.translation), who, "a ", joint,
+      " joint has no axis to slide along: no initial displacement or speed, force, friction or prescribed "
+      "translation");
+  require(type == body::JointType::free || setup.velocity0.isZero(0), who,
+          "only a free body takes an initial velocity as a vector");
+  require(body::tumbles(type) || setup.omega0.isZero(0), who,
+          "only a free or spherical joint takes an initial angular velocity as a vector");
+  require(setup.velocity0.allFinite() && setup.omega0.allFinite(), who, "initial velocity (",
+          setup.velocity0.transpose(), ") and angular velocity (", setup.omega0.transpose(),
+          ") must be finite");
+  validate(setup.rotation, who + "rotation: ");
+  validate(setup.translation, who + "translation: ");
+}
+
+void validate_joint(const BodySetup& setup) {
+  const body::Joint& joint = setup.joint;
+  const std::string who = "body '" + setup.name + "': ";
+  require(joint.r_WB0.allFinite(), who, "position (", joint.r_WB0.transpose(), ") must be finite");
+  const Eigen::Matrix3d& R = joint.R_WB0;
+  require(R.allFinite() && (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kRotationTolerance &&
+              R.determinant() > 0,
+          who, "rotation is not a rotation matrix");
+  validate_motion(setup, who);
+}
+
+// Inertia of the undeformed body against what the joint lets it do.
+void require_inertia(const System::Body& body) {
+  const model::Inertia& inertia = body.eq.body->inertia;
+  Eigen::Matrix<double, 6, 6> M;
+  const Eigen::Matrix3d S = skew(inertia.m * inertia.c);
+  M << inertia.m * Eigen::Matrix3d::Identity(), -S, S, inertia.J;
+  const Eigen::MatrixXd H = body.eq.H(Eigen::all, body.open);
+  const Eigen::LLT<Eigen::MatrixXd> factor(H.transpose() * M * H);
+  require(factor.info() == Eigen::Success, "body '", body.name, "' has a mass of ", inertia.m,
+          " kg and no (or a negative) inertia against a motion that its joint allows");
+}
+
+void validate_body(const BodySetup& setup, const std::vector<System::Body>& others) {
+  require(!setup.name.empty(), "a body has no name");
+  for (const System::Body& other : others)
+    require(other.name != setup.name, "two bodies are named '", setup.name, "'");
+  require(setup.body != nullptr, "body '", setup.name, "' has no elastic body");
+  require(setup.q_dot0.size() == 0 || setup.q_dot0.size() == setup.body->n_q(), "body '", setup.name,
+          "': q_dot0 has ", setup.q_dot0.size(), " entries, must have n_q = ", setup.body->n_q());
+  require(setup.q_dot0.allFinite(), "body '", setup.name, "': q_dot0 is not finite");
+  validate_joint(setup);
+}
+
+std::vector<int> node_groups(const model::Surface& surface) {
+  std::vector<int> group(surface.node.size(), 0);
+  for (Eigen::Index f = surface.face.cols() - 1; f >= 0; --f)
+    for (int node : surface.face.col(f)) group[node] = surface.group[f];
+  return group;
+}
+
+std::vector<Axis> axes(const BodySetup& setup) {
+  std::vector<Axis> axes;
+  if (body::turns(setup.joint.type)) axes.push_back(setup.rotation);
+  if (body::slides(setup.joint.type)) axes.push_back(setup.translation);
+  return axes;
+}
+
+std::vector<Eigen::Index> open_coordinates(const std::vector<Axis>& axes, Eigen::Index n_s) {
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < n_s; ++i)
+    if (axes.empty() || !axes[static_cast<std::size_t>(i)].drive) open.push_back(i);
+  return open;
+}
+
+// Initial joint coordinates and their rates.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> initial_motion(const BodySetup& setup, Eigen::Index n_s) {
+  Eigen::VectorXd s = Eigen::VectorXd::Zero(n_s), s_dot = s;
+  if (setup.joint.type == body::JointType::free) {
+    s.head<3>() = setup.joint.r_WB0;
+    s_dot.head<3>() = setup.velocity0;
+  }
+  if (body::tumbles(setup.joint.type)) s_dot.tail<3>() = setup.omega0;
+  for (Eigen::Index i = 0; const Axis& axis : axes(setup)) {
+    s[i] = axis.s_0;
+    s_dot[i++] = axis.s_dot_0;
+  }
+  return {s, s_dot};
+}
+
+}  // namespace
+
+System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment,
+               const MarkerSetups& markers)
+    : environment_(environment) {
+  require(!bodies.empty(), "there is no body to simulate");
+  require(environment.gravity.allFinite(), "gravity (", environment.gravity.transpose(), ") must be finite");
+  for (const BodySetup& setup : bodies) add_body(setup);
+  for (const PairSetup& setup : pairs) add_pair(setup);
+  add_marker_forces(markers);
+}
+
+void System::add_body(const BodySetup& setup) {
+  validate_body(setup, bodies_);
+  const std::vector<Axis> axis = axes(setup);
+  const auto [s, s_dot] = initial_motion(setup, body::coordinate_count(setup.joint.type));
+  const std::vector<Eigen::Index> open = open_coordinates(axis, s.size());
+  bodies_.push_back({setup.name, body::make_equations(setup.body, setup.joint, environment_.inertia), size(),
+                     axis, open, false, node_groups(setup.body->surface),
+                     contact::node_areas(setup.body->surface.X, setup.body->surface.face)});
+  require_inertia(bodies_.back());
+  const Eigen::Index n_q = setup.body->n_q();
+  append(U_0_, s(open));
+  append(U_0_, Eigen::VectorXd::Zero(n_q));
+  append(V_0_, s_dot(open));
+  append(V_0_, setup.q_dot0.size() ? setup.q_dot0 : Eigen::VectorXd::Zero(n_q));
+}
+
+void System::add_pair(const PairSetup& setup) {
+  const auto n = static_cast<int>(bodies_.size());
+  for (int b : setup.body) {
+    require(b >= 0 && b < n, "contact pair '", setup.name, "' names body ", b, ", allowed are 0..", n - 1);
+    require(bodies_[b].eq.body->surface.face.cols() > 0, "contact pair '", setup.name, "': body '",
+            bodies_[b].name, "' has no surface faces");
+    bodies_[b].in_contact = true;
+  }
+  require(setup.body[0] != setup.body[1], "contact pair '", setup.name, "' names one body twice");
+  pairs_.push_back(setup);
+  const model::ElasticBody& a = *bodies_[setup.body[0]].eq.body;
+  const model::ElasticBody& b = *bodies_[setup.body[1]].eq.body;
+  detectors_.emplace_back(a.surface, b.surface, setup.settings, std::array{&a.K_r, &b.K_r});
+}
+
+void System::add_marker_forces(const MarkerSetups& setups) {
+  std::vector<MarkerForces::Body> bodies;
+  for (const Body& body : bodies_) bodies.push_back({body.name, body.eq.body.get()});
+  marker_forces_ = MarkerForces(setups, bodies);
+  marker_forces_.set_unloaded(moving_bodies({0, U_0_, V_0_, V_0_}));
+}
+
+}  // namespace elastogear::dynamics
