@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "elastogear/reduction/block_product.h"
@@ -97,10 +98,11 @@ MatrixXd complex_modes(const Problem& problem, const MatrixXd& W, HarmonicModes&
 }
 
 // All rows on rank 0.
-MatrixXd gathered(MPI_Comm comm, const MatrixXd& own) {
+MatrixXd gathered(MPI_Comm comm, MatrixXd own) {
   int rank = 0, size = 1, rows = static_cast<int>(own.rows());
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
+  if (size == 1) return own;
   std::vector<int> count(size), first(size + std::size_t{1}, 0);
   MPI_Gather(&rows, 1, MPI_INT, count.data(), 1, MPI_INT, 0, comm);
   for (int r = 0; r < size; ++r) first[r + std::size_t{1}] = first[r] + count[r];
@@ -149,7 +151,7 @@ HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harm
   modes.orthogonality = found.orthogonality;
   modes.iterations = found.iterations;
   if (!harmonic.real) W = complex_modes(problem, W, modes);
-  modes.z = gathered(comm_of(K), W);
+  modes.z = gathered(comm_of(K), std::move(W));
   for (Eigen::Index j = 0; j < modes.z.cols() && modes.z.rows() > 0; ++j) {
     VectorXd z = modes.z.col(j);
     if (harmonic.real)
