@@ -1,11 +1,12 @@
 // Block Lanczos in windows against SLEPc's Krylov-Schur, on the same matrices in the same run.
 //
 //   benchmark_eigenmodes -mesh worm.msh [-restrain seats] [-modes 500] [-window auto] [-slepc 100,200,400]
-//   [-at 0,0.5,1]
+//   [-at 0,0.5,1] [-kernels]
 //
-// First all modes by windows. Then SLEPc at some places of the spectrum (0: its lower end, 1: below the last
-// mode): for each size one EPSSolve for so many modes, the shift in their middle, factorisation by MUMPS with
-// its own ordering included. A whole walk up the spectrum costs about the mean of the seconds per mode.
+// -kernels: only assembly, one factorisation and solves with it, the measurements of scripts/cost_model.py.
+// Else first all modes by windows. Then SLEPc at some places of the spectrum (0: its lower end, 1: below the
+// last mode): for each size one EPSSolve for so many modes, the shift in their middle, factorisation by MUMPS
+// with its own ordering included. A whole walk up the spectrum costs about the mean of the seconds per mode.
 
 #include <slepceps.h>
 #include <sys/resource.h>
@@ -21,6 +22,7 @@
 #include "elastogear/mesh/file.h"
 #include "elastogear/mesh/partition.h"
 #include "elastogear/reduction/eigenmodes.h"
+#include "elastogear/reduction/factorisation.h"
 
 namespace {
 
@@ -60,6 +62,14 @@ void print_time(const std::string& what, const Time& start, int modes) {
         (end.cpu - start.cpu) / modes);
 }
 
+// CPU time: the most of any rank, which other jobs on the machine do not lengthen.
+void print_span(const std::string& what, const Time& start) {
+  const Time end;
+  double cpu = end.cpu - start.cpu;
+  check(MPI_Allreduce(MPI_IN_PLACE, &cpu, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
+  print("%-44s %9.3f s wall %9.3f s cpu\n", what.c_str(), end.wall - start.wall, cpu);
+}
+
 fem::Matrices read_and_assemble() {
   int rank = 0, size = 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
@@ -77,7 +87,7 @@ fem::Matrices read_and_assemble() {
   const fem::Share share = fem::distribute(PETSC_COMM_WORLD, mesh, region, rows);
   const Time start;
   fem::Matrices matrices = fem::assemble(PETSC_COMM_WORLD, share, kSteel, model::Element::incompatible);
-  print("assembly %.2f s wall\n", MPI_Wtime() - start.wall);
+  print_span("assembly", start);
   return matrices;
 }
 
@@ -86,6 +96,25 @@ double peak_gigabytes() {
   getrusage(RUSAGE_SELF, &usage);
   const double kilobyte = 1024, gigabyte = 1e9;
   return usage.ru_maxrss * kilobyte / gigabyte;
+}
+
+void run_kernels(const fem::Matrices& matrices) {
+  PetscInt n_own = 0;
+  check(MatGetLocalSize(matrices.K, &n_own, nullptr));
+  Time start;
+  reduction::ShiftedFactor factor(matrices.K, matrices.M);
+  print_span("analysis", start);
+  print("factor: %.4e entries, %.4e flops\n", factor.size().entries, factor.size().flops);
+  start = Time{};
+  factor.factorise(0);
+  print_span("factorisation", start);
+  for (int block : {8, 16, 32}) {
+    Eigen::MatrixXd X = Eigen::MatrixXd::Random(n_own, block);
+    start = Time{};
+    factor.solve(X);
+    print_span("solve, columns " + std::to_string(block), start);
+  }
+  print("peak memory of rank 0 %.3f GB\n", peak_gigabytes());
 }
 
 Eigen::VectorXd run_windows(const fem::Matrices& matrices, int n_modes) {
@@ -149,7 +178,10 @@ void run() {
   const fem::Matrices matrices = read_and_assemble();
   PetscInt n = 0;
   check(MatGetSize(matrices.K, &n, nullptr));
-  print("%d free degrees of freedom, %d modes\n", static_cast<int>(n), n_modes);
+  PetscBool kernels = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, "-kernels", &kernels));
+  print("%d free degrees of freedom, %d modes\n", static_cast<int>(n), kernels ? 0 : n_modes);
+  if (kernels) return run_kernels(matrices);
   const Eigen::VectorXd lambda = run_windows(matrices, n_modes);
   check(MatSetOption(matrices.K, MAT_SPD, PETSC_FALSE));
   check(MatSetOption(matrices.K, MAT_SYMMETRIC, PETSC_TRUE));

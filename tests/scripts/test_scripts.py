@@ -52,6 +52,24 @@ def write_body(path):
         file["surface/face"], file["stress/nodes"] = np.zeros((6, 4), int), [4, 17]
 
 
+class CostModel(unittest.TestCase):
+    def eigenmodes(self, *options):
+        """Seconds for the whole body and by sectors."""
+        command = [sys.executable, os.path.join(SCRIPTS, "cost_model.py"), *options]
+        text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        return [float(line.split()[1]) for line in text.splitlines() if line.strip().startswith("eigenmodes")]
+
+    def test_more_ranks_and_fewer_modes_take_less_time(self):
+        reference = self.eigenmodes("--dofs", "1e6", "--modes", "1000", "--ranks", "2")
+        for options in (("--modes", "1000", "--ranks", "8"), ("--modes", "200", "--ranks", "2")):
+            for less, more in zip(self.eigenmodes("--dofs", "1e6", *options), reference):
+                self.assertLess(less, more)
+
+    def test_the_worm_of_the_paper_takes_about_what_was_measured(self):
+        measured = 918  # s, docs/performance.md
+        self.assertLess(abs(self.eigenmodes("--dofs", "349398", "--ranks", "1", "--sectors", "1")[0] / measured - 1), 0.5)
+
+
 class Scripts(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
