@@ -65,7 +65,9 @@ const OptionTable kOptions = {
      "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none, and "
      "when SLEPc is asked for: from the whole body"},
     {"completeness", "-", "true",
-     "check how much of the static answer to loads on the surface the modes give: one more factorisation"},
+     "check how much of the static answer to loads on the surface the modes give: one more factorisation; "
+     "with "
+     "sectors up to 500,000 displacements"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
     {"damping_ratio", "-", "",

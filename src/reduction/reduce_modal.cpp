@@ -17,6 +17,8 @@
 namespace elastogear::reduction {
 namespace {
 
+constexpr PetscInt kLargestCheckFactor = 500'000;  // displacements
+
 // What the modes depend on, but for what the way of finding them adds. Rank 0.
 Fingerprint fingerprint_of(const Job& job) {
   const ReductionOptions& o = job.options;
@@ -130,11 +132,11 @@ std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
   return f.text();
 }
 
-void check_basis(Job& job, const ElasticSystem& system) {
+void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
   const Plan& plan = job.plan;
   auto& checks = job.report.checks;
   checks = mass_checks(system, plan.body, plan.moments);
-  if (job.options.completeness)
+  if (completeness)
     for (model::Check& check : load_checks(system, plan.body, job.mesh.n_nodes()))
       checks.push_back(std::move(check));
   job.finish_stage("checks");
@@ -160,7 +162,7 @@ void reduce_whole(Job& job) {
       if (k < n_q) writer->add(k, mode);  // later ones are void
     });
   });
-  check_basis(job, system);
+  check_basis(job, system, job.options.completeness);
   job.on_root([&] { writer->finish(); });
   pieces.clear();
 }
@@ -186,6 +188,19 @@ std::string fingerprint_of_sectors(Job& job) {
   return f.text();
 }
 
+// The modes of sectors need no matrices of the whole body, their checks do: K and M, and for completeness a
+// factor, which is left out where it would take more memory than all else.
+void check_sectors(Job& job) {
+  const fem::Matrices matrices = assemble(job);
+  UniqueVec layout;
+  PetscInt n_free = 0;
+  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
+  check(VecGetSize(layout, &n_free));
+  const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
+  check_basis(job, {matrices.K, matrices.M, gather, nullptr},
+              job.options.completeness && n_free <= kLargestCheckFactor);
+}
+
 // From one sector of a body that repeats.
 void reduce_sectors(Job& job) {
   HarmonicPieces pieces(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
@@ -203,6 +218,7 @@ void reduce_sectors(Job& job) {
   };
   set_eigenmodes(job, find_cyclic_eigenmodes(job.comm, {body, plan.repetition}, options, keep, job.progress));
   job.finish_stage("eigenmodes");
+  check_sectors(job);
   job.on_root([&] { writer->finish(); });
   pieces.clear();
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -239,6 +240,17 @@ TEST(Reduce, finds_the_same_modes_in_one_sector_as_in_the_whole_body) {
   const Eigen::Matrix3d C_a = a.inertia.C_r.transpose() * a.inertia.C_r,
                         C_b = b.inertia.C_r.transpose() * b.inertia.C_r;
   EXPECT_LT((C_a - C_b).norm(), kEigensolver * C_b.norm());
+  for (const std::string name : {"captured_mass", "static_completeness"}) {
+    const auto find = [&](const reduction::ReductionReport& report) {
+      const auto found = std::find_if(report.checks.begin(), report.checks.end(),
+                                      [&](const model::Check& check) { return check.name == name; });
+      EXPECT_NE(found, report.checks.end()) << name;
+      return found == report.checks.end() ? Eigen::MatrixXd() : Eigen::MatrixXd(found->value);
+    };
+    const Eigen::MatrixXd c_a = find(with), c_b = find(without);
+    ASSERT_EQ(c_a.size(), c_b.size()) << name;
+    EXPECT_LT((c_a - c_b).norm(), kEigensolver * c_b.norm()) << name;
+  }
 }
 
 TEST(Reduce, reports_why_no_symmetry_was_found) {
