@@ -129,7 +129,8 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
     require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
             "file and -", prefix, "mass, _inertia exclude each other");
     model::ElasticBody body = io::read_body(options.text(prefix + "file"));
-    return options.flag(prefix + "rigid") ? body::rigid_copy(body) : body;
+    if (options.flag(prefix + "rigid")) body = body::rigid_copy(body);
+    return body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,
           "file is missing: body file made by reduce (or give -", prefix, "mass and -", prefix,
