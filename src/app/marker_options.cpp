@@ -125,6 +125,9 @@ dynamics::MarkerSetups marker_setups(const Options& options) {
 }
 
 void change_body(const Options& options, const std::string& prefix, model::ElasticBody& body) {
+  const auto given = [&](const char* name) { return options.given(prefix + name); };
+  if (!given("points") && !given("damping_alpha") && !given("damping_beta") && !given("damping_ratio"))
+    return;
   add_points(options, prefix + "points", body);
   if (options.given(prefix + "damping_alpha")) body.alpha = options.number(prefix + "damping_alpha");
   if (options.given(prefix + "damping_beta")) body.beta = options.number(prefix + "damping_beta");
