@@ -25,6 +25,9 @@ const OptionTable kOwnTable = {
     {"bodies", "-", "", "names of the bodies; each has its own <body>_... keys"},
     {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
     {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
+    {"<body>_residual", "-", "true",
+     "let contact feel the static answers that the file holds beside its modes (reduce -basis "
+     "modal_residual)"},
     {"<body>_mass", "kg", "", "rigid body without a file: mass"},
     {"<body>_center", "m", "0,0,0", "rigid body without a file: centre of mass in the body frame"},
     {"<body>_inertia", "kg m^2", "", "rigid body without a file: xx,yy,zz,xy,yz,xz about the centre of mass"},
@@ -130,6 +133,7 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
             "file and -", prefix, "mass, _inertia exclude each other");
     model::ElasticBody body = io::read_body(options.text(prefix + "file"));
     if (options.flag(prefix + "rigid")) body = body::rigid_copy(body);
+    if (!options.flag(prefix + "residual")) body.flexibility = {};
     return body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,

@@ -66,6 +66,11 @@ void validate(const ReductionOptions& options) {
   model::validate(options.ratio);
   require(options.ratio.ratio.empty() || options.basis == model::Basis::modal,
           "damping ratios belong to modes: the full basis takes Rayleigh's alpha and beta only");
+  require(!options.flexibility || (options.basis == model::Basis::modal && !options.floating),
+          "static answers to contact forces belong to the modal basis of a held body");
+  require(
+      !options.flexibility || !options.surface.empty(),
+      "static answers to contact forces need a contact surface: name its face sets by the option surface");
   for (const auto& [set, mass] : options.point_mass)
     require(std::isfinite(mass) && mass > 0, "point mass ", mass, " kg on '", set,
             "' must be finite and positive");

@@ -44,10 +44,12 @@ struct ReductionOptions {
   std::vector<std::string> stress_nodes = {};  ///< node sets
   std::vector<std::string> markers = {};       ///< node sets, see reduction/marker.h
   model::Basis basis = model::Basis::modal;
-  int n_modes = 100;                                   ///< modal only
-  bool completeness = true;                            ///< check it: one more factorisation of K
-  int window = 0;                                      ///< modes found at a time, see EigenOptions
-  Store store = Store::all;                            ///< where the modes are stored
+  int n_modes = 100;                     ///< modal only
+  bool flexibility = false;              ///< modal only: static answers to contact forces,
+  std::vector<std::string> loaded = {};  ///< on the nodes of these face sets; none: of the whole surface
+  bool completeness = true;              ///< check it: one more factorisation of K
+  int window = 0;                        ///< modes found at a time, see EigenOptions
+  Store store = Store::all;              ///< where the modes are stored
   io::Precision precision = io::Precision::float64;    ///< of modes stored at all nodes
   Symmetry symmetry = Symmetry::automatic;             ///< modal only, see reduction/cyclic.h
   Invariants invariants = Invariants::linear;          ///< of inertia, stored in the file
