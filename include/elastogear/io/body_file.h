@@ -47,8 +47,10 @@ class BodyWriter {
   std::unique_ptr<Data> data_;
 };
 
+/// What a body is read for. `motion` leaves `stress` empty, which may be most of the file.
+enum class BodyUse { all, motion };
 /// Reads and validates; throws Error naming the file and what is wrong with it.
-model::ElasticBody read_body(const std::string& path);
+model::ElasticBody read_body(const std::string& path, BodyUse use = BodyUse::all);
 BodySource read_body_source(const std::string& path);
 /// Empty when the file holds none.
 ModeChecks read_mode_checks(const std::string& path);
