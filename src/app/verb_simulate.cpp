@@ -131,7 +131,7 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
   if (options.given(prefix + "file")) {
     require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
             "file and -", prefix, "mass, _inertia exclude each other");
-    model::ElasticBody body = io::read_body(options.text(prefix + "file"));
+    model::ElasticBody body = io::read_body(options.text(prefix + "file"), io::BodyUse::motion);
     if (options.flag(prefix + "rigid")) body = body::rigid_copy(body);
     if (!options.flag(prefix + "residual")) body.flexibility = {};
     return body;

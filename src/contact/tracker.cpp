@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "elastogear/base/error.h"
 #include "elastogear/contact/penalty.h"
@@ -156,31 +157,40 @@ void Tracker::list_nodes() {
   for (auto& list : lists) make_set(list);
 }
 
-// Of all candidates: those that cannot touch soon are left out, and faces that cannot be nearest.
+// Of all candidates: those that cannot touch soon are left out, and faces that cannot be nearest. Clearance
+// that is left over from an earlier measurement needs no new one.
 void Tracker::measure_clearance(double limit) {
-  for (int slave : slave_sides(settings_)) vicinity_->near[slave] = everything(vicinity_->candidates[slave]);
+  Vicinity& v = *vicinity_;
+  const double soon = limit + limits_.outside;
+  v.limit = limit;
+  v.uses = 0;
+  for (int slave : slave_sides(settings_))
+    v.near[slave] = not_apart(v.candidates[slave], v.apart_until[slave], v.path + soon);
   list_nodes();
-  for (int i : {0, 1}) place_nodes(i, vicinity_->node[i]);
-  vicinity_->limit = limit;
-  vicinity_->uses = 0;
-  const std::array reach_and_limit{std::max(limits_.depth, limits_.outside) + settings_.skin,
-                                   limit + limits_.outside};
-  for (int slave : slave_sides(settings_)) {
-    Nearby& near = vicinity_->near[slave] = {};
-    const SurfaceView master = view(1 - slave, settings_.extension);
-    const Candidates& candidates = vicinity_->candidates[slave];
-    for (int node : candidates.nodes()) {
-      const auto [clearance, faces] =
-          approach(master, configuration_.x[slave].col(node), reach_and_limit, candidates[node]);
-      if (clearance > limit + limits_.outside) continue;
-      near.slave.push_back(node);
-      near.face.insert(near.face.end(), faces.begin(), faces.end());
-      near.end.push_back(static_cast<int>(near.face.size()));
-    }
-  }
+  for (int i : {0, 1}) place_nodes(i, v.node[i]);
+  for (int slave : slave_sides(settings_)) leave_out(slave, soon);
   list_nodes();
-  for (int i : {0, 1}) vicinity_->measured_at[i] = *now_[i];
+  for (int i : {0, 1}) v.measured_at[i] = *now_[i];
   yielded_since_measured_ = 0;
+}
+
+// Of what is near: nodes with more clearance than that.
+void Tracker::leave_out(int slave, double clear) {
+  const Nearby all = std::exchange(vicinity_->near[slave], {});
+  const SurfaceView master = view(1 - slave, settings_.extension);
+  const std::array reach_and_limit{std::max(limits_.depth, limits_.outside) + settings_.skin, clear};
+  const double surely_seen = settings_.skin + limits_.outside;  // whichever side of the surface it is on
+  Nearby& near = vicinity_->near[slave];
+  for (std::size_t i = 0; i < all.slave.size(); ++i) {
+    const int node = all.slave[i];
+    const auto [clearance, faces] =
+        approach(master, configuration_.x[slave].col(node), reach_and_limit, all.faces(i));
+    vicinity_->apart_until[slave][node] = vicinity_->path + std::min(clearance, surely_seen);
+    if (clearance > clear) continue;
+    near.slave.push_back(node);
+    near.face.insert(near.face.end(), faces.begin(), faces.end());
+    near.end.push_back(static_cast<int>(near.face.size()));
+  }
 }
 
 // Whether it had to be measured again, which places all its nodes.
@@ -188,9 +198,12 @@ bool Tracker::update_vicinity() {
   const bool search_is_due =
       !vicinity_ || !(way(vicinity_->found_at) + yielded_since_found_ <= settings_.skin);
   if (search_is_due) find_candidates();
-  const bool is_used_up =
-      search_is_due || !(way(vicinity_->measured_at) + yielded_since_measured_ <= vicinity_->limit);
-  if (is_used_up) measure_clearance(next_limit(*vicinity_, settings_.skin));
+  const double leg = search_is_due ? 0 : way(vicinity_->measured_at) + yielded_since_measured_;
+  const bool is_used_up = search_is_due || !(leg <= vicinity_->limit);
+  if (is_used_up) {
+    vicinity_->path += leg;
+    measure_clearance(next_limit(*vicinity_, settings_.skin));
+  }
   ++vicinity_->uses;
   return is_used_up;
 }
@@ -199,10 +212,12 @@ bool Tracker::update_vicinity() {
 void Tracker::find_candidates(double margin) {
   const auto& face_pairs = search_.face_pairs(configuration_, margin);
   if (!vicinity_) vicinity_.emplace();
+  vicinity_->path = 0;
   for (int slave : slave_sides(settings_)) {
     Candidates& candidates = vicinity_->candidates[slave];
     candidates.collect(face_pairs, slave, view(slave, 0), view(1 - slave, settings_.extension), margin);
     vicinity_->near[slave] = everything(candidates);
+    vicinity_->apart_until[slave].assign(static_cast<std::size_t>(configuration_.x[slave].cols()), 0);
   }
   ++n_searches_;
 }

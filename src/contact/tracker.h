@@ -65,6 +65,7 @@ class Tracker {
   double way(const SurfaceMotion then[2]) const;
   void list_nodes();
   void measure_clearance(double limit);
+  void leave_out(int slave, double clear);
   bool update_vicinity();
   void find_candidates(double margin);
   void find_candidates();
