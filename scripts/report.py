@@ -113,14 +113,19 @@ class Example:
         return {row[0]: [float(value) for value in row[1:]] for row in rows}
 
 
+def line_style(i):
+    """Of the i-th curve of a panel; the first is the reference's."""
+    if i == 0:
+        return {"color": "black", "linewidth": 2.2}
+    return {"color": COLOURS[(i - 1) % len(COLOURS)], "linewidth": 1.2, "linestyle": STYLES[(i - 1) // len(COLOURS) % 3]}
+
+
 def lines(figure_size, panels):
     """Figure of panels [(title, label of y, [(name, x, y)])] in one row."""
     figure, axes = plt.subplots(1, len(panels), figsize=figure_size, squeeze=False)
     for panel, (title, unit, curves) in zip(axes[0], panels):
         for i, (name, x, y) in enumerate(curves):
-            reference = name == "full"
-            panel.plot(x, y, color="black" if reference else COLOURS[i % len(COLOURS)], label=name,
-                       linewidth=2.2 if reference else 1.2, linestyle="-" if reference else STYLES[i // len(COLOURS) % 3])
+            panel.plot(x, y, label=name, **line_style(i))
         panel.set(title=title, ylabel=unit, xlabel="time in ms")
     axes[0][0].legend(frameon=False, fontsize=8)
     return figure
@@ -136,9 +141,8 @@ def impact_figures(example):
             speed.append((label, t, file["bodies/wheel/rigid_velocity"][:, 0]))
             for area, force in results.group_forces(pair).items():
                 forces.setdefault(area, []).append((label, t, force / 1e3))
-    loaded = [(area, "force in kN", curves) for area, curves in forces.items()
-              if next((force.max() for name, _, force in curves if name == "full"), 0) > 0.05]
-    yield picture(lines((11, 3.6), loaded[:2] + [("wheel", "speed in rad/s", speed)]),
+    most = sorted(forces, key=lambda area: -max(force.max() for _, _, force in forces[area]))[:2]
+    yield picture(lines((11, 3.6), [(area.replace("_", " "), "force in kN", forces[area]) for area in most] + [("wheel", "speed in rad/s", speed)]),
                   "Fig. 9: contact force of both areas of contact, speed of the wheel")
     for number, body in ((10, "worm"), (11, "wheel")):
         yield stress_figure(example, labels, body, "root", f"Fig. {number}: stress at the {body}'s root node")
@@ -170,8 +174,7 @@ def stress_figure(example, labels, body, name, caption):
     figure, axes = plt.subplots(2, 3, figsize=(11, 6))
     for i, panel in enumerate(axes.flat):
         for j, (label, t, stress) in enumerate(histories):
-            panel.plot(t, stress[:, i] / 1e6, color="black" if label == "full" else COLOURS[(j - 1) % len(COLOURS)],
-                       linewidth=2.2 if label == "full" else 1.2, label=label)
+            panel.plot(t, stress[:, i] / 1e6, label=label, **line_style(j))
         panel.set_title(f"${'σ' if i < 3 else 'τ'}_{{{results.COMPONENTS[i]}}}$ in MPa")
     axes[0][0].legend(frameon=False, fontsize=8)
     return picture(figure, f"{caption} ({node}), over the time in ms")
@@ -240,13 +243,6 @@ def field_of(example, label, body):
     return next(iter(sorted(glob.glob(example.path(f"{label}_{body}*.vtu")))), None)
 
 
-def largest_stress(path):
-    """MPa at the end of the colours, as pictures.py chooses them."""
-    import pictures  # needs VTK
-    stress = pictures.array(pictures.read(path).GetPointData(), "von_mises", path) / 1e6
-    return pictures.colour_range(stress)
-
-
 def picture_section(example):
     """Fig. 13: unreduced beside reduced, in the same colours."""
     label = example.labels[-1]
@@ -256,12 +252,11 @@ def picture_section(example):
         return
     yield "<h2>Von Mises stress: unreduced | reduced (Fig. 13)</h2>"
     for body in ("worm", "wheel"):
-        largest = largest_stress(fields[example.reference(label), body])
         pair = ""
         for side in (example.reference(label), label):
             out = example.path(f"{side}_{body}_von_mises.png")
-            subprocess.run([os.path.join(SCRIPTS, "pictures.py"), "stress", fields[side, body], "--largest", str(largest),
-                            "--title", f"{body}, {side}", "--out", out], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([os.path.join(SCRIPTS, "pictures.py"), "stress", fields[side, body], "--like",
+                            fields[example.reference(label), body], "--title", f"{body}, {side}", "--out", out], check=True, stdout=subprocess.DEVNULL)
             with open(out, "rb") as file:
                 pair += image(file.read(), f"{body}, {side}")
         yield f'<div class="pair">{pair}</div>'
