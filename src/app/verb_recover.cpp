@@ -150,8 +150,8 @@ void write_stresses(const Options& options, Run& run) {
     const model::Stress stress = read_elastic(body).stress;
     for (const std::string& set : options.list("stress_" + name)) {
       auto h = history(body, stress, set);
-      file.sets.push_back(
-          {name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises), std::move(h.rankine)});
+      file.sets.push_back({name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises),
+                           std::move(h.rankine), stress.X(Eigen::all, stress.sets.at(set))});
     }
   }
   require(!file.sets.empty(),

@@ -45,7 +45,7 @@ const OptionTable kOptions = {
      "origin of the body frame: mesh, centre_of_mass, or x,y,z in the mesh's coordinates (default: "
      "centre_of_mass for a free body, else mesh)"},
     {"surface", "-", "", "face sets of the contact surface"},
-    {"stress_nodes", "-", "", "node sets at which stress modes are stored"},
+    {"stress_nodes", "-", "", "node sets, or face sets for their nodes, at which stress modes are stored"},
     {"markers", "-", "",
      "node sets whose mean motion is stored, for loads, bushings and sensors of simulate (which always has "
      "the body frame)"},

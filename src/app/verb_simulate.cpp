@@ -7,6 +7,7 @@
 #include "app/advice.h"
 #include "app/console.h"
 #include "app/contact_options.h"
+#include "app/initial_state.h"
 #include "app/kept_run.h"
 #include "app/marker_options.h"
 #include "app/motion.h"
@@ -79,7 +80,7 @@ const OptionTable kOwnTable = {
 
 OptionTable table() {
   OptionTable all = kOwnTable;
-  for (const OptionTable& part : {contact_table(), kept_run_table(), marker_table()})
+  for (const OptionTable& part : {contact_table(), initial_state_table(), kept_run_table(), marker_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -155,6 +156,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   setup.translation.s_0 = options.number(prefix + "displacement0");
   set_rate(options, prefix + "omega0", setup.rotation.s_dot_0, setup.omega0);
   set_rate(options, prefix + "velocity0", setup.translation.s_dot_0, setup.velocity0);
+  set_initial_state(options, setup);
   set_axis(options, prefix, "rotation", "torque", setup.rotation);
   set_axis(options, prefix, "translation", "force", setup.translation);
   model::ElasticBody body = read_or_make_body(options, prefix);

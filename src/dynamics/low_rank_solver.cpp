@@ -127,8 +127,7 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
     const BodyTerms& t = A_.body[b];
     const Eigen::VectorXd x_s = small.segment(joint, n_s);
     x.segment(s, n_s) = x_s;
-    x.segment(s + n_s, n_q) -=
-        block_[b].solve(block_[b].columns().expand(t.node, t.beta * x_s + t.L * k_lambda));
+    x.segment(s + n_s, n_q) -= block_[b].response(t.node, t.beta * x_s + t.L * k_lambda);
   }
   return x;
 }

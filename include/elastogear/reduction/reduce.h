@@ -41,7 +41,7 @@ struct ReductionOptions {
   bool frame_at_center = false;                ///< body frame at the centre of mass
   Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise
   std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
-  std::vector<std::string> stress_nodes = {};  ///< node sets
+  std::vector<std::string> stress_nodes = {};  ///< node sets, or face sets for their nodes
   std::vector<std::string> markers = {};       ///< node sets, see reduction/marker.h
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                     ///< modal only
