@@ -6,8 +6,7 @@
 
 #include "../contact/surfaces.h"
 #include "box_body.h"
-#include "elastogear/body/rigid.h"
-#include "elastogear/dynamics/snapshot.h"
+#include "contact_bodies.h"
 
 using namespace elastogear;
 using namespace elastogear::dynamics;
@@ -17,18 +16,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kE = 2e9, kNu = 0.3, kRadius = 1, kDepth = 0.003;  // Pa, -, m, m
-
-std::shared_ptr<const model::ElasticBody> rigid(model::Surface surface) {
-  auto body = std::make_shared<model::ElasticBody>(
-      body::rigid_body(1, Vector3d::Zero(), Eigen::Matrix3d::Identity()));
-  const auto n_s = surface.X.cols();
-  for (int i = 0; i < n_s; ++i) surface.node.push_back(i);
-  surface.group.assign(static_cast<std::size_t>(surface.face.cols()), 0);
-  surface.group_name = {"all"};
-  surface.Phi = model::DenseRows(3 * n_s, 0);
-  body->surface = surface;
-  return body;
-}
 
 // 1 x 2 m, one cell of size h thick, x <= 0; held at x = -1 m and nowhere free to move along z.
 std::shared_ptr<const model::ElasticBody> block(int cells) {
@@ -49,34 +36,21 @@ model::Surface cylinder(double depth) {
   }));
 }
 
-// Newton's method with all rates at zero.
-model::PairState static_contact(System& system) {
-  VectorXd U = system.initial_position();
-  const VectorXd zero = VectorXd::Zero(system.size());
-  LowRankSolver solver(system.solver_bodies());
-  for (int i = 0; i < 40; ++i) {
-    const State x{0, U, zero, zero};
-    const Residual r = system.residual(x);
-    if (i > 0 && (r.norm.array() <= 1e-10 * r.scale.array()).all()) break;
-    solver.set(system.effective_matrix(x, {0, 0}));
-    U -= solver.solve(r.F);
-  }
-  return snapshot(system, {0, U, zero, zero}).pairs[0];
-}
-
-struct Hertz {
-  double peak, width;  // relative errors
+struct LineErrors {
+  double peak, width;  // relative
 };
 
-Hertz hertz(int cells) {
+LineErrors line_errors(int cells) {
   const auto body = block(cells);
   PairSetup pair{"block:cylinder", {0, 1}, {}};
   pair.settings.stiffness = 20 * body->surface.c_f[0];
   pair.settings.smooth = true;
   pair.settings.depth = 2 * kDepth;
-  System system({{.name = "block", .body = body}, {.name = "cylinder", .body = rigid(cylinder(kDepth))}},
-                {pair});
-  const model::PairState state = static_contact(system);
+  System system(
+      {{.name = "block", .body = body}, {.name = "cylinder", .body = test::rigid_with(cylinder(kDepth))}},
+      {pair});
+  const model::PairState state =
+      test::state_at_rest(system, test::equilibrium(system, system.initial_position())).pairs[0];
   const double thickness = 2.0 / cells, W = state.force.x() / thickness, E_star = kE / (1 - kNu * kNu);
   double moment = 0, total = 0;
   for (const model::ContactRecord& c : state.contacts) {
@@ -93,9 +67,9 @@ Hertz hertz(int cells) {
 
 TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   constexpr double kDiscretisation = 0.01;  // with 4.7 cells over the half width; found: -0.4 %, -0.3 %
-  Hertz last{1, 1};
+  LineErrors last{1, 1};
   for (int cells : {60, 120, 240}) {
-    const Hertz error = hertz(cells);
+    const LineErrors error = line_errors(cells);
     EXPECT_LT(std::abs(error.peak), std::abs(last.peak) / 2);
     EXPECT_LT(std::abs(error.width), std::abs(last.width) / 2);
     last = error;
