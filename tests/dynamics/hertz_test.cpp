@@ -1,5 +1,6 @@
-// Line contact of a rigid cylinder on an elastic block in plane strain against H. Hertz: peak pressure and
-// half width follow from the total force, however far away the block is held.
+// Contact against H. Hertz. Line contact of a rigid cylinder on an elastic block in plane strain: peak
+// pressure and half width follow from the total force, however far away the block is held. Point contact of
+// two elastic spheres: force, peak pressure and radius follow from the approach.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -77,3 +78,78 @@ TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   EXPECT_LT(std::abs(last.peak), kDiscretisation);
   EXPECT_LT(std::abs(last.width), kDiscretisation);
 }
+
+// ---- two spheres
+
+namespace {
+
+// Two equal ones; radius and peak pressure by Hertz. By symmetry: of only one and the plane between them, for
+// surfaces so steep that Newton's method needs it.
+struct Spheres {
+  double E, nu, R, approach;  // Pa, -, m, m
+  double radius, pressure;    // m, Pa
+  bool by_symmetry;
+
+  double force() const { return 2. / 3 * std::numbers::pi * pressure * radius * radius; }
+};
+
+struct PointErrors {
+  double force, radius, pressure;  // relative
+};
+
+BodySetup upper_half(const Spheres& spheres, std::shared_ptr<const model::ElasticBody> sphere) {
+  BodySetup upper{.name = "upper", .body = std::move(sphere)};
+  upper.joint.r_WB0 = {0, 0, -spheres.approach};
+  upper.joint.R_WB0 << 0, 1, 0, 1, 0, 0, 0, 0, -1;  // upside down, on the same quarter
+  if (!spheres.by_symmetry) return upper;
+  const double l = 4 * spheres.radius;
+  upper.body = test::rigid_with(contact::test::flipped(contact::test::plane(1, 1, l, l)));
+  upper.joint.r_WB0 = {-l / 2, -l / 2, -spheres.approach / 2};
+  upper.joint.R_WB0.setIdentity();
+  return upper;
+}
+
+// A quarter, with `cells` over the contact radius.
+PointErrors point_errors(const Spheres& spheres, double cells) {
+  constexpr double kReach =
+      1.4;  // the surface's over the contact radius, so that it holds all of the contact
+  const double h = spheres.radius / cells;
+  const auto body =
+      test::half_space({spheres.E, spheres.nu, h, static_cast<int>(std::ceil(kReach * cells))}, spheres.R);
+  PairSetup pair{"lower:upper", {0, 1}, {}};
+  pair.settings.stiffness = 100 * spheres.E / h;
+  pair.settings.depth = 2 * spheres.approach;
+  pair.settings.full_tangent = false;
+  System system({{.name = "lower", .body = body}, upper_half(spheres, body)}, {pair});
+  const model::PairState state =
+      test::state_at_rest(system, test::equilibrium(system, system.initial_position())).pairs[0];
+  double moment = 0, total = 0;
+  for (const model::ContactRecord& c : state.contacts) {
+    moment += std::abs(c.f.z()) * body->surface.X.col(c.slave_node).head<2>().squaredNorm();
+    total += std::abs(c.f.z());
+  }
+  return {4 * total / spheres.force() - 1, std::sqrt(2.5 * moment / total) / spheres.radius - 1,
+          state.total.pressure / spheres.pressure - 1};
+}
+
+class TwoSpheres : public testing::TestWithParam<Spheres> {};
+
+}  // namespace
+
+TEST_P(TwoSpheres, force_radius_and_peak_pressure_converge) {
+  constexpr double kDiscretisation = 2e-3;  // with 10 cells over the radius
+  PointErrors last{1, 1, 1};
+  for (double cells : {2.5, 5., 10.}) {
+    const PointErrors error = point_errors(GetParam(), cells);
+    EXPECT_LT(std::abs(error.radius), std::abs(last.radius) / 2);
+    EXPECT_LT(std::abs(error.pressure), std::abs(last.pressure));
+    last = error;
+  }
+  EXPECT_LT(std::abs(last.force), kDiscretisation);
+  EXPECT_LT(std::abs(last.radius), kDiscretisation);
+  EXPECT_LT(std::abs(last.pressure), kDiscretisation);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hertz, TwoSpheres,
+                         testing::Values(Spheres{1.40625e7, 0.25, 2, 0.01, 0.1, 477465, false},
+                                         Spheres{20e9, 0.3, 0.05, 4e-3, 0.01, 2798.3e6, true}));
