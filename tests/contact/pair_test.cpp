@@ -169,6 +169,19 @@ TEST(Pair, penalty_per_area_gives_the_same_force_on_refined_slaves) {
   }
 }
 
+TEST(Pair, offset_is_added_to_every_gap) {
+  constexpr double c = 1e6;
+  const model::Surface master = test::plane(5, 5, 2, 2), punch = test::flipped(test::plane(2, 2));
+  for (double gap : {-2e-3, -5e-4, 5e-4})
+    for (double offset : {-1e-3, 0., 1e-3}) {
+      Settings s = settings(c, 0.1);
+      s.offset = offset;
+      const auto contacts = Pair(punch, master, s).detect(at(punch, {0.3, 0.4, gap}), at(master));
+      EXPECT_EQ(contacts.size(), gap + offset < 0 ? 9u : 0u) << gap << " " << offset;
+      EXPECT_NEAR(total_force(contacts).z(), c * std::max(0., -gap - offset), roundoff * c);
+    }
+}
+
 // A punch flush with the master: every node lies on an edge or an open end.
 TEST(Pair, flat_punch_on_a_conforming_mesh_has_every_node_in_contact) {
   Random random(6);
