@@ -38,7 +38,8 @@ void add(Fingerprint& f, const Eigen::SparseMatrix<double>& A) {
 }
 
 void add(Fingerprint& f, const model::BasisRows& rows) {
-  if (const auto* dense = std::get_if<model::DenseRows>(&rows)) return f.add_all(dense->reshaped());
+  if (const auto* dense = std::get_if<model::DenseRows>(&rows))
+    return f.add_block(dense->data(), static_cast<std::size_t>(dense->size()));
   add(f, Eigen::SparseMatrix<double>(std::get<model::SparseRows>(rows)));
 }
 

@@ -178,6 +178,9 @@ expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nos
   "${reduce[@]}" -modes 7 -output seven.h5 >>good.log 2>&1 || { echo "FAIL: a good run fails"; cat good.log; exit 1; }
 expect_error "body file of another reduction" 'seven.h5: [78] elastic coordinates, the run has [56]' "$elastogear" recover -result run.h5 \
   -a_file seven.h5 -stress_a FIX -output new.h5
+expect_error "state of a missing file" 'nosuch.h5' "${hinged[@]}" -initial_file nosuch.h5
+expect_error "state of another joint" "run.h5: body 'a' has 0 joint coordinates, here it has 1" "${hinged[@]}" -initial_file run.h5
+expect_error "state of a joint without axis" 'joint without an axis' "${simulate[@]}" -a_joint free -initial_file run.h5
 expect_error "info on a foreign file" 'good.log' "$elastogear" info good.log
 
 echo "$passed passed, $failed failed"
