@@ -16,9 +16,12 @@ std::vector<double> derivative(const std::vector<double>& p) {
 }
 
 double bisect(const std::vector<double>& p, double lo, double hi) {
+  constexpr int kHalvings = 54;  // of an interval, down to roundoff
   const bool rises = value(p, hi) > 0;
-  for (double middle = (lo + hi) / 2; middle > lo && middle < hi; middle = (lo + hi) / 2)
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (lo + hi) / 2;
     ((value(p, middle) > 0) == rises ? hi : lo) = middle;
+  }
   return hi;
 }
 
