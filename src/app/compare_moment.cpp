@@ -30,7 +30,7 @@ OptionTable compare_table() {
       {"match_tolerance", "m", "1e-6", "match position: how far apart two such nodes may lie"},
       {"at", "s", "peak",
        "time at which values are compared: a number, last, or peak: where the reference's largest von Mises "
-       "stress, or its largest contact force, is"},
+       "stress, or its largest contact force, is, between from and to when they are given"},
       {"reference_at", "s", "",
        "the same in the reference, when its times mean something else (static analysis): a number or last; "
        "no "
@@ -42,6 +42,16 @@ OptionTable compare_table() {
       {"to", "s", "", "end of the signals over time; without it, result files: the reference's last contact"},
       {"output", "-", "", "first part of the names of CSV tables; without it tables are only printed"},
   };
+}
+
+Eigen::Index peak_within(const Options& options, const Eigen::VectorXd& time, const Eigen::VectorXd& values) {
+  const double from = options.given("from") ? options.number("from") : time[0];
+  const double to = options.given("to") ? options.number("to") : last(time);
+  Eigen::Index peak = -1;
+  for (Eigen::Index i = 0; i < time.size(); ++i)
+    if (time[i] >= from && time[i] <= to && (peak < 0 || values[i] > values[peak])) peak = i;
+  require(peak >= 0, "options -from and -to: the reference has no time between ", from, " and ", to, " s");
+  return peak;
 }
 
 Moment moment(const Options& options, const Eigen::VectorXd& time, const Eigen::VectorXd& reference_time,

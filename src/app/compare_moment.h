@@ -11,6 +11,10 @@ namespace elastogear::app {
 /// Rows for the options of compare.
 OptionTable compare_table();
 
+/// First of the largest values (n_t) between -from and -to, as far as they are given; Error when no time lies
+/// there.
+Eigen::Index peak_within(const Options& options, const Eigen::VectorXd& time, const Eigen::VectorXd& values);
+
 struct Moment {
   double time, reference_time;  ///< s, in the file and in its reference
 };

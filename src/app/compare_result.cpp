@@ -17,7 +17,8 @@ constexpr double kPercent = 100;
 struct Signals {
   Eigen::VectorXd time;
   std::map<std::string, std::pair<std::string, Eigen::RowVectorXd>> by_name;  // unit, n_t values
-  double first_contact = 0, last_contact = 0, peak = 0;                       // s
+  Eigen::VectorXd force;                                                      // N, n_t, largest of all pairs
+  double first_contact = 0, last_contact = 0;                                 // s
 };
 
 Eigen::RowVectorXd magnitude(const Eigen::MatrixXd& force, Eigen::Index group) {
@@ -34,9 +35,7 @@ void add_pair(Signals& signals, const std::string& name, const io::PairHistory& 
       if (part.maxCoeff() > 0)
         signals.by_name["force " + name + " " + pair.group_name[side][g]] = {"N", part};
     }
-  Eigen::Index at = 0;
-  force.maxCoeff(&at);
-  signals.peak = signals.time[at];
+  signals.force = signals.force.cwiseMax(force.transpose());
 }
 
 // The spans between the first and the last active contact of any pair; else all times.
@@ -55,9 +54,9 @@ void add_body(Signals& signals, const std::string& name, const std::string& join
               const io::BodyHistory& history) {
   const bool turns = joint != "prismatic";
   for (Eigen::Index i = 0; i < history.s.rows(); ++i) {
-    const std::string suffix = history.s.rows() > 1 ? " " + std::to_string(i + 1) : "";
-    signals.by_name["coordinate " + name + suffix] = {turns && i == 0 ? "rad" : "m", history.s.row(i)};
-    signals.by_name["speed " + name + suffix] = {turns && i == 0 ? "rad/s" : "m/s", history.s_dot.row(i)};
+    const std::string suffix = history.s.rows() > 1 ? name + " " + std::to_string(i + 1) : name;
+    signals.by_name["coordinate " + suffix] = {turns && i == 0 ? "rad" : "m", history.s.row(i)};
+    signals.by_name["speed " + suffix] = {turns && i == 0 ? "rad/s" : "m/s", history.s_dot.row(i)};
   }
 }
 
@@ -66,6 +65,7 @@ Signals read_signals(const std::string& path) {
   Signals signals;
   signals.time = io::read_times(path);
   Eigen::VectorXi count = Eigen::VectorXi::Zero(signals.time.size());
+  signals.force = Eigen::VectorXd::Zero(signals.time.size());
   for (const auto& pair : header.pairs) {
     const io::PairHistory history = io::read_pair_history(path, pair.name);
     add_pair(signals, pair.name, history);
@@ -83,7 +83,8 @@ double relative(double a, double b) {
 }
 
 Table values_table(const Options& options, const Signals& file, const Signals& reference) {
-  const Moment when = moment(options, file.time, reference.time, reference.peak);
+  const double peak = reference.time[peak_within(options, reference.time, reference.force)];
+  const Moment when = moment(options, file.time, reference.time, peak);
   Table table{"Values", "signal", {{"value", "1"}, {"reference", "1"}, {"deviation", "%"}}, {}, {}};
   for (const auto& [name, b] : reference.by_name) {
     const auto found = file.by_name.find(name);

@@ -58,10 +58,13 @@ std::vector<Matched> matched_sets(const Options& options, const io::StressHistor
   return all;
 }
 
-// Largest von Mises stress of the reference within its times, and where it is.
-std::pair<Eigen::Index, Eigen::Index> peak(const Matched& set) {
-  Eigen::Index node = 0, time = 0;
-  recovery::von_mises(set.reference).maxCoeff(&node, &time);
+// Node and time of the reference's largest von Mises stress.
+std::pair<Eigen::Index, Eigen::Index> peak(const Options& options, const Matched& set) {
+  const Eigen::MatrixXd von_mises = recovery::von_mises(set.reference);
+  const Eigen::Index time =
+      peak_within(options, set.reference_time, von_mises.colwise().maxCoeff().transpose());
+  Eigen::Index node = 0;
+  von_mises.col(time).maxCoeff(&node);
   return {node, time};
 }
 
@@ -104,7 +107,7 @@ std::string node_name(const Matched& set, Eigen::Index i) {
 
 // Stresses of one set at one time.
 void add_set(const Options& options, const Matched& set, std::vector<Table>& tables) {
-  const auto [unused, step] = peak(set);
+  const auto [unused, step] = peak(options, set);
   const Moment when = moment(options, set.time, set.reference_time, set.reference_time[step]);
   const Eigen::VectorXd stress = set.at(when.time), reference = set.reference_at(when.reference_time);
   Eigen::Index first = 0;
@@ -128,7 +131,7 @@ void add_signals(const Options& options, const Matched& set, Table& table) {
   const Eigen::VectorXd time = common_times(options, set.time, set.reference_time, set.reference_time[0],
                                             set.reference_time[set.reference_time.size() - 1]);
   if (time.size() == 0) return;
-  for (const Eigen::Index i : shown_nodes(options, set, peak(set).first)) {
+  for (const Eigen::Index i : shown_nodes(options, set, peak(options, set).first)) {
     const auto rows = [&](const Eigen::VectorXd& t, const Eigen::MatrixXd& stress) -> Eigen::MatrixXd {
       const Eigen::MatrixXd sigma = recovery::at_times(t, stress.middleRows(6 * i, 6), time);
       Eigen::MatrixXd all(8, time.size());

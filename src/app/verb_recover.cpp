@@ -62,7 +62,7 @@ Run read_run(const Options& options) {
   Run run{options.text("result"), {}, {}};
   const model::ResultHeader header = io::read_result_header(run.result);
   run.time = io::read_times(run.result);
-  std::vector<std::string> names;
+  std::vector<std::string> names = options.list_with_files("bodies");
   for (const auto& body : header.bodies) names.push_back(body.name);
   options.reject_unknown({{"body", names}});
   for (const auto& body : header.bodies) {

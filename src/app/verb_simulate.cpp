@@ -88,6 +88,9 @@ OptionTable table() {
 body::Joint joint(const Options& options, const std::string& prefix) {
   body::Joint joint;
   joint.type = static_cast<body::JointType>(options.choice(prefix + "joint", body::joint_names()));
+  require(!options.given(prefix + "axis") || body::turns(joint.type) || body::slides(joint.type), "option -",
+          prefix, "axis: a ", options.text(prefix + "joint"),
+          " joint has no axis; revolute, prismatic and cylindrical joints have");
   joint.axis = options.vector(prefix + "axis");
   joint.point = options.vector(prefix + "point");
   joint.r_WB0 = options.vector(prefix + "position");

@@ -61,6 +61,7 @@ void write_flexibility(const h5::File& file, const model::Flexibility& flexibili
   h5::write<int>(file, kGroup + "/node", view(flexibility.node), "1");
   write_images(file, "/surface", flexibility.surface);
   write_images(file, "/stress", flexibility.stress);
+  h5::write<int>(file, kGroup + "/stress/row", view(flexibility.stress_row), "1");
   write_columns(file, "/F", flexibility.F, "m/N");
   write_columns(file, "/G", flexibility.G, "Pa/N");
 }
@@ -75,6 +76,7 @@ model::Flexibility read_flexibility(const h5::File& file) {
   flexibility.node = h5::read<int>(file, kGroup + "/node", {h5::kAny});
   flexibility.surface = read_images(file, "/surface", flexibility.n_sectors);
   flexibility.stress = read_images(file, "/stress", flexibility.n_sectors);
+  flexibility.stress_row = h5::read<int>(file, kGroup + "/stress/row", {h5::kAny});
   flexibility.F = read_columns(file, "/F", 0, static_cast<hsize_t>(3 * flexibility.surface.node.cols()));
   return flexibility;
 }

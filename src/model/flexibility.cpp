@@ -69,7 +69,8 @@ Matrix3d answer(const Flexibility& flexibility, int a, int b) {
 Eigen::Matrix<double, 6, 3> stress_answer(
     const Flexibility& flexibility, int e, int b,
     const Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>& G) {
-  const int turns = flexibility.surface.turns[b], row = turned_back(flexibility.stress, e, turns);
+  const int turns = flexibility.surface.turns[b],
+            row = turned_back(flexibility.stress, flexibility.stress_row[e], turns);
   const Matrix3d T = turn(flexibility, turns);
   const Eigen::Matrix<double, 6, 3> s = G.middleRows<6>(6 * row).cast<double>() * T.transpose();
   Eigen::Matrix<double, 6, 3> turned;

@@ -45,6 +45,23 @@ std::vector<int> with_images(const FlexibilityTask& task, const std::set<int>& c
   return all;
 }
 
+// All nodes of the mesh in orbits of the given ones, ascending.
+std::vector<int> images_of(const std::vector<int>& nodes, const mesh::Repetition& repetition) {
+  std::set<int> orbits;
+  for (int node : nodes) orbits.insert(repetition.orbit[node]);
+  std::vector<int> all;
+  for (std::size_t node = 0; node < repetition.orbit.size(); ++node)
+    if (orbits.contains(repetition.orbit[node])) all.push_back(static_cast<int>(node));
+  return all;
+}
+
+std::vector<int> positions(const std::vector<int>& nodes, const std::vector<int>& in) {
+  std::vector<int> at;
+  for (int node : nodes)
+    at.push_back(static_cast<int>(std::lower_bound(in.begin(), in.end(), node) - in.begin()));
+  return at;
+}
+
 // Nothing when some image of a node is not in the list (mesh numbers).
 std::optional<model::Images> find_images(const std::vector<int>& nodes, const mesh::Repetition& repetition) {
   const int Z = repetition.turn.n_sectors;
@@ -129,16 +146,29 @@ model::Flexibility plan_flexibility(const FlexibilityTask& task) {
   model::Flexibility flexibility;
   const std::set<int> chosen = chosen_nodes(task);
   if (task.repetition.turn.n_sectors > 1) {
-    const std::vector<int> all = with_images(task, chosen);
+    const std::vector<int> all = with_images(task, chosen),
+                           rows = images_of(task.stress_node, task.repetition);
     const auto surface = find_images(mesh_numbers(task, all), task.repetition),
-               stress = find_images(task.stress_node, task.repetition);
+               stress = find_images(rows, task.repetition);
     if (surface && stress)
-      return {task.repetition.turn.n_sectors, task.repetition.turn.axis, all, *surface, *stress, {}, {}};
+      return {task.repetition.turn.n_sectors,
+              task.repetition.turn.axis,
+              all,
+              *surface,
+              *stress,
+              positions(task.stress_node, rows),
+              {},
+              {}};
   }
   flexibility.node.assign(chosen.begin(), chosen.end());
   flexibility.surface = model::no_images(static_cast<int>(chosen.size()));
   flexibility.stress = model::no_images(static_cast<int>(task.stress_node.size()));
+  flexibility.stress_row = positions(task.stress_node, task.stress_node);
   return flexibility;
+}
+
+std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibility& flexibility) {
+  return flexibility.n_sectors > 1 ? images_of(task.stress_node, task.repetition) : task.stress_node;
 }
 
 model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,

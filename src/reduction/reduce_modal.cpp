@@ -143,13 +143,27 @@ void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
   job.finish_stage("checks");
 }
 
+FlexibilityTask flexibility_task(const Job& job) {
+  const model::ElasticBody& body = job.plan.body;
+  return {body.surface, body.stress.node, job.plan.S, job.mesh, job.plan.repetition, job.options.loaded};
+}
+
+// Whether the loaded nodes repeat as the mesh does. Collective.
+bool flexibility_repeats(Job& job) {
+  int repeats = 0;
+  if (job.cyclic()) job.on_root([&] { repeats = plan_flexibility(flexibility_task(job)).n_sectors > 1; });
+  MPI_Bcast(&repeats, 1, MPI_INT, 0, job.comm);
+  return repeats != 0;
+}
+
 void add_flexibility(Job& job, const ElasticSystem& system) {
   if (!job.options.flexibility) return;
-  model::ElasticBody& body = job.plan.body;
-  const FlexibilityTask task{body.surface, body.stress.node,    job.plan.S,
-                             job.mesh,     job.plan.repetition, job.options.loaded};
-  model::Flexibility flexibility = find_flexibility(task, system.K, system.M, system.gather, job.progress);
-  if (job.rank == 0) body.flexibility = std::move(flexibility);
+  const FlexibilityTask task = flexibility_task(job);
+  const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, job.options.element};
+  model::Flexibility flexibility =
+      flexibility_repeats(job) ? find_cyclic_flexibility(job.comm, task, body, job.progress)
+                               : find_flexibility(task, system.K, system.M, system.gather, job.progress);
+  if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
   job.finish_stage("static answers");
 }
 

@@ -52,6 +52,8 @@ expect_share double_1.csv 100.000001 99.999999
 "$elastogear" compare forth_1000_stress.h5 forth_2000_stress.h5 -at last -reference_at 0.5 -output half >out
 expect_share half_1.csv 1e-6 0
 grep -q "over time" out && { echo "FAIL: signals of files whose times differ"; exit 1; }
+"$elastogear" compare forth_1000_stress.h5 forth_2000_stress.h5 -to 0.5 -output early >out # the peak until half the load
+grep -q "peak at" out && awk -F, 'NR == 2 && !($5 == 0.5) { exit 1 }' early_3.csv || { echo "FAIL: not the peak within -to"; exit 1; }
 "$elastogear" compare back_1000_stress.h5 forth_1000_stress.h5 -match position -output back >out
 expect_share back_1.csv 1e-6 0
 "$elastogear" compare forth_1000_stress.h5 forth_1000_stress.h5 -node_a 4 | grep -q "a MIDDLE node 4 " ||
@@ -71,5 +73,6 @@ expect_error 'result and stress files can be compared' forth.h5 back.h5
 expect_error 'at = 7 s: is outside of the file' forth_1000_stress.h5 forth_1000_stress.h5 -at 7
 expect_error 'no pair of bodies and no moving body' forth_1000.h5 forth_1000.h5
 expect_error 'unknown option -node_b' forth_1000_stress.h5 forth_1000_stress.h5 -node_b 1
-expect_error 'share 0 times between 3 and 1' forth_1000_stress.h5 forth_1000_stress.h5 -from 3
+expect_error 'no time between 3 and 1 s' forth_1000_stress.h5 forth_1000_stress.h5 -from 3
+expect_error 'share 1 times between 1 and 1' forth_1000_stress.h5 forth_1000_stress.h5 -from 1
 echo "all good"

@@ -29,9 +29,10 @@ struct Flexibility {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector along the axis of the turns
   std::vector<int> node;                            ///< n_c surface nodes (local numbers), ascending
   Images surface;                                   ///< of them
-  Images stress;                                    ///< of the evaluation nodes
-  Eigen::MatrixXf F;  ///< 3 n_c x 3 n_orbits, m/N, displacements of the n_c nodes
-  Eigen::MatrixXf G;  ///< 6 n_e x 3 n_orbits, Pa/N, at the evaluation nodes, order xx yy zz xy yz xz
+  Images stress;                ///< of the n_r nodes of G: evaluation nodes and their images
+  std::vector<int> stress_row;  ///< n_e: which of them each evaluation node is
+  Eigen::MatrixXf F;            ///< 3 n_c x 3 n_orbits, m/N, displacements of the n_c nodes
+  Eigen::MatrixXf G;            ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz
 
   bool empty() const { return node.empty(); }
 };
