@@ -201,6 +201,8 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
     print_item(run.at_rest ? "at rest after" : "warning",
                run.at_rest ? with_unit(run.time, "s") : "not yet at rest");
   if (analysis(options) == Analysis::dynamic) {
+  if (analysis(options) == Analysis::equilibrium) print_item("work of the loads", with_unit(run.work, "J"));
+  if (analysis(options) != Analysis::relax)
     print_item("energy at the start", with_unit(run.initial_energy, "J"));
     print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
   }

@@ -60,6 +60,7 @@ void observe_since_last_step(Run& run, TS ts) {
   if (run.settings.output_dt <= 0) return;
   check(TSGetTime(ts, &time));
   check(TSGetPrevTime(ts, &before));
+  summary.work = snapshot.energy.work;
   const double same = kSameTime * (time - before);
   run.step_is_due = false;
   for (;; ++run.n_outputs) {

@@ -55,6 +55,7 @@ struct RunSummary {
   double initial_energy = 0;     ///< J, stored at the start
   double largest_imbalance = 0;  ///< J, largest |balance| of the energy ledger
   double wall_time = 0;          ///< s
+  double work = 0;               ///< J, of the loads up to the last state
   bool complete = false;         ///< reached the end time; else stopped before
   double time = 0;               ///< s, reached
   bool at_rest = false;          ///< of a settling run: came to rest before its end time
