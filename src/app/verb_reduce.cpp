@@ -49,6 +49,8 @@ const OptionTable kOptions = {
     {"markers", "-", "",
      "node sets whose mean motion is stored, for loads, bushings and sensors of simulate (which always has "
      "the body frame)"},
+    {"marker_weights", "-", "equal",
+     "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
     {"basis", "-", "modal",
      "modal: eigenmodes; full: every free degree of freedom (the finite-element reference)"},
     {"modes", "-", "100", "number of eigenmodes"},
@@ -136,6 +138,8 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.surface = options.list("surface");
   o.stress_nodes = options.list("stress_nodes");
   o.markers = options.list("markers");
+  o.marker_weights =
+      static_cast<reduction::MarkerWeights>(options.choice("marker_weights", {"equal", "area"}));
   o.basis = options.choice("basis", {"modal", "full"}) == 0 ? model::Basis::modal : model::Basis::full;
   o.n_modes = options.count("modes", 1);
   o.window = window(options);

@@ -174,6 +174,7 @@ expect_error "invariants that are none" 'invariants.*linear, full' "${reduce[@]}
 expect_error "full invariants of a foreign matrix" "program's own mass" "${reduce[@]}" -stiffness k.mtx -mass k.mtx -invariants full
 expect_error "undercut gear" "undercut" "$elastogear" mesh -part wheel -pressure_angle 8 -mesh new.msh
 expect_error "centre distance that does not exist" 'centre distance' "$elastogear" mesh -part worm -centre_distance 0.02 -mesh new.msh
+expect_error "marker weights that are none" 'marker_weights.*equal, area' "${reduce[@]}" -marker_weights mass
 expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all
 "$elastogear" simulate -bodies a -a_file body.h5 -ts_dt 1e-7 -ts_max_time 3e-7 -output run.h5 >good.log 2>&1 &&
   "${reduce[@]}" -modes 7 -output seven.h5 >>good.log 2>&1 || { echo "FAIL: a good run fails"; cat good.log; exit 1; }
