@@ -16,7 +16,7 @@ enum class Resume { automatic, anyway, discard };
 // Options on which results do not depend, as parts of their names.
 const std::vector<std::string> kWithoutEffect = {
     "option_output", "option_checkpoint_every", "option_resume", "option_monitor", "_monitor", "_view",
-    "option_log_"};
+    "option_log_",   "option_sensor_csv"};
 
 volatile std::sig_atomic_t stop_signal = 0;
 
@@ -66,6 +66,13 @@ std::string fingerprint(const model::ElasticBody& body) {
     add(f, marker.Phi);
   }
   return f.text();
+}
+
+// The file that the value of an option names, or nothing.
+std::string file_in(const std::string& key, const std::string& value) {
+  const auto table = value.find("table,");
+  if (table != std::string::npos) return value.substr(table + 6);
+  return key == "option_output_times" ? value : "";
 }
 
 bool has_effect(const std::string& key) {
@@ -122,8 +129,7 @@ void add_inputs(const Options& options, const std::vector<dynamics::BodySetup>& 
   for (const dynamics::BodySetup& setup : bodies)
     provenance["fingerprint_" + setup.name] = fingerprint(*setup.body);
   for (const auto& [key, value] : options.provenance()) {
-    const auto comma = value.find("table,");
-    const std::string file = comma == std::string::npos ? "" : value.substr(comma + 6);
+    const std::string file = file_in(key, value);
     if (file.empty() || !std::filesystem::is_regular_file(file)) continue;
     Fingerprint f;
     f.add(read_file(file));

@@ -203,11 +203,13 @@ std::vector<std::string> Options::list(const std::string& name) const {
 }
 
 std::vector<std::string> Options::list_with_files(const std::string& name) const {
-  std::vector<std::string> all = list(name);
-  const auto found = given_in_files_.find(name);
-  if (found == given_in_files_.end()) return all;
-  for (const std::string& part : split(found->second))
-    if (std::find(all.begin(), all.end(), part) == all.end()) all.push_back(part);
+  std::vector<std::string> all;
+  for (const auto* given : {&given_, &given_in_files_}) {
+    const auto found = given->find(name);
+    if (found == given->end()) continue;
+    for (const std::string& part : split(found->second))
+      if (std::find(all.begin(), all.end(), part) == all.end()) all.push_back(part);
+  }
   return all;
 }
 

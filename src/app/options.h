@@ -46,8 +46,8 @@ class Options {
   Eigen::Vector3d vector(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
   std::vector<std::string> list(const std::string& name) const;  ///< may be empty
-  /// The same, then what the files' value of this key has besides it: names whose keys are in place although
-  /// the command line leaves them out.
+  /// The list given, then what the files' value of this key has besides: names whose keys are in place
+  /// although the command line leaves them out. Any verb's key; no default.
   std::vector<std::string> list_with_files(const std::string& name) const;
   /// The position of the value among `allowed`, else Error listing them.
   int choice(const std::string& name, const std::vector<std::string>& allowed) const;

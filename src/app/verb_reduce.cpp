@@ -49,6 +49,8 @@ const OptionTable kOptions = {
     {"markers", "-", "",
      "node sets whose mean motion is stored, for loads, bushings and sensors of simulate (which always has "
      "the body frame)"},
+    {"marker_weights", "-", "equal",
+     "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
     {"basis", "-", "modal",
      "modal: eigenmodes; modal_residual: eigenmodes and the static answer to contact forces that they leave "
      "out; full: every free degree of freedom (the finite-element reference)"},
@@ -141,6 +143,8 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.surface = options.list("surface");
   o.stress_nodes = options.list("stress_nodes");
   o.markers = options.list("markers");
+  o.marker_weights =
+      static_cast<reduction::MarkerWeights>(options.choice("marker_weights", {"equal", "area"}));
   const int basis = options.choice("basis", {"modal", "full", "modal_residual"});
   o.basis = basis == 1 ? model::Basis::full : model::Basis::modal;
   o.flexibility = basis == 2;

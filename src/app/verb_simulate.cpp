@@ -11,6 +11,7 @@
 #include "app/kept_run.h"
 #include "app/marker_options.h"
 #include "app/motion.h"
+#include "app/output_options.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
@@ -70,9 +71,6 @@ const OptionTable kOwnTable = {
     {"ts_alpha_radius", "-", "",
      "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: 1; relax: 0)"},
     {"output", "-", "", "result file to write (HDF5)"},
-    {"output_every", "-", "1", "write every n-th step"},
-    {"output_dt", "s", "0",
-     "write at multiples of this time in place of every n-th step, between steps by interpolation"},
     {"step_tolerance", "m", "0",
      "choose the steps so that the local error moves no surface node farther; 0: all steps are ts_dt"},
     {"velocity_tolerance", "m/s", "0", "with step_tolerance: the same for velocities; 0: without"},
@@ -80,7 +78,8 @@ const OptionTable kOwnTable = {
 
 OptionTable table() {
   OptionTable all = kOwnTable;
-  for (const OptionTable& part : {contact_table(), initial_state_table(), kept_run_table(), marker_table()})
+  for (const OptionTable& part :
+       {output_table(), contact_table(), initial_state_table(), kept_run_table(), marker_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -189,6 +188,7 @@ dynamics::TimeSettings time_settings(const Options& options) {
   time.rest_tolerance = options.positive("rest_tolerance");
   time.output_every = options.count("output_every", 1);
   time.output_dt = options.number("output_dt");
+  time.output_times = output_times(options);
   time.step_tolerance = options.number("step_tolerance");
   time.velocity_tolerance = options.number("velocity_tolerance");
   return time;
@@ -206,10 +206,11 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
   if (analysis(options) == Analysis::relax)
     print_item(run.at_rest ? "at rest after" : "warning",
                run.at_rest ? with_unit(run.time, "s") : "not yet at rest");
-  if (analysis(options) == Analysis::dynamic) {
+  if (analysis(options) == Analysis::dynamic)
     print_item("energy at the start", with_unit(run.initial_energy, "J"));
+  if (analysis(options) == Analysis::equilibrium) print_item("work of the loads", with_unit(run.work, "J"));
+  if (analysis(options) != Analysis::relax)
     print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
-  }
   print_item("time", duration(run.wall_time));
   print_item("largest memory", largest_memory());
   print_item("written", options.text("output"));
@@ -277,6 +278,7 @@ void run(const Options& options, const std::vector<std::string>&) {
   model::ResultHeader head = header(options, system);
   head.provenance.merge(inputs);
   print_summary(options, keep(options, head, computation(options, system)));
+  write_sensor_tables(options, head);
 }
 
 }  // namespace

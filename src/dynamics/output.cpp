@@ -1,5 +1,6 @@
 // Observing a run: at steps, or at given times between them.
 #include <algorithm>
+#include <limits>
 
 #include "elastogear/dynamics/generalized_alpha.h"
 #include "run.h"
@@ -28,8 +29,21 @@ void observe_between(Run& run, TS ts, double time) {
   observe(run);
 }
 
+bool has_output_times(const TimeSettings& settings) {
+  return settings.output_dt > 0 || !settings.output_times.empty();
+}
+
+// The i-th time of output after the start; infinite: there is none.
+double output_time(const TimeSettings& settings, int i) {
+  if (settings.output_dt > 0) return i * settings.output_dt;
+  const auto k = static_cast<std::size_t>(i - 1);
+  return k < settings.output_times.size() ? settings.output_times[k]
+                                          : std::numeric_limits<double>::infinity();
+}
+
 bool is_due(const Run& run, int step) {
-  return step == 0 || (run.settings.output_dt > 0 ? run.step_is_due : step % run.settings.output_every == 0);
+  return step == 0 ||
+         (has_output_times(run.settings) ? run.step_is_due : step % run.settings.output_every == 0);
 }
 
 }  // namespace
@@ -46,6 +60,7 @@ void update(RunSummary& summary, const model::Snapshot& snapshot) {
       entry.peak_time = snapshot.time;
     }
   }
+  summary.work = snapshot.energy.work;
   summary.most_contacts = std::max(summary.most_contacts, contacts);
   summary.largest_imbalance = std::max(summary.largest_imbalance, std::abs(snapshot.energy.balance));
 }
@@ -57,14 +72,15 @@ void observe(Run& run) {
 
 void observe_since_last_step(Run& run, TS ts) {
   PetscReal time = 0, before = 0;
-  if (run.settings.output_dt <= 0) return;
+  if (!has_output_times(run.settings)) return;
   check(TSGetTime(ts, &time));
   check(TSGetPrevTime(ts, &before));
   const double same = kSameTime * (time - before);
   run.step_is_due = false;
   for (;; ++run.n_outputs) {
-    const double due = run.n_outputs * run.settings.output_dt;
+    const double due = output_time(run.settings, run.n_outputs);
     if (due > time + same) return;
+    if (due <= 0) continue;  // the start, which has been observed
     if (due >= time - same)
       run.step_is_due = true;
     else

@@ -12,6 +12,20 @@
 namespace elastogear::dynamics {
 namespace {
 
+void validate_output(const TimeSettings& settings) {
+  const std::vector<double>& times = settings.output_times;
+  require(settings.output_dt >= 0 && std::isfinite(settings.output_dt), "output_dt = ", settings.output_dt,
+          " s must not be negative");
+  require(settings.output_every >= 1, "output_every = ", settings.output_every, " must be at least 1");
+  require(times.empty() || settings.output_dt == 0, "output_dt and output_times exclude each other");
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    require(times[i] >= 0 && times[i] <= settings.end_time, "output_times: ", times[i],
+            " s is outside the run, 0 .. ", settings.end_time, " s");
+    require(i == 0 || times[i] > times[i - 1], "output_times: ", times[i], " s does not come after ",
+            times[i - (i > 0)], " s");
+  }
+}
+
 void validate(const TimeSettings& settings) {
   require(std::isfinite(settings.dt) && settings.dt > 0, "time step dt = ", settings.dt,
           " s must be positive");
@@ -20,12 +34,10 @@ void validate(const TimeSettings& settings) {
   require(settings.rho_inf >= 0 && settings.rho_inf <= 1, "rho_inf = ", settings.rho_inf,
           " must lie in 0..1");
   require(settings.rest_tolerance > 0, "rest tolerance ", settings.rest_tolerance, " must be positive");
-  require(settings.output_dt >= 0 && std::isfinite(settings.output_dt), "output_dt = ", settings.output_dt,
-          " s must not be negative");
   require(settings.step_tolerance >= 0 && settings.velocity_tolerance >= 0, "step tolerance ",
           settings.step_tolerance, " m and velocity tolerance ", settings.velocity_tolerance,
           " m/s must not be negative");
-  require(settings.output_every >= 1, "output_every = ", settings.output_every, " must be at least 1");
+  validate_output(settings);
 }
 
 void validate(const Checkpoints& checkpoints) {

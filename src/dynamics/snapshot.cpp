@@ -26,7 +26,7 @@ void add_markers(const System& system, const State& x, model::Snapshot& result) 
   for (std::size_t i = 0; i < setups.loads.size(); ++i) {
     const body::MarkerMotion at = forces.load_motion(i, bodies);
     const body::Wrench wrench = forces.load_wrench(i, x.time, at);
-    result.loads.push_back({wrench.head<3>(), wrench.tail<3>(), at.x, at.w});
+    result.loads.push_back({wrench.head<3>(), wrench.tail<3>(), at.x, at.R});
   }
   for (std::size_t i = 0; i < setups.sensors.size(); ++i) {
     const body::MarkerMotion at = forces.sensor_motion(i, bodies);
@@ -37,6 +37,12 @@ void add_markers(const System& system, const State& x, model::Snapshot& result) 
 double weight_energy(const System& system, std::size_t b, const model::BodyState& x) {
   return body::gravity_energy(system.bodies()[b].eq, {x.s, x.s_dot, x.s_ddot, x.q, x.q_dot, x.q_ddot},
                               system.environment().gravity);
+}
+
+// Of one frame to the other, as Cayley's vector: the rotation vector to second order.
+Eigen::Vector3d turn(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+  const Eigen::Matrix3d R = to * from.transpose(), S = R - R.transpose();
+  return 2 / (1 + R.trace()) * Eigen::Vector3d(S(2, 1), S(0, 2), S(1, 0));
 }
 
 }  // namespace
@@ -80,18 +86,23 @@ void EnergyLedger::enter_markers(const MarkerForces& forces, const model::Snapsh
   }
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     const model::LoadState &a = loads_[i], &b = now.loads[i];
-    work_ += 0.5 * (a.force + b.force).dot(b.x - a.x) + 0.25 * dt * (a.torque + b.torque).dot(a.w + b.w);
+    work_ += 0.5 * (a.force + b.force).dot(b.x - a.x) + 0.5 * (a.torque + b.torque).dot(turn(a.R, b.R));
   }
 }
 
-void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
+void EnergyLedger::enter_weight(const System& system, const model::Snapshot& now) {
   double weight = 0;
-  for (std::size_t b = 0; b < system.bodies().size(); ++b)
-    weight += weight_energy(system, b, snapshot.bodies[b]);
-  if (bodies_.empty()) {
-    stored_0_ = stored(snapshot.energy);
-    weight_0_ = weight;
-  }
+  for (std::size_t b = 0; b < system.bodies().size(); ++b) weight += weight_energy(system, b, now.bodies[b]);
+  if (!bodies_.empty())
+    work_ += 0.5 *
+             (gravity_share(system.environment(), time_) + gravity_share(system.environment(), now.time)) *
+             (weight_ - weight);
+  weight_ = weight;
+}
+
+void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
+  if (bodies_.empty()) stored_0_ = stored(snapshot.energy);
+  enter_weight(system, snapshot);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const System::Body& body = system.bodies()[b];
     const Eigen::VectorXd q_dot_m = 0.5 * (bodies_[b].q_dot + snapshot.bodies[b].q_dot);
@@ -100,7 +111,7 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
   }
   enter_markers(system.marker_forces(), snapshot);
   snapshot.energy.dissipated = dissipated_ + system.contact_loss();
-  snapshot.energy.work = work_ + weight_0_ - weight;
+  snapshot.energy.work = work_;
   snapshot.energy.balance =
       stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
@@ -110,7 +121,7 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
 }
 
 void EnergyLedger::visit_memory(Tape& tape) {
-  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_0_, &time_}) tape(*x);
+  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_, &time_}) tape(*x);
   tape.each(bodies_, [&](model::BodyState& body) {
     tape(body.r_WB);
     tape(body.R_WB);
@@ -123,7 +134,8 @@ void EnergyLedger::visit_memory(Tape& tape) {
       tape(*x);
   });
   tape.each(loads_, [&](model::LoadState& load) {
-    for (Eigen::Vector3d* x : {&load.force, &load.torque, &load.x, &load.w}) tape(*x);
+    for (Eigen::Vector3d* x : {&load.force, &load.torque, &load.x}) tape(*x);
+    tape(load.R);
   });
 }
 

@@ -228,12 +228,14 @@ RunSummary solve_static(System& system, const StaticSettings& settings, const Ob
             .good = system.initial_position(),
             .first_step = 1.0 / settings.steps,
             .step = 1.0 / settings.steps};
+  EnergyLedger ledger;
   UniqueMat J;
   const UniqueSNES snes = make_snes(at, J);
   while (path.reached < 1) {
     if (!advance(at, snes, path, summary)) continue;
     system.accept(at.state(path.good));
-    const model::Snapshot found = snapshot(system, at.state(path.good));
+    model::Snapshot found = snapshot(system, at.state(path.good));
+    ledger.enter(system, found);
     update(summary, found);
     if (observer) observer(found);
     report(progress, "static", path.reached);

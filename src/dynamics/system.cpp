@@ -87,10 +87,12 @@ void keep_open(BodyTerms& terms, const std::vector<Eigen::Index>& open) {
 
 }  // namespace
 
+double gravity_share(const Environment& environment, double time) {
+  return environment.gravity_rise > 0 ? std::clamp(time / environment.gravity_rise, 0.0, 1.0) : 1;
+}
+
 Eigen::Vector3d gravity(const Environment& environment, double time) {
-  const double rise = environment.gravity_rise;
-  return rise > 0 ? Eigen::Vector3d(std::clamp(time / rise, 0.0, 1.0) * environment.gravity)
-                  : environment.gravity;
+  return gravity_share(environment, time) * environment.gravity;
 }
 
 std::vector<SolverBody> System::solver_bodies() const {

@@ -59,7 +59,7 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
   body.beta = options.beta;
   if (!options.surface.empty()) body.surface = make_surface(mesh, options.regions, options.surface);
   body.stress = make_stress(mesh, options.stress_nodes);
-  body.markers = make_markers(mesh, options.markers);
+  body.markers = make_markers(mesh, options.markers, options.marker_weights);
   body.provenance = options.provenance;
   return body;
 }
@@ -201,7 +201,7 @@ void require_on_body(const Job& job) {
 model::SparseRows field_operator(const Job& job) {
   const mesh::Mesh& mesh = job.mesh;
   const model::Stress& stress = job.plan.body.stress;
-  const model::SparseRows Q = marker_operator(mesh, job.options.markers);
+  const model::SparseRows Q = marker_operator(mesh, job.options.markers, job.options.marker_weights);
   if (stress.node.empty()) return Q;
   const model::SparseRows S = fem::stress_operator(mesh, job.regions, job.options.element, stress.node);
   model::SparseRows both(S.rows() + Q.rows(), S.cols());

@@ -117,6 +117,11 @@ expect_error "negative contact damping" 'damping -1' "${simulate[@]}" -contact_d
 expect_error "negative step" 'ts_dt = -1e-07' "${simulate[@]}" -ts_dt -1e-7
 expect_error "no end" 'ts_max_time = 0 s: must be positive' "${simulate[@]}" -ts_max_time 0
 expect_error "negative time of output" 'output_dt = -1e-07 s' "${simulate[@]}" -output_dt -1e-7
+expect_error "time of output that is none" "output_times: 'soon' is neither" "${simulate[@]}" -output_times soon
+expect_error "times of output that fall" '5e-08 s does not come after 1e-07 s' "${simulate[@]}" -output_times 1e-7,5e-8
+printf '1e-7\n2\n' >times.txt
+expect_error "time of output after the end" '2 s is outside the run' "${simulate[@]}" -output_times times.txt
+expect_error "two ways to give times of output" 'exclude each other' "${simulate[@]}" -output_times 1e-7 -output_dt 1e-7
 expect_error "negative tolerance" 'step tolerance -1' "${simulate[@]}" -step_tolerance -1
 expect_error "negative time between checkpoints" 'between two checkpoints -1 s' "${simulate[@]}" -checkpoint_every -1
 expect_error "way to resume that is none" 'resume.*auto, anyway, discard' "${simulate[@]}" -resume perhaps
@@ -169,6 +174,7 @@ expect_error "damping ratio of a full basis" 'full basis' "${reduce[@]}" -dampin
 expect_error "point mass on an unknown set" 'NOSUCH' "${reduce[@]}" -point_mass_NOSUCH 1
 expect_error "point mass of nothing" 'point_mass_FIX.*positive' "${reduce[@]}" -point_mass_FIX 0
 expect_error "marker on an unknown set" 'NOSUCH' "${reduce[@]}" -markers NOSUCH
+expect_error "marker weights that are none" 'marker_weights.*equal, area' "${reduce[@]}" -marker_weights mass
 expect_error "inertia level full without its invariants" "body 'body' lacks .*-invariants full" "${simulate[@]}" -inertia full
 expect_error "invariants that are none" 'invariants.*linear, full' "${reduce[@]}" -invariants all
 expect_error "full invariants of a foreign matrix" "program's own mass" "${reduce[@]}" -stiffness k.mtx -mass k.mtx -invariants full

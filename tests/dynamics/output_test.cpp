@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "box_body.h"
+#include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
 
 using namespace elastogear;
@@ -65,6 +66,22 @@ TEST(Output, comes_at_the_given_times_and_at_the_end) {
   ASSERT_EQ(seen.size(), 35u);
   for (std::size_t i = 0; i + 1 < seen.size(); ++i) EXPECT_NEAR(seen[i].time, 0.03 * double(i), 1e-12);
   EXPECT_EQ(seen.back().time, 1);
+}
+
+TEST(Output, comes_at_listed_times_between_start_and_end) {
+  const std::vector<double> times = {0, 0.01, 0.0337, 0.034, 0.5};
+  const auto seen = snapshots(Pendulum().system(), {.dt = 0.01, .end_time = 1, .output_times = times});
+  ASSERT_EQ(seen.size(), times.size() + 1);
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(seen[i].time, times[i], 1e-12);
+  EXPECT_EQ(seen.back().time, 1);
+}
+
+TEST(Output, refuses_times_that_do_not_ascend_or_lie_outside_the_run) {
+  for (const std::vector<double>& times : {std::vector{0.2, 0.1}, {0.1, 0.1}, {-0.1, 0.1}, {0.1, 1.1}})
+    EXPECT_THROW(snapshots(Pendulum().system(), {.dt = 0.01, .end_time = 1, .output_times = times}), Error);
+  EXPECT_THROW(
+      snapshots(Pendulum().system(), {.dt = 0.01, .end_time = 1, .output_dt = 0.1, .output_times = {0.5}}),
+      Error);
 }
 
 TEST(Output, between_steps_is_of_second_order) {

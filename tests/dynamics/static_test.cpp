@@ -107,6 +107,42 @@ TEST(Static, weight_stretches_a_hanging_bar) {
               kNewton * expected);
 }
 
+TEST(Static, work_of_load_motion_and_weight_is_stored) {
+  std::vector<BodySetup> driven = press(0, 0);
+  driven[0].translation = {.drive = speed_drive(0, 0.01)};
+  for (BodySetup& setup : driven) scale_by_load_factor(setup, 1);
+  const double compliance = 2 / 1e4 + 1 / 4e4;
+  const auto check = [](const std::vector<model::Snapshot>& found, double work) {
+    const model::Energies& energy = found.back().energy;
+    EXPECT_NEAR(energy.work, work, kNewton * work);
+    EXPECT_NEAR(energy.elastic + energy.contact, work, kNewton * work);
+    for (const model::Snapshot& snapshot : found) EXPECT_NEAR(snapshot.energy.balance, 0, kNewton * work);
+  };
+  check(equilibria(scaled(press(0, 20), {contact_with(4e4)})), 0.5 * 20 * 20 * compliance);
+  check(equilibria(System(driven, {contact_with(4e4)})), 0.5 * 0.01 * 0.01 / compliance);
+  // A bar of A = l = rho = 1 under g stores (rho g)^2 / 6 E; two linear elements hold 15/16 of it.
+  check(equilibria(scaled({{.name = "bar", .body = held_block(0)}}, {}, {.gravity = {10, 0, 0}})),
+        15.0 / 16 * 100 / (6 * 1e4));
+}
+
+TEST(Static, work_of_a_couple_turns_a_spring) {
+  constexpr double kCouple = 1, kSpring = 10;
+  constexpr double kTurn = 1e-4;  // relative: Cayley's vector against the angle, step by step
+  const auto rigid = std::make_shared<model::ElasticBody>(test::make_rigid_box({.material = {1, 0, 1}}));
+  BodySetup body{.name = "a", .body = rigid, .joint = {.type = body::JointType::free}};
+  const MarkerName frame{"a", model::kFrameMarker};
+  MarkerSetups markers;
+  markers.bushings = {{"b", {frame, {}}, {{1, 1, 1}, Vector3d::Constant(kSpring), {0, 0, 0}, {0, 0, 0}}}};
+  markers.loads = {{"l", frame, {0, 0, 0}, {0, 0, kCouple}}};
+  scale_by_load_factor(body, kEnd);
+  scale_by_load_factor(markers, kEnd);
+  const auto found = equilibria(System({body}, {}, {}, markers));
+  const double work = 0.5 * kCouple * kCouple / kSpring;
+  EXPECT_NEAR(found.back().energy.bushing, work, kNewton * work);
+  EXPECT_NEAR(found.back().energy.work, work, kTurn * work);
+  EXPECT_GT(found.back().energy.work, 0);
+}
+
 TEST(Static, names_the_coordinate_that_nothing_holds) {
   const std::string message = message_of([] { equilibria(scaled({press(0, 20)[0]}, {})); });
   EXPECT_NE(message.find("body 'ram': the displacement along its axis"), std::string::npos) << message;

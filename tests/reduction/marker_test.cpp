@@ -60,6 +60,25 @@ TEST(Marker, has_the_rotation_of_least_squares) {
   EXPECT_LT(gradient.norm(), kRoundoff * size);
 }
 
+// A face of 2 x 1 cells with the middle line far on one side: nodes gather there, area does not.
+TEST(Marker, weighed_by_area_lies_at_the_centre_of_its_surface_and_turns_with_it) {
+  mesh::Mesh mesh = test::brick({2, 2, 1}, {2, 1, 1});
+  for (int i = 0; i < mesh.n_nodes(); ++i)
+    if (mesh.X(0, i) == 1) mesh.X(0, i) = 0.2;
+  const auto by_area = reduction::MarkerWeights::area;
+  EXPECT_LT(reduction::make_markers(mesh, {"zmin"})[0].X.x(), 0.8);
+  const auto markers = reduction::make_markers(mesh, {"zmin"}, by_area);
+  EXPECT_LT((markers[0].X - Vector3d(1, 0.5, 0)).norm(), kRoundoff);
+  const Vector3d a(1, -2, 3), b(0.3, 0.2, -0.7);
+  const VectorXd motion = reduction::marker_operator(mesh, {"zmin"}, by_area) * rigid_field(mesh, a, b);
+  EXPECT_LT((motion.head<3>() - a - b.cross(markers[0].X)).norm(), kRoundoff);
+  EXPECT_LT((motion.segment<3>(3) - b).norm(), kRoundoff);
+}
+
+TEST(Marker, weighed_by_area_needs_a_surface) {
+  EXPECT_THROW(reduction::make_markers(example_mesh(), {"line"}, reduction::MarkerWeights::area), Error);
+}
+
 TEST(Marker, on_a_line_has_no_rotation) {
   const mesh::Mesh mesh = example_mesh();
   EXPECT_FALSE(reduction::make_markers(mesh, {"line"})[0].turns);

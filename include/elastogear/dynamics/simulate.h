@@ -34,6 +34,8 @@ struct TimeSettings {
   /// s; > 0: observe at its multiples in place of every n-th step. Between steps U follows (8.10), V its
   /// derivative, A is linear.
   double output_dt = 0;
+  /// s, ascending; observe at these times and at no others but the start and the end, in the same way.
+  std::vector<double> output_times = {};
   /// m; > 0: steps are chosen so that the local error moves no surface node farther (PETSc's basic
   /// adaptivity, -ts_adapt_*), and the step in which bodies first touch is short. velocity_tolerance, m/s, >
   /// 0: velocities too.
@@ -53,6 +55,7 @@ struct RunSummary {
   int most_contacts = 0;  ///< active at one time, over all pairs
   std::vector<PairSummary> pair;
   double initial_energy = 0;     ///< J, stored at the start
+  double work = 0;               ///< J, of the loads up to the last state
   double largest_imbalance = 0;  ///< J, largest |balance| of the energy ledger
   double wall_time = 0;          ///< s
   bool complete = false;         ///< reached the end time; else stopped before

@@ -18,9 +18,9 @@ void scale_by_load_factor(MarkerSetups& markers, double time);
 void scale_by_load_factor(Environment& environment);
 
 /// The equilibria at load factors 0 .. 1, of a system whose bodies and environment are scaled; observed with
-/// the factor as time. Velocities and accelerations are zero, damping and friction without effect, and the
-/// energies hold no work. Error, after the last equilibrium was observed, when none is found: it names the
-/// coordinates that nothing holds.
+/// the factor as time. Velocities and accelerations are zero, damping and friction without effect; work and
+/// balance follow the load steps, and their error falls with the square of a step. Error, after the last
+/// equilibrium was observed, when none is found: it names the coordinates that nothing holds.
 RunSummary solve_static(System& system, const StaticSettings& settings, const Observer& observer,
                         const Progress& progress = {});
 

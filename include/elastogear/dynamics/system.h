@@ -72,6 +72,7 @@ struct Environment {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
   double gravity_rise = 0;  ///< s, from time 0 on, within which gravity grows from zero
 };
+double gravity_share(const Environment& environment, double time);  ///< 0..1, of its gravity
 Eigen::Vector3d gravity(const Environment& environment, double time);
 
 class System {

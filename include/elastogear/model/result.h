@@ -63,7 +63,8 @@ struct BushingState {
 /// A load at a marker, components in the world.
 struct LoadState {
   Eigen::Vector3d force, torque;  ///< N, N m
-  Eigen::Vector3d x, w;           ///< m, rad/s, position and angular velocity of the marker
+  Eigen::Vector3d x;              ///< m, position of the marker
+  Eigen::Matrix3d R;              ///< marker to world
 };
 
 /// Motion of a marker, components in the world.

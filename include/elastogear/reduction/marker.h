@@ -9,12 +9,18 @@
 
 namespace elastogear::reduction {
 
+/// What a node of a set weighs in its mean: as much as any other, or its part of the area of those outer
+/// faces whose nodes all belong to the set.
+enum class MarkerWeights { equal, area };
+
 /// One marker for each node set, of that name; Phi stays empty. Throws Error for an unknown, empty or
-/// repeated set, and for one that is named as the body frame.
-std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vector<std::string>& sets);
+/// repeated set, for one that is named as the body frame, and for one that has no area when that is to weigh.
+std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
+                                        MarkerWeights weights = MarkerWeights::equal);
 
 /// From the displacements of all nodes to mean displacement and mean small rotation of each set:
 /// 6 n_markers x 3 n_nodes. The rotation's rows are zero where the set lies on one line.
-model::SparseRows marker_operator(const mesh::Mesh& mesh, const std::vector<std::string>& sets);
+model::SparseRows marker_operator(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
+                                  MarkerWeights weights = MarkerWeights::equal);
 
 }  // namespace elastogear::reduction

@@ -17,6 +17,7 @@
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
 #include "elastogear/reduction/foreign.h"
+#include "elastogear/reduction/marker.h"
 
 namespace elastogear::reduction {
 
@@ -43,6 +44,7 @@ struct ReductionOptions {
   std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
   std::vector<std::string> stress_nodes = {};  ///< node sets, or face sets for their nodes
   std::vector<std::string> markers = {};       ///< node sets, see reduction/marker.h
+  MarkerWeights marker_weights = MarkerWeights::equal;
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                     ///< modal only
   bool flexibility = false;              ///< modal only: static answers to contact forces,
