@@ -38,7 +38,8 @@ void add(Fingerprint& f, const Eigen::SparseMatrix<double>& A) {
 }
 
 void add(Fingerprint& f, const model::BasisRows& rows) {
-  if (const auto* dense = std::get_if<model::DenseRows>(&rows)) return f.add_all(dense->reshaped());
+  if (const auto* dense = std::get_if<model::DenseRows>(&rows))
+    return f.add_block(dense->data(), static_cast<std::size_t>(dense->size()));
   add(f, Eigen::SparseMatrix<double>(std::get<model::SparseRows>(rows)));
 }
 
@@ -72,8 +73,8 @@ bool has_effect(const std::string& key) {
                       [&](const std::string& part) { return key.find(part) != std::string::npos; });
 }
 
-// "ts_dt 2e-07 (was 1e-07)", one for each key that differs.
-std::string differences(const std::map<std::string, std::string>& now,
+// "ts_dt 2e-07 (was 1e-07)", one for each key that differs. A shared file has keys of other verbs as well.
+std::string differences(const Options& options, const std::map<std::string, std::string>& now,
                         const std::map<std::string, std::string>& then) {
   std::string text;
   const auto value = [](const auto& map, const std::string& key) {
@@ -84,8 +85,8 @@ std::string differences(const std::map<std::string, std::string>& now,
   all.insert(then.begin(), then.end());
   for (const auto& [key, unused] : all) {
     const std::string a = value(now, key), b = value(then, key);
-    if (a == b || !has_effect(key)) continue;
     const std::string name = key.starts_with("option_") ? key.substr(7) : key;
+    if (a == b || !has_effect(key) || options.is_of_other_verb(name)) continue;
     text += (text.empty() ? "" : ", ") + name + " " + a + " (was " + b + ")";
   }
   return text;
@@ -97,7 +98,7 @@ std::optional<io::UnfinishedRun> earlier_run(const Options& options, const model
   if (resume == Resume::discard) return {};
   std::optional<io::UnfinishedRun> earlier = io::read_unfinished_run(output);
   if (!earlier) return {};
-  const std::string other = differences(header.provenance, earlier->provenance);
+  const std::string other = differences(options, header.provenance, earlier->provenance);
   require(other.empty() || resume == Resume::anyway, output,
           ".partial holds a run that did not end, until t = ", earlier->time, " s, with other input: ", other,
           ". -resume anyway continues it with the present one, -resume discard begins anew");

@@ -102,9 +102,9 @@ OptionTable marker_table() {
 }
 
 PlaceholderValues simulate_names(const Options& options) {
-  const PlaceholderValues names = {{"body", options.list("bodies")},
-                                   {"load", options.list("loads")},
-                                   {"bushing", options.list("bushings")}};
+  const PlaceholderValues names = {{"body", options.list_with_files("bodies")},
+                                   {"load", options.list_with_files("loads")},
+                                   {"bushing", options.list_with_files("bushings")}};
   std::set<std::string> all;
   for (const auto& [kind, values] : names)
     for (const std::string& name : values)

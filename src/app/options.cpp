@@ -33,6 +33,11 @@ std::optional<std::string> placeholder(const std::string& pattern, const std::st
   return name.substr(head.size(), name.size() - head.size() - tail.size());
 }
 
+bool has(const OptionTable& table, const std::string& name) {
+  return std::any_of(table.begin(), table.end(),
+                     [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); });
+}
+
 int edit_distance(const std::string& a, const std::string& b) {
   std::vector<int> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
@@ -115,19 +120,17 @@ void Options::load(const std::vector<std::string>& files, int argc, char** argv)
       check(PetscOptionsSetValue(nullptr, ("-" + name.substr(section.size())).c_str(), value.c_str()));
       check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
     }
+  given_in_files_ = options_in_database();
   check(PetscOptionsInsert(nullptr, &argc, &argv, nullptr));
   given_ = options_in_database();
   for (auto& [name, value] : given_)  // our own keys count as used; PETSc's are checked after the run
-    if (std::any_of(known_.begin(), known_.end(),
-                    [&](const auto& s) { return placeholder(s.name, name).has_value(); }))
-      check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
+    if (has(known_, name)) check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
 }
 
 void Options::reject_unknown(const PlaceholderValues& values) const {
   const OptionTable known = expand(known_, values);
   for (const auto& [name, value] : given_) {
-    const auto fits = [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); };
-    if (std::any_of(known.begin(), known.end(), fits)) continue;
+    if (has(known, name)) continue;
     const auto is_petsc = [&](const std::string& prefix) { return name.starts_with(prefix); };
     if (std::any_of(kPetscPrefixes.begin(), kPetscPrefixes.end(), is_petsc)) continue;
     const OptionTable candidates = expand(own_, values);
@@ -197,6 +200,19 @@ std::vector<double> Options::numbers(const std::string& name) const {
 std::vector<std::string> Options::list(const std::string& name) const {
   const auto found = given_.find(name);
   return split(found != given_.end() ? found->second : spec(name).default_value);
+}
+
+std::vector<std::string> Options::list_with_files(const std::string& name) const {
+  std::vector<std::string> all = list(name);
+  const auto found = given_in_files_.find(name);
+  if (found == given_in_files_.end()) return all;
+  for (const std::string& part : split(found->second))
+    if (std::find(all.begin(), all.end(), part) == all.end()) all.push_back(part);
+  return all;
+}
+
+bool Options::is_of_other_verb(const std::string& name) const {
+  return !has(own_, name) && has(known_, name);
 }
 
 int Options::choice(const std::string& name, const std::vector<std::string>& allowed) const {

@@ -46,6 +46,9 @@ class Options {
   Eigen::Vector3d vector(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
   std::vector<std::string> list(const std::string& name) const;  ///< may be empty
+  /// The same, then what the files' value of this key has besides it: names whose keys are in place although
+  /// the command line leaves them out.
+  std::vector<std::string> list_with_files(const std::string& name) const;
   /// The position of the value among `allowed`, else Error listing them.
   int choice(const std::string& name, const std::vector<std::string>& allowed) const;
 
@@ -54,6 +57,8 @@ class Options {
 
   /// Everything in force, defaults included, and the versions of the program and its libraries.
   std::map<std::string, std::string> provenance() const;
+  /// Is this key, `given` or not, one of another verb alone?
+  bool is_of_other_verb(const std::string& name) const;
   const std::string& verb() const { return verb_; }
 
  private:
@@ -61,7 +66,7 @@ class Options {
 
   std::string verb_;
   OptionTable own_, known_;
-  std::map<std::string, std::string> given_;
+  std::map<std::string, std::string> given_, given_in_files_;
 };
 
 /// The table as text: option, unit, default, meaning.

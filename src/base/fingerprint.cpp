@@ -20,6 +20,16 @@ void Fingerprint::add(const std::string& text) {
   for (char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
 }
 
+// Four chains, none of which waits for another.
+void Fingerprint::add_block(const double* numbers, std::size_t n) {
+  Fingerprint chain[4];
+  for (std::size_t i = 0; i + 4 <= n; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) chain[k].add(numbers[i + k]);
+  for (std::size_t i = n - n % 4; i < n; ++i) chain[0].add(numbers[i]);
+  add(static_cast<std::uint64_t>(n));
+  for (const Fingerprint& c : chain) add(c.value());
+}
+
 std::string Fingerprint::text() const {
   char digits[17];
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));

@@ -42,13 +42,20 @@ std::span<const int> Nearby::faces(std::size_t i) const {
 }
 
 Nearby everything(const Candidates& candidates) {
-  Nearby all{candidates.nodes(), {}, {}};
-  for (int node : all.slave) {
+  const int n = candidates.nodes().empty() ? 0 : candidates.nodes().back() + 1;
+  return not_apart(candidates, std::vector<double>(n, 0), 0);
+}
+
+Nearby not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path) {
+  Nearby near;
+  for (int node : candidates.nodes()) {
+    if (apart_until[node] > path) continue;
     const auto faces = candidates[node];
-    all.face.insert(all.face.end(), faces.begin(), faces.end());
-    all.end.push_back(static_cast<int>(all.face.size()));
+    near.slave.push_back(node);
+    near.face.insert(near.face.end(), faces.begin(), faces.end());
+    near.end.push_back(static_cast<int>(near.face.size()));
   }
-  return all;
+  return near;
 }
 
 std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,

@@ -47,6 +47,39 @@ double contact_frequency(const System& system, std::size_t p) {
   return std::sqrt(rate) / (2 * std::numbers::pi);
 }
 
+struct Edge {
+  Eigen::Index node[2];
+  double length;  // m
+};
+
+// Two sides of some faces all over the surface.
+std::vector<Edge> some_edges(const model::Surface& surface) {
+  std::vector<Edge> edges;
+  const Eigen::Index n_f = surface.face.cols(), stride = std::max<Eigen::Index>(1, n_f / kMostFaces);
+  for (Eigen::Index f = 0; f < n_f; f += stride)
+    for (int i : {0, 1, 2}) {
+      const int a = surface.face(i, f), b = surface.face(i + 1, f);
+      const double length = (surface.X.col(a) - surface.X.col(b)).norm();
+      if (length > 0) edges.push_back({{a, b}, length});
+    }
+  return edges;
+}
+
+// D of theory.md, section 8.5, 3 n_edges x n_q.
+template <class Rows>
+Rows edge_gradient(const Rows& Phi, const std::vector<Edge>& edges) {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> difference(3 * static_cast<Eigen::Index>(edges.size()),
+                                                          Phi.rows());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index row = 0; const Edge& edge : edges)
+    for (int d : {0, 1, 2}) {
+      entries.emplace_back(row, 3 * edge.node[0] + d, 1 / edge.length);
+      entries.emplace_back(row++, 3 * edge.node[1] + d, -1 / edge.length);
+    }
+  difference.setFromTriplets(entries.begin(), entries.end());
+  return difference * Phi;
+}
+
 std::string sentence(const std::string& who, double time, double value, const char* meaning) {
   std::ostringstream text;
   text.precision(3);
@@ -76,13 +109,12 @@ ValidityGuard::ValidityGuard(const System& system, double dt)
   for (const System::Body& body : system.bodies()) {
     const model::Surface& surface = body.eq.body->surface;
     Watch watch;
-    const Eigen::Index n_f = surface.face.cols(), stride = std::max<Eigen::Index>(1, n_f / kMostFaces);
-    for (Eigen::Index f = 0; f < n_f && body.eq.n_q() > 0; f += stride)
-      for (int i : {0, 1, 2}) {
-        const int a = surface.face(i, f), b = surface.face(i + 1, f);
-        const double length = (surface.X.col(a) - surface.X.col(b)).norm();
-        if (length > 0) watch.edge.push_back({{a, b}, length});
-      }
+    watch.gradient = std::visit(
+        [&](const auto& Phi) {
+          return std::make_unique<const model::BasisRows>(edge_gradient(Phi, some_edges(surface)));
+        },
+        surface.Phi);
+    watch.bound = contact::deformation_bound(*watch.gradient, body.eq.body->K_r);
     const Eigen::VectorXd& frequency = body.eq.body->frequency;
     if (frequency.size() > 0) watch.lowest_mode = 2 * std::numbers::pi * frequency.minCoeff();
     if (surface.X.cols() > 0) watch.radius = std::sqrt(surface.X.colwise().squaredNorm().maxCoeff());
@@ -90,16 +122,11 @@ ValidityGuard::ValidityGuard(const System& system, double dt)
   }
 }
 
-// Largest change of an edge's vector over its length: rotation and strain together.
-double ValidityGuard::gradient(std::size_t b, const Eigen::VectorXd& q) const {
-  const model::BasisRows& Phi = system_->bodies()[b].eq.body->surface.Phi;
-  double largest = 0;
-  for (const Edge& edge : watch_[b].edge) {
-    const Eigen::Vector3d u =
-        model::displacement(Phi, edge.node[0], q) - model::displacement(Phi, edge.node[1], q);
-    largest = std::max(largest, u.norm() / edge.length);
-  }
-  return largest;
+// Largest change of an edge's vector over its length: rotation and strain together. By the elastic energy
+// where that tells it to be small, else by the edges themselves.
+double ValidityGuard::gradient(const Watch& watch, const Eigen::VectorXd& q) {
+  const double bound = contact::largest_displacement(watch.bound, q);
+  return bound > kLargestGradient ? contact::largest_displacement({watch.gradient.get(), {}, 0}, q) : bound;
 }
 
 // Bound of the speed of its surface but for the vibration, m/s.
@@ -114,7 +141,7 @@ void ValidityGuard::watch_body(std::size_t b, const model::Snapshot& snapshot, W
   const model::BodyState& state = snapshot.bodies[b];
   const std::string who = "body '" + body.name + "'";
   Watch& watch = watch_[b];
-  const double bent = watch.deformed ? 0 : gradient(b, state.q);
+  const double bent = watch.deformed ? 0 : gradient(watch, state.q);
   const double speed =
       body::frame_motion(body.eq.joint, body.eq.H, {state.s, state.s_dot, state.s_ddot}).w.norm();
   if (bent > kLargestGradient) {

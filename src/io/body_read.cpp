@@ -3,6 +3,7 @@
 #include "basis_rows.h"
 #include "body_schema.h"
 #include "checks.h"
+#include "flexibility_group.h"
 #include "elastogear/io/body_file.h"
 
 namespace elastogear::io {
@@ -125,7 +126,7 @@ Eigen::VectorXd sum_modes(const h5::File& file, const Eigen::VectorXd& q) {
 
 }  // namespace
 
-model::ElasticBody read_body(const std::string& path) {
+model::ElasticBody read_body(const std::string& path, BodyUse use) {
   const h5::File file = open_format(path, kBodyFormat);
   model::ElasticBody body;
   body.name = h5::string_attribute(file, "/", "name");
@@ -140,8 +141,9 @@ model::ElasticBody read_body(const std::string& path) {
   if (h5::exists(file, "/modes/damping_ratio")) body.zeta = read_vector(file, "/modes/damping_ratio");
   body.inertia = read_inertia(file, body.n_q());
   body.surface = read_surface(file);
-  body.stress = read_stress(file);
+  if (use == BodyUse::all) body.stress = read_stress(file);
   body.markers = read_markers(file);
+  body.flexibility = read_flexibility(file);
   model::validate(body, path);
   return body;
 }

@@ -1,12 +1,15 @@
 #include "elastogear/model/elastic_body.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "elastogear/base/error.h"
 
 namespace elastogear::model {
 namespace {
+
+constexpr double kUnit = 1e-9;  // roundoff of a unit vector in a file
 
 // 0 x is zero unless x is infinite or no number; the sum runs at the speed of memory, allFinite() does not.
 bool finite(const double* x, Eigen::Index n) {
@@ -28,6 +31,21 @@ bool finite(const BasisRows& rows) {
 
 bool in_range(const std::vector<int>& numbers, int n) {
   return std::all_of(numbers.begin(), numbers.end(), [n](int i) { return i >= 0 && i < n; });
+}
+
+// Of three rows, stored one after the other, with q. Four partial sums a row: no addition waits for the last.
+Eigen::Vector3d three_products(const double* rows, const Eigen::VectorXd& q) {
+  using Four = Eigen::Array4d;
+  const Eigen::Index n = q.size(), n_fours = n - n % 4;
+  Four sum[3] = {Four::Zero(), Four::Zero(), Four::Zero()};
+  for (Eigen::Index k = 0; k < n_fours; k += 4) {
+    const Four four = Eigen::Map<const Four>(q.data() + k);
+    for (int d : {0, 1, 2}) sum[d] += Eigen::Map<const Four>(rows + d * n + k) * four;
+  }
+  Eigen::Vector3d u(sum[0].sum(), sum[1].sum(), sum[2].sum());
+  for (Eigen::Index k = n_fours; k < n; ++k)
+    for (int d : {0, 1, 2}) u[d] += rows[d * n + k] * q[k];
+  return u;
 }
 
 void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::string& source) {
@@ -86,6 +104,26 @@ void validate_markers(const std::vector<Marker>& markers, Eigen::Index n_q, cons
   }
 }
 
+void validate_flexibility(const ElasticBody& body, const std::string& source) {
+  const Flexibility& f = body.flexibility;
+  if (f.empty()) return;
+  const auto n_c = static_cast<Eigen::Index>(f.node.size()), n_r = f.stress.node.size();
+  const std::size_t n_e = body.stress.node.size();
+  require(body.basis == Basis::modal && !body.floating, source,
+          ": static answers belong to the modal basis of a held body");
+  require(std::is_sorted(f.node.begin(), f.node.end()) &&
+              in_range(f.node, static_cast<int>(body.surface.node.size())),
+          source, ": loaded nodes of the flexibility must ascend within the surface");
+  require(f.surface.node.size() == n_c && (f.stress_row.size() == n_e || n_e == 0) &&
+              in_range(f.stress_row, static_cast<int>(n_r)) && f.surface.node.rows() == f.n_sectors &&
+              f.stress.node.rows() == f.n_sectors && std::abs(f.axis.norm() - 1) < kUnit,
+          source, ": the symmetry of the flexibility does not fit the body");
+  require(f.F.rows() == 3 * n_c && f.F.cols() == 3 * f.surface.node.cols() &&
+              (f.G.size() == 0 || (f.G.rows() == 6 * n_r && f.G.cols() == f.F.cols())),
+          source, ": F or G does not have a row for each node and a column for each force");
+  require(f.F.allFinite() && f.G.allFinite(), source, ": static answers are not finite");
+}
+
 }  // namespace
 
 Eigen::Index row_count(const BasisRows& rows) {
@@ -101,7 +139,8 @@ Eigen::VectorXd multiply_transposed(const BasisRows& rows, const Eigen::VectorXd
 }
 
 Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q) {
-  return std::visit([&](const auto& r) -> Eigen::Vector3d { return r.middleRows(3 * node, 3) * q; }, Phi);
+  if (const auto* dense = std::get_if<DenseRows>(&Phi)) return three_products(dense->row(3 * node).data(), q);
+  return std::get<SparseRows>(Phi).middleRows(3 * node, 3) * q;
 }
 
 void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
@@ -129,6 +168,7 @@ void validate(const ElasticBody& body, const std::string& source) {
   validate_surface(body.surface, n_q, source);
   validate_stress(body.stress, n_q, source);
   validate_markers(body.markers, n_q, source);
+  validate_flexibility(body, source);
 }
 
 }  // namespace elastogear::model

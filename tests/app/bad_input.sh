@@ -123,6 +123,7 @@ expect_error "way to resume that is none" 'resume.*auto, anyway, discard' "${sim
 expect_error "unknown analysis" 'analysis.*dynamic, static, relax' "${simulate[@]}" -analysis modal
 expect_error "static without steps" 'static_steps.*at least 1' "${simulate[@]}" -analysis static -static_steps 0
 expect_error "zero axis" 'axis' "${simulate[@]}" -a_joint revolute -a_axis 0,0,0
+expect_error "axis of a joint without one" 'a_axis: a fixed joint has no axis' "${simulate[@]}" -a_axis 0,0,1
 expect_error "bodies deep inside each other" '(deep|penetrat)' "${simulate[@]}" -b_position 0.003,0,0.004 -b_rotation 3.14159265,0,0
 printf 'time,torque\n0,1\n5e-7,2\n' >short.csv
 printf '0,1\n0,2\n' >twice.csv
@@ -176,8 +177,17 @@ expect_error "centre distance that does not exist" 'centre distance' "$elastogea
 expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all
 "$elastogear" simulate -bodies a -a_file body.h5 -ts_dt 1e-7 -ts_max_time 3e-7 -output run.h5 >good.log 2>&1 &&
   "${reduce[@]}" -modes 7 -output seven.h5 >>good.log 2>&1 || { echo "FAIL: a good run fails"; cat good.log; exit 1; }
+printf 'bodies: [a, b]\na: {file: body.h5}\nb: {file: body.h5, joint: free}\nts: {dt: 1e-7, max_time: 1e-7}\n' >two.yaml
+"$elastogear" simulate two.yaml -bodies a -output run_a.h5 >good.log 2>&1 ||
+  { echo "FAIL: keys of a body that is left out"; cat good.log; exit 1; }
+expect_error "set without stress modes" "no stress modes at the set 'FIX'" "$elastogear" recover two.yaml -result run_a.h5 \
+  -stress_a FIX -output new.h5
+expect_error "key of a body that no file names" 'c_joint' "$elastogear" simulate two.yaml -bodies a -c_joint free -output new.h5
 expect_error "body file of another reduction" 'seven.h5: [78] elastic coordinates, the run has [56]' "$elastogear" recover -result run.h5 \
   -a_file seven.h5 -stress_a FIX -output new.h5
+expect_error "state of a missing file" 'nosuch.h5' "${hinged[@]}" -initial_file nosuch.h5
+expect_error "state of another joint" "run.h5: body 'a' has 0 joint coordinates, here it has 1" "${hinged[@]}" -initial_file run.h5
+expect_error "state of a joint without axis" 'joint without an axis' "${simulate[@]}" -a_joint free -initial_file run.h5
 expect_error "info on a foreign file" 'good.log' "$elastogear" info good.log
 
 echo "$passed passed, $failed failed"

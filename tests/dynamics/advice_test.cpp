@@ -82,6 +82,26 @@ TEST(ValidityGuard, warns_once_of_a_large_deformation) {
   EXPECT_TRUE(guard.warnings(start(system, 1)).empty());
 }
 
+TEST(ValidityGuard, warns_where_the_edges_change_by_a_twentieth_whatever_the_energy) {
+  const auto body = block();
+  const model::Surface& surface = body->surface;
+  Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(body->n_q(), 1, -1);
+  double largest = 0;
+  for (Eigen::Index f = 0; f < surface.face.cols(); ++f)
+    for (int i : {0, 1, 2}) {
+      const int a = surface.face(i, f), b = surface.face(i + 1, f);
+      const Eigen::Vector3d u =
+          model::displacement(surface.Phi, a, q) - model::displacement(surface.Phi, b, q);
+      largest = std::max(largest, u.norm() / (surface.X.col(a) - surface.X.col(b)).norm());
+    }
+  System system = turning(0);
+  model::Snapshot now = start(system, 0);
+  now.bodies[0].q = 0.0499 / largest * q;
+  EXPECT_TRUE(ValidityGuard(system).warnings(now).empty());
+  now.bodies[0].q = 0.0501 / largest * q;
+  EXPECT_EQ(ValidityGuard(system).warnings(now).size(), 1u);
+}
+
 TEST(ValidityGuard, warns_once_of_a_fast_rotation) {
   System system = turning(2 * std::numbers::pi * 0.2 * block()->frequency.minCoeff());
   ValidityGuard guard(system);

@@ -83,6 +83,14 @@ TEST_F(BodyFile, gives_a_full_body_back_to_the_bit) {
   expect_equal(read_body(path), body);
 }
 
+TEST_F(BodyFile, read_for_motion_lacks_nothing_but_stress) {
+  model::ElasticBody body = sample_modal_body();
+  write_modal(path, body, sample_modes());
+  ASSERT_FALSE(body.stress.node.empty());
+  body.stress = {};
+  expect_equal(read_body(path, BodyUse::motion), body);
+}
+
 TEST_F(BodyFile, gives_second_moments_back) {
   model::ElasticBody modal = sample_modal_body(), full = sample_full_body();
   for (int i = 0; i < 6; ++i) {

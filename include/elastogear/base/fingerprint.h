@@ -1,6 +1,7 @@
 #pragma once
 // Whether two computations have the same input, by one number.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -16,6 +17,8 @@ class Fingerprint {
   void add_all(const Range& numbers) {
     for (const auto& x : numbers) add(static_cast<double>(x));
   }
+  /// n numbers in a row, several times faster.
+  void add_block(const double* numbers, std::size_t n);
   std::uint64_t value() const { return state_; }
   std::string text() const;
 

@@ -27,7 +27,9 @@ struct Vicinity {
   SurfaceMotion measured_at[2];          ///< when their clearance was measured
   double limit = 0;                      ///< m, relative motion since for which `near` is sufficient
   int uses = 0;                          ///< of `near` since
-  std::array<Nearby, 2> near;            ///< by slave side: the candidates that can touch
+  double path = 0;                       ///< m, of the surfaces from the search to measured_at, leg by leg
+  std::array<std::vector<double>, 2> apart_until;  ///< by slave side and node: the path without touch, m
+  std::array<Nearby, 2> near;                      ///< by slave side: the candidates that can touch
   std::array<std::vector<int>, 2> node;  ///< per surface: whose positions their fine search reads, ascending
 };
 
@@ -50,6 +52,8 @@ double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion
 
 /// All candidates, with all faces they are near.
 Nearby everything(const Candidates& candidates);
+/// The same without the nodes whose entry of apart_until exceeds `path`.
+Nearby not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path);
 
 /// Nodes of these faces, with all nodes of the faces around them: edges and vertices take their normals from
 /// there. Ascending, without duplicates.

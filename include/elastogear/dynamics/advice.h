@@ -2,6 +2,9 @@
 // What a run should respect, from its bodies and contacts: the time step they ask for, and the limits of the
 // theory.
 
+#include <memory>
+
+#include "elastogear/contact/deformation_bound.h"
 #include "elastogear/dynamics/system.h"
 
 namespace elastogear::dynamics {
@@ -31,18 +34,16 @@ class ValidityGuard {
   std::vector<std::string> warnings(const model::Snapshot& snapshot);
 
  private:
-  struct Edge {
-    int node[2];
-    double length;  // m
-  };
   struct Watch {
-    std::vector<Edge> edge;               // of some faces all over the surface
+    // 3 n_edges x n_q, of some faces all over the surface: change of an edge's vector over its length
+    std::unique_ptr<const model::BasisRows> gradient;
+    contact::DeformationBound bound;      // of these rows
     double lowest_mode = 0;               // rad/s; 0: none
     double radius = 0;                    // m, of the surface around the body frame's origin
     bool deformed = false, fast = false;  // said
   };
   using Warnings = std::vector<std::string>;
-  double gradient(std::size_t b, const Eigen::VectorXd& q) const;
+  static double gradient(const Watch& watch, const Eigen::VectorXd& q);
   double surface_speed(std::size_t b, const model::BodyState& state) const;
   void watch_body(std::size_t b, const model::Snapshot& snapshot, Warnings& said);
   void watch_pair(std::size_t p, const model::Snapshot& snapshot, Warnings& said);

@@ -1,0 +1,307 @@
+#include "tracker.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "elastogear/base/error.h"
+#include "elastogear/contact/penalty.h"
+
+namespace elastogear::contact {
+namespace {
+
+// The relative motion for which one measurement of clearance serves: at first this share of the skin, twice
+// as much when it has served few stages only, half as much after many.
+constexpr double kLimit = 0.125;
+constexpr int kFewUses = 8, kManyUses = 64;
+constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
+
+double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
+  return std::sqrt((state.x_B - surface.X).colwise().squaredNorm().maxCoeff());
+}
+
+// How far the prolonged open ends of a surface reach beyond its faces.
+double extension_reach(const SurfaceView& surface) {
+  double reach = 0;
+  for (int f : surface.topology.open_faces) {
+    const Face face = face_of(surface, f);
+    for (int corner = 0; corner < face.sides; ++corner) {
+      const Eigen::Vector2d at = extended_corner(face, corner);
+      reach = std::max(reach, (combine(face, shape(face.sides, at[0], at[1]).N) - face.x[corner]).norm());
+    }
+  }
+  return reach;
+}
+
+double next_limit(const Vicinity& vicinity, double skin) {
+  if (vicinity.limit == 0) return kLimit * skin;
+  if (vicinity.uses < kFewUses) return std::min(2 * vicinity.limit, skin);
+  return vicinity.uses > kManyUses ? vicinity.limit / 2 : vicinity.limit;
+}
+
+void make_set(std::vector<int>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+void visit_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Tape& tape) {
+  for (int i : {0, 1}) {
+    tape(motion[i].q);
+    tape(motion[i].r_WB);
+    tape(motion[i].R_WB);
+    validate(motion[i], *side[i].surface, i);
+  }
+}
+
+}  // namespace
+
+Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>* K_r) {
+  return {&surface, topology(surface.face, static_cast<int>(surface.X.cols())),
+          deformation_bound(surface.Phi, K_r ? *K_r : Eigen::SparseMatrix<double>()),
+          enclosing_ball(surface.X)};
+}
+
+std::vector<int> slave_sides(const Settings& settings) {
+  return settings.two_pass ? std::vector{settings.slave, 1 - settings.slave} : std::vector{settings.slave};
+}
+
+Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits)
+    : side_(std::move(sides)),
+      settings_(settings),
+      limits_(limits),
+      search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update) {
+  for (int i : {0, 1}) {
+    configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
+    deformed_[i].stamp.assign(static_cast<std::size_t>(side_[i].surface->X.cols()), stage_);
+  }
+  reach_ = limits.depth + kStretch * std::max(extension_reach(view(0, settings.extension)),
+                                              extension_reach(view(1, settings.extension)));
+}
+
+SurfaceView Tracker::view(int i, double extension) const {
+  return {side_[i].surface->face, side_[i].topology, configuration_.x[i], extension};
+}
+
+void Tracker::place(const SurfaceState& a, const SurfaceState& b) {
+  const RelativeMotion motion = relative_motion({{}, a.r_WB, a.R_WB}, {{}, b.r_WB, b.R_WB});
+  configuration_.R = motion.R;
+  configuration_.r = motion.r;
+  configuration_.x[0].noalias() = motion.R * a.x_B;
+  configuration_.x[0].colwise() += motion.r;
+  configuration_.x[1] = b.x_B;
+}
+
+void Tracker::place(bool deformed) {
+  SurfaceState state[2];
+  for (int i : {0, 1})
+    state[i] = deformed ? surface_state(*side_[i].surface, *now_[i])
+                        : SurfaceState{side_[i].surface->X, now_[i]->r_WB, now_[i]->R_WB};
+  place(state[0], state[1]);
+}
+
+// Deformed positions of earlier stages are of no use for other coordinates.
+void Tracker::start_stage() {
+  if (stage_ > 0 && now_[0]->q == deformed_[0].q && now_[1]->q == deformed_[1].q) return;
+  ++stage_;
+  for (int i : {0, 1}) deformed_[i].q = now_[i]->q;
+}
+
+// In the BRF of its surface.
+Eigen::Vector3d Tracker::position(int i, int node) {
+  Deformed& deformed = deformed_[i];
+  if (deformed.stamp[node] != stage_) {
+    const model::Surface& surface = *side_[i].surface;
+    deformed.x_B.col(node) = surface.X.col(node) + model::displacement(surface.Phi, node, deformed.q);
+    deformed.stamp[node] = stage_;
+    ++n_displaced_;
+  }
+  if (!yield_ || !(*yield_)[i].at) return deformed.x_B.col(node);
+  return deformed.x_B.col(node) + (*yield_)[i].at(node);
+}
+
+// Where the motion puts them now.
+void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
+  const RelativeMotion relative = relative_motion(*now_[0], *now_[1]);
+  configuration_.R = relative.R;
+  configuration_.r = relative.r;
+  for (int node : nodes) {
+    const Eigen::Vector3d x_B = position(i, node);
+    require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
+            " is not finite");
+    configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(relative.R * x_B + relative.r) : x_B;
+  }
+}
+
+// Bound of the relative motion since.
+double Tracker::way(const SurfaceMotion then[2]) const {
+  double way = 0;
+  for (int i : {0, 1}) way += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);
+  Ball ball = side_[0].ball;
+  ball.radius += largest_displacement(side_[0].bound, then[0].q);
+  return way + travel(ball, relative_motion(then[0], then[1]), relative_motion(*now_[0], *now_[1]));
+}
+
+// Whose positions the fine search of the candidates at hand reads.
+void Tracker::list_nodes() {
+  std::array<std::vector<int>, 2>& lists = vicinity_->node = kept_;
+  for (int slave : slave_sides(settings_))
+    for (int i : {0, 1}) {
+      const Topology& t = side_[i].topology;
+      const Eigen::Matrix4Xi& face = side_[i].surface->face;
+      const Nearby& near = vicinity_->near[slave];
+      const auto nodes =
+          i == slave ? nodes_around_nodes(near.slave, t, face) : nodes_around(near.face, t, face);
+      lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
+    }
+  for (auto& list : lists) make_set(list);
+}
+
+// Of all candidates: those that cannot touch soon are left out, and faces that cannot be nearest. Clearance
+// that is left over from an earlier measurement needs no new one.
+void Tracker::measure_clearance(double limit) {
+  Vicinity& v = *vicinity_;
+  const double soon = limit + limits_.outside;
+  v.limit = limit;
+  v.uses = 0;
+  for (int slave : slave_sides(settings_))
+    v.near[slave] = not_apart(v.candidates[slave], v.apart_until[slave], v.path + soon);
+  list_nodes();
+  for (int i : {0, 1}) place_nodes(i, v.node[i]);
+  for (int slave : slave_sides(settings_)) leave_out(slave, soon);
+  list_nodes();
+  for (int i : {0, 1}) v.measured_at[i] = *now_[i];
+  yielded_since_measured_ = 0;
+}
+
+// Of what is near: nodes with more clearance than that.
+void Tracker::leave_out(int slave, double clear) {
+  const Nearby all = std::exchange(vicinity_->near[slave], {});
+  const SurfaceView master = view(1 - slave, settings_.extension);
+  const std::array reach_and_limit{std::max(limits_.depth, limits_.outside) + settings_.skin, clear};
+  const double surely_seen = settings_.skin + limits_.outside;  // whichever side of the surface it is on
+  Nearby& near = vicinity_->near[slave];
+  for (std::size_t i = 0; i < all.slave.size(); ++i) {
+    const int node = all.slave[i];
+    const auto [clearance, faces] =
+        approach(master, configuration_.x[slave].col(node), reach_and_limit, all.faces(i));
+    vicinity_->apart_until[slave][node] = vicinity_->path + std::min(clearance, surely_seen);
+    if (clearance > clear) continue;
+    near.slave.push_back(node);
+    near.face.insert(near.face.end(), faces.begin(), faces.end());
+    near.end.push_back(static_cast<int>(near.face.size()));
+  }
+}
+
+// Whether it had to be measured again, which places all its nodes.
+bool Tracker::update_vicinity() {
+  const bool search_is_due =
+      !vicinity_ || !(way(vicinity_->found_at) + yielded_since_found_ <= settings_.skin);
+  if (search_is_due) find_candidates();
+  const double leg = search_is_due ? 0 : way(vicinity_->measured_at) + yielded_since_measured_;
+  const bool is_used_up = search_is_due || !(leg <= vicinity_->limit);
+  if (is_used_up) {
+    vicinity_->path += leg;
+    measure_clearance(next_limit(*vicinity_, settings_.skin));
+  }
+  ++vicinity_->uses;
+  return is_used_up;
+}
+
+// Candidates within `margin` of each other where the nodes are placed now.
+void Tracker::find_candidates(double margin) {
+  const auto& face_pairs = search_.face_pairs(configuration_, margin);
+  if (!vicinity_) vicinity_.emplace();
+  vicinity_->path = 0;
+  for (int slave : slave_sides(settings_)) {
+    Candidates& candidates = vicinity_->candidates[slave];
+    candidates.collect(face_pairs, slave, view(slave, 0), view(1 - slave, settings_.extension), margin);
+    vicinity_->near[slave] = everything(candidates);
+    vicinity_->apart_until[slave].assign(static_cast<std::size_t>(configuration_.x[slave].cols()), 0);
+  }
+  ++n_searches_;
+}
+
+void Tracker::find_candidates() {
+  const bool deformed = settings_.update == Update::refit;
+  double margin = reach_ + settings_.skin;
+  for (int i : {0, 1})
+    if (!deformed) margin += largest_displacement(side_[i].bound, now_[i]->q);
+  for (int i : {0, 1})
+    if (yield_) margin += (*yield_)[i].largest;
+  place(deformed);
+  find_candidates(margin);
+  yielded_since_found_ = 0;
+  for (int i : {0, 1}) vicinity_->found_at[i] = {now_[i]->q, now_[i]->r_WB, now_[i]->R_WB};
+}
+
+void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
+  const SurfaceState* state[2] = {&a, &b};
+  std::fill_n(now_, 2, nullptr);
+  yield_ = nullptr;
+  double margin = reach_;
+  for (int i : {0, 1}) {
+    validate(*state[i], *side_[i].surface, i);
+    if (settings_.update == Update::realign) margin += largest_displacement(*state[i], *side_[i].surface);
+  }
+  place(a, b);
+  find_candidates(margin);
+}
+
+void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<Yield, 2>& yield) {
+  now_[0] = &a;
+  now_[1] = &b;
+  yield_ = &yield;
+  yielded_ = yield[0].at || yield[1].at;
+  for (int i : {0, 1}) validate(*now_[i], *side_[i].surface, i);
+  n_displaced_ = 0;
+  start_stage();
+  for (double* sum : {&yielded_since_found_, &yielded_since_measured_})
+    for (const Yield& y : yield) *sum += y.change;
+  if (!update_vicinity())
+    for (int i : {0, 1}) place_nodes(i, vicinity_->node[i]);
+}
+
+void Tracker::forget() { vicinity_.reset(); }
+
+std::span<const int> Tracker::all_faces(int slave, int node) {
+  const auto faces = vicinity_->candidates[slave][node];
+  const Tracked& master = side_[1 - slave];
+  if (now_[0]) place_nodes(1 - slave, nodes_around(faces, master.topology, master.surface->face));
+  return faces;
+}
+
+Eigen::Vector3d Tracker::velocity(int i, int node) const {
+  if (!now_[i]) return Eigen::Vector3d::Zero();
+  const SurfaceMotion& m = *now_[i];
+  const Eigen::Matrix3d& R = configuration_.R;
+  const Eigen::Vector3d x = configuration_.x[i].col(node);
+  const Eigen::Vector3d x_B = i == 0 ? Eigen::Vector3d(R.transpose() * (x - configuration_.r)) : x;
+  Eigen::Vector3d v = m.v_WB_B + m.w_WB_B.cross(x_B);
+  if (m.q_dot.size() > 0) v += model::displacement(side_[i].surface->Phi, node, m.q_dot);
+  return i == 0 ? Eigen::Vector3d(R * v) : v;
+}
+
+// Candidates and their clearance follow from where they were found.
+void Tracker::visit_memory(Tape& tape) {
+  bool found = vicinity_.has_value();
+  tape(found);
+  if (!found) return vicinity_.reset();
+  Vicinity then = vicinity_.value_or(Vicinity{});
+  visit_motion(then.found_at, side_, tape);
+  visit_motion(then.measured_at, side_, tape);
+  tape(then.limit);
+  tape(then.uses);
+  tape(yielded_);
+  if (!tape.plays()) return;
+  if (yielded_) return vicinity_.reset();  // the yield of that time is not known
+  for (int i : {0, 1}) now_[i] = &then.found_at[i];
+  find_candidates();
+  for (int i : {0, 1}) now_[i] = &then.measured_at[i];
+  start_stage();
+  measure_clearance(then.limit);
+  vicinity_->uses = then.uses;
+  std::fill_n(now_, 2, nullptr);
+}
+
+}  // namespace elastogear::contact
