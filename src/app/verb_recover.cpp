@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <numbers>
+#include <optional>
 
 #include "app/console.h"
 #include "app/contact_field.h"
@@ -109,11 +111,21 @@ std::pair<Eigen::Index, Eigen::Index> peak(const io::StressSet& set) {
   return {node, time};
 }
 
-void print_peak(const io::StressSet& set, const Eigen::VectorXd& time) {
+// How the peak of a set was found, where modes were not all.
+struct Accuracy {
+  double beside_modes = 0;  // Pa, von Mises stress of what is not Psi q, at the peak
+  double truncation = 0;    // Pa, of its estimated error
+};
+
+void print_peak(const io::StressSet& set, const Eigen::VectorXd& time,
+                const std::optional<Accuracy>& accuracy) {
   const auto [node, step] = peak(set);
   print_item(set.body + " " + set.set,
              "peak von Mises " + with_unit(1e-6 * set.von_mises(node, step), "MPa") + " at node " +
                  std::to_string(set.node[node]) + ", " + with_unit(time[step], "s"));
+  if (accuracy)
+    print_item("", "beside the modes " + with_unit(1e-6 * accuracy->beside_modes, "MPa") +
+                       ", their inertia leaves out about " + with_unit(1e-6 * accuracy->truncation, "MPa"));
 }
 
 void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, Eigen::Index node) {
@@ -141,17 +153,33 @@ recovery::StressHistory history(Body& body, const model::Stress& stress, const s
   return recovery::stress_history(stress, members, body.q(), sigma_static);
 }
 
+// Of a set's peak; nothing where the modes are all there is.
+std::optional<Accuracy> accuracy(const Body& body, const model::ElasticBody& elastic,
+                                 const io::StressSet& set, const Eigen::VectorXd& time) {
+  if (!body.answer || elastic.frequency.size() == 0) return {};
+  const auto [node, step] = peak(set);
+  const int member = elastic.stress.sets.at(set.set)[static_cast<std::size_t>(node)];
+  const Eigen::MatrixXd sigma_R = set.stress.middleRows(6 * node, 6) -
+                                  recovery::stress_history(elastic.stress, {member}, body.history.q).stress;
+  const double omega = 2 * std::numbers::pi * elastic.frequency.maxCoeff();
+  return Accuracy{recovery::von_mises(recovery::StressVector(sigma_R.col(step))),
+                  recovery::truncation_error(sigma_R, time, omega)};
+}
+
 void write_stresses(const Options& options, Run& run) {
   const std::string output = options.text("output");
   io::StressHistory file{run.time, {}, options.provenance()};
+  std::vector<std::optional<Accuracy>> accuracies;
   for (const std::string& name : options.placeholder_values("stress_<body>")) {
     if (name == "nodes") continue;  // reduce's key in a shared file
     Body& body = find_body(run, name);
-    const model::Stress stress = read_elastic(body).stress;
+    const model::ElasticBody elastic = read_elastic(body);
+    const model::Stress& stress = elastic.stress;
     for (const std::string& set : options.list("stress_" + name)) {
       auto h = history(body, stress, set);
       file.sets.push_back({name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises),
                            std::move(h.rankine), stress.X(Eigen::all, stress.sets.at(set))});
+      accuracies.push_back(accuracy(body, elastic, file.sets.back(), run.time));
     }
   }
   require(!file.sets.empty(),
@@ -161,8 +189,9 @@ void write_stresses(const Options& options, Run& run) {
   io::write_stress(output, file);
   print_item("written", output);
   const bool all = options.choice("csv", {"peak", "all"}) == 1;
-  for (const io::StressSet& set : file.sets) {
-    print_peak(set, run.time);
+  for (std::size_t i = 0; i < file.sets.size(); ++i) {
+    const io::StressSet& set = file.sets[i];
+    print_peak(set, run.time, accuracies[i]);
     const std::string path = stem(output) + "_" + set.body + "_" + set.set + ".csv";
     write_table(path, set, run.time, all);
     print_item("written", path);
