@@ -5,26 +5,14 @@
 #   killed_simulate.sh PATH/TO/elastogear
 set -u
 elastogear=$(realpath "$1")
+source "$(dirname "$0")/bar.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 fail() { echo "FAIL: $*"; exit 1; }
 
 # A brick of 4 x 2 x 2 hexahedra of 10 mm, held at its left end FIX; surface TOP.
-awk -v n=4 'function node(i, j, k) { return 1 + k + 3 * (j + 3 * i) }
-  BEGIN {
-    print "*NODE";
-    for (i = 0; i <= n; ++i) for (j = 0; j < 3; ++j) for (k = 0; k < 3; ++k)
-      printf "%d, %g, %g, %g\n", node(i, j, k), 0.01 * i, 0.01 * j, 0.01 * k;
-    print "*ELEMENT, TYPE=C3D8, ELSET=ALL";
-    for (i = 0; i < n; ++i) for (j = 0; j < 2; ++j) for (k = 0; k < 2; ++k)
-      printf "%d, %d, %d, %d, %d, %d, %d, %d, %d\n", ++e, node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
-        node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1);
-    print "*NSET, NSET=FIX";
-    for (m = 1; m <= 9; ++m) print m;
-    print "*SURFACE, NAME=TOP, TYPE=ELEMENT";
-    for (e = 2; e <= 4 * n; e += 2) printf "%d, S2\n", e;
-  }' >brick.inp
+bar 4 2 2 0.01 0.01 0.01 >brick.inp
 "$elastogear" reduce -mesh brick.inp -material_E 2e9 -material_nu 0.3 -material_rho 1200 -restrain FIX -surface TOP \
   -modes 20 -output body.h5 >reduce.log 2>&1 || { cat reduce.log; fail "the body"; }
 
