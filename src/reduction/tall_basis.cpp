@@ -147,7 +147,7 @@ TallBasis::TallBasis(Eigen::Index n_rows, int capacity, Instructions instruction
       instructions_(instructions),
       values_(new double[static_cast<std::size_t>(n_slabs_ * kSlab * capacity)]) {}
 
-const double* TallBasis::at(Eigen::Index slab, int column) const {
+double* TallBasis::at(Eigen::Index slab, int column) const {
   return values_.get() + (slab * capacity_ + column) * kSlab;
 }
 
@@ -155,7 +155,7 @@ void TallBasis::set(int first, const Eigen::Ref<const Eigen::MatrixXd>& Q) {
   Eigen::MatrixXd rows(kSlab, Q.cols());
   for (Eigen::Index slab = 0; slab < n_slabs_; ++slab) {
     load(Q, slab, rows);
-    std::copy_n(rows.data(), rows.size(), values_.get() + (at(slab, first) - values_.get()));
+    std::copy_n(rows.data(), rows.size(), at(slab, first));
   }
 }
 

@@ -12,7 +12,7 @@ enum class Instructions { portable, avx2, avx512 };
 /// The best that this processor has.
 Instructions best_instructions();
 
-/// n_rows x capacity, of which `columns` are in use. Rows lie in slabs, within a slab column after column: a
+/// n_rows x capacity. Rows lie in slabs, within a slab column after column: a
 /// sweep over all columns reads memory in order, each entry once for all the vectors it is multiplied with.
 /// A matrix product by BLAS copies V first, which costs as much as multiplying with 8 to 16 vectors.
 class TallBasis {
@@ -32,7 +32,7 @@ class TallBasis {
                    Eigen::Ref<Eigen::MatrixXd> Y) const;
 
  private:
-  const double* at(Eigen::Index slab, int column) const;
+  double* at(Eigen::Index slab, int column) const;
 
   Eigen::Index n_rows_ = 0, n_slabs_ = 0;
   int capacity_ = 0;
