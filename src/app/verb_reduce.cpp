@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/basis_options.h"
 #include "app/console.h"
 #include "app/material_options.h"
 #include "app/motion.h"
@@ -51,13 +52,6 @@ const OptionTable kOptions = {
      "the body frame)"},
     {"marker_weights", "-", "equal",
      "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
-    {"basis", "-", "modal",
-     "modal: eigenmodes; modal_residual: eigenmodes and the static answer to contact forces that they leave "
-     "out; full: every free degree of freedom (the finite-element reference)"},
-    {"loaded", "-", "",
-     "modal_residual: face sets that contact forces may act on (default: all of surface); each node of them, "
-     "or one of its images, takes three static solutions"},
-    {"modes", "-", "100", "number of eigenmodes"},
     {"window", "-", "auto",
      "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc; auto: windows of the "
      "best size, or SLEPc when an -eps_* or -st_* option is given"},
@@ -86,8 +80,8 @@ constexpr const char* kListedNodes = "restrain_nodes";
 
 OptionTable table() {
   OptionTable table = kOptions;
-  const OptionTable materials = material_table();
-  table.insert(table.end(), materials.begin(), materials.end());
+  for (const OptionTable& more : {basis_table(), material_table()})
+    table.insert(table.end(), more.begin(), more.end());
   return table;
 }
 
@@ -144,11 +138,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.markers = options.list("markers");
   o.marker_weights =
       static_cast<reduction::MarkerWeights>(options.choice("marker_weights", {"equal", "area"}));
-  const int basis = options.choice("basis", {"modal", "full", "modal_residual"});
-  o.basis = basis == 1 ? model::Basis::full : model::Basis::modal;
-  o.flexibility = basis == 2;
-  o.loaded = options.list("loaded");
-  o.n_modes = options.count("modes", 1);
+  set_basis(options, o);
   o.window = window(options);
   o.store =
       options.choice("store", {"surface", "all"}) == 0 ? reduction::Store::surface : reduction::Store::all;
@@ -274,6 +264,17 @@ void print_check(const model::Check& check) {
   }
 }
 
+// Ritz vectors have no residuals here: they are no eigenmodes.
+void print_modes(const reduction::ReductionReport& report) {
+  const bool eigenmodes = report.residual.size() > 0;
+  print_item(eigenmodes ? "modes" : "Ritz vectors", std::to_string(report.frequency.size()));
+  print_item("frequency range", with_unit(report.frequency.minCoeff(), "Hz") + " to " +
+                                    with_unit(report.frequency.maxCoeff(), "Hz"));
+  if (eigenmodes) print_item("largest residual", with_unit(report.residual.maxCoeff(), ""));
+  print_item("largest phi_i' M phi_j", with_unit(report.orthogonality, ""));
+  if (eigenmodes) print_item("count", "complete, by the inertia of K - sigma M");
+}
+
 void print_summary(const reduction::ReductionReport& report, const std::string& output) {
   print_item("nodes / elements", std::to_string(report.n_nodes) + " / " + std::to_string(report.n_cells));
   print_item("degrees of freedom", std::to_string(report.n_dofs) + ", free " + std::to_string(report.n_free));
@@ -290,14 +291,7 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
     print_item("discarded", std::to_string(report.discarded) + " stored pieces of another reduction");
   if (!report.continued_after.empty())
     print_item("continued after", report.continued_after + " of a run that was killed");
-  if (report.frequency.size() > 0) {
-    print_item("modes", std::to_string(report.frequency.size()));
-    print_item("frequency range", with_unit(report.frequency.minCoeff(), "Hz") + " to " +
-                                      with_unit(report.frequency.maxCoeff(), "Hz"));
-    print_item("largest residual", with_unit(report.residual.maxCoeff(), ""));
-    print_item("largest phi_i' M phi_j", with_unit(report.orthogonality, ""));
-    print_item("count", "complete, by the inertia of K - sigma M");
-  }
+  if (report.frequency.size() > 0) print_modes(report);
   for (const model::Check& check : report.checks) print_check(check);
   for (const reduction::StageTime& stage : report.times)
     print_item("time: " + stage.stage, duration(stage.seconds));

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "elastogear/base/error.h"
+#include "dense_eigenproblem.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -176,15 +176,9 @@ void expand(KrylovBasis& basis, ShiftedFactor& factor) {
 }
 
 RitzPairs ritz_pairs(const KrylovBasis& basis) {
-  auto m = static_cast<PetscBLASInt>(basis.size);
+  const int m = basis.size;
   MatrixXd s = basis.T.topLeftCorner(m, m);
-  VectorXd theta(m);
-  PetscBLASInt n_work = 1 + 6 * m + 2 * m * m, n_integer = 3 + 5 * m, info = 0;
-  std::vector<double> work(n_work);
-  std::vector<PetscBLASInt> integer(n_integer);
-  LAPACKsyevd_("V", "U", &m, s.data(), &m, theta.data(), work.data(), &n_work, integer.data(), &n_integer,
-               &info);
-  require(info == 0, "LAPACK's dsyevd failed with code ", info, " on ", m, " Lanczos vectors");
+  const VectorXd theta = diagonalise(s);
   std::vector<int> order(m);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),

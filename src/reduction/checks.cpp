@@ -50,4 +50,12 @@ std::vector<model::Check> load_checks(const ElasticSystem& system, const model::
            completeness.load}};
 }
 
+model::Check ritz_check(const Eigen::VectorXd& residual) {
+  return {"ritz_residual",
+          "1",
+          "|K phi - omega^2 M phi| / |K phi| of each vector: Ritz vectors are no eigenmodes",
+          residual,
+          {}};
+}
+
 }  // namespace elastogear::reduction

@@ -7,14 +7,6 @@
 namespace elastogear::reduction {
 namespace {
 
-// f as displacements' forces of the whole mesh.
-Eigen::VectorXd at_nodes(const model::Surface& surface, const Eigen::VectorXd& f, int n_nodes) {
-  Eigen::VectorXd whole = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(n_nodes));
-  for (std::size_t i = 0; i < surface.node.size(); ++i)
-    whole.segment<3>(3 * surface.node[i]) = f.segment<3>(static_cast<Eigen::Index>(3 * i));
-  return whole;
-}
-
 MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
 
 // One vector and its own rows as a column.
@@ -54,19 +46,6 @@ void balance(const ElasticSystem& system, Vec v) {
     check(MatMult(system.M, r, M_r));
     check(VecAXPY(v, -product, M_r));
   }
-}
-
-// Own rows of all loads.
-Eigen::MatrixXd distribute(const ElasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
-                           int n_loads) {
-  const Column v(system.K);
-  Eigen::MatrixXd F(v.n_own, n_loads);
-  for (int j = 0; j < n_loads; ++j) {
-    system.gather.scatter(loads.empty() ? Eigen::VectorXd() : loads[j], v.vec);
-    if (system.rigid) balance(system, v.vec);
-    F.col(j) = v.values();
-  }
-  return F;
 }
 
 Eigen::MatrixXd residuals(Mat K, const Eigen::MatrixXd& F, const Eigen::MatrixXd& U) {
@@ -115,6 +94,25 @@ double modal_answer(const model::ElasticBody& body, const Eigen::VectorXd& f) {
 }
 
 }  // namespace
+
+Eigen::VectorXd at_nodes(const model::Surface& surface, const Eigen::VectorXd& f, int n_nodes) {
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(n_nodes));
+  for (std::size_t i = 0; i < surface.node.size(); ++i)
+    whole.segment<3>(3 * surface.node[i]) = f.segment<3>(static_cast<Eigen::Index>(3 * i));
+  return whole;
+}
+
+Eigen::MatrixXd distribute(const ElasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
+                           int n_loads) {
+  const Column v(system.K);
+  Eigen::MatrixXd F(v.n_own, n_loads);
+  for (int j = 0; j < n_loads; ++j) {
+    system.gather.scatter(loads.empty() ? Eigen::VectorXd() : loads[j], v.vec);
+    if (system.rigid) balance(system, v.vec);
+    F.col(j) = v.values();
+  }
+  return F;
+}
 
 Completeness static_completeness(const ElasticSystem& system, const model::ElasticBody& body, int n_nodes) {
   int rank = 0;

@@ -64,7 +64,24 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
   return body;
 }
 
+void validate_ritz(const ReductionOptions& options) {
+  require(options.basis == model::Basis::modal && !options.flexibility,
+          "a Ritz basis is neither the full basis nor has it static answers to contact forces");
+  require(!options.floating, "Ritz bases need a held body: name node sets by the option restrain");
+  const RitzKind kind = options.ritz->kind;
+  require(kind != RitzKind::modal_attachment || !options.loaded.empty(),
+          "basis modal_attachment needs the face sets whose nodes get static solutions: option loaded");
+  require(!options.loaded.empty() || !options.surface.empty(),
+          "the basis needs loaded faces: name them by the option loaded, or a contact surface by surface");
+  if (kind != RitzKind::krylov) return;
+  require(!options.ritz->shift.empty(), "basis krylov needs a shift, in Hz");
+  for (double shift : options.ritz->shift)
+    require(std::isfinite(shift) && shift >= 0, "krylov shift ", shift,
+            " Hz, must be finite and not negative");
+}
+
 void validate(const ReductionOptions& options) {
+  if (options.ritz) validate_ritz(options);
   if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
   require(!options.foreign || options.invariants == Invariants::linear,
           "full invariants need the program's own mass matrix, not one from ",
@@ -122,6 +139,7 @@ mesh::RepetitionSearch search_repetition(const Job& job) {
 void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
   if (!job.modal() || job.options.floating || job.options.symmetry == Symmetry::none) return;
+  if (job.options.ritz) return;
   if (!job.options.point_mass.empty()) {
     if (job.rank == 0) job.report.symmetry = "none: point masses";
     return;

@@ -1,5 +1,6 @@
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "elastogear/base/version.h"
 #include "elastogear/fem/gather.h"
@@ -9,11 +10,14 @@
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/free_body.h"
+#include "elastogear/reduction/ritz_bases.h"
 #include "elastogear/reduction/second_moments.h"
 #include "fingerprint.h"
 #include "harmonic_pieces.h"
 #include "mode_pieces.h"
 #include "reduce_job.h"
+#include "residual.h"
+#include "ritz_task.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -250,8 +254,39 @@ void reduce_sectors(Job& job) {
   pieces.clear();
 }
 
+// From other vectors than eigenmodes.
+void reduce_ritz(Job& job) {
+  const fem::Matrices matrices = assemble(job);
+  UniqueVec layout;
+  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
+  const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
+  const ElasticSystem system{matrices.K, matrices.M, gather, nullptr};
+  const BlockProduct K(matrices.K), M(matrices.M, BlockProduct::Storage::without_zeros);
+  const RitzSpace space = find_space(ritz_task(job, system, eigen_options(job.options)), K, M, job.progress);
+  std::optional<ModalWriter> writer;
+  job.on_root([&] { writer.emplace(job, space.size); });
+  const auto keep = [&](int k, Vec v) {
+    Eigen::VectorXd phi = gather(v);
+    job.on_root([&] { writer->add(k, mode_record(job, std::move(phi))); });
+  };
+  const RitzVectors ritz = ritz_vectors(space);
+  Eigenmodes modes = deliver(space, ritz, matrices.K, matrices.M, keep);
+  require_definite(matrices.K, matrices.M, modes.eigenvalue(0));
+  const Eigen::VectorXd residual = std::exchange(modes.residual, {});
+  set_eigenmodes(job, modes);
+  job.finish_stage("Ritz vectors");
+  check_basis(job, system, job.options.completeness);
+  job.report.checks.push_back(ritz_check(residual));
+  job.on_root([&] { writer->finish(); });
+}
+
 }  // namespace
 
-void reduce_modal(Job& job) { job.cyclic() ? reduce_sectors(job) : reduce_whole(job); }
+void reduce_modal(Job& job) {
+  if (job.options.ritz)
+    reduce_ritz(job);
+  else
+    job.cyclic() ? reduce_sectors(job) : reduce_whole(job);
+}
 
 }  // namespace elastogear::reduction

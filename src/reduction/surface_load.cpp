@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "elastogear/base/error.h"
+
 namespace elastogear::reduction {
 namespace {
 
@@ -37,10 +39,14 @@ Eigen::Matrix3Xd group_areas(const model::Surface& surface, int group) {
   return areas;
 }
 
+Eigen::Vector3d centre_of(const model::Surface& surface, const Eigen::RowVectorXd& weight) {
+  return surface.X * weight.transpose() / weight.sum();
+}
+
 // The node nearest to the centre of the area.
 Eigen::Index central_node(const model::Surface& surface, const Eigen::Matrix3Xd& areas) {
   const Eigen::RowVectorXd weight = areas.colwise().norm();
-  const Eigen::Vector3d centre = surface.X * weight.transpose() / weight.sum();
+  const Eigen::Vector3d centre = centre_of(surface, weight);
   Eigen::Index nearest = -1;
   double least = 0;
   for (Eigen::Index i = 0; i < areas.cols(); ++i) {
@@ -48,6 +54,20 @@ Eigen::Index central_node(const model::Surface& surface, const Eigen::Matrix3Xd&
     if (weight(i) > 0 && (nearest < 0 || distance < least)) nearest = i, least = distance;
   }
   return nearest;
+}
+
+// The kinds of smooth_loads on one group, 3 n_s x 7.
+Eigen::Matrix<double, Eigen::Dynamic, 7> group_loads(const model::Surface& surface, int group) {
+  const Eigen::Matrix3Xd areas = group_areas(surface, group);
+  const Eigen::RowVectorXd weight = areas.colwise().norm();
+  const Eigen::Matrix3Xd offset = surface.X.colwise() - centre_of(surface, weight);
+  Eigen::Matrix<double, Eigen::Dynamic, 7> loads(areas.size(), 7);
+  loads.col(0) = -areas.reshaped();
+  for (int d = 0; d < 3; ++d) {
+    loads.col(1 + d) = (Eigen::Vector3d::Unit(d) * weight).reshaped();
+    loads.col(4 + d) = -(areas * offset.row(d).asDiagonal()).reshaped();
+  }
+  return loads;
 }
 
 std::string without_digits(const std::string& name) {
@@ -72,6 +92,19 @@ std::vector<SurfaceLoad> representative_loads(const model::Surface& surface) {
     force.segment<3>(3 * node) = -areas.col(node).normalized();
     loads.push_back({name + " pressure", -areas.reshaped()});
     loads.push_back({name + " force", force});
+  }
+  return loads;
+}
+
+Eigen::MatrixXd smooth_loads(const model::Surface& surface, int most) {
+  const int n_groups = static_cast<int>(surface.group_name.size());
+  require(n_groups <= most, "modes = ", most, ": the loads on the surface, one for each of its ", n_groups,
+          " areas, need a column each; take more modes or name fewer face sets by the option loaded");
+  const int n_kinds = 7 * n_groups <= most ? 7 : 4 * n_groups <= most ? 4 : 1;
+  Eigen::MatrixXd loads(surface.X.size(), n_kinds * n_groups);
+  for (int group = 0; group < n_groups; ++group) {
+    const auto of_group = group_loads(surface, group);
+    for (int kind = 0; kind < n_kinds; ++kind) loads.col(kind * n_groups + group) = of_group.col(kind);
   }
   return loads;
 }

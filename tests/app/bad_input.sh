@@ -178,6 +178,14 @@ expect_error "marker weights that are none" 'marker_weights.*equal, area' "${red
 expect_error "inertia level full without its invariants" "body 'body' lacks .*-invariants full" "${simulate[@]}" -inertia full
 expect_error "invariants that are none" 'invariants.*linear, full' "${reduce[@]}" -invariants all
 expect_error "full invariants of a foreign matrix" "program's own mass" "${reduce[@]}" -stiffness k.mtx -mass k.mtx -invariants full
+expect_error "basis that is none" 'basis.*modal_residual, full, modal_attachment, krylov, craig_bampton' "${reduce[@]}" -basis best
+expect_error "attachment modes of no node" 'modal_attachment needs.*loaded' "${reduce[@]}" -basis modal_attachment
+expect_error "attachment modes of an unknown set" 'NOSUCH' "${reduce[@]}" -basis modal_attachment -loaded NOSUCH
+expect_error "Krylov basis of a free body" 'held body' "${reduce[@]}" -basis krylov -restrain none
+expect_error "negative shift" 'krylov shift -1 Hz' "${reduce[@]}" -basis krylov -krylov_shift -1
+expect_error "shift that is no number" 'krylov_shift.*high' "${reduce[@]}" -basis krylov -krylov_shift high
+expect_error "more interface modes than modes" 'interface_modes = 6, must be 1..5' "${reduce[@]}" -basis craig_bampton -interface_modes 6
+expect_error "no interface modes" 'interface_modes.*0' "${reduce[@]}" -basis craig_bampton -interface_modes 0
 expect_error "undercut gear" "undercut" "$elastogear" mesh -part wheel -pressure_angle 8 -mesh new.msh
 expect_error "centre distance that does not exist" 'centre distance' "$elastogear" mesh -part worm -centre_distance 0.02 -mesh new.msh
 expect_error "missing result file" 'nosuch.h5' "$elastogear" recover -result nosuch.h5 -output new.h5 -stress_a all

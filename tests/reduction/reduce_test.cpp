@@ -12,6 +12,7 @@
 #include "elastogear/base/petsc.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/io/body_file.h"
+#include "full_basis.h"
 
 namespace {
 
@@ -109,18 +110,6 @@ TEST(Reduce, does_not_depend_on_the_number_of_ranks) {
   EXPECT_LT((Psi_a - Psi_b).norm(), kVector * Psi_b.norm());
 }
 
-// Modes of one file in the coordinates of the full basis in the other.
-Eigen::MatrixXd modes_in_full_basis(const std::string& modal, const std::string& full) {
-  const auto dof = io::read_body_source(full).free_dof;
-  const Eigen::Index n_q = io::read_body(modal).n_q();
-  Eigen::MatrixXd Phi(dof.size(), n_q);
-  for (Eigen::Index k = 0; k < n_q; ++k) {
-    const Eigen::VectorXd phi = io::read_displacement_field(modal, Eigen::VectorXd::Unit(n_q, k)).reshaped();
-    Phi.col(k) = phi(dof);
-  }
-  return Phi;
-}
-
 Eigen::MatrixXd trace(const model::ElasticBody& body) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(body.n_q(), body.n_q());
   for (int i = 0; i < 3; ++i)
@@ -140,7 +129,7 @@ TEST(Reduce, keeps_every_degree_of_freedom_in_the_full_basis) {
   const auto source = io::read_body_source(full);
   EXPECT_EQ(a.n_q(), static_cast<Eigen::Index>(source.free_dof.size()));
   EXPECT_EQ(a.frequency.size(), 0);
-  const Eigen::MatrixXd Phi = modes_in_full_basis(modal, full);
+  const Eigen::MatrixXd Phi = test::modes_in_full_basis(modal, full);
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(b.n_q(), b.n_q()), K_r = b.K_r;
   EXPECT_LT((Phi.transpose() * a.M_r * Phi - I).norm(), kEigensolver);
   EXPECT_LT((Phi.transpose() * a.K_r * Phi - K_r).norm(), kEigensolver * K_r.norm());
@@ -162,7 +151,7 @@ TEST(Reduce, stores_the_same_second_moments_in_both_bases) {
   run(mesh, options, full);
   if (rank_of(PETSC_COMM_WORLD) != 0) return;
   const auto a = io::read_body(full), b = io::read_body(modal);
-  const Eigen::MatrixXd Phi = modes_in_full_basis(modal, full);
+  const Eigen::MatrixXd Phi = test::modes_in_full_basis(modal, full);
   ASSERT_EQ(a.inertia.S_2.size(), 6U);
   ASSERT_EQ(b.inertia.S_2.size(), 6U);
   for (int i = 0; i < 6; ++i) {

@@ -21,4 +21,7 @@ std::vector<model::Check> mass_checks(const ElasticSystem& system, const model::
 std::vector<model::Check> load_checks(const ElasticSystem& system, const model::ElasticBody& body,
                                       int n_nodes);
 
+/// Table `ritz_residual`: how far each vector of a Ritz basis is from an eigenmode.
+model::Check ritz_check(const Eigen::VectorXd& residual);
+
 }  // namespace elastogear::reduction

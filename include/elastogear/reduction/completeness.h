@@ -26,6 +26,14 @@ struct ElasticSystem {
   const RigidModes* rigid = nullptr;
 };
 
+/// f (3 n_s, N, on the surface) as forces on all n_nodes nodes.
+Eigen::VectorXd at_nodes(const model::Surface& surface, const Eigen::VectorXd& f, int n_nodes);
+
+/// Own rows of n_loads forces, 3 n_nodes each, read on rank 0; of a free body balanced by inertia.
+/// Collective.
+Eigen::MatrixXd distribute(const ElasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
+                           int n_loads);
+
 /// One factorisation, one solve with all loads (a few for a free body). Collective; body (modal, its modes
 /// complete, of n_nodes nodes) is read on rank 0, where the result is.
 Completeness static_completeness(const ElasticSystem& system, const model::ElasticBody& body, int n_nodes);

@@ -18,6 +18,7 @@
 #include "elastogear/model/material.h"
 #include "elastogear/reduction/foreign.h"
 #include "elastogear/reduction/marker.h"
+#include "elastogear/reduction/ritz_options.h"
 
 namespace elastogear::reduction {
 
@@ -47,8 +48,10 @@ struct ReductionOptions {
   MarkerWeights marker_weights = MarkerWeights::equal;
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                     ///< modal only
+  std::optional<RitzOptions> ritz = {};  ///< modal only: in place of all eigenmodes, from the whole body
   bool flexibility = false;              ///< modal only: static answers to contact forces,
-  std::vector<std::string> loaded = {};  ///< on the nodes of these face sets; none: of the whole surface
+  std::vector<std::string> loaded = {};  ///< on the nodes of these face sets; none: of the whole surface.
+                                         ///< Interface or loaded faces of `ritz` too
   bool completeness = true;              ///< check it: one more factorisation of K
   int window = 0;                        ///< modes found at a time, see EigenOptions
   Store store = Store::all;              ///< where the modes are stored
@@ -80,7 +83,7 @@ struct ReductionReport {
   double balance = 1;                ///< most cells of a rank over the mean
   std::string symmetry;              ///< what was found, or why none; empty when it was not looked for
   Eigen::VectorXd frequency;         ///< Hz, ascending; empty for the full basis
-  Eigen::VectorXd residual;          ///< |K phi - omega^2 M phi| / |K phi| of each mode
+  Eigen::VectorXd residual;          ///< |K phi - omega^2 M phi| / |K phi| of each mode; of `ritz`: empty
   double orthogonality = 0;          ///< largest |phi_i' M phi_j|, i != j, see Eigenmodes
   std::string continued_after;       ///< what was taken over from a run that was killed, if any
   int discarded = 0;                 ///< pieces of another run that did not fit this one
@@ -99,8 +102,10 @@ struct ReductionReport {
 /// modes, and the inertia when the files lack displacements (which are held); none of these needed, none is.
 ///
 /// Throws the same Error on all ranks for wrong materials, unknown sets, inverted cells, a body that is not
-/// held, more modes than free degrees of freedom, stress nodes outside the cells, and what find_eigenmodes
-/// and io::BodyWriter throw.
+/// held, more modes than free degrees of freedom, stress nodes outside the cells, and what find_eigenmodes,
+/// find_space and io::BodyWriter throw.
+///
+/// Of options.ritz nothing is kept on the way: a killed reduction begins anew.
 ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOptions& options,
                        const std::string& output, const Progress& progress = {});
 

@@ -21,4 +21,10 @@ struct SurfaceLoad {
 inline constexpr int kMostGroups = 8;
 std::vector<SurfaceLoad> representative_loads(const model::Surface& surface);
 
+/// Loads that vary slowly over each group, in columns of 3 n_s, N, or N m for the last kind: first the unit
+/// pressure of all groups, then their unit tractions along x, y and z, then their pressures that grow along
+/// x, y and z by 1 Pa/m from the group's centre. Only those first kinds (1, 4 or 7 columns a group) that make
+/// at most `most` columns. Throws Error when there are more groups than that.
+Eigen::MatrixXd smooth_loads(const model::Surface& surface, int most);
+
 }  // namespace elastogear::reduction
