@@ -1,9 +1,10 @@
 // Block Lanczos in windows against SLEPc's Krylov-Schur, on the same matrices in the same run.
 //
 //   benchmark_eigenmodes -mesh worm.msh [-restrain seats] [-modes 500] [-window auto] [-slepc 100,200,400]
-//   [-at 0,0.5,1] [-kernels]
+//   [-at 0,0.5,1] [-kernels | -hertz 50e3,60e3]
 //
 // -kernels: only assembly, one factorisation and solves with it, the measurements of scripts/cost_model.py.
+// -hertz: only SLEPc, with shifts at these frequencies.
 // Else first all modes by windows. Then SLEPc at some places of the spectrum (0: its lower end, 1: below the
 // last mode): for each size one EPSSolve for so many modes, the shift in their middle, factorisation by MUMPS
 // with its own ordering included. A whole walk up the spectrum costs about the mean of the seconds per mode.
@@ -11,6 +12,7 @@
 #include <slepceps.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <sstream>
@@ -140,10 +142,8 @@ Eigen::VectorXd run_windows(const fem::Matrices& matrices, int n_modes) {
   return modes.eigenvalue;
 }
 
-// `size` modes about the one with number `middle`.
-void run_slepc(const fem::Matrices& matrices, const Eigen::VectorXd& lambda, int first, int size) {
-  const int middle = first == 0 ? 0 : first + size / 2;
-  const double sigma = middle == 0 ? 0 : (lambda(middle - 1) + lambda(middle)) / 2;
+// `size` modes about sigma; `where` that is.
+void run_slepc(const fem::Matrices& matrices, double sigma, int size, const std::string& where) {
   UniqueEPS eps;
   ST st = nullptr;
   KSP ksp = nullptr;
@@ -168,9 +168,29 @@ void run_slepc(const fem::Matrices& matrices, const Eigen::VectorXd& lambda, int
   check(EPSSolve(eps));
   PetscInt converged = 0;
   check(EPSGetConverged(eps, &converged));
-  require(converged > 0, "Krylov-Schur found no mode about number ", middle);
-  print_time("Krylov-Schur, " + std::to_string(size) + " modes about number " + std::to_string(middle), start,
+  require(converged > 0, "Krylov-Schur found no mode about ", where);
+  print_time("Krylov-Schur, " + std::to_string(size) + " modes about " + where, start,
              static_cast<int>(converged));
+}
+
+// `size` modes from number `first` on.
+void run_slepc_among(const fem::Matrices& matrices, const Eigen::VectorXd& lambda, int first, int size) {
+  const int middle = first == 0 ? 0 : first + size / 2;
+  const double sigma = middle == 0 ? 0 : (lambda(middle - 1) + lambda(middle)) / 2;
+  run_slepc(matrices, sigma, size, "number " + std::to_string(middle));
+}
+
+std::vector<double> sizes() { return numbers(text_option("-slepc", "100,200,400")); }
+
+void run_slepc_at(const fem::Matrices& matrices, const std::string& frequencies) {
+  for (double f : numbers(frequencies))
+    for (double size : sizes())
+      run_slepc(matrices, std::pow(2 * M_PI * f, 2), static_cast<int>(size), std::to_string(f) + " Hz");
+}
+
+void allow_indefinite(Mat K) {
+  check(MatSetOption(K, MAT_SPD, PETSC_FALSE));
+  check(MatSetOption(K, MAT_SYMMETRIC, PETSC_TRUE));
 }
 
 void run() {
@@ -182,14 +202,15 @@ void run() {
   check(PetscOptionsHasName(nullptr, nullptr, "-kernels", &kernels));
   print("%d free degrees of freedom, %d modes\n", static_cast<int>(n), kernels ? 0 : n_modes);
   if (kernels) return run_kernels(matrices);
+  const std::string frequencies = text_option("-hertz", "");
+  allow_indefinite(matrices.K);
+  if (!frequencies.empty()) return run_slepc_at(matrices, frequencies);
   const Eigen::VectorXd lambda = run_windows(matrices, n_modes);
-  check(MatSetOption(matrices.K, MAT_SPD, PETSC_FALSE));
-  check(MatSetOption(matrices.K, MAT_SYMMETRIC, PETSC_TRUE));
   for (double place : numbers(text_option("-at", "0,0.5,1")))
-    for (double size : numbers(text_option("-slepc", "100,200,400"))) {
+    for (double size : sizes()) {
       if (size > n_modes) continue;
       const int first = static_cast<int>(place * (static_cast<double>(lambda.size()) - size));
-      run_slepc(matrices, lambda, first, static_cast<int>(size));
+      run_slepc_among(matrices, lambda, first, static_cast<int>(size));
     }
 }
 

@@ -134,15 +134,22 @@ def stress_views(surface, hot, aspect):
     return fitted_view(points, direction, up, aspect), zoom
 
 
-def draw_stress(options):
-    surface = surface_of(read(options.field))
-    stress = array(surface.GetPointData(), "von_mises", options.field) / 1e6
-    displacement = array(surface.GetPointData(), "displacement", options.field)
-    scale = options.scale or warp_scale(displacement, diagonal(points_of(surface)))
+def stress_surface(path, scale=0):
+    """Deformed surface, von Mises stress (MPa) at its points, enlargement of the displacement (chosen when 0)."""
+    surface = surface_of(read(path))
+    stress = array(surface.GetPointData(), "von_mises", path) / 1e6
+    displacement = array(surface.GetPointData(), "displacement", path)
+    scale = scale or warp_scale(displacement, diagonal(points_of(surface)))
     move_points(surface, scale * displacement)
+    return surface, stress, scale
+
+
+def draw_stress(options):
+    pattern, shown, scale = stress_surface(options.like or options.field, options.scale)
+    table = scene.colour_table(colour_range(shown))
+    views = stress_views(pattern, int(shown.argmax()), aspect=1.2)
+    surface, stress, scale = stress_surface(options.field, scale)
     colour_by(surface, stress)
-    table = scene.colour_table(colour_range(stress))
-    views = stress_views(surface, int(stress.argmax()), aspect=1.2)
     name = options.title or os.path.splitext(os.path.basename(options.field))[0].replace("_", " ")
     picture = scene.Picture(1800, 1000)
     picture.panel((0, 0.16, 0.5, 0.92), [scene.scalar_actor(surface, table, edges=False)], views[0])
@@ -220,6 +227,7 @@ def arguments():
     stress = commands.add_parser("stress", help="von Mises stress on the deformed body")
     stress.add_argument("field", help=".vtu with point data displacement (m) and von_mises (Pa)")
     stress.add_argument("--scale", type=float, default=0, help="enlargement of the displacement; default: automatic")
+    stress.add_argument("--like", metavar="FIELD", help="another .vtu whose view, enlargement and colours are taken")
     stress.add_argument("--title", help="default: the file name")
     stress.set_defaults(draw=draw_stress)
     boxes = commands.add_parser("boxes", help="bodies with their k-DOPs")

@@ -91,8 +91,7 @@ void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& li
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   require(verb.parallel || size == 1, "runs on one rank, not on ", size, ": call it without mpirun");
   Options options(verb.name, verb.table, all_options(verbs));
-  const bool configured = verb.name != "info";
-  options.load(configured ? line.arguments : std::vector<std::string>{}, argc, argv);
+  options.load(verb.configured ? line.arguments : std::vector<std::string>{}, argc, argv);
   verb.run(options, line.arguments);
 }
 
@@ -117,7 +116,7 @@ int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, int
 int main(int argc, char** argv) {
   using namespace elastogear;
   const std::vector<app::Verb> verbs = {app::mesh_verb(), app::reduce_verb(), app::simulate_verb(),
-                                        app::recover_verb(), app::info_verb()};
+                                        app::recover_verb(), app::compare_verb(), app::info_verb()};
   const app::CommandLine line = app::parse(argc, argv);
   if (line.version) return std::printf("elastogear %s (%s)\n", version(), git_hash()), 0;
   if (line.verb.empty()) return app::print_usage(verbs), line.help ? 0 : 1;

@@ -3,6 +3,7 @@
 // body's static answer to them.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,14 @@
 namespace elastogear::app {
 
 struct StaticAnswer {
-  Eigen::MatrixXd q;      ///< n_q x n_t, without the static part
-  std::vector<int> node;  ///< loaded nodes, mesh numbers
-  Eigen::MatrixXd force;  ///< 3 n x n_t, N, body frame
-  io::BodySource source;
-  std::unique_ptr<reduction::StaticResponse> response;  ///< none when no force ever acts
+  Eigen::MatrixXd q;          ///< n_q x n_t, without the static part
+  std::vector<int> node;      ///< loaded nodes, mesh numbers
+  Eigen::MatrixXd force;      ///< 3 n x n_t, N, body frame
+  std::string file;           ///< the body's
+  model::ElasticBody body;    ///< what it holds, without the basis at the surface
+  std::vector<int> position;  ///< of the loaded nodes in body.flexibility; empty unless it has them all
+  std::optional<io::BodySource> source = {};                      ///< read when it is needed:
+  std::unique_ptr<reduction::StaticResponse> response = nullptr;  ///< a factor of K
 };
 
 struct BodyOfRun {
@@ -29,12 +33,14 @@ struct BodyOfRun {
 void require_same_coordinates(const model::ElasticBody& body, const io::BodyHistory& history,
                               const std::string& file);
 
-/// Nothing for a body in its full basis, whose answer is complete already.
-std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body);
+/// always: for all modal bodies; automatic: for those whose files hold static answers to their loads.
+enum class Acceleration { never, automatic, always };
+/// Nothing for a body in its full basis, whose answer is complete already, and where it is not asked for.
+std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body, Acceleration acceleration);
 
-/// 6 n x n_t, Pa, at mesh nodes.
+/// 6 n x n_t, Pa, at mesh nodes: from the answers in the body file, or by a factor of K when it has none.
 Eigen::MatrixXd stress_history(StaticAnswer& answer, const std::vector<int>& nodes);
-/// 3 n_nodes, m, at one output time.
+/// 3 n_nodes, m, at one output time; takes a factor of K.
 Eigen::VectorXd displacement(StaticAnswer& answer, Eigen::Index step);
 
 }  // namespace elastogear::app

@@ -18,7 +18,12 @@ void run(const Options& options, const std::vector<std::string>& files) {
 }  // namespace
 
 Verb info_verb() {
-  return {"info", "info FILE ...", "what a mesh, body, result or stress file holds", {}, run};
+  return {.name = "info",
+          .usage = "info FILE ...",
+          .summary = "what a mesh, body, result or stress file holds",
+          .table = {},
+          .run = run,
+          .configured = false};
 }
 
 }  // namespace elastogear::app

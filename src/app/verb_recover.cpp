@@ -33,9 +33,12 @@ const OptionTable kTable = {
     {"box_levels", "-", "",
      "levels of the bounding-volume trees to write at the first field time: 0, 1, ... or leaf"},
     {"box_kdop", "-", "24", "directions of those bounding volumes"},
-    {"mode_acceleration", "-", "false",
-     "add what the modes leave out of the answer to contact forces, statically; needs the factor of each "
-     "body's stiffness matrix"},
+    {"mode_acceleration", "-", "auto",
+     "add what the modes leave out of the answer to contact forces, statically: true, false, or auto, for "
+     "bodies "
+     "reduced with -basis modal_residual; true takes a factor of each other body's stiffness matrix, and so "
+     "do "
+     "fields"},
     {"<body>_file", "-", "", "body file, when it is no longer where the result file says"},
 };
 
@@ -67,8 +70,10 @@ Run read_run(const Options& options) {
     run.bodies.push_back({body.name, options.given(key) ? options.text(key) : body.file,
                           io::read_body_history(run.result, body.name)});
   }
-  if (!options.flag("mode_acceleration")) return run;
-  for (Body& body : run.bodies) body.answer = static_answer({run.result, body.name, body.file, body.history});
+  const auto acceleration =
+      static_cast<Acceleration>(options.choice("mode_acceleration", {"false", "auto", "true"}));
+  for (Body& body : run.bodies)
+    body.answer = static_answer({run.result, body.name, body.file, body.history}, acceleration);
   return run;
 }
 
@@ -145,8 +150,8 @@ void write_stresses(const Options& options, Run& run) {
     const model::Stress stress = read_elastic(body).stress;
     for (const std::string& set : options.list("stress_" + name)) {
       auto h = history(body, stress, set);
-      file.sets.push_back(
-          {name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises), std::move(h.rankine)});
+      file.sets.push_back({name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises),
+                           std::move(h.rankine), stress.X(Eigen::all, stress.sets.at(set))});
     }
   }
   require(!file.sets.empty(),

@@ -45,14 +45,19 @@ const OptionTable kOptions = {
      "origin of the body frame: mesh, centre_of_mass, or x,y,z in the mesh's coordinates (default: "
      "centre_of_mass for a free body, else mesh)"},
     {"surface", "-", "", "face sets of the contact surface"},
-    {"stress_nodes", "-", "", "node sets at which stress modes are stored"},
+    {"stress_nodes", "-", "", "node sets, or face sets for their nodes, at which stress modes are stored"},
     {"markers", "-", "",
      "node sets whose mean motion is stored, for loads, bushings and sensors of simulate (which always has "
      "the body frame)"},
     {"marker_weights", "-", "equal",
      "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
     {"basis", "-", "modal",
-     "modal: eigenmodes; full: every free degree of freedom (the finite-element reference)"},
+     "modal: eigenmodes; modal_residual: eigenmodes and the static answer to contact forces that they leave "
+     "out; full: every free degree of freedom (the finite-element reference)"},
+    {"loaded", "-", "",
+     "modal_residual: face sets that contact forces may act on (default: all of surface); each node, or one "
+     "of "
+     "its images, takes three static solutions"},
     {"modes", "-", "100", "number of eigenmodes"},
     {"window", "-", "auto",
      "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc; auto: windows of the "
@@ -140,7 +145,10 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.markers = options.list("markers");
   o.marker_weights =
       static_cast<reduction::MarkerWeights>(options.choice("marker_weights", {"equal", "area"}));
-  o.basis = options.choice("basis", {"modal", "full"}) == 0 ? model::Basis::modal : model::Basis::full;
+  const int basis = options.choice("basis", {"modal", "full", "modal_residual"});
+  o.basis = basis == 1 ? model::Basis::full : model::Basis::modal;
+  o.flexibility = basis == 2;
+  o.loaded = options.list("loaded");
   o.n_modes = options.count("modes", 1);
   o.window = window(options);
   o.store =

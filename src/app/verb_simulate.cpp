@@ -7,6 +7,7 @@
 #include "app/advice.h"
 #include "app/console.h"
 #include "app/contact_options.h"
+#include "app/initial_state.h"
 #include "app/kept_run.h"
 #include "app/marker_options.h"
 #include "app/motion.h"
@@ -26,6 +27,9 @@ const OptionTable kOwnTable = {
     {"bodies", "-", "", "names of the bodies; each has its own <body>_... keys"},
     {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
     {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
+    {"<body>_residual", "-", "true",
+     "let contact feel the static answers that the file holds beside its modes (reduce -basis "
+     "modal_residual)"},
     {"<body>_mass", "kg", "", "rigid body without a file: mass"},
     {"<body>_center", "m", "0,0,0", "rigid body without a file: centre of mass in the body frame"},
     {"<body>_inertia", "kg m^2", "", "rigid body without a file: xx,yy,zz,xy,yz,xz about the centre of mass"},
@@ -74,7 +78,8 @@ const OptionTable kOwnTable = {
 
 OptionTable table() {
   OptionTable all = kOwnTable;
-  for (const OptionTable& part : {output_table(), contact_table(), kept_run_table(), marker_table()})
+  for (const OptionTable& part :
+       {output_table(), contact_table(), initial_state_table(), kept_run_table(), marker_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -131,6 +136,7 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
             "file and -", prefix, "mass, _inertia exclude each other");
     model::ElasticBody body = io::read_body(options.text(prefix + "file"), io::BodyUse::motion);
     if (options.flag(prefix + "rigid")) body = body::rigid_copy(body);
+    if (!options.flag(prefix + "residual")) body.flexibility = {};
     return body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,
@@ -152,6 +158,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   setup.translation.s_0 = options.number(prefix + "displacement0");
   set_rate(options, prefix + "omega0", setup.rotation.s_dot_0, setup.omega0);
   set_rate(options, prefix + "velocity0", setup.translation.s_dot_0, setup.velocity0);
+  set_initial_state(options, setup);
   set_axis(options, prefix, "rotation", "torque", setup.rotation);
   set_axis(options, prefix, "translation", "force", setup.translation);
   model::ElasticBody body = read_or_make_body(options, prefix);

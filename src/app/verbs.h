@@ -14,13 +14,15 @@ struct Verb {
   std::string summary;  ///< one line
   OptionTable table;
   void (*run)(const Options& options, const std::vector<std::string>& arguments);
-  bool parallel = false;  ///< may run on more than one rank
+  bool parallel = false;   ///< may run on more than one rank
+  bool configured = true;  ///< the arguments are YAML files, not data
 };
 
 Verb mesh_verb();
 Verb reduce_verb();
 Verb simulate_verb();
 Verb recover_verb();
+Verb compare_verb();
 Verb info_verb();
 
 }  // namespace elastogear::app

@@ -30,6 +30,7 @@ void drop_elastic_coordinates(model::ElasticBody& body) {
   body.K_r.resize(0, 0);
   body.surface.Phi = model::DenseRows(model::row_count(body.surface.Phi), 0);
   body.stress = {};
+  body.flexibility = {};
   for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows(6, 0);
 }
 

@@ -1,8 +1,11 @@
 #include "elastogear/contact/closest_point.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "roots.h"
 
 namespace elastogear::contact {
 namespace {
@@ -111,12 +114,48 @@ void try_sides(const Face& face, const Eigen::Vector3d& q, ClosestPoint& best) {
   }
 }
 
-// A face far from a parallelogram may have several foot points.
+// A face whose twist is not small against the heights of its parallelogram may have several foot points.
 bool is_irregular(const Face& face) {
+  constexpr double kModerate = 0.25;
   const Shape s = shape(4, 0, 0);
-  const double twist2 = combine(face, s.N_uv).squaredNorm(), moderate = 0.25;
-  const double length2 = std::min(combine(face, s.N_u).squaredNorm(), combine(face, s.N_v).squaredNorm());
-  return !(twist2 < moderate * moderate * length2);
+  const Eigen::Vector3d a = combine(face, s.N_u), b = combine(face, s.N_v), twist = combine(face, s.N_uv);
+  const double longer2 = std::max(a.squaredNorm(), b.squaredNorm());
+  return !(twist.squaredNorm() * longer2 < kModerate * kModerate * a.cross(b).squaredNorm());
+}
+
+// x(u, v) - q = (c + a u) + (b + t u) v
+struct Bilinear {
+  Eigen::Vector3d c, a, b, t;
+};
+
+// The distance from q to the line of constant u, squared, is |n|^2 / m with n = (c + a u) x (b + t u) and m =
+// |b + t u|^2. The coefficients of m d|n|^2/du - |n|^2 dm/du, by ascending powers of u.
+std::vector<double> slope_of_distance(const Bilinear& x) {
+  const Eigen::Vector3d n[3] = {x.c.cross(x.b), x.c.cross(x.t) + x.a.cross(x.b), x.a.cross(x.t)};
+  const double m[3] = {x.b.squaredNorm(), 2 * x.b.dot(x.t), x.t.squaredNorm()};
+  double n2[5] = {};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) n2[i + j] += n[i].dot(n[j]);
+  std::vector<double> slope(6, 0);
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i != j) slope[i + j - 1] += (i - j) * n2[i] * m[j];
+  return slope;
+}
+
+// All foot points of a quadrilateral.
+void try_all_foot_points(const Face& face, const Eigen::Vector3d& q, ClosestPoint& best) {
+  const Shape s = shape(4, 0, 0);
+  const Bilinear x{combine(face, s.N) - q, combine(face, s.N_u), combine(face, s.N_v), combine(face, s.N_uv)};
+  const auto& e = face.extension;
+  for (double u : sign_changes(slope_of_distance(x), -1 - 2 * e[3], 1 + 2 * e[1])) {
+    const Eigen::Vector3d along = x.b + u * x.t;
+    const double v = -along.dot(x.c + u * x.a) / along.squaredNorm();
+    if (!inside(face, u, v)) continue;
+    const ClosestPoint p = point_at(face, q, Feature::face, 0, {u, v});
+    if (p.distance2 < best.distance2) best = p;
+    try_interior(face, q, {u, v}, best);
+  }
 }
 
 }  // namespace
@@ -132,9 +171,7 @@ ClosestPoint closest_point(const Face& face, const Eigen::Vector3d& q) {
   try_interior(face, q, Eigen::Vector2d::Zero(), best);
   const bool irregular = is_irregular(face);
   if (best.feature == Feature::face && !irregular) return best;
-  if (irregular)
-    for (double u : {-0.5, 0.5})
-      for (double v : {-0.5, 0.5}) try_interior(face, q, {u, v}, best);
+  if (irregular) try_all_foot_points(face, q, best);
   try_sides(face, q, best);
   return best;
 }

@@ -201,8 +201,9 @@ std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState
   return contacts;
 }
 
-std::vector<ContactPoint> Pair::detect(const SurfaceMotion& a, const SurfaceMotion& b) {
-  data_->tracker.follow(a, b);
+std::vector<ContactPoint> Pair::detect(const SurfaceMotion& a, const SurfaceMotion& b,
+                                       const std::array<Yield, 2>& yield) {
+  data_->tracker.follow(a, b, yield);
   return data_->contacts(b.R_WB);
 }
 

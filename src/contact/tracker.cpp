@@ -71,7 +71,10 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
       settings_(settings),
       limits_(limits),
       search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update) {
-  for (int i : {0, 1}) configuration_.x[i] = side_[i].surface->X;
+  for (int i : {0, 1}) {
+    configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
+    deformed_[i].stamp.assign(static_cast<std::size_t>(side_[i].surface->X.cols()), stage_);
+  }
   reach_ = limits.depth + kStretch * std::max(extension_reach(view(0, settings.extension)),
                                               extension_reach(view(1, settings.extension)));
 }
@@ -97,19 +100,37 @@ void Tracker::place(bool deformed) {
   place(state[0], state[1]);
 }
 
+// Deformed positions of earlier stages are of no use for other coordinates.
+void Tracker::start_stage() {
+  if (stage_ > 0 && now_[0]->q == deformed_[0].q && now_[1]->q == deformed_[1].q) return;
+  ++stage_;
+  for (int i : {0, 1}) deformed_[i].q = now_[i]->q;
+}
+
+// In the BRF of its surface.
+Eigen::Vector3d Tracker::position(int i, int node) {
+  Deformed& deformed = deformed_[i];
+  if (deformed.stamp[node] != stage_) {
+    const model::Surface& surface = *side_[i].surface;
+    deformed.x_B.col(node) = surface.X.col(node) + model::displacement(surface.Phi, node, deformed.q);
+    deformed.stamp[node] = stage_;
+    ++n_displaced_;
+  }
+  if (!yield_ || !(*yield_)[i].at) return deformed.x_B.col(node);
+  return deformed.x_B.col(node) + (*yield_)[i].at(node);
+}
+
 // Where the motion puts them now.
 void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
   const RelativeMotion relative = relative_motion(*now_[0], *now_[1]);
-  const model::Surface& surface = *side_[i].surface;
   configuration_.R = relative.R;
   configuration_.r = relative.r;
   for (int node : nodes) {
-    const Eigen::Vector3d x_B = surface.X.col(node) + model::displacement(surface.Phi, node, now_[i]->q);
+    const Eigen::Vector3d x_B = position(i, node);
     require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
             " is not finite");
     configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(relative.R * x_B + relative.r) : x_B;
   }
-  n_displaced_ += static_cast<int>(nodes.size());
 }
 
 // Bound of the relative motion since.
@@ -150,6 +171,7 @@ void Tracker::measure_clearance(double limit) {
   for (int slave : slave_sides(settings_)) leave_out(slave, soon);
   list_nodes();
   for (int i : {0, 1}) v.measured_at[i] = *now_[i];
+  yielded_since_measured_ = 0;
 }
 
 // Of what is near: nodes with more clearance than that.
@@ -173,9 +195,10 @@ void Tracker::leave_out(int slave, double clear) {
 
 // Whether it had to be measured again, which places all its nodes.
 bool Tracker::update_vicinity() {
-  const bool search_is_due = !vicinity_ || !(way(vicinity_->found_at) <= settings_.skin);
+  const bool search_is_due =
+      !vicinity_ || !(way(vicinity_->found_at) + yielded_since_found_ <= settings_.skin);
   if (search_is_due) find_candidates();
-  const double leg = search_is_due ? 0 : way(vicinity_->measured_at);
+  const double leg = search_is_due ? 0 : way(vicinity_->measured_at) + yielded_since_measured_;
   const bool is_used_up = search_is_due || !(leg <= vicinity_->limit);
   if (is_used_up) {
     vicinity_->path += leg;
@@ -204,14 +227,18 @@ void Tracker::find_candidates() {
   double margin = reach_ + settings_.skin;
   for (int i : {0, 1})
     if (!deformed) margin += largest_displacement(side_[i].bound, now_[i]->q);
+  for (int i : {0, 1})
+    if (yield_) margin += (*yield_)[i].largest;
   place(deformed);
   find_candidates(margin);
+  yielded_since_found_ = 0;
   for (int i : {0, 1}) vicinity_->found_at[i] = {now_[i]->q, now_[i]->r_WB, now_[i]->R_WB};
 }
 
 void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   const SurfaceState* state[2] = {&a, &b};
   std::fill_n(now_, 2, nullptr);
+  yield_ = nullptr;
   double margin = reach_;
   for (int i : {0, 1}) {
     validate(*state[i], *side_[i].surface, i);
@@ -221,11 +248,16 @@ void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   find_candidates(margin);
 }
 
-void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b) {
+void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<Yield, 2>& yield) {
   now_[0] = &a;
   now_[1] = &b;
+  yield_ = &yield;
+  yielded_ = yield[0].at || yield[1].at;
   for (int i : {0, 1}) validate(*now_[i], *side_[i].surface, i);
   n_displaced_ = 0;
+  start_stage();
+  for (double* sum : {&yielded_since_found_, &yielded_since_measured_})
+    for (const Yield& y : yield) *sum += y.change;
   if (!update_vicinity())
     for (int i : {0, 1}) place_nodes(i, vicinity_->node[i]);
 }
@@ -260,10 +292,13 @@ void Tracker::visit_memory(Tape& tape) {
   visit_motion(then.measured_at, side_, tape);
   tape(then.limit);
   tape(then.uses);
+  tape(yielded_);
   if (!tape.plays()) return;
+  if (yielded_) return vicinity_.reset();  // the yield of that time is not known
   for (int i : {0, 1}) now_[i] = &then.found_at[i];
   find_candidates();
   for (int i : {0, 1}) now_[i] = &then.measured_at[i];
+  start_stage();
   measure_clearance(then.limit);
   vicinity_->uses = then.uses;
   std::fill_n(now_, 2, nullptr);

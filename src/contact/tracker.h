@@ -33,8 +33,8 @@ class Tracker {
   /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.
   void find(const SurfaceState& a, const SurfaceState& b);
   /// Places the nodes that can touch, after a search where one is due. Throws Error for motions that are not
-  /// finite. Both motions must live as long as velocity and all_faces are asked for.
-  void follow(const SurfaceMotion& a, const SurfaceMotion& b);
+  /// finite. Motions and yields must live as long as velocity and all_faces are asked for.
+  void follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<Yield, 2>& yield);
   /// The next call of follow searches anew.
   void forget();
   /// Nodes of either surface that follow places whether they can touch or not, until told otherwise.
@@ -60,6 +60,8 @@ class Tracker {
   void place(const SurfaceState& a, const SurfaceState& b);
   void place(bool deformed);
   void place_nodes(int i, const std::vector<int>& nodes);
+  Eigen::Vector3d position(int i, int node);
+  void start_stage();
   double way(const SurfaceMotion then[2]) const;
   void list_nodes();
   void measure_clearance(double limit);
@@ -76,7 +78,17 @@ class Tracker {
   Configuration configuration_;
   std::optional<Vicinity> vicinity_;
   std::array<std::vector<int>, 2> kept_;
-  const SurfaceMotion* now_[2] = {};  // while contacts are detected by motions
+  const SurfaceMotion* now_[2] = {};                             // while contacts are detected by motions
+  const std::array<Yield, 2>* yield_ = nullptr;                  // beside them
+  bool yielded_ = false;                                         // did anything in the last call of follow?
+  double yielded_since_found_ = 0, yielded_since_measured_ = 0;  // m, bounds of the change
+  struct Deformed {  // X + Phi q of the nodes with the stamp of this stage: yields alone may change within it
+    Eigen::VectorXd q;
+    Eigen::Matrix3Xd x_B;
+    std::vector<long> stamp;
+  };
+  std::array<Deformed, 2> deformed_;
+  long stage_ = 0;
   int n_searches_ = 0, n_displaced_ = 0;
 };
 

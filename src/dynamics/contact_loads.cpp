@@ -33,7 +33,7 @@ struct NodeColumns {
 
 // Sparse columns of W and V on the body's E.
 struct SparseColumns {
-  Triplets L, L_V;
+  Triplets L, L_V, L_x;
 };
 
 void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms, SparseColumns& sparse) {
@@ -45,6 +45,7 @@ void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& ter
     for (Eigen::Index d = 0; d < 3; ++d) {
       sparse.L.emplace_back(c.first_row + d, c.column + j, c.W_B(d, j));
       sparse.L_V.emplace_back(c.first_row + d, c.column + j, c.V_B(d, j));
+      sparse.L_x.emplace_back(c.first_row + d, c.column + j, c.V_B(d, j));
     }
   }
 }
@@ -198,7 +199,9 @@ void set_contact_columns(const std::vector<JointTwists>& twists, const std::vect
   for (std::size_t b = 0; b < twists.size(); ++b) {
     const Eigen::Index n_e = A.body[b].beta.rows();
     set_sparse(A.body[b].L, n_e, r, sparse[b].L);
-    if (two) set_sparse(A.body[b].L_V, n_e, r, sparse[b].L_V);
+    if (!two) continue;
+    set_sparse(A.body[b].L_V, n_e, r, sparse[b].L_V);
+    set_sparse(A.body[b].L_x, n_e, r, sparse[b].L_x);
   }
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 // Nodes whose compliance is kept before the store is emptied: bounds it to about 300 MB a body.
 constexpr std::size_t kMaxKeptNodes = 2000;
+// Responses that are kept, in numbers: 512 MB a body.
+constexpr std::size_t kMaxKeptNumbers = std::size_t{1} << 26;
 
 bool is_diagonal(const Eigen::SparseMatrix<double>& A) {
   for (int j = 0; j < A.outerSize(); ++j)
@@ -124,16 +126,20 @@ void ElasticBlock::reset_compliance() {
   kept_.clear();
   batches_.clear();
   std::fill(slot_.begin(), slot_.end(), -1);
-  G_ = columns_.U().transpose() * solve(columns_.U());
+  response_.clear();
+  U_response_ = solve(columns_.U());
+  G_ = columns_.U().transpose() * U_response_;
 }
 
 void ElasticBlock::add_to_compliance(const std::vector<int>& node) {
   const Eigen::Index before = G_.rows();
   const Eigen::MatrixXd X = solve(columns_.node_columns(node));
   batches_.push_back(node);
-  for (int i : node) {
-    slot_[i] = static_cast<int>(kept_.size());
-    kept_.push_back(i);
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    slot_[node[i]] = static_cast<int>(kept_.size());
+    kept_.push_back(node[i]);
+    const bool room = kept_.size() * 3 * static_cast<std::size_t>(X.rows()) <= kMaxKeptNumbers;
+    if (!diagonal_ && room) response_.push_back(X.middleCols<3>(3 * static_cast<Eigen::Index>(i)));
   }
   const Eigen::Index after = columns_.size(kept_);
   G_.conservativeResize(after, after);
@@ -154,6 +160,16 @@ Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
   for (int i : node)
     for (Eigen::Index d = 0; d < 3; ++d) index.push_back(columns_.n_u() + 3 * slot_[i] + d);
   return G_(index, index);
+}
+
+Eigen::VectorXd ElasticBlock::response(const std::vector<int>& node, const Eigen::VectorXd& c) const {
+  const auto is_kept = [&](int i) { return slot_[i] < static_cast<int>(response_.size()); };
+  if (diagonal_ || !std::all_of(node.begin(), node.end(), is_kept)) return solve(columns_.expand(node, c));
+  Eigen::VectorXd x = U_response_ * c.head(columns_.n_u());
+  for (std::size_t i = 0; i < node.size(); ++i)
+    x += response_[static_cast<std::size_t>(slot_[node[i]])] *
+         c.segment<3>(columns_.n_u() + 3 * static_cast<Eigen::Index>(i));
+  return x;
 }
 
 void ElasticBlock::visit_memory(Tape& tape) {

@@ -8,6 +8,17 @@ namespace {
 
 const Eigen::SparseMatrix<double>& rows_of(const BodyTerms& t) { return t.L_V.rows() > 0 ? t.L_V : t.L; }
 
+const Eigen::SparseMatrix<double>& position_rows(const BodyTerms& t) {
+  return t.L_x.rows() > 0 ? t.L_x : rows_of(t);
+}
+
+// R on all columns of E: those of the nodes are the last.
+Eigen::MatrixXd yielding(const BodyTerms& t, const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.rows(), X.cols());
+  if (t.R.size() > 0) Y.bottomRows(t.R.rows()).noalias() = t.R * X.bottomRows(t.R.rows());
+  return Y;
+}
+
 }  // namespace
 
 LowRankSolver::LowRankSolver(const std::vector<SolverBody>& bodies) {
@@ -25,12 +36,14 @@ void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
   const BodyTerms& t = A_.body[b];
   const auto [s, n_s, n_q, joint] = range_[b];
   const Eigen::Index r = A_.k.rows();
-  const Eigen::MatrixXd G = block_[b].compliance(t.node);
-  const Eigen::MatrixXd G_beta = G * t.beta, G_rho = G * t.rho, G_L = G * t.L;
-  small.block(joint, joint, n_s, n_s) += t.C - t.rho.transpose() * G_beta;
-  small.block(joint, n_s_, n_s, r) += (t.W_s - G_rho.transpose() * t.L) * A_.k;
-  small.block(n_s_, joint, r, n_s) += rows_of(t).transpose() * G_beta - t.V_s.transpose();
-  const Eigen::MatrixXd L_G_L = rows_of(t).transpose() * G_L;
+  const Eigen::MatrixXd G = block_[b].compliance(t.node), L = t.L;
+  const Eigen::MatrixXd G_beta = G * t.beta, G_L = G * t.L, R_beta = yielding(t, t.beta),
+                        R_L = yielding(t, L);
+  small.block(joint, joint, n_s, n_s) += t.C - t.rho.transpose() * (G_beta + R_beta);
+  small.block(joint, n_s_, n_s, r) += (t.W_s - t.rho.transpose() * (G_L + R_L)) * A_.k;
+  small.block(n_s_, joint, r, n_s) +=
+      rows_of(t).transpose() * G_beta + position_rows(t).transpose() * R_beta - t.V_s.transpose();
+  const Eigen::MatrixXd L_G_L = rows_of(t).transpose() * G_L + position_rows(t).transpose() * R_L;
   small.bottomRightCorner(r, r) += L_G_L * A_.k;
 }
 
@@ -49,23 +62,41 @@ void LowRankSolver::set(EffectiveMatrix A) {
   require(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0, "the effective matrix is singular");
 }
 
+// k lambda, lambda = V'x + L_x'w of all bodies with w = -R (beta x_s + L k lambda); projected: E'x_q.
+Eigen::VectorXd LowRankSolver::contact_forces(const Eigen::VectorXd& x,
+                                              const std::vector<Eigen::VectorXd>& projected) const {
+  const Eigen::Index r = A_.k.rows();
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(r);
+  Eigen::MatrixXd yielded = Eigen::MatrixXd::Identity(r, r);
+  bool yields = false;
+  for (std::size_t b = 0; b < block_.size(); ++b) {
+    const BodyTerms& t = A_.body[b];
+    const auto x_s = x.segment(range_[b].s, range_[b].n_s);
+    lambda += t.V_s.transpose() * x_s + rows_of(t).transpose() * projected[b];
+    if (t.R.size() == 0) continue;
+    yields = true;
+    lambda -= position_rows(t).transpose() * yielding(t, t.beta * x_s).col(0);
+    yielded += position_rows(t).transpose() * yielding(t, t.L) * A_.k;
+  }
+  return A_.k * (yields ? Eigen::VectorXd(yielded.partialPivLu().solve(lambda)) : lambda);
+}
+
 Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(A_.k.rows()), y(x.size());
+  Eigen::VectorXd y(x.size());
   std::vector<Eigen::VectorXd> projected;
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const auto [s, n_s, n_q, joint] = range_[b];
-    const BodyTerms& t = A_.body[b];
-    projected.push_back(block_[b].columns().project(t.node, x.segment(s + n_s, n_q)));
-    lambda += t.V_s.transpose() * x.segment(s, n_s) + rows_of(t).transpose() * projected[b];
+    projected.push_back(block_[b].columns().project(A_.body[b].node, x.segment(s + n_s, n_q)));
   }
-  const Eigen::VectorXd k_lambda = A_.k * lambda;
+  const Eigen::VectorXd k_lambda = contact_forces(x, projected);
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const auto [s, n_s, n_q, joint] = range_[b];
     const BodyTerms& t = A_.body[b];
     const auto x_s = x.segment(s, n_s);
-    y.segment(s, n_s) = t.C * x_s + t.rho.transpose() * projected[b] + t.W_s * k_lambda;
-    y.segment(s + n_s, n_q) = block_[b].multiply(x.segment(s + n_s, n_q)) +
-                              block_[b].columns().expand(t.node, t.beta * x_s + t.L * k_lambda);
+    const Eigen::VectorXd load = t.beta * x_s + t.L * k_lambda;
+    y.segment(s, n_s) = t.C * x_s + t.rho.transpose() * (projected[b] - yielding(t, load)) + t.W_s * k_lambda;
+    y.segment(s + n_s, n_q) =
+        block_[b].multiply(x.segment(s + n_s, n_q)) + block_[b].columns().expand(t.node, load);
     if (t.Q_s.rows() > 0) add_second_order(b, x, y);
   }
   return y;
@@ -96,8 +127,7 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
     const BodyTerms& t = A_.body[b];
     const Eigen::VectorXd x_s = small.segment(joint, n_s);
     x.segment(s, n_s) = x_s;
-    x.segment(s + n_s, n_q) -=
-        block_[b].solve(block_[b].columns().expand(t.node, t.beta * x_s + t.L * k_lambda));
+    x.segment(s + n_s, n_q) -= block_[b].response(t.node, t.beta * x_s + t.L * k_lambda);
   }
   return x;
 }

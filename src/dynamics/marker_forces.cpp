@@ -50,10 +50,10 @@ void add_block(Index row, Index column, const MatrixXd& block, Eigen::SparseMatr
       if (block(i, j) != 0) A.coeffRef(row + i, column + j) += block(i, j);
 }
 
-// L, and L_V where contact has one of its own.
+// L, and L_V and L_x where contact has its own.
 std::vector<Eigen::SparseMatrix<double>*> elastic_rows(BodyTerms& terms) {
   if (terms.L_V.rows() == 0) return {&terms.L};
-  return {&terms.L, &terms.L_V};
+  return {&terms.L, &terms.L_V, &terms.L_x};
 }
 
 }  // namespace

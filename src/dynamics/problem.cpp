@@ -118,6 +118,8 @@ bool is_admissible(Problem& problem, double time, ConstVector U, ConstVector V) 
     problem.trouble = kNotFinite;
   else if (problem.system.depth_share(time, U, V) > kDeepest)
     problem.trouble = "bodies penetrate each other by nearly the contact depth";
+  else if (!problem.system.contacts(time, U, V).balanced)
+    problem.trouble = "contact forces and the residual answers to them do not come together";
   return problem.trouble.empty();
 }
 

@@ -55,7 +55,7 @@ model::Snapshot snapshot(System& system, const State& x) {
     const body::Motion m = system.motion(b, x);
     result.bodies.push_back(body_state(m, contact.surface[b], system.joint_force(b, x)));
     result.energy.kinetic += body::kinetic_energy(system.bodies()[b].eq, m);
-    result.energy.elastic += body::elastic_energy(system.bodies()[b].eq, m);
+    result.energy.elastic += body::elastic_energy(system.bodies()[b].eq, m) + system.residual_energy(b);
   }
   for (std::size_t p = 0; p < contact.pair.size(); ++p) {
     result.pairs.push_back(pair_state(system, x, p));

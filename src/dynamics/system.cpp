@@ -8,16 +8,8 @@
 namespace elastogear::dynamics {
 namespace {
 
-// Positions of the nodes that contact touches; the others' stay undeformed.
-void place_touched(const PairContacts& pair, const model::Surface* surface[2],
-                   const contact::SurfaceMotion* motion[2], std::vector<contact::SurfaceState>& state) {
-  for (const contact::ContactPoint& point : pair.points)
-    for (int i = 0; i < kLocalNodes; ++i) {
-      const auto [side, node] = local_node(point, i);
-      state[pair.body[side]].x_B.col(node) =
-          surface[side]->X.col(node) + model::displacement(surface[side]->Phi, node, motion[side]->q);
-    }
-}
+constexpr double kMisfit = 1e-10;  // of contact forces and those that residual answers were given to
+constexpr int kMostTrials = 30, kFullTrials = 8;  // until they fit; the first ones go the whole way
 
 using Terms = std::vector<Eigen::VectorXd>;
 
@@ -151,19 +143,42 @@ const ContactState& System::contacts(double time, ConstVector U, ConstVector V) 
     state_.surface[b].r_WB = motion[b].r_WB;
     state_.surface[b].R_WB = motion[b].R_WB;
   }
-  state_.pair.clear();
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const int a = pairs_[p].body[0], b = pairs_[p].body[1];
-    const model::Surface* surface[2] = {&bodies_[a].eq.body->surface, &bodies_[b].eq.body->surface};
-    const contact::SurfaceMotion* moved[2] = {&motion[a], &motion[b]};
-    state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b])});
-    place_touched(state_.pair.back(), surface, moved, state_.surface);
+  detect(motion);
+  for (int trial = 0; residual_contact_.any() && !state_.balanced && trial < kMostTrials; ++trial) {
+    residual_contact_.improve(state_.pair, state_.surface, state_.force, trial < kFullTrials ? 1 : 0.5);
+    detect(motion);
   }
-  state_.force = nodal_forces(state_.pair, state_.surface);
   U_of_state_ = U;
   V_of_state_ = V;
   time_of_state_ = time;
   return state_;
+}
+
+// Contacts of the bodies as they yield to the forces of the last trial.
+void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
+  state_.pair.clear();
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const int a = pairs_[p].body[0], b = pairs_[p].body[1];
+    const std::array<contact::Yield, 2> yield{residual_contact_.yield(a), residual_contact_.yield(b)};
+    state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b], yield)});
+    place_touched(state_.pair.back(), motion);
+  }
+  residual_contact_.seen();
+  state_.force = nodal_forces(state_.pair, state_.surface);
+  state_.balanced = residual_contact_.misfit(state_.force) <= kMisfit;
+}
+
+// Positions of the nodes that contact touches; the others' stay undeformed.
+void System::place_touched(const PairContacts& pair, const std::vector<contact::SurfaceMotion>& motion) {
+  for (const contact::ContactPoint& point : pair.points)
+    for (int i = 0; i < kLocalNodes; ++i) {
+      const auto [side, node] = local_node(point, i);
+      const std::size_t b = pair.body[side];
+      const model::Surface& surface = bodies_[b].eq.body->surface;
+      auto x_B = state_.surface[b].x_B.col(node);
+      x_B = surface.X.col(node) + model::displacement(surface.Phi, node, motion[b].q);
+      if (residual_contact_.yields(b)) x_B += residual_contact_.displacement(b, node);
+    }
 }
 
 contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U,
@@ -299,6 +314,7 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
                                      marker_forces_.row_count(b), node));
     matrix.body.back().C.diagonal() += shift.v * load_rate(bodies_[b], m.s_dot);
     add_geometric_stiffness(twists.back(), contact.force[b], matrix.body.back());
+    matrix.body.back().R = residual_contact_.among(b, node);
   }
   set_contact_columns(twists, contact.pair, contact.surface, matrix);
   if (!marker_forces_.empty()) marker_forces_.add_tangent(x.time, moving_bodies(x), shift, matrix);
@@ -337,6 +353,7 @@ void System::visit_memory(Tape& tape) {
   }
   visit_contact_history(tape);
   for (contact::Pair& pair : detectors_) pair.visit_memory(tape);
+  residual_contact_.visit_memory(tape);
   if (tape.plays()) U_of_state_.reset();
 }
 

@@ -126,6 +126,9 @@ System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, cons
   for (const BodySetup& setup : bodies) add_body(setup);
   for (const PairSetup& setup : pairs) add_pair(setup);
   add_marker_forces(markers);
+  std::vector<const model::ElasticBody*> elastic;
+  for (const Body& body : bodies_) elastic.push_back(body.eq.body.get());
+  residual_contact_ = ResidualContact(elastic);
 }
 
 void System::add_body(const BodySetup& setup) {
@@ -153,6 +156,12 @@ void System::add_pair(const PairSetup& setup) {
     bodies_[b].in_contact = true;
   }
   require(setup.body[0] != setup.body[1], "contact pair '", setup.name, "' names one body twice");
+  // Its force jumps when a node touches; a node that yields at once would open the gap again, and so on.
+  for (int b : setup.body)
+    require(setup.settings.damping == 0 || bodies_[b].eq.body->flexibility.empty(), "contact pair '",
+            setup.name, "': damping = ", setup.settings.damping,
+            " jumps at touch, which the residual flexibility of body '", bodies_[b].name,
+            "' cannot follow: use hysteresis instead, or leave the residual flexibility out");
   pairs_.push_back(setup);
   const model::ElasticBody& a = *bodies_[setup.body[0]].eq.body;
   const model::ElasticBody& b = *bodies_[setup.body[1]].eq.body;

@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "elastogear/base/broadcast.h"
 #include "elastogear/base/rotation.h"
 
 namespace elastogear::fem {
@@ -33,14 +34,6 @@ Eigen::MatrixXcd directions_on_axis(const mesh::Turn& turn, int k) {
     P.imag() = e_2 / std::numbers::sqrt2;
   }
   return P;
-}
-
-template <class T>
-void broadcast(MPI_Comm comm, std::vector<T>& values) {
-  auto size = static_cast<int>(values.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
-  values.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(values.data(), static_cast<int>(size * sizeof(T)), MPI_BYTE, 0, comm);
 }
 
 }  // namespace
@@ -92,16 +85,16 @@ Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, c
 void broadcast(MPI_Comm comm, Sector& sector) {
   std::vector<mesh::Turn> turn{sector.turn};
   std::vector<double> X(sector.mesh.X.reshaped().begin(), sector.mesh.X.reshaped().end());
-  broadcast(comm, turn);
-  broadcast(comm, X);
-  broadcast(comm, sector.mesh.cells.type);
-  broadcast(comm, sector.mesh.cells.offset);
-  broadcast(comm, sector.mesh.cells.nodes);
-  broadcast(comm, sector.region);
-  broadcast(comm, sector.weight);
-  broadcast(comm, sector.placement.orbit);
-  broadcast(comm, sector.placement.turns);
-  broadcast(comm, sector.on_axis);
+  elastogear::broadcast(comm, turn);
+  elastogear::broadcast(comm, X);
+  elastogear::broadcast(comm, sector.mesh.cells.type);
+  elastogear::broadcast(comm, sector.mesh.cells.offset);
+  elastogear::broadcast(comm, sector.mesh.cells.nodes);
+  elastogear::broadcast(comm, sector.region);
+  elastogear::broadcast(comm, sector.weight);
+  elastogear::broadcast(comm, sector.placement.orbit);
+  elastogear::broadcast(comm, sector.placement.turns);
+  elastogear::broadcast(comm, sector.on_axis);
   sector.turn = turn.front();
   sector.mesh.X = Eigen::Map<const Eigen::Matrix3Xd>(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3));
 }

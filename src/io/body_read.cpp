@@ -3,6 +3,7 @@
 #include "basis_rows.h"
 #include "body_schema.h"
 #include "checks.h"
+#include "flexibility_group.h"
 #include "elastogear/io/body_file.h"
 
 namespace elastogear::io {
@@ -142,6 +143,7 @@ model::ElasticBody read_body(const std::string& path, BodyUse use) {
   body.surface = read_surface(file);
   if (use == BodyUse::all) body.stress = read_stress(file);
   body.markers = read_markers(file);
+  body.flexibility = read_flexibility(file);
   model::validate(body, path);
   return body;
 }

@@ -3,6 +3,7 @@
 #include "basis_rows.h"
 #include "body_schema.h"
 #include "checks.h"
+#include "flexibility_group.h"
 #include "elastogear/base/file.h"
 #include "elastogear/io/body_file.h"
 
@@ -188,6 +189,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   write_surface(file, body.surface, unit);
   write_stress(file, body.stress, unit);
   write_markers(file, body, unit);
+  write_flexibility(file, body.flexibility);
   h5::write<int>(file, "/reduced/free_dof", view(source.free_dof), "1");
   write_mesh(file, source.mesh);
   write_materials(file, source.regions);

@@ -238,6 +238,13 @@ bool has_hdf5_signature(const std::string& path) {
 
 }  // namespace
 
+std::string file_format(const std::string& path) {
+  std::error_code error;
+  require(std::filesystem::is_regular_file(path, error), path, ": there is no such file");
+  require(has_hdf5_signature(path), path, ": is no HDF5 file of this program");
+  return h5::string_attribute(h5::open(path), "/", "format");
+}
+
 std::string describe(const std::string& path) {
   std::error_code error;
   require(std::filesystem::is_regular_file(path, error), path, ": there is no such file");

@@ -89,19 +89,28 @@ Eigen::VectorXd read_times(const std::string& path) {
   return read_vector(open_format(path, kResultFormat), "/time");
 }
 
-BodyHistory read_body_history(const std::string& path, const std::string& body) {
+BodyHistory read_joint_history(const std::string& path, const std::string& body) {
   const h5::File file = open_with(path, "/bodies", body);
   const std::string group = "/bodies/" + body;
   const auto read = [&](const char* name) { return read_columns(file, group + name, {h5::kAny}); };
   BodyHistory history;
-  history.q = read("/q");
-  history.q_dot = read("/q_velocity");
-  history.q_ddot = read("/q_acceleration");
   history.s = read("/rigid");
   history.s_dot = read("/rigid_velocity");
   history.s_ddot = read("/rigid_acceleration");
   history.r_WB = read_columns(file, group + "/position", {3});
   history.R_WB = read_columns(file, group + "/rotation", {3, 3});
+  return history;
+}
+
+BodyHistory read_body_history(const std::string& path, const std::string& body) {
+  BodyHistory history = read_joint_history(path, body);
+  const h5::File file = open_with(path, "/bodies", body);
+  const auto read = [&](const char* name) {
+    return read_columns(file, "/bodies/" + body + name, {h5::kAny});
+  };
+  history.q = read("/q");
+  history.q_dot = read("/q_velocity");
+  history.q_ddot = read("/q_acceleration");
   return history;
 }
 

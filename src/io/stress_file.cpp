@@ -14,6 +14,8 @@ void check(const h5::File& file, const StressSet& set, Eigen::Index n_t) {
   const auto n = static_cast<Eigen::Index>(set.node.size());
   const bool fits = set.stress.rows() == 6 * n && set.von_mises.rows() == n && set.rankine.rows() == n &&
                     set.stress.cols() == n_t && set.von_mises.cols() == n_t && set.rankine.cols() == n_t;
+  require(set.X.size() == 0 || set.X.cols() == n, file.path, ": ", set.X.cols(), " positions of the ", n,
+          " nodes of ", set.body, "/", set.set);
   require(fits, file.path, ": stresses of ", set.body, "/", set.set, " do not have ", n, " nodes and ", n_t,
           " times");
   require(set.stress.allFinite() && set.von_mises.allFinite() && set.rankine.allFinite(), file.path,
@@ -28,6 +30,7 @@ void write_set(const h5::File& file, const StressSet& set) {
   h5::set_attribute(file, group + "/stress", "components", "xx yy zz xy yz xz");
   h5::write<double>(file, group + "/von_mises", {{n_t, n}, set.von_mises.data()}, "Pa");
   h5::write<double>(file, group + "/rankine", {{n_t, n}, set.rankine.data()}, "Pa");
+  if (set.X.size() > 0) h5::write<double>(file, group + "/X", view(set.X), "m");
   h5::set_attribute(file, group, "frame", "body");
 }
 
@@ -38,11 +41,12 @@ Eigen::MatrixXd columns(const std::vector<double>& values, Eigen::Index n_t) {
 
 StressSet read_set(const h5::File& file, const std::string& body, const std::string& name, Eigen::Index n_t) {
   const std::string group = "/" + body + "/" + name;
-  StressSet set{body, name, h5::read<int>(file, group + "/nodes", {h5::kAny}), {}, {}, {}};
+  StressSet set{body, name, h5::read<int>(file, group + "/nodes", {h5::kAny}), {}, {}, {}, {}};
   const hsize_t n = set.node.size();
   set.stress = columns(h5::read<double>(file, group + "/stress", {extent(n_t), n, 6}), n_t);
   set.von_mises = columns(h5::read<double>(file, group + "/von_mises", {extent(n_t), n}), n_t);
   set.rankine = columns(h5::read<double>(file, group + "/rankine", {extent(n_t), n}), n_t);
+  if (h5::exists(file, group + "/X")) set.X = read_points(file, group + "/X");
   return set;
 }
 

@@ -1,12 +1,15 @@
 #include "elastogear/model/elastic_body.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "elastogear/base/error.h"
 
 namespace elastogear::model {
 namespace {
+
+constexpr double kUnit = 1e-9;  // roundoff of a unit vector in a file
 
 // 0 x is zero unless x is infinite or no number; the sum runs at the speed of memory, allFinite() does not.
 bool finite(const double* x, Eigen::Index n) {
@@ -101,6 +104,26 @@ void validate_markers(const std::vector<Marker>& markers, Eigen::Index n_q, cons
   }
 }
 
+void validate_flexibility(const ElasticBody& body, const std::string& source) {
+  const Flexibility& f = body.flexibility;
+  if (f.empty()) return;
+  const auto n_c = static_cast<Eigen::Index>(f.node.size()), n_r = f.stress.node.size();
+  const std::size_t n_e = body.stress.node.size();
+  require(body.basis == Basis::modal && !body.floating, source,
+          ": static answers belong to the modal basis of a held body");
+  require(std::is_sorted(f.node.begin(), f.node.end()) &&
+              in_range(f.node, static_cast<int>(body.surface.node.size())),
+          source, ": loaded nodes of the flexibility must ascend within the surface");
+  require(f.surface.node.size() == n_c && (f.stress_row.size() == n_e || n_e == 0) &&
+              in_range(f.stress_row, static_cast<int>(n_r)) && f.surface.node.rows() == f.n_sectors &&
+              f.stress.node.rows() == f.n_sectors && std::abs(f.axis.norm() - 1) < kUnit,
+          source, ": the symmetry of the flexibility does not fit the body");
+  require(f.F.rows() == 3 * n_c && f.F.cols() == 3 * f.surface.node.cols() &&
+              (f.G.size() == 0 || (f.G.rows() == 6 * n_r && f.G.cols() == f.F.cols())),
+          source, ": F or G does not have a row for each node and a column for each force");
+  require(f.F.allFinite() && f.G.allFinite(), source, ": static answers are not finite");
+}
+
 }  // namespace
 
 Eigen::Index row_count(const BasisRows& rows) {
@@ -145,6 +168,7 @@ void validate(const ElasticBody& body, const std::string& source) {
   validate_surface(body.surface, n_q, source);
   validate_stress(body.stress, n_q, source);
   validate_markers(body.markers, n_q, source);
+  validate_flexibility(body, source);
 }
 
 }  // namespace elastogear::model

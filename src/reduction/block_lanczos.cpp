@@ -74,20 +74,22 @@ MatrixXd normalise(MatrixXd& W, const MatrixXd& G, double correction, Orthonorma
   return U;
 }
 
-// W := Q, orthonormal and orthogonal to V in the inner product of M; drops columns that are in the span of V.
+// W := Q, orthonormal and orthogonal to the first n columns V of the basis in the inner product of M; drops
+// columns that are in their span.
 // Each pass projects and then divides by the square root of the Gram matrix; one does when W was nearly
 // orthogonal to V before and well conditioned. The Gram matrix after the projection is W' M W - C' C.
-Orthonormal orthonormalise(const BlockProduct& M, const ConstColumns& V, MatrixXd& W, double scale) {
-  Orthonormal result{MatrixXd::Zero(V.cols(), W.cols()), MatrixXd::Identity(W.cols(), W.cols()), {}, scale};
+Orthonormal orthonormalise(const KrylovBasis& basis, int n, MatrixXd& W, double scale) {
+  const BlockProduct& M = *basis.M;
+  Orthonormal result{MatrixXd::Zero(n, W.cols()), MatrixXd::Identity(W.cols(), W.cols()), {}, scale};
   for (int pass = 0; pass < kMaxPasses && W.cols() > 0 && !result.done; ++pass) {
     const MatrixXd M_W = M(W);
     MatrixXd G = inner(M.comm(), W, M_W);
     if (pass == 0) result.scale = std::max(scale, std::sqrt(G.diagonal().maxCoeff()));
     double correction = 0;
-    if (V.cols() > 0) {
-      const MatrixXd C = inner(M.comm(), V, M_W);
+    if (n > 0) {
+      const MatrixXd C = sum(M.comm(), basis.V.dot(n, M_W));
       result.H += C * result.R;
-      gemm(false, -1, V, C, 1, W);
+      basis.V.add_product(0, -C, W);
       G -= C.transpose() * C;
       correction = C.colwise().norm().maxCoeff();
     }
@@ -99,7 +101,7 @@ Orthonormal orthonormalise(const BlockProduct& M, const ConstColumns& V, MatrixX
 }
 
 void append(KrylovBasis& basis, const MatrixXd& Q, const Orthonormal& orthonormal) {
-  basis.V.middleCols(basis.size, Q.cols()) = Q;
+  basis.V.set(basis.size, Q);
   basis.M_next = orthonormal.M_Q;
   basis.R = orthonormal.R;
   basis.exhausted = Q.cols() == 0;
@@ -108,15 +110,16 @@ void append(KrylovBasis& basis, const MatrixXd& Q, const Orthonormal& orthonorma
 // Takes off what the three-term recurrence says is in the last two blocks; all the rest is roundoff. Returns
 // the norm of what was taken.
 double recur(KrylovBasis& basis, MatrixXd& W) {
-  const Eigen::Index block = basis.R.rows(), before = basis.R.cols(), begin = basis.size;
+  const int block = static_cast<int>(basis.R.rows()), before = static_cast<int>(basis.R.cols()),
+            begin = basis.size;
   double scale = 0;
   if (begin > 0) {
-    gemm(false, -1, basis.V.middleCols(begin - before, before), basis.R.transpose(), 1, W);
+    basis.V.add_product(begin - before, -basis.R.transpose(), W);
     basis.T.block(begin - before, begin, before, block) = basis.R.transpose();
     scale = basis.R.norm();
   }
   const MatrixXd A = inner(basis.M->comm(), basis.M_next, W);
-  gemm(false, -1, basis.V.middleCols(begin, block), A, 1, W);
+  basis.V.add_product(begin, -A, W);
   basis.T.block(begin, begin, block, block) = A;
   return scale + A.norm();
 }
@@ -143,7 +146,7 @@ KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sig
   KrylovBasis basis;
   basis.M = &M;
   basis.sigma = sigma;
-  basis.V.resize(M.n_own(), capacity + block);
+  basis.V = TallBasis(M.n_own(), capacity + block);
   basis.T.setZero(capacity + block, capacity + block);
   std::mt19937 generator(static_cast<unsigned>(rank));
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -151,13 +154,13 @@ KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sig
   for (double& w : W.reshaped()) w = uniform(generator);
   W = M(W);
   factor.solve(W);
-  const Orthonormal first = orthonormalise(M, basis.V.leftCols(0), W, 0);
+  const Orthonormal first = orthonormalise(basis, 0, W, 0);
   append(basis, W, first);
   return basis;
 }
 
 bool has_room(const KrylovBasis& basis) {
-  return !basis.exhausted && basis.size + 2 * basis.R.rows() <= basis.V.cols();
+  return !basis.exhausted && basis.size + 2 * basis.R.rows() <= basis.V.capacity();
 }
 
 void expand(KrylovBasis& basis, ShiftedFactor& factor) {
@@ -167,7 +170,7 @@ void expand(KrylovBasis& basis, ShiftedFactor& factor) {
   factor.solve(W);
   const double scale = recur(basis, W);
   basis.size += static_cast<int>(block);
-  const Orthonormal next = orthonormalise(*basis.M, basis.V.leftCols(basis.size), W, scale);
+  const Orthonormal next = orthonormalise(basis, basis.size, W, scale);
   basis.T.block(0, begin, basis.size, block) += next.H;
   append(basis, W, next);
 }
@@ -202,10 +205,14 @@ MatrixXd improved_coefficients(const KrylovBasis& basis, const RitzPairs& pairs,
   return s;
 }
 
-MatrixXd combine(const KrylovBasis& basis, const MatrixXd& s) { return times(basis.V.leftCols(s.rows()), s); }
+MatrixXd combine(const KrylovBasis& basis, const MatrixXd& s) {
+  MatrixXd phi = MatrixXd::Zero(basis.V.n_rows(), s.cols());
+  basis.V.add_product(0, s, phi);
+  return phi;
+}
 
 MatrixXd project(const KrylovBasis& basis, const MatrixXd& s, const ConstColumns& M_phi) {
-  return s.transpose() * inner(basis.M->comm(), basis.V.leftCols(s.rows()), M_phi);
+  return s.transpose() * sum(basis.M->comm(), basis.V.dot(static_cast<int>(s.rows()), M_phi));
 }
 
 }  // namespace elastogear::reduction

@@ -1,11 +1,12 @@
 #include "elastogear/reduction/block_product.h"
 
+#include <algorithm>
+
 namespace elastogear::reduction {
 namespace {
 
 constexpr int kWidth = 8;  // columns that fit into registers together
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Chunk = Eigen::Array<double, kWidth, 1>;
 using ConstChunk = Eigen::Map<const Chunk>;
 
@@ -79,27 +80,36 @@ void BlockProduct::release() {
   merged_ = {};
 }
 
+void BlockProduct::fetch_ghosts() const {
+  if (!ghosts_) return;
+  const auto n_columns = static_cast<int>(buffer_.cols());
+  double* own = buffer_.data();
+  double* ghosts = own + static_cast<std::ptrdiff_t>(n_own_) * n_columns;
+  MPI_Datatype row = MPI_DATATYPE_NULL;
+  MPI_Type_contiguous(n_columns, MPI_DOUBLE, &row);
+  MPI_Type_commit(&row);
+  check(PetscSFBcastBegin(ghosts_, row, own, ghosts, MPI_REPLACE));
+  check(PetscSFBcastEnd(ghosts_, row, own, ghosts, MPI_REPLACE));
+  MPI_Type_free(&row);
+}
+
 Eigen::MatrixXd BlockProduct::operator()(const Eigen::Ref<const Eigen::MatrixXd>& X) const {
   const Eigen::Index n_columns = X.cols(), padded = (n_columns + kWidth - 1) / kWidth * kWidth;
-  RowMajor rows(n_own_ + n_ghost_, padded), product(n_own_, padded);
+  RowMajor& rows = buffer_;
+  rows.resize(n_own_ + n_ghost_, padded);
   rows.topLeftCorner(n_own_, n_columns) = X;
   rows.topRightCorner(n_own_, padded - n_columns).setZero();
-  if (ghosts_) {
-    MPI_Datatype row = MPI_DATATYPE_NULL;
-    MPI_Type_contiguous(static_cast<int>(padded), MPI_DOUBLE, &row);
-    MPI_Type_commit(&row);
-    check(PetscSFBcastBegin(ghosts_, row, rows.data(), rows.data() + n_own_ * padded, MPI_REPLACE));
-    check(PetscSFBcastEnd(ghosts_, row, rows.data(), rows.data() + n_own_ * padded, MPI_REPLACE));
-    MPI_Type_free(&row);
-  }
+  fetch_ghosts();
+  Eigen::MatrixXd product(n_own_, n_columns);
   for (int i = 0; i < n_own_; ++i)
     for (Eigen::Index j = 0; j < padded; j += kWidth) {
       Chunk sum = Chunk::Zero();
       for (PetscInt k = rows_.offset[i]; k < rows_.offset[i + 1]; ++k)
         sum += rows_.value[k] * ConstChunk(rows.data() + rows_.column[k] * padded + j);
-      Eigen::Map<Chunk>(product.data() + i * padded + j) = sum;
+      const Eigen::Index width = std::min<Eigen::Index>(kWidth, n_columns - j);
+      product.row(i).segment(j, width) = sum.head(width).matrix().transpose();
     }
-  return product.leftCols(n_columns);
+  return product;
 }
 
 }  // namespace elastogear::reduction

@@ -19,19 +19,30 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // m and -: of an axis in a report
 
-model::Stress make_stress(const mesh::Mesh& mesh, const std::vector<std::string>& sets) {
+// A node set, or the nodes of a face set.
+std::set<int> stress_set(const mesh::Mesh& mesh, const std::string& name) {
   std::set<int> nodes;
-  for (const std::string& name : sets) {
+  if (mesh.node_sets.contains(name) || !mesh.face_sets.contains(name)) {
     const auto& members = mesh::node_set(mesh, name);
     nodes.insert(members.begin(), members.end());
+  } else {
+    for (const mesh::Face& face : mesh::face_set(mesh, name))
+      for (int node : face)
+        if (node >= 0) nodes.insert(node);
   }
+  return nodes;
+}
+
+model::Stress make_stress(const mesh::Mesh& mesh, const std::vector<std::string>& sets) {
+  std::set<int> nodes;
+  for (const std::string& name : sets) nodes.merge(stress_set(mesh, name));
   model::Stress stress;
   stress.node.assign(nodes.begin(), nodes.end());
   stress.X = mesh.X(Eigen::all, stress.node);
   for (const std::string& name : sets) {
     auto& local = stress.sets[name];
     local.clear();
-    for (int node : mesh::node_set(mesh, name))
+    for (int node : stress_set(mesh, name))
       local.push_back(static_cast<int>(std::lower_bound(stress.node.begin(), stress.node.end(), node) -
                                        stress.node.begin()));
   }
@@ -66,6 +77,11 @@ void validate(const ReductionOptions& options) {
   model::validate(options.ratio);
   require(options.ratio.ratio.empty() || options.basis == model::Basis::modal,
           "damping ratios belong to modes: the full basis takes Rayleigh's alpha and beta only");
+  require(!options.flexibility || (options.basis == model::Basis::modal && !options.floating),
+          "static answers to contact forces belong to the modal basis of a held body");
+  require(
+      !options.flexibility || !options.surface.empty(),
+      "static answers to contact forces need a contact surface: name its face sets by the option surface");
   for (const auto& [set, mass] : options.point_mass)
     require(std::isfinite(mass) && mass > 0, "point mass ", mass, " kg on '", set,
             "' must be finite and positive");

@@ -7,6 +7,7 @@
 #include "elastogear/reduction/checks.h"
 #include "elastogear/reduction/cyclic.h"
 #include "elastogear/reduction/eigenmodes.h"
+#include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/free_body.h"
 #include "elastogear/reduction/second_moments.h"
 #include "fingerprint.h"
@@ -142,6 +143,30 @@ void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
   job.finish_stage("checks");
 }
 
+FlexibilityTask flexibility_task(const Job& job) {
+  const model::ElasticBody& body = job.plan.body;
+  return {body.surface, body.stress.node, job.plan.S, job.mesh, job.plan.repetition, job.options.loaded};
+}
+
+// Whether the loaded nodes repeat as the mesh does. Collective.
+bool flexibility_repeats(Job& job) {
+  int repeats = 0;
+  if (job.cyclic()) job.on_root([&] { repeats = plan_flexibility(flexibility_task(job)).n_sectors > 1; });
+  MPI_Bcast(&repeats, 1, MPI_INT, 0, job.comm);
+  return repeats != 0;
+}
+
+void add_flexibility(Job& job, const ElasticSystem& system) {
+  if (!job.options.flexibility) return;
+  const FlexibilityTask task = flexibility_task(job);
+  const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, job.options.element};
+  model::Flexibility flexibility =
+      flexibility_repeats(job) ? find_cyclic_flexibility(job.comm, task, body, job.progress)
+                               : find_flexibility(task, system.K, system.M, system.gather, job.progress);
+  if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
+  job.finish_stage("static answers");
+}
+
 // From the matrices of the whole body.
 void reduce_whole(Job& job) {
   const fem::Matrices matrices = assemble(job);
@@ -163,6 +188,7 @@ void reduce_whole(Job& job) {
     });
   });
   check_basis(job, system, job.options.completeness);
+  add_flexibility(job, system);
   job.on_root([&] { writer->finish(); });
   pieces.clear();
 }
@@ -197,8 +223,9 @@ void check_sectors(Job& job) {
   check(MatCreateVecs(matrices.K, layout.out(), nullptr));
   check(VecGetSize(layout, &n_free));
   const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
-  check_basis(job, {matrices.K, matrices.M, gather, nullptr},
-              job.options.completeness && n_free <= kLargestCheckFactor);
+  const ElasticSystem system{matrices.K, matrices.M, gather, nullptr};
+  check_basis(job, system, job.options.completeness && n_free <= kLargestCheckFactor);
+  add_flexibility(job, system);
 }
 
 // From one sector of a body that repeats.

@@ -29,10 +29,12 @@ constexpr double kStretch = 0.2;         // by which windows may be larger than 
 constexpr double kWeyl = 1.5;            // exponent of N(lambda) in a solid
 constexpr int kFewModes = 16;            // too few to see an exponent of their own
 
-// The cost of a flop in a solve, over that in a matrix product: kSolve + kSolveOnce / block.
-constexpr double kSolve = 2, kSolveOnce = 24;
-constexpr double kLargestBasis = 1;  // entries, over those of the factor
-constexpr double kSmallBasis = 4e7;  // entries that are always allowed
+// The cost of a flop, over that in a product of the basis with 16 vectors (benchmarks/kernels.csv): kFactor
+// in a factorisation, kSolve + kSolveOnce / block in a solve, kProduct + kProductOnce / block in such
+// products.
+constexpr double kFactor = 2, kSolve = 1.3, kSolveOnce = 20, kProduct = 0.75, kProductOnce = 5;
+constexpr double kLargestBasis = 1.5;  // entries, over those of the factor
+constexpr double kSmallBasis = 1e8;    // entries that are always allowed: 0.8 GB
 constexpr std::array kWindows{60, 100, 150, 200, 250, 300, 400, 500, 600};
 constexpr std::array kBlocks{8, 16, 24, 32};
 
@@ -316,7 +318,9 @@ WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked) {
   const auto cost_per_mode = [&](const WindowSize& size) {
     const double c = columns(size.modes, size.block);
     const double solves = 4 * factor.entries * c * (kSolve + kSolveOnce / size.block);
-    return (factor.flops + solves + 2 * rows * c * c + 4 * rows * c * size.modes) / size.modes;
+    const double products =
+        (2 * rows * c * c + 4 * rows * c * size.modes) * (kProduct + kProductOnce / size.block);
+    return (kFactor * factor.flops + solves + products) / size.modes;
   };
   const double most = std::max(kLargestBasis * factor.entries, kSmallBasis) / rows;
   WindowSize best{asked.modes > 0 ? asked.modes : kWindows.front(),

@@ -191,6 +191,9 @@ expect_error "set without stress modes" "no stress modes at the set 'FIX'" "$ela
 expect_error "key of a body that no file names" 'c_joint' "$elastogear" simulate two.yaml -bodies a -c_joint free -output new.h5
 expect_error "body file of another reduction" 'seven.h5: [78] elastic coordinates, the run has [56]' "$elastogear" recover -result run.h5 \
   -a_file seven.h5 -stress_a FIX -output new.h5
+expect_error "state of a missing file" 'nosuch.h5' "${hinged[@]}" -initial_file nosuch.h5
+expect_error "state of another joint" "run.h5: body 'a' has 0 joint coordinates, here it has 1" "${hinged[@]}" -initial_file run.h5
+expect_error "state of a joint without axis" 'joint without an axis' "${simulate[@]}" -a_joint free -initial_file run.h5
 expect_error "info on a foreign file" 'good.log' "$elastogear" info good.log
 
 echo "$passed passed, $failed failed"

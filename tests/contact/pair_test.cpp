@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "elastogear/base/error.h"
 #include "elastogear/contact/penalty.h"
 #include "elastogear/contact/winner.h"
@@ -71,49 +69,6 @@ TEST(Pair, contacts_are_identical_for_refit_and_realign_and_all_k) {
         expect_equal(contacts, first);
       }
   }
-}
-
-// Rough, folded and partly degenerate surfaces: contacts equal those of the search over all faces.
-model::Surface broken(int n, Random& random) {
-  model::Surface s = wavy(n, 0.1, random.uniform(0, 6));
-  for (auto x : s.X.colwise()) x += random.vector(0.3 / n);
-  for (int i = 0; i < n; ++i) {
-    const int f = random.integer(0, n * n - 1), c = random.integer(0, 3);
-    s.X.col(s.face(c, f)) = s.X.col(s.face((c + 1) % 4, f));  // sides without length
-    const int g = random.integer(0, n * n - 1);
-    s.face(3, g) = s.face(2, g);  // triangles
-  }
-  return s;
-}
-
-TEST(Pair, misses_no_contact_of_random_and_degenerate_surfaces) {
-  Random random(2);
-  int n_nodes = 0, n_contacts = 0;
-  for (int trial = 0; trial < 60; ++trial) {
-    const model::Surface a = test::flipped(broken(12, random)), b = broken(10, random);
-    const Settings s = settings(1, 0.1);
-    SurfaceState state = at(a, Eigen::Vector3d::Zero(), random.vector(0.3));
-    const auto found = Pair(a, b, s).detect(state, at(b));
-    state.x_B = state.R_WB * state.x_B;
-    const Topology map_a = topology(a.face, int(a.X.cols())), map_b = topology(b.face, int(b.X.cols()));
-    const SurfaceView slave{a.face, map_a, state.x_B, 0}, master{b.face, map_b, b.X, s.extension};
-    std::vector<int> all(b.face.cols());
-    std::iota(all.begin(), all.end(), 0);
-    auto next = found.begin();
-    for (int node = 0; node < a.X.cols(); ++node, ++n_nodes) {
-      const Limits limits{s.depth, std::cos(s.normal_angle * test::pi / 180)};
-      const auto w =
-          find_winner(master, {slave.x.col(node), [&] { return node_normal(slave, node); }}, limits, all);
-      if (!w) continue;
-      ASSERT_TRUE(next != found.end() && next->slave_node == node) << trial << " node " << node;
-      EXPECT_NEAR(next->g_n, w->g_n, roundoff);
-      EXPECT_TRUE(next->f.allFinite() && next->W.allFinite() && next->k.allFinite());
-      ++next, ++n_contacts;
-    }
-    EXPECT_TRUE(next == found.end());
-  }
-  EXPECT_GT(n_nodes, 10000);
-  EXPECT_GT(n_contacts, 1000);
 }
 
 TEST(Pair, contacts_do_not_depend_on_what_was_searched_before) {
@@ -212,6 +167,19 @@ TEST(Pair, penalty_per_area_gives_the_same_force_on_refined_slaves) {
       EXPECT_NEAR(total_force(others).z(), c * depth * (n + 1) * (n + 1), roundoff * c * n * n);
     }
   }
+}
+
+TEST(Pair, offset_is_added_to_every_gap) {
+  constexpr double c = 1e6;
+  const model::Surface master = test::plane(5, 5, 2, 2), punch = test::flipped(test::plane(2, 2));
+  for (double gap : {-2e-3, -5e-4, 5e-4})
+    for (double offset : {-1e-3, 0., 1e-3}) {
+      Settings s = settings(c, 0.1);
+      s.offset = offset;
+      const auto contacts = Pair(punch, master, s).detect(at(punch, {0.3, 0.4, gap}), at(master));
+      EXPECT_EQ(contacts.size(), gap + offset < 0 ? 9u : 0u) << gap << " " << offset;
+      EXPECT_NEAR(total_force(contacts).z(), c * std::max(0., -gap - offset), roundoff * c);
+    }
 }
 
 // A punch flush with the master: every node lies on an edge or an open end.

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace elastogear::test {
 namespace {
@@ -242,6 +243,20 @@ model::ElasticBody in_modes(model::ElasticBody full, const MatrixXd& V, const Ei
   full.M_r = diagonal(Eigen::VectorXd::Ones(lambda.size()));
   full.K_r = diagonal(lambda);
   return full;
+}
+
+model::ElasticBody make_flexible_box(const BoxSpec& spec, int n_modes) {
+  const model::ElasticBody full = full_box(spec);
+  model::ElasticBody body = make_box(spec, model::Basis::modal, n_modes);
+  const auto n = static_cast<int>(body.surface.node.size());
+  const MatrixXd Phi = std::get<model::SparseRows>(full.surface.Phi);
+  model::Flexibility& flexibility = body.flexibility;
+  flexibility.node.resize(n);
+  std::iota(flexibility.node.begin(), flexibility.node.end(), 0);
+  flexibility.surface = model::no_images(n);
+  flexibility.stress = model::no_images(0);
+  flexibility.F = (Phi * MatrixXd(full.K_r).ldlt().solve(Phi.transpose())).cast<float>();
+  return body;
 }
 
 model::ElasticBody make_rigid_box(const BoxSpec& spec) {

@@ -24,6 +24,9 @@ model::ElasticBody make_box(const BoxSpec& spec, model::Basis basis, int n_modes
 /// A body of the full basis in the modes V of its K_r and M_r, mass-normalised, with the eigenvalues lambda.
 model::ElasticBody in_modes(model::ElasticBody full, const Eigen::MatrixXd& V, const Eigen::VectorXd& lambda);
 
+/// The same modal box with its static answers to forces on all surface nodes; so held that K is regular.
+model::ElasticBody make_flexible_box(const BoxSpec& spec, int n_modes);
+
 /// The same box with no elastic coordinate.
 model::ElasticBody make_rigid_box(const BoxSpec& spec);
 

@@ -10,14 +10,16 @@ using namespace elastogear::dynamics;
 
 namespace {
 
-std::shared_ptr<const model::ElasticBody> soft_box(model::Basis basis) {
+// flexible: with residual flexibility, of few modes.
+std::shared_ptr<const model::ElasticBody> soft_box(model::Basis basis, bool flexible) {
   test::BoxSpec box{.size = {1, 1, 1}, .cells = {2, 2, 2}, .material = {100, 0.3, 1}};
   box.held = [](const auto& X, int) { return X.x() == 0; };
-  return std::make_shared<model::ElasticBody>(test::make_box(box, basis));
+  return std::make_shared<model::ElasticBody>(flexible ? test::make_flexible_box(box, 5)
+                                                       : test::make_box(box, basis));
 }
 
 // A soft box, held at one end, flies and tumbles against a rigid wall.
-System impact(model::Basis basis) {
+System impact(model::Basis basis, bool flexible = false) {
   const auto wall = std::make_shared<model::ElasticBody>(
       test::make_rigid_box({.corner = {0, -1, -1}, .size = {1, 3, 3}, .material = {100, 0.3, 1}}));
   PairSetup pair{"box:wall", {0, 1}, {}};
@@ -27,7 +29,8 @@ System impact(model::Basis basis) {
   pair.settings.friction = {.mu = 0.3, .law = contact::FrictionLaw::stick};
   const body::JointType joint =
       basis == model::Basis::full ? body::JointType::spherical : body::JointType::free;
-  BodySetup box{.name = "box", .body = soft_box(basis), .joint = {.type = joint}, .omega0 = {0, 0.3, 0.2}};
+  BodySetup box{
+      .name = "box", .body = soft_box(basis, flexible), .joint = {.type = joint}, .omega0 = {0, 0.3, 0.2}};
   if (joint == body::JointType::free) box.velocity0 = {0.3, 0.1, 0};
   return System({box, {.name = "wall", .body = wall, .joint = {.r_WB0 = {1.001, 0, 0}}}}, {pair});
 }
@@ -62,12 +65,13 @@ Recording record(System system, const TimeSettings& settings = kSettings) {
   return recording;
 }
 
-void expect_every_continuation_equal(model::Basis basis, const TimeSettings& settings = kSettings) {
-  const Recording whole = record(impact(basis), settings);
+void expect_every_continuation_equal(model::Basis basis, const TimeSettings& settings = kSettings,
+                                     bool flexible = false) {
+  const Recording whole = record(impact(basis, flexible), settings);
   ASSERT_GE(whole.states.size(), 70u);
   double contacts = 0;
   for (std::size_t k = 0; k < whole.states.size(); k += 7) {
-    System system = impact(basis);
+    System system = impact(basis, flexible);
     Rows rows;
     const Checkpoints checkpoints{.state = whole.states[k]};
     simulate(system, settings, into(rows), {}, checkpoints);
@@ -89,6 +93,10 @@ TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit) {
 
 TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_in_the_full_basis) {
   expect_every_continuation_equal(model::Basis::full);
+}
+
+TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_with_residual_flexibility) {
+  expect_every_continuation_equal(model::Basis::modal, kSettings, true);
 }
 
 TEST(Checkpoint, continuation_of_a_settling_run_equals_the_whole_one_to_the_bit) {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "../contact/surfaces.h"
-#include "elastogear/body/rigid.h"
+#include "contact_bodies.h"
 #include "elastogear/dynamics/simulate.h"
 
 using namespace elastogear;
@@ -18,19 +18,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2
-
-// A rigid body of mass m with the given surface; inertia of a solid cube of size 1 m.
-std::shared_ptr<model::ElasticBody> rigid(double m, model::Surface surface) {
-  auto body = std::make_shared<model::ElasticBody>(
-      body::rigid_body(m, Vector3d::Zero(), m / 6 * Eigen::Matrix3d::Identity()));
-  const auto n_s = surface.X.cols();
-  for (int i = 0; i < n_s; ++i) surface.node.push_back(i);
-  surface.group.assign(static_cast<std::size_t>(surface.face.cols()), 0);
-  surface.group_name = {"all"};
-  surface.Phi = model::DenseRows(3 * n_s, 0);
-  body->surface = surface;
-  return body;
-}
 
 model::Surface shifted(model::Surface s, const Vector3d& by) {
   s.X.colwise() += by;
@@ -72,7 +59,7 @@ TEST_P(Restitution, is_that_of_the_damping_law) {
   pair.settings.stiffness = 1e6;
   pair.settings.hysteresis = GetParam();
   const auto flying = [&](const char* name, double m, double z, double speed, bool up) {
-    BodySetup setup{.name = name, .body = rigid(m, up ? plate(2) : block())};
+    BodySetup setup{.name = name, .body = test::rigid_with(up ? plate(2) : block(), m)};
     setup.joint = {.type = body::JointType::prismatic, .axis = {0, 0, 1}, .r_WB0 = {0, 0, z}};
     setup.translation.s_dot_0 = speed;
     return setup;
@@ -97,16 +84,17 @@ namespace {
 constexpr double kMu = 0.3, kSpeed = 5;  // -, m/s
 constexpr double kWay = kSpeed * kSpeed / (2 * kMu * kGravity);
 
-System sliding_block(const contact::FrictionSettings& friction) {
+// A block that begins to slide along x on a plate.
+System block_on_plate(const contact::FrictionSettings& friction, double speed, double g_x) {
   PairSetup pair{"block:plate", {0, 1}, {}};
   pair.settings.stiffness = 1e6;
   pair.settings.damping = 1e4;
   pair.settings.friction = friction;
-  BodySetup moving{.name = "block", .body = rigid(10, block())};
+  BodySetup moving{.name = "block", .body = test::rigid_with(block(), 10)};
   moving.joint = {.type = body::JointType::free, .r_WB0 = {0, 0, -10 * kGravity / 1e6}};
-  moving.velocity0 = {kSpeed, 0, 0};
-  return System({moving, {.name = "plate", .body = rigid(1, plate(12))}}, {pair},
-                {.gravity = {0, 0, -kGravity}});
+  moving.velocity0 = {speed, 0, 0};
+  return System({moving, {.name = "plate", .body = test::rigid_with(plate(12))}}, {pair},
+                {.gravity = {g_x, 0, -kGravity}});
 }
 
 class Sliding : public testing::TestWithParam<contact::FrictionSettings> {};
@@ -115,7 +103,7 @@ class Sliding : public testing::TestWithParam<contact::FrictionSettings> {};
 
 TEST_P(Sliding, stops_after_the_way_of_Coulomb_friction) {
   constexpr double kLaw = 0.005;
-  System system = sliding_block(GetParam());
+  System system = block_on_plate(GetParam(), kSpeed, 0);
   const History h = run(system, 2e-3, 1.9, 0.8);
   const model::Snapshot& last = h.snapshot.back();
   EXPECT_NEAR(last.bodies[0].s[0], kWay, kLaw * kWay);
@@ -132,14 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Sliding,
 // The block stands on a plate that is inclined by less than the angle of friction.
 TEST(Sticking, stays_where_regularised_friction_creeps) {
   const auto way = [](const contact::FrictionSettings& friction) {
-    PairSetup pair{"block:plate", {0, 1}, {}};
-    pair.settings.stiffness = 1e6;
-    pair.settings.damping = 1e4;
-    pair.settings.friction = friction;
-    BodySetup moving{.name = "block", .body = rigid(10, block())};
-    moving.joint = {.type = body::JointType::free, .r_WB0 = {0, 0, -10 * kGravity / 1e6}};
-    System system({moving, {.name = "plate", .body = rigid(1, plate(12))}}, {pair},
-                  {.gravity = {0.2 * kGravity, 0, -kGravity}});
+    System system = block_on_plate(friction, 0, 0.2 * kGravity);
     const History h = run(system, 2e-3, 1, 0.8);
     return h.snapshot.back().bodies[0].s[0];
   };
@@ -154,7 +135,7 @@ namespace {
 
 // A surface on a spring along y: one elastic coordinate, its rigid translation.
 std::shared_ptr<const model::ElasticBody> on_spring(double m, double omega) {
-  auto body = rigid(m, block());
+  auto body = test::rigid_with(block(), m);
   const auto n_s = body->surface.X.cols();
   model::DenseRows Phi = model::DenseRows::Zero(3 * n_s, 1);
   for (Eigen::Index i = 0; i < n_s; ++i) Phi(3 * i + 1, 0) = 1 / std::sqrt(m);
@@ -178,7 +159,7 @@ TEST(StickSlip, of_a_block_on_a_spring_has_the_period_and_the_peak_of_the_closed
   pair.settings.friction = {.mu = mu, .mu_static = mu_s, .law = FrictionLaw::stick};
   BodySetup block_setup{.name = "block", .body = on_spring(m, omega)};
   block_setup.joint.r_WB0 = {0, 0, -N / 1e7};
-  BodySetup moving{.name = "belt", .body = rigid(1, plate(12))};
+  BodySetup moving{.name = "belt", .body = test::rigid_with(plate(12))};
   moving.joint = {.type = body::JointType::prismatic, .axis = {0, 1, 0}};
   moving.translation.drive = speed_drive(0, belt);
   System system({block_setup, moving}, {pair});
@@ -232,7 +213,7 @@ TEST(Rolling, friction_takes_what_the_rollers_lose) {
   pair.settings.two_pass = true;
   pair.settings.friction = {.mu = 0.2, .v_0 = 1e-2};
   const auto turning = [&](const char* name, double z, double spin) {
-    BodySetup setup{.name = name, .body = rigid(20, roller(360))};
+    BodySetup setup{.name = name, .body = test::rigid_with(roller(360), 20)};
     setup.joint = {.type = body::JointType::revolute, .axis = {0, 1, 0}, .r_WB0 = {0, 0, z}};
     setup.rotation.s_dot_0 = spin;
     return setup;
@@ -245,4 +226,9 @@ TEST(Rolling, friction_takes_what_the_rollers_lose) {
   EXPECT_NEAR(last.bodies[1].s_dot[0], -kSpin / 2, kLaw * kSpin);
   EXPECT_NEAR(last.energy.dissipated, lost, kLaw * lost);
   EXPECT_LT(h.summary.largest_imbalance, kLaw * lost);
+  double work = 0;
+  for (std::size_t i = 1; i < h.time.size(); ++i)
+    work += (h.time[i] - h.time[i - 1]) / 2 *
+            (h.snapshot[i].pairs[0].total.friction_power + h.snapshot[i - 1].pairs[0].total.friction_power);
+  EXPECT_NEAR(work, lost, kLaw * lost);
 }

@@ -1,13 +1,13 @@
-// Line contact of a rigid cylinder on an elastic block in plane strain against H. Hertz: peak pressure and
-// half width follow from the total force, however far away the block is held.
+// Contact against H. Hertz. Line contact of a rigid cylinder on an elastic block in plane strain: peak
+// pressure and half width follow from the total force, however far away the block is held. Point contact of
+// two elastic spheres: force, peak pressure and radius follow from the approach.
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "../contact/surfaces.h"
 #include "box_body.h"
-#include "elastogear/body/rigid.h"
-#include "elastogear/dynamics/snapshot.h"
+#include "contact_bodies.h"
 
 using namespace elastogear;
 using namespace elastogear::dynamics;
@@ -17,18 +17,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kE = 2e9, kNu = 0.3, kRadius = 1, kDepth = 0.003;  // Pa, -, m, m
-
-std::shared_ptr<const model::ElasticBody> rigid(model::Surface surface) {
-  auto body = std::make_shared<model::ElasticBody>(
-      body::rigid_body(1, Vector3d::Zero(), Eigen::Matrix3d::Identity()));
-  const auto n_s = surface.X.cols();
-  for (int i = 0; i < n_s; ++i) surface.node.push_back(i);
-  surface.group.assign(static_cast<std::size_t>(surface.face.cols()), 0);
-  surface.group_name = {"all"};
-  surface.Phi = model::DenseRows(3 * n_s, 0);
-  body->surface = surface;
-  return body;
-}
 
 // 1 x 2 m, one cell of size h thick, x <= 0; held at x = -1 m and nowhere free to move along z.
 std::shared_ptr<const model::ElasticBody> block(int cells) {
@@ -49,34 +37,21 @@ model::Surface cylinder(double depth) {
   }));
 }
 
-// Newton's method with all rates at zero.
-model::PairState static_contact(System& system) {
-  VectorXd U = system.initial_position();
-  const VectorXd zero = VectorXd::Zero(system.size());
-  LowRankSolver solver(system.solver_bodies());
-  for (int i = 0; i < 40; ++i) {
-    const State x{0, U, zero, zero};
-    const Residual r = system.residual(x);
-    if (i > 0 && (r.norm.array() <= 1e-10 * r.scale.array()).all()) break;
-    solver.set(system.effective_matrix(x, {0, 0}));
-    U -= solver.solve(r.F);
-  }
-  return snapshot(system, {0, U, zero, zero}).pairs[0];
-}
-
-struct Hertz {
-  double peak, width;  // relative errors
+struct LineErrors {
+  double peak, width;  // relative
 };
 
-Hertz hertz(int cells) {
+LineErrors line_errors(int cells) {
   const auto body = block(cells);
   PairSetup pair{"block:cylinder", {0, 1}, {}};
   pair.settings.stiffness = 20 * body->surface.c_f[0];
   pair.settings.smooth = true;
   pair.settings.depth = 2 * kDepth;
-  System system({{.name = "block", .body = body}, {.name = "cylinder", .body = rigid(cylinder(kDepth))}},
-                {pair});
-  const model::PairState state = static_contact(system);
+  System system(
+      {{.name = "block", .body = body}, {.name = "cylinder", .body = test::rigid_with(cylinder(kDepth))}},
+      {pair});
+  const model::PairState state =
+      test::state_at_rest(system, test::equilibrium(system, system.initial_position())).pairs[0];
   const double thickness = 2.0 / cells, W = state.force.x() / thickness, E_star = kE / (1 - kNu * kNu);
   double moment = 0, total = 0;
   for (const model::ContactRecord& c : state.contacts) {
@@ -93,9 +68,9 @@ Hertz hertz(int cells) {
 
 TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   constexpr double kDiscretisation = 0.01;  // with 4.7 cells over the half width; found: -0.4 %, -0.3 %
-  Hertz last{1, 1};
+  LineErrors last{1, 1};
   for (int cells : {60, 120, 240}) {
-    const Hertz error = hertz(cells);
+    const LineErrors error = line_errors(cells);
     EXPECT_LT(std::abs(error.peak), std::abs(last.peak) / 2);
     EXPECT_LT(std::abs(error.width), std::abs(last.width) / 2);
     last = error;
@@ -103,3 +78,78 @@ TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   EXPECT_LT(std::abs(last.peak), kDiscretisation);
   EXPECT_LT(std::abs(last.width), kDiscretisation);
 }
+
+// ---- two spheres
+
+namespace {
+
+// Two equal ones; radius and peak pressure by Hertz. By symmetry: of only one and the plane between them, for
+// surfaces so steep that Newton's method needs it.
+struct Spheres {
+  double E, nu, R, approach;  // Pa, -, m, m
+  double radius, pressure;    // m, Pa
+  bool by_symmetry;
+
+  double force() const { return 2. / 3 * std::numbers::pi * pressure * radius * radius; }
+};
+
+struct PointErrors {
+  double force, radius, pressure;  // relative
+};
+
+BodySetup upper_half(const Spheres& spheres, std::shared_ptr<const model::ElasticBody> sphere) {
+  BodySetup upper{.name = "upper", .body = std::move(sphere)};
+  upper.joint.r_WB0 = {0, 0, -spheres.approach};
+  upper.joint.R_WB0 << 0, 1, 0, 1, 0, 0, 0, 0, -1;  // upside down, on the same quarter
+  if (!spheres.by_symmetry) return upper;
+  const double l = 4 * spheres.radius;
+  upper.body = test::rigid_with(contact::test::flipped(contact::test::plane(1, 1, l, l)));
+  upper.joint.r_WB0 = {-l / 2, -l / 2, -spheres.approach / 2};
+  upper.joint.R_WB0.setIdentity();
+  return upper;
+}
+
+// A quarter, with `cells` over the contact radius.
+PointErrors point_errors(const Spheres& spheres, double cells) {
+  constexpr double kReach =
+      1.4;  // the surface's over the contact radius, so that it holds all of the contact
+  const double h = spheres.radius / cells;
+  const auto body =
+      test::half_space({spheres.E, spheres.nu, h, static_cast<int>(std::ceil(kReach * cells))}, spheres.R);
+  PairSetup pair{"lower:upper", {0, 1}, {}};
+  pair.settings.stiffness = 100 * spheres.E / h;
+  pair.settings.depth = 2 * spheres.approach;
+  pair.settings.full_tangent = false;
+  System system({{.name = "lower", .body = body}, upper_half(spheres, body)}, {pair});
+  const model::PairState state =
+      test::state_at_rest(system, test::equilibrium(system, system.initial_position())).pairs[0];
+  double moment = 0, total = 0;
+  for (const model::ContactRecord& c : state.contacts) {
+    moment += std::abs(c.f.z()) * body->surface.X.col(c.slave_node).head<2>().squaredNorm();
+    total += std::abs(c.f.z());
+  }
+  return {4 * total / spheres.force() - 1, std::sqrt(2.5 * moment / total) / spheres.radius - 1,
+          state.total.pressure / spheres.pressure - 1};
+}
+
+class TwoSpheres : public testing::TestWithParam<Spheres> {};
+
+}  // namespace
+
+TEST_P(TwoSpheres, force_radius_and_peak_pressure_converge) {
+  constexpr double kDiscretisation = 2e-3;  // with 10 cells over the radius
+  PointErrors last{1, 1, 1};
+  for (double cells : {2.5, 5., 10.}) {
+    const PointErrors error = point_errors(GetParam(), cells);
+    EXPECT_LT(std::abs(error.radius), std::abs(last.radius) / 2);
+    EXPECT_LT(std::abs(error.pressure), std::abs(last.pressure));
+    last = error;
+  }
+  EXPECT_LT(std::abs(last.force), kDiscretisation);
+  EXPECT_LT(std::abs(last.radius), kDiscretisation);
+  EXPECT_LT(std::abs(last.pressure), kDiscretisation);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hertz, TwoSpheres,
+                         testing::Values(Spheres{1.40625e7, 0.25, 2, 0.01, 0.1, 477465, false},
+                                         Spheres{20e9, 0.3, 0.05, 4e-3, 0.01, 2798.3e6, true}));

@@ -87,6 +87,23 @@ TEST(Windows, are_of_equal_size_up_to_the_last) {
   EXPECT_NEAR(static_cast<double>(ends[0]), 26, gap_search);
 }
 
+TEST(WindowSize, grows_with_the_factor_and_keeps_what_is_asked) {
+  const int n = 350000;
+  const reduction::FactorSize light{3e7, 1e10}, heavy{6e8, 2e12};
+  EXPECT_GT(reduction::choose_window(heavy, n, {}).modes, reduction::choose_window(light, n, {}).modes);
+  const auto asked = reduction::choose_window(heavy, n, {70, 24});
+  EXPECT_EQ(asked.modes, 70);
+  EXPECT_EQ(asked.block, 24);
+}
+
+TEST(WindowSize, leaves_the_basis_smaller_than_one_and_a_half_factors) {
+  for (double entries : {1.5e8, 3e8, 6e8}) {
+    const int n = 350000;
+    const auto size = reduction::choose_window({entries, 1e3 * entries}, n, {});
+    EXPECT_LT(static_cast<double>(n) * size.modes, 1.5 * entries);
+  }
+}
+
 TEST(Windows, give_the_modes_of_krylov_schur) {
   const test::System system = square_beam();
   const Solution theirs = solve(system, {.n_modes = kModes});

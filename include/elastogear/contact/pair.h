@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -70,6 +71,14 @@ struct SurfaceMotion {
 };
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion);
 
+/// What moves the nodes of one surface beside X + Phi q: the static answer to contact forces that a basis
+/// leaves out. In the BRF; its velocity does not count.
+struct Yield {
+  std::function<Eigen::Vector3d(int node)> at = {};  ///< m, of a node; empty: nothing
+  double largest = 0;                                ///< m, bound for all nodes
+  double change = 0;                                 ///< m, bound of any node's change since the last call
+};
+
 inline constexpr int kColumns = 7;  ///< most columns of a contact's tangent
 using LocalVectors = Eigen::Matrix<double, 3, 5>;
 using LocalColumns = Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, kColumns>;
@@ -128,7 +137,8 @@ class Pair {
   std::vector<ContactPoint> detect(const SurfaceState& a, const SurfaceState& b);
   /// The same contacts, but only nodes that can touch are displaced, and a search is made only when the
   /// surfaces have moved by the skin since the last one.
-  std::vector<ContactPoint> detect(const SurfaceMotion& a, const SurfaceMotion& b);
+  std::vector<ContactPoint> detect(const SurfaceMotion& a, const SurfaceMotion& b,
+                                   const std::array<Yield, 2>& yield = {});
 
   /// Makes the sticking of these contacts what the next step starts from.
   void accept(const std::vector<ContactPoint>& contacts);

@@ -45,6 +45,8 @@ class ElasticBlock {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& Y) const;     ///< D^-1 Y
   /// E' D^-1 E for the given nodes, from columns kept since the shifts last changed: n_e x n_e.
   Eigen::MatrixXd compliance(const std::vector<int>& node);
+  /// D^-1 E c for nodes whose compliance was asked for; without a solution where its columns are kept.
+  Eigen::VectorXd response(const std::vector<int>& node, const Eigen::VectorXd& c) const;
   const BorderColumns& columns() const { return columns_; }
   /// Shifts and the order in which nodes came, on which the roundoff of the kept columns depends.
   void visit_memory(Tape& tape);
@@ -63,10 +65,12 @@ class ElasticBlock {
   Eigen::SparseMatrix<double, Eigen::RowMajor> D_;
   UniqueMat D_mat_;  // borrows D_'s arrays
   UniqueKSP ksp_;
-  std::vector<int> kept_;                  // nodes in the order of G_
-  std::vector<std::vector<int>> batches_;  // of kept_, as they were added together
-  std::vector<int> slot_;                  // surface node -> position in kept_, or -1
-  Eigen::MatrixXd G_;                      // E' D^-1 E of the kept nodes
+  std::vector<int> kept_;                   // nodes in the order of G_
+  std::vector<std::vector<int>> batches_;   // of kept_, as they were added together
+  std::vector<int> slot_;                   // surface node -> position in kept_, or -1
+  Eigen::MatrixXd G_;                       // E' D^-1 E of the kept nodes
+  Eigen::MatrixXd U_response_;              // D^-1 U
+  std::vector<Eigen::MatrixX3d> response_;  // D^-1 Phi(node)' of the first kept nodes, unless D is diagonal
 };
 
 }  // namespace elastogear::dynamics

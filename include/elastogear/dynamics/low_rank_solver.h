@@ -9,8 +9,9 @@
 //     = [y_s - rho'p; L_V'p]
 // where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory.md, "Solving for one Newton step"). V_s differs from W_s
 // where coordinates are not the integrals of their rates (free joints), and both from W for forces that have
-// no potential. At inertia level full A has further
-// parts, which the products with A hold and the inverse leaves out: it is then a preconditioner.
+// no potential. Nodes that yield by w = -R (beta x_s + L k lambda) beside the modes make lambda = V'x +
+// L_x'w, so that G + R takes the place of G, with L_x before R. At inertia level full A has further parts,
+// which the products with A hold and the inverse leaves out: it is then a preconditioner.
 
 #include <Eigen/LU>
 #include <vector>
@@ -27,6 +28,8 @@ struct BodyTerms {
   Eigen::MatrixXd W_s, V_s;              ///< n_s x r
   Eigen::SparseMatrix<double> L;         ///< n_e x r
   Eigen::SparseMatrix<double> L_V = {};  ///< n_e x r, of V where it differs from that of W; or empty
+  Eigen::SparseMatrix<double> L_x = {};  ///< n_e x r, L_V without rates, where it has some; or empty
+  Eigen::MatrixXd R = {};                ///< 3 n x 3 n, m/N, residual flexibility of `node`; or empty
   Eigen::MatrixXd R_q, Q_s;  ///< n_s x n_q, n_q x n_s: of level full, see body/tangent.h, or empty
   Eigen::Matrix3d Gamma = Eigen::Matrix3d::Zero();
 };
@@ -61,6 +64,8 @@ class LowRankSolver {
     Eigen::Index s, n_s, n_q;  ///< first entry in the global vector, sizes
     Eigen::Index joint;        ///< first entry among all bodies' joint coordinates
   };
+  Eigen::VectorXd contact_forces(const Eigen::VectorXd& x,
+                                 const std::vector<Eigen::VectorXd>& projected) const;
   void add_second_order(std::size_t b, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
   void add_body(std::size_t b, Eigen::MatrixXd& small);
 

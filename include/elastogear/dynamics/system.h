@@ -14,6 +14,7 @@
 #include "elastogear/dynamics/contact_loads.h"
 #include "elastogear/dynamics/low_rank_solver.h"
 #include "elastogear/dynamics/marker_forces.h"
+#include "elastogear/dynamics/residual_contact.h"
 #include "elastogear/model/result.h"
 
 namespace elastogear::dynamics {
@@ -48,6 +49,7 @@ struct ContactState {
   std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
+  bool balanced = true;            ///< do forces and the residual answers to them fit each other?
 };
 
 /// What contact remembers from step to step; a run that goes on from a stored state needs it.
@@ -123,6 +125,8 @@ class System {
   void restore(const ContactHistory& history);
   /// J, taken by damping and friction of contact up to the last accepted state.
   double contact_loss() const { return history_.loss; }
+  /// J, of the residual answers of a body to the contact forces of the last evaluation.
+  double residual_energy(std::size_t b) { return residual_contact_.energy(b); }
   Residual residual(const State& x);
   /// shift.v dF/dV + shift.a dF/dA + dF/dU
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
@@ -138,6 +142,8 @@ class System {
   void add_body(const BodySetup& setup);
   void add_pair(const PairSetup& setup);
   void visit_contact_history(Tape& tape);
+  void detect(const std::vector<contact::SurfaceMotion>& motion);
+  void place_touched(const PairContacts& pair, const std::vector<contact::SurfaceMotion>& motion);
   void add_marker_forces(const MarkerSetups& setups);
   /// Of all loads and bushings, one per body.
   std::vector<MarkerForce> at_markers(const State& x) const;
@@ -149,6 +155,7 @@ class System {
   Environment environment_;
   std::vector<contact::Pair> detectors_;
   MarkerForces marker_forces_;
+  ResidualContact residual_contact_{{}};
   Eigen::VectorXd U_0_, V_0_;
   std::optional<Eigen::VectorXd> U_of_state_;
   Eigen::VectorXd V_of_state_;

@@ -11,6 +11,7 @@ struct CsvColumn {
   std::string name;  ///< without comma, quote or line end
   std::string unit;  ///< "1" for none
   Eigen::VectorXd values;
+  std::vector<std::string> words = {};  ///< in place of values, as the names
 };
 
 /// One header row "time [s],force [N],..." and one row per entry; numbers read back exactly. Error when

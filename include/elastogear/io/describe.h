@@ -9,4 +9,7 @@ namespace elastogear::io {
 /// .pvd). Error for files that are none of these.
 std::string describe(const std::string& path);
 
+/// Root attribute `format` of an HDF5 file of the program, "elastogear result"; Error for other files.
+std::string file_format(const std::string& path);
+
 }  // namespace elastogear::io

@@ -88,6 +88,8 @@ model::ResultHeader read_result_header(const std::string& path);
 bool is_complete(const std::string& path);
 Eigen::VectorXd read_times(const std::string& path);
 BodyHistory read_body_history(const std::string& path, const std::string& body);
+/// Without the elastic coordinates, which a full basis has many of.
+BodyHistory read_joint_history(const std::string& path, const std::string& body);
 PairHistory read_pair_history(const std::string& path, const std::string& pair);
 EnergyHistory read_energies(const std::string& path);
 BushingHistory read_bushing_history(const std::string& path, const std::string& bushing);

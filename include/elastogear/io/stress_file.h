@@ -15,6 +15,7 @@ struct StressSet {
   Eigen::MatrixXd stress;     ///< 6 n x n_t, Pa, rows xx yy zz xy yz xz of node 0, then node 1, ...
   Eigen::MatrixXd von_mises;  ///< n x n_t, Pa
   Eigen::MatrixXd rankine;    ///< n x n_t, Pa, largest principal stress
+  Eigen::Matrix3Xd X = {};    ///< 3 x n, m, undeformed; empty in files written before it was kept
 };
 
 struct StressHistory {

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "elastogear/model/flexibility.h"
+
 namespace elastogear::model {
 
 /// modal: eigenmodes of the restrained body. full: unit basis, every free finite-element degree of freedom.
@@ -87,6 +89,7 @@ struct ElasticBody {
   Surface surface;
   Stress stress;
   std::vector<Marker> markers;
+  Flexibility flexibility = {};  ///< of a modal basis, when it was asked for; or empty. G stays in the file
   std::map<std::string, std::string> provenance;  ///< options in force, program and library versions
 
   Eigen::Index n_q() const { return K_r.rows(); }

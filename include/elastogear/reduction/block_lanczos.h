@@ -7,6 +7,7 @@
 
 #include "elastogear/reduction/block_product.h"
 #include "elastogear/reduction/factorisation.h"
+#include "elastogear/reduction/tall_basis.h"
 
 namespace elastogear::reduction {
 
@@ -14,7 +15,7 @@ namespace elastogear::reduction {
 struct KrylovBasis {
   const BlockProduct* M = nullptr;
   double sigma = 0;
-  Eigen::MatrixXd V;       ///< own rows x capacity; the first `size` columns count, then those of V_next
+  TallBasis V;             ///< own rows; the first `size` columns count, then those of V_next
   Eigen::MatrixXd M_next;  ///< M V_next
   Eigen::MatrixXd T;       ///< capacity x capacity, its upper triangle counts
   Eigen::MatrixXd R;       ///< columns of V_next x last block

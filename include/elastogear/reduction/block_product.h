@@ -25,10 +25,11 @@ class BlockProduct {
   MPI_Comm comm() const { return comm_; }
   int n_own() const { return n_own_; }  ///< rows of this rank
   int n() const { return n_; }          ///< rows of all ranks
-  /// A X: own rows x columns of X.
+  /// A X: own rows x columns of X. Not to be called from two threads at a time.
   Eigen::MatrixXd operator()(const Eigen::Ref<const Eigen::MatrixXd>& X) const;
 
  private:
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   // Compressed rows of this rank; columns from n_own_ on are ghosts.
   struct Rows {
     const PetscInt *offset = nullptr, *column = nullptr;
@@ -36,6 +37,7 @@ class BlockProduct {
   };
   void find_ghosts(Mat A);
   void drop_zeros();
+  void fetch_ghosts() const;
   void release();
 
   MPI_Comm comm_;
@@ -46,6 +48,7 @@ class BlockProduct {
   Rows rows_;
   std::vector<PetscInt> offset_, column_;  // without zeros
   std::vector<PetscScalar> value_;
+  mutable RowMajor buffer_;  // own and ghost rows of X; kept, for new pages cost as much as filling them
 };
 
 }  // namespace elastogear::reduction

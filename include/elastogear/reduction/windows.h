@@ -12,7 +12,8 @@ struct WindowSize {
 };
 
 /// Sizes that make the cost per mode least, by the work of a factorisation, of the solves and of the
-/// orthogonalisation, with a basis no larger than half the factor. n: rows of K. `asked` > 0 keeps its value.
+/// orthogonalisation, with a basis no larger than one and a half factors or 0.8 GB. n: rows of K. `asked` > 0
+/// keeps its value.
 WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked);
 
 /// Throws Error naming both numbers unless `known` eigenvalues are all of the `exact` ones under sigma,
@@ -20,7 +21,8 @@ WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked);
 void require_complete(int known, int exact, double sigma);
 
 /// find_eigenmodes by block Lanczos in windows (docs/theory.md 2.2). Window ends lie in gaps of the spectrum,
-/// so that equal or close eigenvalues stay together. Memory: the factor and about 2 options.window vectors.
+/// so that equal or close eigenvalues stay together. Memory: the factor and the basis, 2 to 4 options.window
+/// vectors.
 Eigenmodes find_by_windows(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress);
 

@@ -1,0 +1,48 @@
+#pragma once
+// Contact of bodies with residual flexibility: contact forces f and the answers w = R f to them depend on
+// each other, f = f(x + R f). They are brought together by Newton's method at every evaluation, so that f
+// stays a function of the coordinates (docs/theory.md, section Residual flexibility).
+
+#include <optional>
+#include <vector>
+
+#include "elastogear/base/tape.h"
+#include "elastogear/dynamics/residual_flexibility.h"
+
+namespace elastogear::dynamics {
+
+class ResidualContact {
+ public:
+  /// Bodies without static answers do not yield. They must outlive this.
+  explicit ResidualContact(const std::vector<const model::ElasticBody*>& bodies);
+
+  bool any() const;
+  bool yields(std::size_t b) const { return flexibility_[b].has_value(); }
+  /// For contact::Pair::detect, once for each pair of the body between two calls of seen().
+  contact::Yield yield(std::size_t b);
+  void seen();
+  Eigen::Vector3d displacement(std::size_t b, int node) {
+    return flexibility_[b]->displacement(node);
+  }  ///< m, BRF
+  /// R among the nodes (model::Surface numbers), m/N; empty for a body that does not yield.
+  Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);
+
+  /// Difference between the forces found and those that the nodes answered to, relative to the former.
+  double misfit(const std::vector<NodalForces>& found) const;
+  /// The next trial: the bodies answer to forces that, to first order, will be found. share: of the way
+  /// there. Of the tangent those columns count that change the force at an unchanged closest point.
+  void improve(const std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
+               const std::vector<NodalForces>& found, double share);
+
+  double energy(std::size_t b);  ///< J, f'R f / 2
+  /// Where the next solution starts from.
+  void visit_memory(Tape& tape);
+
+ private:
+  void answer_to(std::size_t b, const NodalForces& forces);
+
+  std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
+  std::vector<double> change_;                                   // m, not yet seen by all pairs
+};
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,51 @@
+#pragma once
+// Residual flexibility R = F - Phi_c Lambda^-1 Phi_c' of one modal body: what the modes leave out of its
+// static answer to contact forces (docs/theory.md, section Residual flexibility).
+
+#include <Eigen/Core>
+#include <unordered_map>
+#include <vector>
+
+#include "elastogear/dynamics/contact_loads.h"
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::dynamics {
+
+/// Blocks of R are worked out when they are first asked for, and kept. Forces on nodes that the body's
+/// flexibility does not provide for are answered by the modes alone: R = 0. Nodes are those of the surface.
+class ResidualFlexibility {
+ public:
+  /// The body must outlive this.
+  explicit ResidualFlexibility(const model::ElasticBody& body);
+
+  /// The forces that displacement, largest and change refer to; x_B is not read.
+  void set_forces(const NodalForces& forces);
+  const NodalForces& forces() const { return forces_; }
+  Eigen::Vector3d displacement(int node);         ///< m, BRF: sum_b R(node, b) f_b
+  double bound(const NodalForces& forces) const;  ///< m, no node is displaced farther by these forces
+  /// R among the given nodes: 3 n x 3 n, m/N, symmetric.
+  Eigen::MatrixXd among(const std::vector<int>& node);
+
+ private:
+  struct Loaded {
+    int position;  // in the flexibility
+    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> Phi_over_Lambda;
+  };
+  using Row = std::vector<Eigen::Matrix3d>;  // R(a, b) of one a, by the number of b; not yet known: NaN
+
+  double diagonal(int position) const;
+  int number(int node);
+  const Eigen::Matrix3d& block(Row& row, int a, int number);
+  Row& row(int node);
+
+  const model::ElasticBody* body_;
+  std::vector<double> diagonal_;  // m/N, |R(b, b)|, by position in the flexibility
+  double largest_ = 0;            // m/N, of them
+  NodalForces forces_;
+  std::vector<int> numbers_;                // of the nodes of forces_
+  std::unordered_map<int, int> number_of_;  // node -> number among those that were loaded so far, -1: R = 0
+  std::vector<Loaded> loaded_;              // these
+  std::unordered_map<int, Row> rows_;
+};
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,52 @@
+#pragma once
+// Static answers of the whole body to forces on its contact surface, F = B' K^-1 B and G = S K^-1 B, from
+// which dynamics and recovery take what a truncated modal basis leaves out (docs/theory.md, section Residual
+// flexibility).
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace elastogear::model {
+
+/// Which nodes of a list are turned copies of each other. Of a body that does not repeat, every node is an
+/// orbit of its own.
+struct Images {
+  std::vector<int> orbit;  ///< of each node, 0..n_orbits-1
+  std::vector<int> turns;  ///< of each node, 0..n_sectors-1: by how many sectors its orbit's first was turned
+  Eigen::MatrixXi node;    ///< n_sectors x n_orbits: the way back
+};
+
+/// The way back from orbit and turns. Throws Error naming `source` unless every orbit has one node at each of
+/// n_sectors turns.
+Images make_images(std::vector<int> orbit, std::vector<int> turns, int n_sectors, const std::string& source);
+/// Of n nodes that are no copies of each other.
+Images no_images(int n);
+
+/// Body frame. Forces act on the first node of each orbit, along x, y, z.
+struct Flexibility {
+  int n_sectors = 1;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector along the axis of the turns
+  std::vector<int> node;                            ///< n_c surface nodes (local numbers), ascending
+  Images surface;                                   ///< of them
+  Images stress;                ///< of the n_r nodes of G: evaluation nodes and their images
+  std::vector<int> stress_row;  ///< n_e: which of them each evaluation node is
+  Eigen::MatrixXf F;            ///< 3 n_c x 3 n_orbits, m/N, displacements of the n_c nodes
+  Eigen::MatrixXf G;            ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz
+
+  bool empty() const { return node.empty(); }
+};
+
+/// Position of a surface node in flexibility.node; -1: forces on it are not provided for.
+int find_loaded(const Flexibility& flexibility, int surface_node);
+
+/// Displacement of node a by unit forces on node b (positions in flexibility.node), m/N; symmetric, F(a, b) =
+/// F(b, a)'.
+Eigen::Matrix3d answer(const Flexibility& flexibility, int a, int b);
+
+/// Stress at evaluation node e by unit forces on node b (position in flexibility.node), Pa/N, given the
+/// columns of G of b's orbit.
+Eigen::Matrix<double, 6, 3> stress_answer(const Flexibility& flexibility, int e, int b,
+                                          const Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>& G);
+
+}  // namespace elastogear::model

@@ -1,0 +1,44 @@
+#pragma once
+// Static answers to unit forces on the contact surface (docs/theory.md, section Residual flexibility).
+
+#include <string>
+#include <vector>
+
+#include "elastogear/base/progress.h"
+#include "elastogear/fem/balance.h"
+#include "elastogear/fem/gather.h"
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/mesh/repetition.h"
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::reduction {
+
+/// What is asked, and of which body. Read on rank 0.
+struct FlexibilityTask {
+  const model::Surface& surface;
+  const std::vector<int>& stress_node;  ///< n_e evaluation nodes, mesh numbers
+  const model::SparseRows& S;           ///< its first 6 n_e rows: stress operator
+  const mesh::Mesh& mesh;
+  const mesh::Repetition& repetition;
+  const std::vector<std::string>& loaded;  ///< face sets that may be loaded; none: the whole surface
+};
+
+/// Loaded nodes and their symmetry; F and G are empty yet. A node's images are loaded with it; where one is
+/// missing on the surface, symmetry is not used. Throws Error for unknown face
+/// sets and faces off the surface.
+model::Flexibility plan_flexibility(const FlexibilityTask& task);
+/// The n_r nodes of G, mesh numbers, ascending.
+std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibility& plan);
+
+/// The same with F and G. Factorises K once and solves for three forces on one node of each orbit, kBlock
+/// nodes at a time. Collective; the result is on rank 0. Throws Error when the factorisation fails.
+model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,
+                                    const fem::VectorGather& gather, const Progress& progress = {});
+
+/// The same from one sector: u = sum_k P_k K_k^-1 P_k' f over the harmonics, with the rows P_k that unfold
+/// harmonic k (docs/theory.md, section Cyclic symmetry). Each rank takes its share of the harmonics, one
+/// factor of a sector at a time. Needs a plan that uses the symmetry. Collective; the result is on rank 0.
+model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,
+                                           const fem::MeshedBody& body, const Progress& progress = {});
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,43 @@
+#pragma once
+// Hundreds of long vectors, kept so that products with a few others run near the speed of memory.
+
+#include <Eigen/Core>
+#include <memory>
+
+namespace elastogear::reduction {
+
+/// Of the processor; all compute the same but for roundoff.
+enum class Instructions { portable, avx2, avx512 };
+
+/// The best that this processor has.
+Instructions best_instructions();
+
+/// n_rows x capacity, of which `columns` are in use. Rows lie in slabs, within a slab column after column: a
+/// sweep over all columns reads memory in order, each entry once for all the vectors it is multiplied with.
+/// A matrix product by BLAS copies V first, which costs as much as multiplying with 8 to 16 vectors.
+class TallBasis {
+ public:
+  TallBasis() = default;
+  /// Memory is taken as columns come in.
+  TallBasis(Eigen::Index n_rows, int capacity, Instructions instructions = best_instructions());
+
+  int capacity() const { return capacity_; }
+  Eigen::Index n_rows() const { return n_rows_; }
+  /// Columns first, first + 1, ... := Q.
+  void set(int first, const Eigen::Ref<const Eigen::MatrixXd>& Q);
+  /// V' W of the first n columns V: n x columns of W.
+  Eigen::MatrixXd dot(int n, const Eigen::Ref<const Eigen::MatrixXd>& W) const;
+  /// Y += V C for the C.rows() columns V from `first` on.
+  void add_product(int first, const Eigen::Ref<const Eigen::MatrixXd>& C,
+                   Eigen::Ref<Eigen::MatrixXd> Y) const;
+
+ private:
+  const double* at(Eigen::Index slab, int column) const;
+
+  Eigen::Index n_rows_ = 0, n_slabs_ = 0;
+  int capacity_ = 0;
+  Instructions instructions_ = Instructions::portable;
+  std::unique_ptr<double[]> values_;  // not set to zero: pages that are not used take no memory
+};
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,56 @@
+#include "app/initial_state.h"
+
+#include <algorithm>
+
+#include "elastogear/base/error.h"
+#include "elastogear/io/result_file.h"
+#include "elastogear/recovery/deviation.h"
+
+namespace elastogear::app {
+namespace {
+
+// The axes of a joint in the order of its coordinates.
+std::vector<dynamics::Axis*> axes(dynamics::BodySetup& setup) {
+  std::vector<dynamics::Axis*> all;
+  if (body::turns(setup.joint.type)) all.push_back(&setup.rotation);
+  if (body::slides(setup.joint.type)) all.push_back(&setup.translation);
+  return all;
+}
+
+Eigen::VectorXd initial_time(const Options& options, const Eigen::VectorXd& time) {
+  const bool last = options.text("initial_time") == "last";
+  return Eigen::VectorXd::Constant(1, last ? time[time.size() - 1] : options.number("initial_time"));
+}
+
+}  // namespace
+
+OptionTable initial_state_table() {
+  return {
+      {"initial_file", "-", "",
+       "result file whose joint coordinates and (dynamic analysis) rates the bodies of the same names begin "
+       "with; elastic coordinates begin with zero"},
+      {"initial_time", "s", "last", "time in that file: a number or last"}};
+}
+
+void set_initial_state(const Options& options, dynamics::BodySetup& setup) {
+  if (!options.given("initial_file") || setup.joint.type == body::JointType::fixed) return;
+  const std::string file = options.text("initial_file");
+  const auto bodies = io::read_result_header(file).bodies;
+  if (std::none_of(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == setup.name; })) return;
+  require(!body::tumbles(setup.joint.type), "option -initial_file: body '", setup.name,
+          "' is on a joint without an axis, which cannot begin with the state of a file");
+  const io::BodyHistory history = io::read_joint_history(file, setup.name);
+  const std::vector<dynamics::Axis*> all = axes(setup);
+  require(history.s.rows() == static_cast<Eigen::Index>(all.size()), file, ": body '", setup.name, "' has ",
+          history.s.rows(), " joint coordinates, here it has ", all.size());
+  const Eigen::VectorXd time = io::read_times(file), at = initial_time(options, time);
+  const bool moves = options.text("analysis") == "dynamic";
+  const Eigen::VectorXd s = recovery::at_times(time, history.s, at),
+                        s_dot = recovery::at_times(time, history.s_dot, at);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i]->s_0 = s[static_cast<Eigen::Index>(i)];
+    all[i]->s_dot_0 = moves ? s_dot[static_cast<Eigen::Index>(i)] : 0;
+  }
+}
+
+}  // namespace elastogear::app

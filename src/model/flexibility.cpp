@@ -1,0 +1,86 @@
+#include "elastogear/model/flexibility.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::model {
+namespace {
+
+using Eigen::Matrix3d;
+
+Matrix3d turn(const Flexibility& flexibility, int turns) {
+  const double angle = 2 * std::numbers::pi * turns / flexibility.n_sectors;
+  return Eigen::AngleAxisd(angle, flexibility.axis).toRotationMatrix();
+}
+
+// The node of the same orbit that comes to `node` by so many turns.
+int turned_back(const Images& images, int node, int turns) {
+  const auto n_sectors = static_cast<int>(images.node.rows());
+  return images.node((images.turns[node] - turns + n_sectors) % n_sectors, images.orbit[node]);
+}
+
+// Of a force on b, whatever the order of the two.
+Matrix3d stored(const Flexibility& flexibility, int a, int b) {
+  const int turns = flexibility.surface.turns[b], row = turned_back(flexibility.surface, a, turns);
+  const Matrix3d F = flexibility.F.block<3, 3>(3 * row, 3 * flexibility.surface.orbit[b]).cast<double>();
+  if (turns == 0) return F;
+  const Matrix3d T = turn(flexibility, turns);
+  return T * F * T.transpose();
+}
+
+}  // namespace
+
+Images make_images(std::vector<int> orbit, std::vector<int> turns, int n_sectors, const std::string& source) {
+  const std::size_t n = orbit.size();
+  require(n_sectors >= 1 && n % static_cast<std::size_t>(n_sectors) == 0 && turns.size() == n, source, ": ",
+          n, " nodes are no whole number of orbits of ", n_sectors, " nodes");
+  Images images{std::move(orbit), std::move(turns), {}};
+  images.node.setConstant(n_sectors, static_cast<Eigen::Index>(n) / n_sectors, -1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const int o = images.orbit[i], t = images.turns[i];
+    require(o >= 0 && o < images.node.cols() && t >= 0 && t < n_sectors && images.node(t, o) < 0, source,
+            ": node ", i, " has orbit ", o, " and ", t, " turns, which cannot be");
+    images.node(t, o) = static_cast<int>(i);
+  }
+  return images;
+}
+
+Images no_images(int n) {
+  std::vector<int> orbit(static_cast<std::size_t>(n));
+  std::iota(orbit.begin(), orbit.end(), 0);
+  return make_images(orbit, std::vector<int>(orbit.size(), 0), 1, "nodes");
+}
+
+int find_loaded(const Flexibility& flexibility, int surface_node) {
+  const auto at = std::lower_bound(flexibility.node.begin(), flexibility.node.end(), surface_node);
+  return at != flexibility.node.end() && *at == surface_node ? static_cast<int>(at - flexibility.node.begin())
+                                                             : -1;
+}
+
+// The mean of both orders: what was solved for agrees to the solver's accuracy only.
+Matrix3d answer(const Flexibility& flexibility, int a, int b) {
+  return 0.5 * (stored(flexibility, a, b) + stored(flexibility, b, a).transpose());
+}
+
+Eigen::Matrix<double, 6, 3> stress_answer(
+    const Flexibility& flexibility, int e, int b,
+    const Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>& G) {
+  const int turns = flexibility.surface.turns[b],
+            row = turned_back(flexibility.stress, flexibility.stress_row[e], turns);
+  const Matrix3d T = turn(flexibility, turns);
+  const Eigen::Matrix<double, 6, 3> s = G.middleRows<6>(6 * row).cast<double>() * T.transpose();
+  Eigen::Matrix<double, 6, 3> turned;
+  for (int j = 0; j < 3; ++j) {
+    Matrix3d sigma;
+    sigma << s(0, j), s(3, j), s(5, j), s(3, j), s(1, j), s(4, j), s(5, j), s(4, j), s(2, j);
+    sigma = (T * sigma * T.transpose()).eval();
+    turned.col(j) << sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2);
+  }
+  return turned;
+}
+
+}  // namespace elastogear::model

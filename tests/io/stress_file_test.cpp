@@ -1,0 +1,55 @@
+#include "elastogear/io/stress_file.h"
+
+#include <gtest/gtest.h>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/io/csv.h"
+#include "sample_body.h"
+
+namespace elastogear::io {
+namespace {
+
+struct StressFile : testing::Test {
+  mesh::Folder folder{"stress_file"};
+  StressHistory history;
+
+  StressFile() {
+    history.time = Eigen::Vector2d(0, 1e-6);
+    history.sets = {{"worm",
+                     "root",
+                     {4, 7},
+                     Eigen::MatrixXd::Random(12, 2),
+                     Eigen::MatrixXd::Random(2, 2),
+                     Eigen::MatrixXd::Random(2, 2),
+                     Eigen::Matrix3Xd::Random(3, 2)}};
+  }
+};
+
+TEST_F(StressFile, gives_back_what_was_written) {
+  write_stress(folder / "a.h5", history);
+  const StressHistory read = read_stress(folder / "a.h5");
+  ASSERT_EQ(read.sets.size(), 1u);
+  EXPECT_EQ(read.time, history.time);
+  EXPECT_EQ(read.sets[0].node, history.sets[0].node);
+  EXPECT_EQ(read.sets[0].stress, history.sets[0].stress);
+  EXPECT_EQ(read.sets[0].X, history.sets[0].X);
+}
+
+TEST_F(StressFile, may_lack_positions_but_not_those_of_some_nodes) {
+  history.sets[0].X.resize(3, 0);
+  write_stress(folder / "a.h5", history);
+  EXPECT_EQ(read_stress(folder / "a.h5").sets[0].X.size(), 0);
+  history.sets[0].X.setZero(3, 1);
+  EXPECT_THROW(write_stress(folder / "b.h5", history), Error);
+}
+
+TEST_F(StressFile, a_table_may_name_its_rows) {
+  write_csv(folder / "a.csv",
+            {{"node", "1", {}, {"worm root", "wheel root"}}, {"force", "N", Eigen::Vector2d(1, 2)}});
+  EXPECT_EQ(read_file(folder / "a.csv"), "node,force [N]\nworm root,1\nwheel root,2\n");
+  EXPECT_THROW(write_csv(folder / "b.csv", {{"node", "1", {}, {"worm, root"}}}), Error);
+}
+
+}  // namespace
+}  // namespace elastogear::io

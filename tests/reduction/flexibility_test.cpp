@@ -1,0 +1,123 @@
+// Static answers that a reduction stores, with and without symmetry, on any number of ranks.
+#include "elastogear/reduction/flexibility.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "../fem/brick.h"
+#include "../mesh/disc.h"
+#include "elastogear/base/error.h"
+#include "elastogear/reduction/reduce.h"
+#include "elastogear/reduction/static_response.h"
+
+namespace {
+
+using namespace elastogear;
+
+constexpr double kSinglePrecision = 1e-6;  // of stored answers, relative to the largest
+
+bool is_root() {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank == 0;
+}
+
+// Faces of the rim and of the top near it.
+mesh::Mesh disc_with_rim() {
+  mesh::Mesh mesh = test::disc({5, 2, 3, 2});
+  for (const mesh::Face& face : mesh.face_sets.at("surface")) {
+    const auto far = [&](int node) { return mesh.X.col(node).head<2>().norm() > 0.5 && mesh.X(2, node) > 0; };
+    if (std::all_of(face.begin(), face.end(), far)) mesh.face_sets["rim"].push_back(face);
+  }
+  for (const mesh::Face& face : mesh.face_sets.at("rim"))
+    for (int node : face) mesh.node_sets["rim"].push_back(node);
+  auto& rim = mesh.node_sets["rim"];
+  std::sort(rim.begin(), rim.end());
+  rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+  return mesh;
+}
+
+class Flexibility : public testing::Test {
+ protected:
+  mesh::Mesh mesh_ = disc_with_rim();
+  std::string path_ = testing::TempDir() + "flexibility.h5";
+
+  reduction::ReductionOptions options(reduction::Symmetry symmetry) const {
+    reduction::ReductionOptions o;
+    o.name = "disc";
+    o.regions = test::kSteelBody;
+    o.restrain = {"bottom"};
+    o.surface = o.loaded = {"rim"};
+    o.stress_nodes = {"rim"};
+    o.n_modes = 8;
+    o.window = 8;
+    o.flexibility = true;
+    o.symmetry = symmetry;
+    return o;
+  }
+  model::ElasticBody reduce(const reduction::ReductionOptions& o) const {
+    reduction::reduce(PETSC_COMM_WORLD, is_root() ? mesh_ : mesh::Mesh(), o, path_);
+    return is_root() ? io::read_body(path_) : model::ElasticBody();
+  }
+  void TearDown() override {
+    if (is_root()) std::filesystem::remove(path_);
+  }
+};
+
+TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry) {
+  for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none}) {
+    const model::ElasticBody body = reduce(options(symmetry));
+    if (!is_root()) continue;
+    EXPECT_EQ(body.flexibility.n_sectors, symmetry == reduction::Symmetry::none ? 1 : 5);
+    const io::BodySource source = io::read_body_source(path_);
+    reduction::StaticResponse response(source);
+    const std::vector<int>& node = body.surface.node;
+    for (std::size_t b : {std::size_t{0}, node.size() / 2, node.size() - 1}) {
+      const Eigen::Vector3d f(3, -1, 2);
+      const Eigen::VectorXd u = response.displacement({node[b]}, f);
+      const Eigen::VectorXd sigma = response.stress({node[b]}, body.stress.node) * f;
+      const Eigen::MatrixXf G = io::read_stress_answers(path_, body.flexibility.surface.orbit[b]);
+      for (std::size_t a = 0; a < node.size(); ++a)
+        EXPECT_LT((model::answer(body.flexibility, static_cast<int>(a), static_cast<int>(b)) * f -
+                   u.segment<3>(3 * node[a]))
+                      .norm(),
+                  kSinglePrecision * u.norm());
+      for (std::size_t e = 0; e < body.stress.node.size(); ++e)
+        EXPECT_LT((model::stress_answer(body.flexibility, static_cast<int>(e), static_cast<int>(b), G) * f -
+                   sigma.segment<6>(static_cast<Eigen::Index>(6 * e)))
+                      .norm(),
+                  kSinglePrecision * sigma.norm());
+    }
+  }
+}
+
+TEST_F(Flexibility, is_asked_for_one_node_of_each_orbit) {
+  const model::ElasticBody body = reduce(options(reduction::Symmetry::automatic));
+  if (!is_root()) return;
+  EXPECT_EQ(body.flexibility.F.cols() * 5, 3 * static_cast<Eigen::Index>(body.surface.node.size()));
+}
+
+TEST_F(Flexibility, of_a_surface_that_does_not_repeat_is_found_for_its_own_nodes) {
+  mesh_.face_sets["one"] = {mesh_.face_sets.at("rim").front()};
+  reduction::ReductionOptions o = options(reduction::Symmetry::automatic);
+  o.surface = o.loaded = {"one"};
+  const model::ElasticBody body = reduce(o);
+  if (!is_root()) return;
+  EXPECT_EQ(body.flexibility.n_sectors, 1);
+  EXPECT_EQ(body.flexibility.node.size(), 4u);
+}
+
+TEST_F(Flexibility, refuses_loads_off_the_surface_and_bases_without_modes) {
+  reduction::ReductionOptions o = options(reduction::Symmetry::automatic);
+  o.loaded = {"surface"};
+  EXPECT_THROW(reduce(o), Error);
+  o = options(reduction::Symmetry::automatic);
+  o.basis = model::Basis::full;
+  EXPECT_THROW(reduce(o), Error);
+  o = options(reduction::Symmetry::automatic);
+  o.surface.clear();
+  EXPECT_THROW(reduce(o), Error);
+}
+
+}  // namespace
