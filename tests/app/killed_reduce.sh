@@ -4,26 +4,13 @@
 #   killed_reduce.sh PATH/TO/elastogear
 set -u
 elastogear=$(realpath "$1")
+source "$(dirname "$0")/bar.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 fail() { echo "FAIL: $*"; exit 1; }
 
-# A bar of n x 4 x 4 hexahedra as .inp, held at its left end FIX; surface TOP.
-awk -v n=24 'function node(i, j, k) { return 1 + k + 5 * (j + 5 * i) }
-  BEGIN {
-    print "*NODE";
-    for (i = 0; i <= n; ++i) for (j = 0; j < 5; ++j) for (k = 0; k < 5; ++k)
-      printf "%d, %g, %g, %g\n", node(i, j, k), 0.01 * i, 0.011 * j, 0.012 * k;
-    print "*ELEMENT, TYPE=C3D8, ELSET=ALL";
-    for (i = 0; i < n; ++i) for (j = 0; j < 4; ++j) for (k = 0; k < 4; ++k)
-      printf "%d, %d, %d, %d, %d, %d, %d, %d, %d\n", ++e, node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
-        node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1);
-    print "*NSET, NSET=FIX";
-    for (m = 1; m <= 25; ++m) print m;
-    print "*SURFACE, NAME=TOP, TYPE=ELEMENT";
-    for (e = 4; e <= 16 * n; e += 4) printf "%d, S2\n", e;
-  }' >bar.inp
+bar 24 4 4 0.01 0.011 0.012 >bar.inp
 # A ring of 15 x 3 x 4 hexahedra around z, held on the inside; it repeats 15 times.
 awk -v n=15 'function node(i, j, k) { return 1 + k + 5 * (j + 4 * (i % n)) }
   BEGIN {

@@ -5,33 +5,24 @@
 #   killed_simulate.sh PATH/TO/elastogear
 set -u
 elastogear=$(realpath "$1")
+source "$(dirname "$0")/bar.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 fail() { echo "FAIL: $*"; exit 1; }
 
 # A brick of 4 x 2 x 2 hexahedra of 10 mm, held at its left end FIX; surface TOP.
-awk -v n=4 'function node(i, j, k) { return 1 + k + 3 * (j + 3 * i) }
-  BEGIN {
-    print "*NODE";
-    for (i = 0; i <= n; ++i) for (j = 0; j < 3; ++j) for (k = 0; k < 3; ++k)
-      printf "%d, %g, %g, %g\n", node(i, j, k), 0.01 * i, 0.01 * j, 0.01 * k;
-    print "*ELEMENT, TYPE=C3D8, ELSET=ALL";
-    for (i = 0; i < n; ++i) for (j = 0; j < 2; ++j) for (k = 0; k < 2; ++k)
-      printf "%d, %d, %d, %d, %d, %d, %d, %d, %d\n", ++e, node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
-        node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1);
-    print "*NSET, NSET=FIX";
-    for (m = 1; m <= 9; ++m) print m;
-    print "*SURFACE, NAME=TOP, TYPE=ELEMENT";
-    for (e = 2; e <= 4 * n; e += 2) printf "%d, S2\n", e;
-  }' >brick.inp
+bar 4 2 2 0.01 0.01 0.01 >brick.inp
 "$elastogear" reduce -mesh brick.inp -material_E 2e9 -material_nu 0.3 -material_rho 1200 -restrain FIX -surface TOP \
   -modes 20 -output body.h5 >reduce.log 2>&1 || { cat reduce.log; fail "the body"; }
 
-# One brick held, one that falls on it upside down, slides and bounces, and a rigid one that tumbles.
+# One brick held, one that falls on it upside down, slides and bounces, and a rigid one that tumbles in a bushing, pushed by
+# a couple that turns with it.
 simulate=("$elastogear" simulate -bodies low,high,top -low_file body.h5 -high_file body.h5 -high_joint free
           -high_position 0.005,0.021,0.0402 -high_rotation 3.14159265,0,0 -high_velocity0 0.3,0,-1 -high_omega0 4,1,2
           -top_mass 1 -top_inertia 1,2,3,0,0,0 -top_joint free -top_omega0 0.1,300,0.1
+          -bushings mount -mount_markers ground,top.frame -mount_stiffness 1e4,2e4,3e4 -mount_damping 1,2,3
+          -mount_rotational_stiffness 10,20,0 -loads push -push_marker top.frame -push_torque 0,0,30 -push_frame body -sensors_eye top.frame
           -contact_pairs high:low -contact_friction 0.3 -contact_friction_law stick -contact_two_pass -contact_skin 2e-5 -gravity 0,0,-9.81
           -ts_dt 2e-6 -ts_max_time 4e-3 -output_every 3)
 "${simulate[@]}" -output whole.h5 -checkpoint_every 1000 >whole.log 2>&1 || { cat whole.log; fail "the undisturbed run"; }
@@ -53,6 +44,7 @@ def datasets(path):
 a, b = (datasets(path) for path in sys.argv[1:])
 assert a.keys() == b.keys() and len(a) > 40, a.keys() ^ b.keys()
 assert a["contact/high:low/count"].max() > 3
+assert abs(a["bushings/mount/torque"]).max() > 1 and a["energy/work"][-1] > 1e-3
 different = [name for name in a if a[name].dtype != object
              and (a[name].shape != b[name].shape or np.asarray(a[name]).tobytes() != np.asarray(b[name]).tobytes())]
 assert not different, different

@@ -1,18 +1,12 @@
 #include <gtest/gtest.h>
 
+#include "../message_of.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear {
 namespace {
 
-std::string message_of(auto&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no Error";
-}
+using test::message_of;
 
 TEST(Error, joins_all_parts_into_one_message) {
   EXPECT_EQ(message_of([] { fail("worm.yaml: nu is ", 0.7, ", allowed are 0..", 0.5); }),

@@ -4,12 +4,15 @@
 #include <type_traits>
 #include <vector>
 
+#include "../message_of.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/version.h"
 
 namespace elastogear {
 namespace {
+
+using test::message_of;
 
 std::vector<int*> destroyed;
 
@@ -71,15 +74,6 @@ TEST(Handle, holds_a_petsc_object_that_petsc_functions_take) {
   PetscReal norm = 0;
   check(VecNorm(x, NORM_1, &norm));
   EXPECT_EQ(norm, 6.0);
-}
-
-std::string message_of(auto&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no Error";
 }
 
 TEST(Check, passes_success) { EXPECT_NO_THROW(check(0)); }

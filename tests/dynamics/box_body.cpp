@@ -259,6 +259,16 @@ model::ElasticBody make_flexible_box(const BoxSpec& spec, int n_modes) {
   return body;
 }
 
+std::shared_ptr<model::ElasticBody> make_damped_box(const Eigen::Vector3d& corner,
+                                                    const Eigen::Vector3i& cells, model::Basis basis,
+                                                    int n_modes) {
+  const BoxSpec spec{.corner = corner, .size = {2, 1, 1}, .cells = cells, .material = {100, 0.3, 1}};
+  auto body = std::make_shared<model::ElasticBody>(make_box(spec, basis, n_modes));
+  body->alpha = 0.1;
+  body->beta = 0.01;
+  return body;
+}
+
 model::ElasticBody make_rigid_box(const BoxSpec& spec) {
   model::ElasticBody body = full_box(spec);
   project(body, MatrixXd(body.n_q(), 0));

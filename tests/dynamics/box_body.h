@@ -2,6 +2,7 @@
 // Elastic boxes for tests: a regular grid of trilinear hexahedra with consistent mass, in both bases.
 
 #include <functional>
+#include <memory>
 
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
@@ -20,6 +21,11 @@ struct BoxSpec {
 
 /// Surface: the faces at x_min and x_max, groups of those names. n_modes = 0: all.
 model::ElasticBody make_box(const BoxSpec& spec, model::Basis basis, int n_modes = 0);
+
+/// 2 x 1 x 1 m of E = 100 Pa, nu = 0.3, rho = 1 kg/m^3 with Rayleigh damping 0.1 /s, 0.01 s.
+std::shared_ptr<model::ElasticBody> make_damped_box(const Eigen::Vector3d& corner,
+                                                    const Eigen::Vector3i& cells, model::Basis basis,
+                                                    int n_modes);
 
 /// A body of the full basis in the modes V of its K_r and M_r, mass-normalised, with the eigenvalues lambda.
 model::ElasticBody in_modes(model::ElasticBody full, const Eigen::MatrixXd& V, const Eigen::VectorXd& lambda);

@@ -69,11 +69,7 @@ TEST(TiltAndTurn, tilt_does_not_feel_the_turn) {
 }
 
 std::shared_ptr<const model::ElasticBody> box(const Vector3d& corner, model::Basis basis, int n_modes) {
-  const test::BoxSpec spec{
-      .corner = corner, .size = {2, 1, 1}, .cells = {2, 1, 1}, .material = {100, 0.3, 1}};
-  auto body = std::make_shared<model::ElasticBody>(test::make_box(spec, basis, n_modes));
-  body->alpha = 0.1;
-  body->beta = 0.01;
+  auto body = test::make_damped_box(corner, {2, 1, 1}, basis, n_modes);
   test::add_end_markers(*body);
   return body;
 }

@@ -1,12 +1,14 @@
 // What a run promises beside its solution: observers, options, errors, determinism.
 #include <gtest/gtest.h>
 
+#include "../message_of.h"
 #include "box_body.h"
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
 
 using namespace elastogear;
 using namespace elastogear::dynamics;
+using test::message_of;
 
 namespace {
 
@@ -47,15 +49,6 @@ class Option {
  private:
   const char* name_;
 };
-
-std::string message_of(const auto& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 }  // namespace
 

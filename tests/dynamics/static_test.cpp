@@ -7,12 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "../message_of.h"
 #include "box_body.h"
 #include "elastogear/base/error.h"
 
 using namespace elastogear;
 using namespace elastogear::dynamics;
 using Eigen::Vector3d;
+using test::message_of;
 
 namespace {
 
@@ -52,15 +54,6 @@ std::vector<model::Snapshot> equilibria(System system, int steps = 4) {
   std::vector<model::Snapshot> found;
   solve_static(system, {steps}, [&](const model::Snapshot& snapshot) { found.push_back(snapshot); });
   return found;
-}
-
-std::string message_of(const auto& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace

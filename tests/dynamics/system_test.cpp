@@ -26,16 +26,7 @@ constexpr double kTrials = 1e-4;      // relative: contact forces fit the answer
 constexpr double kRoundoff = 1e-12;
 constexpr double kTime = 0.3;
 
-std::shared_ptr<const model::ElasticBody> box(const Vector3d& corner, const Eigen::Vector3i& cells,
-                                              model::Basis basis, int n_modes) {
-  const test::BoxSpec spec{.corner = corner, .size = {2, 1, 1}, .cells = cells, .material = {100, 0.3, 1}};
-  auto body = std::make_shared<model::ElasticBody>(test::make_box(spec, basis, n_modes));
-  body->alpha = 0.1;
-  body->beta = 0.01;
-  return body;
-}
-
-// The same, held at its far end and with residual flexibility.
+// Held at its far end, with residual flexibility.
 std::shared_ptr<const model::ElasticBody> flexible_box(const Vector3d& corner, double held_at, int n_modes) {
   return std::make_shared<model::ElasticBody>(test::make_flexible_box(
       {.corner = corner,
@@ -62,11 +53,11 @@ struct Options {
 System two_boxes(const Options& options) {
   std::vector<BodySetup> bodies(2);
   bodies[0] = {.name = "a",
-               .body = box({0, -0.5, -0.5}, {2, 2, 2}, options.basis, 14),
+               .body = test::make_damped_box({0, -0.5, -0.5}, {2, 2, 2}, options.basis, 14),
                .joint = {.type = options.joint, .axis = {0, 0.2, 1}, .point = {0.1, 0.2, -0.3}},
                .rotation = options.rotation};
   bodies[1] = {.name = "b",
-               .body = box({-2, -0.5, -0.5}, {2, 3, 2}, options.basis, 15),
+               .body = test::make_damped_box({-2, -0.5, -0.5}, {2, 3, 2}, options.basis, 15),
                .joint = {JointType::revolute,
                          {1, 3, -1},
                          {4 - options.depth, 0.03, 0.04},
@@ -121,7 +112,7 @@ void expect_jacobian_is_derivative(System& system, double tolerance) {
 class Jacobian : public testing::TestWithParam<Options> {};
 
 BodySetup named(const std::string& name) {
-  return {.name = name, .body = box({0, 0, 0}, {1, 1, 1}, model::Basis::modal, 3)};
+  return {.name = name, .body = test::make_damped_box({0, 0, 0}, {1, 1, 1}, model::Basis::modal, 3)};
 }
 
 }  // namespace

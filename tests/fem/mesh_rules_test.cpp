@@ -1,6 +1,7 @@
 // Materials, restraints and inertia of a mesh.
 #include <gtest/gtest.h>
 
+#include "../message_of.h"
 #include "brick.h"
 #include "elastogear/base/error.h"
 #include "elastogear/fem/inertia.h"
@@ -11,18 +12,9 @@
 namespace {
 
 using namespace elastogear;
+using test::message_of;
 
 constexpr double kRoundoff = 1e-12;
-
-template <class F>
-std::string message_of(F&& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Materials, fill_named_sets_and_the_rest) {
   auto mesh = test::brick({3, 1, 1}, {1, 1, 1});
