@@ -1,13 +1,14 @@
 // Block Lanczos in windows against SLEPc's Krylov-Schur, on the same matrices in the same run.
 //
 //   benchmark_eigenmodes -mesh worm.msh [-restrain seats] [-modes 500] [-window auto] [-slepc 100,200,400]
-//   [-at 0,0.5,1] [-kernels | -hertz 50e3,60e3]
+//   [-at 0,0.5,1] [-kernels | -hertz 50e3,60e3] [-known frequencies.txt]
 //
 // -kernels: only assembly, one factorisation and solves with it, the measurements of scripts/cost_model.py.
-// -hertz: only SLEPc, with shifts at these frequencies.
-// Else first all modes by windows. Then SLEPc at some places of the spectrum (0: its lower end, 1: below the
-// last mode): for each size one EPSSolve for so many modes, the shift in their middle, factorisation by MUMPS
-// with its own ordering included. A whole walk up the spectrum costs about the mean of the seconds per mode.
+// -hertz: only SLEPc, with shifts at these frequencies. -known: the lowest frequencies in Hz, ascending, from
+// which the windows go on instead of from 0; -modes counts them too. Else first all modes by windows. Then
+// SLEPc at some places of the spectrum (0: its lower end, 1: below the last mode): for each size one EPSSolve
+// for so many modes, the shift in their middle, factorisation by MUMPS with its own ordering included. A
+// whole walk up the spectrum costs about the mean of the seconds per mode.
 
 #include <slepceps.h>
 #include <sys/resource.h>
@@ -15,6 +16,8 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "elastogear/base/error.h"
@@ -72,6 +75,17 @@ void print_span(const std::string& what, const Time& start) {
   print("%-44s %9.3f s wall %9.3f s cpu\n", what.c_str(), end.wall - start.wall, cpu);
 }
 
+// Cells at the border of two ranks are computed by both.
+void print_cells(const fem::Share& share, int n_cells) {
+  const int own = share.mesh.cells.size();
+  int most = 0, all = 0;
+  check(MPI_Allreduce(&own, &most, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD));
+  check(MPI_Allreduce(&own, &all, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD));
+  check(MPI_Bcast(&n_cells, 1, MPI_INT, 0, PETSC_COMM_WORLD));
+  print("%d cells, computed %d, the most by a rank %d: gain of assembly at most %.3f\n", n_cells, all, most,
+        static_cast<double>(n_cells) / most);
+}
+
 fem::Matrices read_and_assemble() {
   int rank = 0, size = 1;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
@@ -87,6 +101,7 @@ fem::Matrices read_and_assemble() {
     rows = fem::number_rows(mesh, is_free, mesh::partition_cells(mesh, size).part, size);
   }
   const fem::Share share = fem::distribute(PETSC_COMM_WORLD, mesh, region, rows);
+  print_cells(share, mesh.cells.size());
   const Time start;
   fem::Matrices matrices = fem::assemble(PETSC_COMM_WORLD, share, kSteel, model::Element::incompatible);
   print_span("assembly", start);
@@ -119,14 +134,33 @@ void run_kernels(const fem::Matrices& matrices) {
   print("peak memory of rank 0 %.3f GB\n", peak_gigabytes());
 }
 
+// A search that has found these modes.
+reduction::SearchState state_above(const std::string& file, int n_own) {
+  std::ifstream in(file);
+  const std::vector<double> f{std::istream_iterator<double>(in), {}};
+  require(f.size() >= 2, file, ": no frequencies");
+  reduction::SearchState state;
+  const auto n = static_cast<Eigen::Index>(f.size()) - 1;  // the last shows the gap
+  state.eigenvalue = (2 * M_PI * Eigen::Map<const Eigen::VectorXd>(f.data(), n)).array().square();
+  state.residual = Eigen::VectorXd::Zero(n);
+  state.edge.resize(n_own, 0);
+  state.lower = state.shift = std::pow(M_PI * (f[f.size() - 2] + f.back()), 2);
+  state.below_shift = static_cast<int>(n);
+  return state;
+}
+
 Eigen::VectorXd run_windows(const fem::Matrices& matrices, int n_modes) {
   reduction::EigenOptions options;
   const std::string window = text_option("-window", "auto");
   options.n_modes = n_modes;
   options.window = window == "auto" ? reduction::kAutomaticWindow : std::stoi(window);
   options.block = std::stoi(text_option("-block", "0"));
+  const std::string known = text_option("-known", "");
+  PetscInt n_own = 0;
+  check(MatGetLocalSize(matrices.K, &n_own, nullptr));
+  if (!known.empty()) options.start = state_above(known, static_cast<int>(n_own));
   Time last;
-  int before = 0, blocks = 0;
+  int before = static_cast<int>(options.start.eigenvalue.size()), blocks = 0;
   options.commit = [&](const reduction::SearchState& state) {
     const int now = static_cast<int>(state.eigenvalue.size());
     print_time("  window, blocks " + std::to_string(state.iterations - blocks), last, now - before);

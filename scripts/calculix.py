@@ -4,8 +4,8 @@
     scripts/calculix.py WORM_full.h5 WHEEL_full.h5 full.h5 full_stress.h5 --out FOLDER
 
 The worm stands where the static analysis full.h5 ended, undeformed, on a rigid body that turns about its axis under the
-torque; the wheel's held nodes are held. Elements are C3D8I (incompatible modes, as ours), contact is surface to surface with
-a linear pressure. Writes turn_in.inp, runs `ccx turn_in`, reads reaction forces and nodal stresses
+torque; the wheel's held nodes are held. Elements are C3D8I (incompatible modes, as ours), contact has a pressure in
+proportion to the depth. Writes turn_in.inp, runs `ccx turn_in`, reads reaction forces and nodal stresses
 and prints them beside ours.
 """
 import argparse
@@ -22,6 +22,7 @@ import results
 SIDES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
 BODIES = ("worm", "wheel")
 PER_LINE = 8
+TENSION = {"node": ", 1.", "surface": ""}  # Pa at large clearance, which ccx asks for in contact of nodes
 
 
 class Part:
@@ -101,7 +102,8 @@ def write_deck(path, worm, wheel, options):
             file.write("*NODE\n{}, {:.12e}, {:.12e}, {:.12e}\n".format(node, *centre))
         file.write(f"*RIGID BODY, NSET=HELDworm, REF NODE={reference}, ROT NODE={turning}\n")
         file.write("*SURFACE INTERACTION, NAME=CONTACT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
-                   f"{stiffness:.9g}\n*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\nSworm, Swheel\n")
+                   f"{stiffness:.9g}{TENSION[options.contact]}\n"
+                   f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE={options.contact.upper()} TO SURFACE\nSworm, Swheel\n")
         file.write(f"*BOUNDARY\nHELDwheel, 1, 3\n{reference}, 1, 3\n{turning}, 2, 3\n")
         file.write(f"*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n*CLOAD\n{turning}, 1, "
                    f"{options.torque * np.sign(worm.axis[0]):.9g}\n")
@@ -169,6 +171,8 @@ def parse():
     parser.add_argument("--torque", type=float, default=4, help="N m")
     parser.add_argument("--stiffness", type=float, default=0,
                         help="Pa/m, of the contact pressure over the depth; default: as ours, both sides in series")
+    parser.add_argument("--contact", choices=("surface", "node"), default="surface",
+                        help="of faces, or of the worm's nodes as ours in one pass")
     parser.add_argument("--increment", type=float, default=0.25, help="first share of the load")
     parser.add_argument("--out", default=".", help="folder of the deck")
     parser.add_argument("--read-only", action="store_true", help="the results of ccx are there already")

@@ -1,6 +1,7 @@
 #include "app/console.h"
 
 #include <mpi.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -77,6 +78,13 @@ std::string duration(double seconds) {
   else
     std::snprintf(text, sizeof text, "%.0f min %02.0f s", std::floor(seconds / 60), std::fmod(seconds, 60));
   return text;
+}
+
+std::string largest_memory() {
+  constexpr double kKibibytePerMegabyte = 1024 * 1e-6;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return with_unit(std::round(kKibibytePerMegabyte * static_cast<double>(usage.ru_maxrss)), "MB");
 }
 
 }  // namespace elastogear::app

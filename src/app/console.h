@@ -19,5 +19,7 @@ void print_item(const std::string& name, const std::string& text);
 std::string with_unit(double value, const std::string& unit);
 /// Seconds as "0.83 s", "2 min 05 s".
 std::string duration(double seconds);
+/// The most this process has held so far, "1760 MB".
+std::string largest_memory();
 
 }  // namespace elastogear::app

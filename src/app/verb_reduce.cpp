@@ -55,9 +55,8 @@ const OptionTable kOptions = {
      "modal: eigenmodes; modal_residual: eigenmodes and the static answer to contact forces that they leave "
      "out; full: every free degree of freedom (the finite-element reference)"},
     {"loaded", "-", "",
-     "modal_residual: face sets that contact forces may act on (default: all of surface); each node, or one "
-     "of "
-     "its images, takes three static solutions"},
+     "modal_residual: face sets that contact forces may act on (default: all of surface); each node of them, "
+     "or one of its images, takes three static solutions"},
     {"modes", "-", "100", "number of eigenmodes"},
     {"window", "-", "auto",
      "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc; auto: windows of the "

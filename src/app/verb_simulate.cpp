@@ -212,6 +212,7 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
   if (analysis(options) != Analysis::relax)
     print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
   print_item("time", duration(run.wall_time));
+  print_item("largest memory", largest_memory());
   print_item("written", options.text("output"));
 }
 

@@ -125,6 +125,8 @@ SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& m
   return state;
 }
 
+Eigen::Vector3d Pair::position(int side, int node) const { return data_->tracker.position_B(side, node); }
+
 void Pair::accept(const std::vector<ContactPoint>& contacts) {
   for (Side& side : data_->side) side.stuck.clear();
   if (data_->sticks())

@@ -271,12 +271,16 @@ std::span<const int> Tracker::all_faces(int slave, int node) {
   return faces;
 }
 
+Eigen::Vector3d Tracker::position_B(int i, int node) const {
+  const Eigen::Vector3d x = configuration_.x[i].col(node);
+  return i == 0 ? Eigen::Vector3d(configuration_.R.transpose() * (x - configuration_.r)) : x;
+}
+
 Eigen::Vector3d Tracker::velocity(int i, int node) const {
   if (!now_[i]) return Eigen::Vector3d::Zero();
   const SurfaceMotion& m = *now_[i];
   const Eigen::Matrix3d& R = configuration_.R;
-  const Eigen::Vector3d x = configuration_.x[i].col(node);
-  const Eigen::Vector3d x_B = i == 0 ? Eigen::Vector3d(R.transpose() * (x - configuration_.r)) : x;
+  const Eigen::Vector3d x_B = position_B(i, node);
   Eigen::Vector3d v = m.v_WB_B + m.w_WB_B.cross(x_B);
   if (m.q_dot.size() > 0) v += model::displacement(side_[i].surface->Phi, node, m.q_dot);
   return i == 0 ? Eigen::Vector3d(R * v) : v;

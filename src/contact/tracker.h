@@ -47,6 +47,8 @@ class Tracker {
   const Nearby& near(int slave) const { return vicinity_->near[slave]; }
   /// All faces within the depth limit of a slave node, their nodes placed.
   std::span<const int> all_faces(int slave, int node);
+  /// Of a node placed by follow, in the BRF of its surface.
+  Eigen::Vector3d position_B(int i, int node) const;
   /// Zero after find, which knows no motion.
   Eigen::Vector3d velocity(int i, int node) const;
 

@@ -36,17 +36,6 @@ NodalForces difference(const NodalForces& a, const NodalForces& b) {
   return result;
 }
 
-// Columns that change the force at an unchanged closest point: along n, or in all directions where it has no
-// potential. They stand first.
-Eigen::Index leading_columns(const contact::ContactPoint& point) { return point.V_dot.cols() == 0 ? 1 : 3; }
-
-Eigen::Index column_count(const std::vector<PairContacts>& pairs) {
-  Eigen::Index r = 0;
-  for (const PairContacts& pair : pairs)
-    for (const contact::ContactPoint& point : pair.points) r += leading_columns(point);
-  return r;
-}
-
 // df = -L k L_V' dw of the nodes of one body that are touched, in its frame.
 struct Columns {
   Eigen::SparseMatrix<double> L, L_V;  // 3 n x r
@@ -64,15 +53,14 @@ Columns columns_of(std::size_t b, const std::vector<PairContacts>& pairs, const 
   Eigen::Index column = 0;
   for (const PairContacts& pair : pairs)
     for (const contact::ContactPoint& point : pair.points) {
-      const Eigen::Index n = leading_columns(point);
       for (int i = 0; i < kLocalNodes; ++i) {
         const LocalNode local = local_node(point, i);
         if (pair.body[local.side] != static_cast<int>(b)) continue;
         const auto row = 3 * (std::lower_bound(node.begin(), node.end(), local.node) - node.begin());
-        add(R_WB.transpose() * point.W.block(3 * i, 0, 3, n), row, column, L);
-        add(R_WB.transpose() * point.V.block(3 * i, 0, 3, n), row, column, L_V);
+        add(R_WB.transpose() * point.W.middleRows(3 * i, 3), row, column, L);
+        add(R_WB.transpose() * point.V.middleRows(3 * i, 3), row, column, L_V);
       }
-      column += n;
+      column += point.W.cols();
     }
   Columns columns;
   for (auto [matrix, entries] : {std::pair{&columns.L, &L}, std::pair{&columns.L_V, &L_V}}) {
@@ -82,19 +70,67 @@ Columns columns_of(std::size_t b, const std::vector<PairContacts>& pairs, const 
   return columns;
 }
 
-Eigen::SparseMatrix<double> stiffness(const std::vector<PairContacts>& pairs, Eigen::Index r) {
+// (I + H k) lambda = right with H = sum over the bodies of L_V' R L.
+struct Answering {
+  std::vector<Columns> columns;
+  std::vector<MatrixXd> R;
+  Eigen::SparseMatrix<double> k;
+  VectorXd right;
+  std::vector<Eigen::Index> leading;  // columns that change the force at an unchanged closest point
+
+  VectorXd multiply(const VectorXd& lambda) const {
+    VectorXd y = lambda;
+    const VectorXd k_lambda = k * lambda;
+    for (std::size_t b = 0; b < R.size(); ++b)
+      if (R[b].size() > 0) y += columns[b].L_V.transpose() * (R[b] * (columns[b].L * k_lambda));
+    return y;
+  }
+  MatrixXd leading_block() const {
+    const auto n = static_cast<Eigen::Index>(leading.size());
+    MatrixXd A = MatrixXd::Identity(n, n);
+    Eigen::SparseMatrix<double> unit(right.size(), n);
+    for (Eigen::Index j = 0; j < n; ++j) unit.insert(leading[j], j) = 1;
+    const Eigen::SparseMatrix<double> k_unit = k * unit;
+    for (std::size_t b = 0; b < R.size(); ++b) {
+      if (R[b].size() == 0) continue;
+      const MatrixXd R_L = R[b] * (columns[b].L * k_unit);
+      A += (columns[b].L_V.transpose() * R_L)(leading, Eigen::all);
+    }
+    return A;
+  }
+};
+
+// k, and the columns that stand first: along n, or in all directions where the force has no potential.
+void set_stiffness(const std::vector<PairContacts>& pairs, Answering& a) {
   Triplets k;
   Eigen::Index column = 0;
   for (const PairContacts& pair : pairs)
     for (const contact::ContactPoint& point : pair.points) {
-      const Eigen::Index n = leading_columns(point);
-      for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) k.emplace_back(column + i, column + j, point.k(i, j));
-      column += n;
+      for (Eigen::Index i = 0; i < point.k.rows(); ++i)
+        for (Eigen::Index j = 0; j < point.k.cols(); ++j)
+          if (point.k(i, j) != 0) k.emplace_back(column + i, column + j, point.k(i, j));
+      for (Eigen::Index i = 0; i < (point.V_dot.cols() == 0 ? 1 : 3); ++i) a.leading.push_back(column + i);
+      column += point.W.cols();
     }
-  Eigen::SparseMatrix<double> K(r, r);
-  K.setFromTriplets(k.begin(), k.end());
-  return K;
+  a.k.resize(column, column);
+  a.k.setFromTriplets(k.begin(), k.end());
+  a.right = VectorXd::Zero(column);
+}
+
+// The other columns are of the order of the penetration over the radius of curvature: they converge fast.
+VectorXd solve(const Answering& a) {
+  constexpr int kMostRounds = 20;
+  constexpr double kTolerance = 1e-8;
+  const Eigen::PartialPivLU<MatrixXd> lu(a.leading_block());
+  VectorXd lambda = VectorXd::Zero(a.right.size()), rest = a.right;
+  for (int round = 0; round < kMostRounds && rest.norm() > kTolerance * a.right.norm(); ++round) {
+    const VectorXd leading = lu.solve(VectorXd(rest(a.leading)));
+    VectorXd change = rest;
+    change(a.leading) = leading;
+    lambda += change;
+    rest = a.right - a.multiply(lambda);
+  }
+  return lambda;
 }
 
 }  // namespace
@@ -139,32 +175,72 @@ void ResidualContact::answer_to(std::size_t b, const NodalForces& forces) {
 
 // With w = R (f - L k lambda), lambda = L_V' (w - w_now) of all bodies: (I + H k) lambda = L_V' (R f -
 // w_now), H = L_V' R L.
-void ResidualContact::improve(const std::vector<PairContacts>& pairs,
-                              const std::vector<contact::SurfaceState>& surfaces,
-                              const std::vector<NodalForces>& found, double share) {
-  const Eigen::Index r = column_count(pairs);
-  const Eigen::SparseMatrix<double> k = stiffness(pairs, r);
-  std::vector<Columns> columns(found.size());
-  MatrixXd H = MatrixXd::Zero(r, r);
-  VectorXd right = VectorXd::Zero(r);
+VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
+                               const std::vector<contact::SurfaceState>& surfaces,
+                               const std::vector<NodalForces>& found, double share) {
+  Answering a;
+  set_stiffness(pairs, a);
+  a.columns.resize(found.size());
+  a.R.resize(found.size());
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!yields(b)) continue;
     const std::vector<int>& node = found[b].node;
-    columns[b] = columns_of(b, pairs, surfaces[b].R_WB, node);
-    const MatrixXd R = among(b, node);
-    VectorXd w(R.rows());
+    a.columns[b] = columns_of(b, pairs, surfaces[b].R_WB, node);
+    a.R[b] = among(b, node);
+    VectorXd w(a.R[b].rows());
     for (std::size_t i = 0; i < node.size(); ++i)
       w.segment<3>(static_cast<Eigen::Index>(3 * i)) = displacement(b, node[i]);
-    H += columns[b].L_V.transpose() * MatrixXd(R * columns[b].L);
-    right += columns[b].L_V.transpose() * VectorXd(R * found[b].f_B.reshaped() - w);
+    a.right += a.columns[b].L_V.transpose() * VectorXd(a.R[b] * found[b].f_B.reshaped() - w);
   }
-  const VectorXd lambda = (MatrixXd::Identity(r, r) + H * k).partialPivLu().solve(right), change = k * lambda;
+  const VectorXd lambda = solve(a), change = a.k * lambda;
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!yields(b)) continue;
     NodalForces next = found[b];
-    next.f_B.reshaped() -= columns[b].L * change;
+    next.f_B.reshaped() -= a.columns[b].L * change;
     answer_to(b, mean(next, flexibility_[b]->forces(), share));
   }
+  return lambda;
+}
+
+void ResidualContact::improve(const std::vector<PairContacts>& pairs,
+                              const std::vector<contact::SurfaceState>& surfaces,
+                              const std::vector<NodalForces>& found, double share) {
+  step(pairs, surfaces, found, share);
+}
+
+bool ResidualContact::settle(std::vector<PairContacts>& pairs,
+                             const std::vector<contact::SurfaceState>& surfaces,
+                             const std::vector<NodalForces>& found) {
+  for (const PairContacts& pair : pairs)
+    for (const contact::ContactPoint& point : pair.points)
+      if (point.V_dot.cols() > 0) return false;
+  const VectorXd lambda = step(pairs, surfaces, found, 1);
+  Eigen::Index column = 0;
+  for (PairContacts& pair : pairs)
+    for (contact::ContactPoint& point : pair.points) {
+      const VectorXd change = lambda.segment(column, point.W.cols());
+      point.F.reshaped() -= point.W * (point.k * change);
+      point.f = point.F.col(0);
+      point.g_n += change[0];
+      point.energy = 0.5 * point.k(0, 0) * point.g_n * point.g_n;
+      column += point.W.cols();
+    }
+  return true;
+}
+
+void ResidualContact::predict(double time) {
+  if (before_.forces.empty() || !(last_.time > before_.time)) return;
+  const double share = (time - before_.time) / (last_.time - before_.time);
+  for (std::size_t b = 0; b < flexibility_.size(); ++b)
+    if (yields(b) && last_.forces[b].node == before_.forces[b].node)
+      answer_to(b, mean(last_.forces[b], before_.forces[b], share));
+}
+
+void ResidualContact::accept(double time) {
+  before_ = std::move(last_);
+  last_ = {time, {}};
+  for (const auto& flexibility : flexibility_)
+    last_.forces.push_back(flexibility ? flexibility->forces() : NodalForces{});
 }
 
 double ResidualContact::energy(std::size_t b) {
@@ -177,12 +253,19 @@ double ResidualContact::energy(std::size_t b) {
 }
 
 void ResidualContact::visit_memory(Tape& tape) {
+  const auto visit = [&](NodalForces& forces) {
+    tape(forces.node);
+    tape(forces.f_B);
+  };
   for (std::size_t b = 0; b < flexibility_.size(); ++b) {
     if (!yields(b)) continue;
     NodalForces forces = flexibility_[b]->forces();
-    tape(forces.node);
-    tape(forces.f_B);
+    visit(forces);
     if (tape.plays()) flexibility_[b]->set_forces(forces);
+  }
+  for (Accepted* accepted : {&last_, &before_}) {
+    tape(accepted->time);
+    tape.each(accepted->forces, visit);
   }
 }
 

@@ -14,19 +14,10 @@ const model::DenseRows& modes(const model::ElasticBody& body) {
 
 }  // namespace
 
-ResidualFlexibility::ResidualFlexibility(const model::ElasticBody& body) : body_(&body) {
-  for (std::size_t i = 0; i < body.flexibility.node.size(); ++i) {
-    diagonal_.push_back(diagonal(static_cast<int>(i)));
-    largest_ = std::max(largest_, diagonal_.back());
-  }
-}
-
-double ResidualFlexibility::diagonal(int position) const {
-  const auto Phi = modes(*body_).middleRows<3>(3 * body_->flexibility.node[position]);
-  return (model::answer(body_->flexibility, position, position) -
-          Phi * body_->K_r.diagonal().cwiseInverse().asDiagonal() * Phi.transpose())
-      .norm();
-}
+ResidualFlexibility::ResidualFlexibility(const model::ElasticBody& body)
+    : body_(&body),
+      largest_(body.flexibility.empty() ? 0 : body.flexibility.self.maxCoeff()),
+      rows_(body.surface.node.size()) {}
 
 int ResidualFlexibility::number(int node) {
   const auto [at, is_new] = number_of_.emplace(node, -1);
@@ -34,16 +25,22 @@ int ResidualFlexibility::number(int node) {
   const int position = model::find_loaded(body_->flexibility, node);
   if (position < 0) return -1;
   at->second = static_cast<int>(loaded_.size());
+  const int orbit = body_->flexibility.surface.orbit[position];
   loaded_.push_back(
-      {position, modes(*body_).middleRows<3>(3 * node) * body_->K_r.diagonal().cwiseInverse().asDiagonal()});
+      {position, model::displacement_columns(body_->flexibility, orbit),
+       modes(*body_).middleRows<3>(3 * node) * body_->K_r.diagonal().cwiseInverse().asDiagonal()});
   return at->second;
 }
 
 ResidualFlexibility::Row& ResidualFlexibility::row(int node) {
-  if (rows_.size() * loaded_.size() > kMostBlocks) rows_.clear();
-  Row& row = rows_[node];
-  row.resize(loaded_.size(), Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
-  return row;
+  if (rows_[node].size() == loaded_.size()) return rows_[node];
+  if (n_rows_ * loaded_.size() > kMostBlocks) {
+    n_rows_ = 0;
+    for (Row& row : rows_) row = Row();
+  }
+  n_rows_ += rows_[node].empty();
+  rows_[node].resize(loaded_.size(), Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  return rows_[node];
 }
 
 // The same to the bit whenever it is worked out.
@@ -52,8 +49,8 @@ const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
   if (!std::isnan(R(0, 0))) return R;
   const int position = model::find_loaded(body_->flexibility, a);
   if (position < 0) return R = Eigen::Matrix3d::Zero();
-  const auto& [b, Phi_over_Lambda] = loaded_[number];
-  R = model::answer(body_->flexibility, position, b);
+  const auto& [b, F, Phi_over_Lambda] = loaded_[number];
+  R = model::answer(body_->flexibility, position, b, F);
   R -= modes(*body_).middleRows<3>(3 * a).lazyProduct(Phi_over_Lambda.transpose());
   return R;
 }
@@ -74,13 +71,15 @@ Eigen::Vector3d ResidualFlexibility::displacement(int node) {
   return w;
 }
 
-// |R(a, b)|^2 <= |R(a, a)| |R(b, b)|, because R is positive semidefinite.
+// |R(a, b)|^2 <= |R(a, a)| |R(b, b)|, because R is positive semidefinite, and |R(b, b)| <= |F(b, b)|.
 double ResidualFlexibility::bound(const NodalForces& forces) const {
+  const model::Flexibility& flexibility = body_->flexibility;
   double sum = 0;
   for (std::size_t i = 0; i < forces.node.size(); ++i) {
-    const int position = model::find_loaded(body_->flexibility, forces.node[i]);
-    if (position >= 0)
-      sum += std::sqrt(largest_ * diagonal_[position]) * forces.f_B.col(static_cast<Eigen::Index>(i)).norm();
+    const int position = model::find_loaded(flexibility, forces.node[i]);
+    if (position < 0) continue;
+    const double self = flexibility.self[flexibility.surface.orbit[position]];
+    sum += std::sqrt(largest_ * self) * forces.f_B.col(static_cast<Eigen::Index>(i)).norm();
   }
   return sum;
 }

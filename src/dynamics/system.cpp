@@ -1,6 +1,7 @@
 #include "elastogear/dynamics/system.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "elastogear/base/error.h"
 #include "elastogear/body/tangent.h"
@@ -8,7 +9,9 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kMisfit = 1e-10;  // of contact forces and those that residual answers were given to
+constexpr double kMisfit = 1e-10;         // of contact forces and those that residual answers were given to
+constexpr double kRoundoffMisfit = 1e-7;  // that may be roundoff of gaps, where it falls no further
+constexpr double kSmallMisfit = 1e-3;     // whose square is negligible
 constexpr int kMostTrials = 30, kFullTrials = 8;  // until they fit; the first ones go the whole way
 
 using Terms = std::vector<Eigen::VectorXd>;
@@ -143,11 +146,9 @@ const ContactState& System::contacts(double time, ConstVector U, ConstVector V) 
     state_.surface[b].r_WB = motion[b].r_WB;
     state_.surface[b].R_WB = motion[b].R_WB;
   }
+  if (residual_contact_.any() && time != time_of_state_) residual_contact_.predict(time);
   detect(motion);
-  for (int trial = 0; residual_contact_.any() && !state_.balanced && trial < kMostTrials; ++trial) {
-    residual_contact_.improve(state_.pair, state_.surface, state_.force, trial < kFullTrials ? 1 : 0.5);
-    detect(motion);
-  }
+  if (residual_contact_.any()) find_answers(motion);
   U_of_state_ = U;
   V_of_state_ = V;
   time_of_state_ = time;
@@ -161,23 +162,36 @@ void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
     const int a = pairs_[p].body[0], b = pairs_[p].body[1];
     const std::array<contact::Yield, 2> yield{residual_contact_.yield(a), residual_contact_.yield(b)};
     state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b], yield)});
-    place_touched(state_.pair.back(), motion);
+    place_touched(p);
   }
   residual_contact_.seen();
   state_.force = nodal_forces(state_.pair, state_.surface);
-  state_.balanced = residual_contact_.misfit(state_.force) <= kMisfit;
+}
+
+// Contact forces and the bodies' answers to them.
+void System::find_answers(const std::vector<contact::SurfaceMotion>& motion) {
+  double misfit = residual_contact_.misfit(state_.force);
+  for (int trial = 0; misfit > kMisfit && trial < kMostTrials; ++trial) {
+    if (misfit < kSmallMisfit && residual_contact_.settle(state_.pair, state_.surface, state_.force)) {
+      state_.force = nodal_forces(state_.pair, state_.surface);
+      misfit = 0;
+      continue;
+    }
+    residual_contact_.improve(state_.pair, state_.surface, state_.force, trial < kFullTrials ? 1 : 0.5);
+    detect(motion);
+    const double before = std::exchange(misfit, residual_contact_.misfit(state_.force));
+    if (misfit < kRoundoffMisfit && misfit > 0.1 * before) misfit = 0;
+  }
+  state_.balanced = misfit <= kMisfit;
 }
 
 // Positions of the nodes that contact touches; the others' stay undeformed.
-void System::place_touched(const PairContacts& pair, const std::vector<contact::SurfaceMotion>& motion) {
+void System::place_touched(std::size_t p) {
+  const PairContacts& pair = state_.pair[p];
   for (const contact::ContactPoint& point : pair.points)
     for (int i = 0; i < kLocalNodes; ++i) {
       const auto [side, node] = local_node(point, i);
-      const std::size_t b = pair.body[side];
-      const model::Surface& surface = bodies_[b].eq.body->surface;
-      auto x_B = state_.surface[b].x_B.col(node);
-      x_B = surface.X.col(node) + model::displacement(surface.Phi, node, motion[b].q);
-      if (residual_contact_.yields(b)) x_B += residual_contact_.displacement(b, node);
+      state_.surface[pair.body[side]].x_B.col(node) = detectors_[p].position(side, node);
     }
 }
 
@@ -216,6 +230,7 @@ void System::accept(const State& x) {
   history_.time = x.time;
   history_.power = power;
   accepted_ = true;
+  if (residual_contact_.any()) residual_contact_.accept(x.time);
   if (any_sticks) U_of_state_.reset();  // forces of the same state start from the new history
 }
 

@@ -41,14 +41,9 @@ Eigen::MatrixXf read_columns(const h5::File& file, const std::string& name, hsiz
   const h5::Shape shape = h5::shape(file, kGroup + name);
   require(shape.size() == 2 && first + n <= shape[0], file.path, ": ", kGroup, name,
           " must have a row for each of ", first + n, " forces");
-  Eigen::MatrixXf A(static_cast<Eigen::Index>(shape[1]), static_cast<Eigen::Index>(n));
-  for (hsize_t begin = 0; begin < n; begin += kColumns) {
-    const hsize_t count = std::min(kColumns, n - begin);
-    Eigen::MatrixXd piece(A.rows(), static_cast<Eigen::Index>(count));
-    h5::read_rows(file, kGroup + name, {first + begin, {count, shape[1]}}, piece.data());
-    A.middleCols(static_cast<Eigen::Index>(begin), piece.cols()) = piece.cast<float>();
-  }
-  return A;
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(shape[1]), static_cast<Eigen::Index>(n));
+  h5::read_rows(file, kGroup + name, {first, {n, shape[1]}}, A.data());
+  return A.cast<float>();
 }
 
 }  // namespace
@@ -62,6 +57,7 @@ void write_flexibility(const h5::File& file, const model::Flexibility& flexibili
   write_images(file, "/surface", flexibility.surface);
   write_images(file, "/stress", flexibility.stress);
   h5::write<int>(file, kGroup + "/stress/row", view(flexibility.stress_row), "1");
+  h5::write<double>(file, kGroup + "/self", view(flexibility.self), "m/N");
   write_columns(file, "/F", flexibility.F, "m/N");
   write_columns(file, "/G", flexibility.G, "Pa/N");
 }
@@ -77,7 +73,16 @@ model::Flexibility read_flexibility(const h5::File& file) {
   flexibility.surface = read_images(file, "/surface", flexibility.n_sectors);
   flexibility.stress = read_images(file, "/stress", flexibility.n_sectors);
   flexibility.stress_row = h5::read<int>(file, kGroup + "/stress/row", {h5::kAny});
-  flexibility.F = read_columns(file, "/F", 0, static_cast<hsize_t>(3 * flexibility.surface.node.cols()));
+  const auto n_orbits = static_cast<hsize_t>(flexibility.surface.node.cols());
+  flexibility.self = read_vector(file, kGroup + "/self", n_orbits);
+  require(h5::shape(file, kGroup + "/F") == h5::Shape{3 * n_orbits, 3 * flexibility.node.size()}, file.path,
+          ": ", kGroup, "/F must have a row for each force and a column for each displacement");
+  flexibility.read_F = [path = file.path](int orbit) {
+    const Eigen::MatrixXf F =
+        read_columns(open_format(path, kBodyFormat), "/F", static_cast<hsize_t>(3 * orbit), 3);
+    require(F.allFinite(), path, ": ", kGroup, "/F is not finite");
+    return F;
+  };
   return flexibility;
 }
 

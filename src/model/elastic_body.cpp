@@ -118,8 +118,11 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
               in_range(f.stress_row, static_cast<int>(n_r)) && f.surface.node.rows() == f.n_sectors &&
               f.stress.node.rows() == f.n_sectors && std::abs(f.axis.norm() - 1) < kUnit,
           source, ": the symmetry of the flexibility does not fit the body");
-  require(f.F.rows() == 3 * n_c && f.F.cols() == 3 * f.surface.node.cols() &&
-              (f.G.size() == 0 || (f.G.rows() == 6 * n_r && f.G.cols() == f.F.cols())),
+  require(f.self.size() == f.surface.node.cols() && f.self.allFinite() && (f.self.array() >= 0).all(), source,
+          ": each loaded orbit needs the size of its own answer, finite and not negative");
+  const Eigen::Index n_columns = 3 * f.surface.node.cols();
+  require((f.F.size() == 0 ? f.read_F != nullptr : f.F.rows() == 3 * n_c && f.F.cols() == n_columns) &&
+              (f.G.size() == 0 || (f.G.rows() == 6 * n_r && f.G.cols() == n_columns)),
           source, ": F or G does not have a row for each node and a column for each force");
   require(f.F.allFinite() && f.G.allFinite(), source, ": static answers are not finite");
 }

@@ -23,15 +23,6 @@ int turned_back(const Images& images, int node, int turns) {
   return images.node((images.turns[node] - turns + n_sectors) % n_sectors, images.orbit[node]);
 }
 
-// Of a force on b, whatever the order of the two.
-Matrix3d stored(const Flexibility& flexibility, int a, int b) {
-  const int turns = flexibility.surface.turns[b], row = turned_back(flexibility.surface, a, turns);
-  const Matrix3d F = flexibility.F.block<3, 3>(3 * row, 3 * flexibility.surface.orbit[b]).cast<double>();
-  if (turns == 0) return F;
-  const Matrix3d T = turn(flexibility, turns);
-  return T * F * T.transpose();
-}
-
 }  // namespace
 
 Images make_images(std::vector<int> orbit, std::vector<int> turns, int n_sectors, const std::string& source) {
@@ -61,14 +52,28 @@ int find_loaded(const Flexibility& flexibility, int surface_node) {
                                                              : -1;
 }
 
-// The mean of both orders: what was solved for agrees to the solver's accuracy only.
-Matrix3d answer(const Flexibility& flexibility, int a, int b) {
-  return 0.5 * (stored(flexibility, a, b) + stored(flexibility, b, a).transpose());
+Eigen::MatrixXf displacement_columns(const Flexibility& flexibility, int orbit) {
+  return flexibility.F.size() > 0 ? Eigen::MatrixXf(flexibility.F.middleCols<3>(3 * orbit))
+                                  : flexibility.read_F(orbit);
 }
 
-Eigen::Matrix<double, 6, 3> stress_answer(
-    const Flexibility& flexibility, int e, int b,
-    const Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>& G) {
+void set_self(Flexibility& flexibility) {
+  const Eigen::Index n = flexibility.surface.node.cols();
+  flexibility.self.resize(n);
+  for (Eigen::Index orbit = 0; orbit < n; ++orbit)
+    flexibility.self[orbit] =
+        flexibility.F.block<3, 3>(3 * flexibility.surface.node(0, orbit), 3 * orbit).cast<double>().norm();
+}
+
+Matrix3d answer(const Flexibility& flexibility, int a, int b, const Columns3& F) {
+  const int turns = flexibility.surface.turns[b];
+  const Matrix3d u = F.middleRows<3>(3 * turned_back(flexibility.surface, a, turns)).cast<double>();
+  if (turns == 0) return u;
+  const Matrix3d T = turn(flexibility, turns);
+  return T * u * T.transpose();
+}
+
+Eigen::Matrix<double, 6, 3> stress_answer(const Flexibility& flexibility, int e, int b, const Columns3& G) {
   const int turns = flexibility.surface.turns[b],
             row = turned_back(flexibility.stress, flexibility.stress_row[e], turns);
   const Matrix3d T = turn(flexibility, turns);

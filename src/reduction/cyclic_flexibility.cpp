@@ -228,6 +228,7 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   });
   sum_on_root(comm, flexibility.F);
   sum_on_root(comm, flexibility.G);
+  if (rank == 0) model::set_self(flexibility);
   return flexibility;
 }
 

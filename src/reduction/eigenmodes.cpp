@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "elastogear/base/error.h"
+#include "elastogear/reduction/factorisation.h"
 #include "elastogear/reduction/windows.h"
 #include "residual.h"
 
@@ -36,11 +37,6 @@ int size_of(Mat K) {
   return static_cast<int>(n);
 }
 
-void use_mumps(PC pc, PCType type) {
-  check(PCSetType(pc, type));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-}
-
 // A few modes more than wanted: the last of a group of equal eigenvalues then is not cut off, and a gap
 // above the wanted ones is known.
 int guarded_count(int wanted, int n) { return std::min(n, wanted + 2 + wanted / 20); }
@@ -64,7 +60,8 @@ UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
   check(STGetKSP(st, &ksp));
   check(KSPSetType(ksp, KSPPREONLY));
   check(KSPGetPC(ksp, &pc));
-  use_mumps(pc, PCCHOLESKY);
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(EPSSetFromOptions(eps));
   return eps;
 }
@@ -183,28 +180,7 @@ Eigenmodes find_by_slepc(Mat K, Mat M, const EigenOptions& options, const ModeSi
 
 }  // namespace
 
-int count_eigenvalues_below(Mat K, Mat M, double sigma) {
-  UniqueMat shifted;
-  UniqueKSP ksp;
-  PC pc = nullptr;
-  Mat factor = nullptr;
-  PetscInt below = 0;
-  check(MatDuplicate(K, MAT_COPY_VALUES, shifted.out()));
-  check(MatSetOption(shifted, MAT_SPD, PETSC_FALSE));
-  check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
-  check(MatAXPY(shifted, -sigma, M, SAME_NONZERO_PATTERN));
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(K)), ksp.out()));
-  check(KSPSetOperators(ksp, shifted, shifted));
-  check(KSPGetPC(ksp, &pc));
-  use_mumps(pc, PCCHOLESKY);
-  check(PCFactorSetUpMatSolverType(pc));
-  check(PCFactorGetMatrix(pc, &factor));
-  check(MatMumpsSetIcntl(factor, 13, 1));  // no ScaLAPACK on the root: it would not count negative pivots
-  check(KSPSetUp(ksp));
-  check(PCFactorGetMatrix(pc, &factor));
-  check(MatGetInertia(factor, &below, nullptr, nullptr));
-  return static_cast<int>(below);
-}
+int count_eigenvalues_below(Mat K, Mat M, double sigma) { return ShiftedFactor(K, M).factorise(sigma); }
 
 void require_mode_count(int n_modes, int n_free) {
   require(n_modes > 0 && n_modes <= n_free, "modes = ", n_modes,

@@ -158,6 +158,7 @@ model::Flexibility plan_flexibility(const FlexibilityTask& task) {
               *stress,
               positions(task.stress_node, rows),
               {},
+              {},
               {}};
   }
   flexibility.node.assign(chosen.begin(), chosen.end());
@@ -197,6 +198,7 @@ model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,
           [&](int j, const Eigen::VectorXd& u) { enter(task, u, 3 * first + j, flexibility); });
     report(progress, kStage, static_cast<double>(first + n) / n_loads);
   }
+  if (rank == 0) model::set_self(flexibility);
   return flexibility;
 }
 

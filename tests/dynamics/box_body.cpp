@@ -256,6 +256,7 @@ model::ElasticBody make_flexible_box(const BoxSpec& spec, int n_modes) {
   flexibility.surface = model::no_images(n);
   flexibility.stress = model::no_images(0);
   flexibility.F = (Phi * MatrixXd(full.K_r).ldlt().solve(Phi.transpose())).cast<float>();
+  model::set_self(flexibility);
   return body;
 }
 

@@ -108,6 +108,7 @@ TEST(ResidualContact, nodes_without_answers_are_as_stiff_as_the_modes) {
   f.node = {kKnown};
   f.surface = model::no_images(1);
   f.F = f.F.block(3 * kKnown, 3 * kKnown, 3, 3).eval();
+  model::set_self(f);
   ResidualFlexibility R(*body);
   R.set_forces({{kKnown}, {}, Eigen::Matrix3Xd::Ones(3, 1)});
   const Vector3d one = R.displacement(kKnown);

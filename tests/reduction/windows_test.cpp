@@ -121,7 +121,7 @@ TEST(Windows, do_not_depend_on_the_number_of_ranks) {
 
 TEST(Windows, continued_from_any_state_give_the_same_modes_to_the_bit) {
   const test::System system = square_beam();
-  reduction::EigenOptions options{.n_modes = kModes, .window = 5, .block = 4};
+  reduction::EigenOptions options{.n_modes = kModes, .window = 5, .block = 3};
   std::vector<reduction::SearchState> states;
   options.commit = [&](const reduction::SearchState& state) { states.push_back(state); };
   const auto ignore = [](int, Vec) {};

@@ -63,7 +63,7 @@ class Calculix(unittest.TestCase):
         def part(offset, axis):
             return types.SimpleNamespace(X=np.eye(8, 3), cells=np.arange(8).reshape(1, 8), held=np.array([0, 1]), offset=offset,
                                          material=[210e9, 0.3], faces=[(0, 1)], stiffness=1e14, axis=np.array(axis, float))
-        options = types.SimpleNamespace(stiffness=0, increment=0.25, torque=4)
+        options = types.SimpleNamespace(stiffness=0, increment=0.25, torque=4, contact="surface")
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "job.inp")
             calculix.write_deck(path, part(0, [-1, 0, 0]), part(8, [0, 0, 1]), options)
@@ -71,6 +71,7 @@ class Calculix(unittest.TestCase):
                 deck = file.read()
             self.assertIn("18, 1, -4\n", deck)
             self.assertIn("LINEAR\n5e+13\n", deck)
+            self.assertIn("TYPE=SURFACE TO SURFACE\nSworm, Swheel\n", deck)
             self.assertIn("2, S2\n", deck)
             with self.assertRaises(SystemExit):
                 calculix.write_deck(path, part(0, [0, 1, 0]), part(8, [0, 0, 1]), options)

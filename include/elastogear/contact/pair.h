@@ -140,6 +140,9 @@ class Pair {
   std::vector<ContactPoint> detect(const SurfaceMotion& a, const SurfaceMotion& b,
                                    const std::array<Yield, 2>& yield = {});
 
+  /// m, in its BRF, of a node that a contact of the last detect (by motion) names; yield included.
+  Eigen::Vector3d position(int side, int node) const;
+
   /// Makes the sticking of these contacts what the next step starts from.
   void accept(const std::vector<ContactPoint>& contacts);
   /// What accept has kept: the state that a run must store to go on from here.

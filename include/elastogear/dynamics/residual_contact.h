@@ -30,9 +30,18 @@ class ResidualContact {
   /// Difference between the forces found and those that the nodes answered to, relative to the former.
   double misfit(const std::vector<NodalForces>& found) const;
   /// The next trial: the bodies answer to forces that, to first order, will be found. share: of the way
-  /// there. Of the tangent those columns count that change the force at an unchanged closest point.
+  /// there.
   void improve(const std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
                const std::vector<NodalForces>& found, double share);
+  /// Brings contacts and answers together to first order, without another look at the surfaces: for a misfit
+  /// whose square is negligible. False, and nothing done, where forces have no potential.
+  bool settle(std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
+              const std::vector<NodalForces>& found);
+
+  /// Lets the bodies answer to the forces that the last two accepted states make likely at another time.
+  void predict(double time);
+  /// The answers of now belong to a step that was accepted.
+  void accept(double time);
 
   double energy(std::size_t b);  ///< J, f'R f / 2
   /// Where the next solution starts from.
@@ -40,9 +49,18 @@ class ResidualContact {
 
  private:
   void answer_to(std::size_t b, const NodalForces& forces);
+  Eigen::VectorXd step(const std::vector<PairContacts>& pairs,
+                       const std::vector<contact::SurfaceState>& surfaces,
+                       const std::vector<NodalForces>& found, double share);
+
+  struct Accepted {
+    double time = 0;
+    std::vector<NodalForces> forces = {};  // of each body; of none before the first
+  };
 
   std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
-  std::vector<double> change_;                                   // m, not yet seen by all pairs
+  Accepted last_, before_;
+  std::vector<double> change_;  // m, not yet seen by all pairs
 };
 
 }  // namespace elastogear::dynamics

@@ -28,24 +28,24 @@ class ResidualFlexibility {
 
  private:
   struct Loaded {
-    int position;  // in the flexibility
+    int position;                               // in the flexibility
+    Eigen::Matrix<float, Eigen::Dynamic, 3> F;  // columns of its orbit
     Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> Phi_over_Lambda;
   };
   using Row = std::vector<Eigen::Matrix3d>;  // R(a, b) of one a, by the number of b; not yet known: NaN
 
-  double diagonal(int position) const;
   int number(int node);
   const Eigen::Matrix3d& block(Row& row, int a, int number);
   Row& row(int node);
 
   const model::ElasticBody* body_;
-  std::vector<double> diagonal_;  // m/N, |R(b, b)|, by position in the flexibility
-  double largest_ = 0;            // m/N, of them
+  double largest_ = 0;  // m/N, of |F(b, b)|
   NodalForces forces_;
   std::vector<int> numbers_;                // of the nodes of forces_
   std::unordered_map<int, int> number_of_;  // node -> number among those that were loaded so far, -1: R = 0
   std::vector<Loaded> loaded_;              // these
-  std::unordered_map<int, Row> rows_;
+  std::vector<Row> rows_;                   // of each node of the surface, empty before it is asked for
+  std::size_t n_rows_ = 0;
 };
 
 }  // namespace elastogear::dynamics

@@ -143,7 +143,8 @@ class System {
   void add_pair(const PairSetup& setup);
   void visit_contact_history(Tape& tape);
   void detect(const std::vector<contact::SurfaceMotion>& motion);
-  void place_touched(const PairContacts& pair, const std::vector<contact::SurfaceMotion>& motion);
+  void find_answers(const std::vector<contact::SurfaceMotion>& motion);
+  void place_touched(std::size_t p);
   void add_marker_forces(const MarkerSetups& setups);
   /// Of all loads and bushings, one per body.
   std::vector<MarkerForce> at_markers(const State& x) const;

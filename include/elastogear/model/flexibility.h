@@ -4,6 +4,7 @@
 // flexibility).
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,10 @@ struct Flexibility {
   Images surface;                                   ///< of them
   Images stress;                ///< of the n_r nodes of G: evaluation nodes and their images
   std::vector<int> stress_row;  ///< n_e: which of them each evaluation node is
-  Eigen::MatrixXf F;            ///< 3 n_c x 3 n_orbits, m/N, displacements of the n_c nodes
-  Eigen::MatrixXf G;            ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz
+  Eigen::VectorXd self;         ///< n_orbits, m/N, |F(b, b)|
+  Eigen::MatrixXf F;            ///< 3 n_c x 3 n_orbits, m/N, displacements of the n_c nodes; or empty, then
+  Eigen::MatrixXf G;            ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz; or empty
+  std::function<Eigen::MatrixXf(int orbit)> read_F = {};  ///< ... reads the three columns of an orbit
 
   bool empty() const { return node.empty(); }
 };
@@ -40,13 +43,19 @@ struct Flexibility {
 /// Position of a surface node in flexibility.node; -1: forces on it are not provided for.
 int find_loaded(const Flexibility& flexibility, int surface_node);
 
-/// Displacement of node a by unit forces on node b (positions in flexibility.node), m/N; symmetric, F(a, b) =
-/// F(b, a)'.
-Eigen::Matrix3d answer(const Flexibility& flexibility, int a, int b);
+/// The columns of F of one orbit, 3 n_c x 3.
+Eigen::MatrixXf displacement_columns(const Flexibility& flexibility, int orbit);
+/// Sets `self` from F.
+void set_self(Flexibility& flexibility);
+
+using Columns3 = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>;
+
+/// Displacement of node a by unit forces on node b (positions in flexibility.node), m/N, given the columns of
+/// F of b's orbit. F(a, b) = F(b, a)' to the accuracy of what is stored.
+Eigen::Matrix3d answer(const Flexibility& flexibility, int a, int b, const Columns3& F);
 
 /// Stress at evaluation node e by unit forces on node b (position in flexibility.node), Pa/N, given the
 /// columns of G of b's orbit.
-Eigen::Matrix<double, 6, 3> stress_answer(const Flexibility& flexibility, int e, int b,
-                                          const Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>& G);
+Eigen::Matrix<double, 6, 3> stress_answer(const Flexibility& flexibility, int e, int b, const Columns3& G);
 
 }  // namespace elastogear::model
