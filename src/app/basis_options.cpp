@@ -32,8 +32,8 @@ OptionTable basis_table() {
        "vectors in all"},
       {"loaded", "-", "",
        "face sets that contact forces may act on. modal_residual, modal_attachment: three static solutions "
-       "for each node; craig_bampton: the interface; krylov: the loads (default: all of surface; "
-       "modal_attachment has none)"},
+       "for each node (modal_residual: or one of its images); craig_bampton: the interface; krylov: the "
+       "loads (default: all of surface; modal_attachment has none)"},
       {"interface_modes", "-", "auto", "craig_bampton: how many of modes; auto: half of them"},
       {"krylov_shift", "Hz", "0",
        "krylov: frequencies at which moments are matched, no eigenfrequencies; each takes an equal part of "
