@@ -26,7 +26,7 @@ constexpr double kTrials = 1e-4;      // relative: contact forces fit the answer
 constexpr double kRoundoff = 1e-12;
 constexpr double kTime = 0.3;
 
-// Of few modes, held at its far end and with residual flexibility.
+// Held at its far end, with residual flexibility.
 std::shared_ptr<const model::ElasticBody> flexible_box(const Vector3d& corner, double held_at, int n_modes) {
   return std::make_shared<model::ElasticBody>(test::make_flexible_box(
       {.corner = corner,
