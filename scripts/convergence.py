@@ -16,12 +16,13 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 
 from plots import COLOURS
 
 EXAMPLES = {"impact": "impact, at the largest force", "turn_in": "turn-in, at rest"}
-STYLES = ("--", "-", ":", "-.", (0, (5, 1, 1, 1, 1, 1)))
-MARKERS = ("o", "s", "^", "D", "v")
+STYLES = {"modal": ("--", "o"), "modal_residual": ("-", "s"), "modal_attachment": ("-.", "D"), "krylov": (":", "^"),
+          "craig_bampton": ((0, (5, 1, 1, 1, 1, 1)), "v")}
 PLACES = ("worm root", "worm flank", "wheel root", "wheel flank", "contact force")
 FORCE = "force worm:wheel [N]"
 
@@ -54,16 +55,17 @@ def series(folder):
         label = os.path.basename(path).split("_against_")[0]
         match = re.fullmatch(r"(\w+?)_(\d+)", label)
         bases.setdefault(match[1], {})[int(match[2])] = deviations(folder, label)
-    return {basis: dict(sorted(bases[basis].items())) for basis in sorted(bases)}
+    return {basis: dict(sorted(bases[basis].items())) for basis in STYLES if basis in bases}
 
 
 def draw(found, path):
-    figure, panels = plt.subplots(1, len(found), figsize=(5.2 * len(found), 4.2), sharey=True, squeeze=False)
+    figure, panels = plt.subplots(1, len(found), figsize=(2 + 4.2 * len(found), 4.2), sharey=True, squeeze=False)
     for axes, (example, bases) in zip(panels[0], found.items()):
-        for i, (basis, modes) in enumerate(bases.items()):
+        for basis, modes in bases.items():
+            style, marker = STYLES[basis]
             for name, colour in zip(PLACES, COLOURS):
-                axes.loglog(list(modes), [modes[n].get(name) for n in modes], color=colour, linestyle=STYLES[i % len(STYLES)],
-                            marker=MARKERS[i % len(MARKERS)], markersize=4, label=f"{name}, {basis}")
+                axes.loglog(list(modes), [modes[n].get(name) for n in modes], color=colour, linestyle=style, marker=marker,
+                            markersize=4)
         axes.axhline(1, color="0.6", linewidth=1)
         axes.set_title(EXAMPLES[example], fontsize=11)
         counts = sorted({n for modes in bases.values() for n in modes})
@@ -71,7 +73,11 @@ def draw(found, path):
         axes.minorticks_off()
         axes.set_xlabel("modes a body")
     panels[0][0].set_ylabel("deviation from the full basis in %")
-    panels[0][-1].legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=8, frameon=False)
+    bases = [basis for basis in STYLES if any(basis in example for example in found.values())]
+    keys = [Line2D([], [], color=colour, label=name) for name, colour in zip(PLACES, COLOURS)]
+    keys += [Line2D([], [], color="0.2", linestyle=STYLES[basis][0], marker=STYLES[basis][1], markersize=4, label=basis)
+             for basis in bases]
+    panels[0][-1].legend(handles=keys, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=9, frameon=False)
     figure.savefig(path, metadata={"Date": None} if path.endswith(".svg") else None)
 
 
