@@ -124,8 +124,8 @@ void print_peak(const io::StressSet& set, const Eigen::VectorXd& time,
              "peak von Mises " + with_unit(1e-6 * set.von_mises(node, step), "MPa") + " at node " +
                  std::to_string(set.node[node]) + ", " + with_unit(time[step], "s"));
   if (accuracy)
-    print_item("", "beside the modes " + with_unit(1e-6 * accuracy->beside_modes, "MPa") +
-                       ", their inertia leaves out about " + with_unit(1e-6 * accuracy->truncation, "MPa"));
+    print_item("", "static part beside the modes " + with_unit(1e-6 * accuracy->beside_modes, "MPa") +
+                       ", estimated error " + with_unit(1e-6 * accuracy->truncation, "MPa"));
 }
 
 void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, Eigen::Index node) {
