@@ -228,6 +228,15 @@ bool ResidualContact::settle(std::vector<PairContacts>& pairs,
   return true;
 }
 
+void ResidualContact::take_answered(const std::vector<contact::SurfaceState>& surfaces,
+                                    std::vector<NodalForces>& found) const {
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (!yields(b)) continue;
+    found[b] = flexibility_[b]->forces();
+    found[b].x_B = surfaces[b].x_B(Eigen::all, found[b].node);
+  }
+}
+
 void ResidualContact::predict(double time) {
   if (before_.forces.empty() || !(last_.time > before_.time)) return;
   const double share = (time - before_.time) / (last_.time - before_.time);

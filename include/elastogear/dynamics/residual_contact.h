@@ -38,6 +38,9 @@ class ResidualContact {
   bool settle(std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
               const std::vector<NodalForces>& found);
 
+  /// Puts the forces that the bodies answer to in the place of those found.
+  void take_answered(const std::vector<contact::SurfaceState>& surfaces,
+                     std::vector<NodalForces>& found) const;
   /// Lets the bodies answer to the forces that the last two accepted states make likely at another time.
   void predict(double time);
   /// The answers of now belong to a step that was accepted.
