@@ -115,7 +115,7 @@ int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, int
 
 int main(int argc, char** argv) {
   using namespace elastogear;
-  const std::vector<app::Verb> verbs = {app::mesh_verb(), app::reduce_verb(), app::simulate_verb(),
+  const std::vector<app::Verb> verbs = {app::mesh_verb(),    app::reduce_verb(),  app::simulate_verb(),
                                         app::recover_verb(), app::compare_verb(), app::info_verb()};
   const app::CommandLine line = app::parse(argc, argv);
   if (line.version) return std::printf("elastogear %s (%s)\n", version(), git_hash()), 0;

@@ -13,8 +13,8 @@ namespace elastogear::app {
 /// Rows of the option table of simulate.
 OptionTable marker_table();
 
-/// Names of bodies, loads and bushings by the placeholders of their keys, those included that a file names and
-/// the command line leaves out. Throws Error when two are equal.
+/// Names of bodies, loads and bushings by the placeholders of their keys, those included that a file names
+/// and the command line leaves out. Throws Error when two are equal.
 PlaceholderValues simulate_names(const Options& options);
 
 dynamics::MarkerSetups marker_setups(const Options& options);

@@ -3,9 +3,9 @@
 #include "basis_rows.h"
 #include "body_schema.h"
 #include "checks.h"
-#include "flexibility_group.h"
 #include "elastogear/base/file.h"
 #include "elastogear/io/body_file.h"
+#include "flexibility_group.h"
 
 namespace elastogear::io {
 namespace {

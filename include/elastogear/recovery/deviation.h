@@ -32,7 +32,8 @@ struct SignalDeviation {
   Extremum peak, reference_peak;
 };
 
-/// (theory.md, Eq. 4.5) signal, reference: n_t values at the times (s, increasing); integrals by the trapezoidal rule.
+/// (theory.md, Eq. 4.5) signal, reference: n_t values at the times (s, increasing); integrals by the
+/// trapezoidal rule.
 SignalDeviation signal_deviation(const Eigen::VectorXd& time, const Eigen::VectorXd& signal,
                                  const Eigen::VectorXd& reference);
 
