@@ -61,6 +61,8 @@ std::string fingerprint(const model::ElasticBody& body) {
   f.add_all(body.surface.group);
   add(f, body.surface.Phi);
   f.add_all(body.zeta);
+  f.add_all(body.flexibility.node);
+  f.add_all(body.flexibility.self);
   for (const model::Marker& marker : body.markers) {
     f.add_all(marker.X);
     add(f, marker.Phi);

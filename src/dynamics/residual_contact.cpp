@@ -11,8 +11,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// share a + (1 - share) b
-NodalForces mean(const NodalForces& a, const NodalForces& b, double share) {
+// share_a a + share_b b
+NodalForces sum(const NodalForces& a, double share_a, const NodalForces& b, double share_b) {
   NodalForces result;
   std::set_union(a.node.begin(), a.node.end(), b.node.begin(), b.node.end(), std::back_inserter(result.node));
   result.f_B.setZero(3, static_cast<Eigen::Index>(result.node.size()));
@@ -22,19 +22,15 @@ NodalForces mean(const NodalForces& a, const NodalForces& b, double share) {
       result.f_B.col(at - result.node.begin()) += factor * part.f_B.col(static_cast<Eigen::Index>(i));
     }
   };
-  add(a, share);
-  add(b, 1 - share);
+  add(a, share_a);
+  add(b, share_b);
   return result;
 }
 
-NodalForces difference(const NodalForces& a, const NodalForces& b) {
-  NodalForces result = mean(a, b, 0.5);
-  NodalForces minus_b = b;
-  minus_b.f_B *= -1;
-  result = mean(a, minus_b, 0.5);
-  result.f_B *= 2;
-  return result;
+NodalForces mean(const NodalForces& a, const NodalForces& b, double share) {
+  return sum(a, share, b, 1 - share);
 }
+NodalForces difference(const NodalForces& a, const NodalForces& b) { return sum(a, 1, b, -1); }
 
 // df = -L k L_V' dw of the nodes of one body that are touched, in its frame.
 struct Columns {

@@ -26,8 +26,9 @@ int ResidualFlexibility::number(int node) {
   if (position < 0) return -1;
   at->second = static_cast<int>(loaded_.size());
   const int orbit = body_->flexibility.surface.orbit[position];
+  if (!columns_.contains(orbit)) columns_[orbit] = model::displacement_columns(body_->flexibility, orbit);
   loaded_.push_back(
-      {position, model::displacement_columns(body_->flexibility, orbit),
+      {position, &columns_.at(orbit),
        modes(*body_).middleRows<3>(3 * node) * body_->K_r.diagonal().cwiseInverse().asDiagonal()});
   return at->second;
 }
@@ -50,7 +51,7 @@ const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
   const int position = model::find_loaded(body_->flexibility, a);
   if (position < 0) return R = Eigen::Matrix3d::Zero();
   const auto& [b, F, Phi_over_Lambda] = loaded_[number];
-  R = model::answer(body_->flexibility, position, b, F);
+  R = model::answer(body_->flexibility, position, b, *F);
   R -= modes(*body_).middleRows<3>(3 * a).lazyProduct(Phi_over_Lambda.transpose());
   return R;
 }

@@ -1,6 +1,7 @@
 #include "flexibility_group.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "elastogear/io/body_file.h"
 #include "schema.h"
@@ -77,12 +78,13 @@ model::Flexibility read_flexibility(const h5::File& file) {
   flexibility.self = read_vector(file, kGroup + "/self", n_orbits);
   require(h5::shape(file, kGroup + "/F") == h5::Shape{3 * n_orbits, 3 * flexibility.node.size()}, file.path,
           ": ", kGroup, "/F must have a row for each force and a column for each displacement");
-  flexibility.read_F = [path = file.path](int orbit) {
-    const Eigen::MatrixXf F =
-        read_columns(open_format(path, kBodyFormat), "/F", static_cast<hsize_t>(3 * orbit), 3);
-    require(F.allFinite(), path, ": ", kGroup, "/F is not finite");
-    return F;
-  };
+  // Kept open: a file that takes its place while a run reads on is another body's.
+  flexibility.read_F =
+      [body = std::make_shared<const h5::File>(open_format(file.path, kBodyFormat))](int orbit) {
+        const Eigen::MatrixXf F = read_columns(*body, "/F", static_cast<hsize_t>(3 * orbit), 3);
+        require(F.allFinite(), body->path, ": ", kGroup, "/F is not finite");
+        return F;
+      };
   return flexibility;
 }
 

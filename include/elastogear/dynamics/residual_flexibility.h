@@ -27,9 +27,10 @@ class ResidualFlexibility {
   Eigen::MatrixXd among(const std::vector<int>& node);
 
  private:
+  using Columns = Eigen::Matrix<float, Eigen::Dynamic, 3>;
   struct Loaded {
-    int position;                               // in the flexibility
-    Eigen::Matrix<float, Eigen::Dynamic, 3> F;  // columns of its orbit
+    int position;      // in the flexibility
+    const Columns* F;  // of its orbit
     Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> Phi_over_Lambda;
   };
   using Row = std::vector<Eigen::Matrix3d>;  // R(a, b) of one a, by the number of b; not yet known: NaN
@@ -41,10 +42,11 @@ class ResidualFlexibility {
   const model::ElasticBody* body_;
   double largest_ = 0;  // m/N, of |F(b, b)|
   NodalForces forces_;
-  std::vector<int> numbers_;                // of the nodes of forces_
-  std::unordered_map<int, int> number_of_;  // node -> number among those that were loaded so far, -1: R = 0
-  std::vector<Loaded> loaded_;              // these
-  std::vector<Row> rows_;                   // of each node of the surface, empty before it is asked for
+  std::vector<int> numbers_;                  // of the nodes of forces_
+  std::unordered_map<int, int> number_of_;    // node -> number among those that were loaded so far, -1: R = 0
+  std::unordered_map<int, Columns> columns_;  // of F, by orbit: images share them
+  std::vector<Loaded> loaded_;                // these
+  std::vector<Row> rows_;                     // of each node of the surface, empty before it is asked for
   std::size_t n_rows_ = 0;
 };
 
