@@ -58,7 +58,7 @@ GapErrors gap_errors(const Sides& sides) {
     const test::Flank flank = sides.masters.flank[w->face];
     if (!test::is_within(sides.masters, sides.master_at, flank, x, kMargin)) continue;
     const double exact = test::distance(sides.masters, sides.master_at, flank, x);
-    const double h = height(4, slopes[w->face], w->point.u, w->point.v).h;
+    const double h = height(4, slopes[w->face], w->point.u, w->point.v).f;
     error.facets = std::max(error.facets, std::abs(w->g_n - exact));
     error.smooth = std::max(error.smooth, std::abs(w->g_n - h - exact));
     ++error.nodes;
