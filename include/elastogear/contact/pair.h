@@ -50,7 +50,7 @@ struct Settings {
   bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
   double crease = 30;         ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
-  double extension = 0.025;  ///< by which open ends of the master are prolonged, share of a face's length;
+  double extension = 0.2;  ///< by which open ends of the master are prolonged, share of a face's length;
                              ///< forces fade out over it
 };
 
