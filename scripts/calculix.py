@@ -121,7 +121,7 @@ def write_part(file, name, part, first_cell):
 
 
 def write_contact(file, worm, wheel, pairs, options):
-    """The worm's held nodes turn as a rigid body; its areas are the slaves."""
+    """The worm's held nodes turn as a rigid body about the world's x, its areas are the slaves; the node that turns it."""
     reference, turning = (wheel.offset + len(wheel.X) + i for i in (1, 2))
     stiffness = options.stiffness or 1 / (1 / worm.stiffness + 1 / wheel.stiffness)
     kind, tension = {"faces": ("SURFACE TO SURFACE", ""), "nodes": ("NODE TO SURFACE", f", {TENSION:g}")}[options.contact]
@@ -133,33 +133,43 @@ def write_contact(file, worm, wheel, pairs, options):
     for areas in pairs:
         file.write(f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE={kind}\n" + ", ".join(areas) + "\n")
     file.write(f"*BOUNDARY\n{reference}, 1, 3\n{turning}, 2, 3\n*NSET, NSET=TURN\n{turning}\n")
-    return [(turning, 1, options.torque * np.sign(worm.axis[0]))]
+    return turning
+
+
+def write_turning(file, worm, wheel, pairs, options):
+    """Contact at the angle of our equilibrium first, then under the torque: from there the iterations find the contacts."""
+    turning = write_contact(file, worm, wheel, pairs, options)
+    file.write("*BOUNDARY\nHELDwheel, 1, 3\n")
+    output = ("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n"
+              "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n")
+    if options.contact == "faces":  # of nodes ccx 2.20 crashes at this card
+        output += "".join(f"*CONTACT PRINT, SLAVE={a}, MASTER={b}, FREQUENCY=1000\nCF\n" for a, b in pairs)
+    file.write(f"*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n*BOUNDARY\n{turning}, 1, 1\n{output}*END STEP\n")
+    file.write(f"*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n*BOUNDARY, OP=NEW\nHELDwheel, 1, 3\n"
+               f"{turning - 1}, 1, 3\n{turning}, 2, 3\n*CLOAD\n{turning}, 1, {options.torque * np.sign(worm.axis[0]):.9g}\n"
+               f"{output}*END STEP\n")
+
+
+def write_forces(file, parts, loads):
+    """Our contact forces on both bodies, which are held."""
+    file.write("*BOUNDARY\nHELDworm, 1, 3\nHELDwheel, 1, 3\n*STEP\n*STATIC\n*CLOAD\n")
+    for part, load in zip(parts, loads):
+        file.writelines(f"{part.offset + node + 1}, {i + 1}, {f:.12g}\n" for node, force in load.items() for i, f in enumerate(force))
+    file.write("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY\nRF\n*EL FILE\nS\n*END STEP\n")
 
 
 def write_deck(path, parts, loads, pairs, options):
-    """The axis of the worm is the world's x: the rotation node's first degree of freedom turns it."""
+    """Bodies, and contact under the torque or our contact forces."""
     worm, wheel = parts
     if abs(abs(worm.axis[0]) - 1) > 1e-9:
         sys.exit("the worm's axis must be the world's x axis")
     with open(path, "w", encoding="utf-8") as file:
         write_part(file, "worm", worm, 1)
         write_part(file, "wheel", wheel, 1 + len(worm.cells))
-        touches = options.contact != "forces"
-        if touches:
-            forces = write_contact(file, worm, wheel, pairs, options)
+        if options.contact == "forces":
+            write_forces(file, parts, loads)
         else:
-            forces = [(part.offset + node + 1, i + 1, f) for part, load in zip(parts, loads)
-                      for node, force in load.items() for i, f in enumerate(force)]
-            file.write("*BOUNDARY\nHELDworm, 1, 3\n")
-        file.write(f"*BOUNDARY\nHELDwheel, 1, 3\n*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n*CLOAD\n")
-        file.writelines(f"{node}, {i}, {f:.12g}\n" for node, i, f in forces)
-        file.write("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n")
-        if touches:
-            file.write("*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n")
-        if options.contact == "faces":  # of nodes ccx 2.20 crashes at this card
-            for worm_area, wheel_area in pairs:
-                file.write(f"*CONTACT PRINT, SLAVE={worm_area}, MASTER={wheel_area}, FREQUENCY=1000\nCF\n")
-        file.write("*EL FILE, FREQUENCY=1000\nS\n*END STEP\n")
+            write_turning(file, worm, wheel, pairs, options)
 
 
 def read_stress(path):

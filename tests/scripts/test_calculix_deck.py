@@ -89,6 +89,7 @@ class Calculix(unittest.TestCase):
         deck = self.deck([-1, 0, 0], "faces")
         self.assertIn("18, 1, -4\n", deck)
         self.assertIn("LINEAR\n5e+13\n", deck)
+        self.assertLess(deck.index("*BOUNDARY\n18, 1, 1\n"), deck.index("*BOUNDARY, OP=NEW\n"))
         self.assertIn("TYPE=SURFACE TO SURFACE\nthread, tooth\n", deck)
         self.assertIn("2, S2\n", deck)
         with self.assertRaises(SystemExit):
