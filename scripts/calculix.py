@@ -136,40 +136,41 @@ def write_contact(file, worm, wheel, pairs, options):
     return turning
 
 
-def write_turning(file, worm, wheel, pairs, options):
-    """Contact at the angle of our equilibrium first, then under the torque: from there the iterations find the contacts."""
-    turning = write_contact(file, worm, wheel, pairs, options)
-    file.write("*BOUNDARY\nHELDwheel, 1, 3\n")
-    output = ("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n"
-              "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n")
-    if options.contact == "faces":  # of nodes ccx 2.20 crashes at this card
-        output += "".join(f"*CONTACT PRINT, SLAVE={a}, MASTER={b}, FREQUENCY=1000\nCF\n" for a, b in pairs)
-    file.write(f"*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n*BOUNDARY\n{turning}, 1, 1\n{output}*END STEP\n")
-    file.write(f"*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n*BOUNDARY, OP=NEW\nHELDwheel, 1, 3\n"
-               f"{turning - 1}, 1, 3\n{turning}, 2, 3\n*CLOAD\n{turning}, 1, {options.torque * np.sign(worm.axis[0]):.9g}\n"
-               f"{output}*END STEP\n")
-
-
 def write_forces(file, parts, loads):
-    """Our contact forces on both bodies, which are held."""
-    file.write("*BOUNDARY\nHELDworm, 1, 3\nHELDwheel, 1, 3\n*STEP\n*STATIC\n*CLOAD\n")
     for part, load in zip(parts, loads):
         file.writelines(f"{part.offset + node + 1}, {i + 1}, {f:.12g}\n" for node, force in load.items() for i, f in enumerate(force))
-    file.write("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY\nRF\n*EL FILE\nS\n*END STEP\n")
+
+
+def write_turning(file, parts, loads, pairs, options):
+    """Our forces at our angle first, then contact under the torque: from that deformation the iterations find the contacts."""
+    worm, wheel = parts
+    turning = write_contact(file, worm, wheel, pairs, options)
+    change = {word: "".join(f"*MODEL CHANGE, TYPE=CONTACT PAIR, {word}\n" + ", ".join(areas) + "\n" for areas in pairs)
+              for word in ("REMOVE", "ADD")}
+    file.write(f"*BOUNDARY\nHELDwheel, 1, 3\n*STEP\n*STATIC\n{change['REMOVE']}*BOUNDARY\n{turning}, 1, 1\n*CLOAD\n")
+    write_forces(file, parts, loads)
+    file.write(f"*END STEP\n*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n{change['ADD']}*BOUNDARY, OP=NEW\nHELDwheel, 1, 3\n{turning - 1}, 1, 3\n{turning}, 2, 3\n"
+               f"*CLOAD, OP=NEW\n{turning}, 1, {options.torque * np.sign(worm.axis[0]):.9g}\n"
+               "*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n"
+               "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n")
+    if options.contact == "faces":  # of nodes ccx 2.20 crashes at this card
+        file.writelines(f"*CONTACT PRINT, SLAVE={a}, MASTER={b}, FREQUENCY=1000\nCF\n" for a, b in pairs)
+    file.write("*END STEP\n")
 
 
 def write_deck(path, parts, loads, pairs, options):
-    """Bodies, and contact under the torque or our contact forces."""
+    """Bodies, and contact under the torque or our contact forces, with both bodies held."""
     worm, wheel = parts
     if abs(abs(worm.axis[0]) - 1) > 1e-9:
         sys.exit("the worm's axis must be the world's x axis")
     with open(path, "w", encoding="utf-8") as file:
         write_part(file, "worm", worm, 1)
         write_part(file, "wheel", wheel, 1 + len(worm.cells))
-        if options.contact == "forces":
-            write_forces(file, parts, loads)
-        else:
-            write_turning(file, worm, wheel, pairs, options)
+        if options.contact != "forces":
+            return write_turning(file, parts, loads, pairs, options)
+        file.write("*BOUNDARY\nHELDworm, 1, 3\nHELDwheel, 1, 3\n*STEP\n*STATIC\n*CLOAD\n")
+        write_forces(file, parts, loads)
+        file.write("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY\nRF\n*EL FILE\nS\n*END STEP\n")
 
 
 def read_stress(path):
@@ -251,7 +252,7 @@ def parse():
     parser.add_argument("--stiffness", type=float, default=0,
                         help="Pa/m, of the contact pressure over the depth; default: as ours, both sides in series")
     parser.add_argument("--contact", default="faces", choices=("faces", "nodes", "forces"))
-    parser.add_argument("--increment", type=float, default=0.25, help="first share of the load")
+    parser.add_argument("--increment", type=float, default=1, help="first share of the torque")
     parser.add_argument("--out", default=".", help="folder of the deck")
     parser.add_argument("--read-only", action="store_true", help="the results of ccx are there already")
     return parser.parse_args()
