@@ -90,6 +90,7 @@ class Calculix(unittest.TestCase):
         self.assertIn("18, 1, -4\n", deck)
         self.assertIn("LINEAR\n5e+13\n", deck)
         self.assertLess(deck.index("*BOUNDARY\n18, 1, 1\n"), deck.index("*BOUNDARY, OP=NEW\n"))
+        self.assertLess(deck.index("REMOVE\nthread, tooth\n"), deck.index("ADD\nthread, tooth\n"))
         self.assertIn("TYPE=SURFACE TO SURFACE\nthread, tooth\n", deck)
         self.assertIn("2, S2\n", deck)
         with self.assertRaises(SystemExit):
