@@ -12,7 +12,7 @@ namespace {
 void refit_both_trees(benchmark::State& state) {
   const Flanks f = flanks(0);
   Bvh a = build(f.a.X, f.a.face, state.range(0)), b = build(f.b.X, f.b.face, state.range(0));
-  std::vector<float> work;
+  RefitMemory work;
   for (auto _ : state) {
     refit(a, f.a.X, f.a.face, 0, work);
     refit(b, f.b.X, f.b.face, 0, work);
@@ -25,7 +25,7 @@ BENCHMARK(refit_both_trees)->Arg(6)->Arg(18)->Arg(24)->Arg(26)->Unit(benchmark::
 void query(benchmark::State& state) {
   const auto [f, x_a, x_b] = placed_flanks(state.range(1));
   Bvh a = build(f.a.X, f.a.face, state.range(0)), b = build(f.b.X, f.b.face, state.range(0));
-  std::vector<float> work;
+  RefitMemory work;
   refit(a, x_a, f.a.face, 1e-6 * state.range(2), work);
   refit(b, x_b, f.b.face, 0, work);
   DescentMemory memory;

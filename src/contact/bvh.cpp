@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
+
+#include "padded_half.h"
 
 namespace elastogear::contact {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kUlp = 0x1p-24F;  // relative error of rounding to float
 
 using Float4 = float __attribute__((vector_size(16)));
@@ -20,66 +20,11 @@ Float4 load(const float* p) {
   return v;
 }
 
-void store(float* p, Float4 v) { __builtin_memcpy(p, &v, sizeof v); }
-
-// Calls f with padded_half(k) as a compile-time constant: loops over the intervals then have a fixed length.
-template <class F>
-void with_half(int k, F f) {
-  switch (padded_half(k)) {
-    case 4:
-      return f(std::integral_constant<int, 4>());
-    case 8:
-      return f(std::integral_constant<int, 8>());
-    case 12:
-      return f(std::integral_constant<int, 12>());
-    default:
-      return f(std::integral_constant<int, 16>());
-  }
-}
-
 // A float not above d. The step of 2 ulp covers the rounding of d and of the subtraction; the least normal
 // number covers denormals.
 float round_down(double d) {
   const float f = static_cast<float>(d);
   return f - (std::abs(f) * 4 * kUlp + std::numeric_limits<float>::min());
-}
-
-// Directions and the margin along them in float; infinite margins in the padding.
-template <int H>
-struct FloatDirections {
-  alignas(16) float x[H] = {}, y[H] = {}, z[H] = {}, margin[H];
-
-  FloatDirections(const Directions& B, double m) {
-    std::fill_n(margin, H, kInfinity);
-    for (int i = 0; i < B.n; ++i) {
-      x[i] = static_cast<float>(B.x[i]);
-      y[i] = static_cast<float>(B.y[i]);
-      z[i] = static_cast<float>(B.z[i]);
-      margin[i] = static_cast<float>(m * B.norm[i]) * (1 + 2 * kUlp);
-    }
-  }
-};
-
-// Rounding the point, two sums and the margin's subtraction err by at most 4 ulp of |p|_1 + margin; 8 are
-// taken.
-template <int H>
-void point_box(const FloatDirections<H>& B, const double* p, float* box) {
-  const auto x = static_cast<float>(p[0]), y = static_cast<float>(p[1]), z = static_cast<float>(p[2]);
-  const float size = std::abs(x) + std::abs(y) + std::abs(z);
-  for (int i = 0; i < H; i += 4) {
-    const Float4 d = load(B.x + i) * x + load(B.y + i) * y + load(B.z + i) * z, m = load(B.margin + i);
-    const Float4 out = m + (m + size) * (8 * kUlp) + std::numeric_limits<float>::min();
-    store(box + i, d - out);
-    store(box + H + i, -d - out);
-  }
-}
-
-template <int H>
-void shrink_to_min(float* into, const float* other) {
-  for (int i = 0; i < 2 * H; i += 4) {
-    const Float4 a = load(into + i), b = load(other + i);
-    store(into + i, b < a ? b : a);
-  }
 }
 
 template <int H>
@@ -89,27 +34,6 @@ bool boxes_overlap(const float* a, const float* b) {
   long long half[2];
   __builtin_memcpy(half, &apart, sizeof apart);
   return (half[0] | half[1]) == 0;
-}
-
-template <int H>
-void refit_boxes(Bvh& bvh, const Eigen::Matrix3Xd& x, const Eigen::Matrix4Xi& face, double margin,
-                 std::vector<float>& work) {
-  constexpr std::size_t n = 2 * H;
-  const FloatDirections<H> B(directions(bvh.k), margin);
-  work.resize(n * x.cols());
-  for (Eigen::Index i = 0; i < x.cols(); ++i) point_box<H>(B, x.col(i).data(), &work[n * i]);
-  bvh.box.resize(n * bvh.n_nodes());
-  for (int node = bvh.n_nodes() - 1; node >= 0; --node) {
-    float* into = &bvh.box[n * node];
-    if (bvh.is_leaf(node)) {
-      const auto corner = face.col(bvh.face(node));
-      std::copy_n(&work[n * corner[0]], n, into);
-      for (int c = 1; c < 4; ++c) shrink_to_min<H>(into, &work[n * corner[c]]);
-    } else {
-      std::copy_n(&bvh.box[n * bvh.child[node]], n, into);
-      shrink_to_min<H>(into, &bvh.box[n * (bvh.child[node] + 1)]);
-    }
-  }
 }
 
 // Breadth-first descent, level by level: every pair of a level either is a pair of leaves or is replaced by
@@ -160,11 +84,6 @@ class Descent {
 };
 
 }  // namespace
-
-void refit(Bvh& bvh, const Eigen::Matrix3Xd& x, const Eigen::Matrix4Xi& face, double margin,
-           std::vector<float>& work) {
-  with_half(bvh.k, [&](auto half) { refit_boxes<half>(bvh, x, face, margin, work); });
-}
 
 Kdop box(const Bvh& bvh, int node) {
   Kdop dop{bvh.k, {}, {}};

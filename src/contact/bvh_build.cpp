@@ -128,7 +128,7 @@ Bvh build(const Eigen::Matrix3Xd& X, const Eigen::Matrix4Xi& face, int k) {
   std::iota(b.order.begin(), b.order.end(), 0);
   for (Eigen::Index f = 0; f < face.cols(); ++f) b.dop.push_back(tight_kdop(k, X(Eigen::all, face.col(f))));
   grow(b);
-  std::vector<float> work;
+  RefitMemory work;
   refit(b.bvh, X, face, 0, work);
   return std::move(b.bvh);
 }

@@ -10,8 +10,8 @@ CoarseSearch::CoarseSearch(const model::Surface& a, const model::Surface& b, int
 }
 
 void CoarseSearch::refit_both(const Configuration& configuration, double margin) {
-  refit(tree_[0], configuration.x[0], surface_[0]->face, margin, points_);
-  refit(tree_[1], configuration.x[1], surface_[1]->face, 0, points_);
+  refit(tree_[0], configuration.x[0], surface_[0]->face, margin, refit_);
+  refit(tree_[1], configuration.x[1], surface_[1]->face, 0, refit_);
 }
 
 // Realigns a node and its sibling (the root has none) the first time a call comes to them.

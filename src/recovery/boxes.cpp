@@ -28,7 +28,7 @@ std::vector<int> leaf_of_face(const contact::Bvh& tree) {
 
 contact::Bvh fitted_tree(const model::Surface& surface, const Eigen::Matrix3Xd& x, int k) {
   contact::Bvh tree = contact::build(surface.X, surface.face, k);
-  std::vector<float> work;
+  contact::RefitMemory work;
   contact::refit(tree, x, surface.face, 0, work);
   return tree;
 }

@@ -132,14 +132,6 @@ void load(const Eigen::Ref<const Eigen::MatrixXd>& W, Eigen::Index slab, Eigen::
 
 }  // namespace
 
-Instructions best_instructions() {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512f")) return Instructions::avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Instructions::avx2;
-#endif
-  return Instructions::portable;
-}
-
 TallBasis::TallBasis(Eigen::Index n_rows, int capacity, Instructions instructions)
     : n_rows_(n_rows),
       n_slabs_((n_rows + kSlab - 1) / kSlab),

@@ -95,7 +95,7 @@ TEST(Bvh, refit_boxes_hold_their_children_and_their_margin) {
     Bvh bvh = build(s.X, s.face, k);
     Eigen::Matrix3Xd x = s.X;
     for (auto p : x.colwise()) p += random.vector(0.3);
-    std::vector<float> work;
+    RefitMemory work;
     const double margin = 0.01;
     refit(bvh, x, s.face, margin, work);
     for (int node = 0; node < bvh.n_nodes(); ++node) {
@@ -110,6 +110,45 @@ TEST(Bvh, refit_boxes_hold_their_children_and_their_margin) {
         EXPECT_LE(box(bvh, node).lo[i], inner.lo[i]);
         EXPECT_GE(box(bvh, node).hi[i], inner.hi[i]);
       }
+    }
+  }
+}
+
+TEST(Bvh, boxes_hold_points_far_from_the_origin_with_their_margin) {
+  Random random(5);
+  for (int k : sizes)
+    for (double margin : {0.0, 1e-3, 10.0}) {
+      model::Surface s = wavy(5, 1);
+      for (auto x : s.X.colwise()) x += random.vector(0.1) + Eigen::Vector3d(-300, 2000, 1);
+      Bvh bvh = build(s.X, s.face, k);
+      RefitMemory work;
+      refit(bvh, s.X, s.face, margin, work);
+      for (int node = 0; node < bvh.n_nodes(); ++node) {
+        if (!bvh.is_leaf(node)) continue;
+        const Kdop exact = inflated(face_kdop(k, s.X, s.face, bvh.face(node)), margin),
+                   stored = box(bvh, node);
+        for (int i = 0; i < k / 2; ++i) {
+          EXPECT_LE(stored.lo[i], exact.lo[i]);
+          EXPECT_GE(stored.hi[i], exact.hi[i]);
+        }
+      }
+    }
+}
+
+TEST(Bvh, boxes_do_not_depend_on_the_instructions) {
+  Random random(6);
+  for (int k : sizes) {
+    model::Surface s = wavy(20, 1);  // several blocks of nodes
+    for (auto x : s.X.colwise()) x += random.vector(0.1);
+    Bvh bvh = build(s.X, s.face, k);
+    std::vector<float> portable;
+    for (Instructions instructions : {Instructions::portable, Instructions::avx2, Instructions::avx512}) {
+      if (instructions > best_instructions()) continue;
+      RefitMemory work{{}, instructions};
+      std::fill(bvh.box.begin(), bvh.box.end(), 0);
+      refit(bvh, s.X, s.face, 0.01, work);
+      if (portable.empty()) portable = bvh.box;
+      EXPECT_EQ(bvh.box, portable) << k;
     }
   }
 }

@@ -6,6 +6,7 @@
 
 namespace {
 
+using namespace elastogear;
 using namespace elastogear::reduction;
 using Eigen::MatrixXd;
 

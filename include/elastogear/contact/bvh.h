@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "elastogear/base/instructions.h"
 #include "elastogear/contact/kdop.h"
 
 namespace elastogear::contact {
@@ -31,10 +32,15 @@ struct Bvh {
 /// X: 3 x n (m); face: 4 x n_f node numbers, n_f > 0.
 Bvh build(const Eigen::Matrix3Xd& X, const Eigen::Matrix4Xi& face, int k);
 
+/// Scratch memory of refit(), kept between calls, and what its kernel may use; boxes do not depend on it.
+struct RefitMemory {
+  std::vector<float> points = {};
+  Instructions instructions = best_instructions();
+};
+
 /// Recomputes all boxes from moved points, leaves first; every box is `margin` (m) wider than its faces.
-/// `work` is scratch memory kept between calls.
 void refit(Bvh& bvh, const Eigen::Matrix3Xd& x, const Eigen::Matrix4Xi& face, double margin,
-           std::vector<float>& work);
+           RefitMemory& work);
 
 /// A node's box in double precision, and back (rounded outwards).
 Kdop box(const Bvh& bvh, int node);

@@ -39,7 +39,7 @@ class CoarseSearch {
   std::vector<Kdop> rest_;    // a's boxes in its own frame, for realignment
   std::vector<int> visited_;  // per node of a: the call in which its box was realigned last
   int call_ = 0;
-  std::vector<float> points_;
+  RefitMemory refit_;
   DescentMemory work_;
   std::vector<NodePair> pairs_;
 };

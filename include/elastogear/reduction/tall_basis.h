@@ -4,17 +4,14 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "elastogear/base/instructions.h"
+
 namespace elastogear::reduction {
-
-/// Of the processor; all compute the same but for roundoff.
-enum class Instructions { portable, avx2, avx512 };
-
-/// The best that this processor has.
-Instructions best_instructions();
 
 /// n_rows x capacity. Rows lie in slabs, within a slab column after column: a
 /// sweep over all columns reads memory in order, each entry once for all the vectors it is multiplied with.
 /// A matrix product by BLAS copies V first, which costs as much as multiplying with 8 to 16 vectors.
+/// All instructions compute the same but for roundoff.
 class TallBasis {
  public:
   TallBasis() = default;

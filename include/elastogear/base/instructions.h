@@ -1,0 +1,12 @@
+#pragma once
+// Which vector instructions a kernel may use, chosen at run time.
+
+namespace elastogear {
+
+/// Of the processor.
+enum class Instructions { portable, avx2, avx512 };
+
+/// The best that this processor has.
+Instructions best_instructions();
+
+}  // namespace elastogear
