@@ -4,9 +4,11 @@
     scripts/calculix.py WORM_full.h5 WHEEL_full.h5 full.h5 full_stress.h5 --out FOLDER
 
 The worm stands where the static analysis full.h5 ended, undeformed, on a rigid body that turns about its axis under the
-torque; the wheel's held nodes are held. Elements are C3D8I (incompatible modes, as ours), contact is surface to surface with
-a pressure in proportion to the depth. Writes turn_in.inp, runs `ccx turn_in`, reads reaction forces and nodal stresses
-and prints them beside ours.
+torque; the wheel's held nodes are held. Elements are C3D8I (incompatible modes) or, of bodies reduced with -element plain,
+C3D8, which is the same as ours on all shapes. Contact has a pressure in proportion to the depth, --contact of faces (surface
+to surface), or of the worm's nodes with the wheel's faces, as ours is with -contact_two_pass false; or our own contact forces
+act on the nodes, and both bodies are held. Writes turn_in.inp, runs `ccx turn_in`, reads reaction forces, those of each pair
+of areas and nodal stresses, and prints them beside ours.
 """
 import argparse
 import os
@@ -21,7 +23,11 @@ import results
 # Corners of the sides S1..S6 of an 8-node hexahedron, in the numbering of Abaqus.
 SIDES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
 BODIES = ("worm", "wheel")
+ELEMENTS = {"incompatible": "C3D8I", "plain": "C3D8"}
 PER_LINE = 8
+# Pa, of nodes far outside: CalculiX rounds the corner of the law of nodes over TENSION / stiffness (its manual asks for some
+# thousandth of the largest pressure), without which its iterations jump to and fro.
+TENSION = 4e6
 
 
 class Part:
@@ -31,14 +37,14 @@ class Part:
         with results.open_file(path, "body") as file:
             self.X = file["mesh/X"][:] @ state["R"].T + state["r"]
             self.cells = file["mesh/cell_nodes"][:].reshape(-1, 8)
+            self.element = ELEMENTS[results.text(file.attrs["element"])]
             free = np.unique(file["reduced/free_dof"][:] // 3)
             self.held = np.setdiff1d(np.arange(len(self.X)), free)
             self.material = [float(file["material/0/" + name][()]) for name in ("E", "nu")]
-            faces = np.vstack([file["mesh/face_sets/" + area][:] for area in areas])
+            self.faces = {area: element_sides(self.cells, file["mesh/face_sets/" + area][:]) for area in areas}
             names = [results.text(name) for name in file["surface/group_name"][:]]
             touching = np.isin(file["surface/group"][:], [names.index(area) for area in areas])
             self.stiffness = float(file["surface/c_f"][:][touching].mean())  # Pa/m
-        self.faces = element_sides(self.cells, faces)
         self.offset = offset  # of node numbers
         self.axis = state["R"][:, 2]
 
@@ -56,15 +62,41 @@ def last_states(path):
                 for body in BODIES}
 
 
-def touching_areas(path):
-    """Names of the areas of contact that carry force at the end, worm's and wheel's, and the whole force (N, world)."""
+def contact_points(path):
+    """Contacts at the end of a result file: side of the slave (0: worm), its node, face, shape functions, force (N, world)."""
     with results.open_file(path, "result") as file:
-        pair = file["contact/worm:wheel"]
-        areas = []
-        for side in ("a", "b"):
-            force = np.linalg.norm(pair[f"groups/{side}/force"][-1], axis=1)
-            areas.append([results.text(name) for name, f in zip(pair[f"groups/{side}/name"][:], force) if f > 0])
-        return areas, pair["force"][-1]
+        points = file["contact/worm:wheel/points"]
+        last = slice(*points["offset"][-2:])
+        xi, eta = points["xi"][last], points["eta"][last]
+        N = np.array([(1 + a * xi) * (1 + b * eta) / 4 for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]).T
+        return zip(points["slave_side"][last], points["slave_node"][last], points["face"][last], N, points["force"][last])
+
+
+class Surface:
+    """Contact surface of a body file: nodes of the mesh, faces, name of each face's area."""
+
+    def __init__(self, path):
+        with results.open_file(path, "body") as file:
+            names = [results.text(name) for name in file["surface/group_name"][:]]
+            self.node, self.face = file["surface/nodes"][:], file["surface/face"][:]
+            self.area = [names[i] for i in file["surface/group"][:]]
+        self.area_of_node = {node: area for face, area in zip(self.face, self.area) for node in face}
+
+
+def contact_loads(result, surfaces):
+    """Our contact forces at the end: {node of the mesh: N} of each body, and {(worm's area, wheel's): N on the wheel}."""
+    loads, pairs = ({}, {}), {}
+
+    def add(table, key, force):
+        table[key] = table.get(key, 0) + force
+    for side, slave, face, N, force in contact_points(result):
+        master = surfaces[1 - side]
+        add(loads[side], surfaces[side].node[slave], force)
+        for node, share in zip(master.face[face], N):
+            add(loads[1 - side], master.node[node], -share * force)
+        areas = (surfaces[side].area_of_node[slave], master.area[face])
+        add(pairs, areas if side == 0 else areas[::-1], force if side == 1 else -force)
+    return loads, pairs
 
 
 def listed(numbers):
@@ -77,36 +109,68 @@ def write_part(file, name, part, first_cell):
     file.write(f"*NODE, NSET=N{name}\n")
     for i, x in enumerate(part.X):
         file.write(f"{part.offset + i + 1}, {x[0]:.12e}, {x[1]:.12e}, {x[2]:.12e}\n")
-    file.write(f"*ELEMENT, TYPE=C3D8I, ELSET=E{name}\n")
+    file.write(f"*ELEMENT, TYPE={part.element}, ELSET=E{name}\n")
     for i, cell in enumerate(part.cells):
         file.write(f"{first_cell + i}, " + ", ".join(str(part.offset + node + 1) for node in cell) + "\n")
     file.write(f"*MATERIAL, NAME=M{name}\n*ELASTIC\n{part.material[0]:.9g}, {part.material[1]:.9g}\n")
     file.write(f"*SOLID SECTION, ELSET=E{name}, MATERIAL=M{name}\n")
     file.write(f"*NSET, NSET=HELD{name}\n" + listed(part.offset + part.held + 1))
-    file.write(f"*SURFACE, NAME=S{name}, TYPE=ELEMENT\n")
-    file.writelines(f"{first_cell + cell}, S{side + 1}\n" for cell, side in part.faces)
+    for area, faces in part.faces.items():
+        file.write(f"*SURFACE, NAME={area}, TYPE=ELEMENT\n")
+        file.writelines(f"{first_cell + cell}, S{side + 1}\n" for cell, side in faces)
 
 
-def write_deck(path, worm, wheel, options):
-    """The axis of the worm is the world's x: the rotation node's first degree of freedom turns it."""
+def write_contact(file, worm, wheel, pairs, options):
+    """The worm's held nodes turn as a rigid body about the world's x, its areas are the slaves; the node that turns it."""
+    reference, turning = (wheel.offset + len(wheel.X) + i for i in (1, 2))
+    stiffness = options.stiffness or 1 / (1 / worm.stiffness + 1 / wheel.stiffness)
+    kind, tension = {"faces": ("SURFACE TO SURFACE", ""), "nodes": ("NODE TO SURFACE", f", {TENSION:g}")}[options.contact]
+    for node in (reference, turning):
+        file.write("*NODE\n{}, {:.12e}, {:.12e}, {:.12e}\n".format(node, *worm.X[worm.held].mean(axis=0)))
+    file.write(f"*RIGID BODY, NSET=HELDworm, REF NODE={reference}, ROT NODE={turning}\n"
+               "*SURFACE INTERACTION, NAME=CONTACT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
+               f"{stiffness:.9g}{tension}\n")
+    for areas in pairs:
+        file.write(f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE={kind}\n" + ", ".join(areas) + "\n")
+    file.write(f"*BOUNDARY\n{reference}, 1, 3\n{turning}, 2, 3\n*NSET, NSET=TURN\n{turning}\n")
+    return turning
+
+
+def write_forces(file, parts, loads):
+    for part, load in zip(parts, loads):
+        file.writelines(f"{part.offset + node + 1}, {i + 1}, {f:.12g}\n" for node, force in load.items() for i, f in enumerate(force))
+
+
+def write_turning(file, parts, loads, pairs, options):
+    """Our forces at our angle first, then contact under the torque: from that deformation the iterations find the contacts."""
+    worm, wheel = parts
+    turning = write_contact(file, worm, wheel, pairs, options)
+    change = {word: "".join(f"*MODEL CHANGE, TYPE=CONTACT PAIR, {word}\n" + ", ".join(areas) + "\n" for areas in pairs)
+              for word in ("REMOVE", "ADD")}
+    file.write(f"*BOUNDARY\nHELDwheel, 1, 3\n*STEP\n*STATIC\n{change['REMOVE']}*BOUNDARY\n{turning}, 1, 1\n*CLOAD\n")
+    write_forces(file, parts, loads)
+    file.write(f"*END STEP\n*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n{change['ADD']}*BOUNDARY, OP=NEW\nHELDwheel, 1, 3\n{turning - 1}, 1, 3\n{turning}, 2, 3\n"
+               f"*CLOAD, OP=NEW\n{turning}, 1, {options.torque * np.sign(worm.axis[0]):.9g}\n"
+               "*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n"
+               "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n")
+    if options.contact == "faces":  # of nodes ccx 2.20 crashes at this card
+        file.writelines(f"*CONTACT PRINT, SLAVE={a}, MASTER={b}, FREQUENCY=1000\nCF\n" for a, b in pairs)
+    file.write("*END STEP\n")
+
+
+def write_deck(path, parts, loads, pairs, options):
+    """Bodies, and contact under the torque or our contact forces, with both bodies held."""
+    worm, wheel = parts
     if abs(abs(worm.axis[0]) - 1) > 1e-9:
         sys.exit("the worm's axis must be the world's x axis")
-    reference, turning = wheel.offset + len(wheel.X) + 1, wheel.offset + len(wheel.X) + 2
-    stiffness = options.stiffness or 1 / (1 / worm.stiffness + 1 / wheel.stiffness)
-    centre = worm.X[worm.held].mean(axis=0)
     with open(path, "w", encoding="utf-8") as file:
         write_part(file, "worm", worm, 1)
         write_part(file, "wheel", wheel, 1 + len(worm.cells))
-        for node in (reference, turning):
-            file.write("*NODE\n{}, {:.12e}, {:.12e}, {:.12e}\n".format(node, *centre))
-        file.write(f"*RIGID BODY, NSET=HELDworm, REF NODE={reference}, ROT NODE={turning}\n")
-        file.write("*SURFACE INTERACTION, NAME=CONTACT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
-                   f"{stiffness:.9g}\n*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\nSworm, Swheel\n")
-        file.write(f"*BOUNDARY\nHELDwheel, 1, 3\n{reference}, 1, 3\n{turning}, 2, 3\n")
-        file.write(f"*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n*CLOAD\n{turning}, 1, "
-                   f"{options.torque * np.sign(worm.axis[0]):.9g}\n")
-        file.write(f"*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n*NSET, NSET=TURN\n{turning}\n"
-                   "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n*END STEP\n")
+        if options.contact != "forces":
+            return write_turning(file, parts, loads, pairs, options)
+        file.write("*BOUNDARY\nHELDworm, 1, 3\nHELDwheel, 1, 3\n*STEP\n*STATIC\n*CLOAD\n")
+        write_forces(file, parts, loads)
+        file.write("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY\nRF\n*EL FILE\nS\n*END STEP\n")
 
 
 def read_stress(path):
@@ -126,38 +190,56 @@ def read_stress(path):
 
 
 def read_prints(path):
-    """Total reaction force on the wheel (N) and turn of the worm (rad) from a .dat file."""
-    rows = []
+    """What a .dat file prints: total reaction on the wheel (N), turn of the worm (rad), force on each pair (N), where they are."""
+    values, pairs, heading = {}, {}, ""
     with open(path, encoding="ascii") as file:
         for line in file:
-            words = line.split()
             try:
-                rows.append([float(word) for word in words])
+                row = [float(word) for word in line.split()]
             except ValueError:
+                heading = line
+                words = line.replace(",", " ").lower().split()
+                if "slave" in words:
+                    pair = tuple(words[words.index(side) + 2] for side in ("slave", "master"))
                 continue
-    rows = [row for row in rows if len(row) in (3, 4)]
-    force = [row for row in rows if len(row) == 3][-1]
-    return np.array(force), [row for row in rows if len(row) == 4][-1][1]
+            if row and "total force" in heading:
+                values["reaction"] = np.array(row)
+            elif row and "displacements" in heading:
+                values["turn"] = row[1]
+            elif row and "total surface force" in heading:
+                pairs[pair] = np.array(row[:3])
+    return values["reaction"], values.get("turn"), pairs
 
 
-def compare(options, worm, wheel, force, job):
-    ours, theirs = {}, read_stress(job + ".frd")
-    reaction, turn = read_prints(job + ".dat")
-    print(f"{'':<34}{'elastogear':>14}{'CalculiX':>14}{'deviation':>12}")
+def compare_stress(row, name, group, values):
+    """Rows for one body: its most highly stressed node, the largest of all, both tables over all nodes."""
+    ours = group["von_mises"][-1]
+    peak = int(ours.argmax())
+    row(f"{name} root node {group['nodes'][peak]}, MPa", ours[peak] / 1e6, values[peak] / 1e6)
+    row(f"{name} root, largest, MPa", ours.max() / 1e6, values.max() / 1e6)
+    row(f"{name} root, mean, MPa", ours.mean() / 1e6, values.mean() / 1e6)
+    print(f"{name} root, all nodes: {100 * np.linalg.norm(values - ours) / np.linalg.norm(ours):.2f} % (root sum of squares)")
+
+
+def compare(options, worm, wheel, pairs, job):
+    theirs = read_stress(job + ".frd")
+    reaction, turn, pairs_there = read_prints(job + ".dat")
+    print(f"{'':<40}{'elastogear':>14}{'CalculiX':>14}{'deviation':>12}")
 
     def row(name, a, b):
-        print(f"{name:<34}{a:>14.6g}{b:>14.6g}{100 * (b / a - 1):>10.2f} %")
-    row("contact force, N", np.linalg.norm(force), np.linalg.norm(reaction))
-    print(f"turn of the worm from our equilibrium: {turn:.3e} rad")
+        print(f"{name:<40}{a:>14.6g}{b:>14.6g}{100 * (b / a - 1):>10.2f} %")
+    row("contact force, N", np.linalg.norm(sum(pairs.values())), np.linalg.norm(reaction))
+    for areas, force in pairs.items():
+        if areas in pairs_there:
+            row(" - ".join(areas) + ", N", np.linalg.norm(force), np.linalg.norm(pairs_there[areas]))
+        else:
+            print(f"{' - '.join(areas) + ', N':<40}{np.linalg.norm(force):>14.6g}")
+    if turn is not None:
+        print(f"turn of the worm from our equilibrium: {turn:.3e} rad")
     with results.open_file(options.stress, "stress") as file:
         for body, part in (("worm", worm), ("wheel", wheel)):
             group = file[body]["root"]
-            ours = group["von_mises"][-1]
-            values = np.array([theirs[part.offset + int(node) + 1] for node in group["nodes"][:]])
-            peak = int(ours.argmax())
-            row(f"{body} root node {group['nodes'][peak]}, MPa", ours[peak] / 1e6, values[peak] / 1e6)
-            row(f"{body} root, largest, MPa", ours.max() / 1e6, values.max() / 1e6)
-            print(f"{body} root, all nodes: {100 * np.linalg.norm(values - ours) / np.linalg.norm(ours):.2f} % (root sum of squares)")
+            compare_stress(row, body, group, np.array([theirs[part.offset + int(node) + 1] for node in group["nodes"][:]]))
 
 
 def parse():
@@ -169,7 +251,8 @@ def parse():
     parser.add_argument("--torque", type=float, default=4, help="N m")
     parser.add_argument("--stiffness", type=float, default=0,
                         help="Pa/m, of the contact pressure over the depth; default: as ours, both sides in series")
-    parser.add_argument("--increment", type=float, default=0.25, help="first share of the load")
+    parser.add_argument("--contact", default="faces", choices=("faces", "nodes", "forces"))
+    parser.add_argument("--increment", type=float, default=1, help="first share of the torque")
     parser.add_argument("--out", default=".", help="folder of the deck")
     parser.add_argument("--read-only", action="store_true", help="the results of ccx are there already")
     return parser.parse_args()
@@ -179,15 +262,15 @@ def main():
     options = parse()
     os.makedirs(options.out, exist_ok=True)
     states = last_states(options.result)
-    areas, force = touching_areas(options.result)
-    worm = Part(options.worm, states["worm"], areas[0], 0)
-    wheel = Part(options.wheel, states["wheel"], areas[1], len(worm.X))
+    loads, pairs = contact_loads(options.result, [Surface(options.worm), Surface(options.wheel)])
+    worm = Part(options.worm, states["worm"], sorted({areas[0] for areas in pairs}), 0)
+    wheel = Part(options.wheel, states["wheel"], sorted({areas[1] for areas in pairs}), len(worm.X))
     job = os.path.join(options.out, "turn_in")
     if not options.read_only:
-        write_deck(job + ".inp", worm, wheel, options)
+        write_deck(job + ".inp", (worm, wheel), loads, pairs, options)
         with open(job + ".log", "w", encoding="utf-8") as log:
             subprocess.run(["ccx", "turn_in"], cwd=options.out, stdout=log, stderr=subprocess.STDOUT, check=True)
-    compare(options, worm, wheel, force, job)
+    compare(options, worm, wheel, pairs, job)
 
 
 if __name__ == "__main__":

@@ -18,11 +18,11 @@ namespace {
 
 // First words of options that belong to PETSc, SLEPc and their solvers.
 const std::vector<std::string> kPetscPrefixes = {
-    "ts_",     "snes_",  "ksp_",   "pc_",     "mat_",     "vec_",   "eps_",     "st_",  "bv_",
-    "ds_",     "rg_",    "fn_",    "sub_",    "log_",     "malloc", "options_", "info", "memory_",
-    "objects", "on_err", "error_", "check_",  "viewfrom", "get_",   "nox",      "fp_",  "no_signal",
-    "debug",   "stop_",  "start_", "petsc",   "slepc",    "blas_",  "shared_",  "mpi",  "citations",
-    "saws",    "is_",    "device", "use_gpu", "dm_",      "tao_",   "version",  "help"};
+    "elastic_",  "ts_",     "snes_",  "ksp_",   "pc_",     "mat_",     "vec_",   "eps_",     "st_",
+    "bv_",       "ds_",     "rg_",    "fn_",    "sub_",    "log_",     "malloc", "options_", "info",
+    "memory_",   "objects", "on_err", "error_", "check_",  "viewfrom", "get_",   "nox",      "fp_",
+    "no_signal", "debug",   "stop_",  "start_", "petsc",   "slepc",    "blas_",  "shared_",  "mpi",
+    "citations", "saws",    "is_",    "device", "use_gpu", "dm_",      "tao_",   "version",  "help"};
 
 // What the placeholder of `pattern` stands for in `name`; nullopt when it does not fit.
 std::optional<std::string> placeholder(const std::string& pattern, const std::string& name) {

@@ -22,19 +22,19 @@ Jet hermite_slope(double end, double t) {
   return {0.25 * end * (1 + s) * (1 + s) * (s - 1), 0.25 * (1 + s) * (3 * s - 1), 0.5 * end * (3 * s + 1)};
 }
 
-void add_product(double weight, const Jet& x, const Jet& y, Height& sum) {
-  sum.h += weight * x[0] * y[0];
-  sum.h_a += weight * Eigen::Vector2d(x[1] * y[0], x[0] * y[1]);
+void add_product(double weight, const Jet& x, const Jet& y, FaceFunction& sum) {
+  sum.f += weight * x[0] * y[0];
+  sum.f_a += weight * Eigen::Vector2d(x[1] * y[0], x[0] * y[1]);
   const double mixed = weight * x[1] * y[1];
-  sum.h_ab(0, 0) += weight * x[2] * y[0];
-  sum.h_ab(1, 1) += weight * x[0] * y[2];
-  sum.h_ab(0, 1) += mixed;
-  sum.h_ab(1, 0) += mixed;
+  sum.f_ab(0, 0) += weight * x[2] * y[0];
+  sum.f_ab(1, 1) += weight * x[0] * y[2];
+  sum.f_ab(0, 1) += mixed;
+  sum.f_ab(1, 0) += mixed;
 }
 
-Height on_quadrilateral(const CornerSlopes& slopes, double u, double v) {
+FaceFunction on_quadrilateral(const CornerSlopes& slopes, double u, double v) {
   constexpr std::array<double, 4> at_u{-1, 1, 1, -1}, at_v{-1, -1, 1, 1};
-  Height sum;
+  FaceFunction sum;
   for (int c = 0; c < 4; ++c) {
     add_product(slopes(0, c), hermite_slope(at_u[c], u), hermite_value(at_v[c], v), sum);
     add_product(slopes(1, c), hermite_value(at_u[c], u), hermite_slope(at_v[c], v), sum);
@@ -48,20 +48,20 @@ constexpr double kGradient[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
 Eigen::Vector2d gradient(int corner) { return {kGradient[corner][0], kGradient[corner][1]}; }
 
 // weight * w_i w_j w_k of the corner weights w
-void add_monomial(double weight, const Eigen::Vector3d& w, const std::array<int, 3>& ijk, Height& sum) {
+void add_monomial(double weight, const Eigen::Vector3d& w, const std::array<int, 3>& ijk, FaceFunction& sum) {
   const auto [i, j, k] = ijk;
   const Eigen::Vector2d gi = gradient(i), gj = gradient(j), gk = gradient(k);
   const Eigen::Matrix2d ij = gi * gj.transpose(), jk = gj * gk.transpose(), ki = gk * gi.transpose();
-  sum.h += weight * w[i] * w[j] * w[k];
-  sum.h_a += weight * (gi * w[j] * w[k] + w[i] * gj * w[k] + w[i] * w[j] * gk);
-  sum.h_ab +=
+  sum.f += weight * w[i] * w[j] * w[k];
+  sum.f_a += weight * (gi * w[j] * w[k] + w[i] * gj * w[k] + w[i] * w[j] * gk);
+  sum.f_ab +=
       weight * ((ij + ij.transpose()) * w[k] + (jk + jk.transpose()) * w[i] + (ki + ki.transpose()) * w[j]);
 }
 
 // Cubic with the corners' slopes along the sides and quadratic precision (the patch of Vlachos et al. 2001).
-Height on_triangle(const CornerSlopes& slopes, double u, double v) {
+FaceFunction on_triangle(const CornerSlopes& slopes, double u, double v) {
   const Eigen::Vector3d w(1 - u - v, u, v);
-  Height sum;
+  FaceFunction sum;
   double all = 0;
   for (int i = 0; i < 3; ++i)
     for (int j : {(i + 1) % 3, (i + 2) % 3}) {
@@ -117,7 +117,7 @@ std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double cr
   return slopes;
 }
 
-Height height(int sides, const CornerSlopes& slopes, double u, double v) {
+FaceFunction height(int sides, const CornerSlopes& slopes, double u, double v) {
   return sides == 4 ? on_quadrilateral(slopes, u, v) : on_triangle(slopes, u, v);
 }
 

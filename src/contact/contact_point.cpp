@@ -59,17 +59,24 @@ Winner smooth_winner(const MasterSide& master, const Winner& w, const Vector3d& 
   return prolonged(face, q, w).value_or(w);
 }
 
-// Height over the face, along the directions in which the closest point can move.
-Height height_at(const MasterSide& master, const Face& face, const Winner& w) {
-  if (master.bulge.empty() || w.point.feature == Feature::vertex) return {};
-  const Height full = height(face.sides, master.bulge[w.face], w.point.u, w.point.v);
+// Along the directions in which the closest point can move.
+FaceFunction restricted(const FaceFunction& full, int sides, const Winner& w) {
   if (w.point.feature == Feature::face) return full;
-  const Eigen::Vector2d along = on_side(face.sides, w.point.part, 1) - on_side(face.sides, w.point.part, 0);
-  Height side;
-  side.h = full.h;
-  side.h_a[0] = full.h_a.dot(along);
-  side.h_ab(0, 0) = along.dot(full.h_ab * along);
+  if (w.point.feature == Feature::vertex) return {full.f};
+  const Eigen::Vector2d along = on_side(sides, w.point.part, 1) - on_side(sides, w.point.part, 0);
+  FaceFunction side{full.f};
+  side.f_a[0] = full.f_a.dot(along);
+  side.f_ab(0, 0) = along.dot(full.f_ab * along);
   return side;
+}
+
+FaceFunction height_at(const MasterSide& master, const Face& face, const Winner& w) {
+  if (master.bulge.empty() || w.point.feature == Feature::vertex) return {};
+  return restricted(height(face.sides, master.bulge[w.face], w.point.u, w.point.v), face.sides, w);
+}
+
+FaceFunction share_at(const Face& face, const Winner& w) {
+  return restricted(end_share(face, w.point.u, w.point.v), face.sides, w);
 }
 
 // Way of the closest point over the master since the last step, and what the spring held then.
@@ -105,6 +112,8 @@ StickPoint stick_point(const Face& face, const Winner& w, const ContactPoint& co
 
 }  // namespace
 
+bool on_prolonged_end(const Winner& w) { return w.point.N.minCoeff() < 0; }
+
 ContactPoint potential_contact(const MasterSide& master, const Winner& w, double c_p, bool full_tangent) {
   const Face face = face_of(master.surface, w.face);
   ContactPoint contact = geometry(master.surface, w);
@@ -122,7 +131,7 @@ std::optional<ContactPoint> general_contact(const MasterSide& master, const Touc
   const Winner w = smooth_winner(master, touch.winner, touch.x_slave);
   const Face face = face_of(master.surface, w.face);
   const Foot foot = make_foot(face, w, touch.x_slave);
-  const Gap open = gap(foot, height_at(master, face, w), law.offset);
+  const Gap open = gap(foot, height_at(master, face, w), law.offset, share_at(face, w));
   if (!(open.g < 0)) return {};
   ContactPoint contact = geometry(master.surface, w);
   contact.slave_node = touch.slave_node;

@@ -13,6 +13,34 @@ Eigen::Vector2d corner_coordinates(int sides, int corner) {
   return {corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0};
 }
 
+// How far beyond a side, in shares of the face's length: offset + slope . (u, v).
+struct Beyond {
+  double offset;
+  Eigen::Vector2d slope;
+};
+
+Beyond beyond(int sides, int side) {
+  if (sides == 3) {
+    constexpr std::array<std::array<double, 2>, 3> outwards{{{0, -1}, {1, 1}, {-1, 0}}};
+    return {side == 1 ? -1.0 : 0.0, {outwards[side][0], outwards[side][1]}};
+  }
+  constexpr std::array<std::array<double, 2>, 4> outwards{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+  return {-0.5, 0.5 * Eigen::Vector2d(outwards[side][0], outwards[side][1])};
+}
+
+// From 1 at t = 0 to 0 at t = 1.
+FaceFunction fall(double t, const Eigen::Vector2d& slope) {
+  if (t <= 0) return {1};
+  if (t >= 1) return {};
+  return {(1 - t) * (1 - t) * (1 + 2 * t), -6 * t * (1 - t) * slope,
+          (12 * t - 6) * (slope * slope.transpose())};
+}
+
+FaceFunction product(const FaceFunction& a, const FaceFunction& b) {
+  const Eigen::Matrix2d mixed = a.f_a * b.f_a.transpose();
+  return {a.f * b.f, a.f * b.f_a + b.f * a.f_a, a.f * b.f_ab + b.f * a.f_ab + mixed + mixed.transpose()};
+}
+
 }  // namespace
 
 Shape shape(int sides, double u, double v) {
@@ -51,6 +79,18 @@ bool inside(const Face& face, double u, double v) {
   const auto& e = face.extension;
   if (face.sides == 3) return v >= -e[0] && 1 - u - v >= -e[1] && u >= -e[2];
   return u >= -1 - 2 * e[3] && u <= 1 + 2 * e[1] && v >= -1 - 2 * e[0] && v <= 1 + 2 * e[2];
+}
+
+FaceFunction end_share(const Face& face, double u, double v) {
+  FaceFunction share{1};
+  for (int side = 0; side < face.sides; ++side) {
+    const double extension = face.extension[side];
+    if (extension == 0) continue;
+    const Beyond way = beyond(face.sides, side);
+    const Eigen::Vector2d slope = way.slope / extension;
+    share = product(share, fall(way.offset / extension + slope.dot(Eigen::Vector2d(u, v)), slope));
+  }
+  return share;
 }
 
 Eigen::Vector3d normal(const Face& face, double u, double v) {

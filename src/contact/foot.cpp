@@ -84,11 +84,29 @@ Local3 spread(double slave, const Eigen::Vector4d& weight) {
   return rows;
 }
 
+Local3 tangent_derivative(const Foot& foot, int i) {
+  return spread(0, foot.N_a.col(i)) + foot.x_uv * foot.D.row(1 - i);
+}
+
+Eigen::Matrix<double, 2, 15> metric_derivative(const Foot& foot, const Eigen::Vector2d& y) {
+  Local3 a_x[2];
+  for (int i = 0; i < foot.n_dir; ++i) a_x[i] = tangent_derivative(foot, i);
+  const LocalRow twist_x = foot.x_uv.transpose() * foot.d_x + foot.d.transpose() * spread(0, foot.N_uv);
+  Eigen::Matrix<double, 2, 15> change = Eigen::Matrix<double, 2, 15>::Zero();
+  for (int i = 0; i < foot.n_dir; ++i) {
+    for (int j = 0; j < foot.n_dir; ++j)
+      change.row(i) += y[j] * (foot.a.col(j).transpose() * a_x[i] + foot.a.col(i).transpose() * a_x[j]);
+    if (foot.n_dir == 2) change.row(i) -= y[1 - i] * twist_x;
+  }
+  return change;
+}
+
 Foot make_foot(const Face& face, const Winner& winner, const Vector3d& x_slave) {
   Foot foot;
   foot.d = x_slave - winner.point.x;
   foot.n = winner.n;
   foot.g = winner.g_n;
+  foot.N = winner.point.N;
   set_directions(face, winner, foot);
   set_motion(winner, foot);
   set_normal(foot);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "elastogear/base/rotation.h"
+#include "elastogear/contact/open_end.h"
 
 namespace elastogear::contact {
 namespace {
@@ -73,9 +74,10 @@ Friction sticking(const Vector3d& z, double c_t, double limit) {
 
 // All that makes up a force.
 struct Parts {
-  Varying slip;    // velocity
-  Varying motion;  // argument of friction: velocity, or displacement of a node that sticks
-  Pressing pressing;
+  Varying slip;       // velocity
+  Varying motion;     // argument of friction: velocity, or displacement of a node that sticks
+  Pressing pressing;  // of the whole node
+  double p = 0;       // N, what is left of it at an open end
   Friction friction;
   double mu = 0;
 };
@@ -86,18 +88,19 @@ Parts parts(const Law& law, const Foot& foot, const Gap& gap, const StickMotion*
   const Varying rate = relative_velocity(foot, v);
   parts.slip = tangential(rate, gap);
   parts.pressing = pressing(law, gap.g, gap.n.dot(rate.value));
+  parts.p = gap.share.f * parts.pressing.p;
   if (law.mu == 0) return parts;
   if (law.v_0 > 0) {
     parts.mu = law.mu;
     parts.motion = parts.slip;
-    parts.friction = regularised(parts.motion.value, law.v_0, law.mu * parts.pressing.p);
+    parts.friction = regularised(parts.motion.value, law.v_0, law.mu * parts.p);
   } else if (stick) {
     parts.mu = stick->slides ? law.mu : law.mu_static;
     parts.motion = tangential({stick->u, stick->u_x, Local3::Zero()}, gap);
-    parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.pressing.p);
+    parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.p);
     if (parts.friction.at_limit && !stick->slides) {
       parts.mu = law.mu;
-      parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.pressing.p);
+      parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.p);
     }
   }
   return parts;
@@ -108,13 +111,14 @@ Varying force(const Foot& foot, const Gap& gap, const Parts& parts, const LocalV
   const Pressing& pressing = parts.pressing;
   const Friction& friction = parts.friction;
   const Varying rate = relative_velocity(foot, v);
-  const LocalRow p_x =
-      pressing.p_g * gap.g_x + pressing.p_r * (rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x);
-  const LocalRow p_v = pressing.p_r * gap.g_x;
+  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
+  const LocalRow p_x = gap.share.f * (pressing.p_g * gap.g_x + pressing.p_r * rate_x) +
+                       pressing.p * gap.share.f_a.transpose() * foot.D;
+  const LocalRow p_v = gap.share.f * pressing.p_r * gap.g_x;
   const Vector3d per_p = gap.n - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
   Varying f;
-  f.value = pressing.p * (gap.n - parts.mu * friction.direction);
-  f.x = per_p * p_x + pressing.p * gap.n_x - friction.K * parts.motion.x;
+  f.value = parts.p * (gap.n - parts.mu * friction.direction);
+  f.x = per_p * p_x + parts.p * gap.n_x - friction.K * parts.motion.x;
   f.v = per_p * p_v - friction.K * parts.motion.v;
   return f;
 }
@@ -158,29 +162,22 @@ Pressing pressing(const Law& law, double gap, double rate) {
   f.energy = 0.5 * law.c_p * depth * depth;
   const double damping = law.d_p + law.hysteresis * law.c_p * depth;
   f.p = law.c_p * depth + damping * approach;
+  f.energy_g = -law.c_p * depth;
   f.p_g = -law.c_p * (1 + law.hysteresis * approach);
   f.p_r = approach > 0 ? -damping : 0;
   f.power = damping * approach * approach;
   return f;
 }
 
-Gap gap(const Foot& foot, const Height& height, double offset) {
-  Gap result{foot.g - height.h + offset, foot.n, foot.n_x, {}};
-  if (foot.n_dir > 0 && !height.h_a.isZero(0)) {
+// dn = -d(a y) with y = A^-1 h_a
+Gap gap(const Foot& foot, const FaceFunction& height, double offset, const FaceFunction& share) {
+  Gap result{foot.g - height.f + offset, foot.n, foot.n_x, {}, share};
+  if (foot.n_dir > 0 && !height.f_a.isZero(0)) {
     const Eigen::Matrix2d A_inverse = foot.A.inverse();
-    const Eigen::Vector2d y = A_inverse * height.h_a;
-    Local3 a_x[2];
-    for (int i = 0; i < 2; ++i) a_x[i] = spread(0, foot.N_a.col(i)) + foot.x_uv * foot.D.row(1 - i);
-    const LocalRow twist_x = foot.x_uv.transpose() * foot.d_x + foot.d.transpose() * spread(0, foot.N_uv);
-    Eigen::Matrix<double, 2, 15> right = height.h_ab * foot.D;
-    for (int i = 0; i < foot.n_dir; ++i) {
-      for (int j = 0; j < foot.n_dir; ++j)
-        right.row(i) -= y[j] * (foot.a.col(j).transpose() * a_x[i] + foot.a.col(i).transpose() * a_x[j]);
-      if (foot.n_dir == 2) right.row(i) += y[1 - i] * twist_x;
-    }
+    const Eigen::Vector2d y = A_inverse * height.f_a;
     result.n -= foot.a * y;
-    result.n_x -= foot.a * (A_inverse * right);
-    for (int i = 0; i < foot.n_dir; ++i) result.n_x -= a_x[i] * y[i];
+    result.n_x -= foot.a * (A_inverse * (height.f_ab * foot.D - metric_derivative(foot, y)));
+    for (int i = 0; i < foot.n_dir; ++i) result.n_x -= tangent_derivative(foot, i) * y[i];
   }
   result.g_x = result.n.transpose() * foot.G;
   return result;
@@ -195,15 +192,15 @@ void apply_law(const Law& law, const Foot& foot, const Gap& gap, const StickMoti
   contact.f = f.value;
   contact.F = (foot.G.transpose() * f.value).reshaped(3, 5);
   contact.slip = all.slip.value;
-  contact.energy = all.pressing.energy;
-  contact.power = all.pressing.power;
+  contact.energy = gap.share.f * all.pressing.energy;
+  contact.power = gap.share.f * all.pressing.power;
   contact.friction_power = 0;
   set_tangent(foot, f, contact);
-  if (law.v_0 > 0)
-    contact.friction_power = all.mu * all.pressing.p * all.friction.direction.dot(contact.slip);
+  if (gap.share.f < 1) add_end_force(end_force(foot, gap, all.pressing), contact);
+  if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   if (!stick || law.c_t == 0) return;
-  const Vector3d elastic = all.mu * all.pressing.p / law.c_t * all.friction.direction;
-  const double force_t = all.mu * all.pressing.p * all.friction.direction.norm();
+  const Vector3d elastic = all.mu * all.p / law.c_t * all.friction.direction;
+  const double force_t = all.mu * all.p * all.friction.direction.norm();
   contact.stick.slides = all.friction.at_limit;
   contact.elastic_slip = elastic;
   contact.energy += 0.5 * law.c_t * elastic.squaredNorm();

@@ -83,7 +83,8 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
                                                 const Winner& w) const {
   const Side& slaves = side[slave_side];
   const Law& law = slaves.law[node];
-  if (has_potential(settings)) return potential_contact(master, w, law.c_p, settings.full_tangent);
+  if (has_potential(settings) && !on_prolonged_end(w))
+    return potential_contact(master, w, law.c_p, settings.full_tangent);
   const auto rate = [&](int i, int n) { return tracker.velocity(i == 0 ? slave_side : 1 - slave_side, n); };
   const auto stuck = slaves.stuck.find(node);
   const Eigen::Vector3d x = tracker.configuration().x[slave_side].col(node);

@@ -1,10 +1,13 @@
 #include "elastogear/dynamics/elastic_block.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "elastogear/base/error.h"
 #include "elastogear/body/tangent.h"
+#include "rigid_fields.h"
+#include "run.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -19,6 +22,13 @@ bool is_diagonal(const Eigen::SparseMatrix<double>& A) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
       if (it.row() != it.col() && it.value() != 0) return false;
   return true;
+}
+
+bool is_factorisation(KSP ksp, PC pc) {
+  PetscBool once = PETSC_FALSE, factor = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPPREONLY, &once));
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &factor, PCCHOLESKY, PCLU, ""));
+  return once && factor;
 }
 
 }  // namespace
@@ -69,6 +79,7 @@ Eigen::MatrixXd BorderColumns::node_columns(const std::vector<int>& node) const 
 ElasticBlock::ElasticBlock(const body::Equations& eq, const Eigen::MatrixXd& markers)
     : body_(eq.body.get()), D_r_(eq.D_r), columns_(eq, markers), slot_(eq.body->surface.node.size(), -1) {
   diagonal_ = is_diagonal(body_->M_r) && is_diagonal(body_->K_r);
+  if (!diagonal_) make_solver();
 }
 
 void ElasticBlock::set_shifts(double shift_v, double shift_a) {
@@ -86,21 +97,43 @@ void ElasticBlock::set_shifts(double shift_v, double shift_a) {
   reset_compliance();
 }
 
-void ElasticBlock::factorise() {
-  const auto n = static_cast<PetscInt>(D_.rows());
-  ksp_ = UniqueKSP();
-  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, D_.outerIndexPtr(), D_.innerIndexPtr(),
-                                  D_.valuePtr(), D_mat_.out()));
-  check(MatSetOption(D_mat_, MAT_SPD, PETSC_TRUE));
+void ElasticBlock::make_solver() {
+  PC pc = nullptr;
   check(KSPCreate(PETSC_COMM_SELF, ksp_.out()));
   check(KSPSetOptionsPrefix(ksp_, "elastic_"));
-  check(KSPSetOperators(ksp_, D_mat_, D_mat_));
   check(KSPSetType(ksp_, KSPPREONLY));
-  PC pc = nullptr;
   check(KSPGetPC(ksp_, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(KSPSetFromOptions(ksp_));
+  exact_ = is_factorisation(ksp_, pc);
+}
+
+void ElasticBlock::attach_rigid_fields() {
+  if (is_node_by_node(*body_)) check(MatSetBlockSize(D_mat_, 3));
+  if (rigid_.size() == 0)
+    rigid_ = Eigen::HouseholderQR<Eigen::MatrixXd>(rigid_fields(*body_)).householderQ() *
+             Eigen::MatrixXd::Identity(body_->n_q(), 6);
+  std::vector<UniqueVec> fields;
+  std::vector<Vec> borrowed;
+  for (Eigen::Index i = 0; i < rigid_.cols(); ++i) {
+    fields.push_back(vector(rigid_.col(i)));
+    borrowed.push_back(fields.back());
+  }
+  Handle<MatNullSpace, MatNullSpaceDestroy> space;
+  check(MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, static_cast<PetscInt>(borrowed.size()),
+                           borrowed.data(), space.out()));
+  check(MatSetNearNullSpace(D_mat_, space));
+}
+
+void ElasticBlock::factorise() {
+  const auto n = static_cast<PetscInt>(D_.rows());
+  make_solver();
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, D_.outerIndexPtr(), D_.innerIndexPtr(),
+                                  D_.valuePtr(), D_mat_.out()));
+  check(MatSetOption(D_mat_, MAT_SPD, PETSC_TRUE));
+  if (!exact_) attach_rigid_fields();
+  check(KSPSetOperators(ksp_, D_mat_, D_mat_));
   check(KSPSetUp(ksp_));
 }
 

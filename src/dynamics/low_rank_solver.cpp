@@ -1,6 +1,7 @@
 #include "elastogear/dynamics/low_rank_solver.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "elastogear/base/error.h"
 #include "elastogear/body/shape.h"
@@ -46,6 +47,10 @@ LowRankSolver::LowRankSolver(const std::vector<SolverBody>& bodies) {
     start += n_s + eq->n_q();
     n_s_ += n_s;
   }
+}
+
+bool LowRankSolver::is_exact() const {
+  return std::all_of(block_.begin(), block_.end(), [](const ElasticBlock& D) { return D.is_exact(); });
 }
 
 void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {

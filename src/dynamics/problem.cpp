@@ -95,7 +95,7 @@ void set_solvers(Problem& problem, SNES snes) {
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
   check(SNESGetKSP(snes, &ksp));
-  const bool exact = problem.system.solver_is_exact();
+  const bool exact = problem.system.solver_is_exact() && problem.solver.is_exact();
   check(KSPSetType(ksp, exact ? KSPPREONLY : KSPGMRES));
   if (!exact) check(KSPSetTolerances(ksp, kLinearTolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   check(KSPGetPC(ksp, &pc));

@@ -96,7 +96,14 @@ struct Answering {
   }
 };
 
-// k, and the columns that stand first: along n, or in all directions where the force has no potential.
+// Those that change the force at an unchanged closest point stand first: along n, or in all directions where
+// the force has no potential. At an open end any change of the closest point does.
+Eigen::Index leading_columns(const contact::ContactPoint& point) {
+  if (point.V_dot.cols() == 0) return 1;
+  return point.W.cols() == contact::kColumns ? contact::kColumns : 3;
+}
+
+// k, and the columns that stand first.
 void set_stiffness(const std::vector<PairContacts>& pairs, Answering& a) {
   Triplets k;
   Eigen::Index column = 0;
@@ -105,7 +112,7 @@ void set_stiffness(const std::vector<PairContacts>& pairs, Answering& a) {
       for (Eigen::Index i = 0; i < point.k.rows(); ++i)
         for (Eigen::Index j = 0; j < point.k.cols(); ++j)
           if (point.k(i, j) != 0) k.emplace_back(column + i, column + j, point.k(i, j));
-      for (Eigen::Index i = 0; i < (point.V_dot.cols() == 0 ? 1 : 3); ++i) a.leading.push_back(column + i);
+      for (Eigen::Index i = 0; i < leading_columns(point); ++i) a.leading.push_back(column + i);
       column += point.W.cols();
     }
   a.k.resize(column, column);
@@ -132,7 +139,7 @@ VectorXd solve(const Answering& a) {
 }  // namespace
 
 ResidualContact::ResidualContact(const std::vector<const model::ElasticBody*>& bodies)
-    : flexibility_(bodies.size()), change_(bodies.size(), 0) {
+    : flexibility_(bodies.size()), left_(bodies.size()), change_(bodies.size(), 0) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (!bodies[b]->flexibility.empty()) flexibility_[b].emplace(*bodies[b]);
 }
@@ -173,7 +180,7 @@ void ResidualContact::answer_to(std::size_t b, const NodalForces& forces) {
 // w_now), H = L_V' R L.
 VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
                                const std::vector<contact::SurfaceState>& surfaces,
-                               const std::vector<NodalForces>& found, double share) {
+                               const std::vector<NodalForces>& found) {
   Answering a;
   set_stiffness(pairs, a);
   a.columns.resize(found.size());
@@ -193,15 +200,21 @@ VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
     if (!yields(b)) continue;
     NodalForces next = found[b];
     next.f_B.reshaped() -= a.columns[b].L * change;
-    answer_to(b, mean(next, flexibility_[b]->forces(), share));
+    left_[b] = flexibility_[b]->forces();
+    answer_to(b, next);
   }
   return lambda;
 }
 
 void ResidualContact::improve(const std::vector<PairContacts>& pairs,
                               const std::vector<contact::SurfaceState>& surfaces,
-                              const std::vector<NodalForces>& found, double share) {
-  step(pairs, surfaces, found, share);
+                              const std::vector<NodalForces>& found) {
+  step(pairs, surfaces, found);
+}
+
+void ResidualContact::retreat() {
+  for (std::size_t b = 0; b < flexibility_.size(); ++b)
+    if (yields(b)) answer_to(b, mean(flexibility_[b]->forces(), left_[b], 0.5));
 }
 
 bool ResidualContact::settle(std::vector<PairContacts>& pairs,
@@ -210,7 +223,7 @@ bool ResidualContact::settle(std::vector<PairContacts>& pairs,
   for (const PairContacts& pair : pairs)
     for (const contact::ContactPoint& point : pair.points)
       if (point.V_dot.cols() > 0) return false;
-  const VectorXd lambda = step(pairs, surfaces, found, 1);
+  const VectorXd lambda = step(pairs, surfaces, found);
   Eigen::Index column = 0;
   for (PairContacts& pair : pairs)
     for (contact::ContactPoint& point : pair.points) {

@@ -12,8 +12,9 @@ namespace {
 constexpr double kMisfit = 1e-10;         // of contact forces and those that residual answers were given to
 constexpr double kRoundoffMisfit = 1e-7;  // that may be roundoff of gaps, where it falls no further
 constexpr double kSmallMisfit = 1e-3;     // whose square is negligible
-constexpr double kJump = 0.02;  // of forces where a node passes from face to face, that has no solution
-constexpr int kMostTrials = 20, kFullTrials = 8;  // until they fit; the first ones go the whole way
+constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
+constexpr int kMostTrials = 30;   // until they fit
+constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
 
 using Terms = std::vector<Eigen::VectorXd>;
 
@@ -169,7 +170,14 @@ void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
   state_.force = nodal_forces(state_.pair, state_.surface);
 }
 
-// Contact forces and the bodies' answers to them.
+// Another trial.
+double System::misfit_now(const std::vector<contact::SurfaceMotion>& motion) {
+  detect(motion);
+  return residual_contact_.misfit(state_.force);
+}
+
+// Contact forces and the bodies' answers to them: Newton's method, which goes less far where it would be
+// worse.
 void System::find_answers(const std::vector<contact::SurfaceMotion>& motion) {
   double misfit = residual_contact_.misfit(state_.force);
   for (int trial = 0; misfit > kMisfit && trial < kMostTrials; ++trial) {
@@ -178,9 +186,12 @@ void System::find_answers(const std::vector<contact::SurfaceMotion>& motion) {
       misfit = 0;
       continue;
     }
-    residual_contact_.improve(state_.pair, state_.surface, state_.force, trial < kFullTrials ? 1 : 0.5);
-    detect(motion);
-    const double before = std::exchange(misfit, residual_contact_.misfit(state_.force));
+    residual_contact_.improve(state_.pair, state_.surface, state_.force);
+    const double before = std::exchange(misfit, misfit_now(motion));
+    for (int half = 0; misfit > before && half < kMostHalvings && before > kRoundoffMisfit; ++half, ++trial) {
+      residual_contact_.retreat();
+      misfit = misfit_now(motion);
+    }
     if (misfit < kRoundoffMisfit && misfit > 0.1 * before) misfit = 0;
   }
   // A node held at an edge by a jump of its force: what it answers to lies between the values on both sides.

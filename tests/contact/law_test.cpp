@@ -50,6 +50,17 @@ Local at_edge(Random& random, double depth) {
   return local;
 }
 
+// Over the prolonged side 1, where some share of the force is left.
+Local beyond_end(Random& random, int sides, double depth) {
+  Local local = behind(random, sides, 0);
+  const double extension = 0.2, beyond = random.uniform(0.2, 0.8) * extension;
+  local.face.extension[1] = extension;
+  const double u = sides == 3 ? 0.7 + beyond : 1 + 2 * beyond,
+               w = sides == 3 ? 0.3 : random.uniform(-0.8, 0.8);
+  local.q = combine(local.face, shape(sides, u, w).N) - depth * normal(local.face, u, w);
+  return local;
+}
+
 Winner winner(const Local& local) {
   Winner w{0, closest_point(local.face, local.q), {}, 0};
   const Vector3d d = local.q - w.point.x;
@@ -63,9 +74,13 @@ Winner winner(const Local& local) {
   return w;
 }
 
-Height height_at(const Local& local, const Winner& w) {
-  const Height full = height(local.face.sides, local.slopes, w.point.u, w.point.v);
-  return w.point.feature == Feature::face ? full : Height{};
+FaceFunction height_at(const Local& local, const Winner& w) {
+  const FaceFunction full = height(local.face.sides, local.slopes, w.point.u, w.point.v);
+  return w.point.feature == Feature::face ? full : FaceFunction{};
+}
+
+FaceFunction share_at(const Local& local, const Winner& w) {
+  return w.point.feature == Feature::face ? end_share(local.face, w.point.u, w.point.v) : FaceFunction{1};
 }
 
 struct Outcome {
@@ -87,8 +102,8 @@ Outcome force(const Local& local, const Law& law, const Eigen::Vector2d* anchor 
     stick.u = o.w.point.x - combine(local.face, N);
     stick.u_x = o.foot.a * o.foot.D + spread(0, o.w.point.N - N);
   }
-  apply_law(law, o.foot, gap(o.foot, height_at(local, o.w), law.offset), anchor ? &stick : nullptr,
-            o.contact);
+  const Gap open = gap(o.foot, height_at(local, o.w), law.offset, share_at(local, o.w));
+  apply_law(law, o.foot, open, anchor ? &stick : nullptr, o.contact);
   return o;
 }
 
@@ -144,9 +159,11 @@ Law law_with(double friction, double depth) {
   return law;
 }
 
-enum class Where { quadrilateral, triangle, edge };
+enum class Where { quadrilateral, triangle, edge, end, end_of_triangle };
 
 Local place(Random& random, Where where, double depth) {
+  if (where == Where::end || where == Where::end_of_triangle)
+    return beyond_end(random, where == Where::end ? 4 : 3, depth);
   return where == Where::edge ? at_edge(random, depth)
                               : behind(random, where == Where::triangle ? 3 : 4, depth);
 }
@@ -246,7 +263,38 @@ TEST_P(ContactLaw, power_of_the_forces_is_stored_or_dissipated) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Features, ContactLaw, testing::Values(Where::quadrilateral, Where::triangle, Where::edge));
+TEST(EndShare, falls_from_one_to_nothing_with_a_continuous_slope) {
+  for (int sides : {3, 4}) {
+    Face face;
+    face.sides = sides;
+    for (int side = 0; side < sides; ++side) {
+      face.extension = {};
+      face.extension[side] = 0.1;
+      const Eigen::Vector2d at = on_side(sides, side, 0.3),
+                            beyond = at + (at - on_side(sides, (side + 2) % sides, 0.5));
+      const Eigen::Vector2d centre =
+          0.5 * (extended_corner(face, side) + extended_corner(face, (side + 1) % sides));
+      EXPECT_EQ(end_share(face, at[0], at[1]).f, 1);
+      EXPECT_NEAR(end_share(face, centre[0], centre[1]).f, 0, roundoff);
+      EXPECT_EQ(end_share(face, beyond[0], beyond[1]).f, 0);
+      const Eigen::Vector2d half = 0.5 * (on_side(sides, side, 0.5) + centre);
+      const FaceFunction share = end_share(face, half[0], half[1]);
+      EXPECT_NEAR(share.f, 0.5, roundoff);
+      for (const Eigen::Vector2d& p : {at, half, centre})
+        for (int i : {0, 1}) {
+          const double h = 1e-6;
+          const Eigen::Vector2d e = h * Eigen::Vector2d::Unit(i), right = p + e, left = p - e;
+          const double slope =
+              (end_share(face, right[0], right[1]).f - end_share(face, left[0], left[1]).f) / (2 * h);
+          EXPECT_NEAR(end_share(face, p[0], p[1]).f_a[i], slope, 1e-3);
+        }
+    }
+  }
+}
+
+constexpr auto kFeatures = {Where::quadrilateral, Where::triangle, Where::edge};
+INSTANTIATE_TEST_SUITE_P(Features, ContactLaw, testing::ValuesIn(kFeatures));
+INSTANTIATE_TEST_SUITE_P(Ends, ContactLaw, testing::Values(Where::end, Where::end_of_triangle));
 
 TEST(ContactForce, damping_acts_on_approach_alone_and_never_pulls) {
   Law law = law_with(0, 0.1);

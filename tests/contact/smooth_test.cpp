@@ -39,7 +39,7 @@ double height_error(const model::Surface& s, int facets) {
     for (double t : {0.2, 0.4, 0.7}) {
       const double u = face.sides == 4 ? 2 * t - 1 : t / 2, v = face.sides == 4 ? 0.3 : t / 3;
       const Vector3d x = combine(face, shape(face.sides, u, v).N);
-      const Vector3d smooth = x + height(face.sides, slopes[f], u, v).h * normal(face, u, v);
+      const Vector3d smooth = x + height(face.sides, slopes[f], u, v).f * normal(face, u, v);
       error = std::max(error, std::abs(std::hypot(smooth.x(), smooth.z()) - kRadius));
     }
   }
@@ -82,13 +82,13 @@ TEST(Bulge, derivatives_of_the_height_are_its_slopes) {
       CornerSlopes slopes;
       for (auto s : slopes.colwise()) s = random.vector(1).head<2>();
       const double u = random.uniform(0, 0.5), v = random.uniform(0, 0.5);
-      const Height at = height(sides, slopes, u, v);
-      const Height right = height(sides, slopes, u + h, v), left = height(sides, slopes, u - h, v),
-                   up = height(sides, slopes, u, v + h), down = height(sides, slopes, u, v - h);
-      EXPECT_NEAR(at.h_a[0], (right.h - left.h) / (2 * h), 1e-8);
-      EXPECT_NEAR(at.h_a[1], (up.h - down.h) / (2 * h), 1e-8);
-      EXPECT_LT((at.h_ab.col(0) - (right.h_a - left.h_a) / (2 * h)).norm(), 1e-8);
-      EXPECT_LT((at.h_ab.col(1) - (up.h_a - down.h_a) / (2 * h)).norm(), 1e-8);
+      const FaceFunction at = height(sides, slopes, u, v);
+      const FaceFunction right = height(sides, slopes, u + h, v), left = height(sides, slopes, u - h, v),
+                         up = height(sides, slopes, u, v + h), down = height(sides, slopes, u, v - h);
+      EXPECT_NEAR(at.f_a[0], (right.f - left.f) / (2 * h), 1e-8);
+      EXPECT_NEAR(at.f_a[1], (up.f - down.f) / (2 * h), 1e-8);
+      EXPECT_LT((at.f_ab.col(0) - (right.f_a - left.f_a) / (2 * h)).norm(), 1e-8);
+      EXPECT_LT((at.f_ab.col(1) - (up.f_a - down.f_a) / (2 * h)).norm(), 1e-8);
     }
 }
 

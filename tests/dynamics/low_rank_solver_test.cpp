@@ -6,6 +6,7 @@
 #include "box_body.h"
 #include "elastogear/body/tangent.h"
 #include "elastogear/dynamics/low_rank_solver.h"
+#include "petsc_option.h"
 
 using namespace elastogear;
 using namespace elastogear::dynamics;
@@ -119,6 +120,13 @@ TEST_P(Solver, matrix_is_the_block_form_it_states) {
   block += W * A.k * V.transpose();
   const MatrixXd found = dense(solver, system_size(pair)).topLeftCorner(n_s + n_q, n_s + n_q);
   EXPECT_LT((found - block).norm(), kRoundoff * block.norm());
+}
+
+TEST(SolverOfPetsc, is_exact_when_it_factorises_or_divides) {
+  const Bodies full = bodies(model::Basis::full), modal = bodies(model::Basis::modal);
+  const test::Option multigrid("-elastic_pc_type", "gamg");
+  EXPECT_FALSE(LowRankSolver(pointers(full)).is_exact());
+  EXPECT_TRUE(LowRankSolver(pointers(modal)).is_exact());
 }
 
 INSTANTIATE_TEST_SUITE_P(Bases, Solver, testing::Values(model::Basis::modal, model::Basis::full));

@@ -5,6 +5,7 @@
 #include "box_body.h"
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
+#include "petsc_option.h"
 
 using namespace elastogear;
 using namespace elastogear::dynamics;
@@ -38,18 +39,6 @@ std::vector<double> times(System system, const TimeSettings& settings) {
   return times;
 }
 
-class Option {
- public:
-  Option(const char* name, const char* value) : name_(name) {
-    check(PetscOptionsSetValue(nullptr, name, value));
-  }
-  ~Option() { PetscOptionsClearValue(nullptr, name_); }
-  Option(const Option&) = delete;
-
- private:
-  const char* name_;
-};
-
 }  // namespace
 
 TEST(Simulate, observes_every_nth_step_and_the_last) {
@@ -61,7 +50,7 @@ TEST(Simulate, observes_every_nth_step_and_the_last) {
 }
 
 TEST(Simulate, options_database_wins_over_settings) {
-  const Option dt("-ts_dt", "0.25");
+  const test::Option dt("-ts_dt", "0.25");
   EXPECT_EQ(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1}).size(), 5u);
 }
 
@@ -79,7 +68,7 @@ TEST(Simulate, refuses_settings_that_make_no_sense) {
   EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = -1}), Error);
   EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1, .rho_inf = 1.5}), Error);
   EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1, .output_every = 0}), Error);
-  const Option dt("-ts_dt", "-1");
+  const test::Option dt("-ts_dt", "-1");
   EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1}), Error);
 }
 
@@ -92,7 +81,7 @@ TEST(Simulate, rethrows_what_the_observer_throws) {
 }
 
 TEST(Simulate, step_that_cannot_be_cut_further_is_an_error_with_its_time) {
-  const Option none("-snes_max_it", "0");
+  const test::Option none("-snes_max_it", "0");
   const std::string message = message_of([] { times(impact(0.01), {.dt = 0.1, .end_time = 1}); });
   EXPECT_NE(message.find("cannot be solved"), std::string::npos) << message;
 }

@@ -4,6 +4,7 @@ import sys
 import tempfile
 import types
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -32,6 +33,16 @@ DAT = """
  displacements (vx,vy,vz) for set TURN and time  0.1000000E+01
 
       9 -1.250000E-04  0.000000E+00  0.000000E+00
+
+ statistics for slave set THREAD_1_LEFT, master set TOOTH_01_RIGHT and time  0.1000000E+01
+
+   total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)
+
+    3.000000E+00  4.000000E+00  0.000000E+00  1.000000E+00  2.000000E+00  3.000000E+00
+
+   area,  normal force (+ = tension) and shear force (size)
+
+    1.677029E-06 -5.000000E+00  2.000000E-02
 """
 
 
@@ -49,32 +60,66 @@ class Calculix(unittest.TestCase):
         self.assertAlmostEqual(stress[1], 1e8)
         self.assertAlmostEqual(stress[27] / (np.sqrt(3) * 5e7), 1)
 
-    def test_the_last_reaction_and_turn_are_read(self):
-        force, turn = self.read(calculix.read_prints, DAT)
+    def test_the_last_reaction_the_turn_and_the_force_of_each_pair_are_read(self):
+        force, turn, pairs = self.read(calculix.read_prints, DAT)
         self.assertAlmostEqual(np.linalg.norm(force), 500)
         self.assertAlmostEqual(turn, -1.25e-4)
+        self.assertEqual(list(pairs), [("thread_1_left", "tooth_01_right")])
+        self.assertAlmostEqual(np.linalg.norm(pairs["thread_1_left", "tooth_01_right"]), 5)
 
     def test_faces_are_found_as_sides_of_their_elements(self):
         cells = np.array([[0, 1, 2, 3, 4, 5, 6, 7], [4, 5, 6, 7, 8, 9, 10, 11]])
         sides = calculix.element_sides(cells, np.array([[9, 8, 11, 10], [0, 1, 5, 4]]))
         self.assertEqual(sides, [(1, 1), (0, 2)])
 
-    def test_the_deck_turns_the_worm_about_its_own_axis(self):
-        def part(offset, axis):
+    def deck(self, axis, contact):
+        def part(offset, axis, area):
             return types.SimpleNamespace(X=np.eye(8, 3), cells=np.arange(8).reshape(1, 8), held=np.array([0, 1]), offset=offset,
-                                         material=[210e9, 0.3], faces=[(0, 1)], stiffness=1e14, axis=np.array(axis, float))
-        options = types.SimpleNamespace(stiffness=0, increment=0.25, torque=4)
+                                         material=[210e9, 0.3], faces={area: [(0, 1)]}, stiffness=1e14, element="C3D8",
+                                         axis=np.array(axis, float))
+        options = types.SimpleNamespace(stiffness=0, increment=0.25, torque=4, contact=contact)
+        loads = ({2: np.array([0, 7.0, 0])}, {3: np.array([0, -7.0, 0])})
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "job.inp")
-            calculix.write_deck(path, part(0, [-1, 0, 0]), part(8, [0, 0, 1]), options)
+            calculix.write_deck(path, (part(0, axis, "thread"), part(8, [0, 0, 1], "tooth")), loads, [("thread", "tooth")], options)
             with open(path, encoding="ascii") as file:
-                deck = file.read()
-            self.assertIn("18, 1, -4\n", deck)
-            self.assertIn("LINEAR\n5e+13\n", deck)
-            self.assertIn("TYPE=SURFACE TO SURFACE\nSworm, Swheel\n", deck)
-            self.assertIn("2, S2\n", deck)
-            with self.assertRaises(SystemExit):
-                calculix.write_deck(path, part(0, [0, 1, 0]), part(8, [0, 0, 1]), options)
+                return file.read()
+
+    def test_the_deck_turns_the_worm_about_its_own_axis(self):
+        deck = self.deck([-1, 0, 0], "faces")
+        self.assertIn("18, 1, -4\n", deck)
+        self.assertIn("LINEAR\n5e+13\n", deck)
+        self.assertLess(deck.index("*BOUNDARY\n18, 1, 1\n"), deck.index("*BOUNDARY, OP=NEW\n"))
+        self.assertLess(deck.index("REMOVE\nthread, tooth\n"), deck.index("ADD\nthread, tooth\n"))
+        self.assertIn("TYPE=SURFACE TO SURFACE\nthread, tooth\n", deck)
+        self.assertIn("2, S2\n", deck)
+        with self.assertRaises(SystemExit):
+            self.deck([0, 1, 0], "faces")
+
+    def test_nodes_that_touch_have_a_law_with_a_rounded_corner(self):
+        deck = self.deck([1, 0, 0], "nodes")
+        self.assertIn("LINEAR\n5e+13, 4e+06\n", deck)
+        self.assertIn("TYPE=NODE TO SURFACE\nthread, tooth\n", deck)
+        self.assertNotIn("CONTACT PRINT", deck)
+
+    def test_forces_act_on_the_nodes_of_both_bodies_which_are_held(self):
+        deck = self.deck([1, 0, 0], "forces")
+        self.assertIn("3, 2, 7\n", deck)
+        self.assertIn("12, 2, -7\n", deck)
+        self.assertIn("HELDworm, 1, 3\n", deck)
+        self.assertNotIn("CONTACT", deck)
+
+    def test_a_contact_force_goes_to_the_slave_and_the_corners_of_its_face(self):
+        worm = types.SimpleNamespace(node=np.arange(10, 14), area_of_node={0: "thread"})
+        wheel = types.SimpleNamespace(node=np.arange(20, 24), face=np.array([[0, 1, 2, 3]]), area=["tooth"])
+        f = np.array([4.0, 0, 0])
+        point = (0, 0, 0, np.array([0.5, 0.25, 0.25, 0]), f)
+        with mock.patch.object(calculix, "contact_points", return_value=[point]):
+            loads, pairs = calculix.contact_loads("", (worm, wheel))
+        self.assertEqual(list(loads[0]), [10])
+        np.testing.assert_allclose(loads[1][20], -f / 2)
+        np.testing.assert_allclose(sum(loads[1].values()), -f)
+        np.testing.assert_allclose(np.abs(pairs["thread", "tooth"]), np.abs(f))
 
 
 if __name__ == "__main__":

@@ -13,18 +13,12 @@ namespace elastogear::contact {
 /// Slopes of the height with the face's (u, v) at its corners, m.
 using CornerSlopes = Eigen::Matrix<double, 2, 4>;
 
-/// Height along the face normal and its derivatives with (u, v), m.
-struct Height {
-  double h = 0;
-  Eigen::Vector2d h_a = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d h_ab = Eigen::Matrix2d::Zero();
-};
-
 /// One entry per face. Normals are averaged over the faces at a node that turn by less than `crease` (rad)
 /// against the face in question, so that true edges stay sharp.
 std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double crease);
 
-Height height(int sides, const CornerSlopes& slopes, double u, double v);
+/// Along the face normal, m.
+FaceFunction height(int sides, const CornerSlopes& slopes, double u, double v);
 
 /// Bound of |h| over all faces, m.
 double largest_height(const std::vector<CornerSlopes>& slopes);

@@ -12,7 +12,9 @@ struct MasterSide {
   double crease = 0;                       ///< rad
 };
 
-/// Frictionless, undamped penalty on facets: F derives from a potential, W = V.
+bool on_prolonged_end(const Winner& winner);
+
+/// Frictionless, undamped penalty on facets: F derives from a potential, W = V. Not for prolonged ends.
 ContactPoint potential_contact(const MasterSide& master, const Winner& winner, double c_p, bool full_tangent);
 
 /// The same for any law. Smooth surfaces are met on the face itself where the closest point is an edge or

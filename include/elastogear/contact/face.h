@@ -22,6 +22,13 @@ struct Shape {
 };
 Shape shape(int sides, double u, double v);
 
+/// A function of (u, v) and its derivatives.
+struct FaceFunction {
+  double f = 0;
+  Eigen::Vector2d f_a = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d f_ab = Eigen::Matrix2d::Zero();
+};
+
 /// sum_i weight_i x_i
 Eigen::Vector3d combine(const Face& face, const Eigen::Vector4d& weight);
 
@@ -33,6 +40,10 @@ Eigen::Vector2d extended_corner(const Face& face, int corner);
 
 /// Whether (u, v) lies on the face with its open sides moved outwards.
 bool inside(const Face& face, double u, double v);
+
+/// Share of a contact force that is left on the prolonged ends: falls from 1 at the open side to 0 where they
+/// end, with a continuous slope.
+FaceFunction end_share(const Face& face, double u, double v);
 
 /// Outward unit normal at (u, v), Eq. (17); zero where the face is degenerate.
 Eigen::Vector3d normal(const Face& face, double u, double v);

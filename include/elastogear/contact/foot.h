@@ -17,6 +17,7 @@ struct Foot {
   int n_dir = 0;  ///< directions in which the closest point can move: face 2, edge 1, vertex 0
   Eigen::Matrix<double, 3, 2> a = Eigen::Matrix<double, 3, 2>::Zero();    ///< m, tangents along them
   Eigen::Matrix<double, 4, 2> N_a = Eigen::Matrix<double, 4, 2>::Zero();  ///< dN/dxi
+  Eigen::Vector4d N = Eigen::Vector4d::Zero();
   Eigen::Vector4d N_uv = Eigen::Vector4d::Zero();
   Eigen::Vector3d x_uv = Eigen::Vector3d::Zero();   ///< m, d2x/dudv; edges, vertices: zero
   Eigen::Vector3d d;                                ///< m, x_slave - x_c
@@ -30,6 +31,12 @@ struct Foot {
 };
 
 Foot make_foot(const Face& face, const Winner& winner, const Eigen::Vector3d& x_slave);
+
+/// da_i/dx
+Local3 tangent_derivative(const Foot& foot, int i);
+
+/// (dA/dx) y
+Eigen::Matrix<double, 2, 15> metric_derivative(const Foot& foot, const Eigen::Vector2d& y);
 
 /// [slave I, weight_i I]
 Local3 spread(double slave, const Eigen::Vector4d& weight);

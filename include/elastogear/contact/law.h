@@ -24,18 +24,21 @@ struct Law {
 struct Pressing {
   double p = 0, p_g = 0, p_r = 0;  ///< N, N/m by the gap, N s/m by its rate
   double energy = 0;               ///< J, stored
+  double energy_g = 0;             ///< N, its derivative by the gap
   double power = 0;                ///< W, dissipated
 };
 Pressing pressing(const Law& law, double gap, double rate);
 
-/// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node.
+/// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the share of
+/// the force that is left on a prolonged end.
 struct Gap {
   double g = 0;       ///< m
   Eigen::Vector3d n;  ///< force direction
   Local3 n_x;
   LocalRow g_x;  ///< n' G
+  FaceFunction share{1};
 };
-Gap gap(const Foot& foot, const Height& height, double offset);
+Gap gap(const Foot& foot, const FaceFunction& height, double offset, const FaceFunction& share = {1});
 
 /// Tangential motion of the slave node on the master since it stuck, m.
 struct StickMotion {

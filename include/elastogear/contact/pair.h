@@ -50,7 +50,8 @@ struct Settings {
   bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
   double crease = 30;         ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
-  double extension = 0.025;  ///< by which open ends of the master are prolonged, share of a face's length
+  double extension = 0.2;  ///< by which open ends of the master are prolonged, share of a face's length;
+                             ///< forces fade out over it
 };
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.
@@ -79,7 +80,7 @@ struct Yield {
   double change = 0;                                 ///< m, bound of any node's change since the last call
 };
 
-inline constexpr int kColumns = 7;  ///< most columns of a contact's tangent
+inline constexpr int kColumns = 15;  ///< most columns of a contact's tangent
 using LocalVectors = Eigen::Matrix<double, 3, 5>;
 using LocalColumns = Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, kColumns>;
 using LocalStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kColumns, kColumns>;

@@ -34,11 +34,16 @@ class BorderColumns {
 };
 
 /// D factorised once per pair of shifts: a division when the basis is modal, else a sparse Cholesky
-/// factorisation (PETSc KSP, prefix "elastic_", MUMPS by default). The body must outlive the block.
+/// factorisation (PETSc KSP, prefix "elastic_", MUMPS by default). Another preconditioner, as algebraic
+/// multigrid, gets the body's rigid fields as near-null space; the inverse is then that of a matrix near D
+/// and must be linear (no Krylov method without a fixed number of iterations). The body must outlive the
+/// block.
 class ElasticBlock {
  public:
   explicit ElasticBlock(const body::Equations& eq, const Eigen::MatrixXd& markers = {});
 
+  /// Is D^-1 exact but for roundoff? Otherwise what it is used for is a preconditioner.
+  bool is_exact() const { return exact_; }
   /// Throws Error when D is not positive definite. Does nothing when the shifts are those in force.
   void set_shifts(double shift_v, double shift_a);
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< D x
@@ -52,7 +57,9 @@ class ElasticBlock {
   void visit_memory(Tape& tape);
 
  private:
+  void make_solver();
   void factorise();
+  void attach_rigid_fields();
   void reset_compliance();
   void add_to_compliance(const std::vector<int>& node);
 
@@ -60,11 +67,12 @@ class ElasticBlock {
   Eigen::SparseMatrix<double> D_r_;
   BorderColumns columns_;
   double shift_v_ = std::numeric_limits<double>::quiet_NaN(), shift_a_ = shift_v_;  // none yet
-  bool diagonal_ = false;
+  bool diagonal_ = false, exact_ = true;
   Eigen::VectorXd inverse_;  // of a diagonal D
   Eigen::SparseMatrix<double, Eigen::RowMajor> D_;
   UniqueMat D_mat_;  // borrows D_'s arrays
   UniqueKSP ksp_;
+  Eigen::MatrixXd rigid_;                   // of the near-null space, once needed
   std::vector<int> kept_;                   // nodes in the order of G_
   std::vector<std::vector<int>> batches_;   // of kept_, as they were added together
   std::vector<int> slot_;                   // surface node -> position in kept_, or -1

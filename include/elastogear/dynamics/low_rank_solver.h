@@ -52,6 +52,8 @@ class LowRankSolver {
  public:
   explicit LowRankSolver(const std::vector<SolverBody>& bodies);
 
+  /// Are the blocks D inverted exactly, see ElasticBlock? Otherwise solve() is a preconditioner.
+  bool is_exact() const;
   /// Factorises. Throws Error when A is singular.
   void set(EffectiveMatrix A);
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< A x

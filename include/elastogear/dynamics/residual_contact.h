@@ -29,10 +29,11 @@ class ResidualContact {
 
   /// Difference between the forces found and those that the nodes answered to, relative to the former.
   double misfit(const std::vector<NodalForces>& found) const;
-  /// The next trial: the bodies answer to forces that, to first order, will be found. share: of the way
-  /// there.
+  /// The next trial: the bodies answer to forces that, to first order, will be found.
   void improve(const std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
-               const std::vector<NodalForces>& found, double share);
+               const std::vector<NodalForces>& found);
+  /// Half of the way back to the answers before the last improvement.
+  void retreat();
   /// Brings contacts and answers together to first order, without another look at the surfaces: for a misfit
   /// whose square is negligible. False, and nothing done, where forces have no potential.
   bool settle(std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
@@ -54,7 +55,7 @@ class ResidualContact {
   void answer_to(std::size_t b, const NodalForces& forces);
   Eigen::VectorXd step(const std::vector<PairContacts>& pairs,
                        const std::vector<contact::SurfaceState>& surfaces,
-                       const std::vector<NodalForces>& found, double share);
+                       const std::vector<NodalForces>& found);
 
   struct Accepted {
     double time = 0;
@@ -63,7 +64,8 @@ class ResidualContact {
 
   std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
   Accepted last_, before_;
-  std::vector<double> change_;  // m, not yet seen by all pairs
+  std::vector<NodalForces> left_;  // of each body, answered to before the last improvement
+  std::vector<double> change_;     // m, not yet seen by all pairs
 };
 
 }  // namespace elastogear::dynamics
