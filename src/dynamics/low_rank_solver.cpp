@@ -1,5 +1,6 @@
 #include "elastogear/dynamics/low_rank_solver.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "elastogear/base/error.h"
@@ -19,6 +20,20 @@ Eigen::MatrixXd yielding(const BodyTerms& t, const Eigen::MatrixXd& X) {
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.rows(), X.cols());
   if (t.R.size() > 0) Y.bottomRows(t.R.rows()).noalias() = t.R * X.bottomRows(t.R.rows());
   return Y;
+}
+
+// X' R on all columns of E.
+Eigen::MatrixXd yielding_rows(const BodyTerms& t, const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.cols(), X.rows());
+  if (t.R.size() > 0) Y.rightCols(t.R.cols()).noalias() = X.bottomRows(t.R.rows()).transpose() * t.R;
+  return Y;
+}
+
+// L_V'G + L_x'R. G is symmetric, and products that run down columns are the fast ones.
+Eigen::MatrixXd answers(const BodyTerms& t, const Eigen::MatrixXd& G) {
+  Eigen::MatrixXd rows = (G * rows_of(t)).transpose();
+  if (t.R.size() > 0) rows += yielding_rows(t, position_rows(t));
+  return rows;
 }
 
 }  // namespace
@@ -42,15 +57,13 @@ void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
   const BodyTerms& t = A_.body[b];
   const auto [s, n_s, n_q, joint] = range_[b];
   const Eigen::Index r = A_.k.rows();
-  const Eigen::MatrixXd G = block_[b].compliance(t.node), L = t.L;
-  const Eigen::MatrixXd G_beta = G * t.beta, G_L = G * t.L, R_beta = yielding(t, t.beta),
-                        R_L = yielding(t, L);
-  small.block(joint, joint, n_s, n_s) += t.C - t.rho.transpose() * (G_beta + R_beta);
-  small.block(joint, n_s_, n_s, r) += (t.W_s - t.rho.transpose() * (G_L + R_L)) * A_.k;
-  small.block(n_s_, joint, r, n_s) +=
-      rows_of(t).transpose() * G_beta + position_rows(t).transpose() * R_beta - t.V_s.transpose();
-  const Eigen::MatrixXd L_G_L = rows_of(t).transpose() * G_L + position_rows(t).transpose() * R_L;
-  small.bottomRightCorner(r, r) += L_G_L * A_.k;
+  const Eigen::MatrixXd G = block_[b].compliance(t.node), V_answers = answers(t, G),
+                        rho_answers = t.rho.transpose() * G + yielding_rows(t, t.rho);
+  const Eigen::SparseMatrix<double> L_k = t.L * A_.k;
+  small.block(joint, joint, n_s, n_s) += t.C - rho_answers * t.beta;
+  small.block(joint, n_s_, n_s, r) += t.W_s * A_.k - rho_answers * L_k;
+  small.block(n_s_, joint, r, n_s) += V_answers * t.beta - t.V_s.transpose();
+  small.bottomRightCorner(r, r) += V_answers * L_k;
 }
 
 void LowRankSolver::set(EffectiveMatrix A) {
@@ -63,9 +76,7 @@ void LowRankSolver::set(EffectiveMatrix A) {
     add_body(b, small);
   }
   require(small.allFinite(), "the effective matrix is not finite");
-  if (small.rows() == 0) return;
-  lu_.compute(small);
-  require(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0, "the effective matrix is singular");
+  lu_.set(std::move(small));
 }
 
 // k lambda, lambda = V'x + L_x'w of all bodies with w = -R (beta x_s + L k lambda); projected: E'x_q.
@@ -126,7 +137,7 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
     right.segment(joint, n_s) = y.segment(s, n_s) - t.rho.transpose() * p;
     right.tail(A_.k.rows()) += rows_of(t).transpose() * p;
   }
-  const Eigen::VectorXd small = right.size() ? Eigen::VectorXd(lu_.solve(right)) : right;
+  const Eigen::VectorXd small = lu_.solve(std::move(right));
   const Eigen::VectorXd k_lambda = A_.k * small.tail(A_.k.rows());
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const auto [s, n_s, n_q, joint] = range_[b];

@@ -2,6 +2,7 @@
 // starts.
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "elastogear/base/error.h"

@@ -1,6 +1,8 @@
 // The exact low-rank solver against a dense factorisation of the matrix that it multiplies with.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "box_body.h"
 #include "elastogear/body/tangent.h"
 #include "elastogear/dynamics/low_rank_solver.h"

@@ -13,9 +13,9 @@
 // L_x'w, so that G + R takes the place of G, with L_x before R. At inertia level full A has further parts,
 // which the products with A hold and the inverse leaves out: it is then a preconditioner.
 
-#include <Eigen/LU>
 #include <vector>
 
+#include "elastogear/dynamics/dense_lu.h"
 #include "elastogear/dynamics/elastic_block.h"
 
 namespace elastogear::dynamics {
@@ -76,7 +76,7 @@ class LowRankSolver {
   std::vector<ElasticBlock> block_;
   EffectiveMatrix A_;
   Eigen::Index n_s_ = 0;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  DenseLu lu_;
 };
 
 }  // namespace elastogear::dynamics

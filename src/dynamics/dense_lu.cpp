@@ -1,0 +1,25 @@
+#include "elastogear/dynamics/dense_lu.h"
+
+#include <petscblaslapack.h>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::dynamics {
+
+void DenseLu::set(Eigen::MatrixXd A) {
+  factors_ = std::move(A);
+  auto n = static_cast<PetscBLASInt>(factors_.rows());
+  PetscBLASInt info = 0;
+  pivot_.resize(n);
+  if (n > 0) LAPACKgetrf_(&n, &n, factors_.data(), &n, pivot_.data(), &info);
+  require(info == 0, "the effective matrix is singular");
+}
+
+Eigen::VectorXd DenseLu::solve(Eigen::VectorXd y) const {
+  auto n = static_cast<PetscBLASInt>(y.size());
+  PetscBLASInt one = 1, info = 0;
+  if (n > 0) LAPACKgetrs_("N", &n, &one, factors_.data(), &n, pivot_.data(), y.data(), &n, &info);
+  return y;
+}
+
+}  // namespace elastogear::dynamics
