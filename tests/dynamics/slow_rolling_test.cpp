@@ -55,12 +55,6 @@ double torque_of_worm(const WormDrive& drive, const model::Snapshot& s) {
   return -(s.pairs[0].torque - worm.r_WB.cross(s.pairs[0].force)).dot(worm.R_WB.col(2));
 }
 
-// How far the wheel is ahead when exact flanks enter each other by `depth` (m).
-double pressed(const WormDrive& drive, double depth) {
-  const gear::Toothing& t = drive.geometry.wheel;
-  return (drive.design.j_n / 2 + depth) / (t.r_b * std::cos(t.beta_b));
-}
-
 struct Rest {
   double angle, torque;  // of the wheel, rad; of the worm, N m
 };
