@@ -49,6 +49,23 @@ class Part:
         self.axis = state["R"][:, 2]
 
 
+    def centres(self, area):
+        return np.array([self.X[self.cells[cell, list(SIDES[side])]].mean(axis=0) for cell, side in self.faces[area]])
+
+
+def mates(worm, wheel, pairs):
+    """The worm's faces by pair of areas: each goes to the wheel's area that is nearest to it.
+
+    CalculiX takes nodes that lie beside a master surface for nodes behind its faces, prolonged."""
+    faces = {}
+    for area in {areas[0] for areas in pairs}:
+        teeth = [areas[1] for areas in pairs if areas[0] == area]
+        distance = [np.linalg.norm(worm.centres(area)[:, None] - wheel.centres(tooth)[None], axis=2).min(axis=1) for tooth in teeth]
+        for face, nearest in zip(worm.faces[area], np.argmin(distance, axis=0)):
+            faces.setdefault((area, teeth[nearest]), []).append(face)
+    return faces
+
+
 def element_sides(cells, faces):
     wanted = {tuple(sorted(face)) for face in faces}
     return [(cell, side) for side, corners in enumerate(SIDES)
@@ -115,9 +132,16 @@ def write_part(file, name, part, first_cell):
     file.write(f"*MATERIAL, NAME=M{name}\n*ELASTIC\n{part.material[0]:.9g}, {part.material[1]:.9g}\n")
     file.write(f"*SOLID SECTION, ELSET=E{name}, MATERIAL=M{name}\n")
     file.write(f"*NSET, NSET=HELD{name}\n" + listed(part.offset + part.held + 1))
-    for area, faces in part.faces.items():
-        file.write(f"*SURFACE, NAME={area}, TYPE=ELEMENT\n")
-        file.writelines(f"{first_cell + cell}, S{side + 1}\n" for cell, side in faces)
+
+
+def write_surface(file, name, faces, first_cell):
+    file.write(f"*SURFACE, NAME={name}, TYPE=ELEMENT\n")
+    file.writelines(f"{first_cell + cell}, S{side + 1}\n" for cell, side in faces)
+
+
+def surface_names(areas):
+    """Slave and master of a pair of areas."""
+    return "_".join(areas), areas[1]
 
 
 def write_contact(file, worm, wheel, pairs, options):
@@ -125,13 +149,17 @@ def write_contact(file, worm, wheel, pairs, options):
     reference, turning = (wheel.offset + len(wheel.X) + i for i in (1, 2))
     stiffness = options.stiffness or 1 / (1 / worm.stiffness + 1 / wheel.stiffness)
     kind, tension = {"faces": ("SURFACE TO SURFACE", ""), "nodes": ("NODE TO SURFACE", f", {TENSION:g}")}[options.contact]
+    for areas, faces in mates(worm, wheel, pairs).items():
+        write_surface(file, surface_names(areas)[0], faces, 1)
+    for area, faces in wheel.faces.items():
+        write_surface(file, area, faces, 1 + len(worm.cells))
     for node in (reference, turning):
         file.write("*NODE\n{}, {:.12e}, {:.12e}, {:.12e}\n".format(node, *worm.X[worm.held].mean(axis=0)))
     file.write(f"*RIGID BODY, NSET=HELDworm, REF NODE={reference}, ROT NODE={turning}\n"
                "*SURFACE INTERACTION, NAME=CONTACT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
                f"{stiffness:.9g}{tension}\n")
     for areas in pairs:
-        file.write(f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE={kind}\n" + ", ".join(areas) + "\n")
+        file.write(f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE={kind}\n" + ", ".join(surface_names(areas)) + "\n")
     file.write(f"*BOUNDARY\n{reference}, 1, 3\n{turning}, 2, 3\n*NSET, NSET=TURN\n{turning}\n")
     return turning
 
@@ -145,7 +173,7 @@ def write_turning(file, parts, loads, pairs, options):
     """Our forces at our angle first, then contact under the torque: from that deformation the iterations find the contacts."""
     worm, wheel = parts
     turning = write_contact(file, worm, wheel, pairs, options)
-    change = {word: "".join(f"*MODEL CHANGE, TYPE=CONTACT PAIR, {word}\n" + ", ".join(areas) + "\n" for areas in pairs)
+    change = {word: "".join(f"*MODEL CHANGE, TYPE=CONTACT PAIR, {word}\n" + ", ".join(surface_names(areas)) + "\n" for areas in pairs)
               for word in ("REMOVE", "ADD")}
     file.write(f"*BOUNDARY\nHELDwheel, 1, 3\n*STEP\n*STATIC\n{change['REMOVE']}*BOUNDARY\n{turning}, 1, 1\n*CLOAD\n")
     write_forces(file, parts, loads)
@@ -154,7 +182,7 @@ def write_turning(file, parts, loads, pairs, options):
                "*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n"
                "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n")
     if options.contact == "faces":  # of nodes ccx 2.20 crashes at this card
-        file.writelines(f"*CONTACT PRINT, SLAVE={a}, MASTER={b}, FREQUENCY=1000\nCF\n" for a, b in pairs)
+        file.writelines(f"*CONTACT PRINT, SLAVE={a}, MASTER={b}, FREQUENCY=1000\nCF\n" for a, b in map(surface_names, pairs))
     file.write("*END STEP\n")
 
 
@@ -230,8 +258,8 @@ def compare(options, worm, wheel, pairs, job):
         print(f"{name:<40}{a:>14.6g}{b:>14.6g}{100 * (b / a - 1):>10.2f} %")
     row("contact force, N", np.linalg.norm(sum(pairs.values())), np.linalg.norm(reaction))
     for areas, force in pairs.items():
-        if areas in pairs_there:
-            row(" - ".join(areas) + ", N", np.linalg.norm(force), np.linalg.norm(pairs_there[areas]))
+        if surface_names(areas) in pairs_there:
+            row(" - ".join(areas) + ", N", np.linalg.norm(force), np.linalg.norm(pairs_there[surface_names(areas)]))
         else:
             print(f"{' - '.join(areas) + ', N':<40}{np.linalg.norm(force):>14.6g}")
     if turn is not None:

@@ -15,6 +15,8 @@ namespace {
 // as much when it has served few stages only, half as much after many.
 constexpr double kLimit = 0.125;
 constexpr int kFewUses = 8, kManyUses = 64;
+// Of that motion, for which the nodes that touch first serve; twice as much when it is used up.
+constexpr double kFirstLeg = 0.125;
 constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
 
 double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
@@ -169,9 +171,19 @@ void Tracker::measure_clearance(double limit) {
   list_nodes();
   for (int i : {0, 1}) place_nodes(i, v.node[i]);
   for (int slave : slave_sides(settings_)) leave_out(slave, soon);
-  list_nodes();
+  v.within = std::exchange(v.near, {});
+  take_near(kFirstLeg * limit);
   for (int i : {0, 1}) v.measured_at[i] = *now_[i];
   yielded_since_measured_ = 0;
+}
+
+// Of what is within the limit: what can touch until the surfaces have moved by `leg` since the measurement.
+void Tracker::take_near(double leg) {
+  Vicinity& v = *vicinity_;
+  v.leg = leg;
+  for (int slave : slave_sides(settings_))
+    v.near[slave] = not_apart(v.within[slave], v.apart_until[slave], v.path + leg + limits_.outside);
+  list_nodes();
 }
 
 // Of what is near: nodes with more clearance than that.
@@ -203,6 +215,8 @@ bool Tracker::update_vicinity() {
   if (is_used_up) {
     vicinity_->path += leg;
     measure_clearance(next_limit(*vicinity_, settings_.skin));
+  } else if (leg > vicinity_->leg) {
+    take_near(std::min(2 * leg, vicinity_->limit));
   }
   ++vicinity_->uses;
   return is_used_up;
@@ -295,6 +309,7 @@ void Tracker::visit_memory(Tape& tape) {
   visit_motion(then.found_at, side_, tape);
   visit_motion(then.measured_at, side_, tape);
   tape(then.limit);
+  tape(then.leg);
   tape(then.uses);
   tape(yielded_);
   if (!tape.plays()) return;
@@ -304,6 +319,7 @@ void Tracker::visit_memory(Tape& tape) {
   for (int i : {0, 1}) now_[i] = &then.measured_at[i];
   start_stage();
   measure_clearance(then.limit);
+  take_near(then.leg);
   vicinity_->uses = then.uses;
   std::fill_n(now_, 2, nullptr);
 }

@@ -67,6 +67,7 @@ class Tracker {
   double way(const SurfaceMotion then[2]) const;
   void list_nodes();
   void measure_clearance(double limit);
+  void take_near(double leg);
   void leave_out(int slave, double clear);
   bool update_vicinity();
   void find_candidates(double margin);

@@ -46,15 +46,23 @@ Nearby everything(const Candidates& candidates) {
   return not_apart(candidates, std::vector<double>(n, 0), 0);
 }
 
+void add(Nearby& nearby, int node, std::span<const int> faces) {
+  nearby.slave.push_back(node);
+  nearby.face.insert(nearby.face.end(), faces.begin(), faces.end());
+  nearby.end.push_back(static_cast<int>(nearby.face.size()));
+}
+
 Nearby not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path) {
   Nearby near;
-  for (int node : candidates.nodes()) {
-    if (apart_until[node] > path) continue;
-    const auto faces = candidates[node];
-    near.slave.push_back(node);
-    near.face.insert(near.face.end(), faces.begin(), faces.end());
-    near.end.push_back(static_cast<int>(near.face.size()));
-  }
+  for (int node : candidates.nodes())
+    if (apart_until[node] <= path) add(near, node, candidates[node]);
+  return near;
+}
+
+Nearby not_apart(const Nearby& nearby, const std::vector<double>& apart_until, double path) {
+  Nearby near;
+  for (std::size_t i = 0; i < nearby.slave.size(); ++i)
+    if (apart_until[nearby.slave[i]] <= path) add(near, nearby.slave[i], nearby.faces(i));
   return near;
 }
 

@@ -1,5 +1,6 @@
 #include "elastogear/dynamics/residual_flexibility.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,22 @@ constexpr std::size_t kMostBlocks = 4'000'000;  // that are kept: 288 MB
 
 const model::DenseRows& modes(const model::ElasticBody& body) {
   return std::get<model::DenseRows>(body.surface.Phi);
+}
+
+// A B' of three rows each, n numbers one after the other. All nine sums at once: every number is read once.
+Eigen::Matrix3d product(const double* A, const double* B, Eigen::Index n) {
+  using Two = Eigen::Array2d;
+  Two sum[3][3];
+  for (auto& row : sum) std::fill(std::begin(row), std::end(row), Two(Two::Zero()));
+  for (Eigen::Index k = 0; k + 1 < n; k += 2)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        sum[i][j] += Eigen::Map<const Two>(A + i * n + k) * Eigen::Map<const Two>(B + j * n + k);
+  Eigen::Matrix3d AB;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      AB(i, j) = sum[i][j].sum() + (n % 2 == 1 ? A[i * n + n - 1] * B[j * n + n - 1] : 0);
+  return AB;
 }
 
 }  // namespace
@@ -34,42 +51,53 @@ int ResidualFlexibility::number(int node) {
 }
 
 ResidualFlexibility::Row& ResidualFlexibility::row(int node) {
-  if (rows_[node].size() == loaded_.size()) return rows_[node];
+  std::vector<Eigen::Matrix3d>& R = rows_[node].R;
+  if (R.size() == loaded_.size()) return rows_[node];
   if (n_rows_ * loaded_.size() > kMostBlocks) {
     n_rows_ = 0;
     for (Row& row : rows_) row = Row();
   }
-  n_rows_ += rows_[node].empty();
-  rows_[node].resize(loaded_.size(), Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  n_rows_ += R.empty();
+  R.resize(loaded_.size(), Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   return rows_[node];
 }
 
 // The same to the bit whenever it is worked out.
 const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
-  Eigen::Matrix3d& R = row[number];
+  Eigen::Matrix3d& R = row.R[number];
   if (!std::isnan(R(0, 0))) return R;
   const int position = model::find_loaded(body_->flexibility, a);
   if (position < 0) return R = Eigen::Matrix3d::Zero();
   const auto& [b, F, Phi_over_Lambda] = loaded_[number];
   R = model::answer(body_->flexibility, position, b, *F);
-  R -= modes(*body_).middleRows<3>(3 * a).lazyProduct(Phi_over_Lambda.transpose());
+  R -= product(modes(*body_).row(3 * a).data(), Phi_over_Lambda.data(), Phi_over_Lambda.cols());
   return R;
 }
 
 void ResidualFlexibility::set_forces(const NodalForces& forces) {
+  if (forces.node != forces_.node) {
+    ++n_changes_;
+    numbers_.clear();
+    for (int node : forces.node) numbers_.push_back(number(node));
+  }
   forces_ = forces;
-  numbers_.clear();
-  for (int node : forces.node) numbers_.push_back(number(node));
+}
+
+// Blocks that follow one another in memory: all nodes that may touch are asked for at every stage.
+void ResidualFlexibility::pack(Row& row, int a) {
+  row.packed.setZero(3, 3 * static_cast<Eigen::Index>(numbers_.size()));
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    if (numbers_[i] >= 0)
+      row.packed.middleCols<3>(static_cast<Eigen::Index>(3 * i)) = block(row, a, numbers_[i]);
+  row.packed_at = n_changes_;
 }
 
 Eigen::Vector3d ResidualFlexibility::displacement(int node) {
-  Eigen::Vector3d w = Eigen::Vector3d::Zero();
-  if (numbers_.empty()) return w;
+  if (numbers_.empty()) return Eigen::Vector3d::Zero();
   Row& known = row(node);
-  for (std::size_t i = 0; i < numbers_.size(); ++i)
-    if (numbers_[i] >= 0)
-      w += block(known, node, numbers_[i]) * forces_.f_B.col(static_cast<Eigen::Index>(i));
-  return w;
+  if (known.packed_at != n_changes_) pack(known, node);
+  const Eigen::Map<const Eigen::VectorXd> f(forces_.f_B.data(), forces_.f_B.size());
+  return {known.packed.row(0).dot(f), known.packed.row(1).dot(f), known.packed.row(2).dot(f)};
 }
 
 // |R(a, b)|^2 <= |R(a, a)| |R(b, b)|, because R is positive semidefinite, and |R(b, b)| <= |F(b, b)|.

@@ -76,7 +76,7 @@ class Calculix(unittest.TestCase):
         def part(offset, axis, area):
             return types.SimpleNamespace(X=np.eye(8, 3), cells=np.arange(8).reshape(1, 8), held=np.array([0, 1]), offset=offset,
                                          material=[210e9, 0.3], faces={area: [(0, 1)]}, stiffness=1e14, element="C3D8",
-                                         axis=np.array(axis, float))
+                                         axis=np.array(axis, float), centres=lambda area: np.zeros((1, 3)))
         options = types.SimpleNamespace(stiffness=0, increment=0.25, torque=4, contact=contact)
         loads = ({2: np.array([0, 7.0, 0])}, {3: np.array([0, -7.0, 0])})
         with tempfile.TemporaryDirectory() as folder:
@@ -90,16 +90,22 @@ class Calculix(unittest.TestCase):
         self.assertIn("18, 1, -4\n", deck)
         self.assertIn("LINEAR\n5e+13\n", deck)
         self.assertLess(deck.index("*BOUNDARY\n18, 1, 1\n"), deck.index("*BOUNDARY, OP=NEW\n"))
-        self.assertLess(deck.index("REMOVE\nthread, tooth\n"), deck.index("ADD\nthread, tooth\n"))
-        self.assertIn("TYPE=SURFACE TO SURFACE\nthread, tooth\n", deck)
+        self.assertLess(deck.index("REMOVE\nthread_tooth, tooth\n"), deck.index("ADD\nthread_tooth, tooth\n"))
+        self.assertIn("TYPE=SURFACE TO SURFACE\nthread_tooth, tooth\n", deck)
         self.assertIn("2, S2\n", deck)
         with self.assertRaises(SystemExit):
             self.deck([0, 1, 0], "faces")
 
+    def test_each_face_of_the_worm_goes_to_the_nearest_tooth(self):
+        places = {"left": [[0, 0, 0], [1, 0, 0], [5, 0, 0]], "tooth_1": [[0.1, 0, 0]], "tooth_2": [[9, 0, 0], [4, 0, 0]]}
+        part = types.SimpleNamespace(faces={"left": ["a", "b", "c"]}, centres=lambda area: np.array(places[area], float))
+        self.assertEqual(calculix.mates(part, part, [("left", "tooth_1"), ("left", "tooth_2")]),
+                         {("left", "tooth_1"): ["a", "b"], ("left", "tooth_2"): ["c"]})
+
     def test_nodes_that_touch_have_a_law_with_a_rounded_corner(self):
         deck = self.deck([1, 0, 0], "nodes")
         self.assertIn("LINEAR\n5e+13, 4e+06\n", deck)
-        self.assertIn("TYPE=NODE TO SURFACE\nthread, tooth\n", deck)
+        self.assertIn("TYPE=NODE TO SURFACE\nthread_tooth, tooth\n", deck)
         self.assertNotIn("CONTACT PRINT", deck)
 
     def test_forces_act_on_the_nodes_of_both_bodies_which_are_held(self):

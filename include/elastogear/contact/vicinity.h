@@ -25,11 +25,12 @@ struct Vicinity {
   SurfaceMotion found_at[2];             ///< of both surfaces when the candidates were found
   std::array<Candidates, 2> candidates;  ///< by slave side; only those of the passes that are run
   SurfaceMotion measured_at[2];          ///< when their clearance was measured
-  double limit = 0;                      ///< m, relative motion since for which `near` is sufficient
-  int uses = 0;                          ///< of `near` since
+  double limit = 0;                      ///< m, relative motion since for which `within` is sufficient
+  double leg = 0;                        ///< m, and `near`, which is a part of it
+  int uses = 0;                          ///< of `within` since
   double path = 0;                       ///< m, of the surfaces from the search to measured_at, leg by leg
   std::array<std::vector<double>, 2> apart_until;  ///< by slave side and node: the path without touch, m
-  std::array<Nearby, 2> near;                      ///< by slave side: the candidates that can touch
+  std::array<Nearby, 2> within, near;              ///< by slave side: the candidates that can touch
   std::array<std::vector<int>, 2> node;  ///< per surface: whose positions their fine search reads, ascending
 };
 
@@ -54,6 +55,7 @@ double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion
 Nearby everything(const Candidates& candidates);
 /// The same without the nodes whose entry of apart_until exceeds `path`.
 Nearby not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path);
+Nearby not_apart(const Nearby& nearby, const std::vector<double>& apart_until, double path);
 
 /// Nodes of these faces, with all nodes of the faces around them: edges and vertices take their normals from
 /// there. Ascending, without duplicates.

@@ -33,16 +33,22 @@ class ResidualFlexibility {
     const Columns* F;  // of its orbit
     Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> Phi_over_Lambda;
   };
-  using Row = std::vector<Eigen::Matrix3d>;  // R(a, b) of one a, by the number of b; not yet known: NaN
+  struct Row {                       // of one node a
+    std::vector<Eigen::Matrix3d> R;  // R(a, b) by the number of b; not yet known: NaN
+    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> packed = {};  // of the nodes of forces_,
+    long packed_at = -1;                                                    // when n_changes_ was this
+  };
 
   int number(int node);
   const Eigen::Matrix3d& block(Row& row, int a, int number);
+  void pack(Row& row, int a);
   Row& row(int node);
 
   const model::ElasticBody* body_;
   double largest_ = 0;  // m/N, of |F(b, b)|
   NodalForces forces_;
   std::vector<int> numbers_;                  // of the nodes of forces_
+  long n_changes_ = 0;                        // of these nodes
   std::unordered_map<int, int> number_of_;    // node -> number among those that were loaded so far, -1: R = 0
   std::unordered_map<int, Columns> columns_;  // of F, by orbit: images share them
   std::vector<Loaded> loaded_;                // these
