@@ -29,9 +29,11 @@ Eigen::MatrixXd yielding_rows(const BodyTerms& t, const Eigen::MatrixXd& X) {
   return Y;
 }
 
-// L_V'G + L_x'R. G is symmetric, and products that run down columns are the fast ones.
+// L_V'G + L_x'R. Products of a sparse matrix that run down the columns of the dense one are the fast ones; G
+// is not symmetric where D^-1 is only approximated.
 Eigen::MatrixXd answers(const BodyTerms& t, const Eigen::MatrixXd& G) {
-  Eigen::MatrixXd rows = (G * rows_of(t)).transpose();
+  const Eigen::MatrixXd G_t = G.transpose();
+  Eigen::MatrixXd rows = (G_t * rows_of(t)).transpose();
   if (t.R.size() > 0) rows += yielding_rows(t, position_rows(t));
   return rows;
 }

@@ -67,6 +67,11 @@ SurfaceMotion wheel_motion(const WormDrive& drive, double phi_1, double ahead) {
   return at_rest(Vector3d::Zero(), rotation({0, 0, phi_1 / drive.geometry.ratio + ahead}));
 }
 
+double pressed(const WormDrive& drive, double depth) {
+  const gear::Toothing& t = drive.geometry.wheel;
+  return (drive.design.j_n / 2 + depth) / (t.r_b * std::cos(t.beta_b));
+}
+
 double distance(const Flanks& flanks, const SurfaceMotion& placed, const Flank& flank, const Vector3d& x) {
   return gear::flank_distance(flanks.toothing, flank.tooth, flank.side, in_body(placed, x));
 }

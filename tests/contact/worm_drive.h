@@ -34,6 +34,9 @@ WormDrive worm_drive(int n);
 SurfaceMotion worm_motion(const WormDrive& drive, double phi_1);
 SurfaceMotion wheel_motion(const WormDrive& drive, double phi_1, double ahead);
 
+/// How far the wheel is ahead (rad) when exact flanks enter each other by `depth` (m).
+double pressed(const WormDrive& drive, double depth);
+
 /// Exact distance of a point of the world from a flank of a body so placed, m, > 0 outside.
 double distance(const Flanks& flanks, const SurfaceMotion& placed, const Flank& flank,
                 const Eigen::Vector3d& x);

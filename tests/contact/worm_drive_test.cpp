@@ -102,12 +102,6 @@ TEST(WormDrive, gap_of_the_search_is_the_exact_distance_up_to_facets) {
 
 // ---- a full pitch
 
-// How far the wheel is ahead when exact flanks would enter each other by `depth`.
-double pressed(const WormDrive& drive, double depth) {
-  const gear::Toothing& t = drive.geometry.wheel;
-  return (drive.design.j_n / 2 + depth) / (t.r_b * std::cos(t.beta_b));
-}
-
 struct Census {
   int touching = 0, lost = 0, twice = 0, without_reason = 0;
 };

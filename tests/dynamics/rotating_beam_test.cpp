@@ -1,11 +1,13 @@
 // Beams of solid elements, reduced and turned about one end, beside Euler and Bernoulli's theory.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <map>
 
 #include "../fem/other_cells.h"
 #include "elastogear/base/petsc.h"
@@ -297,6 +299,21 @@ TEST_F(SpinUp, diverges_beyond_its_first_frequency_at_level_full) {
   EXPECT_NEAR(history.lag.back() / expected.back(), 1, 0.05);
   std::cout << "first frequency " << t.omega[0] << " rad/s; lag at 8 s " << history.lag[800] << " m, at 12 s "
             << history.lag.back() << " m\n";
+}
+
+// J. R. Wright, C. E. Smith, R. W. Thresher, J. L. C. Wang, J. Appl. Mech. 49 (1982) 197-202: first frequency
+// across the plane of rotation against the speed, both over sqrt(EI / m L^4).
+TEST(BeamTheory, stiffens_by_the_published_frequencies_of_a_rotating_cantilever) {
+  constexpr double kModesLeftOut = 5e-4;  // relative
+  const Theory t = theory(kSpinUp);
+  const double unit = std::sqrt(kSpinUp.EI() / kSpinUp.m()) / std::pow(kSpinUp.L, 2);
+  const ModalMatrix K = t.omega.square().matrix().asDiagonal();
+  for (const auto& [speed, frequency] : std::map<double, double>{
+           {0, 3.5160}, {1, 3.6816}, {3, 4.7973}, {5, 6.4495}, {7, 8.2996}, {10, 11.2023}}) {
+    const ModalMatrix stiffened = K + std::pow(speed * unit, 2) * t.string;
+    const double lowest = Eigen::SelfAdjointEigenSolver<ModalMatrix>(stiffened).eigenvalues()[0];
+    EXPECT_NEAR(std::sqrt(lowest) / unit, frequency, kModesLeftOut * frequency) << speed;
+  }
 }
 
 TEST_F(SpinUp, lags_more_than_with_stiffening) {
