@@ -277,16 +277,8 @@ Row solve(const std::string& folder, bool full, int facets) {
   return row;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+bool all_close(const std::string& folder, bool full, const std::vector<int>& facets) {
   constexpr double kTolerance = 0.05, kEnough = 8;  // of the pressure, from so many facets on
-  Session session(argc, argv);
-  const std::string folder = argc > 1 ? argv[1] : ".";
-  const bool full = argc > 2 && std::string(argv[2]) == "full";
-  std::vector<int> facets;
-  for (int i = 3; i < argc; ++i) facets.push_back(std::stoi(argv[i]));
-  if (facets.empty()) facets = {4, 8};
   bool close = true;
   std::printf("                                             over Hertz's values:\n");
   std::printf("facets    nodes contacts force, N  p_0, MPa p_max         a         b   sigma_n\n");
@@ -294,5 +286,22 @@ int main(int argc, char** argv) {
     const Row row = solve(folder, full, n);
     close &= row.facets < kEnough || std::abs(row.pressure - 1) < kTolerance;
   }
-  return close ? 0 : 1;
+  return close;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Session session(argc, argv);
+  try {
+    const std::string folder = argc > 1 ? argv[1] : ".";
+    const bool full = argc > 2 && std::string(argv[2]) == "full";
+    std::vector<int> facets;
+    for (int i = 3; i < argc; ++i) facets.push_back(std::stoi(argv[i]));
+    if (facets.empty()) facets = {4, 8};
+    return all_close(folder, full, facets) ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
 }

@@ -160,14 +160,14 @@ MatrixXd ResidualContact::among(std::size_t b, const std::vector<int>& node) {
   return yields(b) ? flexibility_[b]->among(node) : MatrixXd();
 }
 
-double ResidualContact::misfit(const std::vector<NodalForces>& found) const {
+ResidualContact::Misfit ResidualContact::misfit(const std::vector<NodalForces>& found) const {
   double missing = 0, all = 0;
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!yields(b)) continue;
     missing += difference(found[b], flexibility_[b]->forces()).f_B.squaredNorm();
     all += found[b].f_B.squaredNorm();
   }
-  return missing > 0 ? std::sqrt(missing / std::max(all, missing)) : 0;
+  return {std::sqrt(missing), missing > 0 ? std::sqrt(missing / std::max(all, missing)) : 0};
 }
 
 void ResidualContact::answer_to(std::size_t b, const NodalForces& forces) {

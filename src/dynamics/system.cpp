@@ -171,7 +171,7 @@ void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
 }
 
 // Another trial.
-double System::misfit_now(const std::vector<contact::SurfaceMotion>& motion) {
+ResidualContact::Misfit System::misfit_now(const std::vector<contact::SurfaceMotion>& motion) {
   detect(motion);
   return residual_contact_.misfit(state_.force);
 }
@@ -179,27 +179,28 @@ double System::misfit_now(const std::vector<contact::SurfaceMotion>& motion) {
 // Contact forces and the bodies' answers to them: Newton's method, which goes less far where it would be
 // worse.
 void System::find_answers(const std::vector<contact::SurfaceMotion>& motion) {
-  double misfit = residual_contact_.misfit(state_.force);
-  for (int trial = 0; misfit > kMisfit && trial < kMostTrials; ++trial) {
-    if (misfit < kSmallMisfit && residual_contact_.settle(state_.pair, state_.surface, state_.force)) {
+  auto misfit = residual_contact_.misfit(state_.force);
+  for (int trial = 0; misfit.relative > kMisfit && trial < kMostTrials; ++trial) {
+    if (misfit.relative < kSmallMisfit &&
+        residual_contact_.settle(state_.pair, state_.surface, state_.force)) {
       state_.force = nodal_forces(state_.pair, state_.surface);
-      misfit = 0;
+      misfit = {};
       continue;
     }
     residual_contact_.improve(state_.pair, state_.surface, state_.force);
-    const double before = std::exchange(misfit, misfit_now(motion));
-    for (int half = 0; misfit > before && half < kMostHalvings && before > kRoundoffMisfit; ++half, ++trial) {
+    const auto before = std::exchange(misfit, misfit_now(motion));
+    if (misfit.relative < kRoundoffMisfit && misfit.absolute > 0.1 * before.absolute) misfit = {};
+    for (int half = 0; misfit.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
       residual_contact_.retreat();
       misfit = misfit_now(motion);
     }
-    if (misfit < kRoundoffMisfit && misfit > 0.1 * before) misfit = 0;
   }
   // A node held at an edge by a jump of its force: what it answers to lies between the values on both sides.
-  if (misfit > kMisfit && misfit < kJump) {
+  if (misfit.relative > kMisfit && misfit.relative < kJump) {
     residual_contact_.take_answered(state_.surface, state_.force);
-    misfit = 0;
+    misfit = {};
   }
-  state_.balanced = misfit <= kMisfit;
+  state_.balanced = misfit.relative <= kMisfit;
 }
 
 // Positions of the nodes that contact touches; the others' stay undeformed.

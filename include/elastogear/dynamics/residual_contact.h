@@ -27,8 +27,12 @@ class ResidualContact {
   /// R among the nodes (model::Surface numbers), m/N; empty for a body that does not yield.
   Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);
 
-  /// Difference between the forces found and those that the nodes answered to, relative to the former.
-  double misfit(const std::vector<NodalForces>& found) const;
+  /// Difference between the forces found and those that the nodes answered to.
+  struct Misfit {
+    double absolute = 0;  ///< N
+    double relative = 0;  ///< of the forces found, at most 1
+  };
+  Misfit misfit(const std::vector<NodalForces>& found) const;
   /// The next trial: the bodies answer to forces that, to first order, will be found.
   void improve(const std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
                const std::vector<NodalForces>& found);

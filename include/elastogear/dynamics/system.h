@@ -143,7 +143,7 @@ class System {
   void add_pair(const PairSetup& setup);
   void visit_contact_history(Tape& tape);
   void detect(const std::vector<contact::SurfaceMotion>& motion);
-  double misfit_now(const std::vector<contact::SurfaceMotion>& motion);
+  ResidualContact::Misfit misfit_now(const std::vector<contact::SurfaceMotion>& motion);
   void find_answers(const std::vector<contact::SurfaceMotion>& motion);
   void place_touched(std::size_t p);
   void add_marker_forces(const MarkerSetups& setups);
