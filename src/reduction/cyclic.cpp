@@ -186,6 +186,7 @@ void keep(const Search& search, int k) {
 HarmonicModes solve(const Search& search, int k, const Cutoff& cutoff, const Progress& progress) {
   EigenOptions options = search.options.eigen;
   options.n_modes = cutoff.count[k];
+  options.counted_below = cutoff.sigma;
   options.window = std::min(options.window > 0 ? options.window : kWindow, options.n_modes + options.block);
   options.whole_pairs = false;  // the cutoff cuts none
   const fem::Matrices matrices = search.assemble(k);

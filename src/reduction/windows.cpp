@@ -258,6 +258,12 @@ Shift place_shift(Search& search, int modes) {
   }
 }
 
+// The last modes wanted lie where they were counted before.
+bool is_counted(const Search& search, const Choice& choice) {
+  const EigenOptions& options = search.options;
+  return options.n_rigid == 0 && choice.modes[search.wanted() - 1].first < options.counted_below;
+}
+
 // Whether the number of modes found under the shift is right. The last window is counted up to its end, too;
 // that leaves the factor at the shift again when modes are missing.
 bool is_complete(Search& search, const Shift& shift, const Choice& choice) {
@@ -265,7 +271,8 @@ bool is_complete(Search& search, const Shift& shift, const Choice& choice) {
   if (choice.below_shift != shift.below) return false;
   const int known = search.known() + static_cast<int>(choice.modes.size());
   const bool last = search.delivered() + static_cast<int>(choice.modes.size()) >= search.options.n_modes;
-  if (!last || choice.upper <= shift.sigma || known == search.M_times.n()) return true;
+  if (!last || choice.upper <= shift.sigma || known == search.M_times.n() || is_counted(search, choice))
+    return true;
   if (search.factor.factorise(choice.upper) == known) return true;
   search.factor.factorise(shift.sigma);
   return false;

@@ -32,6 +32,7 @@ struct EigenOptions {
   int window = 0;            ///< > 0: windows of about so many modes; kAutomaticWindow; 0: all by SLEPc
   int block = 0;             ///< right-hand sides that go through the factor together; 0: automatic
   double first_shift = 0;    ///< rad^2/s^2, below all elastic modes (windows)
+  double counted_below = 0;  ///< rad^2/s^2, known to have n_modes eigenvalues below (windows); 0: unknown
   int n_rigid = 0;           ///< zero eigenvalues of a free body, left out (windows); needs first_shift < 0
   bool whole_pairs = false;  ///< deliver also the modes above n_modes that are as good as equal to the last
   std::string prefix = {};   ///< of the options: -<prefix>eps_type, -<prefix>st_pc_type, ...
