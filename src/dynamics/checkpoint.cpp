@@ -28,7 +28,7 @@ void set_instant(Run& run, TS ts, const Instant& then) {
   check(TSSetTime(ts, then.time));
   check(TSSetStepNumber(ts, then.step));
   if (then.nominal_dt == run.nominal_dt) check(TSSetTimeStep(ts, then.dt));
-  run.first_step = then.step;
+  run.entered_step = then.step;
   run.summary.rejected_steps = then.rejected;
   run.summary.newton_iterations = then.newton;
 }

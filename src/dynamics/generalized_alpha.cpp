@@ -1,5 +1,7 @@
 #include "elastogear/dynamics/generalized_alpha.h"
 
+#include <cmath>
+
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "generalized_alpha_method.h"
@@ -68,12 +70,18 @@ PetscErrorCode attempt(TS ts, PetscBool* accept, PetscReal* next_step) {
   return 0;
 }
 
+// A step that hardly moves the time is none, for steps after a cut may be cut again and again.
+bool moves_time(TS ts) {
+  constexpr double kRoundoff = 1e-13;
+  return ts->time_step > kRoundoff * std::abs(ts->ptime);
+}
+
 PetscErrorCode count_rejection(TS ts, PetscInt* rejections) {
   ts->reject++;
-  if (ts->reason || ts->max_reject < 0 || ++*rejections <= ts->max_reject) return 0;
+  const bool may_go_on = ts->max_reject < 0 || ++*rejections <= ts->max_reject;
+  if (ts->reason || (may_go_on && moves_time(ts))) return 0;
   ts->reason = TS_DIVERGED_STEP_REJECTED;
-  return PetscInfo(ts, "step %" PetscInt_FMT " rejected more than %" PetscInt_FMT " times\n", ts->steps,
-                   ts->max_reject);
+  return PetscInfo(ts, "step %" PetscInt_FMT " rejected %" PetscInt_FMT " times\n", ts->steps, *rejections);
 }
 
 PetscErrorCode step(TS ts) {

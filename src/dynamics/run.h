@@ -33,7 +33,7 @@ struct Run {
   bool step_is_due = false;   // an output falls on the end of the last step
   bool touches = false;       // some bodies touch at the end of the last step
   double kinetic_energy = 0;  // J, after the last step of a settling run
-  int first_step = -1;        // that of the state from which it was continued
+  int entered_step = -1;      // the last one in ledger and summary
   Clock::time_point start = Clock::now(), kept = start;
 };
 

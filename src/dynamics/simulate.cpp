@@ -64,7 +64,8 @@ void keep_if_due(Run& run, TS ts, PetscReal time) {
 
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
   auto& run = *static_cast<Run*>(ctx);
-  if (step == run.first_step) return 0;  // entered before the run was interrupted
+  if (step == run.entered_step) return 0;  // before the run was interrupted, or before a step that failed
+  run.entered_step = static_cast<int>(step);
   return guard(run.problem.pending, [&] {
     enter_step(run, ts, step, time);
     report_step(run, ts, step);
