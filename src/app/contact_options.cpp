@@ -26,6 +26,8 @@ const OptionTable kTable = {
     {"contact_smooth", "-", "false",
      "gaps and normals of the smooth surface behind the facets (averaged normals at the nodes)"},
     {"contact_crease", "deg", "30", "smooth: edges that turn by more stay sharp"},
+    {"contact_extension", "-", "0.2",
+     "share of a face's length by which surfaces are prolonged at open ends; forces fade out over it"},
     {"contact_damping", "Pa s/m or N s/m", "0", "damping while bodies approach, per area or per node"},
     {"contact_hysteresis", "s/m", "0",
      "Hunt and Crossley's factor of the penalty force while bodies approach"},
@@ -63,6 +65,7 @@ contact::Settings settings(const Options& options) {
   s.offset = options.number("contact_offset");
   s.smooth = options.flag("contact_smooth");
   s.crease = options.number("contact_crease");
+  s.extension = options.number("contact_extension");
   s.damping = options.number("contact_damping");
   s.hysteresis = options.number("contact_hysteresis");
   s.friction = friction(options);

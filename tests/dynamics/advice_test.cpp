@@ -112,7 +112,7 @@ TEST(ValidityGuard, warns_once_of_a_fast_rotation) {
 }
 
 TEST(ValidityGuard, warns_once_of_steps_longer_than_the_contact_depth) {
-  PairSetup pair{"a:b", {0, 1}, {.depth = 0.01}};
+  PairSetup pair{"a:b", {0, 1}, {.depth = 0.01, .friction = {}}};
   const auto rigid = std::make_shared<model::ElasticBody>(test::make_rigid_box({.material = {1, 0, 1}}));
   pair.settings.stiffness = 1;
   const body::Joint slide{.type = body::JointType::prismatic, .axis = {1, 0, 0}};

@@ -48,7 +48,7 @@ System flight() {
                   .joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}},
                   .translation = {.s_dot_0 = 1}},
                  {.name = "wall", .body = box, .joint = {.r_WB0 = {1.5, 0, 0}}}},
-                {{"box:wall", {0, 1}, {.depth = 0.2}}});
+                {{"box:wall", {0, 1}, {.depth = 0.2, .friction = {}}}});
 }
 
 double largest_error(double dt) {
