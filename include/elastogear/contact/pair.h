@@ -51,7 +51,7 @@ struct Settings {
   double crease = 30;         ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
   double extension = 0.2;  ///< by which open ends of the master are prolonged, share of a face's length;
-                             ///< forces fade out over it
+                           ///< forces fade out over it
 };
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.
