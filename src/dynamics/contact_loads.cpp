@@ -50,7 +50,8 @@ void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& ter
   }
 }
 
-// d(velocity): s_i turns it and adds P_dot_i at x_B; Phi q' grows by shift_v Phi q and turns with w.
+// d(velocity): s_i turns it and adds P_dot_i at x_B; Phi q' grows by shift_v Phi q and turns with w. What
+// residual flexibility adds to positions has no rate of its own, but turns, too.
 void add_rate_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms,
                       SparseColumns& sparse) {
   for (Eigen::Index j = 0; j < c.V_dot_B.cols(); ++j) {
@@ -58,8 +59,11 @@ void add_rate_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms
     for (Eigen::Index i = 0; i < twists.P.cols(); ++i)
       terms.V_s(i, c.column + j) +=
           row.dot(twist_at(twists.P_dot, i, c.x_B) + twists.P.col(i).tail<3>().cross(c.v_B));
-    const Eigen::Vector3d elastic = twists.shift_v * row + row.cross(twists.w);
-    for (Eigen::Index d = 0; d < 3; ++d) sparse.L_V.emplace_back(c.first_row + d, c.column + j, elastic[d]);
+    const Eigen::Vector3d turning = row.cross(twists.w), elastic = twists.shift_v * row + turning;
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      sparse.L_V.emplace_back(c.first_row + d, c.column + j, elastic[d]);
+      sparse.L_x.emplace_back(c.first_row + d, c.column + j, turning[d]);
+    }
   }
 }
 
