@@ -9,13 +9,6 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kMisfit = 1e-10;         // of contact forces and those that residual answers were given to
-constexpr double kRoundoffMisfit = 1e-7;  // that may be roundoff of gaps, where it falls no further
-constexpr double kSmallMisfit = 1e-3;     // whose square is negligible
-constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
-constexpr int kMostTrials = 30;   // until they fit
-constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
-
 using Terms = std::vector<Eigen::VectorXd>;
 
 Eigen::VectorXd sum(const Terms& terms) {
@@ -136,98 +129,12 @@ std::vector<MovingBody> System::moving_bodies(const State& x) const {
   return bodies;
 }
 
-const ContactState& System::contacts(double time, ConstVector U, ConstVector V) {
-  if (U_of_state_ && time == time_of_state_ && *U_of_state_ == U && V_of_state_ == V) return state_;
-  U_of_state_.reset();
-  std::vector<contact::SurfaceMotion> motion;
-  state_.surface.resize(bodies_.size());
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    motion.push_back(surface_motion(b, time, U, V));
-    const bool first = state_.surface[b].x_B.cols() == 0 && bodies_[b].in_contact;
-    if (first) state_.surface[b].x_B = bodies_[b].eq.body->surface.X;
-    state_.surface[b].r_WB = motion[b].r_WB;
-    state_.surface[b].R_WB = motion[b].R_WB;
-  }
-  if (residual_contact_.any() && time != time_of_state_) residual_contact_.predict(time);
-  detect(motion);
-  if (residual_contact_.any()) find_answers(motion);
-  U_of_state_ = U;
-  V_of_state_ = V;
-  time_of_state_ = time;
-  return state_;
-}
-
-// Contacts of the bodies as they yield to the forces of the last trial.
-void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
-  state_.pair.clear();
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const int a = pairs_[p].body[0], b = pairs_[p].body[1];
-    const std::array<contact::Yield, 2> yield{residual_contact_.yield(a), residual_contact_.yield(b)};
-    state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b], yield)});
-    place_touched(p);
-  }
-  residual_contact_.seen();
-  state_.force = nodal_forces(state_.pair, state_.surface);
-}
-
-// Another trial.
-ResidualContact::Misfit System::misfit_now(const std::vector<contact::SurfaceMotion>& motion) {
-  detect(motion);
-  return residual_contact_.misfit(state_.force);
-}
-
-// Contact forces and the bodies' answers to them: Newton's method, which goes less far where it would be
-// worse.
-void System::find_answers(const std::vector<contact::SurfaceMotion>& motion) {
-  auto misfit = residual_contact_.misfit(state_.force);
-  for (int trial = 0; misfit.relative > kMisfit && trial < kMostTrials; ++trial) {
-    if (misfit.relative < kSmallMisfit &&
-        residual_contact_.settle(state_.pair, state_.surface, state_.force)) {
-      state_.force = nodal_forces(state_.pair, state_.surface);
-      misfit = {};
-      continue;
-    }
-    residual_contact_.improve(state_.pair, state_.surface, state_.force);
-    const auto before = std::exchange(misfit, misfit_now(motion));
-    if (misfit.relative < kRoundoffMisfit && misfit.absolute > 0.1 * before.absolute) misfit = {};
-    for (int half = 0; misfit.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
-      residual_contact_.retreat();
-      misfit = misfit_now(motion);
-    }
-  }
-  // A node held at an edge by a jump of its force: what it answers to lies between the values on both sides.
-  if (misfit.relative > kMisfit && misfit.relative < kJump) {
-    residual_contact_.take_answered(state_.surface, state_.force);
-    misfit = {};
-  }
-  state_.balanced = misfit.relative <= kMisfit;
-}
-
-// Positions of the nodes that contact touches; the others' stay undeformed.
-void System::place_touched(std::size_t p) {
-  const PairContacts& pair = state_.pair[p];
-  for (const contact::ContactPoint& point : pair.points)
-    for (int i = 0; i < kLocalNodes; ++i) {
-      const auto [side, node] = local_node(point, i);
-      state_.surface[pair.body[side]].x_B.col(node) = detectors_[p].position(side, node);
-    }
-}
-
 contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U,
                                               ConstVector V) const {
   const body::Motion m = motion(b, {time, U, V, V});
   const auto [r_WB, R_WB] = body::placement(bodies_[b].eq.joint, m.s);
   const body::FrameMotion frame = body::frame_motion(bodies_[b].eq, m);
   return {m.q, r_WB, R_WB, m.q_dot, frame.v, frame.w};
-}
-
-double System::depth_share(double time, ConstVector U, ConstVector V) {
-  double share = 0;
-  const ContactState& contact = contacts(time, U, V);
-  for (std::size_t p = 0; p < pairs_.size(); ++p)
-    for (const contact::ContactPoint& point : contact.pair[p].points)
-      share = std::max(share, -point.g_n / detectors_[p].settings().depth);
-  return share;
 }
 
 void System::accept(const State& x) {
