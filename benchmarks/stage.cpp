@@ -153,7 +153,7 @@ void run(int argc, char** argv) {
                 times.displaced / kStages, row * times.displaced / kStages,
                 row * static_cast<double>(state.force[0].node.size() + state.force[1].node.size()));
     print("detection: search, gaps, laws", times.detection);
-    print("positions of touched nodes", times.contacts - times.detection);
+    print("with positions of touched nodes", times.contacts);
     print("residual with generalised forces", times.residual);
     print("tangent", times.matrix);
     print("factorisation of the dense system", times.factorisation);
