@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What truncation alone does to stresses: deviation of reduced bodies that carry the very contact forces of the unreduced ones,
-by the number of modes, in the static state of the turn-in; a table and a figure.
+by the number of modes, in the static state of the turn-in, beside the deviation under the forces of their own; a table and a
+figure (equal forces: lines, forces of their own: dotted).
 
     scripts/example turn_in --size small --modes 100,500,1000,2000
     scripts/same_forces.py out/examples/small [--modes 100 500 1000 2000] [--figure same_forces.svg]
@@ -73,19 +74,33 @@ def evaluated_sets(reduced, force):
             **({flank: sets[flank]} if flank else {})}
 
 
+def own_stresses(folder, body, name, modes):
+    """Stresses (n x 6, Pa) of a set in the reduced runs, one for each number of modes, and the set's nodes."""
+    found = []
+    for n in modes:
+        with results.open_file(os.path.join(folder, "turn_in", f"modal_{n}_stress.h5"), "stress") as file:
+            nodes = file[f"{body}/{name}/nodes"][:]
+            found.append(file[f"{body}/{name}/stress"][-1])
+    return nodes, found
+
+
 def body_deviations(folder, body, modes):
-    """{set: array of len(modes) x len(MEASURES)} of one body."""
+    """{set: (at equal forces, under own forces)} of one body, each an array of len(modes) x len(MEASURES)."""
     with results.open_file(os.path.join(folder, "turn_in", "full.h5"), "result") as file:
         q = file[f"bodies/{body}/q"][-1]
     with results.open_file(os.path.join(folder, f"{body}_full.h5"), "body") as full:
         force, stress = reference(full, q)
         exact = dict(zip(full["stress/nodes"][:], measures(stress)))
+    found = {}
     with results.open_file(most_modes(folder, body), "body") as reduced:
-        exact = np.array([exact[node] for node in reduced["stress/nodes"][:]])
-        amplitude, psi = coordinates(reduced, force), reduced["stress/Psi"][:]
-        stresses = [measures(psi[:, :, :n] @ amplitude[:n]) for n in modes]
-        return {name: np.array([deviation(stress[rows], exact[rows]) for stress in stresses])
-                for name, rows in evaluated_sets(reduced, force).items()}
+        amplitude, nodes = coordinates(reduced, force), reduced["stress/nodes"][:]
+        for name, rows in evaluated_sets(reduced, force).items():
+            target, psi = np.array([exact[node] for node in nodes[rows]]), reduced["stress/Psi"][rows]
+            equal = [deviation(measures(psi[:, :, :n] @ amplitude[:n]), target) for n in modes]
+            known, own = own_stresses(folder, body, name.split()[0], modes)
+            there = np.searchsorted(known, nodes[rows])  # sets are in ascending order
+            found[name] = np.array(equal), np.array([deviation(measures(stress[there]), target) for stress in own])
+    return found
 
 
 def most_modes(folder, body):
@@ -94,24 +109,25 @@ def most_modes(folder, body):
 
 
 def print_table(found, modes):
-    print("| set | modes | " + " | ".join(MEASURES) + " |\n" + "|---" * (2 + len(MEASURES)) + "|")
-    for name, rows in found.items():
-        for n, row in zip(modes, rows):
-            print(f"| {name} | {n} | " + " | ".join(f"{value:.1f}" for value in row) + " |")
+    print("| set | modes | " + " | ".join(MEASURES) + " | " + " | ".join(MEASURES) + " |\n" + "|---" * (2 + 2 * len(MEASURES)) + "|")
+    for name, both in found.items():
+        for n, *rows in zip(modes, *both):
+            print(f"| {name} | {n} | " + " | ".join(f"{value:.1f}" for value in np.concatenate(rows)) + " |")
 
 
 def draw(found, modes, path):
     """One row of panels for each body."""
     figure, panels = plt.subplots(len(BODIES), len(found) // len(BODIES), figsize=(8.5, 5.6), sharex=True, sharey=True)
-    for axes, (name, rows) in zip(panels.flat, found.items()):
-        for measure, values, colour in zip(MEASURES, rows.T, COLOURS):
+    for axes, (name, (equal, own)) in zip(panels.flat, found.items()):
+        for measure, values, others, colour in zip(MEASURES, equal.T, own.T, COLOURS):
             axes.loglog(modes, values, marker="o", markersize=4, color=colour, label=measure)
+            axes.loglog(modes, others, marker="o", markersize=4, color=colour, linestyle=":", fillstyle="none")
         axes.set_title(name, fontsize=10)
         axes.set_xticks(modes, [str(n) for n in modes])
         axes.set_yticks(TICKS, [str(tick) for tick in TICKS])
         axes.minorticks_off()
     figure.supxlabel("modes a body", fontsize=10)
-    figure.supylabel("deviation in % at equal forces", fontsize=10)
+    figure.supylabel("deviation in %", fontsize=10)
     panels[0][-1].legend(frameon=False, fontsize=9)
     figure.savefig(path)
 
@@ -122,8 +138,8 @@ def main():
     parser.add_argument("--modes", type=int, nargs="+", default=[100, 500, 1000, 2000])
     parser.add_argument("--figure")
     options = parser.parse_args()
-    found = {f"{body} {name.replace('_', ' ')}": rows for body in BODIES
-             for name, rows in body_deviations(options.folder, body, options.modes).items()}
+    found = {f"{body} {name.replace('_', ' ')}": both for body in BODIES
+             for name, both in body_deviations(options.folder, body, options.modes).items()}
     print_table(found, options.modes)
     if options.figure:
         draw(found, options.modes, options.figure)
