@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "dense_eigenproblem.h"
 
@@ -140,14 +141,14 @@ MatrixXd inner(MPI_Comm comm, const ConstColumns& A, const ConstColumns& B) {
   return sum(comm, own);
 }
 
-KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, int capacity) {
+KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, TallBasis V) {
   int rank = 0;
   MPI_Comm_rank(M.comm(), &rank);
   KrylovBasis basis;
   basis.M = &M;
   basis.sigma = sigma;
-  basis.V = TallBasis(M.n_own(), capacity + block);
-  basis.T.setZero(capacity + block, capacity + block);
+  basis.V = std::move(V);
+  basis.T.setZero(basis.V.capacity(), basis.V.capacity());
   std::mt19937 generator(static_cast<unsigned>(rank));
   std::uniform_real_distribution<double> uniform(-1, 1);
   MatrixXd W(M.n_own(), std::min(block, M.n()));

@@ -25,59 +25,66 @@ BlockProduct::BlockProduct(Mat A, Storage storage)
   check(MatGetSize(A, &n, nullptr));
   n_own_ = static_cast<int>(n_own);
   n_ = static_cast<int>(n);
-  if (is_serial(comm_))
-    local_ = A;
-  else
-    find_ghosts(A);
-  PetscBool done = PETSC_FALSE;
-  check(MatGetRowIJ(local_, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.offset, &rows_.column, &done));
-  check(MatSeqAIJGetArrayRead(local_, &rows_.value));
-  if (storage == Storage::without_zeros) drop_zeros();
+  own_.A = A;
+  if (!is_serial(comm_)) {
+    const PetscInt* global = nullptr;
+    check(MatMPIAIJGetSeqAIJ(A, &own_.A, &ghost_.A, &global));
+    find_ghosts(A, global);
+  }
+  for (Part* part : {&own_, &ghost_}) {
+    open(*part);
+    if (storage == Storage::without_zeros) drop_zeros(*part, n_own_);
+  }
 }
 
 BlockProduct::~BlockProduct() {
-  if (local_) release();
+  close(own_);
+  close(ghost_);
 }
 
-// The ghosts follow the own columns in the order of merged_.
-void BlockProduct::find_ghosts(Mat A) {
-  UniqueIS columns;
+// global: the column of A of each column of ghost_.
+void BlockProduct::find_ghosts(Mat A, const PetscInt* global) {
   PetscLayout layout = nullptr;
-  const PetscInt* global = nullptr;
   PetscInt n = 0;
-  check(MatMPIAIJGetLocalMatMerge(A, MAT_INITIAL_MATRIX, columns.out(), merged_.out()));
-  local_ = merged_;
-  check(ISGetSize(columns, &n));
-  n_ghost_ = static_cast<int>(n) - n_own_;
-  check(ISGetIndices(columns, &global));
+  check(MatGetSize(ghost_.A, nullptr, &n));
+  n_ghost_ = static_cast<int>(n);
   check(MatGetLayouts(A, &layout, nullptr));
   check(PetscSFCreate(comm_, ghosts_.out()));
-  check(PetscSFSetGraphLayout(ghosts_, layout, n_ghost_, nullptr, PETSC_COPY_VALUES, global + n_own_));
+  check(PetscSFSetGraphLayout(ghosts_, layout, n_ghost_, nullptr, PETSC_COPY_VALUES, global));
   check(PetscSFSetUp(ghosts_));
-  check(ISRestoreIndices(columns, &global));
 }
 
-void BlockProduct::drop_zeros() {
-  offset_.assign(1, 0);
-  for (int i = 0; i < n_own_; ++i) {
-    for (PetscInt k = rows_.offset[i]; k < rows_.offset[i + 1]; ++k) {
-      if (rows_.value[k] == 0) continue;
-      column_.push_back(rows_.column[k]);
-      value_.push_back(rows_.value[k]);
-    }
-    offset_.push_back(static_cast<PetscInt>(column_.size()));
-  }
-  release();
-  rows_ = {offset_.data(), column_.data(), value_.data()};
-}
-
-void BlockProduct::release() {
+void BlockProduct::open(Part& part) {
+  if (!part.A) return;
   PetscInt n = 0;
   PetscBool done = PETSC_FALSE;
-  check(MatSeqAIJRestoreArrayRead(local_, &rows_.value));
-  check(MatRestoreRowIJ(local_, 0, PETSC_FALSE, PETSC_FALSE, &n, &rows_.offset, &rows_.column, &done));
-  local_ = nullptr;
-  merged_ = {};
+  check(MatGetRowIJ(part.A, 0, PETSC_FALSE, PETSC_FALSE, &n, &part.rows.offset, &part.rows.column, &done));
+  check(MatSeqAIJGetArrayRead(part.A, &part.rows.value));
+}
+
+void BlockProduct::close(Part& part) {
+  if (!part.A) return;
+  PetscInt n = 0;
+  PetscBool done = PETSC_FALSE;
+  check(MatSeqAIJRestoreArrayRead(part.A, &part.rows.value));
+  check(
+      MatRestoreRowIJ(part.A, 0, PETSC_FALSE, PETSC_FALSE, &n, &part.rows.offset, &part.rows.column, &done));
+  part.A = nullptr;
+}
+
+void BlockProduct::drop_zeros(Part& part, int n_rows) {
+  if (!part.A) return;
+  part.offset.assign(1, 0);
+  for (int i = 0; i < n_rows; ++i) {
+    for (PetscInt k = part.rows.offset[i]; k < part.rows.offset[i + 1]; ++k) {
+      if (part.rows.value[k] == 0) continue;
+      part.column.push_back(part.rows.column[k]);
+      part.value.push_back(part.rows.value[k]);
+    }
+    part.offset.push_back(static_cast<PetscInt>(part.column.size()));
+  }
+  close(part);
+  part.rows = {part.offset.data(), part.column.data(), part.value.data()};
 }
 
 void BlockProduct::fetch_ghosts() const {
@@ -100,12 +107,16 @@ Eigen::MatrixXd BlockProduct::operator()(const Eigen::Ref<const Eigen::MatrixXd>
   rows.topLeftCorner(n_own_, n_columns) = X;
   rows.topRightCorner(n_own_, padded - n_columns).setZero();
   fetch_ghosts();
+  const auto add_row = [padded](const Rows& part, int i, const double* x, Chunk& sum) {
+    for (PetscInt k = part.offset[i]; k < part.offset[i + 1]; ++k)
+      sum += part.value[k] * ConstChunk(x + part.column[k] * padded);
+  };
   Eigen::MatrixXd product(n_own_, n_columns);
   for (int i = 0; i < n_own_; ++i)
     for (Eigen::Index j = 0; j < padded; j += kWidth) {
       Chunk sum = Chunk::Zero();
-      for (PetscInt k = rows_.offset[i]; k < rows_.offset[i + 1]; ++k)
-        sum += rows_.value[k] * ConstChunk(rows.data() + rows_.column[k] * padded + j);
+      add_row(own_.rows, i, rows.data() + j, sum);
+      if (n_ghost_ > 0) add_row(ghost_.rows, i, rows.data() + n_own_ * padded + j, sum);
       const Eigen::Index width = std::min<Eigen::Index>(kWidth, n_columns - j);
       product.row(i).segment(j, width) = sum.head(width).matrix().transpose();
     }

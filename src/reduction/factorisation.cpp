@@ -16,6 +16,7 @@ enum Job { start = -1, end = -2, analyse = 1, factorise = 2, solve = 3 };
 constexpr int kSymmetric = 2;           // indefinite: pivots of both signs
 constexpr int kWorkspace = 30;          // per cent above MUMPS' estimate
 constexpr int kMaxWorkspace = 1000;     // per cent
+constexpr int kSharedFront = 9;         // KEEP: order from which a front's rows are shared among ranks
 constexpr int kSingular = -10;          // INFOG(1)
 constexpr int kWorkspaceTooSmall = -9;  // INFOG(1), and -8 for the integers
 
@@ -87,6 +88,9 @@ ShiftedFactor::ShiftedFactor(Mat K, Mat M, Ordering ordering) : solver_(new Solv
   s.icntl(13) = 1;  // no ScaLAPACK on the root: it counts no negative pivots
   s.icntl(14) = kWorkspace;
   s.icntl(18) = 3;  // entries come distributed
+  // Two ranks have one subtree each. Sharing the few fronts above would make them wait for one another in
+  // every solve, which costs more than one rank idling there.
+  if (n_ranks == 2) s.id.keep[kSharedFront - 1] = ranges[n_ranks];
   s.id.n = ranges[n_ranks];
   s.id.nnz_loc = static_cast<MUMPS_INT8>(s.row.size());
   s.id.irn_loc = s.row.data();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "elastogear/base/error.h"
@@ -19,7 +20,7 @@ constexpr double kColumnsPerMode = 1.7;  // of a Krylov basis without restarts, 
 constexpr double kFirstBlocks = 24;      // more of them, until the first Ritz values converge
 constexpr double kFirstLook = 0.9;       // of these sizes: when Ritz values are first looked at
 constexpr double kFewestColumns = 200;   // of a basis, however small the window
-constexpr double kGrowth = 1.05;         // of the basis between two looks at its Ritz values
+constexpr double kGrowth = 1.02;         // of the basis between two looks at its Ritz values
 constexpr double kAim = 0.45;            // of a window's modes: to lie under its shift
 constexpr double kTooMany = 0.65;        // the same: move the shift down
 constexpr double kRoom = 1.3;            // columns there is room for, over those needed
@@ -48,6 +49,7 @@ struct Search {
   UniqueVec phi;
   WindowSize size;
   SearchState state;
+  KrylovBasis basis = {};  // its memory serves all windows, for new pages cost as much as filling them
 
   int delivered() const { return static_cast<int>(state.eigenvalue.size()); }
   int known() const { return options.n_rigid + delivered(); }
@@ -294,8 +296,8 @@ void step_back(Search& search, const Shift& shift, const Choice& choice) {
 // One window, or none when a basis for `modes` of them has no room for any.
 bool solve_window(Search& search, int modes) {
   const Shift shift = place_shift(search, modes);
-  KrylovBasis basis =
-      start_basis(search.M_times, search.factor, shift.sigma, search.size.block, room(search));
+  KrylovBasis& basis = search.basis;
+  basis = start_basis(search.M_times, search.factor, shift.sigma, search.size.block, std::move(basis.V));
   RitzPairs pairs;
   std::optional<Choice> choice;
   for (bool complete = false; !complete;) {
@@ -362,6 +364,7 @@ Eigenmodes find_by_windows(Mat K, Mat M, const EigenOptions& options, const Mode
                 options.start};
   check(MatCreateVecs(K, search.phi.out(), nullptr));
   search.size = choose_window(search.factor.size(), search.M_times.n(), {options.window, options.block});
+  search.basis.V = TallBasis(search.M_times.n_own(), room(search) + search.size.block);
   report(progress, "eigenmodes", static_cast<double>(search.delivered()) / options.n_modes);
   for (int modes = target(search); search.delivered() < options.n_modes;) {
     if (solve_window(search, modes)) {

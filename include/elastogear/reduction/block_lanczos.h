@@ -29,9 +29,9 @@ struct RitzPairs {
   Eigen::MatrixXd s;      ///< phi = V s
 };
 
-/// Room for `capacity` columns and a first block of random ones, the same on every call. The factor is that
-/// of K - sigma M. Memory: (capacity + 4 block) own rows. Collective.
-KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, int capacity);
+/// A first block of random columns, the same on every call, in V, whose contents are lost. The factor is that
+/// of K - sigma M. Memory: V and 4 block own rows. Collective.
+KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, TallBasis V);
 
 /// Adds the next block of columns. Collective. Call while there is room and the basis is not exhausted.
 void expand(KrylovBasis& basis, ShiftedFactor& factor);

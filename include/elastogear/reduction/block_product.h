@@ -30,24 +30,28 @@ class BlockProduct {
 
  private:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  // Compressed rows of this rank; columns from n_own_ on are ghosts.
+  // Compressed rows of this rank.
   struct Rows {
     const PetscInt *offset = nullptr, *column = nullptr;
     const PetscScalar* value = nullptr;
   };
-  void find_ghosts(Mat A);
-  void drop_zeros();
+  // Some columns of the own rows.
+  struct Part {
+    Mat A = nullptr;  // borrowed; null without zeros
+    Rows rows = {};
+    std::vector<PetscInt> offset = {}, column = {};  // without zeros
+    std::vector<PetscScalar> value = {};
+  };
+  static void open(Part& part);
+  static void close(Part& part);
+  static void drop_zeros(Part& part, int n_rows);
+  void find_ghosts(Mat A, const PetscInt* global);
   void fetch_ghosts() const;
-  void release();
 
   MPI_Comm comm_;
   int n_own_ = 0, n_ = 0, n_ghost_ = 0;
   UniqueSF ghosts_;
-  UniqueMat merged_;     // own rows of a distributed A
-  Mat local_ = nullptr;  // merged_ or a serial A
-  Rows rows_;
-  std::vector<PetscInt> offset_, column_;  // without zeros
-  std::vector<PetscScalar> value_;
+  Part own_, ghost_;         // columns of own rows of X, and of ghosts
   mutable RowMajor buffer_;  // own and ghost rows of X; kept, for new pages cost as much as filling them
 };
 
