@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/basis_options.h"
+#include "app/blas_advice.h"
 #include "app/console.h"
 #include "app/material_options.h"
 #include "app/motion.h"
@@ -306,6 +307,7 @@ void run(const Options& options, const std::vector<std::string>&) {
   if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
   take_materials(options, nodes.report, reduction);
   take_restraint(options, nodes.report, reduction);
+  if (const std::string advice = blas_advice(); !advice.empty()) print_item("advice", advice);
   const reduction::ReductionReport report =
       reduction::reduce(PETSC_COMM_WORLD, nodes.mesh, reduction, output, console_progress());
   print_summary(report, output);

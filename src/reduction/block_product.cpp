@@ -1,14 +1,50 @@
 #include "elastogear/reduction/block_product.h"
 
 #include <algorithm>
+#include <array>
+
+#include "elastogear/base/instructions.h"
 
 namespace elastogear::reduction {
 namespace {
 
 constexpr int kWidth = 8;  // columns that fit into registers together
 
-using Chunk = Eigen::Array<double, kWidth, 1>;
-using ConstChunk = Eigen::Map<const Chunk>;
+typedef double Chunk
+    __attribute__((vector_size(kWidth * sizeof(double)), aligned(alignof(double)), may_alias));
+
+// Part of a row times columns of X, whose rows have `stride` entries.
+struct Entries {
+  int n;
+  const PetscInt* column;
+  const PetscScalar* value;
+  const double* X;
+  Eigen::Index stride;
+};
+
+[[gnu::always_inline]] inline void add(const Entries& row, double* sums) {
+  Chunk total = *reinterpret_cast<const Chunk*>(sums);
+  for (int k = 0; k < row.n; ++k)
+    total += row.value[k] * *reinterpret_cast<const Chunk*>(row.X + row.column[k] * row.stride);
+  *reinterpret_cast<Chunk*>(sums) = total;
+}
+
+void add_portable(const Entries& row, double* sums) { add(row, sums); }
+
+#ifdef __x86_64__
+[[gnu::target("avx2,fma")]] void add_avx2(const Entries& row, double* sums) { add(row, sums); }
+[[gnu::target("avx512f")]] void add_avx512(const Entries& row, double* sums) { add(row, sums); }
+#endif
+
+using Add = void (*)(const Entries&, double*);
+
+Add best_add() {
+#ifdef __x86_64__
+  if (best_instructions() == Instructions::avx512) return add_avx512;
+  if (best_instructions() == Instructions::avx2) return add_avx2;
+#endif
+  return add_portable;
+}
 
 bool is_serial(MPI_Comm comm) {
   int size = 1;
@@ -107,18 +143,19 @@ Eigen::MatrixXd BlockProduct::operator()(const Eigen::Ref<const Eigen::MatrixXd>
   rows.topLeftCorner(n_own_, n_columns) = X;
   rows.topRightCorner(n_own_, padded - n_columns).setZero();
   fetch_ghosts();
-  const auto add_row = [padded](const Rows& part, int i, const double* x, Chunk& sum) {
-    for (PetscInt k = part.offset[i]; k < part.offset[i + 1]; ++k)
-      sum += part.value[k] * ConstChunk(x + part.column[k] * padded);
+  const Add add = best_add();
+  const auto add_row = [&](const Rows& part, int i, const double* x, double* sum) {
+    const PetscInt begin = part.offset[i];
+    add({part.offset[i + 1] - begin, part.column + begin, part.value + begin, x, padded}, sum);
   };
   Eigen::MatrixXd product(n_own_, n_columns);
   for (int i = 0; i < n_own_; ++i)
     for (Eigen::Index j = 0; j < padded; j += kWidth) {
-      Chunk sum = Chunk::Zero();
-      add_row(own_.rows, i, rows.data() + j, sum);
-      if (n_ghost_ > 0) add_row(ghost_.rows, i, rows.data() + n_own_ * padded + j, sum);
-      const Eigen::Index width = std::min<Eigen::Index>(kWidth, n_columns - j);
-      product.row(i).segment(j, width) = sum.head(width).matrix().transpose();
+      std::array<double, kWidth> sum = {};
+      add_row(own_.rows, i, rows.data() + j, sum.data());
+      if (n_ghost_ > 0) add_row(ghost_.rows, i, rows.data() + n_own_ * padded + j, sum.data());
+      for (Eigen::Index k = 0; k < std::min<Eigen::Index>(kWidth, n_columns - j); ++k)
+        product(i, j + k) = sum[k];
     }
   return product;
 }
