@@ -39,7 +39,7 @@ PAPER_STRESS = {  # %, Tabs. 3 and 4, 1000 modes
 END_OF_REBOUND = 0.35  # ms, as in scripts/example: what comes later is another impact, of the other flanks
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#1a1a1a}
 table{border-collapse:collapse;margin:1em 0;font-size:14px;font-variant-numeric:tabular-nums}
-td,th{padding:.25em .7em;border-bottom:1px solid #ccc;text-align:right}td:first-child,th:first-child{text-align:left}
+td,th{padding:.25em .7em;border-bottom:1px solid #ccc;text-align:right;white-space:nowrap}td:first-child,th:first-child{text-align:left}
 tr.paper td{color:#666;font-style:italic}img{max-width:100%}pre{background:#f4f4f4;padding:1em;overflow:auto;font-size:13px}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:1em}figcaption{color:#555;font-size:14px}figure{margin:1em 0}"""
 
@@ -219,7 +219,7 @@ def transmission(example):
         ratios = [abs(np.trapz(on_wheel[part], t[part]) / np.trapz(on_worm[part], t[part])) for part in (t > t[-1] / 2, turn)]
         shares = [f"{100 * (count[t > t[-1] / 2] == n).mean():.0f} %" for n in (1, 2, 3, 4)]
         rows.append([label, *(f"{ratio:.4f} ({100 * (ratio / 20.5 - 1):+.3f} %)" for ratio in ratios), *shares])
-    head = ["", "torques, second half of the run", "over the last turn", *(f"time with {n} pairs" for n in (1, 2, 3, 4))]
+    head = ["", "torques, second half", "over the last turn", *(f"{n} pairs" for n in (1, 2, 3, 4))]
     return "<h2>Transmission (exactly 20.5)</h2>" + table(head, rows)
 
 
@@ -235,7 +235,7 @@ def deviation_section(example):
         for node, rows in nodes.items():
             body = node.split()[0]
             known = PAPER_STRESS.get(example.name, {}).get(body) if number == 1 and " root node" in node else None
-            paper = [["paper, 1000 modes", *known, ""]] if known else []
+            paper = [["paper, 1000 modes", *map(share, known), ""]] if known else []
             yield f"<h3>{html.escape(node)}</h3>" + table(["", *MEASURES, "reference in MPa"], rows + paper,
                                                            range(len(rows), len(rows) + len(paper)))
 
