@@ -81,12 +81,17 @@ def draw(found, path):
     figure.savefig(path, metadata={"Date": None} if path.endswith(".svg") else None)
 
 
+def percent(value):
+    """Two digits, and no exponent of numbers above 99."""
+    return f"{value:.2g} %" if value < 99.5 else f"{value:.0f} %"
+
+
 def write_table(found, path):
     lines = ["| example | basis | modes | " + " | ".join(PLACES) + " |", "|---" * (3 + len(PLACES)) + "|"]
     for example, bases in found.items():
         for basis, modes in bases.items():
             for n, values in modes.items():
-                cells = [f"{values[name]:.2g} %" if name in values else "" for name in PLACES]
+                cells = [percent(values[name]) if name in values else "" for name in PLACES]
                 lines.append(f"| {example} | {basis} | {n} | " + " | ".join(cells) + " |")
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")

@@ -106,9 +106,9 @@ class Example:
         return read_csv(self.path(f"{label}_against_full_stress_{number}.csv"))
 
     def steps(self):
-        """Last CPU time (s), wall time (s) and memory (MB) of each step, those that made the bodies first."""
+        """Last CPU time (s), wall time (s) and memory (MB) of each step, those that made the bodies first (if they were made here)."""
         rows = []
-        for path in (os.path.join(self.folder, "..", "steps.csv"), self.path("steps.csv")):
+        for path in filter(os.path.exists, (os.path.join(self.folder, "..", "steps.csv"), self.path("steps.csv"))):
             with open(path, encoding="utf-8", newline="") as file:
                 rows += csv.reader(file)
         return {row[0]: [float(value) for value in row[1:]] for row in rows}
@@ -189,7 +189,6 @@ def rolling_figures(example):
         force, torque = results.total_force(pair), pair["torque"][:, 2]
         count = sum((area > 0).astype(int) for area in results.group_forces(pair).values())
         speed = {body: file[f"bodies/{body}/rigid_velocity"][:, 0] for body in file["bodies"]}
-    settled = t > t[-1] / 2
     figure, axes = plt.subplots(2, 2, figsize=(11, 6), sharex=True)
     for panel, values, unit in zip(axes.flat, (force / 1e3, speed["worm"], torque, count),
                                    ("contact force in kN", "worm's speed in rad/s", "torque on the wheel in N m",
@@ -197,12 +196,31 @@ def rolling_figures(example):
         panel.plot(t, values, color=COLOURS[0], linewidth=1)
         panel.set(ylabel=unit, xlabel="time in ms")
     yield picture(figure, f"Fig. 14: rolling contact, {label}")
-    ratio = torque[settled].mean() / 4
-    shares = {int(n): 100 * float((count[settled] == n).mean()) for n in np.unique(count[settled])}
-    yield "<h2>Transmission</h2>" + table(
-        ["of the second half of the run", "value", "exact"],
-        [["mean torque on the wheel over that of the worm", f"{ratio:.3f} ({100 * (ratio / 20.5 - 1):+.2f} %)", "20.5"]] +
-        [[f"time with {n} tooth pairs in contact", f"{value:.1f} %", ""] for n, value in shares.items()])
+    yield transmission(example)
+
+
+def torques(file):
+    """Times in s, torques of the contact force on the wheel and on the worm about their axes in N m, and the worm's angle."""
+    pair, worm = next(iter(file["contact"].values())), file["bodies/worm"]
+    force, moment = pair["force"][:], pair["torque"][:]
+    axis = worm["rotation"][0] @ (0, 0, 1)
+    on_worm = (np.cross(worm["position"][:], force) - moment) @ axis
+    return file["time"][:], moment[:, 2], on_worm, worm["rigid"][:, 0]
+
+
+def transmission(example):
+    """Table of mean torque ratios and of the number of tooth pairs in contact."""
+    rows = []
+    for label in example.labels:
+        with example.result(label) as file:
+            t, on_wheel, on_worm, angle = torques(file)
+            count = sum((area > 0).astype(int) for area in results.group_forces(next(iter(file["contact"].values()))).values())
+        turn = t >= np.interp(angle[-1] - 2 * np.pi, angle, t)
+        ratios = [abs(np.trapz(on_wheel[part], t[part]) / np.trapz(on_worm[part], t[part])) for part in (t > t[-1] / 2, turn)]
+        shares = [f"{100 * (count[t > t[-1] / 2] == n).mean():.0f} %" for n in (1, 2, 3, 4)]
+        rows.append([label, *(f"{ratio:.4f} ({100 * (ratio / 20.5 - 1):+.3f} %)" for ratio in ratios), *shares])
+    head = ["", "torques, second half of the run", "over the last turn", *(f"time with {n} pairs" for n in (1, 2, 3, 4))]
+    return "<h2>Transmission (exactly 20.5)</h2>" + table(head, rows)
 
 
 def deviation_section(example):
@@ -235,7 +253,7 @@ def time_section(example):
 def overview_section(example):
     """Forces and motion: the first table of `elastogear compare` of the result files."""
     for label in example.labels:
-        rows = [[row[0], *(f"{float(value):.5g}" for value in row[1:])]
+        rows = [[row[0], *(f"{float(value):.5g}" if np.isfinite(float(value)) else "-" for value in row[1:])]
                 for row in read_csv(example.path(f"{label}_against_full_result_1.csv"))]
         yield f"<h3>Forces and motion, {label}</h3>" + table(["", "reduced", "unreduced", "deviation in %"], rows)
 

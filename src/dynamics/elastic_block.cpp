@@ -14,6 +14,9 @@ namespace {
 
 // Nodes whose compliance is kept before the store is emptied: bounds it to about 300 MB a body.
 constexpr std::size_t kMaxKeptNodes = 2000;
+// Nodes whose responses of a full basis are solved for together: 0.5 GB for each copy at a million
+// displacements.
+constexpr std::size_t kNodesAtOnce = 16;
 // Responses that are kept, in numbers: 512 MB a body.
 constexpr std::size_t kMaxKeptNumbers = std::size_t{1} << 26;
 
@@ -187,7 +190,12 @@ Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
     reset_compliance();
     missing = node;
   }
-  if (!missing.empty()) add_to_compliance(missing);
+  const auto at_once = static_cast<std::ptrdiff_t>(diagonal_ ? missing.size() : kNodesAtOnce);
+  for (auto part = missing.begin(); part != missing.end();) {
+    const auto end = part + std::min(at_once, missing.end() - part);
+    add_to_compliance({part, end});
+    part = end;
+  }
   std::vector<Eigen::Index> index;
   for (Eigen::Index u = 0; u < columns_.n_u(); ++u) index.push_back(u);
   for (int i : node)

@@ -1,15 +1,15 @@
 #include "elastogear/dynamics/residual_contact.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "answering.h"
 
 namespace elastogear::dynamics {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Triplets = std::vector<Eigen::Triplet<double>>;
 
 // share_a a + share_b b
 NodalForces sum(const NodalForces& a, double share_a, const NodalForces& b, double share_b) {
@@ -31,110 +31,6 @@ NodalForces mean(const NodalForces& a, const NodalForces& b, double share) {
   return sum(a, share, b, 1 - share);
 }
 NodalForces difference(const NodalForces& a, const NodalForces& b) { return sum(a, 1, b, -1); }
-
-// df = -L k L_V' dw of the nodes of one body that are touched, in its frame.
-struct Columns {
-  Eigen::SparseMatrix<double> L, L_V;  // 3 n x r
-};
-
-void add(const Eigen::Ref<const MatrixXd>& rows, Eigen::Index first_row, Eigen::Index column,
-         Triplets& triplets) {
-  for (Eigen::Index j = 0; j < rows.cols(); ++j)
-    for (Eigen::Index d = 0; d < 3; ++d) triplets.emplace_back(first_row + d, column + j, rows(d, j));
-}
-
-Columns columns_of(std::size_t b, const std::vector<PairContacts>& pairs, const Eigen::Matrix3d& R_WB,
-                   const std::vector<int>& node) {
-  Triplets L, L_V;
-  Eigen::Index column = 0;
-  for (const PairContacts& pair : pairs)
-    for (const contact::ContactPoint& point : pair.points) {
-      for (int i = 0; i < kLocalNodes; ++i) {
-        const LocalNode local = local_node(point, i);
-        if (pair.body[local.side] != static_cast<int>(b)) continue;
-        const auto row = 3 * (std::lower_bound(node.begin(), node.end(), local.node) - node.begin());
-        add(R_WB.transpose() * point.W.middleRows(3 * i, 3), row, column, L);
-        add(R_WB.transpose() * point.V.middleRows(3 * i, 3), row, column, L_V);
-      }
-      column += point.W.cols();
-    }
-  Columns columns;
-  for (auto [matrix, entries] : {std::pair{&columns.L, &L}, std::pair{&columns.L_V, &L_V}}) {
-    matrix->resize(3 * static_cast<Eigen::Index>(node.size()), column);
-    matrix->setFromTriplets(entries->begin(), entries->end());
-  }
-  return columns;
-}
-
-// (I + H k) lambda = right with H = sum over the bodies of L_V' R L.
-struct Answering {
-  std::vector<Columns> columns;
-  std::vector<MatrixXd> R;
-  Eigen::SparseMatrix<double> k;
-  VectorXd right;
-  std::vector<Eigen::Index> leading;  // columns that change the force at an unchanged closest point
-
-  VectorXd multiply(const VectorXd& lambda) const {
-    VectorXd y = lambda;
-    const VectorXd k_lambda = k * lambda;
-    for (std::size_t b = 0; b < R.size(); ++b)
-      if (R[b].size() > 0) y += columns[b].L_V.transpose() * (R[b] * (columns[b].L * k_lambda));
-    return y;
-  }
-  MatrixXd leading_block() const {
-    const auto n = static_cast<Eigen::Index>(leading.size());
-    MatrixXd A = MatrixXd::Identity(n, n);
-    Eigen::SparseMatrix<double> unit(right.size(), n);
-    for (Eigen::Index j = 0; j < n; ++j) unit.insert(leading[j], j) = 1;
-    const Eigen::SparseMatrix<double> k_unit = k * unit;
-    for (std::size_t b = 0; b < R.size(); ++b) {
-      if (R[b].size() == 0) continue;
-      const MatrixXd R_L = R[b] * (columns[b].L * k_unit);
-      A += (columns[b].L_V.transpose() * R_L)(leading, Eigen::all);
-    }
-    return A;
-  }
-};
-
-// Those that change the force at an unchanged closest point stand first: along n, or in all directions where
-// the force has no potential. At an open end any change of the closest point does.
-Eigen::Index leading_columns(const contact::ContactPoint& point) {
-  if (point.V_dot.cols() == 0) return 1;
-  return point.W.cols() == contact::kColumns ? contact::kColumns : 3;
-}
-
-// k, and the columns that stand first.
-void set_stiffness(const std::vector<PairContacts>& pairs, Answering& a) {
-  Triplets k;
-  Eigen::Index column = 0;
-  for (const PairContacts& pair : pairs)
-    for (const contact::ContactPoint& point : pair.points) {
-      for (Eigen::Index i = 0; i < point.k.rows(); ++i)
-        for (Eigen::Index j = 0; j < point.k.cols(); ++j)
-          if (point.k(i, j) != 0) k.emplace_back(column + i, column + j, point.k(i, j));
-      for (Eigen::Index i = 0; i < leading_columns(point); ++i) a.leading.push_back(column + i);
-      column += point.W.cols();
-    }
-  a.k.resize(column, column);
-  a.k.setFromTriplets(k.begin(), k.end());
-  a.right = VectorXd::Zero(column);
-}
-
-// The other columns are of the order of the penetration over the radius of curvature: they converge fast.
-VectorXd solve(const Answering& a) {
-  constexpr int kMostRounds = 20;
-  constexpr double kTolerance = 1e-8;
-  const Eigen::PartialPivLU<MatrixXd> lu(a.leading_block());
-  VectorXd lambda = VectorXd::Zero(a.right.size()), rest = a.right;
-  for (int round = 0; round < kMostRounds && rest.norm() > kTolerance * a.right.norm(); ++round) {
-    const VectorXd leading = lu.solve(VectorXd(rest(a.leading)));
-    VectorXd change = rest;
-    change(a.leading) = leading;
-    lambda += change;
-    rest = a.right - a.multiply(lambda);
-  }
-  return lambda;
-}
 
 }  // namespace
 
@@ -181,25 +77,21 @@ void ResidualContact::answer_to(std::size_t b, const NodalForces& forces) {
 VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
                                const std::vector<contact::SurfaceState>& surfaces,
                                const std::vector<NodalForces>& found) {
-  Answering a;
-  set_stiffness(pairs, a);
-  a.columns.resize(found.size());
-  a.R.resize(found.size());
+  Answering answering(pairs);
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!yields(b)) continue;
     const std::vector<int>& node = found[b].node;
-    a.columns[b] = columns_of(b, pairs, surfaces[b].R_WB, node);
-    a.R[b] = among(b, node);
-    VectorXd w(a.R[b].rows());
+    const MatrixXd& R = flexibility_[b]->among(node);
+    VectorXd missing = R * found[b].f_B.reshaped();
     for (std::size_t i = 0; i < node.size(); ++i)
-      w.segment<3>(static_cast<Eigen::Index>(3 * i)) = displacement(b, node[i]);
-    a.right += a.columns[b].L_V.transpose() * VectorXd(a.R[b] * found[b].f_B.reshaped() - w);
+      missing.segment<3>(static_cast<Eigen::Index>(3 * i)) -= displacement(b, node[i]);
+    answering.add({b, surfaces[b].R_WB, node, R}, missing);
   }
-  const VectorXd lambda = solve(a), change = a.k * lambda;
-  for (std::size_t b = 0; b < found.size(); ++b) {
+  const VectorXd lambda = answering.solve();
+  for (std::size_t b = 0, i = 0; b < found.size(); ++b) {
     if (!yields(b)) continue;
     NodalForces next = found[b];
-    next.f_B.reshaped() -= a.columns[b].L * change;
+    next.f_B.reshaped() -= answering.force_change(i++, lambda);
     left_[b] = flexibility_[b]->forces();
     answer_to(b, next);
   }

@@ -100,24 +100,20 @@ Eigen::Vector3d ResidualFlexibility::displacement(int node) {
   return {known.packed.row(0).dot(f), known.packed.row(1).dot(f), known.packed.row(2).dot(f)};
 }
 
-// |R(a, b)|^2 <= |R(a, a)| |R(b, b)|, because R is positive semidefinite, and |R(b, b)| <= |F(b, b)|.
-double ResidualFlexibility::bound(const NodalForces& forces) const {
-  const model::Flexibility& flexibility = body_->flexibility;
-  double sum = 0;
-  for (std::size_t i = 0; i < forces.node.size(); ++i) {
-    const int position = model::find_loaded(flexibility, forces.node[i]);
-    if (position < 0) continue;
-    const double self = flexibility.self[flexibility.surface.orbit[position]];
-    sum += std::sqrt(largest_ * self) * forces.f_B.col(static_cast<Eigen::Index>(i)).norm();
-  }
-  return sum;
+// |R(a, :) f|^2 <= |R(a, a)| f'R f, because R is positive semidefinite, and |R(a, a)| <= |F(a, a)|.
+double ResidualFlexibility::bound(const NodalForces& forces) {
+  const auto f = forces.f_B.reshaped();
+  return std::sqrt(largest_ * std::max(0.0, f.dot(among(forces.node) * f)));
 }
 
-Eigen::MatrixXd ResidualFlexibility::among(const std::vector<int>& node) {
+const Eigen::MatrixXd& ResidualFlexibility::among(const std::vector<int>& node) {
+  if (node == among_.node) return among_.R;
   const auto n = static_cast<Eigen::Index>(node.size());
   std::vector<int> numbers;
   for (int i : node) numbers.push_back(number(i));
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  among_.node = node;
+  Eigen::MatrixXd& R = among_.R;
+  R.setZero(3 * n, 3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     Row& known = row(node[i]);
     for (Eigen::Index j = 0; j <= i; ++j)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <numeric>
 
 #include "box_body.h"
 #include "elastogear/body/tangent.h"
@@ -20,8 +21,8 @@ constexpr int kContacts = 3;
 
 using Bodies = std::vector<body::Equations>;
 
-body::Equations equations(model::Basis basis, body::JointType joint) {
-  const test::BoxSpec spec{.size = {2, 1, 1}, .cells = {3, 2, 2}, .material = {100, 0.3, 1}};
+body::Equations equations(model::Basis basis, body::JointType joint, int cells = 2) {
+  const test::BoxSpec spec{.size = {2, 1, 1}, .cells = {3, cells, cells}, .material = {100, 0.3, 1}};
   const int n_modes = basis == model::Basis::modal ? 12 : 0;
   auto box = std::make_shared<model::ElasticBody>(test::make_box(spec, basis, n_modes));
   box->alpha = 0.1;
@@ -29,8 +30,9 @@ body::Equations equations(model::Basis basis, body::JointType joint) {
   return body::make_equations(box, {.type = joint, .axis = {1, 1, 0}}, body::InertiaLevel::linear);
 }
 
-Bodies bodies(model::Basis basis) {
-  return {equations(basis, body::JointType::revolute), equations(basis, body::JointType::fixed)};
+Bodies bodies(model::Basis basis, int cells = 2) {
+  return {equations(basis, body::JointType::revolute, cells),
+          equations(basis, body::JointType::fixed, cells)};
 }
 
 std::vector<SolverBody> pointers(const Bodies& bodies) {
@@ -38,7 +40,8 @@ std::vector<SolverBody> pointers(const Bodies& bodies) {
 }
 
 // Contact columns of one slave node against four master nodes, with an indefinite symmetric k.
-EffectiveMatrix random_matrix(const Bodies& bodies, double shift_v, double shift_a) {
+EffectiveMatrix random_matrix(const Bodies& bodies, double shift_v, double shift_a,
+                              const std::vector<int>& node = {1, 4, 7}) {
   std::srand(3);
   EffectiveMatrix A;
   A.shift_v = shift_v;
@@ -46,8 +49,8 @@ EffectiveMatrix random_matrix(const Bodies& bodies, double shift_v, double shift
   const Eigen::Index r = 2 * kContacts;
   for (const body::Equations& eq : bodies) {
     BodyTerms terms;
-    terms.node = {1, 4, 7};
-    const Eigen::Index n_e = body::border(eq).cols() + 3 * 3;
+    terms.node = node;
+    const Eigen::Index n_e = body::border(eq).cols() + 3 * static_cast<Eigen::Index>(node.size());
     terms.C = 50 * MatrixXd::Identity(eq.n_s(), eq.n_s());
     terms.beta = MatrixXd::Random(n_e, eq.n_s());
     terms.rho = MatrixXd::Random(n_e, eq.n_s());
@@ -100,6 +103,16 @@ TEST_P(Solver, follows_new_nodes_and_new_shifts) {
   expect_equal_to_dense(pair, solver);
   A.shift_a = 400;
   solver.set(A);
+  expect_equal_to_dense(pair, solver);
+}
+
+TEST_P(Solver, takes_up_more_nodes_than_it_solves_for_at_once) {
+  const Bodies pair = bodies(GetParam(), 4);
+  std::vector<int> node(pair[0].body->surface.node.size());
+  ASSERT_GT(node.size(), 16U);
+  std::iota(node.begin(), node.end(), 0);
+  LowRankSolver solver(pointers(pair));
+  solver.set(random_matrix(pair, 10, 100, node));
   expect_equal_to_dense(pair, solver);
 }
 

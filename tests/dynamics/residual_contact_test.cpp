@@ -127,6 +127,17 @@ TEST(ResidualContact, bound_holds_for_every_node) {
   for (int node = 0; node < 24; ++node) EXPECT_LE(R.displacement(node).norm(), R.bound(forces));
 }
 
+TEST(ResidualContact, bound_of_forces_that_cancel_is_less_than_the_sum_of_their_bounds) {
+  const auto body = block(Kind::flexible, {2, 3, 2}, 0);
+  constexpr int kNode = 15, kNeighbour = 21;  // surface nodes at the free end
+  ResidualFlexibility R(*body);
+  const Vector3d f(1, 0, 0);
+  const double one = R.bound({{kNode}, {}, f}), other = R.bound({{kNeighbour}, {}, -f});
+  Eigen::Matrix3Xd both(3, 2);
+  both << f, -f;
+  EXPECT_LT(R.bound({{kNode, kNeighbour}, {}, both}), one + other);
+}
+
 TEST(ResidualContact, a_dashpot_that_jumps_at_touch_is_refused) {
   PairSetup pair{"ram:wall", {0, 1}, {}};
   pair.settings.damping = 1;

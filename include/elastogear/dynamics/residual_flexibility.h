@@ -21,10 +21,10 @@ class ResidualFlexibility {
   /// The forces that displacement, largest and change refer to; x_B is not read.
   void set_forces(const NodalForces& forces);
   const NodalForces& forces() const { return forces_; }
-  Eigen::Vector3d displacement(int node);         ///< m, BRF: sum_b R(node, b) f_b
-  double bound(const NodalForces& forces) const;  ///< m, no node is displaced farther by these forces
-  /// R among the given nodes: 3 n x 3 n, m/N, symmetric.
-  Eigen::MatrixXd among(const std::vector<int>& node);
+  Eigen::Vector3d displacement(int node);   ///< m, BRF: sum_b R(node, b) f_b
+  double bound(const NodalForces& forces);  ///< m, no node is displaced farther by these forces
+  /// R among the given nodes: 3 n x 3 n, m/N, symmetric. As it is until other nodes are asked for.
+  const Eigen::MatrixXd& among(const std::vector<int>& node);
 
  private:
   using Columns = Eigen::Matrix<float, Eigen::Dynamic, 3>;
@@ -54,6 +54,11 @@ class ResidualFlexibility {
   std::vector<Loaded> loaded_;                // these
   std::vector<Row> rows_;                     // of each node of the surface, empty before it is asked for
   std::size_t n_rows_ = 0;
+  struct Among {
+    std::vector<int> node = {};
+    Eigen::MatrixXd R = {};
+  };
+  Among among_;  // asked for last
 };
 
 }  // namespace elastogear::dynamics
