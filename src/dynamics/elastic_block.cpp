@@ -41,7 +41,7 @@ BorderColumns::BorderColumns(const body::Equations& eq, const Eigen::MatrixXd& m
   const Eigen::MatrixXd U = body::border(eq);
   U_.resize(eq.n_q(), U.cols() + markers.cols());
   U_.leftCols(U.cols()) = U;
-  U_.rightCols(markers.cols()) = markers;
+  if (markers.cols() > 0) U_.rightCols(markers.cols()) = markers;  // none: 0 x 0
 }
 
 Eigen::Index BorderColumns::size(const std::vector<int>& node) const {
