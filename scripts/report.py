@@ -199,22 +199,14 @@ def rolling_figures(example):
     yield transmission(example)
 
 
-def torques(file):
-    """Times in s, torques of the contact force on the wheel and on the worm about their axes in N m, and the worm's angle."""
-    pair, worm = next(iter(file["contact"].values())), file["bodies/worm"]
-    force, moment = pair["force"][:], pair["torque"][:]
-    axis = worm["rotation"][0] @ (0, 0, 1)
-    on_worm = (np.cross(worm["position"][:], force) - moment) @ axis
-    return file["time"][:], moment[:, 2], on_worm, worm["rigid"][:, 0]
-
-
 def transmission(example):
     """Table of mean torque ratios and of the number of tooth pairs in contact."""
     rows = []
     for label in example.labels:
         with example.result(label) as file:
-            t, on_wheel, on_worm, angle = torques(file)
-            count = sum((area > 0).astype(int) for area in results.group_forces(next(iter(file["contact"].values()))).values())
+            pair, t, angle = next(iter(file["contact"].values())), file["time"][:], file["bodies/worm/rigid"][:, 0]
+            on_wheel, on_worm = pair["torque"][:, 2], results.torque_on_worm(file)
+            count = sum((area > 0).astype(int) for area in results.group_forces(pair).values())
         turn = t >= np.interp(angle[-1] - 2 * np.pi, angle, t)
         ratios = [abs(np.trapz(on_wheel[part], t[part]) / np.trapz(on_worm[part], t[part])) for part in (t > t[-1] / 2, turn)]
         shares = [f"{100 * (count[t > t[-1] / 2] == n).mean():.0f} %" for n in (1, 2, 3, 4)]

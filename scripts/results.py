@@ -43,6 +43,13 @@ def total_force(pair):
     return np.linalg.norm(pair["force"][:], axis=1)
 
 
+def torque_on_worm(file):
+    """Moment of the contact forces about the worm's axis at all times, N m; the pair's force and moment are those on the wheel."""
+    pair, worm = next(iter(file["contact"].values())), file["bodies/worm"]
+    axis = worm["rotation"][0] @ np.array([0.0, 0.0, 1.0])
+    return (np.cross(worm["position"][:], pair["force"][:]) - pair["torque"][:]) @ axis
+
+
 def speed_unit(body):
     """Unit of the joint velocities of a result file's body group."""
     return "rad/s" if text(body.attrs.get("joint", "revolute")) == "revolute" else "m/s"
