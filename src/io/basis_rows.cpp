@@ -87,7 +87,7 @@ void write_square(const h5::File& file, const std::string& name, const Eigen::Sp
   if (basis == model::Basis::full) return write_sparse(file, name, A, unit);
   const DenseRows dense = A.toDense();
   const hsize_t n = extent(dense.rows());
-  h5::write<double>(file, name, {{n, n}, dense.data()}, unit, {{1, n}, true});
+  h5::write<double>(file, name, {{n, n}, dense.data()}, unit, true);
 }
 
 Eigen::SparseMatrix<double> read_square(const h5::File& file, const std::string& name) {

@@ -220,8 +220,9 @@ void describe_stress(Out& out, const std::string& path) {
 }
 
 void describe_hdf5(Out& out, const std::string& path) {
-  const std::string format = h5::string_attribute(h5::open(path), "/", "format");
-  line(out, "format: ", format, ", version ", kVersion, "; SI units");
+  const h5::File file = h5::open(path);
+  const std::string format = h5::string_attribute(file, "/", "format");
+  line(out, "format: ", format, ", version ", version(file), "; SI units");
   if (format == kBodyFormat) return describe_body(out, path);
   if (format == kResultFormat) return describe_result(out, path);
   require(format == kStressFormat, path, ": unknown format '", format, "', known are '", kBodyFormat, "', '",

@@ -1,6 +1,7 @@
 #pragma once
 // The HDF5 library held, not wrapped: one RAII handle, and whole datasets and attributes by path. Errors name
-// the file and the object; HDF5 itself prints nothing. Serial access, also in the parallel build of HDF5.
+// the file and the object; HDF5 itself prints nothing. Serial access, also in the parallel build of HDF5. All
+// that is written has checksums, which are verified whenever it is read.
 
 #include <hdf5.h>
 
@@ -49,6 +50,8 @@ void close(File& file);
 
 /// Error naming file and object unless `good`.
 void check(bool good, const File& file, const std::string& object, const char* what);
+/// Error: the file has changed since it was written; `what` says where: "checksum of /reduced/K".
+[[noreturn]] void damaged(const File& file, const std::string& what);
 
 bool exists(const File& file, const std::string& name);
 void make_group(const File& file, const std::string& name);
@@ -64,26 +67,24 @@ struct View {
   const T* data;
 };
 
-struct Storage {
-  Shape chunk = {};  ///< empty: contiguous
-  bool compress = false;
-};
-
-/// T: double or int. `unit`: "m", "N", ...; "1" for none.
+/// T: double or int. `unit`: "m", "N", ...; "1" for none. Rows are chunks, each with a checksum.
 template <class T>
 void write(const File& file, const std::string& name, const View<T>& view, const std::string& unit,
-           const Storage& storage = {});
+           bool compress = false);
 void write_strings(const File& file, const std::string& name, const std::vector<std::string>& strings);
 
 Shape shape(const File& file, const std::string& name);
-/// Error unless the dataset is numeric and of this shape; kAny allows any extent.
+/// Error unless the dataset is numeric, undamaged, finite and of this shape; kAny allows any extent.
 constexpr hsize_t kAny = H5S_UNLIMITED;
+enum class Finite { required, any };
 template <class T>
-std::vector<T> read(const File& file, const std::string& name, const Shape& expected);
+std::vector<T> read(const File& file, const std::string& name, const Shape& expected,
+                    Finite finite = Finite::required);
 std::vector<std::string> read_strings(const File& file, const std::string& name);
 std::string unit(const File& file, const std::string& name);
 
 /// Attributes of the object `name` ("/" for the root).
+bool has_attribute(const File& file, const std::string& name, const std::string& key);
 void set_attribute(const File& file, const std::string& name, const std::string& key,
                    const std::string& value);
 void set_attribute(const File& file, const std::string& name, const std::string& key, double value);
@@ -111,6 +112,7 @@ struct Chunked {
 };
 Id create_chunked(const File& file, const std::string& name, const Chunked& layout);
 void write_rows(const File& file, hid_t dataset, const Rows& rows, const double* data);
+/// Error when the numbers are damaged or not finite.
 void read_rows(const File& file, const std::string& name, const Rows& rows, double* data);
 
 /// What each row of a Series is.
@@ -120,6 +122,9 @@ struct Item {
   bool integer = false;
   bool single = false;  ///< 4 bytes a number
 };
+
+/// A dataset without rows, to be extended.
+Id create_growing(const File& file, const std::string& name, const Item& item, hsize_t rows_per_chunk);
 
 /// One growing dataset, n_rows x item shape, written in blocks. The file must outlive it.
 class Series {
@@ -132,6 +137,8 @@ class Series {
   const Item& item() const { return item_; }
 
  private:
+  void write_first(hsize_t rows);
+
   const File* file_;
   std::string name_;
   Item item_;

@@ -40,7 +40,7 @@ StoredState read_state(const std::string& result) {
   return {h5::int_attribute(file, "/", "parts").front(),
           {h5::number_attribute(file, "/", "last_time"), h5::int_attribute(file, "/", "times").front(),
            h5::read<double>(file, "/contacts", {h5::kAny})},
-          h5::read<double>(file, "/state", {h5::kAny})};
+          h5::read<double>(file, "/state", {h5::kAny}, h5::Finite::any)};
 }
 
 // Deletes what this program put into the folder, but for the state and the first n_kept parts.
@@ -68,6 +68,7 @@ void find_histories(const h5::File& file, const std::string& group, std::vector<
   for (const std::string& member : h5::members(file, group)) {
     const std::string name = (group == "/" ? "" : group) + "/" + member;
     const h5::Id object(H5Oopen(file.id, name.c_str(), H5P_DEFAULT));
+    if (object < 0) h5::damaged(file, "header of " + name);
     if (H5Iget_type(object) == H5I_GROUP) find_histories(file, name, names);
     if (is_history(object)) names.push_back(name);
   }

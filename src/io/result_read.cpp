@@ -35,7 +35,7 @@ h5::File open_with(const std::string& path, const std::string& group, const std:
   return file;
 }
 
-hsize_t time_count(const h5::File& file) { return h5::read<double>(file, "/time", {h5::kAny}).size(); }
+hsize_t time_count(const h5::File& file) { return static_cast<hsize_t>(read_time(file).size()); }
 
 // n_t x item in the file is item x n_t here.
 Eigen::MatrixXd read_columns(const h5::File& file, const std::string& name, const h5::Shape& item) {
@@ -82,12 +82,10 @@ model::ResultHeader read_result_header(const std::string& path) {
 
 bool is_complete(const std::string& path) {
   const h5::File file = open_format(path, kResultFormat);
-  return H5Aexists(file.id, "complete") <= 0 || h5::int_attribute(file, "/", "complete").front() != 0;
+  return !h5::has_attribute(file, "/", "complete") || h5::int_attribute(file, "/", "complete").front() != 0;
 }
 
-Eigen::VectorXd read_times(const std::string& path) {
-  return read_vector(open_format(path, kResultFormat), "/time");
-}
+Eigen::VectorXd read_times(const std::string& path) { return read_time(open_format(path, kResultFormat)); }
 
 BodyHistory read_joint_history(const std::string& path, const std::string& body) {
   const h5::File file = open_with(path, "/bodies", body);

@@ -1,5 +1,7 @@
 #include "schema.h"
 
+#include <algorithm>
+
 namespace elastogear::io {
 
 void write_format(const h5::File& file, const std::string& format) {
@@ -7,12 +9,15 @@ void write_format(const h5::File& file, const std::string& format) {
   h5::set_attribute(file, "/", "version", kVersion);
 }
 
+int version(const h5::File& file) { return h5::int_attribute(file, "/", "version").front(); }
+
 void require_format(const h5::File& file, const std::string& format) {
   const std::string found = h5::string_attribute(file, "/", "format");
   require(found == format, file.path, ": has the format '", found, "', must be '", format, "'");
-  const int version = h5::int_attribute(file, "/", "version").front();
-  require(version == kVersion, file.path, ": has version ", version, " of the format '", format,
-          "', this program reads version ", kVersion);
+  const int found_version = version(file);
+  require(found_version >= kOldestVersion && found_version <= kVersion, file.path, ": has version ",
+          found_version, " of the format '", format, "', this program reads versions ", kOldestVersion,
+          " to ", kVersion);
 }
 
 h5::File open_format(const std::string& path, const std::string& format) {
@@ -34,6 +39,14 @@ Eigen::Matrix3Xd read_points(const h5::File& file, const std::string& name) {
 Eigen::VectorXd read_vector(const h5::File& file, const std::string& name, hsize_t size) {
   const auto values = h5::read<double>(file, name, {size});
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+Eigen::VectorXd read_time(const h5::File& file) {
+  Eigen::VectorXd time = read_vector(file, "/time");
+  const auto step = std::adjacent_find(time.begin(), time.end(), std::greater_equal<>());
+  require(step == time.end(), file.path, ": /time does not increase: ", *step, " s is followed by ",
+          *(step + 1), " s");
+  return time;
 }
 
 }  // namespace elastogear::io

@@ -11,10 +11,12 @@ namespace elastogear::io {
 constexpr const char* kBodyFormat = "elastogear body";
 constexpr const char* kResultFormat = "elastogear result";
 constexpr const char* kStressFormat = "elastogear stress";
-constexpr int kVersion = 1;  ///< of all three; counts up when a reader of the old layout would go wrong
+/// Of all formats. Version 2 has checksums and text of fixed length; version 1 is read as well.
+constexpr int kVersion = 2, kOldestVersion = 1;
 
 void write_format(const h5::File& file, const std::string& format);
-/// Error when the file has another format or version.
+int version(const h5::File& file);
+/// Error when the file has another format, or a version that this program does not know.
 void require_format(const h5::File& file, const std::string& format);
 /// Opens and checks the format.
 h5::File open_format(const std::string& path, const std::string& format);
@@ -37,5 +39,7 @@ inline h5::View<double> view(const double& value) { return {{}, &value}; }
 
 Eigen::Matrix3Xd read_points(const h5::File& file, const std::string& name);
 Eigen::VectorXd read_vector(const h5::File& file, const std::string& name, hsize_t size = h5::kAny);
+/// /time; Error unless it increases strictly.
+Eigen::VectorXd read_time(const h5::File& file);
 
 }  // namespace elastogear::io

@@ -72,7 +72,7 @@ void write_stress(const std::string& path, const StressHistory& history) {
 StressHistory read_stress(const std::string& path) {
   const h5::File file = open_format(path, kStressFormat);
   StressHistory history;
-  history.time = read_vector(file, "/time");
+  history.time = read_time(file);
   history.provenance = h5::read_map(file, "/provenance");
   for (const std::string& body : h5::members(file, "/"))
     if (is_body(body))
