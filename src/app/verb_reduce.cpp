@@ -10,6 +10,7 @@
 #include "app/console.h"
 #include "app/material_options.h"
 #include "app/motion.h"
+#include "app/named_sets.h"
 #include "app/verbs.h"
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -31,8 +32,8 @@ const OptionTable kOptions = {
     {"element", "-", "incompatible",
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
     {"restrain", "-", "",
-     "node sets that are held in all directions and carry the body frame; none: a free body, free-free "
-     "modes; not given: *BOUNDARY of an .inp file"},
+     "node sets or face sets whose nodes are held in all directions and carry the body frame; none: a free "
+     "body, free-free modes; not given: *BOUNDARY of an .inp file"},
     {"restrain_nodes", "-", "",
      "nodes that are held besides, by their numbers in the mesh file or node table"},
     {"stiffness", "-", "",
@@ -49,8 +50,8 @@ const OptionTable kOptions = {
     {"surface", "-", "", "face sets of the contact surface"},
     {"stress_nodes", "-", "", "node sets, or face sets for their nodes, at which stress modes are stored"},
     {"markers", "-", "",
-     "node sets whose mean motion is stored, for loads, bushings and sensors of simulate (which always has "
-     "the body frame)"},
+     "node sets or face sets whose mean motion is stored, for loads, bushings and sensors of simulate (which "
+     "always has the body frame); also single nodes by their numbers in the mesh file, [tip, 4711]"},
     {"marker_weights", "-", "equal",
      "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
     {"window", "-", "auto",
@@ -73,7 +74,7 @@ const OptionTable kOptions = {
     {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
     {"damping_ratio", "-", "",
      "damping ratios of the modes besides: a number or [table, FILE.csv] (frequency in Hz, ratio)"},
-    {"point_mass_<set>", "kg", "", "mass spread evenly over the nodes of a node set"},
+    {"point_mass_<set>", "kg", "", "mass spread evenly over the nodes of a node set or face set"},
 };
 
 // The node set that restrain_nodes makes.
@@ -194,6 +195,12 @@ std::vector<int> listed_nodes(const Options& options, const std::vector<std::int
   return nodes;
 }
 
+// Single nodes that are named by their numbers where a set may stand.
+void add_numbers(const Options& options, Nodes& nodes) {
+  for (const char* option : {"markers", "stress_nodes"})
+    add_numbered_nodes(nodes.mesh, nodes.report.node_number, option, options.list(option));
+}
+
 Nodes read_on_rank_0(const Options& options) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
@@ -203,8 +210,10 @@ Nodes read_on_rank_0(const Options& options) {
     nodes = read_nodes(options);
     const auto listed = listed_nodes(options, nodes.report.node_number);
     if (!listed.empty()) nodes.mesh.node_sets[kListedNodes] = listed;
+    add_numbers(options, nodes);
   });
   for (const std::string& ignored : nodes.report.ignored) print_item("ignored in the mesh", ignored);
+  for (const std::string& other : nodes.report.read_as) print_item("element type", other);
   return nodes;
 }
 
@@ -307,6 +316,8 @@ void run(const Options& options, const std::vector<std::string>&) {
   if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
   take_materials(options, nodes.report, reduction);
   take_restraint(options, nodes.report, reduction);
+  print_named_sets(nodes.mesh, "restrained", reduction.restrain);
+  print_named_sets(nodes.mesh, "marker", reduction.markers);
   if (const std::string advice = blas_advice(); !advice.empty()) print_item("advice", advice);
   const reduction::ReductionReport report =
       reduction::reduce(PETSC_COMM_WORLD, nodes.mesh, reduction, output, console_progress());

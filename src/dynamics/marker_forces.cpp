@@ -83,7 +83,8 @@ MarkerForces::Place MarkerForces::find(const MarkerName& name, const std::string
   const auto marker = std::find_if(markers.begin(), markers.end(),
                                    [&](const model::Marker& m) { return m.name == name.marker; });
   require(marker != markers.end(), who, "body '", name.body, "' has no marker '", name.marker,
-          "'; it has: ", marker_list(*body->body), " (option markers of reduce makes them)");
+          "'; it has: ", marker_list(*body->body), ". Reduce the body again with '", name.marker,
+          "' in the option markers of reduce, which takes node sets, face sets and numbers of nodes");
   return {number, &*marker};
 }
 

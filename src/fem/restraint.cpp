@@ -6,6 +6,7 @@
 #include <set>
 
 #include "elastogear/base/error.h"
+#include "elastogear/mesh/named_nodes.h"
 
 namespace elastogear::fem {
 namespace {
@@ -46,7 +47,7 @@ std::vector<bool> free_nodes(const mesh::Mesh& mesh, const std::vector<std::stri
   std::vector<bool> is_free(static_cast<std::size_t>(mesh.n_nodes()), false);
   for (int node : mesh.cells.nodes) is_free[node] = true;
   for (const std::string& name : restrained_sets)
-    for (int node : mesh::node_set(mesh, name)) is_free[node] = false;
+    for (int node : mesh::named_nodes(mesh, name).node) is_free[node] = false;
   return is_free;
 }
 

@@ -94,6 +94,7 @@ void describe_mesh_file(Out& out, const std::string& path, const std::string& fo
   describe_materials(out, report.regions);
   if (!report.restrained.empty()) line(out, "restrained by the file: node set ", report.restrained);
   if (!report.refused_restraint.empty()) line(out, "not a restraint: ", report.refused_restraint);
+  for (const std::string& what : report.read_as) line(out, "element type ", what);
   for (const std::string& what : report.ignored) line(out, "not read: ", what);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // An Abaqus input file as it stands, in its own numbers, names and units.
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -28,12 +29,16 @@ struct InpDeck : RawMesh {
   InpMaterials materials;
   std::vector<BoundaryLine> boundary;
   std::vector<std::string> ignored;
-  // One *PART, whose one *INSTANCE is the *ASSEMBLY, is the same as its content alone.
+  std::map<std::string, std::pair<CellType, int>> element_types;  // in capitals: type and first line
+  // One *PART, whose one *INSTANCE is the *ASSEMBLY, is the same as its content alone, wherever of the two
+  // it stands: instances that Abaqus CAE calls independent hold it themselves.
   int n_parts = 0;
   std::string instance;  // its name in capitals
-  bool in_assembly = false, in_step = false;
+  bool in_assembly = false, in_instance = false, in_step = false;
   std::set<std::pair<std::string, std::string>> assembly_sets;  // keyword and name in capitals
 
+  /// Of the assembly itself, not of its instance?
+  bool of_assembly() const { return in_assembly && !in_instance; }
   /// A member of a set or surface without the name of its instance ("Part-1-1.Set-2").
   std::string_view member(std::string_view field) const;
 };

@@ -6,6 +6,7 @@
 #include "inp_deck.h"
 #include "inp_format.h"
 #include "inp_lines.h"
+#include "inp_variant.h"
 
 namespace elastogear::mesh {
 namespace {
@@ -63,6 +64,7 @@ void read_elements(InpLines& in, const Keyword& key, InpDeck& deck) {
   if (type.empty() || (!solid && type.starts_with("C3D")))
     in.fail_here("element type '", type, "', of solids only C3D4, 5, 6, 8, 10, 15, 20 and their variants ",
                  "(C3D8I, C3D20R, ...) are read");
+  if (solid) deck.element_types.try_emplace(type, *solid, key.line);
   const std::vector<Tag> elements = solid ? read_cells(in, *solid, deck) : read_other_elements(in);
   if (!solid) {
     deck.other_elements.insert(deck.other_elements.end(), elements.begin(), elements.end());
@@ -83,8 +85,11 @@ bool read_structure(InpLines& in, const Keyword& key, InpDeck& deck) {
     if (!deck.instance.empty()) in.fail_here("a second *INSTANCE: a body is one part");
     deck.instance = key.value("NAME");
     if (deck.instance.empty()) in.fail_here("*INSTANCE without NAME=name");
-    if (in.next_data()) in.fail_here("*INSTANCE with a translation or rotation is not supported");
+    if (in.next_data())
+      in.fail_here("*INSTANCE with a translation or rotation is not supported: place the part's own ",
+                   "coordinates instead");
   }
+  if (key.name == "INSTANCE" || key.name == "END INSTANCE") deck.in_instance = key.name == "INSTANCE";
   if (key.name == "ASSEMBLY") deck.in_assembly = true;
   if (key.name == "END ASSEMBLY") deck.in_assembly = false;
   const std::string names[] = {"PART", "ASSEMBLY", "INSTANCE"};
@@ -93,8 +98,9 @@ bool read_structure(InpLines& in, const Keyword& key, InpDeck& deck) {
 }
 
 bool read_mesh_card(InpLines& in, const Keyword& key, InpDeck& deck) {
-  if (deck.in_assembly && (key.name == "NODE" || key.name == "ELEMENT"))
-    in.fail_here("*", key.name, " outside the part is not supported (a reference point?)");
+  if (deck.of_assembly() && (key.name == "NODE" || key.name == "ELEMENT"))
+    in.fail_here("*", key.name, " outside the part and its instance is not supported (a reference point?): ",
+                 "delete it, a marker of reduce does its work");
   const bool by_element = !key.has("TYPE") || key.value("TYPE") == "ELEMENT";
   if (key.name == "NODE") {
     read_nodes(in, key, deck);
@@ -169,6 +175,9 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   ReadReport found;
   Mesh mesh = build(in, deck, unit_in_m, found);
   found.ignored = std::move(deck.ignored);
+  for (const auto& [type, first] : deck.element_types)
+    if (const std::string note = variant_note(type, first.first); !note.empty())
+      found.read_as.push_back(type + " (" + in.place(first.second) + "): " + note);
   if (report) *report = std::move(found);
   return mesh;
 }

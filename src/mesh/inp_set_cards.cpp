@@ -19,7 +19,7 @@ void read_range(InpLines& in, const std::string& name, InpSets& sets) {
 // In an assembly a set of the part's name is another set, which one mesh cannot have too.
 void check_scope(const InpLines& in, const Keyword& key, InpDeck& deck, const InpSets& sets) {
   const std::string name = key.value(key.name);
-  if (!deck.in_assembly) return;
+  if (!deck.of_assembly()) return;
   if (sets.spelling(name) && !deck.assembly_sets.contains({key.name, name}))
     in.fail_here("set '", name, "' of the assembly has the name of a set of the part: rename one of them");
   deck.assembly_sets.insert({key.name, name});

@@ -7,6 +7,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/mesh/named_nodes.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kSlenderness = 1e-6;  // of squared lengths: a set thinner than
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 struct Cloud {
-  const std::vector<int>& nodes;
+  std::vector<int> nodes;
   Eigen::VectorXd weight;  // of each, their sum is 1
   Eigen::Vector3d mean;
   Eigen::Matrix3d J;  // weighted sum of |r|^2 I - r r' about the mean
@@ -44,10 +45,10 @@ Eigen::VectorXd shares(const mesh::Mesh& mesh, const std::vector<mesh::Face>& fa
 
 // faces: of the outer surface when it is to weigh; nullptr: all nodes weigh the same.
 Cloud cloud(const mesh::Mesh& mesh, const std::string& set, const std::vector<mesh::Face>* faces) {
-  const std::vector<int>& nodes = mesh::node_set(mesh, set);
-  require(!nodes.empty(), "marker '", set, "': the node set is empty");
+  const std::vector<int> nodes = mesh::named_nodes(mesh, set).node;
+  require(!nodes.empty(), "marker '", set, "': the set is empty");
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(nodes.size()));
-  if (faces) weight = shares(mesh, *faces, nodes);
+  if (faces && nodes.size() > 1) weight = shares(mesh, *faces, nodes);
   require(
       weight.sum() > 0, "marker '", set,
       "': no outer face has all its nodes in the set, so that they have no area to weigh by; -marker_weights "

@@ -9,6 +9,7 @@
 #include "elastogear/fem/gather.h"
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
+#include "elastogear/mesh/named_nodes.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/marker.h"
 #include "elastogear/reduction/surface.h"
@@ -19,30 +20,19 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // m and -: of an axis in a report
 
-// A node set, or the nodes of a face set.
-std::set<int> stress_set(const mesh::Mesh& mesh, const std::string& name) {
-  std::set<int> nodes;
-  if (mesh.node_sets.contains(name) || !mesh.face_sets.contains(name)) {
-    const auto& members = mesh::node_set(mesh, name);
-    nodes.insert(members.begin(), members.end());
-  } else {
-    for (const mesh::Face& face : mesh::face_set(mesh, name))
-      for (int node : face)
-        if (node >= 0) nodes.insert(node);
-  }
-  return nodes;
-}
-
 model::Stress make_stress(const mesh::Mesh& mesh, const std::vector<std::string>& sets) {
   std::set<int> nodes;
-  for (const std::string& name : sets) nodes.merge(stress_set(mesh, name));
+  for (const std::string& name : sets) {
+    const std::vector<int> members = mesh::named_nodes(mesh, name).node;
+    nodes.insert(members.begin(), members.end());
+  }
   model::Stress stress;
   stress.node.assign(nodes.begin(), nodes.end());
   stress.X = mesh.X(Eigen::all, stress.node);
   for (const std::string& name : sets) {
     auto& local = stress.sets[name];
     local.clear();
-    for (int node : stress_set(mesh, name))
+    for (int node : mesh::named_nodes(mesh, name).node)
       local.push_back(static_cast<int>(std::lower_bound(stress.node.begin(), stress.node.end(), node) -
                                        stress.node.begin()));
   }
@@ -211,9 +201,8 @@ void require_on_body(const Job& job) {
   std::vector<std::string> sets = job.options.markers;
   for (const auto& [set, mass] : job.options.point_mass) sets.push_back(set);
   for (const std::string& set : sets)
-    for (int node : mesh::node_set(job.mesh, set))
-      require(in_cell[node], "node set '", set, "' of a marker or point mass: node ", node,
-              " belongs to no cell");
+    for (int node : mesh::named_nodes(job.mesh, set).node)
+      require(in_cell[node], "set '", set, "' of a marker or point mass: node ", node, " belongs to no cell");
 }
 
 model::SparseRows field_operator(const Job& job) {
@@ -252,8 +241,8 @@ void number(Job& job) {
 std::map<int, double> point_masses(const Job& job) {
   std::map<int, double> masses;
   for (const auto& [set, mass] : job.options.point_mass) {
-    const std::vector<int>& nodes = mesh::node_set(job.mesh, set);
-    require(!nodes.empty(), "point mass on '", set, "': the node set is empty");
+    const std::vector<int> nodes = mesh::named_nodes(job.mesh, set).node;
+    require(!nodes.empty(), "point mass on '", set, "': the set is empty");
     for (int node : nodes) masses[node] += mass / static_cast<double>(nodes.size());
   }
   return masses;
@@ -282,7 +271,7 @@ void read_matrices(Job& job) {
   job.on_root([&] {
     plan.is_free.assign(static_cast<std::size_t>(job.mesh.n_nodes()), true);
     for (const std::string& name : job.options.restrain)
-      for (int node : mesh::node_set(job.mesh, name)) plan.is_free[node] = false;
+      for (int node : mesh::named_nodes(job.mesh, name).node) plan.is_free[node] = false;
   });
   if (!job.options.restrain.empty()) system = restrict_to(system, plan.is_free);
   if (!job.options.floating) require_positive(system.matrices.K, files.stiffness);

@@ -1,4 +1,5 @@
 // Materials, restraint, included files and parts in .inp files.
+#include "../../src/mesh/inp_variant.h"
 #include "elastogear/mesh/inp.h"
 #include "reader_test.h"
 
@@ -115,6 +116,28 @@ TEST_F(InpCards, refuse_to_hold_a_node_in_some_directions_only) {
               HasSubstr("holds node 1 in yz only"));
   EXPECT_THAT(report_with(" FIX, 1, 3", " FIX, XASYMM").refused_restraint,
               HasSubstr("holds node 1 in yz only"));
+}
+
+TEST_F(InpCards, say_which_element_types_are_computed_otherwise) {
+  EXPECT_THAT(report_of(kDeck).read_as, IsEmpty());
+  const auto note = [&](const std::string& type) {
+    const auto notes = report_with("TYPE=C3D4", "TYPE=" + type).read_as;
+    return notes.size() == 1 ? notes[0] : "";
+  };
+  EXPECT_EQ(note("C3D4H"), "C3D4H (line 6): read as C3D4; not reproduced: its hybrid formulation");
+  EXPECT_EQ(variant_note("C3D20R", CellType::hex20), "read as C3D20; not reproduced: reduced integration");
+  EXPECT_THAT(variant_note("C3D10MT", CellType::tet10),
+              HasSubstr("not reproduced: its modified formulation and temperature"));
+  EXPECT_THAT(variant_note("C3D8R", CellType::hex8),
+              AllOf(HasSubstr("not reproduced: reduced integration; "), HasSubstr("option element says")));
+  EXPECT_THAT(variant_note("C3D8", CellType::hex8),
+              testing::StartsWith("computed as the option element says"));
+  EXPECT_EQ(variant_note("C3D8I", CellType::hex8), "");
+  EXPECT_EQ(variant_note("C3D20", CellType::hex20), "");
+  const auto twice =
+      replaced(kDeck, "*NSET, NSET=FIX",
+               "*ELEMENT, TYPE=C3D4H\n 8, 1, 2, 3, 4\n*ELEMENT, TYPE=C3D4H\n 9, 1, 2, 3, 4\n*NSET, NSET=FIX");
+  EXPECT_THAT(report_of(twice).read_as, ElementsAre(HasSubstr("C3D4H (line 8)")));
 }
 
 TEST_F(InpCards, name_all_they_leave_out) {
@@ -264,6 +287,28 @@ TEST_F(InpPart, is_read_as_one_body) {
   EXPECT_EQ(report.regions[0].cell_set, "Set-1");
   EXPECT_EQ(report.restrained, "BOUNDARY");
   EXPECT_THAT(report.ignored, ElementsAre("*HEADING (line 1)"));
+}
+
+// As Abaqus CAE writes an independent instance: the part is empty, the instance has its content.
+std::string independent(const std::string& deck) {
+  const std::size_t begin = deck.find("*Node"), end = deck.find("*End Part");
+  const std::string content = deck.substr(begin, end - begin);
+  return replaced(replaced(deck, content, ""), "*End Instance", content + "*End Instance");
+}
+
+TEST_F(InpPart, may_be_the_content_of_an_independent_instance) {
+  ReadReport of_part, of_instance;
+  const Mesh a = read(kPart, &of_part), b = read(independent(kPart), &of_instance);
+  EXPECT_EQ(a.X, b.X);
+  EXPECT_EQ(a.cells.nodes, b.cells.nodes);
+  EXPECT_EQ(a.node_sets, b.node_sets);
+  EXPECT_EQ(a.cell_sets, b.cell_sets);
+  EXPECT_EQ(a.face_sets, b.face_sets);
+  EXPECT_EQ(of_instance.restrained, of_part.restrained);
+  EXPECT_EQ(of_instance.regions.size(), 1u);
+  const std::string point =
+      replaced(independent(kPart), "*End Assembly", "*Node\n 9, 0., 0., 0.\n*End Assembly");
+  EXPECT_THAT(error_of(point), HasSubstr("a reference point?"));
 }
 
 TEST_F(InpPart, must_be_the_only_one_and_in_place) {

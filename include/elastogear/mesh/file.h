@@ -12,8 +12,9 @@ namespace elastogear::mesh {
 
 /// What a file says beside its mesh, and what a reader left out.
 struct ReadReport {
-  std::vector<std::string> ignored;            ///< "*STATIC (line 12)": nothing is dropped without an entry
-  std::vector<std::int64_t> node_number;       ///< the file's numbers of the nodes, ascending like ours
+  std::vector<std::string> ignored;       ///< "*STATIC (line 12)": nothing is dropped without an entry
+  std::vector<std::string> read_as;       ///< .inp: "C3D20R (line 3): ...", element types computed otherwise
+  std::vector<std::int64_t> node_number;  ///< the file's numbers of the nodes, ascending like ours
   std::vector<model::MaterialRegion> regions;  ///< .inp: one for each *SOLID SECTION
   std::string restrained;         ///< .inp: node set of the mesh that *BOUNDARY holds; empty: none
   std::string refused_restraint;  ///< why *BOUNDARY does not restrain a body; empty: it does

@@ -1,5 +1,6 @@
 #pragma once
-// Markers: node sets whose mean motion loads, bushings and sensors use (docs/theory.md, section 3.4).
+// Markers: node sets or face sets whose mean motion loads, bushings and sensors use (docs/theory.md,
+// section 3.4).
 
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ namespace elastogear::reduction {
 /// faces whose nodes all belong to the set.
 enum class MarkerWeights { equal, area };
 
-/// One marker for each node set, of that name; Phi stays empty. Throws Error for an unknown, empty or
+/// One marker for each set, of that name; Phi stays empty. Throws Error for an unknown, empty or
 /// repeated set, for one that is named as the body frame, and for one that has no area when that is to weigh.
 std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
                                         MarkerWeights weights = MarkerWeights::equal);

@@ -37,14 +37,14 @@ struct ReductionOptions {
   std::string name = {};                            ///< of the body
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
   model::Element element = model::Element::incompatible;
-  std::vector<std::string> restrain = {};      ///< node sets, all three displacements zero
+  std::vector<std::string> restrain = {};      ///< node or face sets, all three displacements zero
   std::optional<ForeignFiles> foreign = {};    ///< K and M from files; a mesh without cells will do
   bool floating = false;                       ///< a free body: `restrain` stays empty, free-free modes
   bool frame_at_center = false;                ///< body frame at the centre of mass
   Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise
   std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
   std::vector<std::string> stress_nodes = {};  ///< node sets, or face sets for their nodes
-  std::vector<std::string> markers = {};       ///< node sets, see reduction/marker.h
+  std::vector<std::string> markers = {};       ///< node or face sets, see reduction/marker.h
   MarkerWeights marker_weights = MarkerWeights::equal;
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                     ///< modal only
@@ -60,7 +60,7 @@ struct ReductionOptions {
   Invariants invariants = Invariants::linear;          ///< of inertia, stored in the file
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
   model::DampingRatio ratio = {};                      ///< modal only, beside it
-  std::map<std::string, double> point_mass = {};       ///< kg, spread evenly over each node set
+  std::map<std::string, double> point_mass = {};       ///< kg, spread evenly over each node or face set
   std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
 };

@@ -1,0 +1,43 @@
+#include "elastogear/mesh/named_nodes.h"
+
+#include <algorithm>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::mesh {
+namespace {
+
+std::vector<int> nodes_of(const std::vector<Face>& faces) {
+  std::vector<int> nodes;
+  for (const Face& face : faces) nodes.insert(nodes.end(), face.begin(), face.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+template <class Set>
+std::string names(const std::map<std::string, Set>& sets) {
+  std::string text;
+  for (const auto& [name, members] : sets) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+NamedNodes named_nodes(const Mesh& mesh, const std::string& name) {
+  const auto nodes = mesh.node_sets.find(name);
+  const auto faces = mesh.face_sets.find(name);
+  const bool in_nodes = nodes != mesh.node_sets.end(), in_faces = faces != mesh.face_sets.end();
+  require(in_nodes || in_faces, "the mesh has no node set and no face set '", name,
+          "'; its node sets: ", names(mesh.node_sets), "; its face sets: ", names(mesh.face_sets));
+  const std::vector<int> of_faces = in_faces ? nodes_of(faces->second) : std::vector<int>();
+  if (!in_nodes) return {of_faces, true, 0};
+  return {nodes->second, false,
+          in_faces && of_faces != nodes->second ? static_cast<int>(of_faces.size()) : 0};
+}
+
+bool names_nodes(const Mesh& mesh, const std::string& name) {
+  return mesh.node_sets.contains(name) || mesh.face_sets.contains(name);
+}
+
+}  // namespace elastogear::mesh
