@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/command_line.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
@@ -11,34 +12,6 @@
 
 namespace elastogear::app {
 namespace {
-
-struct CommandLine {
-  std::string verb;
-  std::vector<std::string> arguments;  // words before the first option
-  bool help = false, version = false;
-};
-
-bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-' && std::isalpha(word[1]); }
-
-CommandLine parse(int argc, char** argv) {
-  CommandLine line;
-  const auto asks = [](const std::string& word, const char* name) {
-    return word == std::string("-") + name || word == std::string("--") + name;
-  };
-  bool options_began = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (asks(word, "help") || word == "-h") line.help = true;
-    if (asks(word, "version") && i == 1) line.version = true;
-    options_began = options_began || is_option(word) || word.starts_with("--");
-    if (options_began) continue;
-    if (line.verb.empty())
-      line.verb = word;
-    else
-      line.arguments.push_back(word);
-  }
-  return line;
-}
 
 void print_usage(const std::vector<Verb>& verbs) {
   std::printf("elastogear %s (%s): stresses in gears by elastic multibody models\n\nusage:\n", version(),
@@ -65,7 +38,7 @@ const Verb& find(const std::vector<Verb>& verbs, const std::string& name) {
   fail("unknown verb '", name, "'; the verbs are ", known);
 }
 
-// A misspelt option of PETSc is found only after the run: nothing asked for it.
+// An option of PETSc that is known, but that the solvers of this run have not asked for.
 void warn_of_unused_options() {
   PetscInt n = 0;
   char **names = nullptr, **values = nullptr;
@@ -95,10 +68,22 @@ void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& li
   verb.run(options, line.arguments);
 }
 
-int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, int argc, char** argv) {
+// What is wrong with the words of the command line; empty: nothing.
+std::string problem_of_words(int argc, char** argv) {
+  try {
+    check_words(argc, argv);
+    return {};
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, const std::string& problem,
+                    int argc, char** argv) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   try {
+    require(problem.empty(), problem);
     run(find(verbs, line.verb), verbs, line, argc, argv);
     if (rank == 0) warn_of_unused_options();
     return 0;
@@ -125,6 +110,14 @@ int main(int argc, char** argv) {
       if (verb.name == line.verb) return app::print_help(verb), 0;
     return app::print_usage(verbs), 1;
   }
-  Session session(argc, argv);
-  return app::main_in_session(verbs, line, argc, argv);
+  // With words that PETSc would fail on it is started without any, to report them once on all ranks.
+  const std::string problem = app::problem_of_words(argc, argv);
+  int n_words = problem.empty() ? argc : 1;
+  try {
+    Session session(n_words, argv);
+    return app::main_in_session(verbs, line, problem, argc, argv);
+  } catch (const Error& error) {  // on some ranks only, perhaps
+    std::fprintf(stderr, "elastogear: error: %s\n", error.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
 }

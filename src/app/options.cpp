@@ -5,24 +5,22 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <sstream>
 
+#include "app/options_file.h"
+#include "app/petsc_names.h"
+#include "app/spelling.h"
+#include "app/yaml.h"
+#include "elastogear/base/agree.h"
+#include "elastogear/base/broadcast.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/version.h"
 
 namespace elastogear::app {
 namespace {
-
-// First words of options that belong to PETSc, SLEPc and their solvers.
-const std::vector<std::string> kPetscPrefixes = {
-    "elastic_",  "ts_",     "snes_",  "ksp_",   "pc_",     "mat_",     "vec_",   "eps_",     "st_",
-    "bv_",       "ds_",     "rg_",    "fn_",    "sub_",    "log_",     "malloc", "options_", "info",
-    "memory_",   "objects", "on_err", "error_", "check_",  "viewfrom", "get_",   "nox",      "fp_",
-    "no_signal", "debug",   "stop_",  "start_", "petsc",   "slepc",    "blas_",  "shared_",  "mpi",
-    "citations", "saws",    "is_",    "device", "use_gpu", "dm_",      "tao_",   "version",  "help"};
 
 // What the placeholder of `pattern` stands for in `name`; nullopt when it does not fit.
 std::optional<std::string> placeholder(const std::string& pattern, const std::string& name) {
@@ -36,20 +34,6 @@ std::optional<std::string> placeholder(const std::string& pattern, const std::st
 bool has(const OptionTable& table, const std::string& name) {
   return std::any_of(table.begin(), table.end(),
                      [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); });
-}
-
-int edit_distance(const std::string& a, const std::string& b) {
-  std::vector<int> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = std::exchange(row[0], static_cast<int>(i));
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int substitute = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-    }
-  }
-  return row.back();
 }
 
 // Tables with "<body>_x" written out for each value of "body".
@@ -81,12 +65,12 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-double parse_number(const std::string& name, const std::string& text, const std::string& unit) {
+double parse_number(const std::string& label, const std::string& text, const std::string& unit) {
   double value = 0;
   const char* begin = text.c_str() + (text.starts_with('+') ? 1 : 0);
   const char* end = text.c_str() + text.size();
   const auto [stop, status] = std::from_chars(begin, end, value);
-  require(status == std::errc() && stop == end && std::isfinite(value), "option -", name, " = '", text,
+  require(status == std::errc() && stop == end && std::isfinite(value), label, " = '", text,
           "': must be a finite number (", unit, ")");
   return value;
 }
@@ -102,46 +86,104 @@ std::map<std::string, std::string> options_in_database() {
   return options;
 }
 
+// "-modes (number of modes)"; of equally near ones the program's own comes first.
+std::string nearest_option(const std::string& name, const OptionTable& own) {
+  const OptionSpec* best = nullptr;
+  for (const OptionSpec& spec : own)
+    if (!best || misspelling(name, spec.name) < misspelling(name, best->name)) best = &spec;
+  const std::string prefix = name.starts_with("elastic_") ? "elastic_" : "";
+  std::string petsc;
+  for (const std::string& word : petsc_names())
+    if (petsc.empty() || misspelling(name, prefix + word) < misspelling(name, petsc)) petsc = prefix + word;
+  if (!best || (!petsc.empty() && misspelling(name, petsc).edits < misspelling(name, best->name).edits))
+    return "-" + petsc + " (PETSc's or SLEPc's)";
+  return "-" + best->name + " (" + best->help + ")";
+}
+
+std::string text_on_all_ranks(const std::string& file) {
+  std::vector<char> text;
+  agree(PETSC_COMM_WORLD, [&] {
+    int rank = 0;
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    if (rank != 0) return;
+    const std::string content = read_file(file);
+    text.assign(content.begin(), content.end());
+  });
+  broadcast(PETSC_COMM_WORLD, text);
+  return {text.begin(), text.end()};
+}
+
 }  // namespace
 
 Options::Options(std::string verb, OptionTable own, OptionTable known)
     : verb_(std::move(verb)), own_(std::move(own)), known_(std::move(known)) {}
 
-void Options::load(const std::vector<std::string>& files, int argc, char** argv) {
-  for (const std::string& file : files) {
-    require(std::filesystem::is_regular_file(file), file, ": no such file");
-    const PetscErrorCode code =
-        PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, file.c_str(), PETSC_TRUE);
-    require(code == 0, file, ": is no valid YAML (nested maps of keys and values, lists in [a, b] form)");
+void Options::insert(const std::string& file) {
+  const std::string text = text_on_all_ranks(file);
+  for (const YamlEntry& entry : parse_yaml(text, file)) {
+    check(PetscOptionsSetValue(nullptr, ("-" + entry.name).c_str(), entry.value.c_str()));
+    place_[entry.name] = file + ", line " + std::to_string(entry.line);
   }
+  files_.push_back(file);
+}
+
+// Their lines; PETSc itself takes their options.
+void Options::note_options_files(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (const std::string name = argv[i + 1]; names_options_file(argv[i]) && name.find("${") == name.npos) {
+      const std::string path = path_of_options_file(name);
+      for (const OptionLine& line : read_options_file(name))
+        place_[line.name] = path + ", line " + std::to_string(line.line);
+      files_.push_back(path);
+    }
+}
+
+void Options::load(const std::vector<std::string>& files, int argc, char** argv) {
+  for (const std::string& file : files) insert(file);
   const std::string section = verb_ + "_";
   for (const auto& [name, value] : options_in_database())
     if (name.starts_with(section)) {
-      check(PetscOptionsSetValue(nullptr, ("-" + name.substr(section.size())).c_str(), value.c_str()));
+      const std::string own = name.substr(section.size());
+      check(PetscOptionsSetValue(nullptr, ("-" + own).c_str(), value.c_str()));
       check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
+      if (place_.contains(name)) place_[own] = place_[name];
     }
   given_in_files_ = options_in_database();
   check(PetscOptionsInsert(nullptr, &argc, &argv, nullptr));
   given_ = options_in_database();
-  for (auto& [name, value] : given_)  // our own keys count as used; PETSc's are checked after the run
+  std::erase_if(place_, [&](const auto& place) {  // the command line wins
+    const auto now = given_.find(place.first), then = given_in_files_.find(place.first);
+    return now == given_.end() || then == given_in_files_.end() || now->second != then->second;
+  });
+  note_options_files(argc, argv);
+  for (auto& [name, value] : given_) {
+    const auto equals = name.find('=');
+    require(equals == name.npos, label(name), ": write the name and its value as two words, -",
+            name.substr(0, equals), " ", equals == name.npos ? "" : name.substr(equals + 1));
+    // our own keys count as used; PETSc's are checked after the run
     if (has(known_, name)) check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
+  }
 }
 
 void Options::reject_unknown(const PlaceholderValues& values) const {
   const OptionTable known = expand(known_, values);
   for (const auto& [name, value] : given_) {
-    if (has(known, name)) continue;
-    const auto is_petsc = [&](const std::string& prefix) { return name.starts_with(prefix); };
-    if (std::any_of(kPetscPrefixes.begin(), kPetscPrefixes.end(), is_petsc)) continue;
-    const OptionTable candidates = expand(own_, values);
-    const auto nearest =
-        std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
-          return edit_distance(name, a.name) < edit_distance(name, b.name);
-        });
-    fail("unknown option -", name, value.empty() ? "" : " = '" + value + "'",
-         "; the nearest known option is -", nearest->name, " (", nearest->help, "). 'elastogear ", verb_,
-         " -help' lists all.");
+    if (has(known, name) || is_petsc_name(name)) continue;
+    fail("unknown ", label(name), value.empty() ? "" : " = '" + value + "'", "; the nearest known option is ",
+         nearest_option(name, expand(own_, values)), ". 'elastogear ", verb_, " -help' lists all.");
   }
+}
+
+std::string Options::label(const std::string& name) const {
+  const auto place = place_.find(name);
+  return "option -" + name + (place == place_.end() ? "" : " (" + place->second + ")");
+}
+
+std::map<std::string, std::string> Options::given_to_verb() const {
+  std::map<std::string, std::string> own;
+  for (const auto& [name, value] : given_)
+    if (has(own_, name)) own[name] = value;
+  return own;
 }
 
 const OptionSpec& Options::spec(const std::string& name) const {
@@ -156,17 +198,17 @@ bool Options::given(const std::string& name) const { return given_.contains(name
 std::string Options::text(const std::string& name) const {
   const auto found = given_.find(name);
   const std::string value = found != given_.end() ? found->second : spec(name).default_value;
-  require(!value.empty(), "option -", name, " is missing: ", spec(name).help);
+  require(!value.empty(), label(name), " is missing: ", spec(name).help);
   return value;
 }
 
 double Options::number(const std::string& name) const {
-  return parse_number(name, text(name), spec(name).unit);
+  return parse_number(label(name), text(name), spec(name).unit);
 }
 
 double Options::positive(const std::string& name) const {
   const double value = number(name);
-  require(value > 0, "option -", name, " = ", value, " ", spec(name).unit, ": must be positive");
+  require(value > 0, label(name), " = ", value, " ", spec(name).unit, ": must be positive");
   return value;
 }
 
@@ -174,8 +216,8 @@ int Options::count(const std::string& name, int smallest) const {
   const std::string value = text(name);
   int result = 0;
   const auto [stop, status] = std::from_chars(value.data(), value.data() + value.size(), result);
-  require(status == std::errc() && stop == value.data() + value.size() && result >= smallest, "option -",
-          name, " = '", value, "': must be a whole number of at least ", smallest);
+  require(status == std::errc() && stop == value.data() + value.size() && result >= smallest, label(name),
+          " = '", value, "': must be a whole number of at least ", smallest);
   return result;
 }
 
@@ -186,14 +228,15 @@ bool Options::flag(const std::string& name) const {
 
 Eigen::Vector3d Options::vector(const std::string& name) const {
   const std::vector<double> values = numbers(name);
-  require(values.size() == 3, "option -", name, " = '", text(name), "': must be three numbers x,y,z (",
+  require(values.size() == 3, label(name), " = '", text(name), "': must be three numbers x,y,z (",
           spec(name).unit, ")");
   return {values[0], values[1], values[2]};
 }
 
 std::vector<double> Options::numbers(const std::string& name) const {
   std::vector<double> values;
-  for (const std::string& part : list(name)) values.push_back(parse_number(name, part, spec(name).unit));
+  for (const std::string& part : list(name))
+    values.push_back(parse_number(label(name), part, spec(name).unit));
   return values;
 }
 
@@ -222,7 +265,7 @@ int Options::choice(const std::string& name, const std::vector<std::string>& all
   const auto found = std::find(allowed.begin(), allowed.end(), value);
   std::string names;
   for (const std::string& a : allowed) names += (names.empty() ? "" : ", ") + a;
-  require(found != allowed.end(), "option -", name, " = '", value, "': must be one of ", names);
+  require(found != allowed.end(), label(name), " = '", value, "': must be one of ", names);
   return static_cast<int>(found - allowed.begin());
 }
 

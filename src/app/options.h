@@ -30,11 +30,12 @@ class Options {
   Options(std::string verb, OptionTable own, OptionTable known);
 
   /// Inserts YAML files, promotes keys of the verb's own section ("recover_output" -> "output"), then inserts
-  /// the command line again. Throws Error for missing or malformed files.
+  /// the command line again. Throws Error for missing or malformed files, naming the line. Collective.
   void load(const std::vector<std::string>& files, int argc, char** argv);
 
-  /// Throws Error for the first key that no table knows and that is not PETSc's, naming the nearest known
-  /// key. `values` restrict "<body>"-like names; placeholders without an entry stand for any word.
+  /// Throws Error for the first key that neither a table nor PETSc knows, naming where it was given and the
+  /// nearest known key. `values` restrict "<body>"-like names; placeholders without an entry stand for any
+  /// word.
   void reject_unknown(const PlaceholderValues& values = {}) const;
 
   bool given(const std::string& name) const;
@@ -60,13 +61,23 @@ class Options {
   /// Is this key, `given` or not, one of another verb alone?
   bool is_of_other_verb(const std::string& name) const;
   const std::string& verb() const { return verb_; }
+  /// "option -ts_dt", and the file and line that it comes from.
+  std::string label(const std::string& name) const;
+  /// Files that the options were read from.
+  const std::vector<std::string>& files() const { return files_; }
+  /// What is given for the verb's own options, by name.
+  std::map<std::string, std::string> given_to_verb() const;
 
  private:
   const OptionSpec& spec(const std::string& name) const;
+  void insert(const std::string& file);
+  void note_options_files(int argc, char** argv);
 
   std::string verb_;
   OptionTable own_, known_;
   std::map<std::string, std::string> given_, given_in_files_;
+  std::map<std::string, std::string> place_;  // of given_in_files_: "file.yaml, line 3"
+  std::vector<std::string> files_;
 };
 
 /// The table as text: option, unit, default, meaning.

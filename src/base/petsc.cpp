@@ -2,18 +2,39 @@
 
 #include <slepcsys.h>
 
+#include <cstdarg>
+#include <cstdio>
+
 #include "elastogear/base/error.h"
 
 namespace elastogear {
 namespace {
 
 thread_local std::string last_message;
+std::string start_text;  // what PETSc says while it starts, before our handler is there
+
+PetscErrorCode keep_text(const char format[], ...) {
+  char text[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  start_text += text;
+  return 0;
+}
 
 // Keeps PETSc's innermost message for check() instead of printing a traceback.
 PetscErrorCode keep_message(MPI_Comm, int, const char* function, const char*, PetscErrorCode code,
                             PetscErrorType type, const char* message, void*) {
-  if (type == PETSC_ERROR_INITIAL) last_message = std::string(function) + ": " + (message ? message : "");
+  if (type == PETSC_ERROR_INITIAL)
+    last_message = std::string(function ? function : "PETSc") + ": " + (message ? message : "");
   return code;
+}
+
+// Of PETSc's traceback the message alone, which stands between its heading and its advice.
+std::string message_in(const std::string& text) {
+  const auto begin = text.find('\n') + 1, end = text.find("\nSee http", begin);
+  return text.substr(begin, end == text.npos ? text.npos : end - begin);
 }
 
 }  // namespace
@@ -33,7 +54,12 @@ void check(PetscErrorCode code, std::exception_ptr& pending, const char* file, i
 }
 
 Session::Session(int& argc, char**& argv) {
-  check(SlepcInitialize(&argc, &argv, nullptr, nullptr));
+  const auto print = PetscErrorPrintf;
+  PetscErrorPrintf = keep_text;
+  const PetscErrorCode code = SlepcInitialize(&argc, &argv, nullptr, nullptr);
+  if (PetscErrorPrintf == keep_text) PetscErrorPrintf = print;
+  require(code == 0, "PETSc cannot start. Its options are in PETSC_OPTIONS and in the files .petscrc, too. ",
+          message_in(start_text));
   check(PetscPushErrorHandler(keep_message, nullptr));
 }
 

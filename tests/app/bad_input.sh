@@ -21,6 +21,8 @@ expect_error() {
     echo "FAIL $name: exit code $status"; tail -5 "$work.out"; failed=$((failed + 1))
   elif ! grep -Eq "error: .*$pattern" "$work.out"; then
     echo "FAIL $name: no message matching '$pattern'"; tail -5 "$work.out"; failed=$((failed + 1))
+  elif grep -Eq 'PETSC ERROR|\(\) at |#[0-9] ' "$work.out"; then
+    echo "FAIL $name: a traceback"; tail -5 "$work.out"; failed=$((failed + 1))
   elif [ "$before" != "$after" ]; then
     echo "FAIL $name: files appeared: $(comm -13 <(echo "$before") <(echo "$after"))"; failed=$((failed + 1))
   else
@@ -63,9 +65,24 @@ expect_error "missing configuration" 'nosuch.yaml' "$elastogear" simulate nosuch
 printf 'mesh: [1, 2\nfoo: {' >malformed.yaml
 expect_error "malformed configuration" 'malformed.yaml' "$elastogear" reduce malformed.yaml
 expect_error "unknown verb" "'reduse'" "$elastogear" reduse
+printf 'ts_dt: 1e-7\nts: {dt: 2e-7}\n' >twice.yaml
+expect_error "key given twice" 'twice.yaml, line 2: the key ts_dt is given twice, first in line 1' "$elastogear" simulate twice.yaml
+printf 'mesh: brick.inp\n\nmodess: 3\n' >misspelt.yaml
+expect_error "misspelt key in a file" 'modess .misspelt.yaml, line 3' "$elastogear" reduce misspelt.yaml
+expect_error "missing file of options" 'nosuch.txt: there is no such file' "$elastogear" reduce -options_file nosuch.txt
+printf -- '-modes 3\nmodes 4\n' >malformed.txt
+expect_error "malformed file of options" "malformed.txt, line 2: 'modes' is no option" "$elastogear" reduce -options_file malformed.txt
+printf -- '-modes 3\n-epss_tol 4\n' >options.txt
+expect_error "misspelt option in a file of options" 'epss_tol .options.txt, line 2.*eps_tol' "$elastogear" reduce -options_file options.txt
+expect_error "malformed YAML as file of options" 'malformed.yaml, line 2' "$elastogear" reduce -options_file malformed.yaml
+expect_error "file of options without a name" 'options_file is given without' "$elastogear" reduce -options_file -modes 3
+expect_error "malformed options in the environment" 'PETSc cannot start.*PETSC_OPTIONS' env PETSC_OPTIONS='-options_file nosuch.txt' "$elastogear" reduce
+expect_error "file after the options" "'misspelt.yaml' belongs to no option" "$elastogear" reduce -modes 3 misspelt.yaml
+expect_error "list with a blank" "'B' belongs to no option" "$elastogear" reduce -restrain A, B
 expect_error "missing mesh" 'nosuch.msh' "${reduce[@]}" -mesh nosuch.msh
 expect_error "truncated .msh" 'truncated.msh' "${reduce[@]}" -mesh truncated.msh
 expect_error "unknown option" 'modess.*-modes' "${reduce[@]}" -modess 5
+expect_error "swapped letters" 'mdoes.*nearest known option is -modes ' "${reduce[@]}" -mdoes 5
 expect_error "missing option" 'material_nu' "$elastogear" reduce -mesh brick.inp -output new.h5 -material_E 1 -restrain FIX
 expect_error "missing node set" "NOSUCH.*CORNER, FIX" "${reduce[@]}" -restrain NOSUCH
 expect_error "missing face set" "NOSUCH.*TOP" "${reduce[@]}" -surface NOSUCH
@@ -114,6 +131,11 @@ expect_error "static friction below that of sliding" 'static friction 0.1' "${si
   -contact_friction_law stick -contact_friction_static 0.1
 expect_error "a gap moved out of sight" 'offset 1 m must not exceed' "${simulate[@]}" -contact_offset 1
 expect_error "negative contact damping" 'damping -1' "${simulate[@]}" -contact_damping -1
+expect_error "misspelt option of PETSc" 'ts_dtt.*-ts_dt ' "${simulate[@]}" -ts_dtt 1e-7
+expect_error "another misspelt one" 'snes_rtoll.*-snes_rtol ' "${simulate[@]}" -snes_rtoll 1e-7
+expect_error "one without a prefix that is known" 'infoo.*-info ' "${simulate[@]}" -infoo
+expect_error "one of a nested solver" 'elastic_pc_tpye.*-elastic_pc_type ' "${simulate[@]}" -elastic_pc_tpye gamg
+expect_error "name and value in one word" 'ts_dt=1e-8: write .* two words, -ts_dt 1e-8' "${simulate[@]}" -ts_dt=1e-8
 expect_error "negative step" 'ts_dt = -1e-07' "${simulate[@]}" -ts_dt -1e-7
 expect_error "no end" 'ts_max_time = 0 s: must be positive' "${simulate[@]}" -ts_max_time 0
 expect_error "negative time of output" 'output_dt = -1e-07 s' "${simulate[@]}" -output_dt -1e-7
@@ -182,6 +204,15 @@ expect_error "basis that is none" 'basis.*modal_residual, full, modal_attachment
 expect_error "attachment modes of no node" 'modal_attachment needs.*loaded' "${reduce[@]}" -basis modal_attachment
 expect_error "attachment modes of an unknown set" 'NOSUCH' "${reduce[@]}" -basis modal_attachment -loaded NOSUCH
 expect_error "Krylov basis of a free body" 'held body' "${reduce[@]}" -basis krylov -restrain none
+# PETSc's and SLEPc's own options work.
+options_of_petsc=(-ts_adapt_type none -ts_monitor -snes_rtol 1e-9 -snes_monitor -ksp_rtol 1e-6 -pc_type shell -elastic_pc_type cholesky
+                  -log_view -malloc_debug -options_left -options_view -on_error_abort -memory_view -citations -no_signal_handler)
+"${simulate[@]}" -ts_max_time 2e-7 -output petsc.h5 "${options_of_petsc[@]}" >good.log 2>&1 ||
+  { echo "FAIL: options of PETSc are refused"; head -20 good.log; failed=$((failed + 1)); }
+grep -q "TS dt 1e-07" good.log || { echo "FAIL: -ts_monitor does nothing"; failed=$((failed + 1)); }
+"${reduce[@]}" -output petsc.h5 -eps_tol 1e-9 -eps_ncv 30 -st_type sinvert -st_pc_type cholesky -mat_mumps_icntl_14 30 -st_mat_mumps_icntl_14 30 \
+  -eps_monitor >good.log 2>&1 || { echo "FAIL: options of SLEPc are refused"; tail -5 good.log; failed=$((failed + 1)); }
+rm -f petsc.h5
 expect_error "negative shift" 'krylov shift -1 Hz' "${reduce[@]}" -basis krylov -krylov_shift -1
 expect_error "shift that is no number" 'krylov_shift.*high' "${reduce[@]}" -basis krylov -krylov_shift high
 expect_error "more interface modes than modes" 'interface_modes = 6, must be 1..5' "${reduce[@]}" -basis craig_bampton -interface_modes 6
