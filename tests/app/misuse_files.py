@@ -1,0 +1,179 @@
+"""The folder of inputs that the misuses of misuse_cases.py start from: a bar of three hexahedra of 10 mm in several spellings,
+bodies, results, stresses, and outputs `kept*` that a misuse must leave as they are."""
+import os
+import shutil
+
+import h5py
+import numpy as np
+
+STEEL_MM = ("*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.85e-9\n"
+            "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n*BOUNDARY\nFIX, 1, 3\n")
+
+
+class Failed(Exception):
+    """Something that must work for the test to make sense did not."""
+
+
+def bar(n=3, size=0.01):
+    """n x 1 x 1 hexahedra as .inp: node sets FIX (x = 0), END (largest x), MIDDLE, CORNER; surface TOP at the largest z."""
+    lines = ["*NODE"]
+    lines += [f"{4 * i + k + 1}, {size * i:.9g}, {size * (k in (1, 2)):.9g}, {size * (k > 1):.9g}" for i in range(n + 1) for k in range(4)]
+    lines.append("*ELEMENT, TYPE=C3D8, ELSET=ALL")
+    lines += [", ".join(str(number) for number in (i + 1, *range(4 * i + 1, 4 * i + 9))) for i in range(n)]
+    lines += ["*NSET, NSET=FIX", "1, 2, 3, 4", "*NSET, NSET=END", ", ".join(str(4 * n + k) for k in (1, 2, 3, 4)),
+              "*NSET, NSET=MIDDLE", "5, 6, 7, 8", "*NSET, NSET=CORNER", "1"]
+    lines += ["*SURFACE, NAME=TOP, TYPE=ELEMENT"] + [f"{i + 1}, S5" for i in range(n)]
+    return "\n".join(lines) + "\n"
+
+
+def thin_bar():
+    """1 m x 50 mm x 50 mm, 10 x 2 x 2 hexahedra as .inp, with node sets FIX (x = 0) and END."""
+    def node(i, j, k):
+        return 1 + k + 3 * (j + 3 * i)
+    corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+    cells = [(i, j, k) for i in range(10) for j in range(2) for k in range(2)]
+    lines = ["*NODE"] + [f"{node(i, j, k)}, {0.1 * i:.9g}, {0.025 * j:.9g}, {0.025 * k:.9g}"
+                         for i in range(11) for j in range(3) for k in range(3)]
+    lines.append("*ELEMENT, TYPE=C3D8, ELSET=ALL")
+    lines += [", ".join([str(n + 1)] + [str(node(i + a, j + b, k + c)) for a, b, c in corners]) for n, (i, j, k) in enumerate(cells)]
+    lines += ["*NSET, NSET=FIX", ", ".join(str(n) for n in range(1, 10)), "*NSET, NSET=END", ", ".join(str(n) for n in range(91, 100))]
+    return "\n".join(lines) + "\n"
+
+
+def write(folder, files):
+    for name, text in files.items():
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+def meshes(folder):
+    good, mm = bar(), bar(size=10) + STEEL_MM
+    write(folder, {
+        "brick.inp": good,
+        "nan.inp": good.replace("\n5, 0.01,", "\n5, nan,"),
+        "inverted.inp": good.replace("2, 5, 6, 7, 8, 9, 10, 11, 12", "2, 9, 10, 11, 12, 5, 6, 7, 8"),
+        "no_node.inp": good.replace("3, 9, 10, 11, 12, 13, 14, 15, 16", "3, 9, 10, 11, 12, 13, 14, 15, 99"),
+        "twice.inp": good.replace("\n2, 0, 0.01, 0\n", "\n2, 0, 0.01, 0\n2, 0, 0.02, 0\n"),
+        "no_cells.inp": good[:good.index("*ELEMENT")],
+        "empty.inp": "",
+        "folded.inp": good.replace("3, 9, 10, 11, 12, 13, 14, 15, 16", "3, 9, 10, 11, 12, 14, 13, 15, 16"),
+        "reduced_integration.inp": good.replace("C3D8", "C3D8R"),
+        "long.inp": bar(12), "thin.inp": thin_bar(), "metres.inp": bar(size=10), "other_mesh.inp": bar().replace("\n13, 0.03,", "\n13, 0.031,"),
+        "millimetres.inp": mm,
+        "partly.inp": mm.replace("FIX, 1, 3", "FIX, 1, 2"),
+        "brass.inp": mm.replace("MATERIAL=STEEL", "MATERIAL=BRASS"),
+        "k.mtx": "1,1, 1,1, 1.0\n1,1, 1,2, nan\n",
+        "k2.mtx": "1,1, 1,1, 1.0\n17,1, 17,1, 2.0\n",
+        "brick.msh": "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"})
+
+
+def tables(folder):
+    body = "a: {file: body.h5}\nts: {dt: 1e-7, max_time: 3e-7}\noutput: kept_run.h5\n"
+    write(folder, {
+        "malformed.yaml": "mesh: [1, 2\nfoo: {",
+        "two.yaml": "bodies: [a, b]\na: {file: body.h5}\nb: {file: body.h5, joint: free}\nts: {dt: 1e-7, max_time: 1e-7}\n",
+        "one.yaml": "bodies: [a]\n" + body,
+        "key_twice.yaml": "bodies: [a]\n" + body + "gravity: [0, 0, -9.81]\ngravity: [0, 0, 0]\n",
+        "section_twice.yaml": "bodies: [a]\n" + body + "a: {joint: revolute}\n",
+        "misspelt.yaml": "bodies: [a]\n" + body + "gravty: [0, 0, -9.81]\n",
+        "tab.yaml": "bodies: [a]\n" + body + "contact:\n\tdepth: 1e-3\n",
+        "text_number.yaml": "bodies: [a]\n" + body + "gravity: [0, 0, down]\n",
+        "nested_twice.yaml": "ts_dt: 1e-7\nts: {dt: 2e-7}\n",
+        "empty.yaml": "",
+        "binary.yaml": "\x01\x02\x03: [\x04",
+        "times.txt": "1e-7\n2\n",
+        "short.csv": "time,torque\n0,1\n5e-7,2\n",
+        "equal.csv": "0,1\n0,2\n",
+        "falling.csv": "0,1\n2,1\n1,2\n",
+        "word.csv": "time,torque\n0,1\n1,much\n",
+        "nan.csv": "time,torque\n0,1\n1,nan\n",
+        "empty.csv": "",
+        "one_column.csv": "time\n0\n1\n",
+        "misspelt_options.txt": "-modes 3\n-epss_tol 4\n",
+        "bad_options.txt": "-modes 3\nmodes 4\n"})
+
+
+def bodies(bench):
+    bench.good("{reduce} -output body.h5")
+    bench.good("{reduce} -output seven.h5 -modes 7")
+    bench.good("{reduce} -output soft.h5 -material_E 70e9")
+    bench.good("{reduce} -output other_mesh.h5 -mesh other_mesh.inp")
+    bench.good("{reduce} -output full.h5 -basis full")
+    bench.good("{reduce} -output rubber.h5 -material_E 1e6 -material_rho 1000 -basis full -invariants full")
+    bench.good("{reduce} -output no_surface.h5 -surface ''")
+    for name in ("other.h5", "kept.h5"):
+        shutil.copy(bench.path("body.h5"), bench.path(name))
+    bench.good("{elastogear} mesh -part wheel -size tiny -mesh wheel.msh -z2 41")
+
+
+def runs(bench):
+    bench.good("{single} -output run.h5")
+    bench.good("{single} -a_joint revolute -a_omega0 100 -output turning.h5")
+    bench.good("{single} -output run_full.h5 -a_file full.h5")
+    bench.good("{recover} -output stress.h5")
+    bench.good("{recover} -output stress_full.h5 -result run_full.h5")
+    for name, source in (("kept_run.h5", "run.h5"), ("kept_stress.h5", "stress.h5"), ("kept_stress_a_MIDDLE.csv", "stress_a_MIDDLE.csv")):
+        shutil.copy(bench.path(source), bench.path(name))
+
+
+def truncate(folder, source, target):
+    with open(os.path.join(folder, source), "rb") as file:
+        content = file.read()
+    with open(os.path.join(folder, target), "wb") as file:
+        file.write(content[:len(content) // 2])
+
+
+def make(bench):
+    meshes(bench.folder)
+    tables(bench.folder)
+    bodies(bench)
+    runs(bench)
+    for source in ("body.h5", "run.h5", "stress.h5", "wheel.msh"):
+        truncate(bench.folder, source, "truncated_" + source)
+    os.makedirs(bench.path("folder"))
+    os.symlink("body.h5", bench.path("link.h5"))
+    write(bench.folder, {"kept.msh": "an earlier mesh\n", "kept_1.csv": "an earlier table\n"})
+
+
+def place_of(path, value):
+    """Where the last byte of a double is that the file holds once."""
+    with open(path, "rb") as file:
+        content = file.read()
+    bits = np.float64(value).tobytes()
+    if content.count(bits) != 1:
+        raise Failed(f"{path}: holds {value} {content.count(bits)} times")
+    return content.index(bits) + 7
+
+
+def flip(bench, name, dataset):
+    """Changes one byte, of the exponent of a double, in the middle of a dataset."""
+    with h5py.File(bench.path(name), "r") as file:
+        item = file[dataset]
+        if item.dtype != np.float64 or item.size == 0:
+            raise Failed(f"{name}: {dataset} has no doubles")
+        if item.chunks:
+            at = item.id.get_chunk_info(item.id.get_num_chunks() // 2).byte_offset + 7
+        else:
+            at = place_of(bench.path(name), np.ravel(item[()])[item.size // 2])
+    with open(bench.path(name), "r+b") as file:
+        file.seek(at)
+        byte = file.read(1)[0]
+        file.seek(at)
+        file.write(bytes([byte ^ 0x20]))
+
+
+def edit(bench, name, dataset, change):
+    """Writes change(values) into a dataset, checksums and all."""
+    with h5py.File(bench.path(name), "r+") as file:
+        file[dataset][...] = change(file[dataset][...])
+
+
+def attribute(bench, name, key, value):
+    with h5py.File(bench.path(name), "r+") as file:
+        old = file.attrs.get_id(key)
+        file.attrs.create(key, value, shape=old.shape, dtype=old.dtype)
+
+
+def remove(bench, name, dataset):
+    with h5py.File(bench.path(name), "r+") as file:
+        del file[dataset]
