@@ -144,19 +144,28 @@ def stress_surface(path, scale=0):
     return surface, stress, scale
 
 
+def stress_label(stress, end):
+    """What the bar shows, with the largest stress (all in MPa), and what is above its end."""
+    if stress.max() <= end:
+        return f"von Mises stress in MPa, largest {stress.max():.4g}"
+    return f"von Mises stress in MPa; blue: above {end:.4g}, to {stress.max():.4g} ({(stress > end).sum()} of {stress.size} nodes)"
+
+
 def draw_stress(options):
     pattern, shown, scale = stress_surface(options.like or options.field, options.scale)
-    table = scene.colour_table(colour_range(shown))
+    end = colour_range(shown)
+    table = scene.colour_table(end)
     views = stress_views(pattern, int(shown.argmax()), aspect=1.2)
     surface, stress, scale = stress_surface(options.field, scale)
     colour_by(surface, stress)
     name = options.title or os.path.splitext(os.path.basename(options.field))[0].replace("_", " ")
     picture = scene.Picture(1800, 1000)
-    picture.panel((0, 0.16, 0.5, 0.92), [scene.scalar_actor(surface, table, edges=False)], views[0])
+    whole = [scene.scalar_actor(surface, table, edges=False), scene.crease_actor(surface)]
+    picture.panel((0, 0.16, 0.5, 0.92), whole, views[0])
     picture.panel((0.5, 0.16, 1, 0.92), [scene.scalar_actor(surface, table, edges=True)], views[1])
     picture.panel((0, 0.92, 1, 1), [scene.text_actor(f"{name}: deformation x {scale:g}", 0.5, 0.5, 32)])
-    label = f"von Mises stress in MPa (largest: {stress.max():.3g} MPa)"
-    picture.panel((0, 0, 1, 0.16), [scene.text_actor(label, 0.5, 0.8, 28), scene.colour_bar(table)])
+    picture.panel((0, 0, 1, 0.16), [scene.text_actor(stress_label(stress, end), 0.5, 0.8, 28),
+                                    scene.colour_bar(table, stress.max() > end)])
     picture.save(options.out)
 
 

@@ -4,16 +4,18 @@ import vtk
 # light to dark through yellow, orange, red: order stays visible to colour-blind readers and in grey print
 HEAT = ("#f4f4ee", "#ffeda0", "#fed976", "#feb24c", "#fd8d3c", "#fc4e2a", "#e31a1c", "#b10026", "#4d0012")
 TABLE_SIZE = 256
+ABOVE = "#2166ac"  # of values beyond the table's end: blue, which is none of its colours
 BLACK, GREY, EDGE = "#000000", "#B8BCC4", "#707070"
-AMBIENT = 0.35  # light from everywhere, so that colours in the shade stay readable
+ROUNDING = 1e-4  # of a colour table's end: values that are equal to it are not above
+CREASE = 20  # degrees, between faces whose common edge is drawn
 
 
 def rgb(colour):
     return [int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)]
 
 
-def colour_table(largest):
-    """Colours from 0 to `largest`."""
+def colour_table(end):
+    """Colours from 0 to `end`, and one for what is above."""
     transfer = vtk.vtkColorTransferFunction()
     for i, colour in enumerate(HEAT):
         transfer.AddRGBPoint(i / (len(HEAT) - 1), *rgb(colour))
@@ -21,12 +23,14 @@ def colour_table(largest):
     table.SetNumberOfTableValues(TABLE_SIZE)
     for i in range(TABLE_SIZE):
         table.SetTableValue(i, *transfer.GetColor(i / (TABLE_SIZE - 1)), 1)
-    table.SetRange(0, largest)
+    table.SetRange(0, end * (1 + ROUNDING))
+    table.SetAboveRangeColor(*rgb(ABOVE), 1)
+    table.UseAboveRangeColorOn()
     return table
 
 
 def scalar_actor(surface, table, edges):
-    """Surface coloured by its active point scalars."""
+    """Surface coloured by its active point scalars, without light and shade: its colours are those of the bar."""
     mapper = vtk.vtkPolyDataMapper()
     mapper.SetInputData(surface)
     mapper.SetLookupTable(table)
@@ -34,10 +38,27 @@ def scalar_actor(surface, table, edges):
     mapper.InterpolateScalarsBeforeMappingOn()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetAmbient(AMBIENT)
-    actor.GetProperty().SetDiffuse(1 - AMBIENT)
+    actor.GetProperty().LightingOff()
     actor.GetProperty().SetEdgeVisibility(edges)
     actor.GetProperty().SetEdgeColor(rgb(EDGE))
+    return actor
+
+
+def crease_actor(surface):
+    """Edges at which a surface turns or ends: the shape of a body without light and shade."""
+    edges = vtk.vtkFeatureEdges()
+    edges.SetInputData(surface)
+    edges.SetFeatureAngle(CREASE)
+    edges.ColoringOff()
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(edges.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1, -60)
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().LightingOff()
+    actor.GetProperty().SetColor(rgb(EDGE))
     return actor
 
 
@@ -75,8 +96,8 @@ def text_actor(text, x, y, size, colour=BLACK):
     return actor
 
 
-def colour_bar(table):
-    """Horizontal bar with numbers for the lower part of a panel of its own."""
+def colour_bar(table, extended):
+    """Horizontal bar with numbers for the lower part of a panel of its own; extended by the colour of what is above its end."""
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetMaximumNumberOfColors(TABLE_SIZE)
@@ -86,6 +107,8 @@ def colour_bar(table):
     bar.SetPosition(0.2, 0.02)
     bar.SetPosition2(0.6, 0.6)
     bar.UnconstrainedFontSizeOn()
+    bar.SetDrawAboveRangeSwatch(extended)
+    bar.SetDrawAnnotations(False)
     labels = bar.GetLabelTextProperty()
     labels.SetColor(rgb(BLACK))
     labels.SetFontSize(24)

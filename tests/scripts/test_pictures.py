@@ -4,14 +4,16 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
 sys.path.insert(0, SCRIPTS)
 import pictures  # noqa: E402  (found through the line above)
+import scene  # noqa: E402
 
 
 def add_array(attributes, name, values):
@@ -20,8 +22,8 @@ def add_array(attributes, name, values):
     attributes.AddArray(array)
 
 
-def write_field(path, with_stress=True):
-    """A unit cube of one hexahedron."""
+def write_field(path, with_stress=True, stress=np.arange(8) * 1e7):
+    """A unit cube of one hexahedron; stress in Pa at its nodes."""
     grid = vtk.vtkUnstructuredGrid()
     points = vtk.vtkPoints()
     for x, y, z in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)):
@@ -30,7 +32,7 @@ def write_field(path, with_stress=True):
     grid.InsertNextCell(vtk.VTK_HEXAHEDRON, 8, range(8))
     add_array(grid.GetPointData(), "displacement [m]", np.full((8, 3), 1e-6))
     if with_stress:
-        add_array(grid.GetPointData(), "von_mises", np.arange(8) * 1e7)
+        add_array(grid.GetPointData(), "von_mises", stress)
     writer = vtk.vtkXMLUnstructuredGridWriter()
     writer.SetFileName(path)
     writer.SetInputData(grid)
@@ -68,6 +70,35 @@ class Files(unittest.TestCase):
             run = self.run_pictures(*arguments)
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertGreater(os.path.getsize(self.path(arguments[-1])), 1000)
+
+    def pixels(self, name):
+        """n x 3 colours of a picture, 0 .. 255."""
+        reader = vtk.vtkPNGReader()
+        reader.SetFileName(self.path(name))
+        reader.Update()
+        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
+
+    def test_colours_are_those_of_the_bar(self):
+        write_field(self.path("cube.vtu"), stress=np.full(8, 7e7))  # MPa: the bar ends at 70, in its darkest colour
+        self.assertEqual(self.run_pictures("stress", "cube.vtu", "--out", "s.png").returncode, 0)
+        darkest = [int(scene.HEAT[-1][i:i + 2], 16) for i in (1, 3, 5)]
+        body = (np.abs(self.pixels("s.png") - darkest).max(axis=1) <= 2).mean()
+        self.assertGreater(body, 0.2)  # of the picture: the cube, in no other shade
+
+    def test_what_is_above_the_bar_is_said(self):
+        blue = [int(scene.ABOVE[i:i + 2], 16) for i in (1, 3, 5)]
+        shares = []
+        for end in (1, 2):
+            with unittest.mock.patch.object(pictures, "SHOWN_QUANTILE", 1 / end):
+                end = pictures.colour_range(np.arange(8.0))
+            shares.append((end, pictures.stress_label(np.arange(8.0), end)))
+        self.assertEqual(shares[0], (7.0, "von Mises stress in MPa, largest 7"))
+        self.assertIn("above 3.5, to 7 (4 of 8 nodes)", shares[1][1])
+        write_field(self.path("cube.vtu"), stress=1e6 * np.array([1, 1, 1, 1, 1, 1, 1, 1]))
+        write_field(self.path("hot.vtu"), stress=1e6 * np.array([1, 1, 1, 1, 1, 1, 1, 9]))
+        for name, is_above in (("cube.vtu", False), ("hot.vtu", True)):
+            self.assertEqual(self.run_pictures("stress", name, "--like", "cube.vtu", "--out", "s.png").returncode, 0)
+            self.assertEqual((np.abs(self.pixels("s.png") - blue).max(axis=1) <= 2).any(), is_above)
 
     def test_a_field_without_stress_is_refused(self):
         write_field(self.path("cube.vtu"), with_stress=False)
