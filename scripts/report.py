@@ -199,6 +199,15 @@ def rolling_figures(example):
     yield transmission(example)
 
 
+def require_rolling(example):
+    """A mean over a turn needs the turn."""
+    for label in example.labels:
+        with example.result(label) as file:
+            stopped = results.standstill(file)
+        if stopped:
+            sys.exit(f"{example.path(label)}.h5: {stopped}. There is no torque ratio of a turn to report")
+
+
 def transmission(example):
     """Table of mean torque ratios and of the number of tooth pairs in contact."""
     rows = []
@@ -301,7 +310,10 @@ def main():
     parser.add_argument("--out", help="default: FOLDER/report.html")
     options = parser.parse_args()
     path = options.out or os.path.join(options.folder, "report.html")
-    text = page(Example(options.example, options.folder))
+    example = Example(options.example, options.folder)
+    if example.name == "rolling":
+        require_rolling(example)
+    text = page(example)
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)
     print(path)

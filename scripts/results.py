@@ -4,6 +4,7 @@ import sys
 import h5py
 import numpy as np
 
+ROLLS = 0.9  # of the turns asked for: drives that roll keep their speed within some percent
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
 
 
@@ -48,6 +49,19 @@ def torque_on_worm(file):
     pair, worm = next(iter(file["contact"].values())), file["bodies/worm"]
     axis = worm["rotation"][0] @ np.array([0.0, 0.0, 1.0])
     return (np.cross(worm["position"][:], pair["force"][:]) - pair["torque"][:]) @ axis
+
+
+def standstill(file, body="worm"):
+    """Why a run of rolling contact is none: a body that its initial speed would turn at least once made fewer turns than that; or nothing."""
+    state, time = file[f"bodies/{body}"], file["time"][:]
+    asked = abs(state["rigid_velocity"][0, 0]) * (time[-1] - time[0]) / (2 * np.pi)
+    if asked < 1:
+        return ""
+    made = np.abs(state["rigid"][:, 0] - state["rigid"][0, 0]) / (2 * np.pi)
+    if made[-1] >= ROLLS * asked:
+        return ""
+    return (f"the {body} does not roll: it made {made[-1]:.2f} of the {asked:.2f} turns that its initial speed asks for, at most {made.max():.2f} "
+            "at one time. Facets that are too coarse stop the free motion and turn it back: use size small or a finer one")
 
 
 def speed_unit(body):

@@ -56,6 +56,8 @@ def motion_lines(result):
         unit = results.speed_unit(state)
         for i in range(speed.shape[1]):
             lines.append(f"{body}: speed {speed[0, i]:.5g} {unit} at the start, {speed[-1, i]:.5g} {unit} at the end")
+        if unit == "rad/s" and speed.shape[1] == 1 and results.standstill(result, body):
+            lines.append(f"warning: {results.standstill(result, body)}")
     return lines
 
 

@@ -99,6 +99,35 @@ class Scripts(unittest.TestCase):
                       "(0.5 % of the initial energy)"):
             self.assertIn(words, run.stdout)
 
+    def turned(self, path, turns):
+        """Lets the wheel ask for two turns and make others, at five equal times."""
+        with h5py.File(path, "r+") as file:
+            speed = 2 * 2 * np.pi / (TIME[-1] - TIME[0])
+            file["bodies/wheel/rigid_velocity"][...] = np.full((5, 1), speed)
+            file["bodies/wheel/rigid"] = 2 * np.pi * np.reshape(turns, (5, 1))
+
+    def test_a_drive_that_turns_back_does_not_roll(self):
+        self.turned(self.path("result.h5"), [0, 0.15, 0.2, 0.1, 0.05])
+        run = self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5")
+        self.assertIn("the wheel does not roll: it made 0.05 of the 2.00 turns that its initial speed asks for, at most 0.20", run.stdout)
+
+    def test_a_drive_that_rolls_is_left_alone(self):
+        self.turned(self.path("result.h5"), [0, 0.5, 1, 1.5, 1.98])
+        run = self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("does not roll", run.stdout)
+
+    def test_a_report_of_rolling_that_stopped_is_refused(self):
+        os.makedirs(self.path("rolling"))
+        write_result(self.path("rolling/modal_10.h5"))
+        with h5py.File(self.path("rolling/modal_10.h5"), "r+") as file:
+            del file["bodies/worm/rigid_velocity"]
+            file["bodies/worm/rigid_velocity"] = np.full((5, 1), 2 * 2 * np.pi / (TIME[-1] - TIME[0]))
+            file["bodies/worm/rigid"] = 2 * np.pi * np.reshape([0, 0.15, 0.2, 0.1, 0.05], (5, 1))
+        write_stress(self.path("rolling/modal_10_stress.h5"))
+        self.assert_fails(self.run_script("report.py", "rolling", "rolling"), "modal_10.h5", "does not roll", "size small")
+        self.assertFalse(os.path.exists(self.path("rolling/report.html")))
+
     def test_every_plot_is_drawn(self):
         run = self.run_script("plots.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5", "--out", "plots")
         self.assertEqual(run.returncode, 0, run.stderr)
