@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dense_modes.h"
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/factorisation.h"
 #include "elastogear/reduction/windows.h"
@@ -193,8 +194,10 @@ Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const Mode
   const SearchState& start = options.start;
   if (start.eigenvalue.size() >= options.n_modes)
     return {start.eigenvalue, start.residual, start.orthogonality, start.iterations};
-  return options.window != 0 ? find_by_windows(K, M, options, sink, progress)
-                             : find_by_slepc(K, M, options, sink, progress);
+  if (options.window == 0) return find_by_slepc(K, M, options, sink, progress);
+  return options.n_rigid == 0 && suits_dense(size_of(K), options.n_modes)
+             ? find_by_lapack(K, M, options, sink, progress)
+             : find_by_windows(K, M, options, sink, progress);
 }
 
 void fix_sign(Eigen::VectorXd& phi) {

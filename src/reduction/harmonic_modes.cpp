@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "elastogear/reduction/block_product.h"
-#include "elastogear/reduction/windows.h"
 #include "residual.h"
 
 namespace elastogear::reduction {
@@ -143,7 +142,7 @@ HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harm
     W.col(i) = Eigen::Map<const VectorXd>(values, n_own);
     check(VecRestoreArrayRead(phi, &values));
   };
-  const Eigenmodes found = find_by_windows(K, M, options, keep, progress);
+  const Eigenmodes found = find_eigenmodes(K, M, options, keep, progress);
   HarmonicModes modes;
   modes.k = harmonic.k;
   modes.eigenvalue = found.eigenvalue;

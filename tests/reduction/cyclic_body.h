@@ -101,7 +101,7 @@ inline void expect_equal(const Solution& cyclic, const Reference& reference) {
     EXPECT_NEAR(std::sqrt(cyclic.modes.eigenvalue(i) / reference.eigenvalue(i)), 1, kFrequency) << i;
   EXPECT_LT(cyclic.modes.residual.maxCoeff(), kResidual);
   const MatrixXd free = cyclic.phi(reference.free_dof, Eigen::all);
-  EXPECT_DOUBLE_EQ(free.squaredNorm(), cyclic.phi.squaredNorm()) << "restrained nodes move";
+  EXPECT_EQ((free.array() != 0).count(), (cyclic.phi.array() != 0).count()) << "restrained nodes move";
   const MatrixXd gram = free.transpose() * (reference.M * free);
   EXPECT_LT((gram - MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), kOrthogonality);
   const MatrixXd share = (reference.M_phi.transpose() * cyclic.phi).cwiseAbs2();

@@ -68,6 +68,53 @@ TEST(Eigenmodes, equal_a_dense_solution_with_all_multiple_eigenvalues) {
   EXPECT_LT((phi.transpose() * M * phi - I).lpNorm<Eigen::Infinity>(), kOrthogonality);
 }
 
+// The first n of a body whose eigenvalues are `exact`.
+void expect_first(const test::System& system, const Eigen::VectorXd& exact, int n) {
+  SCOPED_TRACE(std::to_string(n) + " modes");
+  const auto [modes, Phi] = solve(system, {.n_modes = n, .window = reduction::kAutomaticWindow});
+  ASSERT_EQ(modes.eigenvalue.size(), n);
+  EXPECT_LT(modes.residual.maxCoeff(), 1e-7);
+  EXPECT_LT(modes.orthogonality, kOrthogonality);
+  if (!is_root()) return;
+  EXPECT_LT((modes.eigenvalue.cwiseQuotient(exact.head(n)).array() - 1).abs().maxCoeff(), kEigensolver);
+}
+
+// Bars of square section and a cube: their pairs of equal eigenvalues lie at the end of what is asked and at
+// the end of the spectrum.
+TEST(Eigenmodes, may_be_any_part_of_the_spectrum_of_small_degenerate_bodies) {
+  const std::vector<std::pair<mesh::Mesh, std::vector<int>>> bodies = {
+      {test::brick({18, 2, 2}, {1, 0.05, 0.05}), {1, 7, 50, 135, 162, 163, 324, 485, 486}},
+      {test::brick({6, 1, 1}, {1, 0.1, 0.1}), {1, 20, 24, 25, 71, 72}},
+      {test::brick({4, 4, 4}, {1, 1, 1}), {1, 99, 100, 101, 250, 299, 300}}};
+  for (const auto& [mesh, counts] : bodies) {
+    const auto system = test::assemble(mesh, {"xmin"});
+    const Eigen::MatrixXd K = fem::gather_matrix(system.matrices.K, system.rows);
+    const Eigen::MatrixXd M = fem::gather_matrix(system.matrices.M, system.rows);
+    Eigen::VectorXd exact;
+    if (is_root()) {
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(K, M);
+      const Eigen::MatrixXd& phi = dense.eigenvectors();
+      exact = phi.cwiseProduct(K * phi).colwise().sum();  // the error of a vector enters squared
+    }
+    for (int n : counts) expect_first(system, exact, n);
+  }
+}
+
+// Roundoff of a dense solution is that of the largest eigenvalue, here 2e9 times the lowest.
+TEST(Eigenmodes, that_are_all_of_a_slender_bar_are_exact_at_both_ends) {
+  const double L = 10, h = 0.1, I = h * h * h * h / 12, A = h * h;
+  const model::Material material{210e9, 0, 7850};
+  const auto system =
+      test::assemble(test::brick({60, 1, 1}, {L, h, h}), {"xmin"}, PETSC_COMM_WORLD, {{"", material}});
+  const auto all = solve(system, {.n_modes = 720, .window = reduction::kAutomaticWindow}).modes;
+  const auto few = solve(system, {.n_modes = 10, .window = reduction::kAutomaticWindow}).modes;
+  EXPECT_LT((all.eigenvalue.head(10).cwiseQuotient(few.eigenvalue).array() - 1).abs().maxCoeff(), 1e-8);
+  EXPECT_LT(all.residual.maxCoeff(), 2 * few.residual.maxCoeff());
+  EXPECT_GT(all.eigenvalue(719) / all.eigenvalue(0), 1e9);
+  const double omega = std::pow(1.875104068711961 / L, 2) * std::sqrt(material.E * I / (material.rho * A));
+  EXPECT_NEAR(std::sqrt(all.eigenvalue(0)) / omega, 1, 1e-3);
+}
+
 TEST(Eigenmodes, do_not_depend_on_the_number_of_ranks) {
   const auto mesh = test::distorted(test::brick({6, 4, 3}, {1, 0.4, 0.2}), 0.02);
   const auto system = test::assemble(mesh, {"xmin"});

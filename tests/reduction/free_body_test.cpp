@@ -96,6 +96,24 @@ TEST(FreeModes, do_not_depend_on_the_number_of_ranks_nor_on_the_solver) {
   }
 }
 
+// A cube has pairs and triples of equal eigenvalues.
+TEST(FreeModes, may_be_any_part_of_the_spectrum_of_a_cube) {
+  const auto cube = test::brick({3, 3, 3}, {1, 1, 1});
+  const int n_all = 3 * cube.n_nodes() - 6;
+  const Eigen::VectorXd all =
+      solve(cube, {.n_modes = n_all, .window = reduction::kAutomaticWindow}).modes.eigenvalue;
+  ASSERT_EQ(all.size(), n_all);
+  int triples = 0;
+  for (int i = 2; i < n_all; ++i) triples += all(i) < (1 + kEigensolver) * all(i - 2);
+  EXPECT_GT(triples, 10);
+  for (int n : {1, 2, 3, 40, 64, 120, n_all - 1}) {
+    const auto modes = solve(cube, {.n_modes = n, .window = reduction::kAutomaticWindow}).modes;
+    ASSERT_EQ(modes.eigenvalue.size(), n);
+    EXPECT_LT((modes.eigenvalue.cwiseQuotient(all.head(n)).array() - 1).abs().maxCoeff(), 2 * kEigensolver)
+        << n;
+  }
+}
+
 TEST(FreeModes, continue_after_a_window) {
   const auto mesh = test::brick({12, 4, 4}, {1, 0.35, 0.3});
   reduction::EigenOptions options{.n_modes = 60, .window = 15};
