@@ -3,8 +3,11 @@
 #include <petscksp.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -108,6 +111,66 @@ std::vector<int> dofs_of(const std::vector<int>& row) {
   return dof;
 }
 
+// Of every node the directions that have rows, one bit each.
+std::vector<unsigned> find_directions(const std::vector<int>& dof, int n_nodes) {
+  std::vector<unsigned> directions(static_cast<std::size_t>(n_nodes), 0);
+  for (int i : dof) directions[i / 3] |= 1U << (i % 3);
+  return directions;
+}
+
+// Two nodes that move in no common direction may share a mass that no entry of M shows.
+void require_common_directions(const std::vector<unsigned>& directions) {
+  const std::set<unsigned> kinds(directions.begin(), directions.end());
+  for (unsigned a : kinds)
+    for (unsigned b : kinds)
+      require(a == 0 || b == 0 || (a & b) != 0,
+              "full invariants need a mass matrix in which all nodes share a direction: export it before "
+              "nodes are held in single directions, and hold them here (option restrain)");
+}
+
+// Entries of M between equal directions, as n_nodes x n_nodes each. Those between different ones must vanish.
+std::array<model::SparseRows, 3> split_directions(const Eigen::SparseMatrix<double>& M,
+                                                  const std::vector<int>& dof, int n_nodes) {
+  std::array<std::vector<Eigen::Triplet<double>>, 3> entries;
+  double largest = 0, coupling = 0;
+  for (int j = 0; j < M.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(M, j); it; ++it) {
+      const int row = dof[it.row()], column = dof[j];
+      const bool equal = row % 3 == column % 3;
+      (equal ? largest : coupling) = std::max(equal ? largest : coupling, std::abs(it.value()));
+      if (equal && it.value() != 0) entries[row % 3].emplace_back(row / 3, column / 3, it.value());
+    }
+  require(coupling <= kRounded * largest, "the mass matrix couples different directions (an entry ", coupling,
+          " beside ", largest, "): only solid elements in one coordinate system are supported");
+  std::array<model::SparseRows, 3> parts;
+  for (int d = 0; d < 3; ++d) {
+    parts[d].resize(n_nodes, n_nodes);
+    parts[d].setFromTriplets(entries[d].begin(), entries[d].end());
+  }
+  return parts;
+}
+
+// Of each place the mean over the directions that both nodes have, which must agree.
+model::SparseRows mean_of(const std::array<model::SparseRows, 3>& parts,
+                          const std::vector<unsigned>& directions) {
+  model::SparseRows mean = parts[0] + parts[1] + parts[2];
+  const double largest = mean.nonZeros() > 0 ? mean.coeffs().cwiseAbs().maxCoeff() : 0;
+  for (int row = 0; row < mean.outerSize(); ++row)
+    for (model::SparseRows::InnerIterator it(mean, row); it; ++it) {
+      const unsigned both = directions[row] & directions[it.col()];
+      it.valueRef() /= std::popcount(both);
+      for (int d = 0; d < 3; ++d) {
+        if ((both >> d & 1U) == 0) continue;
+        const double entry = parts[d].coeff(row, it.col());
+        require(std::abs(entry - it.value()) <= kRounded * largest,
+                "the mass matrix does not move all directions alike (an entry ", entry, " in direction ",
+                d + 1, ", ", it.value(), " on average): only solid elements in one coordinate system are ",
+                "supported");
+      }
+    }
+  return mean;
+}
+
 // M u gathered on rank 0, as three rows of directions.
 Eigen::Matrix3Xd momentum(Mat M, const fem::VectorGather& gather, const Eigen::VectorXd& u,
                           const std::pair<Vec, Vec>& work) {
@@ -196,6 +259,21 @@ fem::MassMoments mass_moments(Mat M, const fem::VectorGather& gather, const mesh
     if (w_1.size() > 0) moments.w_1.row(a) = w_1;
   }
   return moments;
+}
+
+model::SparseRows scalar_mass(const ForeignSystem& system, int n_nodes) {
+  const Mat M = system.matrices.M;
+  const Eigen::SparseMatrix<double> all = fem::gather_matrix(M, system.dof);
+  model::SparseRows M_s;
+  agree(comm_of(M), [&] {
+    int rank = 0;
+    MPI_Comm_rank(comm_of(M), &rank);
+    if (rank != 0) return;
+    const std::vector<unsigned> directions = find_directions(system.dof, n_nodes);
+    require_common_directions(directions);
+    M_s = mean_of(split_directions(all, system.dof, n_nodes), directions);
+  });
+  return M_s;
 }
 
 ForeignSystem restrict_to(const ForeignSystem& system, const std::vector<bool>& is_free) {

@@ -73,9 +73,6 @@ void validate_ritz(const ReductionOptions& options) {
 void validate(const ReductionOptions& options) {
   if (options.ritz) validate_ritz(options);
   if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
-  require(!options.foreign || options.invariants == Invariants::linear,
-          "full invariants need the program's own mass matrix, not one from ",
-          options.foreign ? options.foreign->mass : std::string());
   require(!options.floating || options.restrain.empty(), "a free body has no restrained node sets");
   require(options.frame_origin.allFinite(), "the origin of the body frame (",
           options.frame_origin.transpose(), ") m must be finite");
@@ -249,7 +246,8 @@ std::map<int, double> point_masses(const Job& job) {
 }
 
 model::SparseRows scalar_mass(const Job& job) {
-  model::SparseRows M_s = fem::scalar_mass(job.mesh, job.regions);
+  model::SparseRows M_s =
+      job.options.foreign ? job.plan.foreign_mass : fem::scalar_mass(job.mesh, job.regions);
   for (const auto& [node, mass] : point_masses(job)) M_s.coeffRef(node, node) += mass;
   return M_s;
 }
@@ -268,6 +266,7 @@ void read_matrices(Job& job) {
     check(MatCreateVecs(system.matrices.M, layout.out(), nullptr));
     plan.moments = mass_moments(system.matrices.M, {layout, system.dof, 3 * job.mesh.n_nodes()}, job.mesh);
   }
+  if (job.options.invariants == Invariants::full) plan.foreign_mass = scalar_mass(system, job.mesh.n_nodes());
   job.on_root([&] {
     plan.is_free.assign(static_cast<std::size_t>(job.mesh.n_nodes()), true);
     for (const std::string& name : job.options.restrain)

@@ -287,7 +287,6 @@ REDUCE = [
     Case("marker on an unknown set", r"NOSUCH", "{reduce} -markers NOSUCH"),
     Case("marker weights that are none", r"marker_weights.*equal, area", "{reduce} -marker_weights mass"),
     Case("invariants that are none", r"invariants.*linear, full", "{reduce} -invariants all"),
-    Case("full invariants of a foreign matrix", r"program's own mass", "{reduce} -stiffness k.mtx -mass k.mtx -invariants full"),
     Case("basis that is none", r"basis.*modal_residual, full, modal_attachment, krylov, craig_bampton", "{reduce} -basis best"),
     Case("attachment modes of no node", r"modal_attachment needs.*loaded", "{reduce} -basis modal_attachment"),
     Case("attachment modes of an unknown set", r"NOSUCH", "{reduce} -basis modal_attachment -loaded NOSUCH"),

@@ -281,6 +281,85 @@ TEST(ForeignBody, keeps_every_displacement_in_the_full_basis) {
   EXPECT_LT((foreign.inertia.C_r - own.inertia.C_r).norm(), kRoundoff * own.inertia.C_r.norm());
 }
 
+using Moments = std::vector<model::BasisRows>;
+
+Eigen::MatrixXd dense(const model::BasisRows& rows) {
+  return std::visit([](const auto& r) { return Eigen::MatrixXd(r); }, rows);
+}
+
+void expect_same_moments(const Moments& a, const Moments& b, double tolerance) {
+  if (!is_root()) return;
+  ASSERT_EQ(a.size(), 6u);
+  ASSERT_EQ(b.size(), 6u);
+  for (int i = 0; i < 6; ++i)
+    EXPECT_LT((dense(a[i]) - dense(b[i])).norm(), tolerance * dense(b[i]).norm()) << i;
+}
+
+// S_2 follows from M and the nodes: held here, held by the other program, free; with a point mass.
+TEST(ForeignBody, has_the_full_invariants_of_its_mass_matrix) {
+  const auto mesh = block();
+  auto options = options_of_block();
+  options.invariants = reduction::Invariants::full;
+  options.point_mass = {{"xmax", 20}};
+  Files whole = our_matrices(mesh, {}), held = our_matrices(mesh, {"xmin"});
+  held.foreign = {path_of("k_held.txt"), path_of("m_held.txt"), path_of("dofs.txt")};
+  if (is_root())
+    for (const Files* files : {&whole, &held}) {
+      write_triplets(files->foreign.stiffness, files->K, Half::lower);
+      write_triplets(files->foreign.mass, files->M, Half::lower);
+    }
+  if (is_root()) write_dofs(held.foreign.dofs, held.K.dof);
+  for (model::Basis basis : {model::Basis::full, model::Basis::modal}) {
+    const double tolerance = basis == model::Basis::full ? 1e-14 : kVector;
+    options.basis = basis;
+    options.restrain = {"xmin"};
+    options.foreign = {};
+    const Moments own = reduced(mesh, options, "own_moments").inertia.S_2;
+    options.foreign = whole.foreign;
+    expect_same_moments(reduced(mesh, options, "whole_moments").inertia.S_2, own, tolerance);
+    options.foreign = held.foreign;
+    options.restrain = {};
+    expect_same_moments(reduced(mesh, options, "held_moments").inertia.S_2, own, tolerance);
+  }
+}
+
+TEST(ForeignMass, that_depends_on_the_direction_has_no_scalar_part) {
+  const auto mesh = block();
+  for (const auto& [row, column] : {std::pair(3, 3), std::pair(3, 4)}) {
+    Files files = our_matrices(mesh, {});
+    files.M.A.coeffRef(row, column) += 0.1 * files.M.A.coeff(row, row);
+    if (row != column) files.M.A.coeffRef(column, row) = files.M.A.coeff(row, column);
+    if (is_root()) {
+      write_triplets(files.foreign.stiffness, files.K, Half::lower);
+      write_triplets(files.foreign.mass, files.M, Half::lower);
+    }
+    const auto system = read(mesh, files.foreign);
+    EXPECT_THROW(reduction::scalar_mass(system, is_root() ? mesh.n_nodes() : 0), Error);
+  }
+}
+
+// Without the x of some nodes and the y of others no entry tells what mass these share.
+TEST(ForeignMass, of_nodes_without_a_common_direction_is_refused) {
+  const auto mesh = block();
+  Files files = our_matrices(mesh, {});
+  const auto keep = [](int dof) { return dof / 3 > 1 || dof % 3 == dof / 3; };  // 0.x, 1.y, all others
+  std::vector<int> kept;
+  for (int dof = 0; dof < 3 * mesh.n_nodes(); ++dof)
+    if (keep(dof)) kept.push_back(dof);
+  for (Labelled* m : {&files.K, &files.M}) {
+    m->A = Eigen::MatrixXd(Eigen::MatrixXd(m->A)(kept, kept)).sparseView();
+    m->dof = kept;
+  }
+  files.foreign.dofs = path_of("dofs.txt");
+  if (is_root()) {
+    write_triplets(files.foreign.stiffness, files.K, Half::lower);
+    write_triplets(files.foreign.mass, files.M, Half::lower);
+    write_dofs(files.foreign.dofs, kept);
+  }
+  const auto system = read(mesh, files.foreign);
+  EXPECT_THROW(reduction::scalar_mass(system, is_root() ? mesh.n_nodes() : 0), Error);
+}
+
 // CalculiX' own frequencies from its own matrices; in mm, t, s.
 void compare_with_calculix(mesh::CellType type, const std::string& element) {
   if (!test::calculix_is_installed()) GTEST_SKIP() << "ccx is not installed";

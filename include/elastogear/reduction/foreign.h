@@ -13,6 +13,7 @@
 #include "elastogear/fem/inertia.h"
 #include "elastogear/io/matrix_text.h"
 #include "elastogear/mesh/mesh.h"
+#include "elastogear/model/elastic_body.h"
 
 namespace elastogear::reduction {
 
@@ -46,6 +47,12 @@ bool is_complete(const mesh::Mesh& mesh, const std::vector<int>& dof);
 /// Mass moments from a complete M itself. Collective, result on rank 0. Throws Error unless M is a scalar
 /// matrix times I_3 to rounding, as solid elements in one coordinate system have it.
 fem::MassMoments mass_moments(Mat M, const fem::VectorGather& gather, const mesh::Mesh& mesh);
+
+/// M_s of M = M_s x I_3 between all nodes (n_nodes x n_nodes, kg), zero where displacements lack, as
+/// SecondMoments takes it. n_nodes is read on rank 0. Collective, result on rank 0. Throws Error when M
+/// couples directions or has different entries in them, beyond rounding, and when nodes that lack some
+/// displacements leave entries unknown.
+model::SparseRows scalar_mass(const ForeignSystem& system, int n_nodes);
 
 /// The rows and columns of the displacements of free nodes (flags read on rank 0). Collective.
 ForeignSystem restrict_to(const ForeignSystem& system, const std::vector<bool>& is_free);
