@@ -7,6 +7,9 @@
 namespace elastogear::app {
 namespace {
 
+constexpr std::size_t kLargestReference =
+    500'000;  // displacements of a body that is factorised for an estimate
+
 std::vector<recovery::PairContacts> contacts_of(const BodyOfRun& body) {
   const model::ResultHeader header = io::read_result_header(body.result);
   std::vector<recovery::PairContacts> pairs;
@@ -55,6 +58,36 @@ Eigen::MatrixXd stored_stress(const StaticAnswer& answer, const std::vector<int>
   return stress;
 }
 
+// Nothing for the full basis.
+std::unique_ptr<StaticAnswer> make_answer(const BodyOfRun& body) {
+  model::ElasticBody elastic = io::read_body(body.file);
+  require_same_coordinates(elastic, body.history, body.file);
+  if (elastic.basis == model::Basis::full) return nullptr;
+  const recovery::ForceHistory forces =
+      recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);
+  auto answer = std::make_unique<StaticAnswer>();
+  answer->position = find_answers(elastic.flexibility, forces.node);
+  answer->q = recovery::dynamic_part(elastic, body.history.q, forces);
+  for (int node : forces.node) answer->node.push_back(elastic.surface.node[node]);
+  answer->force = forces.force;
+  answer->file = body.file;
+  elastic.surface.Phi = {};
+  answer->body = std::move(elastic);
+  return answer;
+}
+
+// Whether the body file holds the responses to all forces; without forces it holds none of them.
+bool is_stored(const StaticAnswer& answer) { return !answer.position.empty(); }
+
+// Why no factor of the stiffness matrix can serve; empty: it can.
+std::string obstacle_to_factor(const model::ElasticBody& body) {
+  if (body.floating) return "needs a held body, this one was reduced free (restrain: none)";
+  if (body.provenance.contains("option_stiffness"))
+    return "solves with the stiffness of the mesh, this body was reduced from matrices of another program "
+           "(-stiffness)";
+  return "";
+}
+
 }  // namespace
 
 void require_same_coordinates(const model::ElasticBody& body, const io::BodyHistory& history,
@@ -65,26 +98,19 @@ void require_same_coordinates(const model::ElasticBody& body, const io::BodyHist
 
 std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body, Acceleration acceleration) {
   if (acceleration == Acceleration::never) return nullptr;
-  model::ElasticBody elastic = io::read_body(body.file);
-  require_same_coordinates(elastic, body.history, body.file);
-  if (elastic.basis == model::Basis::full) return nullptr;
-  const recovery::ForceHistory forces =
-      recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);
-  auto answer = std::make_unique<StaticAnswer>();
-  answer->position = find_answers(elastic.flexibility, forces.node);
-  if (acceleration == Acceleration::automatic && answer->position.empty()) return nullptr;
-  require(!elastic.floating, body.file,
-          ": mode acceleration needs a held body, this one was reduced free (restrain: none)");
-  require(!answer->position.empty() || !elastic.provenance.contains("option_stiffness"), body.file,
-          ": mode acceleration solves with the stiffness of the mesh, this body was reduced from matrices of "
-          "another program (-stiffness)");
-  answer->q = recovery::dynamic_part(elastic, body.history.q, forces);
-  for (int node : forces.node) answer->node.push_back(elastic.surface.node[node]);
-  answer->force = forces.force;
-  answer->file = body.file;
-  elastic.surface.Phi = {};
-  answer->body = std::move(elastic);
+  std::unique_ptr<StaticAnswer> answer = make_answer(body);
+  if (!answer || (acceleration == Acceleration::automatic && !is_stored(*answer))) return nullptr;
+  const std::string obstacle = is_stored(*answer) ? "" : obstacle_to_factor(answer->body);
+  require(obstacle.empty(), body.file, ": mode acceleration ", obstacle);
   return answer;
+}
+
+std::unique_ptr<StaticAnswer> error_reference(const BodyOfRun& body) {
+  std::unique_ptr<StaticAnswer> answer = make_answer(body);
+  if (!answer || is_stored(*answer)) return answer;
+  if (!obstacle_to_factor(answer->body).empty()) return nullptr;
+  answer->source = io::read_body_source(answer->file);
+  return answer->source->free_dof.size() <= kLargestReference ? std::move(answer) : nullptr;
 }
 
 Eigen::MatrixXd stress_history(StaticAnswer& answer, const std::vector<int>& nodes) {

@@ -38,6 +38,11 @@ enum class Acceleration { never, automatic, always };
 /// Nothing for a body in its full basis, whose answer is complete already, and where it is not asked for.
 std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body, Acceleration acceleration);
 
+/// What stresses of a reduced body are held against to estimate their error: from the answers in the body
+/// file, or by a factor of K. Nothing where neither serves: for the full basis, and for free bodies, matrices
+/// of other programs and more than 500,000 displacements without such answers.
+std::unique_ptr<StaticAnswer> error_reference(const BodyOfRun& body);
+
 /// 6 n x n_t, Pa, at mesh nodes: from the answers in the body file, or by a factor of K when it has none.
 Eigen::MatrixXd stress_history(StaticAnswer& answer, const std::vector<int>& nodes);
 /// 3 n_nodes, m, at one output time; takes a factor of K.

@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <numbers>
-#include <optional>
 
 #include "app/console.h"
 #include "app/contact_field.h"
@@ -18,6 +16,7 @@
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/recovery/boxes.h"
+#include "elastogear/recovery/error_estimate.h"
 #include "elastogear/recovery/stress.h"
 
 namespace elastogear::app {
@@ -41,13 +40,18 @@ const OptionTable kTable = {
      "reduced with -basis modal_residual; true takes a factor of each other body's stiffness matrix, and so "
      "do "
      "fields"},
+    {"error_estimate", "-", "true",
+     "estimate how far stresses are from those of the unreduced body on the same mesh; takes a factor of the "
+     "stiffness matrix of bodies without static responses to the contact forces (up to 500,000 "
+     "displacements)"},
     {"<body>_file", "-", "", "body file, when it is no longer where the result file says"},
 };
 
 struct Body {
   std::string name, file;
   io::BodyHistory history;
-  std::unique_ptr<StaticAnswer> answer = nullptr;  // of mode acceleration, when asked for
+  std::unique_ptr<StaticAnswer> answer = nullptr;     // of mode acceleration, when asked for
+  std::unique_ptr<StaticAnswer> reference = nullptr;  // of the error estimate, where `answer` is none
 
   const Eigen::MatrixXd& q() const { return answer ? answer->q : history.q; }
 };
@@ -59,6 +63,11 @@ struct Run {
 };
 
 std::string stem(const std::string& path) { return std::filesystem::path(path).replace_extension().string(); }
+
+// Whether stress histories of the body are wanted.
+bool is_asked(const Options& options, const std::string& body) {
+  return options.given("stress_" + body) && options.flag("error_estimate");
+}
 
 Run read_run(const Options& options) {
   Run run{options.text("result"), {}, {}};
@@ -74,8 +83,11 @@ Run read_run(const Options& options) {
   }
   const auto acceleration =
       static_cast<Acceleration>(options.choice("mode_acceleration", {"false", "auto", "true"}));
-  for (Body& body : run.bodies)
-    body.answer = static_answer({run.result, body.name, body.file, body.history}, acceleration);
+  for (Body& body : run.bodies) {
+    const BodyOfRun of_run{run.result, body.name, body.file, body.history};
+    body.answer = static_answer(of_run, acceleration);
+    if (!body.answer && is_asked(options, body.name)) body.reference = error_reference(of_run);
+  }
   return run;
 }
 
@@ -111,21 +123,39 @@ std::pair<Eigen::Index, Eigen::Index> peak(const io::StressSet& set) {
   return {node, time};
 }
 
-// How the peak of a set was found, where modes were not all.
-struct Accuracy {
-  double beside_modes = 0;  // Pa, von Mises stress of what is not Psi q, at the peak
-  double truncation = 0;    // Pa, of its estimated error
-};
+constexpr double kTrusted = 0.05;  // of the peak
 
-void print_peak(const io::StressSet& set, const Eigen::VectorXd& time,
-                const std::optional<Accuracy>& accuracy) {
+// What to do about stresses whose estimated error is too large.
+std::string remedy(const Body& body) {
+  if (!body.answer)
+    return "reduce the body with -basis modal_residual, loaded wherever it is touched (option loaded; by "
+           "default "
+           "everywhere)";
+  return "reduce the body with more modes (-modes)";
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  return text;
+}
+
+void print_error(const Body& body, const io::StressSet& set) {
+  const auto [node, step] = peak(set);
+  if (set.error.size() == 0)
+    return print_item("", "error of the reduction not estimated: not to be trusted; " + remedy(body));
+  const double share = set.peak_error[step] / std::max(set.von_mises(node, step), 1e-300);
+  print_item("", "estimated error of the reduction " + with_unit(1e-6 * set.peak_error[step], "MPa") + ", " +
+                     percent(share));
+  if (share > kTrusted)
+    print_item("warning", set.body + " " + set.set + ": not to be trusted; " + remedy(body));
+}
+
+void print_peak(const io::StressSet& set, const Eigen::VectorXd& time) {
   const auto [node, step] = peak(set);
   print_item(set.body + " " + set.set,
              "peak von Mises " + with_unit(1e-6 * set.von_mises(node, step), "MPa") + " at node " +
                  std::to_string(set.node[node]) + ", " + with_unit(time[step], "s"));
-  if (accuracy)
-    print_item("", "static part beside the modes " + with_unit(1e-6 * accuracy->beside_modes, "MPa") +
-                       ", estimated error " + with_unit(1e-6 * accuracy->truncation, "MPa"));
 }
 
 void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, Eigen::Index node) {
@@ -134,6 +164,7 @@ void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, 
   for (int c = 0; c < 6; ++c) columns.push_back({components[c] + suffix, "Pa", set.stress.row(6 * node + c)});
   columns.push_back({"von_mises" + suffix, "Pa", set.von_mises.row(node)});
   columns.push_back({"rankine" + suffix, "Pa", set.rankine.row(node)});
+  if (set.error.size() > 0) columns.push_back({"error of von_mises" + suffix, "Pa", set.error.row(node)});
 }
 
 void write_table(const std::string& path, const io::StressSet& set, const Eigen::VectorXd& time, bool all) {
@@ -153,23 +184,30 @@ recovery::StressHistory history(Body& body, const model::Stress& stress, const s
   return recovery::stress_history(stress, members, body.q(), sigma_static);
 }
 
-// Of a set's peak; nothing where the modes are all there is.
-std::optional<Accuracy> accuracy(const Body& body, const model::ElasticBody& elastic,
-                                 const io::StressSet& set, const Eigen::VectorXd& time) {
-  if (!body.answer || elastic.frequency.size() == 0) return {};
-  const auto [node, step] = peak(set);
-  const int member = elastic.stress.sets.at(set.set)[static_cast<std::size_t>(node)];
-  const Eigen::MatrixXd sigma_R = set.stress.middleRows(6 * node, 6) -
-                                  recovery::stress_history(elastic.stress, {member}, body.history.q).stress;
-  const double omega = 2 * std::numbers::pi * elastic.frequency.maxCoeff();
-  return Accuracy{recovery::von_mises(recovery::StressVector(sigma_R.col(step))),
-                  recovery::truncation_error(sigma_R, time, omega)};
+// Sets `error` where it can be told: the full basis leaves nothing out.
+void estimate_error(Body& body, const model::ElasticBody& elastic, io::StressSet& set) {
+  if (elastic.basis == model::Basis::full) {
+    set.error.setZero(set.von_mises.rows(), set.von_mises.cols());
+    set.peak_error.setZero(set.von_mises.cols());
+    return;
+  }
+  StaticAnswer* const reference = body.answer ? body.answer.get() : body.reference.get();
+  if (!reference) return;
+  const std::vector<int>& members = elastic.stress.sets.at(set.set);
+  const Eigen::MatrixXd whole =
+      recovery::stress_history(elastic.stress, members, reference->q, stress_history(*reference, set.node))
+          .stress;
+  const Eigen::MatrixXd of_modes = recovery::stress_history(elastic.stress, members, body.history.q).stress;
+  auto error = recovery::reduction_error(elastic, members, {reference->q, body.history.q - reference->q},
+                                         {set.stress, whole - of_modes, body.answer != nullptr});
+  set.error = std::move(error.at_node);
+  set.peak_error = std::move(error.of_peak);
 }
 
 void write_stresses(const Options& options, Run& run) {
   const std::string output = options.text("output");
   io::StressHistory file{run.time, {}, options.provenance()};
-  std::vector<std::optional<Accuracy>> accuracies;
+  std::vector<const Body*> owner;
   for (const std::string& name : options.placeholder_values("stress_<body>")) {
     if (name == "nodes") continue;  // reduce's key in a shared file
     Body& body = find_body(run, name);
@@ -179,7 +217,8 @@ void write_stresses(const Options& options, Run& run) {
       auto h = history(body, stress, set);
       file.sets.push_back({name, set, std::move(h.node), std::move(h.stress), std::move(h.von_mises),
                            std::move(h.rankine), stress.X(Eigen::all, stress.sets.at(set))});
-      accuracies.push_back(accuracy(body, elastic, file.sets.back(), run.time));
+      owner.push_back(&body);
+      if (options.flag("error_estimate")) estimate_error(body, elastic, file.sets.back());
     }
   }
   require(!file.sets.empty(),
@@ -191,7 +230,8 @@ void write_stresses(const Options& options, Run& run) {
   const bool all = options.choice("csv", {"peak", "all"}) == 1;
   for (std::size_t i = 0; i < file.sets.size(); ++i) {
     const io::StressSet& set = file.sets[i];
-    print_peak(set, run.time, accuracies[i]);
+    print_peak(set, run.time);
+    print_error(*owner[i], set);
     const std::string path = stem(output) + "_" + set.body + "_" + set.set + ".csv";
     write_table(path, set, run.time, all);
     print_item("written", path);

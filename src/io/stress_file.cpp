@@ -18,8 +18,13 @@ void check(const h5::File& file, const StressSet& set, Eigen::Index n_t) {
           " nodes of ", set.body, "/", set.set);
   require(fits, file.path, ": stresses of ", set.body, "/", set.set, " do not have ", n, " nodes and ", n_t,
           " times");
-  require(set.stress.allFinite() && set.von_mises.allFinite() && set.rankine.allFinite(), file.path,
-          ": stresses of ", set.body, "/", set.set, " are not finite");
+  require(set.error.size() == 0 ||
+              (set.error.rows() == n && set.error.cols() == n_t && set.peak_error.size() == n_t),
+          file.path, ": estimated errors of ", set.body, "/", set.set, " do not have ", n, " nodes and ", n_t,
+          " times");
+  require(set.stress.allFinite() && set.von_mises.allFinite() && set.rankine.allFinite() &&
+              set.error.allFinite() && set.peak_error.allFinite(),
+          file.path, ": stresses of ", set.body, "/", set.set, " are not finite");
 }
 
 void write_set(const h5::File& file, const StressSet& set) {
@@ -31,6 +36,10 @@ void write_set(const h5::File& file, const StressSet& set) {
   h5::write<double>(file, group + "/von_mises", {{n_t, n}, set.von_mises.data()}, "Pa");
   h5::write<double>(file, group + "/rankine", {{n_t, n}, set.rankine.data()}, "Pa");
   if (set.X.size() > 0) h5::write<double>(file, group + "/X", view(set.X), "m");
+  if (set.error.size() > 0) {
+    h5::write<double>(file, group + "/error", {{n_t, n}, set.error.data()}, "Pa");
+    h5::write<double>(file, group + "/peak_error", view(set.peak_error), "Pa");
+  }
   h5::set_attribute(file, group, "frame", "body");
 }
 
@@ -41,12 +50,16 @@ Eigen::MatrixXd columns(const std::vector<double>& values, Eigen::Index n_t) {
 
 StressSet read_set(const h5::File& file, const std::string& body, const std::string& name, Eigen::Index n_t) {
   const std::string group = "/" + body + "/" + name;
-  StressSet set{body, name, h5::read<int>(file, group + "/nodes", {h5::kAny}), {}, {}, {}, {}};
+  StressSet set{body, name, h5::read<int>(file, group + "/nodes", {h5::kAny}), {}, {}, {}};
   const hsize_t n = set.node.size();
   set.stress = columns(h5::read<double>(file, group + "/stress", {extent(n_t), n, 6}), n_t);
   set.von_mises = columns(h5::read<double>(file, group + "/von_mises", {extent(n_t), n}), n_t);
   set.rankine = columns(h5::read<double>(file, group + "/rankine", {extent(n_t), n}), n_t);
   if (h5::exists(file, group + "/X")) set.X = read_points(file, group + "/X");
+  if (h5::exists(file, group + "/error")) {
+    set.error = columns(h5::read<double>(file, group + "/error", {extent(n_t), n}), n_t);
+    set.peak_error = read_vector(file, group + "/peak_error", extent(n_t));
+  }
   return set;
 }
 

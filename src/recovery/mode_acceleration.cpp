@@ -4,7 +4,6 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/contact/face.h"
-#include "elastogear/recovery/stress.h"
 
 namespace elastogear::recovery {
 namespace {
@@ -65,18 +64,6 @@ Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::Matrix
         },
         body.surface.Phi);
   return q - body.K_r.diagonal().cwiseInverse().asDiagonal() * h;
-}
-
-double truncation_error(const Eigen::MatrixXd& sigma_R, const Eigen::VectorXd& time, double omega) {
-  double largest = 0;
-  for (Eigen::Index t = 1; t + 1 < time.size(); ++t) {
-    const double before = time[t] - time[t - 1], after = time[t + 1] - time[t];
-    const StressVector slope_before = (sigma_R.col(t) - sigma_R.col(t - 1)) / before,
-                       slope_after = (sigma_R.col(t + 1) - sigma_R.col(t)) / after;
-    largest =
-        std::max(largest, von_mises(StressVector((slope_after - slope_before) / (0.5 * (before + after)))));
-  }
-  return largest / (omega * omega);
 }
 
 }  // namespace elastogear::recovery

@@ -16,6 +16,9 @@ struct StressSet {
   Eigen::MatrixXd von_mises;  ///< n x n_t, Pa
   Eigen::MatrixXd rankine;    ///< n x n_t, Pa, largest principal stress
   Eigen::Matrix3Xd X = {};    ///< 3 x n, m, undeformed; empty in files written before it was kept
+  /// n x n_t, Pa, estimated error of von_mises against the unreduced body on the same mesh; or empty
+  Eigen::MatrixXd error = {};
+  Eigen::VectorXd peak_error = {};  ///< n_t, Pa, of the set's largest von Mises stress; or empty
 };
 
 struct StressHistory {

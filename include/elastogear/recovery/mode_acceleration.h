@@ -32,10 +32,4 @@ ForceHistory contact_forces(const std::vector<PairContacts>& pairs, const model:
 Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::MatrixXd& q,
                              const ForceHistory& forces);
 
-/// What the truncated modes' inertia changes in the stress sigma_R (6 x n_t, Pa) that they answer statically,
-/// to leading order: the largest von Mises stress of sigma_R''/omega^2 over the times (n_t, s, ascending), by
-/// second differences; omega (rad/s): the highest mode kept, above which all of them lie (docs/theory.md,
-/// Eq. 4.5). Pa.
-double truncation_error(const Eigen::MatrixXd& sigma_R, const Eigen::VectorXd& time, double omega);
-
 }  // namespace elastogear::recovery

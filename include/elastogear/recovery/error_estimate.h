@@ -1,0 +1,35 @@
+#pragma once
+// How far recovered stresses are from those of the unreduced body on the same mesh (docs/theory.md, section
+// 4.3). Everything is taken at one time, so that the output interval does not matter.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::recovery {
+
+/// Elastic coordinates of a body over n_t times, split by its contact forces f; q = q_d + q_s.
+struct SplitCoordinates {
+  Eigen::MatrixXd q_d;  ///< n_q x n_t, dynamic part
+  Eigen::MatrixXd q_s;  ///< n_q x n_t, static response K_r^-1 Phi' f of the modes
+};
+
+/// Stresses at n nodes over n_t times.
+struct RecoveredStress {
+  Eigen::MatrixXd stress;    ///< 6 n x n_t, Pa, as recovered
+  Eigen::MatrixXd residual;  ///< 6 n x n_t, Pa, static response to f beside that of the modes; empty: unknown
+  bool has_residual = true;  ///< whether `stress` contains it
+};
+
+/// Estimated errors of the von Mises stress.
+struct StressError {
+  Eigen::MatrixXd at_node;  ///< n x n_t, Pa
+  Eigen::VectorXd of_peak;  ///< n_t, Pa, of the largest value over the nodes
+};
+
+/// (theory.md, Eqs. 4.6 to 4.8) members: n local numbers in body.stress.node. The body's basis is modal.
+StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
+                            const SplitCoordinates& coordinates, const RecoveredStress& recovered);
+
+}  // namespace elastogear::recovery
