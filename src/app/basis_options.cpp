@@ -21,12 +21,14 @@ reduction::RitzOptions ritz_options(const Options& options, int basis) {
 
 OptionTable basis_table() {
   return {
-      {"basis", "-", "modal",
-       "modal: eigenmodes; modal_residual: eigenmodes and the static answer to contact forces that they "
-       "leave out; full: every free degree of freedom (the finite-element reference). To compare with, of "
-       "held bodies, without use of symmetry: modal_attachment: eigenmodes and static solutions; krylov: "
-       "moment matching for loads on the surface; craig_bampton: interface modes and modes of the body "
-       "held at the interface"},
+      {"basis", "-", "modal_residual",
+       "modal_residual: eigenmodes and the static response to contact forces that they leave out; full: "
+       "every "
+       "free degree of freedom (the finite-element reference). To compare with: modal: eigenmodes alone, "
+       "which "
+       "miss most of the stress at a tooth; and of held bodies, without use of symmetry: modal_attachment: "
+       "eigenmodes and static solutions; krylov: moment matching for loads on the surface; craig_bampton: "
+       "interface modes and modes of the body held at the interface"},
       {"modes", "-", "100",
        "number of eigenmodes; modal_attachment: without the static solutions; krylov, craig_bampton: "
        "vectors in all"},

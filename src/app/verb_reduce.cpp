@@ -1,5 +1,7 @@
 // elastogear reduce: mesh + material + basis -> body file.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -128,6 +130,21 @@ void set_restraint(const Options& options, reduction::ReductionOptions& o) {
     o.frame_at_center = word ? options.choice("frame", {"mesh", "centre_of_mass"}) == 1 : o.floating;
 }
 
+// Before the work starts; an Error where the machine has not the memory.
+void print_cost(const reduction::StaticResponseCost& cost) {
+  constexpr double kLong = 120, kMuch = 4e9;  // s, bytes
+  const std::string remedy =
+      "name the face sets that contact may touch by option loaded to save time and memory";
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  print_item("static responses", std::to_string(cost.n_columns) + " solutions for " +
+                                     std::to_string(cost.n_nodes) + " nodes that contact may touch: about " +
+                                     duration(cost.seconds) + " and " + with_unit(1e-9 * cost.bytes, "GB"));
+  require(cost.bytes < memory, "the static responses need about ", 1e-9 * cost.bytes,
+          " GB, this machine has ", 1e-9 * memory, " GB: ", remedy);
+  if (cost.seconds > kLong || cost.bytes > kMuch) print_item("advice", remedy);
+}
+
 reduction::ReductionOptions reduction_options(const Options& options) {
   reduction::ReductionOptions o;
   o.name = std::filesystem::path(options.text("output")).stem().string();
@@ -156,6 +173,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   o.ratio = damping_ratio(options, "damping_ratio");
   for (const std::string& set : options.placeholder_values("point_mass_<set>"))
     o.point_mass[set] = options.positive("point_mass_" + set);
+  o.announce = print_cost;
   o.provenance = options.provenance();
   return o;
 }

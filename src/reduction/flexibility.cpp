@@ -1,6 +1,7 @@
 #include "elastogear/reduction/flexibility.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -170,6 +171,29 @@ model::Flexibility plan_flexibility(const FlexibilityTask& task) {
 
 std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibility& flexibility) {
   return flexibility.n_sectors > 1 ? images_of(task.stress_node, task.repetition) : task.stress_node;
+}
+
+StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
+                            int n_ranks) {
+  // Of a three-dimensional mesh after nested dissection (docs/performance.md): entries of the factor and
+  // flops of the factorisation; speed of a core with many right-hand sides.
+  constexpr double kEntries = 17, kFactorFlops = 8, kSpeed = 25e9, kSingle = 4, kDouble = 8;
+  const int Z = plan.n_sectors, n_factors = Z / 2 + 1;
+  const double n_orbits = static_cast<double>(plan.surface.node.cols()),
+               unknowns =
+                   static_cast<double>(n_free) / Z * (Z > 2 ? 2 : 1),  // real form of a complex harmonic
+      entries = kEntries * std::pow(unknowns, 4. / 3);
+  const double solved = 3 * n_orbits * n_factors,
+               flops = n_factors * kFactorFlops * unknowns * unknowns + solved * 4 * entries;
+  const double rows =
+      3. * static_cast<double>(plan.node.size()) + 6. * static_cast<double>(stress_nodes(task, plan).size());
+  StaticResponseCost cost;
+  cost.n_nodes = plan.node.size();
+  cost.n_columns = static_cast<std::size_t>(solved);
+  cost.seconds = flops / (kSpeed * n_ranks);
+  cost.bytes =
+      rows * 3 * n_orbits * kSingle * (Z > 1 ? n_ranks : 1) + entries * kDouble * (Z > 1 ? n_ranks : 1);
+  return cost;
 }
 
 model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,

@@ -137,6 +137,11 @@ std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
   return f.text();
 }
 
+// Static responses on all of the surface leave nothing to ask of the modes.
+bool asks_for_completeness(const ReductionOptions& o) {
+  return o.completeness && !(o.flexibility && o.loaded.empty());
+}
+
 void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
   const Plan& plan = job.plan;
   auto& checks = job.report.checks;
@@ -150,6 +155,15 @@ void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
 FlexibilityTask flexibility_task(const Job& job) {
   const model::ElasticBody& body = job.plan.body;
   return {body.surface, body.stress.node, job.plan.S, job.mesh, job.plan.repetition, job.options.loaded};
+}
+
+// Says what the static responses will take before anything is solved. Collective.
+void announce_flexibility(Job& job) {
+  if (!job.options.flexibility || !job.options.announce) return;
+  job.on_root([&] {
+    const FlexibilityTask task = flexibility_task(job);
+    job.options.announce(forecast(task, plan_flexibility(task), job.plan.free_dof.size(), job.size));
+  });
 }
 
 // Whether the loaded nodes repeat as the mesh does. Collective.
@@ -191,7 +205,7 @@ void reduce_whole(Job& job) {
       if (k < n_q) writer->add(k, mode);  // later ones are void
     });
   });
-  check_basis(job, system, job.options.completeness);
+  check_basis(job, system, asks_for_completeness(job.options));
   add_flexibility(job, system);
   job.on_root([&] { writer->finish(); });
   pieces.clear();
@@ -228,7 +242,7 @@ void check_sectors(Job& job) {
   check(VecGetSize(layout, &n_free));
   const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
   const ElasticSystem system{matrices.K, matrices.M, gather, nullptr};
-  check_basis(job, system, job.options.completeness && n_free <= kLargestCheckFactor);
+  check_basis(job, system, asks_for_completeness(job.options) && n_free <= kLargestCheckFactor);
   add_flexibility(job, system);
 }
 
@@ -275,7 +289,7 @@ void reduce_ritz(Job& job) {
   const Eigen::VectorXd residual = std::exchange(modes.residual, {});
   set_eigenmodes(job, modes);
   job.finish_stage("Ritz vectors");
-  check_basis(job, system, job.options.completeness);
+  check_basis(job, system, asks_for_completeness(job.options));
   job.report.checks.push_back(ritz_check(residual));
   job.on_root([&] { writer->finish(); });
 }
@@ -283,10 +297,9 @@ void reduce_ritz(Job& job) {
 }  // namespace
 
 void reduce_modal(Job& job) {
-  if (job.options.ritz)
-    reduce_ritz(job);
-  else
-    job.cyclic() ? reduce_sectors(job) : reduce_whole(job);
+  if (job.options.ritz) return reduce_ritz(job);
+  announce_flexibility(job);
+  job.cyclic() ? reduce_sectors(job) : reduce_whole(job);
 }
 
 }  // namespace elastogear::reduction

@@ -83,16 +83,5 @@ TEST(DynamicPart, of_a_static_answer_is_zero) {
   EXPECT_LT(dynamic_part(body, q, forces).norm(), 10 * kRoundoff * q.norm());
 }
 
-TEST(TruncationError, of_a_harmonic_answer_is_the_square_of_the_ratio_of_frequencies) {
-  constexpr double kForce = 30, kHighest = 1000;  // rad/s
-  constexpr double kCurvature = 1e-3;             // of the second differences
-  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(200, 0, 0.3);
-  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(6, time.size());
-  sigma.row(0) = 5e6 * (kForce * time.transpose().array()).sin();
-  const double expected = 5e6 * kForce * kForce / (kHighest * kHighest);
-  EXPECT_NEAR(truncation_error(sigma, time, kHighest), expected, kCurvature * expected);
-  EXPECT_EQ(truncation_error(sigma.leftCols(1), time.head(1), kHighest), 0);
-}
-
 }  // namespace
 }  // namespace elastogear::recovery

@@ -30,6 +30,17 @@ model::Flexibility plan_flexibility(const FlexibilityTask& task);
 /// The n_r nodes of G, mesh numbers, ascending.
 std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibility& plan);
 
+/// What finding F and G will take, by the sizes alone; right within a factor of about two.
+struct StaticResponseCost {
+  std::size_t n_nodes = 0;    ///< n_c, that may be loaded
+  std::size_t n_columns = 0;  ///< solutions: three for one node of each orbit, for each harmonic
+  double seconds = 0;         ///< on `n_ranks` ranks
+  double bytes = 0;           ///< of all ranks together, at the same time
+};
+/// n_free: free displacements of the whole body.
+StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
+                            int n_ranks);
+
 /// The same with F and G. Factorises K once and solves for three forces on one node of each orbit, kBlock
 /// nodes at a time. Collective; the result is on rank 0. Throws Error when the factorisation fails.
 model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "elastogear/model/damping.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
+#include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/foreign.h"
 #include "elastogear/reduction/marker.h"
 #include "elastogear/reduction/ritz_options.h"
@@ -52,9 +54,11 @@ struct ReductionOptions {
   bool flexibility = false;              ///< modal only: static answers to contact forces,
   std::vector<std::string> loaded = {};  ///< on the nodes of these face sets; none: of the whole surface.
                                          ///< Interface or loaded faces of `ritz` too
-  bool completeness = true;              ///< check it: one more factorisation of K
-  int window = 0;                        ///< modes found at a time, see EigenOptions
-  Store store = Store::all;              ///< where the modes are stored
+  /// Called on rank 0 before any eigenmode is looked for; may throw Error, which ends the reduction.
+  std::function<void(const StaticResponseCost&)> announce = {};
+  bool completeness = true;                            ///< check it: one more factorisation of K
+  int window = 0;                                      ///< modes found at a time, see EigenOptions
+  Store store = Store::all;                            ///< where the modes are stored
   io::Precision precision = io::Precision::float64;    ///< of modes stored at all nodes
   Symmetry symmetry = Symmetry::automatic;             ///< modal only, see reduction/cyclic.h
   Invariants invariants = Invariants::linear;          ///< of inertia, stored in the file

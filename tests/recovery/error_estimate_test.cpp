@@ -1,0 +1,76 @@
+#include "elastogear/recovery/error_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "elastogear/recovery/stress.h"
+
+namespace elastogear::recovery {
+namespace {
+
+constexpr double kRoundoff = 1e-12;
+constexpr int kModes = 6, kNodes = 3, kTimes = 5;
+
+struct Recovered {
+  model::ElasticBody body;
+  std::vector<int> members = {0, 1, 2};
+  SplitCoordinates q;
+  RecoveredStress stress;
+
+  Recovered() {
+    std::srand(1);
+    const Eigen::VectorXd stiffness = Eigen::VectorXd::LinSpaced(kModes, 1, 30).cwiseAbs2();
+    body.K_r = Eigen::MatrixXd(stiffness.asDiagonal()).sparseView();
+    body.stress.node = {10, 20, 30};
+    body.stress.Psi = model::DenseRows(Eigen::MatrixXd::Random(6 * kNodes, kModes));
+    q = {Eigen::MatrixXd::Zero(kModes, kTimes), Eigen::MatrixXd::Random(kModes, kTimes)};
+    stress = {1e8 * Eigen::MatrixXd::Random(6 * kNodes, kTimes),
+              1e7 * Eigen::MatrixXd::Random(6 * kNodes, kTimes)};
+  }
+  StressError error() const { return reduction_error(body, members, q, stress); }
+};
+
+// Beside modes that answer statically the residual response is exact; what stays is the accuracy of forces.
+TEST(ReductionError, at_rest_is_that_of_the_forces_alone) {
+  const Recovered at_rest;
+  const Eigen::MatrixXd found = von_mises(at_rest.stress.stress);
+  EXPECT_LT((at_rest.error().at_node - 1e-3 * found).norm(), kRoundoff * found.norm());
+}
+
+TEST(ReductionError, of_modes_alone_at_rest_is_what_the_static_response_adds) {
+  Recovered modal;
+  modal.stress.has_residual = false;
+  const Eigen::MatrixXd found = von_mises(modal.stress.stress),
+                        whole = von_mises(Eigen::MatrixXd(modal.stress.stress + modal.stress.residual));
+  const StressError error = modal.error();
+  EXPECT_LT((error.at_node - 1e-3 * found - (whole - found).cwiseAbs()).norm(), kRoundoff * found.norm());
+  for (int t = 0; t < kTimes; ++t) {
+    const double missing = std::abs(whole.col(t).maxCoeff() - found.col(t).maxCoeff());
+    EXPECT_GE(error.of_peak[t], missing);
+    EXPECT_LE(error.of_peak[t], missing + 2e-3 * found.col(t).maxCoeff());
+  }
+}
+
+TEST(ReductionError, grows_with_the_dynamic_part_of_the_upper_modes_and_not_of_the_lower_ones) {
+  Recovered lower, upper;
+  const double at_rest = Recovered().error().at_node.norm();
+  lower.q.q_d.topRows(kModes / 2).setConstant(1e8);
+  upper.q.q_d.bottomRows(kModes / 2).setConstant(1e8);
+  EXPECT_NEAR(lower.error().at_node.norm(), at_rest, kRoundoff * at_rest);
+  EXPECT_GT(upper.error().at_node.norm(), 10 * at_rest);
+}
+
+TEST(ReductionError, does_not_depend_on_the_times_of_output) {
+  Recovered all;
+  all.q.q_d = Eigen::MatrixXd::Random(kModes, kTimes);
+  Recovered one = all;
+  one.q = {all.q.q_d.col(2), all.q.q_s.col(2)};
+  one.stress.stress = all.stress.stress.col(2).eval();
+  one.stress.residual = all.stress.residual.col(2).eval();
+  EXPECT_EQ(one.error().at_node, all.error().at_node.col(2));
+  EXPECT_EQ(one.error().of_peak[0], all.error().of_peak[2]);
+}
+
+}  // namespace
+}  // namespace elastogear::recovery
