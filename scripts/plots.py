@@ -95,6 +95,15 @@ def stress_title(history, body_file):
     return text + (f", {n_modes} modes" if n_modes else ", full finite-element basis")
 
 
+def error_text(history):
+    """What the band around the von Mises stress is."""
+    if history.error is None:
+        return "Error of the reduction not estimated: not to be trusted"
+    peak, error = history.von_mises.max(), history.error[history.von_mises.argmax()]
+    doubt = "\nnot to be trusted" if error > results.TRUSTED * peak else ""
+    return f"Band: estimated error of\nthe reduction, at the peak\n{error / 1e6:.2g} MPa ({100 * error / max(peak, 1e-300):.2g} %){doubt}"
+
+
 def plot_stress(history, time, body_file, folder):
     """Six components in the body frame, von Mises and the largest principal stress (Rankine)."""
     figure, axes = plt.subplots(3, 3, figsize=(11, 8.5))
@@ -106,9 +115,13 @@ def plot_stress(history, time, body_file, folder):
     for panel, values, label in zip(axes[2], (history.von_mises, history.rankine), ("von Mises", "Rankine")):
         panel.plot(time_axis(panel, time), values / 1e6, color=COLOURS[1])
         panel.set_title(label, fontsize=11)
+    if history.error is not None:
+        axes[2, 0].fill_between(time_axis(axes[2, 0], time), np.maximum(history.von_mises - history.error, 0) / 1e6,
+                                (history.von_mises + history.error) / 1e6, color=COLOURS[1], alpha=0.25, linewidth=0)
     for panel in axes[:, 0]:
         panel.set_ylabel("stress in MPa")
     axes[2, 2].set_axis_off()
+    axes[2, 2].text(0, 0.5, error_text(history), transform=axes[2, 2].transAxes, va="center")
     save(figure, folder, "stress_" + history.body)
 
 

@@ -36,6 +36,7 @@ PAPER_STRESS = {  # %, Tabs. 3 and 4, 1000 modes
     "turn_in": {"worm": (9.32, 4.59, 31.42, 9.17, 105.90, 122.49, 10.51, 2.77),
                 "wheel": (59.04, 212.54, 505.97, 45.78, 84.62, 251.80, 48.18, 22.46)},
     "rolling": {"worm": (1.49, 2.36, 27.71, 15.76, 116.91, 133.27, 16.67, 9.28)}}
+STATE_OF_ROLLING = 0.05  # s, as in scripts/example: the state that the static reference is made for
 END_OF_REBOUND = 0.35  # ms, as in scripts/example: what comes later is another impact, of the other flanks
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#1a1a1a}
 table{border-collapse:collapse;margin:1em 0;font-size:14px;font-variant-numeric:tabular-nums}
@@ -241,6 +242,28 @@ def deviation_section(example):
                                                            range(len(rows), len(rows) + len(paper)))
 
 
+def peak_section(example):
+    """Largest von Mises stress of each set with its estimated error, beside the unreduced bodies."""
+    rows = []
+    for label in example.labels:
+        with example.stress(label) as file, example.stress(example.reference(label)) as reference:
+            for body, name, group in results.stress_sets(file):
+                steps = slice(None)
+                if example.name == "impact":
+                    steps = slice(0, int(np.searchsorted(file["time"][:] * 1e3, END_OF_REBOUND)))
+                elif example.name == "rolling":
+                    nearest = int(np.abs(file["time"][:] - STATE_OF_ROLLING).argmin())
+                    steps = slice(nearest, nearest + 1)
+                else:
+                    steps = slice(-1, None)
+                last = steps if example.name == "impact" else slice(-1, None)
+                peak, true = results.Peak(group, steps), results.Peak(reference[body][name], last)
+                rows.append([f"{label}, {body} {name.replace('_', ' ')}", f"{peak.value / 1e6:.1f}", peak.trust(),
+                             f"{true.value / 1e6:.1f}", f"{abs(peak.value - true.value) / 1e6:.2g}"])
+    head = ["", "peak in MPa", "estimated error of the reduction", "unreduced in MPa", "true error in MPa"]
+    return "<h2>Largest von Mises stress</h2>" + table(head, rows)
+
+
 def time_section(example):
     steps = example.steps()
     rows = []
@@ -296,7 +319,7 @@ def provenance_section(example):
 
 def page(example):
     figures = {"impact": impact_figures, "turn_in": lambda example: (), "rolling": rolling_figures}[example.name]
-    sections = [*figures(example), *deviation_section(example), *picture_section(example), *overview_section(example),
+    sections = [*figures(example), peak_section(example), *deviation_section(example), *picture_section(example), *overview_section(example),
                 *time_section(example), *provenance_section(example)]
     title = TITLE[example.name]
     return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'

@@ -70,13 +70,37 @@ def speed_unit(body):
 
 
 class NodeStress:
-    """Stress history of one node of one body, Pa: tensor (n_t x 6, order COMPONENTS), von_mises, rankine."""
+    """Stress history of one node of one body, Pa: tensor (n_t x 6, order COMPONENTS), von_mises, rankine, error (estimated, of
+    von_mises, by the reduction; None: not estimated)."""
 
     def __init__(self, group, body, set_name, row):
         self.body, self.set, self.node = body, set_name, int(group["nodes"][row])
         self.tensor = group["stress"][:, row, :]
         self.von_mises = group["von_mises"][:, row]
         self.rankine = group["rankine"][:, row]
+        self.error = group["error"][:, row] if "error" in group else None
+
+
+TRUSTED = 0.05  # of the peak: above this estimated error a stress is not to be trusted
+
+
+class Peak:
+    """Largest von Mises stress of an evaluated node set: value (Pa), step, row of the node, and the estimated error of the
+    reduction (Pa; None: not estimated)."""
+
+    def __init__(self, group, steps=slice(None)):
+        von_mises = group["von_mises"][steps]
+        step, self.row = np.unravel_index(von_mises.argmax(), von_mises.shape)
+        self.value = float(von_mises[step, self.row])
+        self.step = int(np.arange(group["von_mises"].shape[0])[steps][step])
+        self.error = float(group["peak_error"][self.step]) if "peak_error" in group else None
+
+    def trust(self):
+        """The estimated error in words."""
+        if self.error is None:
+            return "error not estimated: not to be trusted"
+        doubt = ": not to be trusted" if self.error > TRUSTED * self.value else ""
+        return f"estimated error {self.error / 1e6:.2g} MPa ({100 * self.error / max(self.value, 1e-300):.2g} %){doubt}"
 
 
 def stress_sets(file):
