@@ -14,6 +14,7 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
+import results
 import scene
 
 BODY_COLOURS = ("#D55E00", "#0072B2")  # vermillion and blue, told apart by colour-blind readers too
@@ -151,6 +152,16 @@ def stress_label(stress, end):
     return f"von Mises stress in MPa; blue: above {end:.4g}, to {stress.max():.4g} ({(stress > end).sum()} of {stress.size} nodes)"
 
 
+def error_label(surface, stress):
+    """The estimated error of the largest stress, when the field has one."""
+    names = [surface.GetPointData().GetArrayName(i) for i in range(surface.GetPointData().GetNumberOfArrays())]
+    found = [name for name in names if name and name.startswith("error_of_von_mises")]
+    if not found:
+        return "; error not estimated"
+    error = vtk_to_numpy(surface.GetPointData().GetArray(found[0]))[int(stress.argmax())] / 1e6
+    return f"; estimated error there {error:.2g}" + (", not to be trusted" if error > results.TRUSTED * stress.max() else "")
+
+
 def draw_stress(options):
     pattern, shown, scale = stress_surface(options.like or options.field, options.scale)
     end = colour_range(shown)
@@ -164,7 +175,7 @@ def draw_stress(options):
     picture.panel((0, 0.16, 0.5, 0.92), whole, views[0])
     picture.panel((0.5, 0.16, 1, 0.92), [scene.scalar_actor(surface, table, edges=True)], views[1])
     picture.panel((0, 0.92, 1, 1), [scene.text_actor(f"{name}: deformation x {scale:g}", 0.5, 0.5, 32)])
-    picture.panel((0, 0, 1, 0.16), [scene.text_actor(stress_label(stress, end), 0.5, 0.8, 28),
+    picture.panel((0, 0, 1, 0.16), [scene.text_actor(stress_label(stress, end) + error_label(surface, stress), 0.5, 0.8, 28),
                                     scene.colour_bar(table, stress.max() > end)])
     picture.save(options.out)
 

@@ -2,6 +2,7 @@
 // Whole-body fields at one time, for ParaView: what recovery gives, on the mesh the body file keeps.
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,13 @@
 
 namespace elastogear::app {
 
+/// What the estimated error of a reduced body's field needs.
+struct FieldReference {
+  Eigen::VectorXd q, q_d;    ///< elastic coordinates of the run, and their dynamic part
+  Eigen::VectorXd u_static;  ///< 3 n_nodes, m, BRF, the whole body's static response; empty: no force acts
+  double share = 0;          ///< recovery::dynamic_share
+};
+
 /// One body at one time.
 struct FieldState {
   Eigen::Vector3d r_WB;
@@ -17,10 +25,11 @@ struct FieldState {
   Eigen::VectorXd q;
   Eigen::VectorXd u_static = {};  ///< 3 n_nodes, m, BRF, added to Phi q; empty: nothing
   std::vector<io::NodeField> more = {};
+  std::optional<FieldReference> reference = {};  ///< none: no error is estimated
 };
 
 /// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),
-/// von_mises, rankine and the fields in `more`. `body_file` gives Phi.
+/// von_mises, its estimated error, rankine and the fields in `more`. `body_file` gives Phi.
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
                  const FieldState& state);
 

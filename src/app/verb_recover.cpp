@@ -64,9 +64,9 @@ struct Run {
 
 std::string stem(const std::string& path) { return std::filesystem::path(path).replace_extension().string(); }
 
-// Whether stress histories of the body are wanted.
+// Whether stresses of the body are wanted, with their error.
 bool is_asked(const Options& options, const std::string& body) {
-  return options.given("stress_" + body) && options.flag("error_estimate");
+  return (options.given("stress_" + body) || options.given("field_times")) && options.flag("error_estimate");
 }
 
 Run read_run(const Options& options) {
@@ -251,12 +251,19 @@ FieldState state_at(const Body& body, int step) {
   return {body.history.r_WB.col(step), R, body.history.q.col(step)};
 }
 
-// With the whole body's static answer in place of that of the modes, when it was asked for.
-FieldState recovered_state(const Body& body, int step) {
+// With the whole body's static response in place of that of the modes, when it was asked for.
+FieldState recovered_state(const Options& options, const Body& body, int step) {
   FieldState state = state_at(body, step);
+  StaticAnswer* const known = body.answer ? body.answer.get() : body.reference.get();
+  if (!known) return state;
+  const Eigen::VectorXd u_static = displacement(*known, step), q_d = known->q.col(step);
+  if (options.flag("error_estimate")) {
+    const Eigen::VectorXd share = recovery::dynamic_share(known->body, {q_d, state.q - q_d});
+    state.reference = {state.q, q_d, u_static, share[0]};
+  }
   if (!body.answer) return state;
-  state.q = body.answer->q.col(step);
-  state.u_static = displacement(*body.answer, step);
+  state.q = q_d;
+  state.u_static = u_static;
   return state;
 }
 
@@ -303,7 +310,7 @@ void write_fields(const Options& options, const Run& run, const std::vector<int>
     std::vector<io::TimeStep> series;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const std::string path = steps.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
-      FieldState state = recovered_state(body, steps[i]);
+      FieldState state = recovered_state(options, body, steps[i]);
       state.more = contact_fields(at_time(pairs, steps[i]), surface, source.mesh.X.cols());
       write_field(path, body.file, source, state);
       series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string()});

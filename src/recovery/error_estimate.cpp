@@ -25,7 +25,7 @@ Eigen::MatrixXd mode_stress(const model::Stress& stress, const std::vector<int>&
   return result;
 }
 
-// n x n_t (theory.md, Eq. 4.6): root sum of squares over the upper half of the modes.
+// n x n_t (theory.md, Eq. 4.7): root sum of squares over the upper half of the modes.
 Eigen::MatrixXd upper_modes_part(const model::ElasticBody& body, const std::vector<int>& members,
                                  const Eigen::MatrixXd& q_d) {
   const Eigen::Index n = q_d.rows() - q_d.rows() / 2;
@@ -33,8 +33,8 @@ Eigen::MatrixXd upper_modes_part(const model::ElasticBody& body, const std::vect
   return (psi * q_d.bottomRows(n).cwiseAbs2()).cwiseSqrt();
 }
 
-// n_t (theory.md, Eq. 4.7): dynamic over static amplitude of the upper half of the modes, in the norm of the
-// energy and at most 1.
+}  // namespace
+
 Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordinates& coordinates) {
   const Eigen::Index n = coordinates.q_d.rows() - coordinates.q_d.rows() / 2;
   const Eigen::VectorXd lambda = Eigen::VectorXd(body.K_r.diagonal()).tail(n);
@@ -47,7 +47,16 @@ Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordin
   return share;
 }
 
-}  // namespace
+Eigen::MatrixXd upper_half(const Eigen::MatrixXd& q_d) {
+  Eigen::MatrixXd upper = q_d;
+  upper.topRows(q_d.rows() / 2).setZero();
+  return upper;
+}
+
+Eigen::VectorXd field_error(const FieldStress& stress, double share) {
+  return (stress.whole - stress.found).cwiseAbs() + kForces * stress.found + stress.upper +
+         kInertia * share * stress.residual;
+}
 
 StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered) {

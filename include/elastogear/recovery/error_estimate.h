@@ -22,13 +22,28 @@ struct RecoveredStress {
   bool has_residual = true;  ///< whether `stress` contains it
 };
 
+/// (theory.md, Eq. 4.8) n_t: dynamic over static amplitude of the upper half of the modes, in the norm of the
+/// energy and at most 1. body: its K_r is diagonal.
+Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordinates& coordinates);
+
+/// q_d with zeros in place of the lower half of the modes.
+Eigen::MatrixXd upper_half(const Eigen::MatrixXd& q_d);
+
+/// von Mises stresses at one time, n each, Pa: as recovered, with the whole static response, of that response
+/// beside the modes' own, and of the upper half of the modes in their dynamic part.
+struct FieldStress {
+  Eigen::VectorXd found, whole, residual, upper;
+};
+/// (theory.md, Eq. 4.9) n, Pa. share: dynamic_share at this time.
+Eigen::VectorXd field_error(const FieldStress& stress, double share);
+
 /// Estimated errors of the von Mises stress.
 struct StressError {
   Eigen::MatrixXd at_node;  ///< n x n_t, Pa
   Eigen::VectorXd of_peak;  ///< n_t, Pa, of the largest value over the nodes
 };
 
-/// (theory.md, Eqs. 4.6 to 4.8) members: n local numbers in body.stress.node. The body's basis is modal.
+/// (theory.md, Eqs. 4.6 to 4.9) members: n local numbers in body.stress.node. The body's basis is modal.
 StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);
 
