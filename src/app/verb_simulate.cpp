@@ -194,6 +194,20 @@ dynamics::TimeSettings time_settings(const Options& options) {
   return time;
 }
 
+// (docs/theory.md, section 6.10) With 18 nodes on the patch its largest pressure is 4 % off, with 37 less
+// than 0.1 %.
+void print_resolution(const Options& options, const dynamics::RunSummary& run) {
+  constexpr int kResolved = 18;
+  const int passes = options.flag("contact_two_pass") ? 2 : 1;
+  for (const dynamics::PairSummary& pair : run.pair)
+    if (pair.peak_force > 0 && pair.patch_nodes < kResolved * passes)
+      print_item("warning",
+                 "contact " + pair.name + ": too coarse a surface; its busiest area of contact has " +
+                     std::to_string(pair.patch_nodes / passes) + " of the " + std::to_string(kResolved) +
+                     " nodes that resolve a patch to 4 %: pressures and " +
+                     "stresses under the contact are not to be trusted; take a finer mesh there");
+}
+
 void print_summary(const Options& options, const dynamics::RunSummary& run) {
   print_item("time steps",
              std::to_string(run.steps) + " (" + std::to_string(run.rejected_steps) + " rejected)");
@@ -203,6 +217,7 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
                                            with_unit(pair.peak_time, "s") + ", penetration " +
                                            with_unit(pair.penetration, "m"));
   print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
+  print_resolution(options, run);
   if (analysis(options) == Analysis::relax)
     print_item(run.at_rest ? "at rest after" : "warning",
                run.at_rest ? with_unit(run.time, "s") : "not yet at rest");

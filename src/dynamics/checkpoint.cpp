@@ -49,6 +49,7 @@ void visit_summary(RunSummary& summary, Tape& tape) {
     tape(pair.peak_force);
     tape(pair.peak_time);
     tape(pair.penetration);
+    tape(pair.patch_nodes);
   });
 }
 

@@ -46,6 +46,14 @@ bool is_due(const Run& run, int step) {
          (has_output_times(run.settings) ? run.step_is_due : step % run.settings.output_every == 0);
 }
 
+// Active contacts of the area of contact that has most of them.
+int largest_patch(const model::PairState& pair) {
+  int most = 0;
+  for (const auto& areas : pair.area)
+    for (const model::ContactFigures& area : areas) most = std::max(most, area.count);
+  return most;
+}
+
 }  // namespace
 
 void update(RunSummary& summary, const model::Snapshot& snapshot) {
@@ -58,6 +66,7 @@ void update(RunSummary& summary, const model::Snapshot& snapshot) {
     if (pair.force.norm() > entry.peak_force) {
       entry.peak_force = pair.force.norm();
       entry.peak_time = snapshot.time;
+      entry.patch_nodes = largest_patch(pair);
     }
   }
   summary.work = snapshot.energy.work;

@@ -48,6 +48,7 @@ struct PairSummary {
   double peak_force = 0;   ///< N, largest norm of the total force
   double peak_time = 0;    ///< s
   double penetration = 0;  ///< m, largest
+  int patch_nodes = 0;     ///< slave nodes of the busiest area of contact at that time, of both passes
 };
 
 struct RunSummary {
