@@ -4,14 +4,13 @@
     scripts/impact_chain.py --size paper --modes 200
 
 Meshes both bodies, reduces one after the other on two ranks, simulates 0.5 ms and recovers the stresses at all roots. Prints CPU and
-wall-clock time and memory of every step, then of all; of a reduction the memory of its largest rank times the ranks. Everything
+wall-clock time and memory of every step, then of all; of a reduction the memory of its largest rank (all ranks: times their number). Everything
 is made anew in OUT (default out/chain/SIZE), with what every step printed beside it.
 """
 import argparse
 import os
-import subprocess
-import sys
-import time
+
+from steps import Steps
 
 REPOSITORY = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 INPUT = os.path.join(REPOSITORY, "examples", "worm_gear")
@@ -21,21 +20,11 @@ LOADED = {"worm": ["-loaded", "thread_1_right,thread_2_right"],  # the flanks th
           "wheel": []}  # all: one tooth's answers serve every tooth
 
 
-def step(options, name, ranks, command):
-    """CPU time (s), wall-clock time (s), memory (MB) of one command, printed."""
-    log = os.path.join(options.out, name.replace(" ", "_") + ".txt")
+def step(options, steps, name, ranks, command):
+    """CPU time (s), wall-clock time (s), memory (MB; of all ranks, each as the largest) of one command, printed."""
     launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-    start = time.monotonic()
-    with open(log, "w", encoding="utf-8") as file:
-        process = subprocess.Popen([*launcher, options.elastogear, *command], stdout=file, stderr=subprocess.STDOUT,
-                                   env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
-        _, status, usage = os.wait4(process.pid, 0)
-    if status != 0:
-        with open(log, encoding="utf-8") as file:
-            sys.exit(f"{name} failed:\n{file.read()[-2000:]}")
-    figures = usage.ru_utime + usage.ru_stime, time.monotonic() - start, ranks * usage.ru_maxrss / 1024
-    print("{:<18} {:9.1f} s CPU {:9.1f} s wall {:8.0f} MB".format(name, *figures), flush=True)
-    return figures
+    cpu, wall, memory = steps.run(name, [*launcher, options.elastogear, *command], os.path.join(options.out, name.replace(" ", "_") + ".txt"))
+    return cpu, wall, ranks * memory
 
 
 def chain(options):
@@ -66,8 +55,10 @@ def main():
     options = parser.parse_args()
     options.out = options.out or os.path.join(REPOSITORY, "out", "chain", options.size)
     os.makedirs(options.out, exist_ok=True)
-    figures = [step(options, *what) for what in chain(options)]
-    print("{:<18} {:9.1f} s CPU {:9.1f} s wall {:8.0f} MB".format(
+    plan = list(chain(options))
+    steps = Steps(len(plan))
+    figures = [step(options, steps, *what) for what in plan]
+    print("{:<34} {:9.1f} s CPU {:9.1f} s wall {:8.0f} MB".format(
         "all", sum(f[0] for f in figures), sum(f[1] for f in figures), max(f[2] for f in figures)))
 
 

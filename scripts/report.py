@@ -182,6 +182,10 @@ def stress_figure(example, labels, body, name, caption):
     return picture(figure, f"{caption} ({node}), over the time in ms")
 
 
+def no_figures(_):
+    return ()
+
+
 def rolling_figures(example):
     """Fig. 14: force, speed, torque ratio and number of tooth pairs of the last run."""
     label = example.labels[-1]
@@ -318,9 +322,12 @@ def provenance_section(example):
 
 
 def page(example):
-    figures = {"impact": impact_figures, "turn_in": lambda example: (), "rolling": rolling_figures}[example.name]
-    sections = [*figures(example), peak_section(example), *deviation_section(example), *picture_section(example), *overview_section(example),
-                *time_section(example), *provenance_section(example)]
+    figures = {"impact": impact_figures, "turn_in": no_figures, "rolling": rolling_figures}[example.name]
+    parts = (figures, peak_section, deviation_section, picture_section, overview_section, time_section, provenance_section)
+    sections = []
+    for i, part in enumerate(parts):
+        print(f"part {i + 1}/{len(parts)}: {part.__name__.replace('_', ' ')}", file=sys.stderr, flush=True)
+        sections += part(example)
     title = TITLE[example.name]
     return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'
             f"<body><h1>{title}</h1>{''.join(sections)}</body></html>")

@@ -1,14 +1,22 @@
 """The plots and the summary, run on a small result whose values are known."""
+import contextlib
+import io
 import os
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+sys.path.insert(0, SCRIPTS)
+import steps  # noqa: E402  (found through the line above)
+
 TIME = np.linspace(0, 2e-4, 5)
 PULSE = np.array([0.0, 1.0, 2.0, 1.0, 0.0])
 
@@ -68,6 +76,41 @@ class CostModel(unittest.TestCase):
     def test_the_worm_of_the_paper_takes_about_what_was_measured(self):
         measured = 820  # s, docs/performance.md
         self.assertLess(abs(self.eigenmodes("--dofs", "349398", "--ranks", "1", "--sectors", "1")[0] / measured - 1), 0.5)
+
+
+class Progress(unittest.TestCase):
+    """Steps of a chain tell how far they are, whatever the time they take."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.log = os.path.join(self.folder.name, "log.txt")
+        self.out = io.StringIO()
+
+    def run_step(self, code):
+        with contextlib.redirect_stdout(self.out), unittest.mock.patch.object(steps, "ELSEWHERE", 0):
+            return steps.Steps(3).run("reduce", [sys.executable, "-c", code], self.log)
+
+    def test_a_line_holds_step_and_progress(self):
+        go_on = os.path.join(self.folder.name, "go_on")
+        threading.Thread(target=self.when_shown, args=("eigenmodes 45 % remaining 12 s", go_on)).start()
+        self.run_step("import os, time; print('eigenmodes            45 %  remaining 12 s', flush=True)\n"
+                      f"while not os.path.exists({go_on!r}): time.sleep(0.01)")
+        lines = self.out.getvalue().splitlines()
+        self.assertIn("1/3 reduce: eigenmodes 45 % remaining 12 s", lines)
+        self.assertRegex(lines[-1], r"1/3 reduce +[0-9.]+ s CPU +[0-9.]+ s wall +[0-9]+ MB")
+        self.assertLessEqual(max(map(len, lines)), 80)
+
+    def when_shown(self, words, path):
+        while words not in self.out.getvalue():
+            time.sleep(0.01)
+        with open(path, "w", encoding="utf-8"):
+            pass
+
+    def test_a_step_that_fails_shows_what_it_printed(self):
+        with self.assertRaises(SystemExit) as failure:
+            self.run_step("import sys; print('error: no such mesh'); sys.exit(3)")
+        self.assertIn("error: no such mesh", str(failure.exception.code))
 
 
 class Scripts(unittest.TestCase):
