@@ -327,7 +327,7 @@ def page(example):
     sections = []
     for i, part in enumerate(parts):
         print(f"part {i + 1}/{len(parts)}: {part.__name__.replace('_', ' ')}", file=sys.stderr, flush=True)
-        sections += part(example)
+        sections.append("".join(part(example)))
     title = TITLE[example.name]
     return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'
             f"<body><h1>{title}</h1>{''.join(sections)}</body></html>")

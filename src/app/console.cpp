@@ -1,13 +1,21 @@
 #include "app/console.h"
 
 #include <mpi.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "app/progress_line.h"
 
 namespace elastogear::app {
 namespace {
@@ -20,47 +28,89 @@ int world_rank() {
   return rank;
 }
 
-struct Stage {
-  std::string name;
-  Clock::time_point start, shown;
-  double shown_fraction = 0;
-};
-
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
-void show(const Stage& stage, double fraction, bool terminal, const std::string& detail) {
-  const double elapsed = seconds_since(stage.start);
-  const bool done = fraction >= 1;
-  const std::string time = done ? duration(elapsed) : "remaining " + duration(elapsed * (1 / fraction - 1));
-  std::fprintf(stderr, "%s%-28s %3.0f %%  %s%s%s", terminal ? "\r\033[K" : "", stage.name.c_str(),
-               100 * fraction, time.c_str(), detail.c_str(), terminal && !done ? "" : "\n");
+// A line of progress stands on the terminal, without an end.
+std::atomic<bool> line_is_open = false;
+
+// What is printed next begins a line.
+void clear_line() {
+  if (line_is_open.exchange(false)) std::fputs("\r\033[K", stderr);
 }
 
-// Is a line due? Then the stage counts as shown.
-bool is_due(Stage& stage, std::string_view name, double fraction, bool terminal) {
-  if (name != stage.name) stage = {std::string(name), Clock::now(), Clock::now(), 0};
-  const bool due = terminal ? seconds_since(stage.shown) > 0.2
-                            : seconds_since(stage.shown) > 2 && fraction - stage.shown_fraction > 0.09;
-  const bool done = fraction >= 1 && stage.shown_fraction < 1;
-  if (fraction <= 0 || (!due && !done)) return false;
-  stage.shown = Clock::now();
-  stage.shown_fraction = fraction;
-  return true;
-}
+// Shows the stage that reported last. A thread of its own speaks while the work is silent.
+class ProgressConsole {
+ public:
+  explicit ProgressConsole(std::function<std::string()> detail)
+      : detail_(std::move(detail)), ticker_([this](const std::stop_token& stop) { tick(stop); }) {}
+
+  ~ProgressConsole() {
+    ticker_.request_stop();
+    ticker_.join();
+    clear_line();
+  }
+
+  void report(std::string_view name, double fraction) {
+    const std::lock_guard lock(mutex_);
+    const bool first = name != stage_.name || (stage_.fraction >= 1 && fraction < 1);
+    if (!first && stage_.fraction >= 1) return;
+    if (first) {
+      stage_ = {std::string(name), fraction, fraction >= 1 ? 0 : fraction, 0, ""};
+      start_ = Clock::now();
+    }
+    stage_.fraction = fraction;
+    if (!is_due(first, true)) return;
+    stage_.detail = detail_ ? detail_() : "";
+    show();
+  }
+
+ private:
+  static constexpr int kColumns = 80;
+
+  bool is_due(bool first, bool news) const {
+    return line_is_due(stage_, {terminal_, seconds_since(line_)}, first, news);
+  }
+
+  static int columns(bool terminal) {
+    winsize size{};
+    const bool known = terminal && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col - 1 : kColumns;
+  }
+
+  void show() {
+    stage_.elapsed = seconds_since(start_);
+    line_is_open = terminal_ && stage_.fraction < 1;
+    std::fprintf(stderr, "%s%s%s", terminal_ ? "\r\033[K" : "",
+                 progress_line(stage_, columns(terminal_)).c_str(), line_is_open ? "" : "\n");
+    line_ = Clock::now();
+  }
+
+  void tick(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, stop, std::chrono::seconds(1), [&] { return stop.stop_requested(); }))
+      if (!stage_.name.empty() && is_due(false, false)) show();
+  }
+
+  std::function<std::string()> detail_;
+  bool terminal_ = isatty(STDERR_FILENO);
+  StageProgress stage_;
+  Clock::time_point start_ = Clock::now(), line_ = start_;
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::jthread ticker_;  // last: it uses all above
+};
 
 }  // namespace
 
 Progress console_progress(std::function<std::string()> detail) {
   if (world_rank() > 0) return {};
-  const bool terminal = isatty(STDERR_FILENO);
-  auto stage = std::make_shared<Stage>();
-  return [=](std::string_view name, double fraction) {
-    if (is_due(*stage, name, fraction, terminal)) show(*stage, fraction, terminal, detail ? detail() : "");
-  };
+  auto console = std::make_shared<ProgressConsole>(std::move(detail));
+  return [console](std::string_view name, double fraction) { console->report(name, fraction); };
 }
 
 void print_item(const std::string& name, const std::string& text) {
   if (world_rank() > 0) return;
+  clear_line();
   std::printf("  %-30s %s\n", name.c_str(), text.c_str());
   std::fflush(stdout);  // a killed run has said it
 }

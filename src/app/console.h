@@ -8,9 +8,9 @@
 
 namespace elastogear::app {
 
-/// Progress lines on stderr with the time remaining of the stage; at most a few per second on a terminal,
-/// every tenth elsewhere. Silent on ranks > 0.
-/// `detail`: what is added behind, asked for when a line is shown.
+/// Progress lines on stderr with the time remaining of the stage, by what this run has done of it: on a
+/// terminal one that changes, elsewhere one every 10 to 30 s, also while the work is silent. Silent on ranks
+/// > 0. `detail`: what is added behind as far as it fits, asked for when a stage reports.
 Progress console_progress(std::function<std::string()> detail = {});
 
 /// "  name ............ text"

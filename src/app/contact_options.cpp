@@ -87,6 +87,8 @@ const OptionTable& contact_table() { return kTable; }
 std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies) {
   std::vector<dynamics::PairSetup> setups;
   for (const std::string& pair : options.list("contact_pairs")) {
+    require(std::none_of(setups.begin(), setups.end(), [&](const auto& s) { return s.name == pair; }),
+            "option -contact_pairs names the pair '", pair, "' twice");
     const auto colon = pair.find(':');
     require(colon != std::string::npos, "option -contact_pairs = '", pair, "': must be two bodies, a:b");
     const int a = body_index(bodies, pair.substr(0, colon), pair);

@@ -32,6 +32,22 @@ OptionTable initial_state_table() {
       {"initial_time", "s", "last", "time in that file: a number or last"}};
 }
 
+void require_state_is_used(const Options& options, const std::vector<dynamics::BodySetup>& bodies) {
+  if (!options.given("initial_file")) {
+    require(!options.given("initial_time"),
+            "option -initial_time needs -initial_file, the file of that time");
+    return;
+  }
+  const std::string file = options.text("initial_file");
+  const auto known = io::read_result_header(file).bodies;
+  const bool used = std::any_of(bodies.begin(), bodies.end(), [&](const auto& setup) {
+    return setup.joint.type != body::JointType::fixed &&
+           std::any_of(known.begin(), known.end(), [&](const auto& b) { return b.name == setup.name; });
+  });
+  require(used, "option -initial_file = '", file,
+          "': none of the bodies that can move is in it, so that nothing would begin with its state");
+}
+
 void set_initial_state(const Options& options, dynamics::BodySetup& setup) {
   if (!options.given("initial_file") || setup.joint.type == body::JointType::fixed) return;
   const std::string file = options.text("initial_file");

@@ -62,6 +62,12 @@ struct Run {
   std::vector<Body> bodies;
 };
 
+// What lies before an item of a list, 0 .. 1.
+template <class Item>
+double share(const std::vector<Item>& all, const Item& item) {
+  return static_cast<double>(&item - all.data()) / static_cast<double>(all.size());
+}
+
 std::string stem(const std::string& path) { return std::filesystem::path(path).replace_extension().string(); }
 
 // Whether stresses of the body are wanted, with their error.
@@ -69,8 +75,10 @@ bool is_asked(const Options& options, const std::string& body) {
   return (options.given("stress_" + body) || options.given("field_times")) && options.flag("error_estimate");
 }
 
-Run read_run(const Options& options) {
+Run read_run(const Options& options, const Progress& progress) {
   Run run{options.text("result"), {}, {}};
+  if (!io::is_complete(run.result))
+    print_item("warning", run.result + " is incomplete: its run did not reach the end");
   const model::ResultHeader header = io::read_result_header(run.result);
   run.time = io::read_times(run.result);
   std::vector<std::string> names = options.list_with_files("bodies");
@@ -84,10 +92,12 @@ Run read_run(const Options& options) {
   const auto acceleration =
       static_cast<Acceleration>(options.choice("mode_acceleration", {"false", "auto", "true"}));
   for (Body& body : run.bodies) {
+    report(progress, "static answers", share(run.bodies, body));
     const BodyOfRun of_run{run.result, body.name, body.file, body.history};
     body.answer = static_answer(of_run, acceleration);
     if (!body.answer && is_asked(options, body.name)) body.reference = error_reference(of_run);
   }
+  report(progress, "static answers", 1);
   return run;
 }
 
@@ -204,12 +214,21 @@ void estimate_error(Body& body, const model::ElasticBody& elastic, io::StressSet
   set.peak_error = std::move(error.of_peak);
 }
 
-void write_stresses(const Options& options, Run& run) {
+// Bodies whose stresses are wanted; stress_nodes is reduce's key in a shared file.
+std::vector<std::string> stressed_bodies(const Options& options) {
+  std::vector<std::string> names = options.placeholder_values("stress_<body>");
+  std::erase(names, "nodes");
+  return names;
+}
+
+void write_stresses(const Options& options, Run& run, const Progress& progress) {
   const std::string output = options.text("output");
   io::StressHistory file{run.time, {}, options.provenance()};
   std::vector<const Body*> owner;
-  for (const std::string& name : options.placeholder_values("stress_<body>")) {
-    if (name == "nodes") continue;  // reduce's key in a shared file
+  const bool all = options.choice("csv", {"peak", "all"}) == 1;
+  const std::vector<std::string> names = stressed_bodies(options);
+  for (const std::string& name : names) {
+    report(progress, "stresses", share(names, name));
     Body& body = find_body(run, name);
     const model::ElasticBody elastic = read_elastic(body);
     const model::Stress& stress = elastic.stress;
@@ -225,9 +244,9 @@ void write_stresses(const Options& options, Run& run) {
           "option -stress_<body> is missing: node sets whose stress histories are wanted, e.g. "
           "-stress_",
           run.bodies.front().name, " root");
+  report(progress, "stresses", 1);
   io::write_stress(output, file);
   print_item("written", output);
-  const bool all = options.choice("csv", {"peak", "all"}) == 1;
   for (std::size_t i = 0; i < file.sets.size(); ++i) {
     const io::StressSet& set = file.sets[i];
     print_peak(set, run.time);
@@ -300,15 +319,18 @@ std::vector<int> field_steps(const Options& options, const Run& run) {
   return steps;
 }
 
-void write_fields(const Options& options, const Run& run, const std::vector<int>& steps) {
+void write_fields(const Options& options, const Run& run, const std::vector<int>& steps,
+                  const Progress& progress) {
   for (const Body& body : run.bodies) {
     if (steps.empty()) break;
+    const double before = share(run.bodies, body), each = 1.0 / static_cast<double>(run.bodies.size());
     const io::BodySource source = io::read_body_source(body.file);
     const std::vector<BodyPair> pairs = pairs_of(run.result, body.name);
     const model::Surface surface = read_elastic(body).surface;
     const std::string base = field_prefix(options) + "_" + body.name;
     std::vector<io::TimeStep> series;
     for (std::size_t i = 0; i < steps.size(); ++i) {
+      report(progress, "fields", before + each * share(steps, steps[i]));
       const std::string path = steps.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
       FieldState state = recovered_state(options, body, steps[i]);
       state.more = contact_fields(at_time(pairs, steps[i]), surface, source.mesh.X.cols());
@@ -318,6 +340,7 @@ void write_fields(const Options& options, const Run& run, const std::vector<int>
     }
     io::write_pvd(base + ".pvd", series);
   }
+  if (!steps.empty()) report(progress, "fields", 1);
 }
 
 std::vector<int> box_levels(const Options& options) {
@@ -361,10 +384,12 @@ void write_trees(const Options& options, const Run& run, const std::vector<int>&
 void run(const Options& options, const std::vector<std::string>&) {
   require(options.text("output") != options.text("result"), "option -output = '", options.text("output"),
           "' would overwrite the result file");
-  Run run = read_run(options);
+  options.choice("box_kdop", {"6", "14", "18", "24", "26"});
+  const Progress progress = console_progress();
+  Run run = read_run(options, progress);
   const std::vector<int> steps = field_steps(options, run), levels = box_levels(options);
-  write_stresses(options, run);
-  write_fields(options, run, steps);
+  write_stresses(options, run, progress);
+  write_fields(options, run, steps, progress);
   write_trees(options, run, levels, steps.empty() ? 0 : steps.front());
 }
 

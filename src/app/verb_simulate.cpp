@@ -242,10 +242,15 @@ void make_static(const Options& options, std::vector<dynamics::BodySetup>& bodie
 }
 
 std::string step_text(const dynamics::StepInfo& step) {
-  return ", t " + with_unit(step.time, "s") + ", dt " + with_unit(step.dt, "s") + ", " +
-         std::to_string(step.newton_iterations) + " iterations in " + std::to_string(step.step) + " steps, " +
-         std::to_string(step.contacts) + " contacts " + with_unit(step.penetration, "m") + " deep, balance " +
-         with_unit(step.balance, "J");
+  const auto brief = [](double value, const char* unit) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g %s", value, unit);
+    return std::string(text);
+  };
+  return ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
+         std::to_string(step.contacts) + " contacts " + brief(step.penetration, "m") + " deep, dt " +
+         brief(step.dt, "s") + ", " + std::to_string(step.newton_iterations) + " iterations in " +
+         std::to_string(step.step) + " steps";
 }
 
 Computation computation(const Options& options, dynamics::System& system) {
@@ -285,6 +290,7 @@ void run(const Options& options, const std::vector<std::string>&) {
   dynamics::MarkerSetups markers = marker_setups(options);
   std::vector<dynamics::BodySetup> bodies;
   for (const std::string& name : names) bodies.push_back(body_setup(options, name));
+  require_state_is_used(options, bodies);
   std::map<std::string, std::string> inputs;
   add_inputs(options, bodies, inputs);
   if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, markers, surroundings);

@@ -351,6 +351,8 @@ void require_complete(int known, int exact, double sigma) {
 
 Eigenmodes find_by_windows(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress) {
+  report(progress, "eigenmodes",  // ordering and the first factor take long in silence
+         static_cast<double>(options.start.eigenvalue.size()) / options.n_modes);
   Search search{K,
                 M,
                 options,
@@ -365,7 +367,6 @@ Eigenmodes find_by_windows(Mat K, Mat M, const EigenOptions& options, const Mode
   check(MatCreateVecs(K, search.phi.out(), nullptr));
   search.size = choose_window(search.factor.size(), search.M_times.n(), {options.window, options.block});
   search.basis.V = TallBasis(search.M_times.n_own(), room(search) + search.size.block);
-  report(progress, "eigenmodes", static_cast<double>(search.delivered()) / options.n_modes);
   for (int modes = target(search); search.delivered() < options.n_modes;) {
     if (solve_window(search, modes)) {
       modes = target(search);

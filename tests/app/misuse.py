@@ -24,6 +24,7 @@ import misuse_files
 # Open MPI runs as root, and starts no daemon for a program of one rank; such programs need a folder each for its files.
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_ess_singleton_isolated": "1",
        "OPENBLAS_NUM_THREADS": "1"}
+PATIENCE = 120  # s
 KILLED = 124  # exit codes from here on are signals
 
 
@@ -60,7 +61,7 @@ class Bench:
 
     def __init__(self, folder, program, faults):
         self.folder, self.program, self.faults = folder, program, faults
-        self.started = None
+        self.started, self.limit = None, None
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -77,7 +78,12 @@ class Bench:
     def run(self, command, fault=None):
         """Exit code and output."""
         process = self.start(command, fault)
-        output = process.communicate()[0]
+        try:
+            output = process.communicate(timeout=self.limit)[0]
+        except subprocess.TimeoutExpired as hangs:
+            process.kill()
+            process.communicate()
+            raise misuse_files.Failed(f"takes more than {self.limit} s") from hangs
         return process.returncode, output.decode(errors="replace")
 
     def good(self, command):
@@ -137,6 +143,7 @@ def judge(case, sandboxes, program, faults):
     folder = sandboxes.free.get()
     pristine = listing(folder)
     bench = Bench(folder, program, faults)
+    bench.limit = PATIENCE if case.due else None  # what is due may hang
     try:
         return attempt(case, bench)
     except misuse_files.Failed as failure:
