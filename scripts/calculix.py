@@ -38,7 +38,9 @@ class Part:
             self.X = file["mesh/X"][:] @ state["R"].T + state["r"]
             self.cells = file["mesh/cell_nodes"][:].reshape(-1, 8)
             self.element = ELEMENTS[results.text(file.attrs["element"])]
-            free = np.unique(file["reduced/free_dof"][:] // 3)
+            free, directions = np.unique(file["reduced/free_dof"][:] // 3, return_counts=True)
+            if (directions != 3).any():
+                sys.exit(f"{path}: some nodes are held in single directions, this script knows nodes that are held wholly only")
             self.held = np.setdiff1d(np.arange(len(self.X)), free)
             self.material = [float(file["material/0/" + name][()]) for name in ("E", "nu")]
             self.faces = {area: element_sides(self.cells, file["mesh/face_sets/" + area][:]) for area in areas}

@@ -15,6 +15,12 @@ namespace elastogear::app {
 void add_numbered_nodes(mesh::Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& option,
                         const std::vector<std::string>& names);
 
+/// The names of the sets in a restraint: "symmetry" of "symmetry:z".
+std::vector<std::string> restrained_sets(const mesh::Mesh& mesh, const std::vector<std::string>& restrain);
+
+/// Prints a line for each set that is held, in which directions and how many nodes it has.
+void print_restraint(const mesh::Mesh& mesh, const std::vector<std::string>& restrain);
+
 /// Prints a line for each name: which set it means and how many nodes that has; and a warning where a node
 /// set and a face set of one name have different nodes. Unknown names are left to those who use them.
 void print_named_sets(const mesh::Mesh& mesh, const std::string& what, const std::vector<std::string>& names);

@@ -34,10 +34,11 @@ const OptionTable kOptions = {
     {"element", "-", "incompatible",
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
     {"restrain", "-", "",
-     "node sets or face sets whose nodes are held in all directions and carry the body frame; none: a free "
-     "body, free-free modes; not given: *BOUNDARY of an .inp file"},
+     "node sets or face sets whose nodes are held and carry the body frame, in all directions or, with :x, "
+     ":yz, ... behind the name, in these only: [bore, symmetry:z, left:xy]; none: a free body, free-free "
+     "modes; not given: *BOUNDARY of an .inp file. Also single nodes by their numbers, [4711:z]"},
     {"restrain_nodes", "-", "",
-     "nodes that are held besides, by their numbers in the mesh file or node table"},
+     "nodes that are held besides in all directions, by their numbers in the mesh file or node table"},
     {"stiffness", "-", "",
      "stiffness matrix of another program, in place of assembly: Abaqus *MATRIX OUTPUT, CalculiX .sti, "
      "triplets"},
@@ -217,6 +218,8 @@ std::vector<int> listed_nodes(const Options& options, const std::vector<std::int
 void add_numbers(const Options& options, Nodes& nodes) {
   for (const char* option : {"markers", "stress_nodes"})
     add_numbered_nodes(nodes.mesh, nodes.report.node_number, option, options.list(option));
+  add_numbered_nodes(nodes.mesh, nodes.report.node_number, "restrain",
+                     restrained_sets(nodes.mesh, options.list("restrain")));
 }
 
 Nodes read_on_rank_0(const Options& options) {
@@ -249,13 +252,10 @@ void take_materials(const Options& options, const mesh::ReadReport& report, redu
 
 void take_restraint(const Options& options, const mesh::ReadReport& report, reduction::ReductionOptions& o) {
   if (options.given("restrain") || options.given("restrain_nodes")) return;
-  agree(PETSC_COMM_WORLD, [&] {
-    require(report.refused_restraint.empty(), options.text("mesh"), ": ", report.refused_restraint,
-            ". Name the nodes to hold by the option restrain");
-  });
   if (report.restrained.empty()) return;
-  o.restrain = {report.restrained};
-  o.provenance["restraint_from"] = "mesh";
+  o.restrain = report.restrained;
+  std::string& from = o.provenance["restraint_from"] = "mesh:";
+  for (const std::string& hold : o.restrain) from += " " + hold;
   print_item("restraint", "from the mesh file");
 }
 
@@ -334,7 +334,7 @@ void run(const Options& options, const std::vector<std::string>&) {
   if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
   take_materials(options, nodes.report, reduction);
   take_restraint(options, nodes.report, reduction);
-  print_named_sets(nodes.mesh, "restrained", reduction.restrain);
+  print_restraint(nodes.mesh, reduction.restrain);
   print_named_sets(nodes.mesh, "marker", reduction.markers);
   if (const std::string advice = blas_advice(); !advice.empty()) print_item("advice", advice);
   const reduction::ReductionReport report =

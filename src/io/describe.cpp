@@ -10,6 +10,7 @@
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/mesh/file.h"
+#include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/quality.h"
 #include "schema.h"
 
@@ -92,8 +93,7 @@ void describe_mesh_file(Out& out, const std::string& path, const std::string& fo
   describe_mesh(out, mesh);
   describe_quality(out, mesh);
   describe_materials(out, report.regions);
-  if (!report.restrained.empty()) line(out, "restrained by the file: node set ", report.restrained);
-  if (!report.refused_restraint.empty()) line(out, "not a restraint: ", report.refused_restraint);
+  for (const std::string& hold : report.restrained) line(out, "restrained by the file: node set ", hold);
   for (const std::string& what : report.read_as) line(out, "element type ", what);
   for (const std::string& what : report.ignored) line(out, "not read: ", what);
 }
@@ -133,13 +133,27 @@ void describe_check(Out& out, const model::Check& check) {
          check.value.row(i), unit);
 }
 
+// "252 nodes, and 144 in z": of the nodes that have displacements at all.
+std::string describe_restraint(const BodySource& source) {
+  std::vector<int> held(static_cast<std::size_t>(source.mesh.n_nodes()),
+                        source.mesh.cells.size() > 0 ? 0 : mesh::kAllDirections);
+  for (int node : source.mesh.cells.nodes) held[node] = mesh::kAllDirections;
+  for (int dof : source.free_dof) held[dof / 3] &= ~(1 << dof % 3);
+  std::string text = counted(std::count(held.begin(), held.end(), mesh::kAllDirections), "node");
+  for (int directions = mesh::kAllDirections - 1; directions > 0; --directions)
+    if (const auto n = std::count(held.begin(), held.end(), directions); n > 0)
+      text += ", and " + std::to_string(n) + " in " +
+              mesh::direction_names(static_cast<mesh::Directions>(directions));
+  return text;
+}
+
 void describe_body(Out& out, const std::string& path) {
   const model::ElasticBody body = read_body(path);
   const BodySource source = read_body_source(path);
   line(out, "body: ", body.name);
   describe_modes(out, path, body);
   describe_inertia(out, body.inertia);
-  if (body.floating) line(out, "restraint: none, a free body");
+  line(out, "restraint: ", body.floating ? "none, a free body" : describe_restraint(source));
   line(out, "body frame: origin at (", source.origin.transpose(), ") m of the mesh that was reduced");
   line(out, "element of hex8 cells: ", element_name(source.element), ", ",
        counted(source.free_dof.size(), "free degree"), " of freedom");

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "elastogear/mesh/hold.h"
+
 namespace elastogear::mesh {
 namespace {
 
-constexpr int kX = 1, kY = 2, kZ = 4, kAll = kX | kY | kZ;
+constexpr int kX = 1, kY = 2, kZ = 4, kAll = kAllDirections;
 
 struct Label {
   const char* name;
@@ -53,17 +55,24 @@ BoundaryLine read_line(InpLines& in, std::vector<std::string>& ignored) {
   return line;
 }
 
-std::string unused_name(const Mesh& mesh) {
-  std::string name = "BOUNDARY";
-  while (mesh.node_sets.contains(name)) name += "_";
+std::string unused_name(const Mesh& mesh, std::string name) {
+  while (mesh.node_sets.contains(name) || mesh.face_sets.contains(name)) name += "_";
   return name;
 }
 
-std::string direction_names(int directions) {
-  std::string names;
-  for (int k = 0; k < 3; ++k)
-    if (directions & 1 << k) names += "xyz"[k];
-  return names;
+// One node set for each combination of directions that occurs, and how to name it as a restraint.
+void make_sets(const std::vector<Directions>& held, Mesh& mesh, std::vector<std::string>& restrained) {
+  for (int directions = kAll; directions > 0; --directions) {
+    std::vector<int> nodes;
+    for (int i = 0; i < mesh.n_nodes(); ++i)
+      if (held[i] == directions) nodes.push_back(i);
+    if (nodes.empty()) continue;
+    const std::string letters =
+        directions == kAll ? "" : direction_names(static_cast<Directions>(directions));
+    const std::string name = unused_name(mesh, letters.empty() ? "BOUNDARY" : "BOUNDARY_" + letters);
+    mesh.node_sets[name] = std::move(nodes);
+    restrained.push_back(letters.empty() ? name : name + ":" + letters);
+  }
 }
 
 }  // namespace
@@ -84,28 +93,17 @@ void read_boundary(InpLines& in, const Keyword& key, std::vector<BoundaryLine>& 
 
 void apply_boundary(const InpLines& in, const std::vector<BoundaryLine>& boundary, const InpSets& node_sets,
                     const TagTable& nodes, Mesh& mesh, ReadReport& report) {
-  std::vector<int> held(static_cast<std::size_t>(mesh.n_nodes()), 0);
+  std::vector<Directions> held(static_cast<std::size_t>(mesh.n_nodes()), 0);
   for (const BoundaryLine& line : boundary) {
     const auto number = parse<Tag>(line.members);
     const std::string* set = number ? nullptr : node_sets.spelling(line.members);
     const int node = number ? nodes.find(*number) : -1;
     if (node < 0 && !set)
       in.fail_at(line.line, "*BOUNDARY names the unknown node or node set '", line.members, "'");
-    if (number) held[node] |= line.directions;
-    for (int i : set ? mesh.node_sets.at(*set) : std::vector<int>()) held[i] |= line.directions;
+    for (int i : number ? std::vector<int>{node} : mesh.node_sets.at(*set))
+      held[i] = static_cast<Directions>(held[i] | line.directions);
   }
-  std::vector<int> whole;
-  for (int i = 0; i < mesh.n_nodes(); ++i) {
-    if (held[i] == kAll) whole.push_back(i);
-    if (held[i] != 0 && held[i] != kAll && report.refused_restraint.empty())
-      report.refused_restraint =
-          "*BOUNDARY holds node " + std::to_string(nodes.tags()[i]) + " in " + direction_names(held[i]) +
-          " only; the body's frame moves with the restrained nodes, so that these are held in "
-          "all directions or not at all";
-  }
-  if (whole.empty()) return;
-  report.restrained = unused_name(mesh);
-  mesh.node_sets[report.restrained] = std::move(whole);
+  make_sets(held, mesh, report.restrained);
 }
 
 }  // namespace elastogear::mesh

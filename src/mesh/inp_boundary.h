@@ -1,5 +1,5 @@
 #pragma once
-// *BOUNDARY of an Abaqus input file, as a restraint of whole nodes.
+// *BOUNDARY of an Abaqus input file, as a restraint.
 
 #include <string>
 #include <vector>
@@ -20,8 +20,8 @@ struct BoundaryLine {
 void read_boundary(InpLines& in, const Keyword& key, std::vector<BoundaryLine>& boundary,
                    std::vector<std::string>& ignored);
 
-/// Makes a node set of all held nodes and names it in the report; when a node is held in some directions
-/// only, says so there instead. Error for unknown nodes and sets.
+/// Makes node sets of the held nodes, one for each combination of directions, and names them in the report.
+/// Error for unknown nodes and sets.
 void apply_boundary(const InpLines& in, const std::vector<BoundaryLine>& boundary, const InpSets& node_sets,
                     const TagTable& nodes, Mesh& mesh, ReadReport& report);
 

@@ -276,29 +276,6 @@ model::SparseRows scalar_mass(const ForeignSystem& system, int n_nodes) {
   return M_s;
 }
 
-ForeignSystem restrict_to(const ForeignSystem& system, const std::vector<bool>& is_free) {
-  const Mat K = system.matrices.K, M = system.matrices.M;
-  PetscInt n = 0, begin = 0, end = 0;
-  check(MatGetSize(K, &n, nullptr));
-  check(MatGetOwnershipRange(K, &begin, &end));
-  std::vector<char> keep(static_cast<std::size_t>(n), 0);
-  for (std::size_t row = 0; row < system.dof.size(); ++row) keep[row] = is_free[system.dof[row] / 3];
-  MPI_Bcast(keep.data(), static_cast<int>(n), MPI_CHAR, 0, comm_of(K));
-  std::vector<PetscInt> own;
-  for (PetscInt row = begin; row < end; ++row)
-    if (keep[row]) own.push_back(row);
-  UniqueIS rows;
-  check(ISCreateGeneral(comm_of(K), static_cast<PetscInt>(own.size()), own.data(), PETSC_COPY_VALUES,
-                        rows.out()));
-  ForeignSystem part;
-  check(MatCreateSubMatrix(K, rows, rows, MAT_INITIAL_MATRIX, part.matrices.K.out()));
-  check(MatCreateSubMatrix(M, rows, rows, MAT_INITIAL_MATRIX, part.matrices.M.out()));
-  for (Mat A : {part.matrices.K.get(), part.matrices.M.get()}) check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
-  for (std::size_t row = 0; row < system.dof.size(); ++row)
-    if (keep[row]) part.dof.push_back(system.dof[row]);
-  return part;
-}
-
 void require_positive(Mat A, const std::string& what) {
   constexpr int kSteps = 300;
   UniqueKSP ksp;

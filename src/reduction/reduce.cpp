@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "elastogear/fem/elimination.h"
 #include "elastogear/fem/gather.h"
 #include "elastogear/fem/restraint.h"
 #include "elastogear/reduction/basis.h"
@@ -60,6 +61,9 @@ fem::Matrices assemble_cells(Job& job) {
   const fem::Share share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
   job.finish_stage("partition");
   fem::Matrices matrices = fem::assemble(job.comm, share, job.regions, job.options.element, job.progress);
+  int single = job.rank == 0 && mesh::has_single_directions(plan.held);
+  MPI_Bcast(&single, 1, MPI_INT, 0, job.comm);
+  if (single) fem::eliminate(plan.held, matrices, plan.dof);
   job.finish_stage("assembly");
   return matrices;
 }

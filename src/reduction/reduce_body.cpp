@@ -6,6 +6,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/fem/element.h"
+#include "elastogear/fem/elimination.h"
 #include "elastogear/fem/gather.h"
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
@@ -57,7 +58,7 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
 void validate_ritz(const ReductionOptions& options) {
   require(options.basis == model::Basis::modal && !options.flexibility,
           "a Ritz basis is neither the full basis nor has it static answers to contact forces");
-  require(!options.floating, "Ritz bases need a held body: name node sets by the option restrain");
+  require(!options.floating, "Ritz bases need a held body: name sets of nodes by the option restrain");
   const RitzKind kind = options.ritz->kind;
   require(kind != RitzKind::modal_attachment || !options.loaded.empty(),
           "basis modal_attachment needs the face sets whose nodes get static solutions: option loaded");
@@ -73,7 +74,7 @@ void validate_ritz(const ReductionOptions& options) {
 void validate(const ReductionOptions& options) {
   if (options.ritz) validate_ritz(options);
   if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
-  require(!options.floating || options.restrain.empty(), "a free body has no restrained node sets");
+  require(!options.floating || options.restrain.empty(), "a free body has no restrained sets");
   require(options.frame_origin.allFinite(), "the origin of the body frame (",
           options.frame_origin.transpose(), ") m must be finite");
   require(options.alpha >= 0, "damping alpha = ", options.alpha, " 1/s, must not be negative");
@@ -132,6 +133,10 @@ void find_symmetry(Job& job) {
     return;
   }
   job.on_root([&] {
+    if (mesh::has_single_directions(job.plan.held)) {
+      job.report.symmetry = "none: nodes are held in single directions";
+      return;
+    }
     auto [found, reason] = search_repetition(job);
     if (found) repetition = std::move(*found);
     job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
@@ -145,12 +150,13 @@ void number_on_root(Job& job) {
   validate(job.options);
   fem::require_positive_jacobians(mesh);
   plan.region = fem::cell_regions(mesh, job.regions);
-  plan.is_free = fem::free_nodes(mesh, job.options.restrain);
+  plan.held = fem::held_directions(mesh, job.options.restrain);
+  plan.is_free = fem::free_nodes(plan.held);
   if (job.options.floating)
     fem::require_connected(mesh);
   else
-    fem::require_held(mesh, plan.is_free);
-  plan.free_dof = fem::free_dofs(plan.is_free);
+    fem::require_held(mesh, plan.held);
+  plan.free_dof = fem::free_dofs(plan.held);
   require(!plan.free_dof.empty(), "all nodes are restrained, no degree of freedom is left");
   if (job.modal()) require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
 }
@@ -160,7 +166,7 @@ void require_restraint(const Job& job, bool complete) {
   const ReductionOptions& options = job.options;
   const bool held = !complete || !options.restrain.empty();
   require(held || options.floating,
-          "nothing holds the body: name node sets by option restrain, or reduce it ",
+          "nothing holds the body: name sets of nodes by option restrain, or reduce it ",
           "as a free body (restrain: none)");
   require(!held || !options.floating, "a free body needs matrices of all displacements, ",
           options.foreign->stiffness, " lacks some: they are held");
@@ -267,12 +273,10 @@ void read_matrices(Job& job) {
     plan.moments = mass_moments(system.matrices.M, {layout, system.dof, 3 * job.mesh.n_nodes()}, job.mesh);
   }
   if (job.options.invariants == Invariants::full) plan.foreign_mass = scalar_mass(system, job.mesh.n_nodes());
-  job.on_root([&] {
-    plan.is_free.assign(static_cast<std::size_t>(job.mesh.n_nodes()), true);
-    for (const std::string& name : job.options.restrain)
-      for (int node : mesh::named_nodes(job.mesh, name).node) plan.is_free[node] = false;
-  });
-  if (!job.options.restrain.empty()) system = restrict_to(system, plan.is_free);
+  job.on_root([&] { plan.held = mesh::held_by(job.mesh, job.options.restrain); });
+  int restrains = job.rank == 0 && !job.options.restrain.empty();
+  MPI_Bcast(&restrains, 1, MPI_INT, 0, job.comm);
+  if (restrains) fem::eliminate(plan.held, system.matrices, system.dof);
   if (!job.options.floating) require_positive(system.matrices.K, files.stiffness);
   plan.dof = plan.free_dof = system.dof;
   plan.foreign = std::move(system.matrices);

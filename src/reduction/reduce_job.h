@@ -11,6 +11,7 @@
 #include "elastogear/fem/assembly.h"
 #include "elastogear/fem/inertia.h"
 #include "elastogear/io/body_file.h"
+#include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/partition.h"
 #include "elastogear/mesh/repetition.h"
 #include "elastogear/reduction/reduce.h"
@@ -19,8 +20,9 @@ namespace elastogear::reduction {
 
 /// What rank 0 alone knows: the numbering, and everything of the body that needs no solution.
 struct Plan {
-  std::vector<int> region;    // of each cell
-  std::vector<bool> is_free;  // of each node
+  std::vector<int> region;             // of each cell
+  std::vector<mesh::Directions> held;  // of each node
+  std::vector<bool> is_free;           // of each node: in some direction
   std::vector<int> free_dof;
   mesh::Repetition repetition;  // n_sectors = 1 (on all ranks): none
   mesh::Partition partition;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "elastogear/base/error.h"
-#include "elastogear/fem/assembly.h"
+#include "elastogear/fem/elimination.h"
+#include "elastogear/fem/gather.h"
 #include "elastogear/fem/material.h"
+#include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/factorisation.h"
 
@@ -13,47 +14,61 @@ namespace {
 
 constexpr Eigen::Index kBlock = 32;  // right-hand sides that go through the factor together
 
-fem::RowNumbering number_free_nodes(const io::BodySource& source) {
-  std::vector<bool> is_free(source.mesh.n_nodes(), false);
-  for (int dof : source.free_dof) is_free[dof / 3] = true;
-  const auto n_free = std::count(is_free.begin(), is_free.end(), true);
-  require(3 * n_free == static_cast<std::ptrdiff_t>(source.free_dof.size()), "a static solution needs ",
-          "nodes that are held in all three directions or in none; here ", n_free, " nodes have ",
-          source.free_dof.size(), " free displacements");
-  return fem::number_rows(source.mesh, is_free, std::vector<int>(source.mesh.cells.size(), 0), 1);
+struct System {
+  fem::Matrices matrices;
+  std::vector<int> dof;  // displacement of every row
+};
+
+std::vector<mesh::Directions> held_directions(const io::BodySource& source) {
+  std::vector<mesh::Directions> held(static_cast<std::size_t>(source.mesh.n_nodes()), mesh::kAllDirections);
+  for (int dof : source.free_dof)
+    held[dof / 3] = static_cast<mesh::Directions>(held[dof / 3] & ~(1 << dof % 3));
+  return held;
 }
 
-fem::Matrices assemble_serial(const io::BodySource& source, const fem::RowNumbering& rows) {
+System assemble_serial(const io::BodySource& source) {
+  const std::vector<mesh::Directions> held = held_directions(source);
+  const fem::RowNumbering rows =
+      fem::number_rows(source.mesh, fem::free_nodes(held), std::vector<int>(source.mesh.cells.size(), 0), 1);
   const std::vector<int> region = fem::cell_regions(source.mesh, source.regions);
   const fem::Share share = fem::distribute(PETSC_COMM_SELF, source.mesh, region, rows);
-  return fem::assemble(PETSC_COMM_SELF, share, source.regions, source.element);
+  System system{fem::assemble(PETSC_COMM_SELF, share, source.regions, source.element), fem::row_dofs(rows)};
+  if (mesh::has_single_directions(held)) fem::eliminate(held, system.matrices, system.dof);
+  return system;
+}
+
+// Row of each displacement, -1: held.
+std::vector<int> rows_of(const System& system, int n_dofs) {
+  std::vector<int> row(static_cast<std::size_t>(n_dofs), -1);
+  for (std::size_t i = 0; i < system.dof.size(); ++i) row[system.dof[i]] = static_cast<int>(i);
+  return row;
 }
 
 }  // namespace
 
 struct StaticResponse::Data {
   const io::BodySource& source;
-  fem::RowNumbering rows;
-  fem::Matrices matrices;
+  System system;
+  std::vector<int> row;  // of each displacement, -1: held
   ShiftedFactor factor;
 
   explicit Data(const io::BodySource& body)
       : source(body),
-        rows(number_free_nodes(body)),
-        matrices(assemble_serial(body, rows)),
-        factor(matrices.K, matrices.M) {
+        system(assemble_serial(body)),
+        row(rows_of(system, 3 * body.mesh.n_nodes())),
+        factor(system.matrices.K, system.matrices.M) {
     factor.factorise(0);
   }
 
-  Eigen::Index n_rows() const { return 3 * static_cast<Eigen::Index>(rows.node.size()); }
+  Eigen::Index n_rows() const { return static_cast<Eigen::Index>(system.dof.size()); }
 
   // Columns of S in the order of K's rows.
   model::SparseRows in_rows(const model::SparseRows& S) const {
     std::vector<Eigen::Triplet<double>> entries;
     for (int i = 0; i < S.outerSize(); ++i)
       for (model::SparseRows::InnerIterator it(S, i); it; ++it) {
-        const int row = rows.row[it.col() / 3];
-        if (row >= 0) entries.emplace_back(i, static_cast<int>(3 * row + it.col() % 3), it.value());
+        const int j = row[static_cast<std::size_t>(it.col())];
+        if (j >= 0) entries.emplace_back(i, j, it.value());
       }
     model::SparseRows result(S.rows(), n_rows());
     result.setFromTriplets(entries.begin(), entries.end());
@@ -65,14 +80,14 @@ StaticResponse::StaticResponse(const io::BodySource& source) : data_(new Data(so
 StaticResponse::~StaticResponse() = default;
 
 Eigen::VectorXd StaticResponse::displacement(const std::vector<int>& loaded, const Eigen::Matrix3Xd& f) {
-  const auto& row = data_->rows.row;
+  const std::vector<int>& row = data_->row;
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(data_->n_rows(), 1);
   for (std::size_t i = 0; i < loaded.size(); ++i)
-    if (row[loaded[i]] >= 0) x.block<3, 1>(3 * row[loaded[i]], 0) += f.col(static_cast<Eigen::Index>(i));
+    for (int d = 0; d < 3; ++d)
+      if (const int j = row[3 * loaded[i] + d]; j >= 0) x(j, 0) += f(d, static_cast<Eigen::Index>(i));
   data_->factor.solve(x);
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(row.size()));
-  for (std::size_t node = 0; node < row.size(); ++node)
-    if (row[node] >= 0) u.segment<3>(3 * static_cast<Eigen::Index>(node)) = x.block<3, 1>(3 * row[node], 0);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(row.size()));
+  u(data_->system.dof) = x.col(0);
   return u;
 }
 
@@ -86,8 +101,9 @@ Eigen::MatrixXd StaticResponse::stress(const std::vector<int>& loaded, const std
     const Eigen::Index count = std::min(kBlock, n - begin);
     Eigen::MatrixXd x = Eigen::MatrixXd::Zero(data_->n_rows(), count);
     for (Eigen::Index j = 0; j < count; ++j) {
-      const int row = data_->rows.row[loaded[(begin + j) / 3]];
-      if (row >= 0) x(3 * row + (begin + j) % 3, j) = 1;
+      const Eigen::Index load = begin + j;
+      const int row = data_->row[static_cast<std::size_t>(3 * loaded[load / 3] + load % 3)];
+      if (row >= 0) x(row, j) = 1;
     }
     data_->factor.solve(x);
     G.middleCols(begin, count) = S * x;

@@ -69,6 +69,20 @@ run "$elastogear" recover -result pull.h5 -stress_a top,right -csv all -output s
 run "$elastogear" info stress.h5
 says 'peak von Mises: (1e\+06|999999|1000000|1\.00000e\+06)'
 
+# The same with lateral contraction, which nodes held in single directions leave free.
+printf 'restrain: [left:x, 1:yz, 2:y]\nmarkers: [right, %d]\nmarker_weights: area\n' $last >held.yaml
+run "$elastogear" reduce held.yaml "${reduce[@]:2}" -material_nu 0.3 -stress_nodes top
+says 'restrained .*left in x: face set, 4 nodes'
+says 'restrained .*1 in yz: node set, 1 node$'
+run "$elastogear" info body.h5
+says 'restraint: 1 node, and 1 in xy, and 2 in x$'
+run "${pull[@]}"
+tail -1 pull_end.csv | awk -F, '{ x = $2 - 0.08 } END { if (!(x > 0.3999e-6 && x < 0.4001e-6)) { print "FAIL: contraction is held: " x " m"; exit 1 } }'
+"${reduce[@]}" -restrain left:x >log 2>&1 && fail "a body that can slide is taken"
+says 'free to move along .*, move along .*, turn about \(1 0 0\)'
+"${reduce[@]}" -restrain left:q >log 2>&1 && fail "a direction that is none is taken"
+says "'q' must be directions of the mesh, as in left:z"
+
 # What is wrong is said in the mesh's words.
 "${reduce[@]}" -restrain left -markers tip >log 2>&1 && fail "an unknown marker is taken"
 says "no node set and no face set 'tip'; its node sets: none; its face sets: left, right, top"

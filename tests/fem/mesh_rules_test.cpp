@@ -119,20 +119,54 @@ TEST(Restraint, must_hold_every_part_by_three_nodes_off_one_line) {
   const auto held_by = [&](std::vector<int> nodes) {
     auto copy = mesh;
     copy.node_sets["held"] = std::move(nodes);
-    return message_of([&] { fem::require_held(copy, fem::free_nodes(copy, {"held"})); });
+    return message_of([&] { fem::require_held(copy, fem::held_directions(copy, {"held"})); });
   };
   EXPECT_NE(held_by({}), "");
   EXPECT_NE(held_by({0, 1}), "");
-  EXPECT_NE(held_by({0, 1, 2}).find("collinear"), std::string::npos);
+  EXPECT_NE(
+      held_by({0, 1, 2}).find("3 restrained nodes, which leave it free to turn about (1 0 0) through ("),
+      std::string::npos);
   EXPECT_EQ(held_by({0, 1, 3}), "no error");
   EXPECT_EQ(held_by(mesh.node_sets.at("xmin")), "no error");
+}
+
+TEST(Restraint, in_single_directions_must_hold_all_rigid_motions) {
+  const auto mesh = test::brick({2, 2, 2}, {1, 1, 1});
+  const auto held_by = [&](const std::vector<std::string>& restrain) {
+    return message_of([&] { fem::require_held(mesh, fem::held_directions(mesh, restrain)); });
+  };
+  EXPECT_EQ(held_by({"xmin:x", "ymin:y", "zmin:z"}), "no error");
+  EXPECT_EQ(held_by({"zmin:z", "zmax:xyz"}), "no error");
+  const std::string plane = held_by({"zmin:z"});
+  for (const char* motion : {"move along (1 0 0)", "move along (0 1 0)", "turn about (0 0 1)"})
+    EXPECT_NE(plane.find(motion), std::string::npos) << plane;
+  EXPECT_EQ(plane.find("(1 0 0) through"), std::string::npos) << plane;
+  EXPECT_NE(held_by({"xmin:x", "ymin:y"}).find("free to move along (0 0 1); hold"), std::string::npos);
+  EXPECT_NE(held_by({"xmin:xz", "zmin:x"}).find("free to move along (0 1 0)"), std::string::npos);
+}
+
+TEST(Restraint, names_its_sets_and_directions) {
+  auto mesh = test::brick({1, 1, 1}, {1, 1, 1});
+  const auto held = fem::held_directions(mesh, {"xmin:zx", "ymin:y"});
+  EXPECT_EQ(held[0], 7);
+  EXPECT_EQ(held[1], 2);
+  EXPECT_EQ(held[2], 5);
+  EXPECT_EQ(held[3], 0);
+  mesh.node_sets["odd:z"] = {5};
+  EXPECT_EQ(fem::held_directions(mesh, {"odd:z"})[5], 7) << "the whole name goes before";
+  const auto error = [&](const char* text) {
+    return message_of([&] { fem::held_directions(mesh, {text}); });
+  };
+  EXPECT_NE(error("xmin:q").find("'q' must be directions"), std::string::npos);
+  EXPECT_NE(error("xmin:").find("missing"), std::string::npos);
+  EXPECT_NE(error("bore:z").find("no node set and no face set 'bore'"), std::string::npos);
 }
 
 TEST(Restraint, leaves_out_nodes_of_no_cell) {
   auto mesh = test::brick({1, 1, 1}, {1, 1, 1});
   mesh.X.conservativeResize(3, 9);
   mesh.X.rightCols<1>().setZero();
-  EXPECT_EQ(fem::free_dofs(fem::free_nodes(mesh, {"xmin"})).size(), 12u);
+  EXPECT_EQ(fem::free_dofs(fem::held_directions(mesh, {"xmin"})).size(), 12u);
 }
 
 TEST(Inertia, of_a_brick_is_exact) {

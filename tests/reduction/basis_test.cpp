@@ -95,7 +95,7 @@ TEST(ModalBasis, has_the_rows_of_its_nodes) {
 
 TEST(FullBasis, is_the_modal_one_of_unit_vectors) {
   Example full, modal;
-  const auto free_dof = fem::free_dofs(fem::free_nodes(full.mesh, {"xmin"}));
+  const auto free_dof = fem::free_dofs(fem::held_directions(full.mesh, {"xmin"}));
   const int n = static_cast<int>(free_dof.size());
   reduction::set_full_basis(full.body, free_dof, full.moments, full.S);
   reduction::allocate_modes(modal.body, n);

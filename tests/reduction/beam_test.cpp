@@ -24,7 +24,7 @@ mesh::Mesh cantilever(int n) { return test::brick({10 * n, n, n}, {kLength, kWid
 double tip_deflection(const mesh::Mesh& mesh, Element element, const model::Material& material) {
   const auto system = test::assemble(mesh, {"xmin"}, PETSC_COMM_SELF, {{"", material}}, element);
   const auto K = fem::gather_matrix(system.matrices.K, system.rows);
-  const auto dofs = fem::free_dofs(fem::free_nodes(mesh, {"xmin"}));
+  const auto dofs = fem::free_dofs(fem::held_directions(mesh, {"xmin"}));
   const auto& tip = mesh.node_sets.at("xmax");
   Eigen::VectorXd f = Eigen::VectorXd::Zero(K.rows());
   for (int i = 0; i < f.size(); ++i)

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
-#include <set>
 #include <sstream>
 
 #include "elastogear/base/error.h"
+#include "elastogear/mesh/hold.h"
 
 namespace elastogear::test {
 namespace {
@@ -97,10 +97,10 @@ void write_deck(const fs::path& path, const CalculixModel& model, const std::str
   write_mesh(deck, model.mesh, model.element);
   write_material(deck, model.material);
   deck << "*BOUNDARY\n";
-  std::set<int> held;
-  for (const auto& name : model.restrained_sets)
-    for (int node : mesh::node_set(model.mesh, name)) held.insert(node);
-  for (int node : held) deck << node + 1 << ", 1, 3\n";
+  const std::vector<mesh::Directions> held = mesh::held_by(model.mesh, model.restrained_sets);
+  for (std::size_t node = 0; node < held.size(); ++node)
+    for (int d = 0; d < 3; ++d)
+      if (mesh::holds(held[node], d)) deck << node + 1 << ", " << d + 1 << "\n";
   deck << before << "*STEP" << options << "\n" << step << "*END STEP\n";
   require(deck.good(), "cannot write ", path);
 }

@@ -16,7 +16,7 @@ bool calculix_is_installed();
 struct CalculixModel {
   const mesh::Mesh& mesh;
   model::Material material;                  ///< of all cells
-  std::vector<std::string> restrained_sets;  ///< node sets, all three displacements zero
+  std::vector<std::string> restrained_sets;  ///< "xmin", "zmin:z": see mesh/hold.h
   std::string element = "C3D8I";
 };
 

@@ -32,7 +32,7 @@ struct Block {
   fem::MassMoments moments = fem::mass_moments(mesh, test::kSteelBody);
   Eigen::MatrixXd K = fem::gather_matrix(system.matrices.K, system.rows);
   Eigen::MatrixXd M = fem::gather_matrix(system.matrices.M, system.rows);
-  std::vector<int> dofs = fem::free_dofs(fem::free_nodes(mesh, {"xmin"}));
+  std::vector<int> dofs = fem::free_dofs(fem::held_directions(mesh, {"xmin"}));
 
   fem::VectorGather gather() {
     check(MatCreateVecs(system.matrices.K, layout.out(), nullptr));

@@ -78,7 +78,7 @@ inline Reference solve_general(const Body& body, int n_modes) {
   const auto system = assemble(body.mesh, body.restrained, PETSC_COMM_SELF, body.regions);
   const auto& [K, M] = system.matrices;
   Reference reference;
-  reference.free_dof = fem::free_dofs(fem::free_nodes(body.mesh, body.restrained));
+  reference.free_dof = fem::free_dofs(fem::held_directions(body.mesh, body.restrained));
   n_modes = std::min(n_modes + kMore, static_cast<int>(reference.free_dof.size()));
   reference.M = fem::gather_matrix(M, system.rows);
   reference.M_phi = MatrixXd::Zero(3 * body.mesh.n_nodes(), n_modes);

@@ -110,7 +110,7 @@ struct Files {
 // K and M of the mesh without the rows of the held sets, as files.
 Files our_matrices(const mesh::Mesh& mesh, const std::vector<std::string>& held) {
   const auto system = test::assemble(mesh, held, PETSC_COMM_SELF);
-  const auto dof = fem::free_dofs(fem::free_nodes(mesh, held));
+  const auto dof = fem::free_dofs(fem::held_directions(mesh, held));
   return {{fem::gather_matrix(system.matrices.K, system.rows), dof},
           {fem::gather_matrix(system.matrices.M, system.rows), dof},
           {path_of("k.txt"), path_of("m.txt")}};
@@ -240,6 +240,20 @@ TEST(ForeignBody, of_our_own_matrices_is_our_own_body) {
   options.foreign = held.foreign;  // restrained there, inertia from the mesh
   options.restrain = {};
   expect_same_body(reduced(mesh, options, "held"), own);
+}
+
+TEST(ForeignBody, may_be_held_in_single_directions) {
+  const auto mesh = block();
+  auto options = options_of_block();
+  options.restrain = {"xmin:x", "ymin:yz", "zmin:z"};
+  const auto own = reduced(mesh, options, "own_single");
+  Files whole = our_matrices(mesh, {});
+  if (is_root()) {
+    write_triplets(whole.foreign.stiffness, whole.K, Half::lower);
+    write_triplets(whole.foreign.mass, whole.M, Half::lower);
+  }
+  options.foreign = whole.foreign;
+  expect_same_body(reduced(mesh, options, "whole_single"), own);
 }
 
 TEST(ForeignBody, may_be_free_and_needs_no_cells) {

@@ -100,7 +100,7 @@ TEST(Marker, has_the_same_rows_in_the_full_basis_as_in_unit_modes) {
   const mesh::Mesh mesh = example_mesh();
   const std::vector<std::string> sets = {"xmax", "zmin"};
   const auto moments = fem::mass_moments(mesh, test::kSteelBody);
-  const auto free_dof = fem::free_dofs(fem::free_nodes(mesh, {"xmin"}));
+  const auto free_dof = fem::free_dofs(fem::held_directions(mesh, {"xmin"}));
   const auto n = static_cast<int>(free_dof.size());
   const auto Q = reduction::marker_operator(mesh, sets);
   model::ElasticBody full, modal;

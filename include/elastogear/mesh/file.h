@@ -16,8 +16,8 @@ struct ReadReport {
   std::vector<std::string> read_as;       ///< .inp: "C3D20R (line 3): ...", element types computed otherwise
   std::vector<std::int64_t> node_number;  ///< the file's numbers of the nodes, ascending like ours
   std::vector<model::MaterialRegion> regions;  ///< .inp: one for each *SOLID SECTION
-  std::string restrained;         ///< .inp: node set of the mesh that *BOUNDARY holds; empty: none
-  std::string refused_restraint;  ///< why *BOUNDARY does not restrain a body; empty: it does
+  /// .inp: node sets of the mesh that *BOUNDARY holds, with directions ("BOUNDARY_z:z", see mesh/hold.h).
+  std::vector<std::string> restrained;
 };
 
 /// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm);

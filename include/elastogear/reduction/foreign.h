@@ -54,9 +54,6 @@ fem::MassMoments mass_moments(Mat M, const fem::VectorGather& gather, const mesh
 /// displacements leave entries unknown.
 model::SparseRows scalar_mass(const ForeignSystem& system, int n_nodes);
 
-/// The rows and columns of the displacements of free nodes (flags read on rank 0). Collective.
-ForeignSystem restrict_to(const ForeignSystem& system, const std::vector<bool>& is_free);
-
 /// Throws Error naming `what` when conjugate gradients (a few hundred steps) meet a direction in which A is
 /// not positive. Collective.
 void require_positive(Mat A, const std::string& what);

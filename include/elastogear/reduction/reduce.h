@@ -39,7 +39,7 @@ struct ReductionOptions {
   std::string name = {};                            ///< of the body
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
   model::Element element = model::Element::incompatible;
-  std::vector<std::string> restrain = {};      ///< node or face sets, all three displacements zero
+  std::vector<std::string> restrain = {};      ///< node or face sets, "left:xy" in these directions only
   std::optional<ForeignFiles> foreign = {};    ///< K and M from files; a mesh without cells will do
   bool floating = false;                       ///< a free body: `restrain` stays empty, free-free modes
   bool frame_at_center = false;                ///< body frame at the centre of mass
