@@ -246,24 +246,30 @@ def deviation_section(example):
                                                            range(len(rows), len(rows) + len(paper)))
 
 
-def peak_section(example):
-    """Largest von Mises stress of each set with its estimated error, beside the unreduced bodies."""
-    rows = []
+def peak_steps(example, time):
+    """Output times at which a run is held against its reference, and those of the reference."""
+    if example.name == "impact":
+        until = slice(0, int(np.searchsorted(time * 1e3, END_OF_REBOUND)))
+        return until, until
+    if example.name == "turn_in":
+        return slice(-1, None), slice(-1, None)
+    nearest = int(np.abs(time - STATE_OF_ROLLING).argmin())
+    return slice(nearest, nearest + 1), slice(-1, None)
+
+
+def peaks(example):
+    """Yields (label, body, set, results.Peak of the run, of the unreduced bodies)."""
     for label in example.labels:
         with example.stress(label) as file, example.stress(example.reference(label)) as reference:
+            steps, reference_steps = peak_steps(example, file["time"][:])
             for body, name, group in results.stress_sets(file):
-                steps = slice(None)
-                if example.name == "impact":
-                    steps = slice(0, int(np.searchsorted(file["time"][:] * 1e3, END_OF_REBOUND)))
-                elif example.name == "rolling":
-                    nearest = int(np.abs(file["time"][:] - STATE_OF_ROLLING).argmin())
-                    steps = slice(nearest, nearest + 1)
-                else:
-                    steps = slice(-1, None)
-                last = steps if example.name == "impact" else slice(-1, None)
-                peak, true = results.Peak(group, steps), results.Peak(reference[body][name], last)
-                rows.append([f"{label}, {body} {name.replace('_', ' ')}", f"{peak.value / 1e6:.1f}", peak.trust(),
-                             f"{true.value / 1e6:.1f}", f"{abs(peak.value - true.value) / 1e6:.2g}"])
+                yield label, body, name, results.Peak(group, steps), results.Peak(reference[body][name], reference_steps)
+
+
+def peak_section(example):
+    """Largest von Mises stress of each set with its estimated error, beside the unreduced bodies."""
+    rows = [[f"{label}, {body} {name.replace('_', ' ')}", f"{peak.value / 1e6:.1f}", peak.trust(), f"{true.value / 1e6:.1f}",
+             f"{abs(peak.value - true.value) / 1e6:.2g}"] for label, body, name, peak, true in peaks(example)]
     head = ["", "peak in MPa", "estimated error of the reduction", "unreduced in MPa", "true error in MPa"]
     return "<h2>Largest von Mises stress</h2>" + table(head, rows)
 

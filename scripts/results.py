@@ -100,7 +100,7 @@ class Peak:
         if self.error is None:
             return "error not estimated: not to be trusted"
         doubt = ": not to be trusted" if self.error > TRUSTED * self.value else ""
-        return f"estimated error {self.error / 1e6:.2g} MPa ({100 * self.error / max(self.value, 1e-300):.2g} %){doubt}"
+        return f"estimated error {self.error / 1e6:.3g} MPa ({100 * self.error / max(self.value, 1e-300):.2g} %){doubt}"
 
 
 def stress_sets(file):

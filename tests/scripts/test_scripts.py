@@ -142,6 +142,26 @@ class Scripts(unittest.TestCase):
                       "(0.5 % of the initial energy)"):
             self.assertIn(words, run.stdout)
 
+    def summary_with_error(self, share):
+        """Of a stress file with an estimated error, a share of the peak."""
+        with h5py.File(self.path("stress.h5"), "r+") as file:
+            group = file["worm/root"]
+            group["error"] = share * group["von_mises"][:]
+            group["peak_error"] = group["error"][:].max(axis=1)
+        return self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5").stdout
+
+    def test_a_stress_has_its_estimated_error_beside_it(self):
+        text = self.summary_with_error(0.01)
+        self.assertIn("estimated error 1.73 MPa (1 %)", text)
+        self.assertNotIn("not to be trusted", text)
+
+    def test_a_stress_with_a_large_estimated_error_is_not_to_be_trusted(self):
+        self.assertIn("estimated error 10.4 MPa (6 %): not to be trusted", self.summary_with_error(0.06))
+
+    def test_a_stress_without_an_estimate_is_not_to_be_trusted(self):
+        run = self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5")
+        self.assertIn("error not estimated: not to be trusted", run.stdout)
+
     def turned(self, path, turns):
         """Lets the wheel ask for two turns and make others, at five equal times."""
         with h5py.File(path, "r+") as file:

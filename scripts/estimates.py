@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""How honest the estimated errors of stresses are: over the peak von Mises stress of every set of runs that scripts/example
+has made, beside the unreduced bodies. Prints the table of docs/theory.md, section 4.3.
+
+    scripts/example impact --size tiny --bases modal,modal_residual --modes 10,25,50,100,200       and so on
+    scripts/estimates.py out/examples/tiny/impact out/examples/tiny/turn_in ...
+"""
+import argparse
+import os
+
+import numpy as np
+
+import report
+
+NEGLIGIBLE = 0.01  # of the unreduced stress: an estimate below this may be larger than three times the error
+
+
+def errors(folder):
+    """Rows (basis, estimated error, true error, both as shares of the unreduced stress)."""
+    example = report.Example(os.path.basename(os.path.normpath(folder)), folder)
+    return [(label.rsplit("_", 1)[0], peak.error / true.value, abs(peak.value - true.value) / true.value)
+            for label, _, _, peak, true in report.peaks(example)]
+
+
+def table_row(name, rows):
+    estimate, true = (np.array([row[i] for row in rows]) for i in (1, 2))
+    return (f"| {name} | {len(rows)} | {100 * np.median(true):.3g} % | {100 * np.median(estimate):.3g} % | "
+            f"{np.median(estimate / true):.2g} | {100 * np.mean(true <= 2 * estimate):.4g} % | "
+            f"{100 * np.mean((estimate < 3 * true) | (estimate < NEGLIGIBLE)):.3g} % |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", help="out/examples/SIZE/EXAMPLE")
+    found = {}
+    for folder in parser.parse_args().folders:
+        size, example = os.path.normpath(folder).split(os.sep)[-2:]
+        for basis, estimate, true in errors(folder):
+            for name in (f"{example.replace('_', '-')}, {size}, `{basis}`", f"all, `{basis}`", "all"):
+                found.setdefault(name, []).append((basis, estimate, true))
+    print("| runs | cases | true error, median | estimate, median | estimate / true, median | true below twice the estimate | "
+          "estimate below 3 x true, or below 1 % |\n|---|---|---|---|---|---|---|")
+    for name in sorted(found, key=lambda name: (name == "all", name.startswith("all"))):
+        print(table_row(name, found[name]))
+
+
+if __name__ == "__main__":
+    main()
