@@ -27,6 +27,10 @@ void add_columns(const char* name, const char* unit, const Eigen::MatrixXd& valu
   for (int d : {0, 1, 2}) columns.push_back({std::string(name) + kDirection[d], unit, values.row(d)});
 }
 
+std::string sensor_table(const std::string& output, const std::string& sensor) {
+  return std::filesystem::path(output).replace_extension().string() + "_" + sensor + ".csv";
+}
+
 }  // namespace
 
 OptionTable output_table() {
@@ -53,6 +57,14 @@ std::vector<double> output_times(const Options& options) {
   return times;
 }
 
+std::vector<std::string> sensor_tables(const Options& options) {
+  std::vector<std::string> paths;
+  if (!options.flag("sensor_csv")) return paths;
+  for (const std::string& sensor : options.placeholder_values("sensors_<sensor>"))
+    paths.push_back(sensor_table(options.text("output"), sensor));
+  return paths;
+}
+
 void write_sensor_tables(const Options& options, const model::ResultHeader& header) {
   if (!options.flag("sensor_csv")) return;
   const std::string output = options.text("output");
@@ -64,8 +76,7 @@ void write_sensor_tables(const Options& options, const model::ResultHeader& head
     add_columns("velocity", "m/s", history.velocity, columns);
     add_columns("acceleration", "m/s^2", history.acceleration, columns);
     add_columns("angular velocity", "rad/s", history.angular_velocity, columns);
-    const std::string path =
-        std::filesystem::path(output).replace_extension().string() + "_" + sensor + ".csv";
+    const std::string path = sensor_table(output, sensor);
     io::write_csv(path, columns);
     print_item("written", path);
   }

@@ -4,6 +4,7 @@
 #include "app/compare_result.h"
 #include "app/compare_stress.h"
 #include "app/console.h"
+#include "app/outputs.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/describe.h"
@@ -12,10 +13,22 @@ namespace elastogear::app {
 namespace {
 
 // "stress_1.csv", "stress_2.csv", ...
+std::string table_path(const Options& options, std::size_t i) {
+  return options.text("output") + "_" + std::to_string(i + 1) + ".csv";
+}
+
+void protect_inputs(const Options& options, const std::vector<Table>& tables,
+                    const std::vector<std::string>& files) {
+  Outputs outputs{"output", {}};
+  for (std::size_t i = 0; options.given("output") && i < tables.size(); ++i)
+    outputs.files.push_back(table_path(options, i));
+  protect_inputs(options, {outputs}, files);
+}
+
 void write_tables(const Options& options, const std::vector<Table>& tables) {
   if (!options.given("output")) return;
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    const std::string path = options.text("output") + "_" + std::to_string(i + 1) + ".csv";
+    const std::string path = table_path(options, i);
     write_csv(path, tables[i]);
     print_item("written", path);
   }
@@ -32,6 +45,7 @@ void run(const Options& options, const std::vector<std::string>& files) {
           "; result and stress files can be compared");
   const std::vector<Table> tables =
       stresses ? compare_stresses(options, files[0], files[1]) : compare_results(options, files[0], files[1]);
+  protect_inputs(options, tables, files);
   for (const Table& table : tables) print(table);
   write_tables(options, tables);
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "app/console.h"
+#include "app/outputs.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/gear/wheel.h"
@@ -146,6 +147,8 @@ void run(const Options& options, const std::vector<std::string>&) {
   options.reject_unknown();
   const bool is_worm = options.choice("part", {"worm", "wheel"}) == 0;
   const std::string path = options.text("mesh");
+  protect_inputs(options, {{"mesh", {path}}});
+  const OutputLock lock(path);
   const gear::Design d = design(options);
   const gear::Size size = gear::size(options.text("size"));
   const gear::Geometry geometry = gear::derive(d);

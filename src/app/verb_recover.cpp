@@ -8,6 +8,7 @@
 #include "app/console.h"
 #include "app/contact_field.h"
 #include "app/field.h"
+#include "app/outputs.h"
 #include "app/static_answer.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
@@ -22,6 +23,7 @@
 namespace elastogear::app {
 namespace {
 
+constexpr const char *kBoxes = "kdops", *kOverlaps = "overlaps";  // in the names of files
 constexpr int kSmallSet = 10;  // nodes; larger sets go to CSV with their peak node only
 
 const OptionTable kTable = {
@@ -214,6 +216,10 @@ void estimate_error(Body& body, const model::ElasticBody& elastic, io::StressSet
   set.peak_error = std::move(error.of_peak);
 }
 
+std::string table_path(const Options& options, const std::string& body, const std::string& set) {
+  return stem(options.text("output")) + "_" + body + "_" + set + ".csv";
+}
+
 // Bodies whose stresses are wanted; stress_nodes is reduce's key in a shared file.
 std::vector<std::string> stressed_bodies(const Options& options) {
   std::vector<std::string> names = options.placeholder_values("stress_<body>");
@@ -251,7 +257,7 @@ void write_stresses(const Options& options, Run& run, const Progress& progress) 
     const io::StressSet& set = file.sets[i];
     print_peak(set, run.time);
     print_error(*owner[i], set);
-    const std::string path = stem(output) + "_" + set.body + "_" + set.set + ".csv";
+    const std::string path = table_path(options, set.body, set.set);
     write_table(path, set, run.time, all);
     print_item("written", path);
   }
@@ -319,6 +325,10 @@ std::vector<int> field_steps(const Options& options, const Run& run) {
   return steps;
 }
 
+std::string field_path(const std::string& base, std::size_t i, std::size_t n) {
+  return n == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
+}
+
 void write_fields(const Options& options, const Run& run, const std::vector<int>& steps,
                   const Progress& progress) {
   for (const Body& body : run.bodies) {
@@ -331,7 +341,7 @@ void write_fields(const Options& options, const Run& run, const std::vector<int>
     std::vector<io::TimeStep> series;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       report(progress, "fields", before + each * share(steps, steps[i]));
-      const std::string path = steps.size() == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
+      const std::string path = field_path(base, i, steps.size());
       FieldState state = recovered_state(options, body, steps[i]);
       state.more = contact_fields(at_time(pairs, steps[i]), surface, source.mesh.X.cols());
       write_field(path, body.file, source, state);
@@ -355,6 +365,10 @@ std::vector<int> box_levels(const Options& options) {
   return levels;
 }
 
+std::string box_path(const Options& options, const Body& body, const char* kind) {
+  return field_prefix(options) + "_" + body.name + "_" + kind + ".vtp";
+}
+
 void write_boxes(const std::string& path, const recovery::Boxes& boxes) {
   io::write_polydata(path, boxes.points, boxes.polygons,
                      {{"level", boxes.level}, {"overlaps", boxes.overlaps}});
@@ -372,22 +386,38 @@ void write_trees(const Options& options, const Run& run, const std::vector<int>&
     Eigen::Map<Eigen::VectorXd>(x.data(), x.size()) += model::multiply(surface.Phi, state.q);
     x = ((state.R_WB * x).colwise() + state.r_WB).eval();
     trees.push_back(recovery::fitted_tree(surface, x, options.count("box_kdop")));
-    write_boxes(field_prefix(options) + "_" + body.name + "_kdops.vtp",
-                recovery::boxes_at_levels(trees.back(), levels));
+    write_boxes(box_path(options, body, kBoxes), recovery::boxes_at_levels(trees.back(), levels));
   }
   if (trees.size() != 2) return;
   for (int i : {0, 1})
-    write_boxes(field_prefix(options) + "_" + run.bodies[i].name + "_overlaps.vtp",
+    write_boxes(box_path(options, run.bodies[i], kOverlaps),
                 recovery::overlapping_boxes(trees[i], trees[1 - i]));
 }
 
+void protect_inputs(const Options& options, const Run& run, std::size_t n_fields) {
+  Outputs stresses{"output", {options.text("output")}}, fields{"fields", {}};
+  for (const std::string& name : stressed_bodies(options))
+    for (const std::string& set : options.list("stress_" + name))
+      stresses.files.push_back(table_path(options, name, set));
+  std::vector<std::string> data = {run.result};
+  for (const Body& body : run.bodies) {
+    data.push_back(body.file);
+    const std::string base = field_prefix(options) + "_" + body.name;
+    fields.files.push_back(base + ".pvd");
+    for (std::size_t i = 0; i < n_fields; ++i) fields.files.push_back(field_path(base, i, n_fields));
+    for (const char* kind : {kBoxes, kOverlaps}) fields.files.push_back(box_path(options, body, kind));
+  }
+  protect_inputs(options, {stresses, fields}, data);
+}
+
 void run(const Options& options, const std::vector<std::string>&) {
-  require(options.text("output") != options.text("result"), "option -output = '", options.text("output"),
-          "' would overwrite the result file");
+  options.text("result");
   options.choice("box_kdop", {"6", "14", "18", "24", "26"});
+  const OutputLock lock(options.text("output"));
   const Progress progress = console_progress();
   Run run = read_run(options, progress);
   const std::vector<int> steps = field_steps(options, run), levels = box_levels(options);
+  protect_inputs(options, run, steps.size());
   write_stresses(options, run, progress);
   write_fields(options, run, steps, progress);
   write_trees(options, run, levels, steps.empty() ? 0 : steps.front());

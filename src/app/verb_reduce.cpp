@@ -13,6 +13,7 @@
 #include "app/material_options.h"
 #include "app/motion.h"
 #include "app/named_sets.h"
+#include "app/outputs.h"
 #include "app/verbs.h"
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -329,7 +330,9 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
 void run(const Options& options, const std::vector<std::string>&) {
   options.reject_unknown();
   const std::string output = options.text("output");
+  protect_inputs(options, {{"output", {output}}});
   reduction::ReductionOptions reduction = reduction_options(options);
+  const OutputLock lock(output);
   const Nodes nodes = read_on_rank_0(options);
   if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
   take_materials(options, nodes.report, reduction);

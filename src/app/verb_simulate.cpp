@@ -12,6 +12,7 @@
 #include "app/marker_options.h"
 #include "app/motion.h"
 #include "app/output_options.h"
+#include "app/outputs.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
@@ -283,7 +284,9 @@ void run(const Options& options, const std::vector<std::string>&) {
   const std::vector<std::string> names = options.list("bodies");
   require(!names.empty(), "option -bodies is missing: names of the bodies");
   options.reject_unknown(simulate_names(options));
-  options.text("output");
+  const std::string output = options.text("output");
+  protect_inputs(options, {{"output", {output}}, {"sensor_csv", sensor_tables(options)}});
+  const OutputLock lock(output);
   if (analysis(options) != Analysis::equilibrium) time_settings(options);
   const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
   dynamics::Environment surroundings = environment(options);

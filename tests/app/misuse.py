@@ -149,7 +149,7 @@ def judge(case, sandboxes, program, faults):
     except misuse_files.Failed as failure:
         return str(failure), ""
     finally:
-        if bench.started:
+        if bench.started and bench.started.returncode is None:
             bench.started.kill()
             bench.started.communicate()
         sandboxes.free.put(folder if listing(folder) == pristine else sandboxes.made(folder))
