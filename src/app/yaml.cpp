@@ -108,9 +108,20 @@ void read_pair(Reader& reader, const yaml_node_t& key, const yaml_node_t& value,
   reader.entries.push_back({name, text, line_of(key), place.merged});
 }
 
+void require_different_keys(Reader& reader, const yaml_node_t& map) {
+  std::map<std::string, int> lines;
+  for (const auto* pair = map.data.mapping.pairs.start; pair < map.data.mapping.pairs.top; ++pair) {
+    const yaml_node_t& key = reader.node(pair->key);
+    if (key.type != YAML_SCALAR_NODE || scalar(key) == "<<") continue;
+    const auto [at, is_new] = lines.emplace(scalar(key), line_of(key));
+    if (!is_new) refuse(reader, key, "the key ", at->first, " is given twice, first in line ", at->second);
+  }
+}
+
 void read_map(Reader& reader, const yaml_node_t& map, const Place& place) {
   if (map.type != YAML_MAPPING_NODE) refuse(reader, map, "must be keys and values, 'key: value'");
   if (place.depth > kDeepest) refuse(reader, map, "maps are nested more than ", kDeepest, " deep");
+  require_different_keys(reader, map);
   for (const auto* pair = map.data.mapping.pairs.start; pair < map.data.mapping.pairs.top; ++pair) {
     if (++reader.n_visited > kMostNodes) refuse(reader, map, "holds more than ", kMostNodes, " keys");
     read_pair(reader, reader.node(pair->key), reader.node(pair->value), place);

@@ -45,6 +45,8 @@ TEST(Yaml, KeysThatAreGivenTwiceAreRefused) {
   EXPECT_EQ(error_of("a: 1\nb: 2\na: 3\n"), "f.yaml, line 3: the key a is given twice, first in line 1");
   EXPECT_EQ(error_of("ts: {dt: 1}\nts_dt: 1\n"),
             "f.yaml, line 2: the key ts_dt is given twice, first in line 1");
+  EXPECT_EQ(error_of("a: {b: 1}\nc: 2\na: {d: 3}\n"),
+            "f.yaml, line 3: the key a is given twice, first in line 1");
   EXPECT_EQ(error_of("ts_dt: 1\n---\nTS_dt: 1\n"),
             "f.yaml, line 3: the key TS_dt is given twice, first in line 1");
 }
