@@ -168,7 +168,11 @@ void Options::load(const std::vector<std::string>& files, int argc, char** argv)
 void Options::reject_unknown(const PlaceholderValues& values) const {
   const OptionTable known = expand(known_, values);
   for (const auto& [name, value] : given_) {
-    if (has(known, name) || is_petsc_name(name)) continue;
+    if (has(known, name)) continue;
+    if (is_petsc_name(name)) {
+      check_petsc_type(label(name), name, value);
+      continue;
+    }
     fail("unknown ", label(name), value.empty() ? "" : " = '" + value + "'", "; the nearest known option is ",
          nearest_option(name, expand(own_, values)), ". 'elastogear ", verb_, " -help' lists all.");
   }

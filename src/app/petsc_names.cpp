@@ -8,6 +8,9 @@
 #include <cctype>
 #include <string_view>
 
+#include "elastogear/base/error.h"
+#include "elastogear/base/petsc.h"
+
 namespace elastogear::app {
 namespace {
 
@@ -146,7 +149,46 @@ bool is_known(std::string_view name, int depth) {
   return false;
 }
 
+struct Types {
+  const char* option;
+  PetscErrorCode (*initialize)();
+  PetscFunctionList* list;
+};
+
+constexpr const char* kOwnType = "generalized_alpha";  // registered when the run begins
+
+std::vector<std::string> names_of(const Types& types) {
+  const char** names = nullptr;
+  int n = 0;
+  check(types.initialize());
+  check(PetscFunctionListGet(*types.list, &names, &n));
+  std::vector<std::string> all;
+  for (const char** name = names; name != names + n; ++name)
+    if (*name) all.push_back(*name);  // the last one may be none
+  check(PetscFree(names));
+  if (types.option == std::string("ts_type")) all.push_back(kOwnType);
+  return all;
+}
+
 }  // namespace
+
+void check_petsc_type(const std::string& label, const std::string& name, const std::string& value) {
+  const Types all[] = {
+      {"eps_type", EPSInitializePackage, &EPSList},    {"st_type", STInitializePackage, &STList},
+      {"snes_type", SNESInitializePackage, &SNESList}, {"ts_type", TSInitializePackage, &TSList},
+      {"ksp_type", KSPInitializePackage, &KSPList},    {"pc_type", PCInitializePackage, &PCList}};
+  for (const Types& types : all) {
+    const bool nests = types.list == &KSPList || types.list == &PCList;
+    const bool ends_so = name.ends_with(types.option);
+    const std::size_t begin = ends_so ? name.size() - std::string_view(types.option).size() : 0;
+    if (!ends_so || (begin > 0 && !(nests && name[begin - 1] == '_'))) continue;
+    const std::vector<std::string> allowed = names_of(types);
+    std::string text;
+    for (const std::string& type : allowed) text += (text.empty() ? "" : ", ") + type;
+    require(std::find(allowed.begin(), allowed.end(), value) != allowed.end(), label, " = '", value,
+            "': must be one of ", text);
+  }
+}
 
 const std::vector<std::string>& petsc_names() { return literals().names; }
 

@@ -251,6 +251,9 @@ void write_stresses(const Options& options, Run& run, const Progress& progress) 
           "-stress_",
           run.bodies.front().name, " root");
   report(progress, "stresses", 1);
+  for (const Body& body : run.bodies)
+    if (!body.file.empty() && options.list("stress_" + body.name).empty())
+      print_item("not recovered", body.name + ": -stress_" + body.name + " names no sets");
   io::write_stress(output, file);
   print_item("written", output);
   for (std::size_t i = 0; i < file.sets.size(); ++i) {

@@ -14,6 +14,7 @@
 #include "app/motion.h"
 #include "app/named_sets.h"
 #include "app/outputs.h"
+#include "app/plausibility.h"
 #include "app/verbs.h"
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
@@ -241,13 +242,14 @@ Nodes read_on_rank_0(const Options& options) {
 
 // Materials and restraint that the options leave open are those of the mesh file.
 void take_materials(const Options& options, const mesh::ReadReport& report, reduction::ReductionOptions& o) {
-  if (!o.regions.empty()) return;
+  if (!o.regions.empty()) return warn_of_materials(o.regions, false);
   o.regions = report.regions;
   broadcast(PETSC_COMM_WORLD, o.regions);
   if (o.regions.empty() && o.foreign) return;
   require(!o.regions.empty(), "option -material_E is missing, and ", options.text("mesh"),
           " gives no material to its cells (*SOLID SECTION)");
   o.provenance["materials_from"] = "mesh";
+  warn_of_materials(o.regions, true);
   print_item("materials", "from the mesh file");
 }
 
@@ -339,6 +341,9 @@ void run(const Options& options, const std::vector<std::string>&) {
   take_restraint(options, nodes.report, reduction);
   print_restraint(nodes.mesh, reduction.restrain);
   print_named_sets(nodes.mesh, "marker", reduction.markers);
+  warn_of_size(nodes.mesh, unit_in_m(options));
+  if (reduction.stress_nodes.empty())
+    print_item("warning", "no -stress_nodes are named: recover will have no stresses of this body");
   if (const std::string advice = blas_advice(); !advice.empty()) print_item("advice", advice);
   const reduction::ReductionReport report =
       reduction::reduce(PETSC_COMM_WORLD, nodes.mesh, reduction, output, console_progress());

@@ -13,6 +13,7 @@
 #include "app/motion.h"
 #include "app/output_options.h"
 #include "app/outputs.h"
+#include "app/plausibility.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
@@ -184,6 +185,8 @@ dynamics::TimeSettings time_settings(const Options& options) {
   dynamics::TimeSettings time;
   time.dt = options.positive("ts_dt");
   time.end_time = options.positive("ts_max_time");
+  require(time.end_time >= time.dt, options.label("ts_max_time"), " = ", time.end_time,
+          " s: ends before the first step, -ts_dt = ", time.dt, " s");
   time.settle = analysis(options) == Analysis::relax;
   time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.settle ? 0 : 1;
   time.rest_tolerance = options.positive("rest_tolerance");
@@ -217,6 +220,7 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
     print_item("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at " +
                                            with_unit(pair.peak_time, "s") + ", penetration " +
                                            with_unit(pair.penetration, "m"));
+  warn_of_idle_pairs(run);
   print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
   print_resolution(options, run);
   if (analysis(options) == Analysis::relax)

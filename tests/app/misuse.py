@@ -41,11 +41,13 @@ def listing(folder):
     return found
 
 
-def changes(before, after, leaves):
-    """What is different, in words; paths that match `leaves` may be."""
+def changes(before, after, leaves, killed):
+    """What is different, in words; paths that match `leaves` may be. A lock that a killed run left is harmless."""
+    harmless = lambda path: path.endswith(".lock") and (killed or path not in after)
     words = [("appeared: " if path not in before else "is gone: " if path not in after else "changed: ") + path
              for path in sorted(before.keys() | after.keys())
-             if before.get(path, "none") != after.get(path, "none") and not (leaves and re.fullmatch(leaves, path))]
+             if before.get(path, "none") != after.get(path, "none") and not (leaves and re.fullmatch(leaves, path))
+             and not harmless(path)]
     return ", ".join(words)
 
 
@@ -133,7 +135,7 @@ def attempt(case, bench):
         case.before(bench)
     before = listing(bench.folder)
     status, output = bench.run(case.command, case.fault)
-    wrong = complaint(case, status, output) or changes(before, listing(bench.folder), case.leaves)
+    wrong = complaint(case, status, output) or changes(before, listing(bench.folder), case.leaves, case.kind == "killed")
     if not wrong and case.after:
         wrong = case.after(bench) or ""
     return wrong, output

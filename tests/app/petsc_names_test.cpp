@@ -64,7 +64,8 @@ void each_type(PetscFunctionList list, const SetType& set_type) {
   const char** types = nullptr;
   int n = 0;
   PetscFunctionListGet(list, &types, &n);
-  for (int i = 0; i < n; ++i) set_type(types[i]);
+  for (int i = 0; i < n; ++i)
+    if (types[i]) set_type(types[i]);
   PetscFree(types);
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+// Inputs that can be computed with but are hardly meant: said once, as warnings.
+
+#include <string>
+#include <vector>
+
+#include "elastogear/dynamics/simulate.h"
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/model/material.h"
+
+namespace elastogear::app {
+
+/// Moduli and densities that no material of a gear has, in Pa and kg/m^3, with the unit that they look like.
+/// from_mesh: the mesh file gives them, else options material_...
+void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool from_mesh);
+
+/// A mesh (m) as large as a house, or as small as a grain, was read in another unit. unit_in_m: that it was
+/// read in.
+void warn_of_size(const mesh::Mesh& mesh, double unit_in_m);
+
+/// Pairs of bodies without a contact in the whole run.
+void warn_of_idle_pairs(const dynamics::RunSummary& run);
+
+}  // namespace elastogear::app
