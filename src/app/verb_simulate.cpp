@@ -56,9 +56,9 @@ const OptionTable kOwnTable = {
     {"<body>_translation_friction", "N", "0", "Coulomb friction along the axis"},
     {"<body>_translation_friction_rate", "m/s", "0", "speed at which friction is tanh(1) of its full value"},
     {"gravity", "m/s^2", "0,0,0", "acceleration of gravity in the world"},
-    {"inertia", "-", "linear",
-     "what the inertia keeps of the deformation: constant, linear, or full (needs bodies "
-     "reduced with -invariants full)"},
+    {"inertia", "-", "affine",
+     "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "
+     "its best affine field), or full (needs bodies reduced with -invariants full)"},
     {"analysis", "-", "dynamic",
      "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
      "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
@@ -169,7 +169,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
 }
 
 dynamics::Environment environment(const Options& options) {
-  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", body::inertia_level_names())),
           options.vector("gravity")};
 }
 
