@@ -255,10 +255,11 @@ std::string step_text(const dynamics::StepInfo& step) {
 
 Computation computation(const Options& options, dynamics::System& system) {
   if (analysis(options) == Analysis::equilibrium)
-    return
-        [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer, const auto&) {
-          return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress());
-        };
+    return [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer,
+                                                               const dynamics::Checkpoints& checkpoints) {
+      return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress(),
+                                    checkpoints.stop);
+    };
   dynamics::TimeSettings time = time_settings(options);
   if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
   auto info = std::make_shared<dynamics::StepInfo>();
