@@ -247,7 +247,8 @@ std::string step_text(const dynamics::StepInfo& step) {
     std::snprintf(text, sizeof text, "%.3g %s", value, unit);
     return std::string(text);
   };
-  return ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
+  const std::string settling = step.unbalanced >= 0 ? ", unbalanced " + brief(step.unbalanced, "") : "";
+  return settling + ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
          std::to_string(step.contacts) + " contacts " + brief(step.penetration, "m") + " deep, dt " +
          brief(step.dt, "s") + ", " + std::to_string(step.newton_iterations) + " iterations in " +
          std::to_string(step.step) + " steps";
