@@ -15,8 +15,8 @@ enum class Resume { automatic, anyway, discard };
 
 // Options on which results do not depend, as parts of their names.
 const std::vector<std::string> kWithoutEffect = {
-    "option_output", "option_checkpoint_every", "option_resume", "option_monitor", "_monitor", "_view",
-    "option_log_",   "option_sensor_csv"};
+    "option_output", "option_checkpoint_every", "option_resume",      "option_monitor", "_monitor", "_view",
+    "option_log_",   "option_sensor_csv",       "option_ts_max_steps"};
 
 volatile std::sig_atomic_t stop_signal = 0;
 
@@ -169,9 +169,17 @@ dynamics::RunSummary keep(const Options& options, const model::ResultHeader& hea
     fail(error.what(), ". The result until t = ", time, " s is in ", output,
          resumable ? "; with changed options, -resume anyway goes on from there" : "");
   }
+  require(writer.n_times() > 0, "stopped by signal ", int(stop_signal),
+          " before the first state was found: there is no result");
   writer.finish(summary.complete);
-  require(summary.complete, "stopped by signal ", int(stop_signal), " at t = ", summary.time,
-          " s. The result until then is in ", output, "; the same command goes on from there");
+  const std::string cause = summary.out_of_steps
+                                ? "stopped after " + std::to_string(summary.steps) + " steps (-ts_max_steps)"
+                                : "stopped by signal " + std::to_string(int(stop_signal));
+  require(summary.complete, cause, " at t = ", summary.time,
+          " s, before the end. The result until then is in ", output,
+          !resumable             ? "; the same command begins anew"
+          : summary.out_of_steps ? "; with more of them the same command goes on from there"
+                                 : "; the same command goes on from there");
   return summary;
 }
 

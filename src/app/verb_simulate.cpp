@@ -58,9 +58,9 @@ const OptionTable kOwnTable = {
     {"<body>_translation_friction", "N", "0", "Coulomb friction along the axis"},
     {"<body>_translation_friction_rate", "m/s", "0", "speed at which friction is tanh(1) of its full value"},
     {"gravity", "m/s^2", "0,0,0", "acceleration of gravity in the world"},
-    {"inertia", "-", "linear",
-     "what the inertia keeps of the deformation: constant, linear, or full (needs bodies "
-     "reduced with -invariants full)"},
+    {"inertia", "-", "affine",
+     "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "
+     "its best affine field), or full (needs bodies reduced with -invariants full)"},
     {"analysis", "-", "dynamic",
      "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
      "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
@@ -171,7 +171,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
 }
 
 dynamics::Environment environment(const Options& options) {
-  return {static_cast<body::InertiaLevel>(options.choice("inertia", {"constant", "linear", "full"})),
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", body::inertia_level_names())),
           options.vector("gravity")};
 }
 
@@ -252,7 +252,8 @@ std::string step_text(const dynamics::StepInfo& step) {
     std::snprintf(text, sizeof text, "%.3g %s", value, unit);
     return std::string(text);
   };
-  return ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
+  const std::string settling = step.unbalanced >= 0 ? ", unbalanced " + brief(step.unbalanced, "") : "";
+  return settling + ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
          std::to_string(step.contacts) + " contacts " + brief(step.penetration, "m") + " deep, dt " +
          brief(step.dt, "s") + ", " + std::to_string(step.newton_iterations) + " iterations in " +
          std::to_string(step.step) + " steps";
@@ -260,10 +261,11 @@ std::string step_text(const dynamics::StepInfo& step) {
 
 Computation computation(const Options& options, dynamics::System& system) {
   if (analysis(options) == Analysis::equilibrium)
-    return
-        [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer, const auto&) {
-          return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress());
-        };
+    return [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer,
+                                                               const dynamics::Checkpoints& checkpoints) {
+      return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress(),
+                                    checkpoints.stop);
+    };
   dynamics::TimeSettings time = time_settings(options);
   if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
   auto info = std::make_shared<dynamics::StepInfo>();

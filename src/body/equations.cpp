@@ -28,32 +28,44 @@ Eigen::SparseMatrix<double> damping_matrix(const model::ElasticBody& body) {
   return D_r + Eigen::SparseMatrix<double>(d.asDiagonal());
 }
 
+// Without rotation there are no products of rotation and deformation, without deformation neither.
+InertiaLevel needed_level(const model::ElasticBody& body, const MotionSubspace& H, InertiaLevel level) {
+  const bool simple = body.n_q() == 0 || (level == InertiaLevel::affine && H.cols() == 0);
+  return level >= InertiaLevel::affine && simple ? InertiaLevel::linear : level;
+}
+
 VectorXd on_joint(const Equations& eq, const Vector3d& F_v, const Vector3d& F_w) {
   return eq.H.topRows<3>().transpose() * F_v + eq.H.bottomRows<3>().transpose() * F_w;
 }
 
-// [m a; S x a; C_l a]: inertia of an accelerated frame that does not turn.
+// [m a; S x a; C_l a]: inertia of an accelerated frame that does not turn; its last part on y.
 Force of_acceleration(const Equations& eq, const Vector3d& S, const Vector3d& a) {
-  const model::Inertia& inertia = eq.body->inertia;
+  const model::Inertia& inertia = eq.inertia();
   return {on_joint(eq, inertia.m * a, S.cross(a)), inertia.C_l * a};
 }
 
+Force to_q(const Equations& eq, Force h) { return {std::move(h.s), from_inertia(eq, h.q)}; }
+
 }  // namespace
+
+const std::vector<std::string>& inertia_level_names() {
+  static const std::vector<std::string> names{"constant", "linear", "affine", "full"};
+  return names;
+}
 
 Equations make_equations(std::shared_ptr<const model::ElasticBody> body, const Joint& joint,
                          InertiaLevel level) {
   Equations eq;
   eq.joint = joint;
   eq.H = motion_subspace(joint);
-  eq.level = level;
+  eq.level = needed_level(*body, eq.H, level);
   require(
-      level != InertiaLevel::full || body->n_q() == 0 || !body->inertia.S_2.empty(), "body '", body->name,
+      eq.level != InertiaLevel::full || !body->inertia.S_2.empty(), "body '", body->name,
       "' lacks the second-order invariants that inertia level 'full' needs: reduce it with -invariants full");
-  if (body->n_q() == 0 && level == InertiaLevel::full) eq.level = InertiaLevel::linear;
-  eq.J_1 =
-      level == InertiaLevel::constant ? Eigen::MatrixXd(body->n_q(), 0) : inertia_derivatives(body->inertia);
+  if (eq.level == InertiaLevel::affine) eq.affine = affine_part(body->inertia);
   eq.D_r = damping_matrix(*body);
   eq.body = std::move(body);
+  eq.J_1 = level == InertiaLevel::constant ? Eigen::MatrixXd(eq.n_q(), 0) : inertia_derivatives(eq.inertia());
   return eq;
 }
 
@@ -62,14 +74,17 @@ FrameMotion frame_motion(const Equations& eq, const Motion& m) {
 }
 
 Force inertia_force(const Equations& eq, const Motion& m) {
-  const model::Inertia& inertia = eq.body->inertia;
+  const model::Inertia& inertia = eq.inertia();
   const FrameMotion f = frame_motion(eq, m);
   const Shape x = shape(eq, m);
+  const VectorXd y_ddot = to_inertia(eq, m.q_ddot);
   Force h = of_acceleration(eq, x.S, f.a_s);
-  h.s += on_joint(eq, f.alpha.cross(x.S) + inertia.C_l.transpose() * m.q_ddot,
-                  x.J * f.alpha + project_C_r(eq, x, m.q_ddot));
-  h.q += inertia.C_r * f.alpha + eq.body->M_r * m.q_ddot;
-  if (eq.level == InertiaLevel::full) h.q += x.at_q.B * f.alpha;
+  h.s += on_joint(eq, f.alpha.cross(x.S) + inertia.C_l.transpose() * y_ddot,
+                  x.J * f.alpha + project_C_r(eq, x, y_ddot));
+  h.q += inertia.C_r * f.alpha;
+  if (eq.second_order()) h.q += x.at_y.B * f.alpha;
+  h = to_q(eq, std::move(h));
+  h.q += eq.body->M_r * m.q_ddot;
   return h;
 }
 
@@ -82,8 +97,8 @@ Force quadratic_force(const Equations& eq, const Motion& m) {
   if (eq.level == InertiaLevel::constant) return h;
   const Vector6 half_w_w = 0.5 * factor(w).transpose() * w;
   h.q += eq.J_1 * half_w_w;
-  if (eq.level == InertiaLevel::full) h.q += x.at_q.D * half_w_w - 2 * x.at_q_dot.B * w;
-  return h;
+  if (eq.second_order()) h.q += x.at_y.D * half_w_w - 2 * x.at_y_dot.B * w;
+  return to_q(eq, std::move(h));
 }
 
 Force inner_force(const Equations& eq, const Motion& m) {
@@ -91,15 +106,16 @@ Force inner_force(const Equations& eq, const Motion& m) {
 }
 
 Force gravity_force(const Equations& eq, const Motion& m, const Vector3d& g_W) {
-  return of_acceleration(eq, first_moment(eq, m.q), placement(eq.joint, m.s).R_WB.transpose() * g_W);
+  const Vector3d g_B = placement(eq.joint, m.s).R_WB.transpose() * g_W;
+  return to_q(eq, of_acceleration(eq, first_moment(eq, to_inertia(eq, m.q)), g_B));
 }
 
 double kinetic_energy(const Equations& eq, const Motion& m) {
   const FrameMotion f = frame_motion(eq, m);
   const Shape x = shape(eq, m);
-  const Vector3d S_dot = eq.body->inertia.C_l.transpose() * m.q_dot;
+  const Vector3d S_dot = eq.inertia().C_l.transpose() * x.y_dot;
   return 0.5 * eq.body->inertia.m * f.v.squaredNorm() + f.v.dot(f.w.cross(x.S) + S_dot) +
-         0.5 * f.w.dot(x.J * f.w) + f.w.dot(project_C_r(eq, x, m.q_dot)) +
+         0.5 * f.w.dot(x.J * f.w) + f.w.dot(project_C_r(eq, x, x.y_dot)) +
          0.5 * m.q_dot.dot(eq.body->M_r * m.q_dot);
 }
 
@@ -109,16 +125,16 @@ double dissipation(const Equations& eq, const VectorXd& q_dot) { return q_dot.do
 
 double gravity_energy(const Equations& eq, const Motion& m, const Vector3d& g_W) {
   const Placement p = placement(eq.joint, m.s);
-  return -g_W.dot(eq.body->inertia.m * p.r_WB + p.R_WB * first_moment(eq, m.q));
+  return -g_W.dot(eq.body->inertia.m * p.r_WB + p.R_WB * first_moment(eq, to_inertia(eq, m.q)));
 }
 
 Momentum momentum(const Equations& eq, const Motion& m) {
   const FrameMotion f = frame_motion(eq, m);
   const Shape x = shape(eq, m);
   const Placement p = placement(eq.joint, m.s);
-  const Vector3d S_dot = eq.body->inertia.C_l.transpose() * m.q_dot;
+  const Vector3d S_dot = eq.inertia().C_l.transpose() * x.y_dot;
   const Vector3d linear = p.R_WB * (eq.body->inertia.m * f.v + f.w.cross(x.S) + S_dot);
-  const Vector3d angular = p.R_WB * (x.S.cross(f.v) + x.J * f.w + project_C_r(eq, x, m.q_dot));
+  const Vector3d angular = p.R_WB * (x.S.cross(f.v) + x.J * f.w + project_C_r(eq, x, x.y_dot));
   return {linear, p.r_WB.cross(linear) + angular};
 }
 

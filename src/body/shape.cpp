@@ -51,35 +51,49 @@ VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& Gamma, c
   return sum;
 }
 
-Eigen::Vector3d first_moment(const Equations& eq, const VectorXd& q) {
-  const model::Inertia& inertia = eq.body->inertia;
+VectorXd to_inertia(const Equations& eq, const VectorXd& q) {
+  return eq.level == InertiaLevel::affine ? VectorXd(eq.affine.Y.transpose() * q) : q;
+}
+
+VectorXd from_inertia(const Equations& eq, const VectorXd& h_y) {
+  return eq.level == InertiaLevel::affine ? VectorXd(eq.affine.Y * h_y) : h_y;
+}
+
+Eigen::Vector3d first_moment(const Equations& eq, const VectorXd& y) {
+  const model::Inertia& inertia = eq.inertia();
   if (eq.level == InertiaLevel::constant) return inertia.m * inertia.c;
-  return inertia.m * inertia.c + inertia.C_l.transpose() * q;
+  return inertia.m * inertia.c + inertia.C_l.transpose() * y;
 }
 
 Shape shape(const Equations& eq, const Motion& m) {
-  const model::Inertia& inertia = eq.body->inertia;
-  Shape shape{first_moment(eq, m.q), Eigen::Vector3d::Zero(), inertia.J, Eigen::Matrix3d::Zero(), {}, {}, {}};
-  if (eq.level == InertiaLevel::constant) {
-    shape.spin.setZero();
-    return shape;
+  const model::Inertia& inertia = eq.inertia();
+  const VectorXd y = to_inertia(eq, m.q);
+  Shape shape{to_inertia(eq, m.q_dot),
+              first_moment(eq, y),
+              Eigen::Vector3d::Zero(),
+              inertia.J,
+              Eigen::Matrix3d::Zero(),
+              Eigen::Vector3d::Zero(),
+              {},
+              {}};
+  if (eq.level == InertiaLevel::constant) return shape;
+  const VectorXd& y_dot = shape.y_dot;
+  shape.S_dot = inertia.C_l.transpose() * y_dot;
+  shape.J += symmetric(eq.J_1.transpose() * y);
+  shape.J_dot = symmetric(eq.J_1.transpose() * y_dot);
+  if (eq.second_order()) {
+    shape.at_y = second_order(inertia, y);
+    shape.at_y_dot = second_order(inertia, y_dot);
+    shape.J += 0.5 * symmetric(shape.at_y.D.transpose() * y);
+    shape.J_dot += symmetric(shape.at_y.D.transpose() * y_dot);
   }
-  shape.S_dot = inertia.C_l.transpose() * m.q_dot;
-  shape.J += symmetric(eq.J_1.transpose() * m.q);
-  shape.J_dot = symmetric(eq.J_1.transpose() * m.q_dot);
-  if (eq.level == InertiaLevel::full) {
-    shape.at_q = second_order(inertia, m.q);
-    shape.at_q_dot = second_order(inertia, m.q_dot);
-    shape.J += 0.5 * symmetric(shape.at_q.D.transpose() * m.q);
-    shape.J_dot += symmetric(shape.at_q.D.transpose() * m.q_dot);
-  }
-  shape.spin = project_C_r(eq, shape, m.q_dot);
+  shape.spin = project_C_r(eq, shape, y_dot);
   return shape;
 }
 
 Eigen::Vector3d project_C_r(const Equations& eq, const Shape& shape, const VectorXd& x) {
-  Eigen::Vector3d projected = eq.body->inertia.C_r.transpose() * x;
-  if (eq.level == InertiaLevel::full) projected += shape.at_q.B.transpose() * x;
+  Eigen::Vector3d projected = eq.inertia().C_r.transpose() * x;
+  if (eq.second_order()) projected += shape.at_y.B.transpose() * x;
   return projected;
 }
 

@@ -52,7 +52,14 @@ MatrixXd joint_block(const State& x) {
   return x.eq.H.topRows<3>().transpose() * F_v + x.eq.H.bottomRows<3>().transpose() * F_w;
 }
 
-// Changes of F_v and F_w with C_l'q, C_r'q and J_1'q.
+// [C_l, C_r, J_1], n_y x 12 (constant: 6)
+MatrixXd first_order_columns(const Equations& eq) {
+  MatrixXd U(eq.J_1.rows(), 6 + eq.J_1.cols());
+  U << eq.inertia().C_l, eq.inertia().C_r, eq.J_1;
+  return U;
+}
+
+// Changes of F_v and F_w with C_l'y, C_r'y and J_1'y.
 MatrixXd row_coefficients(const State& x) {
   const bool constant = x.eq.level == InertiaLevel::constant;
   const Matrix3d I = Matrix3d::Identity();
@@ -76,26 +83,49 @@ MatrixXd column_coefficients(const State& x) {
   return beta;
 }
 
-void add_second_order(const State& x, Tangent& t) {
+// Second-order parts: of F_w with y (3 x n_y), and of the force on y with s (n_y x n_s).
+MatrixXd second_order_rows(const State& x) {
   const Vector3d w = x.frame.w;
-  const SecondOrder at_q_ddot = second_order(x.eq.body->inertia, x.m.q_ddot);
-  const auto &B = x.shape.at_q.B, &B_dot = x.shape.at_q_dot.B;
+  const SecondOrder at_y_ddot = second_order(x.eq.inertia(), to_inertia(x.eq, x.m.q_ddot));
   const Matrix36 Y = factor(w), Y_row = factor(x.frame.alpha + x.shift.v * w) + x.W * Y;
   const Matrix3d by_B = x.shift.a * Matrix3d::Identity() + x.shift.v * x.W;
-  const MatrixXd F_w = Y_row * x.shape.at_q.D.transpose() + Y * x.shape.at_q_dot.D.transpose() +
-                       by_B * B.transpose() - at_q_ddot.B.transpose() - x.W * B_dot.transpose();
-  t.R_q = x.eq.H.bottomRows<3>().transpose() * F_w;
-  t.Q_s = B * x.d.alpha + (2 * B_dot - x.shape.at_q.D * Y.transpose()) * x.d.w;
+  return Y_row * x.shape.at_y.D.transpose() + Y * x.shape.at_y_dot.D.transpose() +
+         by_B * x.shape.at_y.B.transpose() - at_y_ddot.B.transpose() -
+         x.W * x.shape.at_y_dot.B.transpose();
+}
+
+MatrixXd second_order_columns(const State& x) {
+  const Matrix36 Y = factor(x.frame.w);
+  return x.shape.at_y.B * x.d.alpha + (2 * x.shape.at_y_dot.B - x.shape.at_y.D * Y.transpose()) * x.d.w;
+}
+
+void add_second_order(const State& x, Tangent& t) {
+  const Vector3d w = x.frame.w;
+  const MatrixXd R_y = x.eq.H.bottomRows<3>().transpose() * second_order_rows(x), Q_s = second_order_columns(x);
   t.Gamma = x.W * x.W + skew(x.frame.alpha + 2 * x.shift.v * w);
+  if (x.eq.level == InertiaLevel::full) {
+    t.R_q = R_y;
+    t.Q_s = Q_s;
+  } else {
+    const MatrixXd U = first_order_columns(x.eq);
+    t.rho = U * t.rho + R_y.transpose();
+    t.beta = U * t.beta + Q_s;
+  }
 }
 
 }  // namespace
 
 MatrixXd border(const Equations& eq) {
   if (eq.n_s() == 0) return MatrixXd(eq.n_q(), 0);
-  MatrixXd U(eq.n_q(), 6 + eq.J_1.cols());
-  U << eq.body->inertia.C_l, eq.body->inertia.C_r, eq.J_1;
-  return U;
+  return eq.level == InertiaLevel::affine ? eq.affine.Y : first_order_columns(eq);
+}
+
+MatrixXd stiffness_in_border(const Equations& eq, const Matrix3d& Gamma) {
+  if (eq.level != InertiaLevel::affine || Gamma.isZero(0)) return {};
+  MatrixXd Z = MatrixXd::Zero(12, 12);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) Z.block<4, 4>(4 * a, 4 * b).diagonal().setConstant(Gamma(a, b));
+  return Z;
 }
 
 Tangent tangent(const Equations& eq, const Motion& m, const Vector3d& g_W, const Shifts& shift) {
@@ -109,7 +139,7 @@ Tangent tangent(const Equations& eq, const Motion& m, const Vector3d& g_W, const
     t.beta = column_coefficients(x);
     t.rho = row_coefficients(x).transpose() * eq.H;
   }
-  if (eq.level == InertiaLevel::full && eq.n_s() > 0) add_second_order(x, t);
+  if (eq.second_order() && eq.n_s() > 0) add_second_order(x, t);
   return t;
 }
 

@@ -12,7 +12,6 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr double kStepsPerPeriod = 10;
-constexpr Eigen::Index kMostFaces = 100;   // whose edges are watched, of each body
 constexpr double kLargestGradient = 0.05;  // elastic rotation (rad) and strain: second-order terms reach 5 %
 constexpr double kLargestSpeed = 0.1;      // of the lowest mode: centrifugal softening of its stiffness, 1 %
 
@@ -47,39 +46,6 @@ double contact_frequency(const System& system, std::size_t p) {
   return std::sqrt(rate) / (2 * std::numbers::pi);
 }
 
-struct Edge {
-  Eigen::Index node[2];
-  double length;  // m
-};
-
-// Two sides of some faces all over the surface.
-std::vector<Edge> some_edges(const model::Surface& surface) {
-  std::vector<Edge> edges;
-  const Eigen::Index n_f = surface.face.cols(), stride = std::max<Eigen::Index>(1, n_f / kMostFaces);
-  for (Eigen::Index f = 0; f < n_f; f += stride)
-    for (int i : {0, 1, 2}) {
-      const int a = surface.face(i, f), b = surface.face(i + 1, f);
-      const double length = (surface.X.col(a) - surface.X.col(b)).norm();
-      if (length > 0) edges.push_back({{a, b}, length});
-    }
-  return edges;
-}
-
-// D of theory.md, section 8.5, 3 n_edges x n_q.
-template <class Rows>
-Rows edge_gradient(const Rows& Phi, const std::vector<Edge>& edges) {
-  Eigen::SparseMatrix<double, Eigen::RowMajor> difference(3 * static_cast<Eigen::Index>(edges.size()),
-                                                          Phi.rows());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index row = 0; const Edge& edge : edges)
-    for (int d : {0, 1, 2}) {
-      entries.emplace_back(row, 3 * edge.node[0] + d, 1 / edge.length);
-      entries.emplace_back(row++, 3 * edge.node[1] + d, -1 / edge.length);
-    }
-  difference.setFromTriplets(entries.begin(), entries.end());
-  return difference * Phi;
-}
-
 std::string sentence(const std::string& who, double time, double value, const char* meaning) {
   std::ostringstream text;
   text.precision(3);
@@ -108,25 +74,12 @@ ValidityGuard::ValidityGuard(const System& system, double dt)
     : system_(&system), dt_(dt), too_fast_(system.pairs().size(), false) {
   for (const System::Body& body : system.bodies()) {
     const model::Surface& surface = body.eq.body->surface;
-    Watch watch;
-    watch.gradient = std::visit(
-        [&](const auto& Phi) {
-          return std::make_unique<const model::BasisRows>(edge_gradient(Phi, some_edges(surface)));
-        },
-        surface.Phi);
-    watch.bound = contact::deformation_bound(*watch.gradient, body.eq.body->K_r);
+    Watch watch{DeformationWatch(*body.eq.body)};
     const Eigen::VectorXd& frequency = body.eq.body->frequency;
     if (frequency.size() > 0) watch.lowest_mode = 2 * std::numbers::pi * frequency.minCoeff();
     if (surface.X.cols() > 0) watch.radius = std::sqrt(surface.X.colwise().squaredNorm().maxCoeff());
     watch_.push_back(std::move(watch));
   }
-}
-
-// Largest change of an edge's vector over its length: rotation and strain together. By the elastic energy
-// where that tells it to be small, else by the edges themselves.
-double ValidityGuard::gradient(const Watch& watch, const Eigen::VectorXd& q) {
-  const double bound = contact::largest_displacement(watch.bound, q);
-  return bound > kLargestGradient ? contact::largest_displacement({watch.gradient.get(), {}, 0}, q) : bound;
 }
 
 // Bound of the speed of its surface but for the vibration, m/s.
@@ -141,7 +94,7 @@ void ValidityGuard::watch_body(std::size_t b, const model::Snapshot& snapshot, W
   const model::BodyState& state = snapshot.bodies[b];
   const std::string who = "body '" + body.name + "'";
   Watch& watch = watch_[b];
-  const double bent = watch.deformed ? 0 : gradient(watch, state.q);
+  const double bent = watch.deformed ? 0 : watch.deformation.largest(state.q, kLargestGradient);
   const double speed =
       body::frame_motion(body.eq.joint, body.eq.H, {state.s, state.s_dot, state.s_ddot}).w.norm();
   if (bent > kLargestGradient) {

@@ -82,6 +82,7 @@ void visit_state(Run& run, TS ts, Tape& tape) {
   run.problem.system.visit_memory(tape);
   run.problem.solver.visit_memory(tape);
   run.ledger.visit_memory(tape);
+  run.sanity.visit_memory(tape);
   tape(run.kinetic_energy);
   tape(run.n_outputs);
   tape(run.touches);
@@ -91,11 +92,15 @@ void visit_state(Run& run, TS ts, Tape& tape) {
   if (tape.plays()) run.summary.wall_time = wall_time;
 }
 
-void keep_state(Run& run, TS ts) {
-  if (!run.checkpoints.keep) return;
+std::vector<double> state_now(Run& run, TS ts) {
   Tape tape;
   visit_state(run, ts, tape);
-  run.checkpoints.keep(tape.numbers());
+  return tape.numbers();
+}
+
+void keep_state(Run& run, TS ts) {
+  if (!run.checkpoints.keep) return;
+  run.checkpoints.keep(state_now(run, ts));
   run.kept = Clock::now();
 }
 

@@ -193,6 +193,7 @@ Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
   const auto at_once = static_cast<std::ptrdiff_t>(diagonal_ ? missing.size() : kNodesAtOnce);
   for (auto part = missing.begin(); part != missing.end();) {
     const auto end = part + std::min(at_once, missing.end() - part);
+    if (pulse_) pulse_();
     add_to_compliance({part, end});
     part = end;
   }

@@ -151,6 +151,10 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
   return x;
 }
 
+void LowRankSolver::on_solve(const std::function<void()>& pulse) {
+  for (ElasticBlock& block : block_) block.on_solve(pulse);
+}
+
 void LowRankSolver::visit_memory(Tape& tape) {
   for (ElasticBlock& block : block_) block.visit_memory(tape);
 }

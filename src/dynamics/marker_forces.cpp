@@ -5,6 +5,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "low_rank_columns.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -37,23 +38,6 @@ Wrench wrench_of(const LoadSetup& load, double time, const MarkerMotion& marker)
   Wrench wrench;
   wrench << R * load.force, R * load.torque;
   return at(load.signal, time) * wrench;
-}
-
-void add_columns(Index n, MatrixXd& A) {
-  A.conservativeResize(Eigen::NoChange, A.cols() + n);
-  A.rightCols(n).setZero();
-}
-
-void add_block(Index row, Index column, const MatrixXd& block, Eigen::SparseMatrix<double>& A) {
-  for (Index j = 0; j < block.cols(); ++j)
-    for (Index i = 0; i < block.rows(); ++i)
-      if (block(i, j) != 0) A.coeffRef(row + i, column + j) += block(i, j);
-}
-
-// L, and L_V and L_x where contact has its own.
-std::vector<Eigen::SparseMatrix<double>*> elastic_rows(BodyTerms& terms) {
-  if (terms.L_V.rows() == 0) return {&terms.L};
-  return {&terms.L, &terms.L_V, &terms.L_x};
 }
 
 }  // namespace
@@ -263,13 +247,7 @@ void MarkerForces::add_place(const Place& place, const MovingBody& body, const T
 
 void MarkerForces::add_tangent(double time, const std::vector<MovingBody>& bodies, const body::Shifts& shift,
                                EffectiveMatrix& A) const {
-  const Index first = A.k.rows(), r = first + n_columns_;
-  A.k.conservativeResize(r, r);
-  for (BodyTerms& terms : A.body) {
-    add_columns(n_columns_, terms.W_s);
-    add_columns(n_columns_, terms.V_s);
-    for (auto* L : elastic_rows(terms)) L->conservativeResize(L->rows(), r);
-  }
+  const Index first = add_columns(n_columns_, A);
   const std::vector<MarkerMotion> motion = motions(bodies);
   const std::vector<Wrench> loads = load_wrenches(time, motion), bushings = bushing_wrenches(motion);
   const MatrixXd K = stiffness(time, motion);

@@ -11,9 +11,17 @@ namespace {
 
 constexpr double kSameTime = 1e-9;  // of a step: roundoff in times
 
+// What is not sane is not entered: the last state stays the one before.
 void enter(Run& run, const State& x) {
-  run.last = snapshot(run.problem.system, x);
-  run.ledger.enter(run.problem.system, run.last);
+  model::Snapshot now = snapshot(run.problem.system, x);
+  run.ledger.enter(run.problem.system, now);
+  try {
+    run.sanity.require_small(now);
+    if (!run.settings.settle) run.sanity.require_balance(now.energy);
+  } catch (const Error& error) {
+    throw Insane(error.what());
+  }
+  run.last = std::move(now);
   run.last_observed = false;
   update(run.summary, run.last);
 }
@@ -111,7 +119,8 @@ void enter_step(Run& run, TS ts, int step, double time) {
 }
 
 void report_step(const Run& run, TS ts, int step) {
-  StepInfo info{.step = step, .time = run.last.time, .balance = run.last.energy.balance};
+  StepInfo info{
+      .step = step, .time = run.last.time, .unbalanced = run.unbalanced, .balance = run.last.energy.balance};
   PetscInt newton = 0;
   check(TSGetTimeStep(ts, &info.dt));
   check(TSGetSNESIterations(ts, &newton));

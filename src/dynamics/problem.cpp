@@ -29,6 +29,7 @@ void set_inadmissible(TS ts) {
 PetscErrorCode function(TS ts, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* ctx) {
   auto& problem = *static_cast<Problem*>(ctx);
   return guard(problem.pending, [&] {
+    problem.pulse();
     const ReadView u(U), v(V), a(A);
     problem.trouble = (*v).allFinite() && (*a).allFinite() ? "" : kNotFinite;
     if (!problem.trouble.empty() || !is_admissible(problem, t, *u, *v)) return set_inadmissible(ts);
@@ -43,6 +44,7 @@ PetscErrorCode jacobian(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v,
                         Mat P, void* ctx) {
   auto& problem = *static_cast<Problem*>(ctx);
   return guard(problem.pending, [&] {
+    problem.pulse();
     const ReadView u(U), v(V), a(A);
     problem.solver.set(problem.system.effective_matrix({t, *u, *v, *a}, {shift_v, shift_a}));
     assemble(J, P);
@@ -51,12 +53,18 @@ PetscErrorCode jacobian(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v,
 
 PetscErrorCode multiply(Mat A, Vec x, Vec y) {
   Problem& problem = context(A, MatShellGetContext);
-  return guard(problem.pending, [&] { assign(y, problem.solver.multiply(*ReadView(x))); });
+  return guard(problem.pending, [&] {
+    problem.pulse();
+    assign(y, problem.solver.multiply(*ReadView(x)));
+  });
 }
 
 PetscErrorCode solve(PC pc, Vec y, Vec x) {
   Problem& problem = context(pc, PCShellGetContext);
-  return guard(problem.pending, [&] { assign(x, problem.solver.solve(*ReadView(y))); });
+  return guard(problem.pending, [&] {
+    problem.pulse();
+    assign(x, problem.solver.solve(*ReadView(y)));
+  });
 }
 
 // SNES's own test would weigh angles against modal amplitudes; this one looks at every block for itself.

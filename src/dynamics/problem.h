@@ -1,6 +1,8 @@
 #pragma once
 // A System as a PETSc problem: the callbacks of TS, SNES, the shell matrix and its exact preconditioner.
 
+#include <functional>
+
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/system.h"
 
@@ -12,10 +14,14 @@ struct Problem {
 
   System& system;
   LowRankSolver solver;
-  Residual residual;           ///< of the last evaluation
-  std::string trouble;         ///< why a state was last called inadmissible; empty: it was not
-  std::exception_ptr pending;  ///< what a callback threw
+  Residual residual;                    ///< of the last evaluation
+  std::string trouble;                  ///< why a state was last called inadmissible; empty: it was not
+  std::exception_ptr pending;           ///< what a callback threw
+  std::function<void()> pulse = [] {};  ///< called at every evaluation, product and solve; may throw
 };
+
+/// What a pulse throws to give up what is being solved: no error.
+struct Interrupted {};
 
 /// Sets F, its Jacobian, the convergence test and the solvers of a TS whose type is known. `J` is created.
 void attach(Problem& problem, TS ts, UniqueMat& J);

@@ -6,6 +6,7 @@
 #include "elastogear/dynamics/simulate.h"
 #include "elastogear/dynamics/snapshot.h"
 #include "problem.h"
+#include "sanity.h"
 
 namespace elastogear::dynamics {
 
@@ -17,7 +18,7 @@ inline double seconds_since(Clock::time_point start) {
 
 struct Run {
   Run(System& system, const TimeSettings& s, const Observer& o, const Progress& p, const Checkpoints& c)
-      : problem(system), settings(s), observer(o), progress(p), checkpoints(c) {}
+      : problem(system), settings(s), observer(o), progress(p), checkpoints(c), sanity(system) {}
 
   Problem problem;
   const TimeSettings& settings;
@@ -25,16 +26,20 @@ struct Run {
   const Progress& progress;
   const Checkpoints& checkpoints;
   EnergyLedger ledger;
+  Sanity sanity;
   model::Snapshot last;
-  bool last_observed = true;  // nothing to observe yet
-  double nominal_dt = 0;      // s, at the start
-  RunSummary summary;         // its counts: of the time before this run was continued
-  int n_outputs = 1;          // of those output_dt apart; the first is the start
-  bool step_is_due = false;   // an output falls on the end of the last step
-  bool touches = false;       // some bodies touch at the end of the last step
-  double kinetic_energy = 0;  // J, after the last step of a settling run
-  int entered_step = -1;      // the last one in ledger and summary
-  Clock::time_point start = Clock::now(), kept = start;
+  bool last_observed = true;                     // nothing to observe yet
+  double nominal_dt = 0;                         // s, at the start
+  RunSummary summary;                            // its counts: of the time before this run was continued
+  int n_outputs = 1;                             // of those output_dt apart; the first is the start
+  bool step_is_due = false;                      // an output falls on the end of the last step
+  bool touches = false;                          // some bodies touch at the end of the last step
+  double kinetic_energy = 0;                     // J, after the last step of a settling run
+  double unbalanced = -1, least_unbalanced = 1;  // shares of its forces without velocities: last and least
+  int entered_step = -1;                         // the last one in ledger and summary
+  bool interrupted = false;                      // a step was given up because the run was asked to stop
+  std::vector<double> step_state = {};  // a checkpoint of the last step, where the steps take long; or empty
+  Clock::time_point start = Clock::now(), kept = start, step_start = start;
 };
 
 /// Throws Error when surfaces of a pair lie inside each other at the start.
@@ -64,6 +69,7 @@ void settle(Run& run, TS ts);
 /// Everything on which the rest of the run depends, between two steps. Played back into a TS that is set up.
 void visit_state(Run& run, TS ts, Tape& tape);
 
+std::vector<double> state_now(Run& run, TS ts);
 /// Hands the present state to the keeper of checkpoints, if there is one.
 void keep_state(Run& run, TS ts);
 

@@ -23,8 +23,9 @@ void settle(Run& run, TS ts) {
   check(TSGetTime(ts, &time));
   const Eigen::VectorXd u = *ReadView(U), v = *ReadView(V), zero = Eigen::VectorXd::Zero(u.size());
   const double energy = kinetic_energy(run.problem.system, {time, u, v, zero});
-  const bool rests =
-      imbalance(run.problem.system.residual({time, u, zero, zero})) <= run.settings.rest_tolerance;
+  run.unbalanced = imbalance(run.problem.system.residual({time, u, zero, zero}));
+  run.least_unbalanced = std::min(run.least_unbalanced, run.unbalanced);
+  const bool rests = run.unbalanced <= run.settings.rest_tolerance;
   const bool past_peak = energy < run.kinetic_energy;
   run.kinetic_energy = past_peak ? 0 : energy;
   if (rests || past_peak) check(VecZeroEntries(V));  // A follows from F = 0

@@ -1,6 +1,7 @@
 #include "elastogear/dynamics/simulate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "elastogear/base/error.h"
@@ -43,6 +44,8 @@ void validate(const TimeSettings& settings) {
 void validate(const Checkpoints& checkpoints) {
   require(checkpoints.every >= 0, "time between two checkpoints ", checkpoints.every,
           " s must not be negative");
+  require(checkpoints.patience >= 0, "time that a step may still take ", checkpoints.patience,
+          " s must not be negative");
 }
 
 void require_tables_cover(const System& system, double end_time) {
@@ -51,15 +54,44 @@ void require_tables_cover(const System& system, double end_time) {
   system.marker_forces().require_tables_cover(end_time);
 }
 
+// What a step that is given up later began with; only where steps take so long that they may be.
+void remember_step(Run& run, TS ts) {
+  const bool first = run.step_start == run.start;
+  const bool takes_long = first || seconds_since(run.step_start) >= run.checkpoints.patience;
+  run.step_state.clear();
+  if (run.checkpoints.keep && run.checkpoints.stop && takes_long) run.step_state = state_now(run, ts);
+  run.step_start = Clock::now();
+}
+
+bool is_out_of_steps(TS ts) {
+  PetscReal time = 0, end = 0;
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  check(TSGetConvergedReason(ts, &reason));
+  check(TSGetTime(ts, &time));
+  check(TSGetMaxTime(ts, &end));
+  return reason == TS_CONVERGED_ITS && time < end;
+}
+
+// How far a settling run has come, by the orders of magnitude that the unbalanced forces have fallen.
+double settled_share(const Run& run) {
+  const double wanted = std::log(std::min(0.1, run.settings.rest_tolerance));
+  return std::clamp(std::log(run.least_unbalanced) / wanted, 0.0, 0.99);
+}
+
 // After everything else that happens between two steps.
 void keep_if_due(Run& run, TS ts, PetscReal time) {
   PetscReal end = 0;
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   check(TSGetMaxTime(ts, &end));
   check(TSGetConvergedReason(ts, &reason));
-  const bool stopped = reason == TS_CONVERGED_USER, goes_on = reason == TS_CONVERGED_ITERATING && time < end;
-  report(run.progress, "simulate", goes_on || stopped ? time / end : 1);
+  const bool stopped = reason == TS_CONVERGED_USER || is_out_of_steps(ts),
+             goes_on = reason == TS_CONVERGED_ITERATING && time < end;
+  if (run.settings.settle)
+    report(run.progress, "relax", goes_on || stopped ? settled_share(run) : 1);
+  else
+    report(run.progress, "simulate", goes_on || stopped ? time / end : 1);
   if (stopped || (goes_on && seconds_since(run.kept) >= run.checkpoints.every)) keep_state(run, ts);
+  if (goes_on) remember_step(run, ts);
 }
 
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
@@ -180,19 +212,26 @@ void require_solved(const Run& run, TS ts) {
           run.summary.pair.empty() ? "" : ", a softer contact or a larger contact depth");
 }
 
-void solve(Run& run, TS ts, Vec U) {
+// False: given up within a step.
+bool solve(Run& run, TS ts, Vec U) {
   try {
     check(TSSolve(ts, U), run.problem.pending);
     require_solved(run, ts);
-  } catch (const Error&) {
-    if (run.ledger.has_entries()) keep_state(run, ts);
+  } catch (const Interrupted&) {
+  } catch (const Insane&) {
     if (!run.last_observed) observe(run);
     throw;
+  } catch (const Error&) {
+    if (!run.interrupted && run.ledger.has_entries()) keep_state(run, ts);
+    if (!run.interrupted && !run.last_observed) observe(run);
+    if (!run.interrupted) throw;
   }
+  if (run.interrupted && !run.step_state.empty()) run.checkpoints.keep(run.step_state);
   if (!run.last_observed) observe(run);
+  return !run.interrupted;
 }
 
-void finish(Run& run, TS ts) {
+void finish(Run& run, TS ts, bool ended) {
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   PetscInt steps = 0, rejected = 0, newton = 0;
   check(TSGetConvergedReason(ts, &reason));
@@ -200,11 +239,23 @@ void finish(Run& run, TS ts) {
   check(TSGetStepNumber(ts, &steps));
   check(TSGetStepRejections(ts, &rejected));
   check(TSGetSNESIterations(ts, &newton));
-  run.summary.complete = reason != TS_CONVERGED_USER;
+  run.summary.out_of_steps = ended && is_out_of_steps(ts);
+  run.summary.complete = ended && reason != TS_CONVERGED_USER && !run.summary.out_of_steps;
   run.summary.steps = steps;
   run.summary.rejected_steps += rejected;
   run.summary.newton_iterations += newton;
   run.summary.wall_time += seconds_since(run.start);
+}
+
+// A step that takes long is given up when the run is asked to stop.
+void let_stop(Run& run) {
+  if (!run.checkpoints.stop) return;
+  run.problem.pulse = [&run] {
+    if (!run.checkpoints.stop() || seconds_since(run.step_start) < run.checkpoints.patience) return;
+    run.interrupted = true;
+    throw Interrupted();
+  };
+  run.problem.solver.on_solve(run.problem.pulse);
 }
 
 void go_on_from(Run& run, TS ts, const std::vector<double>& state) {
@@ -256,8 +307,9 @@ RunSummary simulate(System& system, const TimeSettings& settings, const Observer
     system.accept({0, system.initial_position(), system.initial_velocity(), system.initial_velocity()});
   else
     go_on_from(run, ts, checkpoints.state);
-  solve(run, ts, motion.U);
-  finish(run, ts);
+  let_stop(run);
+  const bool ended = solve(run, ts, motion.U);
+  finish(run, ts, ended);
   return run.summary;
 }
 

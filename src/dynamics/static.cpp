@@ -5,6 +5,7 @@
 
 #include "elastogear/base/error.h"
 #include "run.h"
+#include "sanity.h"
 #include "vec_view.h"
 
 namespace elastogear::dynamics {
@@ -35,6 +36,7 @@ struct Equilibrium {
 PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
   auto& at = *static_cast<Equilibrium*>(ctx);
   return guard(at.problem.pending, [&] {
+    at.problem.pulse();
     const ReadView u(U);
     if (!is_admissible(at.problem, at.factor, *u, Eigen::VectorXd::Zero((*u).size())))
       return check(SNESSetFunctionDomainError(snes));
@@ -46,6 +48,7 @@ PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
 PetscErrorCode jacobian(SNES, Vec U, Mat J, Mat P, void* ctx) {
   auto& at = *static_cast<Equilibrium*>(ctx);
   return guard(at.problem.pending, [&] {
+    at.problem.pulse();
     const ReadView u(U);
     const double sigma = kResistance * imbalance(at.problem.residual);
     EffectiveMatrix A = at.problem.system.effective_matrix(at.state(*u), {0, 0});
@@ -190,6 +193,38 @@ bool advance(Equilibrium& at, SNES snes, Path& path, RunSummary& summary) {
   return true;
 }
 
+void let_stop(Equilibrium& at, const std::function<bool()>& stop) {
+  if (!stop) return;
+  at.problem.pulse = [stop] {
+    if (stop()) throw Interrupted();
+  };
+  at.problem.solver.on_solve(at.problem.pulse);
+}
+
+// Equilibria up to load factor 1; false: stopped before.
+bool follow(Equilibrium& at, Path& path, RunSummary& summary, const Observer& observer,
+            const Progress& progress) {
+  EnergyLedger ledger;
+  const Sanity sanity(at.problem.system);
+  UniqueMat J;
+  const UniqueSNES snes = make_snes(at, J);
+  while (path.reached < 1) {
+    try {
+      if (!advance(at, snes, path, summary)) continue;
+    } catch (const Interrupted&) {
+      return false;
+    }
+    at.problem.system.accept(at.state(path.good));
+    model::Snapshot found = snapshot(at.problem.system, at.state(path.good));
+    sanity.require_small(found);
+    ledger.enter(at.problem.system, found);
+    update(summary, found);
+    if (observer) observer(found);
+    report(progress, "static", path.reached);
+  }
+  return true;
+}
+
 Signal scaled(const Signal& load, double time) {
   return load.value.empty() ? load : ramp_signal(at(load, time), 1);
 }
@@ -217,31 +252,20 @@ void scale_by_load_factor(MarkerSetups& markers, double time) {
 void scale_by_load_factor(Environment& environment) { environment.gravity_rise = 1; }
 
 RunSummary solve_static(System& system, const StaticSettings& settings, const Observer& observer,
-                        const Progress& progress) {
+                        const Progress& progress, const std::function<bool()>& stop) {
   require(settings.steps >= 1, "load steps ", settings.steps, " must be at least 1");
   require_bodies_apart(system);
   const auto start = Clock::now();
   Equilibrium at(system);
   at.zero = Eigen::VectorXd::Zero(system.size());
+  let_stop(at, stop);
   RunSummary summary = new_summary(system);
   Path path{.U = vector(system.initial_position()),
             .good = system.initial_position(),
             .first_step = 1.0 / settings.steps,
             .step = 1.0 / settings.steps};
-  EnergyLedger ledger;
-  UniqueMat J;
-  const UniqueSNES snes = make_snes(at, J);
-  while (path.reached < 1) {
-    if (!advance(at, snes, path, summary)) continue;
-    system.accept(at.state(path.good));
-    model::Snapshot found = snapshot(system, at.state(path.good));
-    ledger.enter(system, found);
-    update(summary, found);
-    if (observer) observer(found);
-    report(progress, "static", path.reached);
-  }
-  summary.complete = true;
-  summary.time = 1;
+  summary.complete = follow(at, path, summary, observer, progress);
+  summary.time = std::max(0.0, path.reached);
   summary.wall_time = seconds_since(start);
   return summary;
 }

@@ -5,6 +5,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/body/tangent.h"
+#include "low_rank_columns.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -258,7 +259,10 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
   }
   set_contact_columns(twists, contact.pair, contact.surface, matrix);
   if (!marker_forces_.empty()) marker_forces_.add_tangent(x.time, moving_bodies(x), shift, matrix);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) keep_open(matrix.body[b], bodies_[b].open);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    add_border_stiffness(body::stiffness_in_border(bodies_[b].eq, matrix.body[b].Gamma), b, matrix);
+    keep_open(matrix.body[b], bodies_[b].open);
+  }
   return matrix;
 }
 

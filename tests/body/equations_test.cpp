@@ -64,7 +64,7 @@ auto difference(const F& f, double h) {
 }
 
 struct EquationsOfMotion : testing::TestWithParam<Case> {};
-// Levels linear and full, whose equations are those of a kinetic energy.
+// All levels but constant, whose equations are those of a kinetic energy.
 struct DeformableInertia : testing::TestWithParam<Case> {};
 
 }  // namespace
@@ -154,6 +154,8 @@ TEST_P(EquationsOfMotion, tangent_is_the_derivative_of_the_forces) {
       J.col(eq.n_s() + k).tail(eq.n_q()) =
           body::contract(eq.body->inertia, t.Gamma, VectorXd::Unit(eq.n_q(), k));
   }
+  const Eigen::MatrixXd Z = stiffness_in_border(eq, t.Gamma);
+  if (Z.size() > 0) J.bottomRightCorner(eq.n_q(), eq.n_q()) += U * Z * U.transpose();
   for (Eigen::Index j = 0; j < J.cols(); ++j)
     D.col(j) = difference(
         [&](double h) {
@@ -176,7 +178,7 @@ std::vector<Case> cases(const std::vector<InertiaLevel>& levels) {
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-  const char* const levels[] = {"_constant", "_linear", "_full"};
+  const char* const levels[] = {"_constant", "_linear", "_affine", "_full"};
   return body::joint_names()[static_cast<std::size_t>(info.param.type)] +
          levels[static_cast<int>(info.param.level)];
 }
@@ -185,8 +187,8 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
 
 using enum InertiaLevel;
 INSTANTIATE_TEST_SUITE_P(JointsAndLevels, EquationsOfMotion,
-                         testing::ValuesIn(cases({constant, linear, full})), case_name);
-INSTANTIATE_TEST_SUITE_P(JointsAndLevels, DeformableInertia, testing::ValuesIn(cases({linear, full})),
+                         testing::ValuesIn(cases({constant, linear, affine, full})), case_name);
+INSTANTIATE_TEST_SUITE_P(JointsAndLevels, DeformableInertia, testing::ValuesIn(cases({linear, affine, full})),
                          case_name);
 
 TEST(Equations, a_fixed_body_has_elastic_inertia_only) {

@@ -119,12 +119,46 @@ TEST(Checkpoint, stop_ends_the_run_with_a_state_to_go_on_from) {
   Checkpoints checkpoints{.every = 1e9};
   checkpoints.keep = [&](const auto& s) { state = s; };
   checkpoints.stop = [&] { return rows.size() == 30; };
+  checkpoints.patience = 1e9;
   const RunSummary summary = simulate(first, kSettings, into(rows), {}, checkpoints);
   EXPECT_FALSE(summary.complete);
   EXPECT_EQ(rows.size(), 31u);  // the step after which it was asked
   ASSERT_FALSE(state.empty());
   EXPECT_TRUE(simulate(second, kSettings, into(rows), {}, {.state = state}).complete);
   EXPECT_EQ(rows, record(impact(model::Basis::modal)).rows);
+}
+
+namespace {
+
+// Asked to stop at its n-th question, in a step or between two, a run ends there and loses nothing.
+void expect_given_up_steps_lose_nothing(model::Basis basis, const std::vector<int>& questions) {
+  const Rows whole = record(impact(basis)).rows;
+  int resumed = 0;
+  for (int n : questions) {
+    System first = impact(basis), second = impact(basis);
+    Rows rows;
+    std::vector<double> state;
+    int asked = 0;
+    Checkpoints checkpoints{.every = 1e9, .patience = 0};
+    checkpoints.keep = [&](const auto& s) { state = s; };
+    checkpoints.stop = [&] { return ++asked >= n; };
+    const RunSummary run = simulate(first, kSettings, into(rows), {}, checkpoints);
+    EXPECT_FALSE(run.complete);
+    EXPECT_EQ(asked, n) << "evaluated further";
+    if (state.empty()) continue;  // before the first state was known
+    EXPECT_TRUE(simulate(second, kSettings, into(rows), {}, {.state = state}).complete);
+    EXPECT_EQ(rows, whole) << n;
+    ++resumed;
+  }
+  EXPECT_GE(resumed, static_cast<int>(questions.size()) - 2);
+}
+
+}  // namespace
+
+TEST(Checkpoint, a_step_given_up_is_done_again_to_the_bit) {
+  expect_given_up_steps_lose_nothing(model::Basis::modal,
+                                     {1, 2, 6, 20, 21, 22, 23, 24, 25, 26, 27, 28, 300, 555});
+  expect_given_up_steps_lose_nothing(model::Basis::full, {3, 30, 31, 32, 33, 34, 400, 401});
 }
 
 TEST(Checkpoint, of_another_system_is_refused) {

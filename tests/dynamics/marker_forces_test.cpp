@@ -153,6 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Joints, Tangent,
                                          Options{.a = JointType::cylindrical, .b = JointType::free},
                                          Options{.basis = model::Basis::full},
                                          Options{.level = body::InertiaLevel::constant},
+                                         Options{.level = body::InertiaLevel::affine},
                                          Options{.level = body::InertiaLevel::full}));
 
 TEST(Bushing, is_unloaded_at_the_start_wherever_its_markers_are) {

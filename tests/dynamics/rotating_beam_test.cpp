@@ -10,6 +10,7 @@
 #include <map>
 
 #include "../fem/other_cells.h"
+#include "../message_of.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/simulate.h"
 #include "elastogear/io/body_file.h"
@@ -162,8 +163,10 @@ std::vector<double> expected_spin_up(const ModalMatrix& stiffness, double dt, do
 
 struct TipHistory {
   std::vector<double> lag, extension;  // m, across and along the beam
+  std::string end = {};                // what the run said that was given up
 };
 
+// Until the end, or until the beam is bent so far that the run is given up.
 TipHistory spin_up(const std::shared_ptr<const model::ElasticBody>& beam, InertiaLevel level, double dt,
                    double end) {
   System system({{.name = "beam",
@@ -172,10 +175,12 @@ TipHistory spin_up(const std::shared_ptr<const model::ElasticBody>& beam, Inerti
                   .rotation = {.drive = spin_up_drive(0, kSpeed, kRamp)}}},
                 {}, {.inertia = level});
   TipHistory history;
-  simulate(system, {.dt = dt, .end_time = end}, [&](const model::Snapshot& x) {
-    const Eigen::Vector3d u = tip(*beam, x.bodies[0].q);
-    history.lag.push_back(u.y());
-    history.extension.push_back(u.x());
+  history.end = test::message_of([&] {
+    simulate(system, {.dt = dt, .end_time = end}, [&](const model::Snapshot& x) {
+      const Eigen::Vector3d u = tip(*beam, x.bodies[0].q);
+      history.lag.push_back(u.y());
+      history.extension.push_back(u.x());
+    });
   });
   return history;
 }
@@ -284,7 +289,8 @@ TEST_F(SpinUp, bends_and_stretches_as_beam_theory_says_at_level_linear) {
             << " m\n";
 }
 
-// Without the stiffening by the pull along the beam what remains of the second order destabilises it.
+// Without the stiffening by the pull along the beam what remains of the second order destabilises it, until
+// the run is given up.
 TEST_F(SpinUp, diverges_beyond_its_first_frequency_at_level_full) {
   const Theory t = theory(kSpinUp);
   const TipHistory history = spin_up(beam_, InertiaLevel::full, kDt, 12);
@@ -295,10 +301,17 @@ TEST_F(SpinUp, diverges_beyond_its_first_frequency_at_level_full) {
   };
   EXPECT_LT(largest_difference(until(8, history.lag), until(8, expected)),
             0.01 * largest(until(8, expected)));
-  EXPECT_GT(largest(history.lag), 10 * largest(until(8, history.lag)));
-  EXPECT_NEAR(history.lag.back() / expected.back(), 1, 0.05);
-  std::cout << "first frequency " << t.omega[0] << " rad/s; lag at 8 s " << history.lag[800] << " m, at 12 s "
-            << history.lag.back() << " m\n";
+  EXPECT_NE(history.end.find("elastic rotation or strain"), std::string::npos) << history.end;
+  EXPECT_GT(largest(history.lag), 1.5 * largest(until(8, history.lag)));
+  EXPECT_NEAR(history.lag.back() / expected[history.lag.size() - 1], 1, 0.05);
+  std::cout << "first frequency " << t.omega[0] << " rad/s; lag at 8 s " << history.lag[800] << " m, at "
+            << kDt * static_cast<double>(history.lag.size() - 1) << " s " << history.lag.back() << " m\n";
+}
+
+TEST_F(SpinUp, of_the_affine_part_goes_with_level_full) {
+  const TipHistory affine = spin_up(beam_, InertiaLevel::affine, kDt, 6),
+                   full = spin_up(beam_, InertiaLevel::full, kDt, 6);
+  EXPECT_LT(largest_difference(affine.lag, full.lag), 0.02 * largest(full.lag));
 }
 
 // J. R. Wright, C. E. Smith, R. W. Thresher, J. L. C. Wang, J. Appl. Mech. 49 (1982) 197-202: first frequency

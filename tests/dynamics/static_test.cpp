@@ -72,6 +72,20 @@ TEST(Static, pressed_blocks_move_by_the_compliances_in_series) {
   EXPECT_EQ(found.back().bodies[0].s_dot[0], 0);
 }
 
+TEST(Static, asked_to_stop_ends_with_the_last_equilibrium) {
+  std::vector<model::Snapshot> found;
+  int asked = 0;
+  System system = scaled(press(0.2, 20), {contact_with(4e4)});
+  const RunSummary run = solve_static(
+      system, {4}, [&](const model::Snapshot& snapshot) { found.push_back(snapshot); }, {},
+      [&] { return ++asked >= 40; });
+  EXPECT_EQ(asked, 40);
+  EXPECT_FALSE(run.complete);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(run.time, found.back().time);
+  EXPECT_LT(run.time, 1);
+}
+
 // Multigrid answers a block of 343 nodes that is pressed obliquely only nearly; GMRES makes that exact.
 TEST(Static, multigrid_finds_the_equilibrium_of_the_factor) {
   test::BoxSpec spec{.cells = {6, 6, 6}, .material = {1e4, 0.3, 1}};

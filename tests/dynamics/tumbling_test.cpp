@@ -293,5 +293,7 @@ TEST_P(LongFlight, of_a_vibrating_box_bounds_energy_and_angular_momentum) {
   EXPECT_LT(energy_error[1], 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Levels, FlyingBox, testing::Values(InertiaLevel::linear, InertiaLevel::full));
-INSTANTIATE_TEST_SUITE_P(Levels, LongFlight, testing::Values(InertiaLevel::linear, InertiaLevel::full));
+INSTANTIATE_TEST_SUITE_P(Levels, FlyingBox,
+                         testing::Values(InertiaLevel::linear, InertiaLevel::affine, InertiaLevel::full));
+INSTANTIATE_TEST_SUITE_P(Levels, LongFlight,
+                         testing::Values(InertiaLevel::linear, InertiaLevel::affine, InertiaLevel::full));

@@ -10,27 +10,40 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "elastogear/body/affine.h"
 #include "elastogear/body/joint.h"
 #include "elastogear/model/elastic_body.h"
 
 namespace elastogear::body {
 
 /// What the inertia keeps of the deformation. constant: nothing. linear: S and J to first order in q, C_r at
-/// q = 0; the truncated kinetic energy is the Lagrangian of the equations, so that they conserve energy.
-/// full: everything; needs Inertia::S_2.
-enum class InertiaLevel { constant, linear, full };
+/// q = 0. affine: all that its best affine field u ~ g + G X does, which contains `linear`. full: everything;
+/// needs Inertia::S_2. But for `constant` the kinetic energy kept is the Lagrangian of the equations, so that
+/// they conserve energy; but for `linear` it is positive in every deformed state.
+enum class InertiaLevel { constant, linear, affine, full };
+/// "constant", "linear", ...; in the order of InertiaLevel.
+const std::vector<std::string>& inertia_level_names();
 
 struct Equations {
   std::shared_ptr<const model::ElasticBody> body;
   Joint joint;
   MotionSubspace H;
   InertiaLevel level;
-  Eigen::MatrixXd J_1;              ///< n_q x 6: dJ/dq at q = 0, xx yy zz xy yz xz; constant: n_q x 0
+  AffinePart affine;                ///< level affine only, else empty
+  Eigen::MatrixXd J_1;              ///< n_y x 6: dJ/dy at y = 0, xx yy zz xy yz xz; constant: n_y x 0
   Eigen::SparseMatrix<double> D_r;  ///< n_q x n_q, alpha M_r + beta K_r + diag(2 zeta omega)
 
   Eigen::Index n_s() const { return H.cols(); }
   Eigen::Index n_q() const { return body->n_q(); }
+  /// Does inertia keep products of deformations?
+  bool second_order() const { return level >= InertiaLevel::affine; }
+  /// By the coordinates y in which deformation enters it: q, or those of the affine part.
+  const model::Inertia& inertia() const {
+    return level == InertiaLevel::affine ? affine.inertia : body->inertia;
+  }
 };
 
 struct Motion {

@@ -15,11 +15,16 @@ Eigen::Matrix3d symmetric(const Vector6& j);
 /// Y(y) in symmetric(j) y = Y(y) j.
 Matrix36 factor(const Eigen::Vector3d& y);
 
-/// Second-order parts of C_r and dJ/dq, linear in x: C_r(q) = C_r + B(q), dJ/dq = J_1 + D(q). Both are
+/// The coordinates y of Equations::inertia(), of q, q' or q''.
+Eigen::VectorXd to_inertia(const Equations& eq, const Eigen::VectorXd& q);
+/// A force on them as one on q.
+Eigen::VectorXd from_inertia(const Equations& eq, const Eigen::VectorXd& h_y);
+
+/// Second-order parts of C_r and dJ/dy, linear in x: C_r(y) = C_r + B(y), dJ/dy = J_1 + D(y). Both are
 /// bilinear: B_a'= -B_a, D(x)'y = D(y)'x.
 struct SecondOrder {
-  Eigen::Matrix<double, Eigen::Dynamic, 3> B;  ///< n_q x 3
-  Eigen::Matrix<double, Eigen::Dynamic, 6> D;  ///< n_q x 6, xx yy zz xy yz xz
+  Eigen::Matrix<double, Eigen::Dynamic, 3> B;  ///< n_y x 3
+  Eigen::Matrix<double, Eigen::Dynamic, 6> D;  ///< n_y x 6, xx yy zz xy yz xz
 };
 SecondOrder second_order(const model::Inertia& inertia, const Eigen::VectorXd& x);
 
@@ -28,18 +33,19 @@ Eigen::VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& G
                          const Eigen::VectorXd& x);
 
 /// m c(q), kg m, about the BRF's origin.
-Eigen::Vector3d first_moment(const Equations& eq, const Eigen::VectorXd& q);
+Eigen::Vector3d first_moment(const Equations& eq, const Eigen::VectorXd& y);
 
 /// Inertia about the BRF's origin in the deformed state, and its rates.
 struct Shape {
+  Eigen::VectorXd y_dot;       ///< n_y
   Eigen::Vector3d S, S_dot;    ///< kg m, kg m/s
   Eigen::Matrix3d J, J_dot;    ///< kg m^2, kg m^2/s
-  Eigen::Vector3d spin;        ///< C_r(q)'q', kg m^2/s
-  SecondOrder at_q, at_q_dot;  ///< of q and q'; level full only, else empty
+  Eigen::Vector3d spin;        ///< C_r(y)'y', kg m^2/s
+  SecondOrder at_y, at_y_dot;  ///< of y and y'; levels affine and full, else empty
 };
 Shape shape(const Equations& eq, const Motion& m);
 
-/// C_r(q)'x
+/// C_r(y)'x
 Eigen::Vector3d project_C_r(const Equations& eq, const Shape& shape, const Eigen::VectorXd& x);
 
 }  // namespace elastogear::body

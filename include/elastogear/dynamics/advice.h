@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "elastogear/contact/deformation_bound.h"
+#include "elastogear/dynamics/deformation.h"
 #include "elastogear/dynamics/system.h"
 
 namespace elastogear::dynamics {
@@ -35,15 +35,12 @@ class ValidityGuard {
 
  private:
   struct Watch {
-    // 3 n_edges x n_q, of some faces all over the surface: change of an edge's vector over its length
-    std::unique_ptr<const model::BasisRows> gradient;
-    contact::DeformationBound bound;      // of these rows
+    DeformationWatch deformation;
     double lowest_mode = 0;               // rad/s; 0: none
     double radius = 0;                    // m, of the surface around the body frame's origin
     bool deformed = false, fast = false;  // said
   };
   using Warnings = std::vector<std::string>;
-  static double gradient(const Watch& watch, const Eigen::VectorXd& q);
   double surface_speed(std::size_t b, const model::BodyState& state) const;
   void watch_body(std::size_t b, const model::Snapshot& snapshot, Warnings& said);
   void watch_pair(std::size_t p, const model::Snapshot& snapshot, Warnings& said);

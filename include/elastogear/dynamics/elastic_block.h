@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -53,6 +54,8 @@ class ElasticBlock {
   /// D^-1 E c for nodes whose compliance was asked for; without a solution where its columns are kept.
   Eigen::VectorXd response(const std::vector<int>& node, const Eigen::VectorXd& c) const;
   const BorderColumns& columns() const { return columns_; }
+  /// To be called between two solves; what it throws leaves the block without kept columns.
+  void on_solve(std::function<void()> pulse) { pulse_ = std::move(pulse); }
   /// Shifts and the order in which nodes came, on which the roundoff of the kept columns depends.
   void visit_memory(Tape& tape);
 
@@ -68,6 +71,7 @@ class ElasticBlock {
   BorderColumns columns_;
   double shift_v_ = std::numeric_limits<double>::quiet_NaN(), shift_a_ = shift_v_;  // none yet
   bool diagonal_ = false, exact_ = true;
+  std::function<void()> pulse_;
   Eigen::VectorXd inverse_;  // of a diagonal D
   Eigen::SparseMatrix<double, Eigen::RowMajor> D_;
   UniqueMat D_mat_;  // borrows D_'s arrays

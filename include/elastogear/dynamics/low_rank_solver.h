@@ -58,6 +58,8 @@ class LowRankSolver {
   void set(EffectiveMatrix A);
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< A x
   Eigen::VectorXd solve(const Eigen::VectorXd& y) const;     ///< A^-1 y, without the parts of level full
+  /// To be called between two solves with the blocks D; it may throw.
+  void on_solve(const std::function<void()>& pulse);
   /// What set() takes from earlier calls.
   void visit_memory(Tape& tape);
 

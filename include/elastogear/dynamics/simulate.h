@@ -18,6 +18,7 @@ struct StepInfo {
   int newton_iterations = 0;  ///< so far
   int contacts = 0;
   double penetration = 0;  ///< m, largest
+  double unbalanced = -1;  ///< share of the forces, without velocities; of a settling run, else negative
   double balance = 0;      ///< J, of the energy ledger
 };
 
@@ -59,7 +60,8 @@ struct RunSummary {
   double work = 0;               ///< J, of the loads up to the last state
   double largest_imbalance = 0;  ///< J, largest |balance| of the energy ledger
   double wall_time = 0;          ///< s
-  bool complete = false;         ///< reached the end time; else stopped before
+  bool complete = false;         ///< reached the end time, or rest; else stopped before
+  bool out_of_steps = false;     ///< stopped by -ts_max_steps
   double time = 0;               ///< s, reached
   bool at_rest = false;          ///< of a settling run: came to rest before its end time
 };
@@ -71,8 +73,10 @@ struct Checkpoints {
   double every = 60;  ///< s of wall time between two; 0: after each step
   /// Takes a state from which the run can go on, also before an Error; empty: none are made.
   std::function<void(const std::vector<double>& state)> keep = {};
-  /// Asked after each step; true ends the run with a last checkpoint.
+  /// Asked after each step; true ends the run with a last checkpoint. Asked too at each evaluation, product
+  /// and solve within a step that has taken `patience` (s of wall time): true gives that step up.
   std::function<bool()> stop = {};
+  double patience = 1;
   /// Such a state of an equal system, to go on from instead of the initial one; empty: none.
   std::vector<double> state = {};
 };

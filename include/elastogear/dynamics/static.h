@@ -20,8 +20,9 @@ void scale_by_load_factor(Environment& environment);
 /// The equilibria at load factors 0 .. 1, of a system whose bodies and environment are scaled; observed with
 /// the factor as time. Velocities and accelerations are zero, damping and friction without effect; work and
 /// balance follow the load steps, and their error falls with the square of a step. Error, after the last
-/// equilibrium was observed, when none is found: it names the coordinates that nothing holds.
+/// equilibrium was observed, when none is found: it names the coordinates that nothing holds. `stop` is asked
+/// at each evaluation; true ends the analysis with the last equilibrium, not complete.
 RunSummary solve_static(System& system, const StaticSettings& settings, const Observer& observer,
-                        const Progress& progress = {});
+                        const Progress& progress = {}, const std::function<bool()>& stop = {});
 
 }  // namespace elastogear::dynamics

@@ -68,7 +68,7 @@ struct State {
 
 /// What acts on all bodies.
 struct Environment {
-  body::InertiaLevel inertia = body::InertiaLevel::linear;
+  body::InertiaLevel inertia = body::InertiaLevel::affine;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
   double gravity_rise = 0;  ///< s, from time 0 on, within which gravity grows from zero
 };
