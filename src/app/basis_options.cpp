@@ -9,14 +9,6 @@ enum Basis { modal, modal_residual, full, first_ritz };
 const std::vector<std::string> kBases = {"modal",  "modal_residual", "full", "modal_attachment",
                                          "krylov", "craig_bampton"};
 
-// A body without a contact surface has no contact to respond to.
-int chosen_basis(const Options& options) {
-  const int basis = options.choice("basis", kBases);
-  const bool free = options.list("restrain") == std::vector<std::string>{"none"};
-  return options.given("basis") || (!options.list("surface").empty() && !free) ? basis
-                                                                               : static_cast<int>(modal);
-}
-
 reduction::RitzOptions ritz_options(const Options& options, int basis) {
   reduction::RitzOptions ritz;
   ritz.kind = static_cast<reduction::RitzKind>(basis - first_ritz);
@@ -52,7 +44,7 @@ OptionTable basis_table() {
 }
 
 void set_basis(const Options& options, reduction::ReductionOptions& o) {
-  const int basis = chosen_basis(options);
+  const int basis = options.choice("basis", kBases);
   o.basis = basis == full ? model::Basis::full : model::Basis::modal;
   o.flexibility = basis == modal_residual;
   if (basis >= first_ritz) o.ritz = ritz_options(options, basis);

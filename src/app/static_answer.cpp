@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kLargestReference =
     500'000;  // displacements of a body that is factorised for an estimate
+constexpr const char* kPointMass = "option_point_mass_";  // beginning of keys in the provenance
 
 std::vector<recovery::PairContacts> contacts_of(const BodyOfRun& body) {
   const model::ResultHeader header = io::read_result_header(body.result);
@@ -31,10 +32,23 @@ std::vector<int> find_answers(const model::Flexibility& flexibility, const std::
   return position;
 }
 
+// Why no factor of the stiffness matrix can serve; empty: it can.
+std::string obstacle_to_factor(const model::ElasticBody& body) {
+  if (body.provenance.contains("option_stiffness"))
+    return "solves with the stiffness of the mesh, this body was reduced from matrices of another program "
+           "(-stiffness)";
+  const auto point_mass = body.provenance.lower_bound(kPointMass);
+  if (body.floating && point_mass != body.provenance.end() && point_mass->first.starts_with(kPointMass))
+    return "balances loads on a free body by the mass of its mesh, this one has point masses besides";
+  return "";
+}
+
 reduction::StaticResponse& response(StaticAnswer& answer) {
   if (answer.response) return *answer.response;
+  const std::string obstacle = obstacle_to_factor(answer.body);
+  require(obstacle.empty(), answer.file, ": mode acceleration ", obstacle, "; use -mode_acceleration false");
   answer.source = io::read_body_source(answer.file);
-  answer.response = std::make_unique<reduction::StaticResponse>(*answer.source);
+  answer.response = std::make_unique<reduction::StaticResponse>(*answer.source, answer.body.floating);
   return *answer.response;
 }
 
@@ -78,15 +92,6 @@ std::unique_ptr<StaticAnswer> make_answer(const BodyOfRun& body) {
 
 // Whether the body file holds the responses to all forces; without forces it holds none of them.
 bool is_stored(const StaticAnswer& answer) { return !answer.position.empty(); }
-
-// Why no factor of the stiffness matrix can serve; empty: it can.
-std::string obstacle_to_factor(const model::ElasticBody& body) {
-  if (body.floating) return "needs a held body, this one was reduced free (restrain: none)";
-  if (body.provenance.contains("option_stiffness"))
-    return "solves with the stiffness of the mesh, this body was reduced from matrices of another program "
-           "(-stiffness)";
-  return "";
-}
 
 }  // namespace
 

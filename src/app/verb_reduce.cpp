@@ -181,6 +181,14 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   return o;
 }
 
+// Without a contact surface nothing can be loaded.
+void drop_static_answers(reduction::ReductionOptions& o) {
+  if (!o.flexibility || !o.surface.empty() || !o.loaded.empty()) return;
+  o.flexibility = false;
+  print_item("basis",
+             "modal: without a contact surface (-surface) there are no static answers to forces on it");
+}
+
 struct Nodes {
   mesh::Mesh mesh;
   mesh::ReadReport report;
@@ -337,6 +345,7 @@ void run(const Options& options, const std::vector<std::string>&) {
   const OutputLock lock(output);
   const Nodes nodes = read_on_rank_0(options);
   if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
+  drop_static_answers(reduction);
   take_materials(options, nodes.report, reduction);
   take_restraint(options, nodes.report, reduction);
   print_restraint(nodes.mesh, reduction.restrain);

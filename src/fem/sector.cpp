@@ -36,6 +36,33 @@ Eigen::MatrixXcd directions_on_axis(const mesh::Turn& turn, int k) {
   return P;
 }
 
+// Positions of the first nodes of the orbits, from a point on the axis.
+Eigen::Matrix3Xd first_positions(const Sector& sector) {
+  const mesh::Turn& turn = sector.turn;
+  Eigen::Matrix3Xd x(3, sector.n_orbits());
+  for (std::size_t node = 0; node < sector.placement.orbit.size(); ++node) {
+    const int orbit = sector.placement.orbit[node];
+    if (orbit < 0) continue;
+    const double angle = 2 * std::numbers::pi / turn.n_sectors * sector.placement.turns[node];
+    x.col(orbit) = rotation_matrix(-angle * turn.axis) *
+                   (sector.mesh.X.col(static_cast<Eigen::Index>(node)) - turn.point);
+  }
+  return x;
+}
+
+// Real coordinates of amplitudes at the first nodes of all orbits.
+Eigen::VectorXd coordinates(const Harmonic& harmonic, const Sector& sector, const Eigen::Matrix3Xcd& z) {
+  Eigen::VectorXd all(harmonic.size());
+  for (int orbit = 0; orbit < sector.n_orbits(); ++orbit) {
+    const Eigen::MatrixXd& Q = harmonic.at(sector.on_axis[orbit], 0);  // orthonormal columns
+    Eigen::VectorXd parts(Q.rows());
+    parts.head<3>() = z.col(orbit).real();
+    if (!harmonic.real) parts.tail<3>() = z.col(orbit).imag();
+    all.segment(harmonic.first[orbit], Q.cols()) = Q.transpose() * parts;
+  }
+  return all;
+}
+
 }  // namespace
 
 Placement free_placement(const mesh::Repetition& repetition, const std::vector<bool>& is_free) {
@@ -130,6 +157,31 @@ Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
         scale * (Q.topRows<3>() * z.segment(first, count));
   }
   return u;
+}
+
+Eigen::MatrixXd rigid_fields(const Harmonic& harmonic, const Sector& sector) {
+  using Complex = std::complex<double>;
+  if (harmonic.k > 1) return Eigen::MatrixXd(harmonic.size(), 0);
+  const Eigen::Vector3d e = sector.turn.axis, e_1 = e.unitOrthogonal(), e_2 = e.cross(e_1);
+  std::vector<Eigen::Vector3cd> direction;  // a translation along it, and a rotation about it
+  if (harmonic.k == 0) {
+    direction = {e.cast<Complex>()};
+  } else if (harmonic.real) {
+    direction = {e_1.cast<Complex>(), e_2.cast<Complex>()};
+  } else {
+    const Eigen::Vector3cd d = e_1.cast<Complex>() + Complex(0, 1) * e_2.cast<Complex>();
+    direction = {d, Complex(0, 1) * d};
+  }
+  const Eigen::Matrix3Xcd x = first_positions(sector).cast<Complex>();
+  Eigen::MatrixXd fields(harmonic.size(), 2 * static_cast<Eigen::Index>(direction.size()));
+  Eigen::Index column = 0;
+  for (const Eigen::Vector3cd& d : direction) {
+    Eigen::Matrix3cd turn;  // conjugates nothing, as Eigen's cross product of complex vectors does
+    turn << 0, -d(2), d(1), d(2), 0, -d(0), -d(1), d(0), 0;
+    fields.col(column++) = coordinates(harmonic, sector, d.replicate(1, x.cols()));
+    fields.col(column++) = coordinates(harmonic, sector, turn * x);
+  }
+  return fields;
 }
 
 Eigen::MatrixXd times_i(const Harmonic& harmonic, int first_orbit,

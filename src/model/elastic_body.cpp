@@ -109,8 +109,7 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
   if (f.empty()) return;
   const auto n_c = static_cast<Eigen::Index>(f.node.size()), n_r = f.stress.node.size();
   const std::size_t n_e = body.stress.node.size();
-  require(body.basis == Basis::modal && !body.floating, source,
-          ": static answers belong to the modal basis of a held body");
+  require(body.basis == Basis::modal, source, ": static answers belong to a modal basis");
   require(std::is_sorted(f.node.begin(), f.node.end()) &&
               in_range(f.node, static_cast<int>(body.surface.node.size())),
           source, ": loaded nodes of the flexibility must ascend within the surface");

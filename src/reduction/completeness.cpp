@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elastogear/reduction/factorisation.h"
+#include "elastogear/reduction/inertia_relief.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -25,39 +26,7 @@ struct Column {
     check(VecRestoreArrayRead(vec, &values));
     return own;
   }
-  void set(const Eigen::VectorXd& own) const {
-    PetscScalar* values = nullptr;
-    check(VecGetArrayWrite(vec, &values));
-    std::copy(own.begin(), own.end(), values);
-    check(VecRestoreArrayWrite(vec, &values));
-  }
 };
-
-// v := v - M R R' v, which leaves rigid motions at rest.
-void balance(const ElasticSystem& system, Vec v) {
-  constexpr int kRigid = 6;
-  UniqueVec r, M_r;
-  check(VecDuplicate(v, r.out()));
-  check(VecDuplicate(v, M_r.out()));
-  for (int i = 0; i < kRigid; ++i) {
-    PetscScalar product = 0;
-    check(BVCopyVec(system.rigid->R, i, r));
-    check(VecDot(r, v, &product));
-    check(MatMult(system.M, r, M_r));
-    check(VecAXPY(v, -product, M_r));
-  }
-}
-
-Eigen::MatrixXd residuals(Mat K, const Eigen::MatrixXd& F, const Eigen::MatrixXd& U) {
-  const Column u(K), f(K);
-  Eigen::MatrixXd rest = F;
-  for (Eigen::Index j = 0; j < F.cols(); ++j) {
-    u.set(U.col(j));
-    check(MatMult(K, u.vec, f.vec));
-    rest.col(j) -= f.values();
-  }
-  return rest;
-}
 
 // F' U of each pair of columns, on all ranks.
 Eigen::VectorXd products(MPI_Comm comm, const Eigen::MatrixXd& F, const Eigen::MatrixXd& U) {
@@ -67,25 +36,15 @@ Eigen::VectorXd products(MPI_Comm comm, const Eigen::MatrixXd& F, const Eigen::M
   return sum;
 }
 
-// f' K^-1 f of each column. Of a free body K + s M is factorised and the solution improved until s no longer
-// matters: each step divides its influence by 1 + lambda/s, lambda the first elastic eigenvalue.
+// f' K^-1 f of each column. Loads of a free body are balanced: they do no work in rigid motions.
 Eigen::VectorXd exact_answers(const ElasticSystem& system, const Eigen::MatrixXd& F) {
-  constexpr int kMaxSteps = 200;
-  constexpr double kTolerance = 1e-10;
-  ShiftedFactor factor(system.K, system.M);
-  factor.factorise(system.rigid ? -system.rigid->shift : 0);
+  UniqueMat grounded;
+  if (system.rigid) grounded = InertiaRelief(system.M, *system.rigid).ground(system.K);
+  ShiftedFactor factor(system.rigid ? grounded.get() : system.K, system.M);
+  factor.factorise(0);
   Eigen::MatrixXd U = F;
   factor.solve(U);
-  Eigen::VectorXd answer = products(comm_of(system.K), F, U);
-  for (int step = 0; system.rigid && step < kMaxSteps; ++step) {
-    Eigen::MatrixXd change = residuals(system.K, F, U);
-    factor.solve(change);
-    U += change;
-    const Eigen::VectorXd more = products(comm_of(system.K), F, change);
-    answer += more;
-    if ((more.array().abs() <= kTolerance * answer.array().abs()).all()) break;
-  }
-  return answer;
+  return products(comm_of(system.K), F, U);
 }
 
 double modal_answer(const model::ElasticBody& body, const Eigen::VectorXd& f) {
@@ -108,9 +67,9 @@ Eigen::MatrixXd distribute(const ElasticSystem& system, const std::vector<Eigen:
   Eigen::MatrixXd F(v.n_own, n_loads);
   for (int j = 0; j < n_loads; ++j) {
     system.gather.scatter(loads.empty() ? Eigen::VectorXd() : loads[j], v.vec);
-    if (system.rigid) balance(system, v.vec);
     F.col(j) = v.values();
   }
+  if (system.rigid) InertiaRelief(system.M, *system.rigid).balance(F);
   return F;
 }
 

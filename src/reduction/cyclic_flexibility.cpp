@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "elastogear/base/agree.h"
 #include "elastogear/base/broadcast.h"
@@ -11,6 +12,7 @@
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/factorisation.h"
 #include "elastogear/reduction/flexibility.h"
+#include "elastogear/reduction/inertia_relief.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -134,18 +136,28 @@ void add_turned(const Eigen::Ref<const MatrixXd>& Y, const MatrixXd& turn, const
 // One harmonic's part of all answers.
 class HarmonicAnswers {
  public:
-  HarmonicAnswers(const fem::Harmonic& harmonic, const fem::Sector& sector, const Wanted& wanted)
-      : harmonic_(harmonic), axis_(sector.turn.axis), P_(rows_of(wanted, harmonic, sector)) {
+  // rigid: the rigid motions that the harmonic contains; of a held body none.
+  HarmonicAnswers(const fem::Harmonic& harmonic, const fem::Sector& sector, const Wanted& wanted,
+                  MatrixXd rigid)
+      : harmonic_(harmonic),
+        axis_(sector.turn.axis),
+        P_(rows_of(wanted, harmonic, sector)),
+        rigid_(std::move(rigid)) {
     n_u_ = static_cast<Eigen::Index>(3 * wanted.surface_orbit.size());
   }
 
   void add(const fem::Matrices& matrices, model::Flexibility& flexibility) const {
-    ShiftedFactor factor(matrices.K, matrices.M);
+    std::optional<InertiaRelief> relief;
+    UniqueMat grounded;
+    if (rigid_.cols() > 0) grounded = relief.emplace(matrices.M, rigid_).ground(matrices.K);
+    ShiftedFactor factor(relief ? grounded.get() : matrices.K.get(), matrices.M);
     factor.factorise(0);
     for (Eigen::Index first = 0; first < n_u_; first += kBlock) {
       const Eigen::Index n = std::min(kBlock, n_u_ - first);
       MatrixXd Z = MatrixXd(P_.middleRows(first, n)).transpose();
+      if (relief) relief->balance(Z);
       factor.solve(Z);
+      if (relief) relief->release(Z);
       enter(P_ * Z, harmonic_.real ? MatrixXd() : MatrixXd(P_ * fem::times_i(harmonic_, 0, Z)), first,
             flexibility);
     }
@@ -174,6 +186,7 @@ class HarmonicAnswers {
   const fem::Harmonic& harmonic_;
   Eigen::Vector3d axis_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> P_;
+  MatrixXd rigid_;
   Eigen::Index n_u_ = 0;
 };
 
@@ -195,7 +208,8 @@ void broadcast(MPI_Comm comm, model::Images& images, int n_sectors) {
 }  // namespace
 
 model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,
-                                           const fem::MeshedBody& body, const Progress& progress) {
+                                           const fem::MeshedBody& body, bool floating,
+                                           const Progress& progress) {
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
@@ -222,7 +236,8 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
       if (harmonic.size() == 0) continue;
       const fem::Matrices matrices =
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.element);
-      HarmonicAnswers(harmonic, sector, wanted).add(matrices, flexibility);
+      HarmonicAnswers(harmonic, sector, wanted, floating ? fem::rigid_fields(harmonic, sector) : MatrixXd())
+          .add(matrices, flexibility);
       report(progress, kStage, std::min(1.0, static_cast<double>(k + size) / n_harmonics));
     }
   });

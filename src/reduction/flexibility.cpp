@@ -9,6 +9,7 @@
 #include "elastogear/base/agree.h"
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/factorisation.h"
+#include "elastogear/reduction/inertia_relief.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -103,8 +104,12 @@ void enter(const FlexibilityTask& task, const Eigen::VectorXd& u, Eigen::Index j
 // Static solutions of the whole body.
 class Solver {
  public:
-  Solver(Mat K, Mat M, const fem::VectorGather& gather) : gather_(gather), factor_(K, M) {
-    check(MatCreateVecs(K, vec_.out(), nullptr));
+  explicit Solver(const ElasticSystem& system)
+      : gather_(system.gather),
+        relief_(system.rigid ? std::make_optional<InertiaRelief>(system.M, *system.rigid) : std::nullopt),
+        grounded_(relief_ ? relief_->ground(system.K) : UniqueMat()),
+        factor_(relief_ ? grounded_.get() : system.K, system.M) {
+    check(MatCreateVecs(system.K, vec_.out(), nullptr));
     check(VecGetLocalSize(vec_, &n_own_));
     factor_.factorise(0);
   }
@@ -123,7 +128,9 @@ class Solver {
       U.col(j) = Eigen::Map<const Eigen::VectorXd>(values, n_own_);
       check(VecRestoreArrayRead(vec_, &values));
     }
+    if (relief_) relief_->balance(U);
     factor_.solve(U);
+    if (relief_) relief_->release(U);
     for (int j = 0; j < U.cols(); ++j) {
       PetscScalar* values = nullptr;
       check(VecGetArrayWrite(vec_, &values));
@@ -136,6 +143,8 @@ class Solver {
 
  private:
   const fem::VectorGather& gather_;
+  std::optional<InertiaRelief> relief_;  // of a free body
+  UniqueMat grounded_;
   ShiftedFactor factor_;
   UniqueVec vec_;
   PetscInt n_own_ = 0;
@@ -196,9 +205,9 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
   return cost;
 }
 
-model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,
-                                    const fem::VectorGather& gather, const Progress& progress) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(K));
+model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSystem& system,
+                                    const Progress& progress) {
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.K));
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   model::Flexibility flexibility;
@@ -215,7 +224,7 @@ model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,
   });
   int n_loads = static_cast<int>(node.size());
   MPI_Bcast(&n_loads, 1, MPI_INT, 0, comm);
-  Solver solve(K, M, gather);
+  Solver solve(system);
   for (int first = 0; first < n_loads; first += kBlock) {
     const int n = std::min(kBlock, n_loads - first);
     solve(rank == 0 ? node.data() + first : nullptr, n, force,

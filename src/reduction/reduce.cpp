@@ -46,7 +46,7 @@ void fill_report(Job& job) {
   if (job.options.foreign) return;
   std::vector<int> cells(static_cast<std::size_t>(job.size), 0);
   for (int part : job.plan.partition.part) ++cells[part];
-  if (!job.cyclic())
+  if (!job.modes_by_sectors())
     report.balance =
         *std::max_element(cells.begin(), cells.end()) * static_cast<double>(job.size) / report.n_cells;
 }

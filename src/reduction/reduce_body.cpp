@@ -82,8 +82,8 @@ void validate(const ReductionOptions& options) {
   model::validate(options.ratio);
   require(options.ratio.ratio.empty() || options.basis == model::Basis::modal,
           "damping ratios belong to modes: the full basis takes Rayleigh's alpha and beta only");
-  require(!options.flexibility || (options.basis == model::Basis::modal && !options.floating),
-          "static answers to contact forces belong to the modal basis of a held body");
+  require(!options.flexibility || options.basis == model::Basis::modal,
+          "static answers to contact forces belong to the modal basis");
   require(
       !options.flexibility || !options.surface.empty(),
       "static answers to contact forces need a contact surface: name its face sets by the option surface");
@@ -126,9 +126,10 @@ mesh::RepetitionSearch search_repetition(const Job& job) {
 // On rank 0; whether there is one is known to all.
 void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
-  if (!job.modal() || job.options.floating || job.options.symmetry == Symmetry::none) return;
-  if (job.options.ritz) return;
-  if (!job.options.point_mass.empty()) {
+  const ReductionOptions& options = job.options;
+  if (!job.modal() || options.ritz || options.symmetry == Symmetry::none) return;
+  if (options.floating && !options.flexibility) return;
+  if (!options.point_mass.empty()) {
     if (job.rank == 0) job.report.symmetry = "none: point masses";
     return;
   }
@@ -140,6 +141,7 @@ void find_symmetry(Job& job) {
     auto [found, reason] = search_repetition(job);
     if (found) repetition = std::move(*found);
     job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
+    if (found && options.floating) job.report.symmetry += ", for static answers";
   });
   MPI_Bcast(&repetition.turn.n_sectors, 1, MPI_INT, 0, job.comm);
 }

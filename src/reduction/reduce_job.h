@@ -49,6 +49,8 @@ struct Job {
 
   bool modal() const { return options.basis == model::Basis::modal; }
   bool cyclic() const { return plan.repetition.turn.n_sectors > 1; }
+  /// Modes from one sector: of a free body only the static answers come from there.
+  bool modes_by_sectors() const { return cyclic() && !options.floating; }
 
   /// Runs `f` on rank 0; its errors reach all ranks.
   void on_root(const std::function<void()>& f) {

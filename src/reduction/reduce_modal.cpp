@@ -179,8 +179,9 @@ void add_flexibility(Job& job, const ElasticSystem& system) {
   const FlexibilityTask task = flexibility_task(job);
   const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, job.options.element};
   model::Flexibility flexibility =
-      flexibility_repeats(job) ? find_cyclic_flexibility(job.comm, task, body, job.progress)
-                               : find_flexibility(task, system.K, system.M, system.gather, job.progress);
+      flexibility_repeats(job)
+          ? find_cyclic_flexibility(job.comm, task, body, job.options.floating, job.progress)
+          : find_flexibility(task, system, job.progress);
   if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
   job.finish_stage("static answers");
 }
@@ -299,7 +300,7 @@ void reduce_ritz(Job& job) {
 void reduce_modal(Job& job) {
   if (job.options.ritz) return reduce_ritz(job);
   announce_flexibility(job);
-  job.cyclic() ? reduce_sectors(job) : reduce_whole(job);
+  job.modes_by_sectors() ? reduce_sectors(job) : reduce_whole(job);
 }
 
 }  // namespace elastogear::reduction

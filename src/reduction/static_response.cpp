@@ -1,6 +1,8 @@
 #include "elastogear/reduction/static_response.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 
 #include "elastogear/fem/elimination.h"
 #include "elastogear/fem/gather.h"
@@ -8,6 +10,7 @@
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/factorisation.h"
+#include "elastogear/reduction/inertia_relief.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -44,20 +47,43 @@ std::vector<int> rows_of(const System& system, int n_dofs) {
   return row;
 }
 
+// Of all rows, about the middle of the nodes.
+Eigen::MatrixXd rigid_fields(const Eigen::Matrix3Xd& X, const std::vector<int>& dof) {
+  const Eigen::Vector3d middle = X.rowwise().mean();
+  Eigen::MatrixXd R(static_cast<Eigen::Index>(dof.size()), 6);
+  for (std::size_t i = 0; i < dof.size(); ++i) {
+    const Eigen::Vector3d direction = Eigen::Vector3d::Unit(dof[i] % 3), x = X.col(dof[i] / 3) - middle;
+    R.row(static_cast<Eigen::Index>(i)) << direction.transpose(), x.cross(direction).transpose();
+  }
+  return R;
+}
+
 }  // namespace
 
 struct StaticResponse::Data {
   const io::BodySource& source;
   System system;
-  std::vector<int> row;  // of each displacement, -1: held
+  std::vector<int> row;                 // of each displacement, -1: held
+  std::optional<InertiaRelief> relief;  // of a free body
+  UniqueMat grounded;
   ShiftedFactor factor;
 
-  explicit Data(const io::BodySource& body)
+  Data(const io::BodySource& body, bool floating)
       : source(body),
         system(assemble_serial(body)),
         row(rows_of(system, 3 * body.mesh.n_nodes())),
-        factor(system.matrices.K, system.matrices.M) {
+        relief(floating ? std::make_optional<InertiaRelief>(system.matrices.M,
+                                                            rigid_fields(body.mesh.X, system.dof))
+                        : std::nullopt),
+        grounded(relief ? relief->ground(system.matrices.K) : UniqueMat()),
+        factor(relief ? grounded.get() : system.matrices.K.get(), system.matrices.M) {
     factor.factorise(0);
+  }
+
+  void solve(Eigen::MatrixXd& x) {
+    if (relief) relief->balance(x);
+    factor.solve(x);
+    if (relief) relief->release(x);
   }
 
   Eigen::Index n_rows() const { return static_cast<Eigen::Index>(system.dof.size()); }
@@ -76,7 +102,8 @@ struct StaticResponse::Data {
   }
 };
 
-StaticResponse::StaticResponse(const io::BodySource& source) : data_(new Data(source)) {}
+StaticResponse::StaticResponse(const io::BodySource& source, bool floating)
+    : data_(new Data(source, floating)) {}
 StaticResponse::~StaticResponse() = default;
 
 Eigen::VectorXd StaticResponse::displacement(const std::vector<int>& loaded, const Eigen::Matrix3Xd& f) {
@@ -85,7 +112,7 @@ Eigen::VectorXd StaticResponse::displacement(const std::vector<int>& loaded, con
   for (std::size_t i = 0; i < loaded.size(); ++i)
     for (int d = 0; d < 3; ++d)
       if (const int j = row[3 * loaded[i] + d]; j >= 0) x(j, 0) += f(d, static_cast<Eigen::Index>(i));
-  data_->factor.solve(x);
+  data_->solve(x);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(row.size()));
   u(data_->system.dof) = x.col(0);
   return u;
@@ -105,7 +132,7 @@ Eigen::MatrixXd StaticResponse::stress(const std::vector<int>& loaded, const std
       const int row = data_->row[static_cast<std::size_t>(3 * loaded[load / 3] + load % 3)];
       if (row >= 0) x(row, j) = 1;
     }
-    data_->factor.solve(x);
+    data_->solve(x);
     G.middleCols(begin, count) = S * x;
   }
   return G;

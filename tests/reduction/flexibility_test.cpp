@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "../fem/brick.h"
+#include "../fem/other_cells.h"
 #include "../mesh/disc.h"
 #include "elastogear/base/error.h"
+#include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 
@@ -24,8 +26,8 @@ bool is_root() {
 }
 
 // Faces of the rim and of the top near it.
-mesh::Mesh disc_with_rim() {
-  mesh::Mesh mesh = test::disc({5, 2, 3, 2});
+mesh::Mesh disc_with_rim(int sectors = 5, int columns = 2) {
+  mesh::Mesh mesh = test::disc({sectors, columns, 3, 2});
   for (const mesh::Face& face : mesh.face_sets.at("surface")) {
     const auto far = [&](int node) { return mesh.X.col(node).head<2>().norm() > 0.5 && mesh.X(2, node) > 0; };
     if (std::all_of(face.begin(), face.end(), far)) mesh.face_sets["rim"].push_back(face);
@@ -52,27 +54,22 @@ class Flexibility : public testing::Test {
     o.surface = o.loaded = {"rim"};
     o.stress_nodes = {"few"};
     o.n_modes = 8;
-    o.window = 8;
+    o.window = reduction::kAutomaticWindow;
     o.flexibility = true;
     o.symmetry = symmetry;
     return o;
   }
-  model::ElasticBody reduce(const reduction::ReductionOptions& o) const {
-    reduction::reduce(PETSC_COMM_WORLD, is_root() ? mesh_ : mesh::Mesh(), o, path_);
-    return is_root() ? io::read_body(path_) : model::ElasticBody();
+  // The same disc that nothing holds.
+  reduction::ReductionOptions free_options(reduction::Symmetry symmetry) const {
+    reduction::ReductionOptions o = options(symmetry);
+    o.restrain = {};
+    o.floating = o.frame_at_center = true;
+    return o;
   }
-  void TearDown() override {
-    if (is_root()) std::filesystem::remove(path_);
-  }
-};
-
-TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry) {
-  for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none}) {
-    const model::ElasticBody body = reduce(options(symmetry));
-    if (!is_root()) continue;
-    EXPECT_EQ(body.flexibility.n_sectors, symmetry == reduction::Symmetry::none ? 1 : 5);
+  // The body that was written last answers as its unreduced mesh does.
+  void expect_static_response(const model::ElasticBody& body) const {
     const io::BodySource source = io::read_body_source(path_);
-    reduction::StaticResponse response(source);
+    reduction::StaticResponse response(source, body.floating);
     const std::vector<int>& node = body.surface.node;
     for (std::size_t b : {std::size_t{0}, node.size() / 2, node.size() - 1}) {
       const Eigen::Vector3d f(3, -1, 2);
@@ -93,6 +90,78 @@ TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry
                   kSinglePrecision * sigma.norm());
     }
   }
+  model::ElasticBody reduce(const reduction::ReductionOptions& o) const {
+    reduction::reduce(PETSC_COMM_WORLD, is_root() ? mesh_ : mesh::Mesh(), o, path_);
+    return is_root() ? io::read_body(path_) : model::ElasticBody();
+  }
+  void TearDown() override {
+    if (is_root()) std::filesystem::remove(path_);
+  }
+};
+
+TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry) {
+  for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none}) {
+    const model::ElasticBody body = reduce(options(symmetry));
+    if (!is_root()) continue;
+    EXPECT_EQ(body.flexibility.n_sectors, symmetry == reduction::Symmetry::none ? 1 : 5);
+    expect_static_response(body);
+  }
+}
+
+// With two sectors the harmonic of the rigid motions across the axis is real, with more complex.
+TEST_F(Flexibility, of_a_free_body_is_that_of_loads_balanced_by_inertia) {
+  for (int sectors : {2, 3, 4, 5})
+    for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none}) {
+      SCOPED_TRACE(sectors);
+      mesh_ = disc_with_rim(sectors, 3);
+      mesh_.X.colwise() += Eigen::Vector3d(0.4, -0.3, 0.2);
+      const model::ElasticBody body = reduce(free_options(symmetry));
+      if (!is_root()) continue;
+      EXPECT_TRUE(body.floating);
+      EXPECT_EQ(body.flexibility.n_sectors, symmetry == reduction::Symmetry::none ? 1 : sectors);
+      expect_static_response(body);
+    }
+}
+
+// F = Phi Lambda^-1 Phi' with all modes: R is zero.
+void expect_all_modes(const model::ElasticBody& body) {
+  const auto& Phi = std::get<model::DenseRows>(body.surface.Phi);
+  const Eigen::MatrixXd all =
+      Phi * Eigen::VectorXd(body.K_r.diagonal()).cwiseInverse().asDiagonal() * Phi.transpose();
+  ASSERT_EQ(body.flexibility.node.size(), body.surface.node.size());
+  for (int b = 0; b < static_cast<int>(body.flexibility.node.size()); ++b)
+    EXPECT_LE(
+        (model::displacement_columns(body.flexibility, b).cast<double>() - all.middleCols<3>(3 * b)).norm(),
+        kSinglePrecision * all.middleCols<3>(3 * b).norm());
+}
+
+// Cells of first and second order, regions of several materials, point masses (which balance loads, too);
+// each held and free.
+TEST_F(Flexibility, of_any_body_is_that_of_all_its_modes) {
+  const auto brick = test::distorted(test::brick({2, 2, 1}, {1, 0.8, 0.3}), 0.03);
+  for (const auto type : {mesh::CellType::hex8, mesh::CellType::hex20, mesh::CellType::tet10})
+    for (bool floating : {false, true})
+      for (bool more : {false, true}) {
+        SCOPED_TRACE(testing::Message() << mesh::name(type) << (floating ? " free" : " held")
+                                        << (more ? " with regions and a point mass" : ""));
+        mesh_ = test::cells_of(type, brick);
+        reduction::ReductionOptions o =
+            floating ? free_options(reduction::Symmetry::none) : options(reduction::Symmetry::none);
+        o.surface = {"surface"};
+        o.loaded = {};
+        o.stress_nodes = {"xmax"};
+        if (!floating) o.restrain = {"xmin"};
+        if (more) {
+          mesh_.cell_sets["core"] = {0};
+          o.regions = {{"", test::kSteel}, {"core", test::kFibre}};
+          o.point_mass = {{"ymax", 500}};
+        }
+        const auto n_free =
+            3 * (mesh_.n_nodes() - (floating ? 2 : static_cast<int>(mesh_.node_sets.at("xmin").size())));
+        o.n_modes = n_free;
+        const model::ElasticBody body = reduce(o);
+        if (is_root()) expect_all_modes(body);
+      }
 }
 
 TEST_F(Flexibility, is_asked_for_one_node_of_each_orbit) {

@@ -295,6 +295,31 @@ TEST(ForeignBody, keeps_every_displacement_in_the_full_basis) {
   EXPECT_LT((foreign.inertia.C_r - own.inertia.C_r).norm(), kRoundoff * own.inertia.C_r.norm());
 }
 
+// Held and free, as from our own matrices.
+TEST(ForeignBody, has_the_static_answers_of_its_stiffness) {
+  const auto mesh = block();
+  Files files = our_matrices(mesh, {});
+  if (is_root()) {
+    write_triplets(files.foreign.stiffness, files.K, Half::lower);
+    write_triplets(files.foreign.mass, files.M, Half::lower);
+  }
+  for (bool floating : {false, true}) {
+    auto options = options_of_block();
+    options.flexibility = true;
+    if (floating) options.restrain = {};
+    options.floating = options.frame_at_center = floating;
+    const auto own = reduced(mesh, options, "own_answers");
+    options.foreign = files.foreign;
+    const auto foreign = reduced(mesh, options, "answers");
+    if (!is_root()) continue;
+    ASSERT_EQ(foreign.flexibility.node, own.flexibility.node);
+    for (int b = 0; b < own.flexibility.surface.node.cols(); ++b) {
+      const Eigen::MatrixXf F = model::displacement_columns(own.flexibility, b);
+      EXPECT_LE((model::displacement_columns(foreign.flexibility, b) - F).norm(), kVector * F.norm()) << b;
+    }
+  }
+}
+
 using Moments = std::vector<model::BasisRows>;
 
 Eigen::MatrixXd dense(const model::BasisRows& rows) {

@@ -67,4 +67,8 @@ Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
 Eigen::MatrixXd times_i(const Harmonic& harmonic, int first_orbit,
                         const Eigen::Ref<const Eigen::MatrixXd>& z);
 
+/// Coordinates of the rigid motions that a harmonic contains, a column each, of any scale: two for k = 0,
+/// four for k = 1, none for others. The body must be free.
+Eigen::MatrixXd rigid_fields(const Harmonic& harmonic, const Sector& sector);
+
 }  // namespace elastogear::fem

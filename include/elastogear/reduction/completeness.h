@@ -34,7 +34,7 @@ Eigen::VectorXd at_nodes(const model::Surface& surface, const Eigen::VectorXd& f
 Eigen::MatrixXd distribute(const ElasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
                            int n_loads);
 
-/// One factorisation, one solve with all loads (a few for a free body). Collective; body (modal, its modes
+/// One factorisation, one solve with all loads. Collective; body (modal, its modes
 /// complete, of n_nodes nodes) is read on rank 0, where the result is.
 Completeness static_completeness(const ElasticSystem& system, const model::ElasticBody& body, int n_nodes);
 

@@ -10,6 +10,7 @@
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/mesh/repetition.h"
 #include "elastogear/model/elastic_body.h"
+#include "elastogear/reduction/completeness.h"
 
 namespace elastogear::reduction {
 
@@ -42,14 +43,18 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
                             int n_ranks);
 
 /// The same with F and G. Factorises K once and solves for three forces on one node of each orbit, kBlock
-/// nodes at a time. Collective; the result is on rank 0. Throws Error when the factorisation fails.
-model::Flexibility find_flexibility(const FlexibilityTask& task, Mat K, Mat M,
-                                    const fem::VectorGather& gather, const Progress& progress = {});
+/// nodes at a time. Forces on a free body are balanced by inertia, and what they do to it is orthogonal to
+/// rigid motions (section Free bodies). Collective; the result is on rank 0. Throws Error when the
+/// factorisation fails.
+model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSystem& system,
+                                    const Progress& progress = {});
 
 /// The same from one sector: u = sum_k P_k K_k^-1 P_k' f over the harmonics, with the rows P_k that unfold
 /// harmonic k (docs/theory.md, section Cyclic symmetry). Each rank takes its share of the harmonics, one
-/// factor of a sector at a time. Needs a plan that uses the symmetry. Collective; the result is on rank 0.
+/// factor of a sector at a time. floating: a free body, whose rigid motions are in harmonics 0 and 1. Needs a
+/// plan that uses the symmetry. Collective; the result is on rank 0.
 model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,
-                                           const fem::MeshedBody& body, const Progress& progress = {});
+                                           const fem::MeshedBody& body, bool floating,
+                                           const Progress& progress = {});
 
 }  // namespace elastogear::reduction

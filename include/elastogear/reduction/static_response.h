@@ -14,9 +14,10 @@ namespace elastogear::reduction {
 /// nodes do nothing.
 class StaticResponse {
  public:
-  /// The source must outlive this. Throws Error when the body is not held, a node is held in some directions
-  /// only, or the factorisation fails.
-  explicit StaticResponse(const io::BodySource& source);
+  /// The source must outlive this. floating: nothing holds the body, whose loads are balanced by the inertia
+  /// of its cells, and whose displacements are orthogonal to rigid motions. Throws Error when a body is
+  /// neither held nor floating, or the factorisation fails.
+  explicit StaticResponse(const io::BodySource& source, bool floating = false);
   ~StaticResponse();
   StaticResponse(const StaticResponse&) = delete;
   StaticResponse& operator=(const StaticResponse&) = delete;

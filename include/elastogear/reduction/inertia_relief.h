@@ -1,0 +1,36 @@
+#pragma once
+// Static answers of a body that nothing holds: loads are balanced by inertia, and answers are orthogonal to
+// rigid motions (docs/theory.md, section Free bodies).
+
+#include <Eigen/Core>
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/reduction/free_body.h"
+
+namespace elastogear::reduction {
+
+/// P = I - M R R', R the rigid motions, orthonormal in the inner product of M. Rows are those of K and M that
+/// this rank owns.
+class InertiaRelief {
+ public:
+  /// R: own rows of independent fields that K moves without force; of any scale. Collective. Throws Error
+  /// when they are not independent.
+  InertiaRelief(Mat M, Eigen::MatrixXd R);
+  InertiaRelief(Mat M, const RigidModes& rigid);
+
+  /// F := P F, forces that leave rigid motions at rest. Collective.
+  void balance(Eigen::Ref<Eigen::MatrixXd> F) const;
+  /// U := P' U, displacements without rigid motion. Collective.
+  void release(Eigen::Ref<Eigen::MatrixXd> U) const;
+
+  /// K with a spring on as many displacements as there are rigid motions: definite. Springs that hold a body
+  /// just so stay without force when loads are balanced, and K u = f then is solved exactly, up to a rigid
+  /// motion. Collective.
+  UniqueMat ground(Mat K) const;
+
+ private:
+  MPI_Comm comm_;
+  Eigen::MatrixXd R_, M_R_;
+};
+
+}  // namespace elastogear::reduction
