@@ -158,6 +158,8 @@ def main():
     body_files = results.key_values(options.body_file, "--body-file")
     nodes = results.key_values(options.node, "--node")
     with results.open_file(options.result, "result") as result:
+        for body, path in body_files.items():
+            results.require_body_of_run(result, body, path)
         for name in result["contact"]:
             plot_contact_force(result, name, options.out)
         for body in result["bodies"]:

@@ -24,6 +24,15 @@ def text(value):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def require_body_of_run(result, body, path):
+    """Exits with a message when the body file does not hold what the run was made with; older files do not say."""
+    with open_file(path, "body") as file:
+        held = file.attrs.get("identity")
+    known = result["provenance"].attrs.get("identity_" + body) if "provenance" in result else None
+    if held is not None and known is not None and text(held) != text(known):
+        sys.exit(f"{path}: is not the body '{body}' of {result.filename}")
+
+
 def key_values(items, option):
     """["worm=a", "wheel=b"] -> {"worm": "a", "wheel": "b"}."""
     for item in items:

@@ -104,9 +104,10 @@ def main():
     if options.times:
         lines += step_lines(options.times)
     lines += section("Bodies")
-    for body, path in results.key_values(options.body_file, "--body-file").items():
-        lines += body_lines(body, path)
     with results.open_file(options.result, "result") as result:
+        for body, path in results.key_values(options.body_file, "--body-file").items():
+            results.require_body_of_run(result, body, path)
+            lines += body_lines(body, path)
         lines += contact_lines(result) + motion_lines(result) + energy_lines(result)
     with results.open_file(options.stress, "stress") as stress:
         lines += stress_lines(stress)

@@ -30,46 +30,6 @@ void listen_for_stop() {
   for (int signal : {SIGTERM, SIGINT}) sigaction(signal, &action, nullptr);
 }
 
-void add(Fingerprint& f, const Eigen::SparseMatrix<double>& A) {
-  f.add_all(std::vector<double>{double(A.rows()), double(A.cols())});
-  for (int j = 0; j < A.outerSize(); ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
-      f.add_all(std::vector<double>{double(it.row()), double(it.col()), it.value()});
-}
-
-void add(Fingerprint& f, const model::BasisRows& rows) {
-  if (const auto* dense = std::get_if<model::DenseRows>(&rows))
-    return f.add_block(dense->data(), static_cast<std::size_t>(dense->size()));
-  add(f, Eigen::SparseMatrix<double>(std::get<model::SparseRows>(rows)));
-}
-
-// Of all that dynamics reads of a body.
-std::string fingerprint(const model::ElasticBody& body) {
-  Fingerprint f;
-  const model::Inertia& inertia = body.inertia;
-  f.add_all(std::vector<double>{inertia.m, body.alpha, body.beta});
-  for (const Eigen::MatrixXd& M :
-       {Eigen::MatrixXd(inertia.c), Eigen::MatrixXd(inertia.J), Eigen::MatrixXd(inertia.C_l),
-        Eigen::MatrixXd(inertia.C_r), Eigen::MatrixXd(inertia.S_1), Eigen::MatrixXd(body.surface.X),
-        Eigen::MatrixXd(body.surface.c_f)})
-    f.add_all(M.reshaped());
-  for (const model::BasisRows& rows : inertia.S_2) add(f, rows);
-  add(f, body.M_r);
-  add(f, body.K_r);
-  f.add_all(body.surface.node);
-  f.add_all(body.surface.face.reshaped());
-  f.add_all(body.surface.group);
-  add(f, body.surface.Phi);
-  f.add_all(body.zeta);
-  f.add_all(body.flexibility.node);
-  f.add_all(body.flexibility.self);
-  for (const model::Marker& marker : body.markers) {
-    f.add_all(marker.X);
-    add(f, marker.Phi);
-  }
-  return f.text();
-}
-
 // The file that the value of an option names, or nothing.
 std::string file_in(const std::string& key, const std::string& value) {
   const auto table = value.find("table,");
@@ -116,7 +76,55 @@ std::optional<io::UnfinishedRun> earlier_run(const Options& options, const model
   return earlier;
 }
 
+// Times that have been written, s.
+struct Written {
+  double time = 0;                  // the last one
+  std::optional<double> kept = {};  // the last one before a checkpoint, to go on from
+};
+
+// Throws Error that says why the run ended before its time, and how it can go on.
+void require_complete(const dynamics::RunSummary& summary, const std::string& output, bool resumable) {
+  const std::string cause = summary.out_of_steps
+                                ? "stopped after " + std::to_string(summary.steps) + " steps (-ts_max_steps)"
+                                : "stopped by signal " + std::to_string(int(stop_signal));
+  require(summary.complete, cause, " at t = ", summary.time,
+          " s, before the end. The result until then is in ", output,
+          !resumable             ? "; the same command begins anew"
+          : summary.out_of_steps ? "; with more of them the same command goes on from there"
+                                 : "; the same command goes on from there");
+}
+
+// Computes and writes the whole run, or what there is when a step cannot be solved or a signal stops it.
+dynamics::RunSummary write_run(io::ResultWriter& writer, const std::string& output,
+                               const Computation& computation,
+                               std::pair<const dynamics::Checkpoints&, Written&> state) {
+  auto& [checkpoints, written] = state;
+  dynamics::RunSummary summary;
+  try {
+    summary = computation(
+        [&writer, &at = written.time](const model::Snapshot& snapshot) {
+          writer.append(snapshot);
+          at = snapshot.time;
+        },
+        checkpoints);
+  } catch (const WriteFailure&) {
+    throw;
+  } catch (const Error& error) {
+    if (writer.n_times() == 0) throw;
+    writer.finish(false);
+    fail(error.what(), ". The result until t = ", written.time, " s is in ", output,
+         written.kept ? "; with changed options, -resume anyway goes on from there" : "");
+  }
+  require(writer.n_times() > 0, "stopped by signal ", int(stop_signal),
+          " before the first state was found: there is no result");
+  writer.finish(summary.complete);
+  require_complete(summary, output, written.kept.has_value());
+  return summary;
+}
+
 }  // namespace
+
+std::string identity_key(const std::string& body) { return "identity_" + body; }
 
 OptionTable kept_run_table() {
   return {
@@ -126,10 +134,10 @@ OptionTable kept_run_table() {
        "present options) or discard"}};
 }
 
-void add_inputs(const Options& options, const std::vector<dynamics::BodySetup>& bodies,
+void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance) {
-  for (const dynamics::BodySetup& setup : bodies)
-    provenance["fingerprint_" + setup.name] = fingerprint(*setup.body);
+  for (const auto& [body, identity] : identities)
+    if (!identity.empty()) provenance[identity_key(body)] = identity;
   for (const auto& [key, value] : options.provenance()) {
     const std::string file = file_in(key, value);
     if (file.empty() || !std::filesystem::is_regular_file(file)) continue;
@@ -145,42 +153,24 @@ dynamics::RunSummary keep(const Options& options, const model::ResultHeader& hea
   std::optional<io::UnfinishedRun> earlier = earlier_run(options, header);
   dynamics::Checkpoints checkpoints;
   checkpoints.every = options.number("checkpoint_every");
-  if (earlier) checkpoints.state = std::move(earlier->state);
-  io::ResultWriter writer(output, header, earlier.has_value());
-  bool resumable = earlier.has_value();
-  checkpoints.keep = [&](const std::vector<double>& state) {
-    writer.checkpoint(state);
-    resumable = true;
-  };
-  checkpoints.stop = [] { return stop_signal != 0; };
-  listen_for_stop();
-  dynamics::RunSummary summary;
-  double time = 0;
-  try {
-    summary = computation(
-        [&](const model::Snapshot& snapshot) {
-          writer.append(snapshot);
-          time = snapshot.time;
-        },
-        checkpoints);
-  } catch (const Error& error) {
-    if (writer.n_times() == 0) throw;
-    writer.finish(false);
-    fail(error.what(), ". The result until t = ", time, " s is in ", output,
-         resumable ? "; with changed options, -resume anyway goes on from there" : "");
+  Written written;
+  if (earlier) {
+    written.kept = earlier->time;
+    checkpoints.state = std::move(earlier->state);
   }
-  require(writer.n_times() > 0, "stopped by signal ", int(stop_signal),
-          " before the first state was found: there is no result");
-  writer.finish(summary.complete);
-  const std::string cause = summary.out_of_steps
-                                ? "stopped after " + std::to_string(summary.steps) + " steps (-ts_max_steps)"
-                                : "stopped by signal " + std::to_string(int(stop_signal));
-  require(summary.complete, cause, " at t = ", summary.time,
-          " s, before the end. The result until then is in ", output,
-          !resumable             ? "; the same command begins anew"
-          : summary.out_of_steps ? "; with more of them the same command goes on from there"
-                                 : "; the same command goes on from there");
-  return summary;
+  try {
+    io::ResultWriter writer(output, header, earlier.has_value());
+    checkpoints.keep = [&](const std::vector<double>& state) {
+      writer.checkpoint(state);
+      written.kept = written.time;
+    };
+    checkpoints.stop = [] { return stop_signal != 0; };
+    listen_for_stop();
+    return write_run(writer, output, computation, {checkpoints, written});
+  } catch (const WriteFailure& failure) {
+    if (!written.kept) throw;
+    fail(failure.what(), ". The run until t = ", *written.kept, " s is kept in ", output, ".partial");
+  }
 }
 
 }  // namespace elastogear::app

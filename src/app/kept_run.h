@@ -11,8 +11,11 @@ namespace elastogear::app {
 /// Rows for the options.
 OptionTable kept_run_table();
 
-/// Adds fingerprints of the bodies and of the files of tables to the provenance.
-void add_inputs(const Options& options, const std::vector<dynamics::BodySetup>& bodies,
+/// Key of the provenance: model::fingerprint of what the file of a body holds.
+std::string identity_key(const std::string& body);
+
+/// Adds the identities of bodies, by name, and fingerprints of the files of tables to the provenance.
+void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance);
 
 /// Observes all output times, from the start or from a checkpoint on.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elastogear/base/error.h"
+#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
@@ -72,10 +73,11 @@ Eigen::MatrixXd stored_stress(const StaticAnswer& answer, const std::vector<int>
   return stress;
 }
 
-// Nothing for the full basis.
+// Nothing for the full basis, and for a body that is rigid in the run.
 std::unique_ptr<StaticAnswer> make_answer(const BodyOfRun& body) {
+  if (body.history.q.rows() == 0) return nullptr;
   model::ElasticBody elastic = io::read_body(body.file);
-  require_same_coordinates(elastic, body.history, body.file);
+  require_body_of_run(elastic, body);
   if (elastic.basis == model::Basis::full) return nullptr;
   const recovery::ForceHistory forces =
       recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);
@@ -95,10 +97,17 @@ bool is_stored(const StaticAnswer& answer) { return !answer.position.empty(); }
 
 }  // namespace
 
-void require_same_coordinates(const model::ElasticBody& body, const io::BodyHistory& history,
-                              const std::string& file) {
-  require(body.n_q() == history.q.rows(), file, ": ", body.n_q(), " elastic coordinates, the run has ",
-          history.q.rows(), ": name the body file of the run by option -<body>_file");
+void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& body) {
+  const Eigen::Index n_q = body.history.q.rows();
+  const std::string remedy =
+      "name the body file of the run by option -" + body.name + "_file, or run simulate with this one";
+  require(elastic.n_q() == n_q, body.file, ": ", elastic.n_q(), " elastic coordinates, body '", body.name,
+          "' of ", body.result, " has ", n_q, n_q == 0 ? " (it is rigid there)" : "", ": ", remedy);
+  require(body.identity.empty() || model::fingerprint(elastic) == body.identity, body.file,
+          ": is not the body '", body.name, "' of ", body.result,
+          ": mesh, material, restraint, surface, markers or basis differ, and its elastic coordinates mean "
+          "something else: ",
+          remedy);
 }
 
 std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body, Acceleration acceleration) {

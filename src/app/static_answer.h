@@ -25,17 +25,17 @@ struct StaticAnswer {
 };
 
 struct BodyOfRun {
-  std::string result, name, file;
+  std::string result, name, file, identity;  ///< identity: that of the file in the run; empty: not known
   const io::BodyHistory& history;
 };
 
-/// Throws Error unless the run has as many elastic coordinates as the body file.
-void require_same_coordinates(const model::ElasticBody& body, const io::BodyHistory& history,
-                              const std::string& file);
+/// Throws Error unless the body file holds what the run was made with.
+void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& body);
 
 /// always: for all modal bodies; automatic: for those whose files hold static answers to their loads.
 enum class Acceleration { never, automatic, always };
-/// Nothing for a body in its full basis, whose answer is complete already, and where it is not asked for.
+/// Nothing for a body in its full basis, whose answer is complete already, for one that was rigid in the run,
+/// and where it is not asked for.
 std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body, Acceleration acceleration);
 
 /// What stresses of a reduced body are held against to estimate their error: from the answers in the body

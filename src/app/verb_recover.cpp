@@ -8,6 +8,7 @@
 #include "app/console.h"
 #include "app/contact_field.h"
 #include "app/field.h"
+#include "app/kept_run.h"
 #include "app/outputs.h"
 #include "app/static_answer.h"
 #include "app/verbs.h"
@@ -50,11 +51,12 @@ const OptionTable kTable = {
 };
 
 struct Body {
-  std::string name, file;
+  std::string result, name, file, identity;
   io::BodyHistory history;
   std::unique_ptr<StaticAnswer> answer = nullptr;     // of mode acceleration, when asked for
   std::unique_ptr<StaticAnswer> reference = nullptr;  // of the error estimate, where `answer` is none
 
+  BodyOfRun of_run() const { return {result, name, file, identity, history}; }
   const Eigen::MatrixXd& q() const { return answer ? answer->q : history.q; }
 };
 
@@ -88,16 +90,17 @@ Run read_run(const Options& options, const Progress& progress) {
   options.reject_unknown({{"body", names}});
   for (const auto& body : header.bodies) {
     const std::string key = body.name + "_file";
-    run.bodies.push_back({body.name, options.given(key) ? options.text(key) : body.file,
+    const auto known = header.provenance.find(identity_key(body.name));
+    run.bodies.push_back({run.result, body.name, options.given(key) ? options.text(key) : body.file,
+                          known == header.provenance.end() ? "" : known->second,
                           io::read_body_history(run.result, body.name)});
   }
   const auto acceleration =
       static_cast<Acceleration>(options.choice("mode_acceleration", {"false", "auto", "true"}));
   for (Body& body : run.bodies) {
     report(progress, "static answers", share(run.bodies, body));
-    const BodyOfRun of_run{run.result, body.name, body.file, body.history};
-    body.answer = static_answer(of_run, acceleration);
-    if (!body.answer && is_asked(options, body.name)) body.reference = error_reference(of_run);
+    body.answer = static_answer(body.of_run(), acceleration);
+    if (!body.answer && is_asked(options, body.name)) body.reference = error_reference(body.of_run());
   }
   report(progress, "static answers", 1);
   return run;
@@ -113,8 +116,10 @@ Body& find_body(Run& run, const std::string& name) {
 }
 
 model::ElasticBody read_elastic(const Body& body) {
+  require(!body.file.empty(), "body '", body.name, "' of ", body.result,
+          " is rigid and has no file: it has no stresses and no fields");
   model::ElasticBody elastic = io::read_body(body.file);
-  require_same_coordinates(elastic, body.history, body.file);
+  require_body_of_run(elastic, body.of_run());
   return elastic;
 }
 
@@ -336,6 +341,7 @@ void write_fields(const Options& options, const Run& run, const std::vector<int>
                   const Progress& progress) {
   for (const Body& body : run.bodies) {
     if (steps.empty()) break;
+    if (body.file.empty()) continue;  // rigid, without a mesh
     const double before = share(run.bodies, body), each = 1.0 / static_cast<double>(run.bodies.size());
     const io::BodySource source = io::read_body_source(body.file);
     const std::vector<BodyPair> pairs = pairs_of(run.result, body.name);

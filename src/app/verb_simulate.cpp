@@ -21,6 +21,7 @@
 #include "elastogear/body/rigid.h"
 #include "elastogear/dynamics/static.h"
 #include "elastogear/io/body_file.h"
+#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
@@ -132,11 +133,14 @@ void set_rate(const Options& options, const std::string& name, double& scalar, E
     scalar = options.number(name);
 }
 
-model::ElasticBody read_or_make_body(const Options& options, const std::string& prefix) {
+// identity: of the file's contents, whatever options leave out of them.
+model::ElasticBody read_or_make_body(const Options& options, const std::string& prefix,
+                                     std::string& identity) {
   if (options.given(prefix + "file")) {
     require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
             "file and -", prefix, "mass, _inertia exclude each other");
     model::ElasticBody body = io::read_body(options.text(prefix + "file"), io::BodyUse::motion);
+    identity = model::fingerprint(body);
     if (options.flag(prefix + "rigid")) body = body::rigid_copy(body);
     if (!options.flag(prefix + "residual")) body.flexibility = {};
     return body;
@@ -151,7 +155,8 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
   return body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c);
 }
 
-dynamics::BodySetup body_setup(const Options& options, const std::string& name) {
+dynamics::BodySetup body_setup(const Options& options, const std::string& name,
+                               std::map<std::string, std::string>& identities) {
   const std::string prefix = name + "_";
   dynamics::BodySetup setup;
   setup.name = name;
@@ -163,7 +168,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name) 
   set_initial_state(options, setup);
   set_axis(options, prefix, "rotation", "torque", setup.rotation);
   set_axis(options, prefix, "translation", "force", setup.translation);
-  model::ElasticBody body = read_or_make_body(options, prefix);
+  model::ElasticBody body = read_or_make_body(options, prefix, identities[name]);
   change_body(options, prefix, body);
   setup.body = std::make_shared<model::ElasticBody>(std::move(body));
   check_free_body(setup);
@@ -276,13 +281,15 @@ Computation computation(const Options& options, dynamics::System& system) {
   };
 }
 
-model::ResultHeader header(const Options& options, const dynamics::System& system) {
+model::ResultHeader header(const Options& options, const dynamics::System& system,
+                           const std::map<std::string, std::string>& identities) {
   model::ResultHeader header = result_header(system);
   for (auto& body : header.bodies) {
     const std::string file = body.name + "_file";
     body.file = options.given(file) ? options.text(file) : "";
   }
   header.provenance = options.provenance();
+  add_inputs(options, identities, header.provenance);
   return header;
 }
 
@@ -298,15 +305,13 @@ void run(const Options& options, const std::vector<std::string>&) {
   dynamics::Environment surroundings = environment(options);
   dynamics::MarkerSetups markers = marker_setups(options);
   std::vector<dynamics::BodySetup> bodies;
-  for (const std::string& name : names) bodies.push_back(body_setup(options, name));
+  std::map<std::string, std::string> identities;
+  for (const std::string& name : names) bodies.push_back(body_setup(options, name, identities));
   require_state_is_used(options, bodies);
-  std::map<std::string, std::string> inputs;
-  add_inputs(options, bodies, inputs);
   if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, markers, surroundings);
 
   dynamics::System system(std::move(bodies), pairs, surroundings, markers);
-  model::ResultHeader head = header(options, system);
-  head.provenance.merge(inputs);
+  const model::ResultHeader head = header(options, system, identities);
   print_summary(options, keep(options, head, computation(options, system)));
   write_sensor_tables(options, head);
 }

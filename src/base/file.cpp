@@ -26,6 +26,16 @@ Stream open(const std::string& path, const char* mode) {
 
 }  // namespace
 
+void fail_to_write(const std::string& path, const std::string& reason) {
+  throw WriteFailure(path + ": cannot be written: " + reason);
+}
+
+std::string write_error(int error) {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  return full ? "no space left on its disk: free some, then give the same command again"
+              : std::string(std::strerror(error));
+}
+
 std::string read_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -54,8 +64,7 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::commit() {
-  require(std::rename(temporary_.c_str(), path_.c_str()) == 0, path_,
-          ": cannot be written: ", std::strerror(errno));
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail_to_write(path_, write_error(errno));
   committed_ = true;
 }
 
@@ -63,8 +72,9 @@ void write_file(const std::string& path, std::string_view content) {
   PendingFile pending(path);
   Stream file = open(pending.temporary(), "wb");
   const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
-  const bool closed = std::fclose(file.release()) == 0;
-  require(written && closed, path, ": cannot be written: ", std::strerror(errno));
+  int error = written ? 0 : errno;
+  if (std::fclose(file.release()) != 0 && written) error = errno;
+  if (error != 0) fail_to_write(path, write_error(error));
   pending.commit();
 }
 

@@ -5,6 +5,7 @@
 #include "checks.h"
 #include "elastogear/base/file.h"
 #include "elastogear/io/body_file.h"
+#include "elastogear/model/fingerprint.h"
 #include "flexibility_group.h"
 
 namespace elastogear::io {
@@ -178,6 +179,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   const h5::File& file = data_->file;
   const BodyUnits& unit = body_units(body.basis);
   h5::set_attribute(file, "/", "name", body.name);
+  h5::set_attribute(file, "/", kIdentity, model::fingerprint(body));
   h5::set_attribute(file, "/", "basis", basis_name(body.basis));
   h5::set_attribute(file, "/", "restraint", std::string(body.floating ? "none" : "nodes"));
   h5::set_attribute(file, "/", "element", element_name(source.element));

@@ -1,8 +1,11 @@
 #include "hdf5.h"
 
+#include <cerrno>
 #include <filesystem>
 
+#include "elastogear/base/file.h"
 #include "hdf5_objects.h"
+#include "write_driver.h"
 
 namespace elastogear::io::h5 {
 namespace {
@@ -16,6 +19,7 @@ void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 Id access_properties() {
   Id properties(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_libver_bounds(properties, H5F_LIBVER_V110, H5F_LIBVER_LATEST);
+  use_write_driver(properties);
   return properties;
 }
 
@@ -43,10 +47,11 @@ Id link_properties() {
 
 File create(const std::string& path, const std::string& temporary) {
   silence();
+  take_close_failure();  // of a file that was given up
   const Id creation(H5Pcreate(H5P_FILE_CREATE));
   keep_attributes_in_header(creation);
   File file{path, Id(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation, access_properties()))};
-  require(file.id >= 0, path, ": cannot be created");
+  if (file.id < 0) fail_to_write(path, write_error(errno));
   return file;
 }
 
@@ -62,13 +67,20 @@ File open(const std::string& path) {
 }
 
 void close(File& file) {
-  const bool written = H5Fflush(file.id, H5F_SCOPE_LOCAL) >= 0;
+  check_written(H5Fflush(file.id, H5F_SCOPE_LOCAL) >= 0, file, "/");
   file.id = Id();
-  require(written, file.path, ": cannot be written");
+  const std::string failure = take_close_failure();
+  if (!failure.empty()) fail_to_write(file.path, failure);
 }
 
 void check(bool good, const File& file, const std::string& object, const char* what) {
   if (!good) fail(file.path, ": ", object, ": ", what);
+}
+
+void check_written(bool good, const File& file, const std::string& object) {
+  const std::string failure = write_failure(file.id);
+  if (!failure.empty()) fail_to_write(file.path, failure);
+  check(good, file, object, "cannot be written");
 }
 
 void damaged(const File& file, const std::string& what) {
@@ -99,7 +111,7 @@ void make_group(const File& file, const std::string& name) {
   const Id creation(H5Pcreate(H5P_GROUP_CREATE));
   keep_attributes_in_header(creation);
   const Id group(H5Gcreate2(file.id, name.c_str(), link_properties(), creation, H5P_DEFAULT));
-  check(group >= 0, file, name, "cannot be created");
+  check_written(group >= 0, file, name);
 }
 
 std::vector<std::string> members(const File& file, const std::string& group) {

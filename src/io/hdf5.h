@@ -45,11 +45,13 @@ struct File {
 File create(const std::string& path, const std::string& temporary);
 /// Existing file, read only. Error when it is missing, truncated or no HDF5 file.
 File open(const std::string& path);
-/// Error when something could not be written.
+/// WriteFailure when something could not be written.
 void close(File& file);
 
 /// Error naming file and object unless `good`.
 void check(bool good, const File& file, const std::string& object, const char* what);
+/// WriteFailure unless `good` and all that was written to a file of create() has reached it.
+void check_written(bool good, const File& file, const std::string& object);
 /// Error: the file has changed since it was written; `what` says where: "checksum of /reduced/K".
 [[noreturn]] void damaged(const File& file, const std::string& what);
 

@@ -41,8 +41,8 @@ void write_attribute(const File& file, const std::string& name, const std::strin
   const Id object = open_object(file, name);
   const Id attribute(
       H5Acreate2(object, key.c_str(), type, simple_space(value.first), H5P_DEFAULT, H5P_DEFAULT));
-  check(attribute >= 0 && H5Awrite(attribute, type, value.second) >= 0, file, name,
-        ("attribute " + key + " cannot be written").c_str());
+  check_written(attribute >= 0 && H5Awrite(attribute, type, value.second) >= 0, file,
+                name + ", attribute " + key);
 }
 
 template <class T>

@@ -45,7 +45,7 @@ Id creation_properties(const Shape& shape, const Shape& chunk, bool compress) {
 
 Id create_dataset(const File& file, const std::string& name, hid_t type, hid_t space, hid_t properties) {
   Id dataset(H5Dcreate2(file.id, name.c_str(), type, space, link_properties(), properties, H5P_DEFAULT));
-  check(dataset >= 0, file, name, "cannot be created");
+  check_written(dataset >= 0, file, name);
   return dataset;
 }
 
@@ -117,7 +117,7 @@ void write(const File& file, const std::string& name, const View<T>& view, const
   const Id dataset = create_dataset(file, name, native<T>(), simple_space(view.shape),
                                     creation_properties(view.shape, chunk, compress));
   const bool written = empty || H5Dwrite(dataset, native<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, view.data) >= 0;
-  check(written, file, name, "cannot be written");
+  check_written(written, file, name);
   set_attribute(file, name, "unit", unit);
 }
 template void write(const File&, const std::string&, const View<double>&, const std::string&, bool);
@@ -135,7 +135,7 @@ void write_strings(const File& file, const std::string& name, const std::vector<
       create_dataset(file, name, type, simple_space(shape), creation_properties(shape, chunk, false));
   const bool written =
       strings.empty() || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0;
-  check(written, file, name, "cannot be written");
+  check_written(written, file, name);
   set_attribute(file, name, "unit", "1");
 }
 
@@ -197,8 +197,8 @@ Id create_growing(const File& file, const std::string& name, const Item& item, h
 
 void write_rows(const File& file, hid_t dataset, const Rows& rows, const double* data) {
   const Id space = select(dataset, rows), memory = simple_space(rows.count);
-  check(space >= 0 && H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, data) >= 0, file,
-        "a dataset", "cannot be written");
+  check_written(space >= 0 && H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, data) >= 0,
+                file, "a dataset");
 }
 
 void read_rows(const File& file, const std::string& name, const Rows& rows, double* data) {

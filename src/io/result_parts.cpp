@@ -150,7 +150,7 @@ void ResultParts::append_to(const h5::File& out) const {
 void ResultParts::publish(const std::string& file) const {
   std::error_code error;
   fs::rename(file, result_, error);
-  require(!error, result_, ": cannot be written: ", error.message());
+  if (error) fail_to_write(result_, write_error(error.value()));
 }
 
 void ResultParts::remove() const {

@@ -74,7 +74,21 @@ struct ResultWriter::Data {
   model::ResultHeader header;
   ResultParts parts;
   std::unique_ptr<Part> part = {};
+  std::string failure = {};  // that ended the writing
 
+  // Nothing is written after what could not be: the last checkpoint stays as it is.
+  template <class Write>
+  void guard(const Write& write) {
+    if (!failure.empty()) throw WriteFailure(failure);
+    try {
+      write();
+    } catch (const WriteFailure& error) {
+      failure = error.what();
+      part.reset();
+      throw;
+    }
+  }
+  void finish(bool complete);
   void begin_part(const RowCount& before) {
     part = std::make_unique<Part>(parts.path_of_next(), header, before);
   }
@@ -112,30 +126,37 @@ ResultWriter::~ResultWriter() {
   data_->parts.remove_if_empty();
 }
 
-int ResultWriter::n_times() const { return data_->part->rows.count().times; }
+int ResultWriter::n_times() const { return data_->part ? data_->part->rows.count().times : 0; }
 
-void ResultWriter::append(const model::Snapshot& snapshot) { data_->part->rows.append(snapshot); }
-
-void ResultWriter::checkpoint(const std::vector<double>& state) {
-  const RowCount count = data_->end_part();
-  data_->parts.write_state(state, count);
-  data_->begin_part(count);
+void ResultWriter::append(const model::Snapshot& snapshot) {
+  data_->guard([&] { data_->part->rows.append(snapshot); });
 }
 
-void ResultWriter::finish(bool complete) {
-  require(n_times() > 0, data_->path, ": there is no snapshot to write");
-  ResultParts& parts = data_->parts;
+void ResultWriter::checkpoint(const std::vector<double>& state) {
+  data_->guard([&] {
+    const RowCount count = data_->end_part();
+    data_->parts.write_state(state, count);
+    data_->begin_part(count);
+  });
+}
+
+void ResultWriter::Data::finish(bool complete) {
+  require(part->rows.count().times > 0, path, ": there is no snapshot to write");
   if (parts.size() == 0) {  // the only part is the result
     const std::string only = parts.path_of_next();
-    mark(data_->part->file, complete);
-    data_->end_part();
+    mark(part->file, complete);
+    end_part();
     parts.publish(only);
     parts.remove();
   } else {
-    data_->end_part();
-    data_->join(complete);
+    end_part();
+    join(complete);
     if (complete) parts.remove();
   }
+}
+
+void ResultWriter::finish(bool complete) {
+  data_->guard([&] { data_->finish(complete); });
   data_.reset();
 }
 

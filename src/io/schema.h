@@ -14,6 +14,9 @@ constexpr const char* kStressFormat = "elastogear stress";
 /// Of all formats. Version 2 has checksums and text of fixed length; version 1 is read as well.
 constexpr int kVersion = 2, kOldestVersion = 1;
 
+/// Attribute of a body file's root: model::fingerprint.
+constexpr const char* kIdentity = "identity";
+
 void write_format(const h5::File& file, const std::string& format);
 int version(const h5::File& file);
 /// Error when the file has another format, or a version that this program does not know.

@@ -35,7 +35,7 @@ void Series::append(const double* data, hsize_t rows) {
 void Series::write_first(hsize_t rows) {
   Shape count{rows}, total{rows_ + rows};
   for (Shape* s : {&count, &total}) s->insert(s->end(), item_.shape.begin(), item_.shape.end());
-  check(H5Dset_extent(dataset_, total.data()) >= 0, *file_, name_, "cannot be extended");
+  check_written(H5Dset_extent(dataset_, total.data()) >= 0, *file_, name_);
   write_rows(*file_, dataset_, {rows_, count}, buffer_.data());
   rows_ += rows;
   buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(rows * item_size_));

@@ -152,8 +152,9 @@ struct Damage : testing::Test {
     for (std::size_t i = 0; i < kPlaces; ++i) {
       const std::size_t byte = (2 * i + 1) * whole.size() / (2 * kPlaces);
       change(byte);
-      EXPECT_TRUE(harmless()) << "byte " << byte << " of " << whole.size();
-      n_found += found();
+      const bool was_found = found();
+      EXPECT_TRUE(was_found || read(path) == reading) << "byte " << byte << " of " << whole.size();
+      n_found += was_found;
     }
     EXPECT_GE(n_found, kPlaces / 2);  // the rest lies between objects
   }

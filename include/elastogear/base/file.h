@@ -4,7 +4,20 @@
 #include <string>
 #include <string_view>
 
+#include "elastogear/base/error.h"
+
 namespace elastogear {
+
+/// A file could not be written, for example because its disk is full.
+class WriteFailure : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Throws WriteFailure: "PATH: cannot be written: REASON".
+[[noreturn]] void fail_to_write(const std::string& path, const std::string& reason);
+/// The reason that an errno of a write stands for, with the remedy.
+std::string write_error(int error);
 
 /// The whole content of a regular file; Error naming the path and the reason.
 std::string read_file(const std::string& path);
@@ -29,7 +42,7 @@ class PendingFile {
   bool committed_ = false;
 };
 
-/// Writes `content` to `path` by way of a PendingFile.
+/// Writes `content` to `path` by way of a PendingFile. WriteFailure when it cannot.
 void write_file(const std::string& path, std::string_view content);
 
 }  // namespace elastogear

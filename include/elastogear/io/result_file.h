@@ -14,7 +14,8 @@ namespace elastogear::io {
 
 /// Appends snapshots to parts in the folder `path`.partial; finish() joins them to the file. Each part
 /// appears under its name only when whole and is never changed again. Destroyed unfinished: what was appended
-/// since the last checkpoint is lost, the rest stays in the folder.
+/// since the last checkpoint is lost, the rest stays in the folder. A write that fails (WriteFailure) is the
+/// last one: all that follow fail likewise, and what was written at the last checkpoint stays.
 class ResultWriter {
  public:
   /// goes_on: after the last checkpoint of an earlier run; otherwise what that left is removed.

@@ -1,0 +1,14 @@
+#pragma once
+// Whether two bodies are the same for a run.
+
+#include <string>
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::model {
+
+/// 16 hexadecimal digits, of all that dynamics reads of a body: bodies with the same ones have the same
+/// elastic coordinates. Names, provenance and what only recovery needs do not count.
+std::string fingerprint(const ElasticBody& body);
+
+}  // namespace elastogear::model
