@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/console.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::app {
@@ -84,6 +85,19 @@ int body_index(const std::vector<std::string>& bodies, const std::string& name, 
 
 const OptionTable& contact_table() { return kTable; }
 
+namespace {
+
+// In one pass the facets of the master alone are met.
+void warn_of_facets(const dynamics::PairSetup& pair, const std::vector<std::string>& bodies) {
+  if (!pair.settings.smooth || pair.settings.two_pass) return;
+  const std::string& slave = bodies[pair.body[pair.settings.slave]];
+  print_item("warning", "contact_smooth has no effect on the surface of " + slave +
+                            ", the slave of the pair " + pair.name +
+                            ": only its nodes are in contact; contact_two_pass smooths both");
+}
+
+}  // namespace
+
 std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies) {
   std::vector<dynamics::PairSetup> setups;
   for (const std::string& pair : options.list("contact_pairs")) {
@@ -94,6 +108,7 @@ std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::
     const int a = body_index(bodies, pair.substr(0, colon), pair);
     const int b = body_index(bodies, pair.substr(colon + 1), pair);
     setups.push_back({pair, {a, b}, settings(options)});
+    warn_of_facets(setups.back(), bodies);
   }
   return setups;
 }

@@ -244,7 +244,7 @@ Nodes read_on_rank_0(const Options& options) {
     add_numbers(options, nodes);
   });
   for (const std::string& ignored : nodes.report.ignored) print_item("ignored in the mesh", ignored);
-  for (const std::string& other : nodes.report.read_as) print_item("element type", other);
+  for (const std::string& other : nodes.report.read_as) print_item("warning", other);
   return nodes;
 }
 
