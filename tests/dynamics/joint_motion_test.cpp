@@ -106,7 +106,7 @@ TEST(Revolute, drive_of_an_elastic_body_pays_for_all_its_energy) {
   const test::BoxSpec box{.corner = {0.1, -0.5, -0.5},
                           .size = {2, 1, 1},
                           .cells = {3, 1, 1},
-                          .material = {100, 0.3, 1},
+                          .material = {300, 0.3, 1},
                           .held = [](const auto& X, int) { return X.x() < 0.2; }};
   const auto body = std::make_shared<model::ElasticBody>(test::make_box(box, model::Basis::modal, 10));
   const BodySetup setup{.name = "beam",
