@@ -14,6 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kMaxPressureAngle = kPi / 4;
 constexpr double kMaxConeSlope = 3;
+constexpr double kDegree = kPi / 180;
 constexpr int kMaxTeeth = 1000;
 constexpr double kMinTipWidth = 0.1;  // of the module: thinner teeth count as pointed
 
@@ -32,8 +33,8 @@ void require_increasing(std::initializer_list<Value> values) {
 }
 
 void check_positive(const Design& d) {
-  const Value values[] = {{"m_n", d.m_n},
-                          {"a", d.a},
+  const Value values[] = {{"module", d.m_n},
+                          {"centre_distance", d.a},
                           {"addendum", d.addendum},
                           {"dedendum", d.dedendum},
                           {"worm_fillet", d.worm_fillet},
@@ -62,9 +63,9 @@ void check_toothing(const Design& d) {
   require(d.z1 >= 1, "z1 = ", d.z1, ": the worm needs at least 1 start");
   require(d.z2 > d.z1 && d.z2 <= kMaxTeeth, "z2 = ", d.z2, ": must be above z1 = ", d.z1, " and at most ",
           kMaxTeeth);
-  require(d.alpha_n > 0 && d.alpha_n <= kMaxPressureAngle, "alpha_n = ", d.alpha_n,
-          " rad: must be above 0 and at most ", kMaxPressureAngle, " rad");
-  require(d.j_n >= 0 && d.j_n < kPi * d.m_n * std::cos(d.alpha_n), "j_n = ", d.j_n,
+  require(d.alpha_n > 0 && d.alpha_n <= kMaxPressureAngle, "pressure_angle = ", d.alpha_n / kDegree,
+          " deg: must be above 0 and at most ", kMaxPressureAngle / kDegree, " deg");
+  require(d.j_n >= 0 && d.j_n < kPi * d.m_n * std::cos(d.alpha_n), "backlash = ", d.j_n,
           " m: must be at least 0 and below the normal base pitch ", kPi * d.m_n * std::cos(d.alpha_n), " m");
   require(d.dedendum > d.addendum, "dedendum = ", d.dedendum, " m: must be above addendum = ", d.addendum,
           " m, else tips and roots touch");
@@ -78,8 +79,8 @@ double centre_distance(const Design& d, double gamma) {
 double lead_angle(const Design& d) {
   double low = 0, high = std::atan(std::cbrt(static_cast<double>(d.z1) / d.z2));
   const double smallest = centre_distance(d, high);
-  require(d.a >= smallest, "there is no lead angle for the centre distance a = ", d.a, " m: at least ",
-          smallest, " m is needed with z1 = ", d.z1, ", z2 = ", d.z2, ", m_n = ", d.m_n, " m");
+  require(d.a >= smallest, "there is no lead angle for centre_distance = ", d.a, " m: at least ", smallest,
+          " m is needed with z1 = ", d.z1, ", z2 = ", d.z2, ", module = ", d.m_n, " m");
   for (int i = 0; i < 200; ++i) {
     const double gamma = (low + high) / 2;
     (centre_distance(d, gamma) > d.a ? low : high) = gamma;

@@ -75,7 +75,7 @@ double wheel_form_radius(const Design& design, const Geometry& g) {
   const double limit = g.wheel.r * std::pow(std::sin(g.wheel.alpha_t), 2);
   require(depth <= limit, "the wheel is undercut: the straight flank of its rack reaches ", depth,
           " m below the pitch line, at most ", limit, " m is allowed with z2 = ", design.z2,
-          " and alpha_n = ", design.alpha_n, " rad");
+          " and pressure_angle = ", design.alpha_n * 180 / kPi, " deg");
   return trochoid(design, g, design.alpha_n)[1];
 }
 

@@ -235,12 +235,12 @@ OPTIONS = [
 
 MESH = [
     Case("undercut gear", r"undercut", "{elastogear} mesh -part wheel -pressure_angle 8 -mesh kept.msh"),
-    Case("centre distance that does not exist", r"centre distance", "{elastogear} mesh -part worm -centre_distance 0.02 -mesh kept.msh"),
+    Case("centre distance that does not exist", r"centre_distance = 0.02", "{elastogear} mesh -part worm -centre_distance 0.02 -mesh kept.msh"),
     Case("gear that is none", r"part.*worm, wheel", "{mesh} -part gear"),
     Case("gear without a part", r"part", "{elastogear} mesh -mesh kept.msh"),
     Case("size that is none", r"size.*huge", "{mesh} -size huge"),
     Case("no teeth", r"z2", "{mesh} -z2 0"),
-    Case("negative module", r"(module|m_n).*-0.001", "{mesh} -module -0.001"),
+    Case("negative module", r"module = -0.001", "{mesh} -module -0.001"),
     Case("module in mm", r"(module|root|radius|bore|centre)", "{mesh} -module 1.25"),
     Case("mesh format that is none", r"kept.stl", "{mesh} -mesh kept.stl"),
     Case("mesh in a folder that is not there", r"nosuch", "{mesh} -mesh nosuch/kept.msh"),
