@@ -33,7 +33,7 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 // A line of progress stands on the terminal, without an end.
 std::atomic<bool> line_is_open = false;
 
-// What is printed next begins a line.
+// Clears a line of progress that is still open, so that the next text begins a line.
 void clear_line() {
   if (line_is_open.exchange(false)) std::fputs("\r\033[K", stderr);
 }

@@ -68,7 +68,7 @@ void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& li
   verb.run(options, line.arguments);
 }
 
-// What is wrong with the words of the command line; empty: nothing.
+// Returns the complaint about the words of the command line, or an empty text when they are right.
 std::string problem_of_words(int argc, char** argv) {
   try {
     check_words(argc, argv);

@@ -1,5 +1,6 @@
 #pragma once
-// What a run writes: never what it reads, and never what another run writes at the same time.
+// Outputs of a run are checked here: none may be one of its inputs, and none may be written by another run at
+// the same time.
 
 #include <string>
 #include <vector>

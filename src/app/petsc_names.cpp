@@ -116,7 +116,8 @@ const Literals& literals() {
   return all;
 }
 
-// Where `pattern` can end when it is laid over the beginning of `text`: %d is a number, %s a word.
+// Adds to `ends` the places in `text` where `pattern` can end when it begins at `at`; %d stands for a number,
+// %s for a word.
 void match(std::string_view pattern, std::string_view text, std::size_t at, std::vector<std::size_t>& ends) {
   while (!pattern.empty() && pattern[0] != '%') {
     if (at == text.size() || text[at] != pattern[0]) return;

@@ -1,5 +1,6 @@
 #pragma once
-// What a line of progress says, and when one is due; without clock and terminal.
+// The text of a line of progress and the time at which one is due, as functions that know neither clock nor
+// terminal.
 
 #include <string>
 

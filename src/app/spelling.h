@@ -1,5 +1,5 @@
 #pragma once
-// Which word was meant.
+// The known word that a misspelt one is nearest to.
 
 #include <string>
 

@@ -90,8 +90,7 @@ MatrixXd second_order_rows(const State& x) {
   const Matrix36 Y = factor(w), Y_row = factor(x.frame.alpha + x.shift.v * w) + x.W * Y;
   const Matrix3d by_B = x.shift.a * Matrix3d::Identity() + x.shift.v * x.W;
   return Y_row * x.shape.at_y.D.transpose() + Y * x.shape.at_y_dot.D.transpose() +
-         by_B * x.shape.at_y.B.transpose() - at_y_ddot.B.transpose() -
-         x.W * x.shape.at_y_dot.B.transpose();
+         by_B * x.shape.at_y.B.transpose() - at_y_ddot.B.transpose() - x.W * x.shape.at_y_dot.B.transpose();
 }
 
 MatrixXd second_order_columns(const State& x) {
@@ -101,7 +100,8 @@ MatrixXd second_order_columns(const State& x) {
 
 void add_second_order(const State& x, Tangent& t) {
   const Vector3d w = x.frame.w;
-  const MatrixXd R_y = x.eq.H.bottomRows<3>().transpose() * second_order_rows(x), Q_s = second_order_columns(x);
+  const MatrixXd R_y = x.eq.H.bottomRows<3>().transpose() * second_order_rows(x),
+                 Q_s = second_order_columns(x);
   t.Gamma = x.W * x.W + skew(x.frame.alpha + 2 * x.shift.v * w);
   if (x.eq.level == InertiaLevel::full) {
     t.R_q = R_y;

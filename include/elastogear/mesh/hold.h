@@ -1,5 +1,5 @@
 #pragma once
-// What holds a body: sets of nodes, in all directions or in some.
+// A body is held by sets of nodes, each in all directions or in some.
 
 #include <cstdint>
 #include <string>

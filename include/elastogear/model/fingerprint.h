@@ -1,5 +1,5 @@
 #pragma once
-// Whether two bodies are the same for a run.
+// A fingerprint tells whether two body files hold the same body for a run.
 
 #include <string>
 
