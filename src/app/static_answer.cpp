@@ -121,7 +121,7 @@ std::unique_ptr<StaticAnswer> static_answer(const BodyOfRun& body, Acceleration 
 
 std::unique_ptr<StaticAnswer> error_reference(const BodyOfRun& body) {
   std::unique_ptr<StaticAnswer> answer = make_answer(body);
-  if (!answer || is_stored(*answer)) return answer;
+  if (!answer || answer->node.empty() || is_stored(*answer)) return answer;
   if (!obstacle_to_factor(answer->body).empty()) return nullptr;
   answer->source = io::read_body_source(answer->file);
   return answer->source->free_dof.size() <= kLargestReference ? std::move(answer) : nullptr;
