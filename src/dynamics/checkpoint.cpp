@@ -86,6 +86,8 @@ void visit_state(Run& run, TS ts, Tape& tape) {
   tape(run.kinetic_energy);
   tape(run.n_outputs);
   tape(run.touches);
+  tape(run.short_steps);
+  tape(run.longest_short);
   visit_summary(run.summary, tape);
   double wall_time = run.summary.wall_time + seconds_since(run.start);
   tape(wall_time);

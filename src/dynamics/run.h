@@ -36,8 +36,10 @@ struct Run {
   bool touches = false;                          // some bodies touch at the end of the last step
   double kinetic_energy = 0;                     // J, after the last step of a settling run
   double unbalanced = -1, least_unbalanced = 1;  // shares of its forces without velocities: last and least
-  int entered_step = -1;                         // the last one in ledger and summary
-  bool interrupted = false;                      // a step was given up because the run was asked to stop
+  int short_steps = 0;                  // successive ones that Newton's failures keep far below nominal_dt
+  double longest_short = 0;             // s, of those
+  int entered_step = -1;                // the last one in ledger and summary
+  bool interrupted = false;             // a step was given up because the run was asked to stop
   std::vector<double> step_state = {};  // a checkpoint of the last step, where the steps take long; or empty
   Clock::time_point start = Clock::now(), kept = start, step_start = start;
 };

@@ -105,22 +105,46 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
   });
 }
 
+bool has_fixed_steps(TS ts) {
+  TSAdapt adapt = nullptr;
+  PetscBool fixed = PETSC_FALSE;
+  check(TSGetAdapt(ts, &adapt));
+  check(PetscObjectTypeCompare((PetscObject)adapt, TSADAPTNONE, &fixed));
+  return fixed;
+}
+
+// Where steps stay far below the nominal one, what moves is too fast for it, and the run would take that much
+// longer than planned.
+void require_long_steps(Run& run, TS ts) {
+  constexpr double kShort = 1. / 64;  // of the nominal step
+  constexpr int kMostShort = 2000;
+  PetscReal time = 0, before = 0;
+  check(TSGetTime(ts, &time));
+  check(TSGetPrevTime(ts, &before));
+  const double dt = time - before;
+  const bool is_short = has_fixed_steps(ts) && dt < kShort * run.nominal_dt;
+  run.short_steps = is_short ? run.short_steps + 1 : 0;
+  run.longest_short = is_short ? std::max(run.longest_short, dt) : 0;
+  require(run.short_steps < kMostShort, "at t = ", time, " s: none of the last ", kMostShort,
+          " steps could be longer than ", run.longest_short, " s, where -ts_dt = ", run.nominal_dt,
+          " s was asked for: something moves too fast for it. Are speeds, loads and stiffness those that "
+          "were meant? "
+          "If so, take -ts_dt ",
+          run.longest_short);
+}
+
 // Without an error estimate nothing would lengthen a step again that Newton's failure has cut.
 PetscErrorCode recover_dt(TS ts) {
   Run* run = nullptr;
-  TSAdapt adapt = nullptr;
-  PetscBool fixed = PETSC_FALSE;
   PetscReal time = 0, end = 0, dt = 0;
   PetscInt rejected = 0;
   PetscCall(TSGetApplicationContext(ts, &run));
-  PetscCall(TSGetAdapt(ts, &adapt));
-  PetscCall(PetscObjectTypeCompare((PetscObject)adapt, TSADAPTNONE, &fixed));
   PetscCall(TSGetStepRejections(ts, &rejected));
   rejected += run->summary.rejected_steps;
   PetscCall(TSGetTime(ts, &time));
   PetscCall(TSGetMaxTime(ts, &end));
   PetscCall(TSGetTimeStep(ts, &dt));
-  if (fixed && rejected > 0 && dt < run->nominal_dt && time < end)
+  if (has_fixed_steps(ts) && rejected > 0 && dt < run->nominal_dt && time < end)
     PetscCall(TSSetTimeStep(ts, std::min({2 * dt, run->nominal_dt, end - time})));
   return 0;
 }
@@ -159,6 +183,7 @@ PetscErrorCode post_step(TS ts) {
     accept(run->problem.system, ts);
     rebase(run->problem.system, ts);
     if (run->settings.settle) settle(*run, ts);
+    require_long_steps(*run, ts);
     stop_if_asked(*run, ts);
   }));
   return recover_dt(ts);
