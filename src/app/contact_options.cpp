@@ -113,4 +113,9 @@ std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::
   return setups;
 }
 
+bool friction_sticks(const Options& options) {
+  const contact::FrictionSettings f = friction(options);
+  return !options.list("contact_pairs").empty() && f.mu > 0 && f.law == contact::FrictionLaw::stick;
+}
+
 }  // namespace elastogear::app

@@ -66,7 +66,8 @@ const OptionTable kOwnTable = {
      "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
      "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
     {"static_steps", "-", "10", "load steps of a static analysis"},
-    {"rest_tolerance", "-", "1e-6", "relax: largest unbalanced share of the forces at rest"},
+    {"rest_tolerance", "-", "",
+     "relax: largest unbalanced share of the forces at rest (default: 1e-6; 1e-4 where friction sticks)"},
     {"ts_dt", "s", "", "time step"},
     {"ts_max_time", "s", "",
      "end of the simulation; static: time of loads and prescribed motions, without it loads take their last "
@@ -186,6 +187,13 @@ Analysis analysis(const Options& options) {
   return static_cast<Analysis>(options.choice("analysis", {"dynamic", "static", "relax"}));
 }
 
+// Where friction sticks, rest is a range of states: nodes creep on in it for tens of thousands of steps
+// (docs/theory.md, section 8.7).
+double rest_tolerance(const Options& options) {
+  if (options.given("rest_tolerance")) return options.positive("rest_tolerance");
+  return friction_sticks(options) ? 1e-4 : 1e-6;
+}
+
 dynamics::TimeSettings time_settings(const Options& options) {
   dynamics::TimeSettings time;
   time.dt = options.positive("ts_dt");
@@ -194,7 +202,7 @@ dynamics::TimeSettings time_settings(const Options& options) {
           " s: ends before the first step, -ts_dt = ", time.dt, " s");
   time.settle = analysis(options) == Analysis::relax;
   time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.settle ? 0 : 1;
-  time.rest_tolerance = options.positive("rest_tolerance");
+  time.rest_tolerance = rest_tolerance(options);
   time.output_every = options.count("output_every", 1);
   time.output_dt = options.number("output_dt");
   time.output_times = output_times(options);
@@ -212,8 +220,8 @@ void print_resolution(const Options& options, const dynamics::RunSummary& run) {
     if (pair.peak_force > 0 && pair.patch_nodes < kResolved * passes)
       print_item("warning",
                  "contact " + pair.name + ": too coarse a surface; its busiest area of contact has " +
-                     std::to_string(pair.patch_nodes / passes) + " of the " + std::to_string(kResolved) +
-                     " nodes that resolve a patch to 4 %: pressures and " +
+                     std::to_string((pair.patch_nodes + passes - 1) / passes) + " of the " +
+                     std::to_string(kResolved) + " nodes that resolve a patch to 4 %: pressures and " +
                      "stresses under the contact are not to be trusted; take a finer mesh there");
 }
 
