@@ -50,17 +50,6 @@ void set_first_moments(const Matrix4d& L, model::Inertia& inertia) {
   }
 }
 
-void set_second_moments(model::Inertia& inertia) {
-  constexpr int kPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
-  inertia.S_2.clear();
-  for (const auto [a, b] : kPairs) {
-    model::SparseRows S(12, 12);
-    for (int i = 0; i < 4; ++i) S.insert(4 * a + i, 4 * b + i) = 1;
-    S.makeCompressed();
-    inertia.S_2.emplace_back(std::move(S));
-  }
-}
-
 }  // namespace
 
 Eigen::MatrixXd mean_gradient(const model::Inertia& inertia) {
@@ -80,7 +69,6 @@ AffinePart affine_part(const model::Inertia& inertia) {
   part.inertia.c = inertia.c;
   part.inertia.J = inertia.J;
   set_first_moments(L, part.inertia);
-  set_second_moments(part.inertia);
   return part;
 }
 

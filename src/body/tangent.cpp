@@ -86,7 +86,7 @@ MatrixXd column_coefficients(const State& x) {
 // Second-order parts: of F_w with y (3 x n_y), and of the force on y with s (n_y x n_s).
 MatrixXd second_order_rows(const State& x) {
   const Vector3d w = x.frame.w;
-  const SecondOrder at_y_ddot = second_order(x.eq.inertia(), to_inertia(x.eq, x.m.q_ddot));
+  const SecondOrder at_y_ddot = second_order(x.eq, to_inertia(x.eq, x.m.q_ddot));
   const Matrix36 Y = factor(w), Y_row = factor(x.frame.alpha + x.shift.v * w) + x.W * Y;
   const Matrix3d by_B = x.shift.a * Matrix3d::Identity() + x.shift.v * x.W;
   return Y_row * x.shape.at_y.D.transpose() + Y * x.shape.at_y_dot.D.transpose() +

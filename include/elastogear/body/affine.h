@@ -10,7 +10,7 @@ namespace elastogear::body {
 /// (integral of rho f_i f_j dV = delta_ij) among 1, X_1, X_2, X_3.
 struct AffinePart {
   Eigen::MatrixXd Y;       ///< n_q x 12
-  model::Inertia inertia;  ///< with y in place of q, second-order invariants included
+  model::Inertia inertia;  ///< with y in place of q; S_2, whose S^ab y = [y_b in place of y_a], stays empty
 };
 
 /// Fields without mass (bodies without extension in a direction) have coordinates zero.

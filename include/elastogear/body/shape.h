@@ -26,7 +26,7 @@ struct SecondOrder {
   Eigen::Matrix<double, Eigen::Dynamic, 3> B;  ///< n_y x 3
   Eigen::Matrix<double, Eigen::Dynamic, 6> D;  ///< n_y x 6, xx yy zz xy yz xz
 };
-SecondOrder second_order(const model::Inertia& inertia, const Eigen::VectorXd& x);
+SecondOrder second_order(const Equations& eq, const Eigen::VectorXd& x);
 
 /// sum_ab Gamma_ab S^ab x
 Eigen::VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& Gamma,
