@@ -71,7 +71,7 @@ TEST(PatchTest, is_passed_where_every_master_node_meets_a_slave_node) {
   }
 }
 
-// The table of docs/theory.md.
+// The table of docs/validation.md, section 9.
 struct Stated {
   Patch patch;
   PatchErrors error;
