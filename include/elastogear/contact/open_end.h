@@ -1,6 +1,6 @@
 #pragma once
 // Contact at a prolonged open end of the master, over which the share w of the force falls to zero: the
-// potential is w(xi) times that of a node on the surface (docs/theory.md, section Winner).
+// potential is w(xi) times that of a node on the surface (docs/theory.md, section 6.2).
 
 #include "elastogear/contact/law.h"
 

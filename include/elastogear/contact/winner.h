@@ -1,6 +1,6 @@
 #pragma once
 // The one face, edge or vertex of the master surface that a slave node touches (docs/theory.md, section
-// Winner).
+// 6.2).
 
 #include <Eigen/Core>
 #include <array>
