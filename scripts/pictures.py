@@ -20,6 +20,7 @@ import scene
 BODY_COLOURS = ("#D55E00", "#0072B2")  # vermillion and blue, told apart by colour-blind readers too
 WARP_SHARE = 0.04  # of the body's size: how large the largest displacement is drawn
 ZOOM_SHARE = 0.09  # of the body's size: half height of the enlarged view
+STANDS_OUT = 3  # times that quantile
 SHOWN_QUANTILE = 0.999  # colours end there, so that a few contact nodes do not hide the roots
 MARGIN = 1.1  # around a whole body
 BOX_HEIGHT, BOX_ASPECT = 675, 1.1  # of one panel with boxes: pixels, width/height
@@ -91,8 +92,10 @@ def colour_by(surface, values):
 
 
 def colour_range(stress):
-    """Where the colours end: a round number beyond all but the few largest stresses."""
+    """Where the colours end: a round number beyond the largest stress, or where a few stand out far beyond all but those."""
     shown = float(np.quantile(stress, SHOWN_QUANTILE))
+    if stress.max() <= STANDS_OUT * shown:
+        shown = float(stress.max())
     step = round_down(shown / 5) if shown > 0 else 0.2
     return step * np.ceil(shown / step)
 

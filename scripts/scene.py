@@ -103,7 +103,7 @@ def colour_bar(table, extended):
     bar.SetMaximumNumberOfColors(TABLE_SIZE)
     bar.SetOrientationToHorizontal()
     bar.SetNumberOfLabels(6)
-    bar.SetLabelFormat("%.4g")
+    bar.SetLabelFormat("%.4g" if table.GetRange()[1] >= 1000 else "%.3g")  # less than the rounding of its end
     bar.SetPosition(0.2, 0.02)
     bar.SetPosition2(0.6, 0.6)
     bar.UnconstrainedFontSizeOn()
