@@ -88,8 +88,8 @@ class Files(unittest.TestCase):
     def test_what_is_above_the_bar_is_said(self):
         blue = [int(scene.ABOVE[i:i + 2], 16) for i in (1, 3, 5)]
         shares = []
-        for end in (1, 2):
-            with unittest.mock.patch.object(pictures, "SHOWN_QUANTILE", 1 / end):
+        for stands_out in (3, 1.9):  # half of the nodes are above 3.5
+            with unittest.mock.patch.multiple(pictures, SHOWN_QUANTILE=0.5, STANDS_OUT=stands_out):
                 end = pictures.colour_range(np.arange(8.0))
             shares.append((end, pictures.stress_label(np.arange(8.0), end)))
         self.assertEqual(shares[0], (7.0, "von Mises stress in MPa, largest 7"))
