@@ -26,7 +26,7 @@ const OptionTable kTable = {
     {"contact_offset", "m", "0", "added to every gap: > 0 takes initial overlap out, < 0 backlash"},
     {"contact_smooth", "-", "false",
      "gaps and normals of the smooth surface behind the facets (averaged normals at the nodes)"},
-    {"contact_crease", "deg", "30", "smooth: edges that turn by more stay sharp"},
+    {"contact_feature_angle", "deg", "30", "smooth: edges that turn by more stay sharp"},
     {"contact_extension", "-", "0.2",
      "share of a face's length by which surfaces are prolonged at open ends; forces fade out over it"},
     {"contact_damping", "Pa s/m or N s/m", "0", "damping while bodies approach, per area or per node"},
@@ -65,7 +65,7 @@ contact::Settings settings(const Options& options) {
   s.skin = options.number("contact_skin");
   s.offset = options.number("contact_offset");
   s.smooth = options.flag("contact_smooth");
-  s.crease = options.number("contact_crease");
+  s.feature_angle = options.number("contact_feature_angle");
   s.extension = options.number("contact_extension");
   s.damping = options.number("contact_damping");
   s.hysteresis = options.number("contact_hysteresis");

@@ -12,8 +12,8 @@ namespace {
 // The axes of a joint in the order of its coordinates.
 std::vector<dynamics::Axis*> axes(dynamics::BodySetup& setup) {
   std::vector<dynamics::Axis*> all;
-  if (body::turns(setup.joint.type)) all.push_back(&setup.rotation);
-  if (body::slides(setup.joint.type)) all.push_back(&setup.translation);
+  if (body::has_rotation_axis(setup.joint.type)) all.push_back(&setup.rotation);
+  if (body::has_translation_axis(setup.joint.type)) all.push_back(&setup.translation);
   return all;
 }
 
@@ -53,7 +53,7 @@ void set_initial_state(const Options& options, dynamics::BodySetup& setup) {
   const std::string file = options.text("initial_file");
   const auto bodies = io::read_result_header(file).bodies;
   if (std::none_of(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == setup.name; })) return;
-  require(!body::tumbles(setup.joint.type), "option -initial_file: body '", setup.name,
+  require(!body::has_rotation_vector(setup.joint.type), "option -initial_file: body '", setup.name,
           "' is on a joint without an axis, which cannot begin with the state of a file");
   const io::BodyHistory history = io::read_joint_history(file, setup.name);
   const std::vector<dynamics::Axis*> all = axes(setup);

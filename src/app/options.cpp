@@ -12,7 +12,7 @@
 #include "app/petsc_names.h"
 #include "app/spelling.h"
 #include "app/yaml.h"
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -102,7 +102,7 @@ std::string nearest_option(const std::string& name, const OptionTable& own) {
 
 std::string text_on_all_ranks(const std::string& file) {
   std::vector<char> text;
-  agree(PETSC_COMM_WORLD, [&] {
+  collectively(PETSC_COMM_WORLD, [&] {
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
     if (rank != 0) return;

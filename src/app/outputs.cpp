@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 
@@ -79,7 +79,7 @@ void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
 }
 
 OutputLock::OutputLock(const std::string& path) {
-  agree(PETSC_COMM_WORLD, [&] {
+  collectively(PETSC_COMM_WORLD, [&] {
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
     if (rank == 0) take(path);

@@ -8,9 +8,9 @@
 #include "app/console.h"
 #include "app/contact_field.h"
 #include "app/field.h"
-#include "app/kept_run.h"
+#include "app/resumable_run.h"
 #include "app/outputs.h"
-#include "app/static_answer.h"
+#include "app/static_response.h"
 #include "app/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/csv.h"
@@ -38,7 +38,7 @@ const OptionTable kTable = {
      "levels of the bounding-volume trees to write at the first field time: 0, 1, ... or leaf"},
     {"box_kdop", "-", "24", "directions of those bounding volumes"},
     {"mode_acceleration", "-", "auto",
-     "add what the modes leave out of the answer to contact forces, statically: true, false, or auto, for "
+     "add what the modes leave out of the response to contact forces, statically: true, false, or auto, for "
      "bodies "
      "reduced with -basis modal_residual; true takes a factor of each other body's stiffness matrix, and so "
      "do "
@@ -53,11 +53,11 @@ const OptionTable kTable = {
 struct Body {
   std::string result, name, file, identity;
   io::BodyHistory history;
-  std::unique_ptr<StaticAnswer> answer = nullptr;     // of mode acceleration, when asked for
-  std::unique_ptr<StaticAnswer> reference = nullptr;  // of the error estimate, where `answer` is none
+  std::unique_ptr<StaticResponseOfRun> response = nullptr;     // of mode acceleration, when asked for
+  std::unique_ptr<StaticResponseOfRun> reference = nullptr;  // of the error estimate, where `response` is none
 
   BodyOfRun of_run() const { return {result, name, file, identity, history}; }
-  const Eigen::MatrixXd& q() const { return answer ? answer->q : history.q; }
+  const Eigen::MatrixXd& q() const { return response ? response->q : history.q; }
 };
 
 struct Run {
@@ -99,8 +99,8 @@ Run read_run(const Options& options, const Progress& progress) {
       static_cast<Acceleration>(options.choice("mode_acceleration", {"false", "auto", "true"}));
   for (Body& body : run.bodies) {
     report(progress, "static answers", share(run.bodies, body));
-    body.answer = static_answer(body.of_run(), acceleration);
-    if (!body.answer && is_asked(options, body.name)) body.reference = error_reference(body.of_run());
+    body.response = static_response_of_run(body.of_run(), acceleration);
+    if (!body.response && is_asked(options, body.name)) body.reference = error_reference(body.of_run());
   }
   report(progress, "static answers", 1);
   return run;
@@ -145,7 +145,7 @@ constexpr double kTrusted = 0.05;  // of the peak
 // What to do about stresses whose estimated error is too large.
 std::string remedy(const Body& body) {
   const bool untouched = body.reference && body.reference->node.empty();
-  if (!body.answer && !untouched)
+  if (!body.response && !untouched)
     return "reduce the body with -basis modal_residual, loaded wherever it is touched (option loaded; by "
            "default "
            "everywhere)";
@@ -198,7 +198,7 @@ recovery::StressHistory history(Body& body, const model::Stress& stress, const s
   const std::vector<int>& members = stress_set(stress, set, body.file);
   std::vector<int> nodes;
   for (int member : members) nodes.push_back(stress.node[member]);
-  const Eigen::MatrixXd sigma_static = body.answer ? stress_history(*body.answer, nodes) : Eigen::MatrixXd();
+  const Eigen::MatrixXd sigma_static = body.response ? stress_history(*body.response, nodes) : Eigen::MatrixXd();
   return recovery::stress_history(stress, members, body.q(), sigma_static);
 }
 
@@ -209,7 +209,7 @@ void estimate_error(Body& body, const model::ElasticBody& elastic, io::StressSet
     set.peak_error.setZero(set.von_mises.cols());
     return;
   }
-  StaticAnswer* const reference = body.answer ? body.answer.get() : body.reference.get();
+  StaticResponseOfRun* const reference = body.response ? body.response.get() : body.reference.get();
   if (!reference) return;
   const std::vector<int>& members = elastic.stress.sets.at(set.set);
   const Eigen::MatrixXd whole =
@@ -217,7 +217,7 @@ void estimate_error(Body& body, const model::ElasticBody& elastic, io::StressSet
           .stress;
   const Eigen::MatrixXd of_modes = recovery::stress_history(elastic.stress, members, body.history.q).stress;
   auto error = recovery::reduction_error(elastic, members, {reference->q, body.history.q - reference->q},
-                                         {set.stress, whole - of_modes, body.answer != nullptr});
+                                         {set.stress, whole - of_modes, body.response != nullptr});
   set.error = std::move(error.at_node);
   set.peak_error = std::move(error.of_peak);
 }
@@ -288,14 +288,14 @@ FieldState state_at(const Body& body, int step) {
 // With the whole body's static response in place of that of the modes, when it was asked for.
 FieldState recovered_state(const Options& options, const Body& body, int step) {
   FieldState state = state_at(body, step);
-  StaticAnswer* const known = body.answer ? body.answer.get() : body.reference.get();
+  StaticResponseOfRun* const known = body.response ? body.response.get() : body.reference.get();
   if (!known) return state;
   const Eigen::VectorXd u_static = displacement(*known, step), q_d = known->q.col(step);
   if (options.flag("error_estimate")) {
     const Eigen::VectorXd share = recovery::dynamic_share(known->body, {q_d, state.q - q_d});
     state.reference = {state.q, q_d, u_static, share[0]};
   }
-  if (!body.answer) return state;
+  if (!body.response) return state;
   state.q = q_d;
   state.u_static = u_static;
   return state;

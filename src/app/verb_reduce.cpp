@@ -16,7 +16,7 @@
 #include "app/outputs.h"
 #include "app/plausibility.h"
 #include "app/verbs.h"
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/petsc.h"
@@ -105,13 +105,13 @@ int window(const Options& options) {
 
 double unit_in_m(const Options& options) { return options.choice("unit", {"m", "mm"}) == 0 ? 1 : 1e-3; }
 
-std::optional<reduction::ForeignFiles> foreign_files(const Options& options) {
+std::optional<reduction::ImportedFiles> imported_files(const Options& options) {
   if (!options.given("stiffness")) {
     for (const char* name : {"mass", "matrix_format", "dofs", "nodes"})
       require(!options.given(name), "option -", name, " needs -stiffness, a matrix of another program");
     return {};
   }
-  reduction::ForeignFiles files{options.text("stiffness"), options.text("mass")};
+  reduction::ImportedFiles files{options.text("stiffness"), options.text("mass")};
   if (options.given("dofs")) files.dofs = options.text("dofs");
   files.format = static_cast<io::MatrixFormat>(
       options.choice("matrix_format", {"auto", "abaqus", "calculix", "triplets"}));
@@ -152,7 +152,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
   reduction::ReductionOptions o;
   o.name = std::filesystem::path(options.text("output")).stem().string();
   o.regions = material_options(options);
-  o.foreign = foreign_files(options);
+  o.imported = imported_files(options);
   o.element = static_cast<model::Element>(options.choice("element", {"incompatible", "plain", "bbar"}));
   set_restraint(options, o);
   o.surface = options.list("surface");
@@ -182,7 +182,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
 }
 
 // Without a contact surface nothing can be loaded.
-void drop_static_answers(reduction::ReductionOptions& o) {
+void drop_static_responses(reduction::ReductionOptions& o) {
   if (!o.flexibility || !o.surface.empty() || !o.loaded.empty()) return;
   o.flexibility = false;
   print_item("basis",
@@ -236,7 +236,7 @@ Nodes read_on_rank_0(const Options& options) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   Nodes nodes;
-  agree(PETSC_COMM_WORLD, [&] {
+  collectively(PETSC_COMM_WORLD, [&] {
     if (rank != 0) return;
     nodes = read_nodes(options);
     const auto listed = listed_nodes(options, nodes.report.node_number);
@@ -253,7 +253,7 @@ void take_materials(const Options& options, const mesh::ReadReport& report, redu
   if (!o.regions.empty()) return warn_of_materials(o.regions, false);
   o.regions = report.regions;
   broadcast(PETSC_COMM_WORLD, o.regions);
-  if (o.regions.empty() && o.foreign) return;
+  if (o.regions.empty() && o.imported) return;
   require(!o.regions.empty(), "option -material_E is missing, and ", options.text("mesh"),
           " gives no material to its cells (*SOLID SECTION)");
   o.provenance["materials_from"] = "mesh";
@@ -344,8 +344,8 @@ void run(const Options& options, const std::vector<std::string>&) {
   reduction::ReductionOptions reduction = reduction_options(options);
   const OutputLock lock(output);
   const Nodes nodes = read_on_rank_0(options);
-  if (reduction.foreign) reduction.foreign->node_number = nodes.report.node_number;
-  drop_static_answers(reduction);
+  if (reduction.imported) reduction.imported->node_number = nodes.report.node_number;
+  drop_static_responses(reduction);
   take_materials(options, nodes.report, reduction);
   take_restraint(options, nodes.report, reduction);
   print_restraint(nodes.mesh, reduction.restrain);

@@ -8,7 +8,7 @@
 #include "app/console.h"
 #include "app/contact_options.h"
 #include "app/initial_state.h"
-#include "app/kept_run.h"
+#include "app/resumable_run.h"
 #include "app/marker_options.h"
 #include "app/motion.h"
 #include "app/output_options.h"
@@ -83,7 +83,7 @@ const OptionTable kOwnTable = {
 OptionTable table() {
   OptionTable all = kOwnTable;
   for (const OptionTable& part :
-       {output_table(), contact_table(), initial_state_table(), kept_run_table(), marker_table()})
+       {output_table(), contact_table(), initial_state_table(), resumable_run_table(), marker_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -91,7 +91,7 @@ OptionTable table() {
 body::Joint joint(const Options& options, const std::string& prefix) {
   body::Joint joint;
   joint.type = static_cast<body::JointType>(options.choice(prefix + "joint", body::joint_names()));
-  require(!options.given(prefix + "axis") || body::turns(joint.type) || body::slides(joint.type), "option -",
+  require(!options.given(prefix + "axis") || body::has_rotation_axis(joint.type) || body::has_translation_axis(joint.type), "option -",
           prefix, "axis: a ", options.text(prefix + "joint"),
           " joint has no axis; revolute, prismatic and cylindrical joints have");
   joint.axis = options.vector(prefix + "axis");
@@ -200,8 +200,8 @@ dynamics::TimeSettings time_settings(const Options& options) {
   time.end_time = options.positive("ts_max_time");
   require(time.end_time >= time.dt, options.label("ts_max_time"), " = ", time.end_time,
           " s: ends before the first step, -ts_dt = ", time.dt, " s");
-  time.settle = analysis(options) == Analysis::relax;
-  time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.settle ? 0 : 1;
+  time.relax = analysis(options) == Analysis::relax;
+  time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.relax ? 0 : 1;
   time.rest_tolerance = rest_tolerance(options);
   time.output_every = options.count("output_every", 1);
   time.output_dt = options.number("output_dt");
@@ -265,8 +265,8 @@ std::string step_text(const dynamics::StepInfo& step) {
     std::snprintf(text, sizeof text, "%.3g %s", value, unit);
     return std::string(text);
   };
-  const std::string settling = step.unbalanced >= 0 ? ", unbalanced " + brief(step.unbalanced, "") : "";
-  return settling + ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
+  const std::string relaxing = step.unbalanced >= 0 ? ", unbalanced " + brief(step.unbalanced, "") : "";
+  return relaxing + ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
          std::to_string(step.contacts) + " contacts " + brief(step.penetration, "m") + " deep, dt " +
          brief(step.dt, "s") + ", " + std::to_string(step.newton_iterations) + " iterations in " +
          std::to_string(step.step) + " steps";

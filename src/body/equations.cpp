@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
-#include "elastogear/body/shape.h"
+#include "elastogear/body/deformed_inertia.h"
 
 namespace elastogear::body {
 namespace {

@@ -44,16 +44,16 @@ const std::vector<std::string>& joint_names() {
   return names;
 }
 
-bool turns(JointType type) { return type == JointType::revolute || type == JointType::cylindrical; }
-bool slides(JointType type) { return type == JointType::prismatic || type == JointType::cylindrical; }
-bool tumbles(JointType type) { return type == JointType::spherical || type == JointType::free; }
+bool has_rotation_axis(JointType type) { return type == JointType::revolute || type == JointType::cylindrical; }
+bool has_translation_axis(JointType type) { return type == JointType::prismatic || type == JointType::cylindrical; }
+bool has_rotation_vector(JointType type) { return type == JointType::spherical || type == JointType::free; }
 
 Placement placement(const Joint& joint, const Eigen::VectorXd& s) {
   if (joint.type == JointType::free) return {s.head<3>(), joint.R_WB0 * cayley(s.tail<3>())};
   if (joint.type == JointType::fixed) return {joint.r_WB0, joint.R_WB0};
   if (joint.type == JointType::spherical) return about_point(joint, cayley(s), Vector3d::Zero());
   const Vector3d axis = joint.axis.normalized();
-  const double angle = turns(joint.type) ? s[0] : 0, slid = slides(joint.type) ? s[s.size() - 1] : 0;
+  const double angle = has_rotation_axis(joint.type) ? s[0] : 0, slid = has_translation_axis(joint.type) ? s[s.size() - 1] : 0;
   return about_point(joint, rotation_matrix(angle * axis), slid * axis);
 }
 
@@ -70,8 +70,8 @@ MotionSubspace motion_subspace(const Joint& joint) {
   require(std::isfinite(length) && length > 0, "joint axis (", joint.axis.transpose(),
           ") must be finite and not zero");
   const Vector3d axis = joint.axis / length;
-  if (turns(joint.type)) H.col(0) << joint.point.cross(axis), axis;
-  if (slides(joint.type)) H.col(n_s - 1) << axis, Vector3d::Zero();
+  if (has_rotation_axis(joint.type)) H.col(0) << joint.point.cross(axis), axis;
+  if (has_translation_axis(joint.type)) H.col(n_s - 1) << axis, Vector3d::Zero();
   return H;
 }
 
@@ -116,7 +116,7 @@ FrameDerivative frame_derivative(const Joint& joint, const MotionSubspace& H, co
 
 Joint rebased(const Joint& joint, const Eigen::VectorXd& s) {
   Joint result = joint;
-  if (!tumbles(joint.type)) return result;
+  if (!has_rotation_vector(joint.type)) return result;
   result.R_WB0 = orthonormalised(placement(joint, s).R_WB);
   result.r_WB0 += (joint.R_WB0 - result.R_WB0) * joint.point;
   return result;

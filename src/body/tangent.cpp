@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "elastogear/base/rotation.h"
-#include "elastogear/body/shape.h"
+#include "elastogear/body/deformed_inertia.h"
 
 namespace elastogear::body {
 namespace {

@@ -34,7 +34,7 @@ constexpr int n_gauss_newton = 3, n_steps = 25;
 constexpr double converged = 1e-13, converged_quadratically = 1e-9;
 constexpr double far_away = 3;  // local coordinates beyond which the foot point cannot return to the face
 
-// Foot point from a start: Gauss-Newton steps first, then full Newton. Where
+// ProjectionKinematics point from a start: Gauss-Newton steps first, then full Newton. Where
 // the full Hessian is indefinite, Gauss-Newton goes on: only it descends there.
 bool foot_point(const Face& face, const Eigen::Vector3d& q, Eigen::Vector2d& at) {
   for (int i = 0; i < n_steps; ++i) {

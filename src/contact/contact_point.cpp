@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be prolonged over a smooth edge
 constexpr int kNewtonSteps = 8;
 
-ContactPoint geometry(const SurfaceView& master, const Winner& w) {
+ContactPoint geometry(const SurfaceView& master, const Projection& w) {
   const int sides = side_count(master.face, w.face);
   const Eigen::Vector2d natural = natural_coordinates(sides, w.point.u, w.point.v);
   ContactPoint contact;
@@ -29,8 +29,8 @@ ContactPoint geometry(const SurfaceView& master, const Winner& w) {
   return contact;
 }
 
-// Foot point on the face prolonged over its sides; nothing when there is none near.
-std::optional<Winner> prolonged(const Face& face, const Vector3d& q, Winner w) {
+// ProjectionKinematics point on the face prolonged over its sides; nothing when there is none near.
+std::optional<Projection> prolonged(const Face& face, const Vector3d& q, Projection w) {
   const Eigen::Vector2d start(w.point.u, w.point.v);
   Eigen::Vector2d at = start;
   for (int step = 0; step < kNewtonSteps; ++step) {
@@ -51,16 +51,16 @@ std::optional<Winner> prolonged(const Face& face, const Vector3d& q, Winner w) {
   return w;
 }
 
-Winner smooth_winner(const MasterSide& master, const Winner& w, const Vector3d& q) {
+Projection smooth_projection(const MasterSide& master, const Projection& w, const Vector3d& q) {
   const bool on_face = w.point.feature == Feature::face;
-  if (master.bulge.empty() || on_face) return w;
+  if (master.smoothing.empty() || on_face) return w;
   const Face face = face_of(master.surface, w.face);
-  if (normal(face, w.point.u, w.point.v).dot(w.n) < std::cos(master.crease)) return w;
+  if (normal(face, w.point.u, w.point.v).dot(w.n) < std::cos(master.feature_angle)) return w;
   return prolonged(face, q, w).value_or(w);
 }
 
 // Along the directions in which the closest point can move.
-FaceFunction restricted(const FaceFunction& full, int sides, const Winner& w) {
+FaceFunction restricted(const FaceFunction& full, int sides, const Projection& w) {
   if (w.point.feature == Feature::face) return full;
   if (w.point.feature == Feature::vertex) return {full.f};
   const Eigen::Vector2d along = on_side(sides, w.point.part, 1) - on_side(sides, w.point.part, 0);
@@ -70,18 +70,18 @@ FaceFunction restricted(const FaceFunction& full, int sides, const Winner& w) {
   return side;
 }
 
-FaceFunction height_at(const MasterSide& master, const Face& face, const Winner& w) {
-  if (master.bulge.empty() || w.point.feature == Feature::vertex) return {};
-  return restricted(height(face.sides, master.bulge[w.face], w.point.u, w.point.v), face.sides, w);
+FaceFunction height_at(const MasterSide& master, const Face& face, const Projection& w) {
+  if (master.smoothing.empty() || w.point.feature == Feature::vertex) return {};
+  return restricted(height(face.sides, master.smoothing[w.face], w.point.u, w.point.v), face.sides, w);
 }
 
-FaceFunction share_at(const Face& face, const Winner& w) {
+FaceFunction share_at(const Face& face, const Projection& w) {
   return restricted(end_share(face, w.point.u, w.point.v), face.sides, w);
 }
 
 // Way of the closest point over the master since the last step, and what the spring held then.
-StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Winner& w,
-                         const Foot& foot) {
+StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Projection& w,
+                         const ProjectionKinematics& foot) {
   const Face face = face_of(master, stuck.face);
   const Shape s = shape(face.sides, stuck.u, stuck.v);
   const Eigen::Vector4d anchor = s.N - stuck.e_u * s.N_u - stuck.e_v * s.N_v;
@@ -96,7 +96,7 @@ StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, con
   return motion;
 }
 
-StickPoint stick_point(const Face& face, const Winner& w, const ContactPoint& contact) {
+StickPoint stick_point(const Face& face, const Projection& w, const ContactPoint& contact) {
   const Shape s = shape(face.sides, w.point.u, w.point.v);
   Eigen::Matrix<double, 3, 2> a;
   a << combine(face, s.N_u), combine(face, s.N_v);
@@ -112,9 +112,9 @@ StickPoint stick_point(const Face& face, const Winner& w, const ContactPoint& co
 
 }  // namespace
 
-bool on_prolonged_end(const Winner& w) { return w.point.N.minCoeff() < 0; }
+bool on_extension(const Projection& w) { return w.point.N.minCoeff() < 0; }
 
-ContactPoint potential_contact(const MasterSide& master, const Winner& w, double c_p, bool full_tangent) {
+ContactPoint potential_contact(const MasterSide& master, const Projection& w, double c_p, bool full_tangent) {
   const Face face = face_of(master.surface, w.face);
   ContactPoint contact = geometry(master.surface, w);
   contact.f = -c_p * w.g_n * w.n;
@@ -127,18 +127,18 @@ ContactPoint potential_contact(const MasterSide& master, const Winner& w, double
   return contact;
 }
 
-std::optional<ContactPoint> general_contact(const MasterSide& master, const Touch& touch, const Law& law) {
-  const Winner w = smooth_winner(master, touch.winner, touch.x_slave);
+std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& slave, const Law& law) {
+  const Projection w = smooth_projection(master, slave.projection, slave.x_slave);
   const Face face = face_of(master.surface, w.face);
-  const Foot foot = make_foot(face, w, touch.x_slave);
+  const ProjectionKinematics foot = projection_kinematics(face, w, slave.x_slave);
   const Gap open = gap(foot, height_at(master, face, w), law.offset, share_at(face, w));
   if (!(open.g < 0)) return {};
   ContactPoint contact = geometry(master.surface, w);
-  contact.slave_node = touch.slave_node;
-  contact.v.col(0) = touch.velocity(0, touch.slave_node);
-  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = touch.velocity(1, contact.master_node[i]);
+  contact.slave_node = slave.slave_node;
+  contact.v.col(0) = slave.velocity(0, slave.slave_node);
+  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.velocity(1, contact.master_node[i]);
   std::optional<StickMotion> motion;
-  if (touch.stuck) motion = stick_motion(master.surface, *touch.stuck, w, foot);
+  if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, foot);
   apply_law(law, foot, open, motion ? &*motion : nullptr, contact);
   contact.stick = stick_point(face, w, contact);
   return contact;

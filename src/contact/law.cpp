@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "elastogear/base/rotation.h"
-#include "elastogear/contact/open_end.h"
+#include "elastogear/contact/surface_boundary.h"
 
 namespace elastogear::contact {
 namespace {
@@ -23,7 +23,7 @@ struct Varying {
 Local flat(const LocalVectors& v) { return v.reshaped(); }
 
 // Velocity of the slave node against the master.
-Varying relative_velocity(const Foot& foot, const LocalVectors& v) {
+Varying relative_velocity(const ProjectionKinematics& foot, const LocalVectors& v) {
   Varying rate;
   rate.value = foot.G * flat(v);
   rate.v = foot.G;
@@ -76,19 +76,19 @@ Friction sticking(const Vector3d& z, double c_t, double limit) {
 struct Parts {
   Varying slip;       // velocity
   Varying motion;     // argument of friction: velocity, or displacement of a node that sticks
-  Pressing pressing;  // of the whole node
+  NormalForce normal;  // of the whole node
   double p = 0;       // N, what is left of it at an open end
   Friction friction;
   double mu = 0;
 };
 
-Parts parts(const Law& law, const Foot& foot, const Gap& gap, const StickMotion* stick,
+Parts parts(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
             const LocalVectors& v) {
   Parts parts;
   const Varying rate = relative_velocity(foot, v);
   parts.slip = tangential(rate, gap);
-  parts.pressing = pressing(law, gap.g, gap.n.dot(rate.value));
-  parts.p = gap.share.f * parts.pressing.p;
+  parts.normal = normal_force(law, gap.g, gap.n.dot(rate.value));
+  parts.p = gap.share.f * parts.normal.p;
   if (law.mu == 0) return parts;
   if (law.v_0 > 0) {
     parts.mu = law.mu;
@@ -107,14 +107,14 @@ Parts parts(const Law& law, const Foot& foot, const Gap& gap, const StickMotion*
 }
 
 // df = f_x dx + f_v dv
-Varying force(const Foot& foot, const Gap& gap, const Parts& parts, const LocalVectors& v) {
-  const Pressing& pressing = parts.pressing;
+Varying force(const ProjectionKinematics& foot, const Gap& gap, const Parts& parts, const LocalVectors& v) {
+  const NormalForce& normal = parts.normal;
   const Friction& friction = parts.friction;
   const Varying rate = relative_velocity(foot, v);
   const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
-  const LocalRow p_x = gap.share.f * (pressing.p_g * gap.g_x + pressing.p_r * rate_x) +
-                       pressing.p * gap.share.f_a.transpose() * foot.D;
-  const LocalRow p_v = gap.share.f * pressing.p_r * gap.g_x;
+  const LocalRow p_x = gap.share.f * (normal.p_g * gap.g_x + normal.p_r * rate_x) +
+                       normal.p * gap.share.f_a.transpose() * foot.D;
+  const LocalRow p_v = gap.share.f * normal.p_r * gap.g_x;
   const Vector3d per_p = gap.n - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
   Varying f;
   f.value = parts.p * (gap.n - parts.mu * friction.direction);
@@ -124,7 +124,7 @@ Varying force(const Foot& foot, const Gap& gap, const Parts& parts, const LocalV
 }
 
 // Directions that the couple f x d can have: on faces d is normal.
-Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const Foot& foot) {
+Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const ProjectionKinematics& foot) {
   if (foot.n_dir < 2) return Matrix3d::Identity();
   Eigen::Matrix<double, 3, 2> tangents;
   tangents.col(0) = foot.n.unitOrthogonal();
@@ -134,7 +134,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const Foot& 
 
 // F = B' f + spin' (f x d), W = [B', P_alpha, spin' T]: dF = B' df + P_alpha dxi_alpha + spin' T T' d(f x d).
 // The change of the spin is left out.
-void set_tangent(const Foot& foot, const Varying& f, ContactPoint& contact) {
+void set_tangent(const ProjectionKinematics& foot, const Varying& f, ContactPoint& contact) {
   const auto T = couple_directions(foot);
   const Eigen::Index m = T.cols(), n = 3 + foot.n_dir + m;
   contact.W.setZero(15, n);
@@ -155,10 +155,10 @@ void set_tangent(const Foot& foot, const Varying& f, ContactPoint& contact) {
 
 }  // namespace
 
-Pressing pressing(const Law& law, double gap, double rate) {
+NormalForce normal_force(const Law& law, double gap, double rate) {
   if (gap >= 0) return {};
   const double depth = -gap, approach = std::max(0.0, -rate);
-  Pressing f;
+  NormalForce f;
   f.energy = 0.5 * law.c_p * depth * depth;
   const double damping = law.d_p + law.hysteresis * law.c_p * depth;
   f.p = law.c_p * depth + damping * approach;
@@ -170,7 +170,7 @@ Pressing pressing(const Law& law, double gap, double rate) {
 }
 
 // dn = -d(a y) with y = A^-1 h_a
-Gap gap(const Foot& foot, const FaceFunction& height, double offset, const FaceFunction& share) {
+Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset, const FaceFunction& share) {
   Gap result{foot.g - height.f + offset, foot.n, foot.n_x, {}, share};
   if (foot.n_dir > 0 && !height.f_a.isZero(0)) {
     const Eigen::Matrix2d A_inverse = foot.A.inverse();
@@ -183,7 +183,7 @@ Gap gap(const Foot& foot, const FaceFunction& height, double offset, const FaceF
   return result;
 }
 
-void apply_law(const Law& law, const Foot& foot, const Gap& gap, const StickMotion* stick,
+void apply_law(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
                ContactPoint& contact) {
   const Parts all = parts(law, foot, gap, stick, contact.v);
   const Varying f = force(foot, gap, all, contact.v);
@@ -192,11 +192,11 @@ void apply_law(const Law& law, const Foot& foot, const Gap& gap, const StickMoti
   contact.f = f.value;
   contact.F = (foot.G.transpose() * f.value).reshaped(3, 5);
   contact.slip = all.slip.value;
-  contact.energy = gap.share.f * all.pressing.energy;
-  contact.power = gap.share.f * all.pressing.power;
+  contact.energy = gap.share.f * all.normal.energy;
+  contact.power = gap.share.f * all.normal.power;
   contact.friction_power = 0;
   set_tangent(foot, f, contact);
-  if (gap.share.f < 1) add_end_force(end_force(foot, gap, all.pressing), contact);
+  if (gap.share.f < 1) add_end_force(end_force(foot, gap, all.normal), contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   if (!stick || law.c_t == 0) return;
   const Vector3d elastic = all.mu * all.p / law.c_t * all.friction.direction;

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "elastogear/base/error.h"
-#include "elastogear/contact/bulge.h"
+#include "elastogear/contact/smoothing.h"
 #include "elastogear/contact/contact_point.h"
-#include "elastogear/contact/penalty.h"
+#include "elastogear/contact/settings.h"
 #include "tracker.h"
 
 namespace elastogear::contact {
@@ -18,7 +18,7 @@ namespace {
 
 struct Side {
   std::vector<Law> law;             // of each node as slave
-  std::vector<CornerSlopes> bulge;  // of each face as master; empty: facets
+  std::vector<CornerSlopes> smoothing;  // of each face as master; empty: facets
   std::vector<int> last_face;       // master face each node touched last; -1
   std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
 };
@@ -29,7 +29,7 @@ Side make_side(const Tracked& tracked, const Settings& settings) {
   const model::Surface& surface = *tracked.surface;
   const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
   return {node_laws(settings, surface),
-          settings.smooth ? corner_slopes(undeformed, radians(settings.crease)) : std::vector<CornerSlopes>(),
+          settings.smooth ? corner_slopes(undeformed, radians(settings.feature_angle)) : std::vector<CornerSlopes>(),
           std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
           {}};
 }
@@ -48,7 +48,7 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
 
 // Facets that a smooth surface lies behind are touched from outside, and so is what the offset moves out.
 Limits limits_of(const Settings& settings, const Side& a, const Side& b) {
-  const double height = std::max(largest_height(a.bulge), largest_height(b.bulge));
+  const double height = std::max(largest_height(a.smoothing), largest_height(b.smoothing));
   return {settings.depth + height + std::max(0.0, settings.offset), std::cos(radians(settings.normal_angle)),
           height + std::max(0.0, -settings.offset)};
 }
@@ -65,7 +65,7 @@ struct Pair::Data {
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
   void keep_stuck();
   std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, int node,
-                                      const Winner& w) const;
+                                      const Projection& w) const;
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
 };
@@ -80,10 +80,10 @@ void Pair::Data::keep_stuck() {
 }
 
 std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int slave_side, int node,
-                                                const Winner& w) const {
+                                                const Projection& w) const {
   const Side& slaves = side[slave_side];
   const Law& law = slaves.law[node];
-  if (has_potential(settings) && !on_prolonged_end(w))
+  if (has_potential(settings) && !on_extension(w))
     return potential_contact(master, w, law.c_p, settings.full_tangent);
   const auto rate = [&](int i, int n) { return tracker.velocity(i == 0 ? slave_side : 1 - slave_side, n); };
   const auto stuck = slaves.stuck.find(node);
@@ -95,17 +95,17 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0),
                     surface = tracker.view(1 - slave_side, settings.extension);
-  const MasterSide master{surface, side[1 - slave_side].bulge, radians(settings.crease)};
+  const MasterSide master{surface, side[1 - slave_side].smoothing, radians(settings.feature_angle)};
   std::vector<int>& last_face = side[slave_side].last_face;
-  const Nearby& near = tracker.near(slave_side);
+  const Neighbours& near = tracker.near(slave_side);
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
     const SlaveNode q{slave.x.col(node), [&] { return node_normal(slave, node); },
                       [&] { return tracker.all_faces(slave_side, node); }};
-    const auto winner = find_winner(surface, q, limits, near.faces(i), last_face[node]);
-    last_face[node] = winner ? winner->face : -1;
-    if (!winner) continue;
-    auto found = contact(master, slave_side, node, *winner);
+    const auto projection = find_projection(surface, q, limits, near.faces(i), last_face[node]);
+    last_face[node] = projection ? projection->face : -1;
+    if (!projection) continue;
+    auto found = contact(master, slave_side, node, *projection);
     if (!found) continue;
     found->slave_side = found->stick.slave_side = slave_side;
     found->slave_node = found->stick.slave_node = node;
@@ -181,18 +181,18 @@ const Settings& Pair::settings() const { return data_->settings; }
 int Pair::n_searches() const { return data_->tracker.n_searches(); }
 int Pair::n_displaced() const { return data_->tracker.n_displaced(); }
 
-void Pair::visit_memory(Tape& tape) {
+void Pair::serialize(Archive& archive) {
   std::vector<StickPoint> stuck = history();
-  tape.each(stuck, [&](StickPoint& point) {
-    for (int* n : {&point.slave_side, &point.slave_node, &point.face}) tape(*n);
-    for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) tape(*x);
-    tape(point.slides);
+  archive.each(stuck, [&](StickPoint& point) {
+    for (int* n : {&point.slave_side, &point.slave_node, &point.face}) archive(*n);
+    for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) archive(*x);
+    archive(point.slides);
   });
-  if (tape.plays()) restore(stuck);  // before the tracker, which it makes forget
-  data_->tracker.visit_memory(tape);
+  if (archive.is_loading()) restore(stuck);  // before the tracker, which it makes forget
+  data_->tracker.serialize(archive);
   for (Side& side : data_->side) {
     const std::size_t n_nodes = side.last_face.size();
-    tape(side.last_face);
+    archive(side.last_face);
     require(side.last_face.size() == n_nodes, "the stored contacts are of other surfaces");
   }
 }
@@ -205,8 +205,8 @@ std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState
 }
 
 std::vector<ContactPoint> Pair::detect(const SurfaceMotion& a, const SurfaceMotion& b,
-                                       const std::array<Yield, 2>& yield) {
-  data_->tracker.follow(a, b, yield);
+                                       const std::array<ResidualDisplacement, 2>& residual) {
+  data_->tracker.follow(a, b, residual);
   return data_->contacts(b.R_WB);
 }
 

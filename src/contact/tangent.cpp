@@ -23,15 +23,15 @@ Tangent zero_tangent(int n_columns) {
   return t;
 }
 
-Tangent normal_part(const Winner& w, double c_p) {
+Tangent normal_part(const Projection& w, double c_p) {
   Tangent t = zero_tangent(1);
   t.W = column(1, -w.point.N, w.n);
   t.k(0, 0) = c_p;
   return t;
 }
 
-// Foot point inside the face: W = [N, D_1, D_2, N_1, N_2].
-Tangent face_tangent(const Face& face, const Winner& w, double c_p) {
+// ProjectionKinematics point inside the face: W = [N, D_1, D_2, N_1, N_2].
+Tangent face_tangent(const Face& face, const Projection& w, double c_p) {
   const Shape s = shape(face.sides, w.point.u, w.point.v);
   const Eigen::Vector3d a_u = combine(face, s.N_u), a_v = combine(face, s.N_v);
   const double twist = w.n.dot(combine(face, s.N_uv));
@@ -55,7 +55,7 @@ Tangent face_tangent(const Face& face, const Winner& w, double c_p) {
 }
 
 // Closest point on a side: W = [V_n, V_p, V_e, E_n], with the side's direction e and p = n x e.
-Tangent edge_tangent(const Face& face, const Winner& w, double c_p) {
+Tangent edge_tangent(const Face& face, const Projection& w, double c_p) {
   const int side = w.point.part, next = (side + 1) % face.sides;
   const Eigen::Vector3d along = face.x[next] - face.x[side];
   const double length = along.norm(), g = w.g_n;
@@ -74,7 +74,7 @@ Tangent edge_tangent(const Face& face, const Winner& w, double c_p) {
 }
 
 // Closest point is a corner: a spring between two nodes.
-Tangent vertex_tangent(const Winner& w, double c_p) {
+Tangent vertex_tangent(const Projection& w, double c_p) {
   const Eigen::Vector3d p = w.n.unitOrthogonal();
   Tangent t = zero_tangent(3);
   t.W << column(1, -w.point.N, w.n), column(1, -w.point.N, p), column(1, -w.point.N, w.n.cross(p));
@@ -84,15 +84,15 @@ Tangent vertex_tangent(const Winner& w, double c_p) {
 
 }  // namespace
 
-Tangent contact_tangent(const Face& face, const Winner& winner, double c_p, bool full) {
-  if (!full) return normal_part(winner, c_p);
-  switch (winner.point.feature) {
+Tangent contact_tangent(const Face& face, const Projection& projection, double c_p, bool full) {
+  if (!full) return normal_part(projection, c_p);
+  switch (projection.point.feature) {
     case Feature::edge:
-      return edge_tangent(face, winner, c_p);
+      return edge_tangent(face, projection, c_p);
     case Feature::vertex:
-      return vertex_tangent(winner, c_p);
+      return vertex_tangent(projection, c_p);
     default:
-      return face_tangent(face, winner, c_p);
+      return face_tangent(face, projection, c_p);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "elastogear/base/error.h"
-#include "elastogear/contact/penalty.h"
+#include "elastogear/contact/settings.h"
 
 namespace elastogear::contact {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr double kLimit = 0.125;
 constexpr int kFewUses = 8, kManyUses = 64;
 // Of that motion, for which the nodes that touch first serve; twice as much when it is used up.
-constexpr double kFirstLeg = 0.125;
+constexpr double kFirstStretch = 0.125;
 constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
 
 double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
@@ -36,10 +36,10 @@ double extension_reach(const SurfaceView& surface) {
   return reach;
 }
 
-double next_limit(const Vicinity& vicinity, double skin) {
-  if (vicinity.limit == 0) return kLimit * skin;
-  if (vicinity.uses < kFewUses) return std::min(2 * vicinity.limit, skin);
-  return vicinity.uses > kManyUses ? vicinity.limit / 2 : vicinity.limit;
+double next_limit(const NeighbourList& neighbours, double skin) {
+  if (neighbours.limit == 0) return kLimit * skin;
+  if (neighbours.uses < kFewUses) return std::min(2 * neighbours.limit, skin);
+  return neighbours.uses > kManyUses ? neighbours.limit / 2 : neighbours.limit;
 }
 
 void make_set(std::vector<int>& list) {
@@ -47,11 +47,11 @@ void make_set(std::vector<int>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-void visit_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Tape& tape) {
+void serialize_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Archive& archive) {
   for (int i : {0, 1}) {
-    tape(motion[i].q);
-    tape(motion[i].r_WB);
-    tape(motion[i].R_WB);
+    archive(motion[i].q);
+    archive(motion[i].r_WB);
+    archive(motion[i].R_WB);
     validate(motion[i], *side[i].surface, i);
   }
 }
@@ -118,8 +118,8 @@ Eigen::Vector3d Tracker::position(int i, int node) {
     deformed.stamp[node] = stage_;
     ++n_displaced_;
   }
-  if (!yield_ || !(*yield_)[i].at) return deformed.x_B.col(node);
-  return deformed.x_B.col(node) + (*yield_)[i].at(node);
+  if (!residual_ || !(*residual_)[i].at) return deformed.x_B.col(node);
+  return deformed.x_B.col(node) + (*residual_)[i].at(node);
 }
 
 // Where the motion puts them now.
@@ -136,22 +136,22 @@ void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
 }
 
 // Bound of the relative motion since.
-double Tracker::way(const SurfaceMotion then[2]) const {
-  double way = 0;
-  for (int i : {0, 1}) way += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);
+double Tracker::distance_since(const SurfaceMotion then[2]) const {
+  double distance = 0;
+  for (int i : {0, 1}) distance += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);
   Ball ball = side_[0].ball;
   ball.radius += largest_displacement(side_[0].bound, then[0].q);
-  return way + travel(ball, relative_motion(then[0], then[1]), relative_motion(*now_[0], *now_[1]));
+  return distance + travel(ball, relative_motion(then[0], then[1]), relative_motion(*now_[0], *now_[1]));
 }
 
 // Whose positions the fine search of the candidates at hand reads.
 void Tracker::list_nodes() {
-  std::array<std::vector<int>, 2>& lists = vicinity_->node = kept_;
+  std::array<std::vector<int>, 2>& lists = neighbours_->node = kept_;
   for (int slave : slave_sides(settings_))
     for (int i : {0, 1}) {
       const Topology& t = side_[i].topology;
       const Eigen::Matrix4Xi& face = side_[i].surface->face;
-      const Nearby& near = vicinity_->near[slave];
+      const Neighbours& near = neighbours_->near[slave];
       const auto nodes =
           i == slave ? nodes_around_nodes(near.slave, t, face) : nodes_around(near.face, t, face);
       lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
@@ -162,7 +162,7 @@ void Tracker::list_nodes() {
 // Of all candidates: those that cannot touch soon are left out, and faces that cannot be nearest. Clearance
 // that is left over from an earlier measurement needs no new one.
 void Tracker::measure_clearance(double limit) {
-  Vicinity& v = *vicinity_;
+  NeighbourList& v = *neighbours_;
   const double soon = limit + limits_.outside;
   v.limit = limit;
   v.uses = 0;
@@ -172,32 +172,32 @@ void Tracker::measure_clearance(double limit) {
   for (int i : {0, 1}) place_nodes(i, v.node[i]);
   for (int slave : slave_sides(settings_)) leave_out(slave, soon);
   v.within = std::exchange(v.near, {});
-  take_near(kFirstLeg * limit);
+  take_near(kFirstStretch * limit);
   for (int i : {0, 1}) v.measured_at[i] = *now_[i];
-  yielded_since_measured_ = 0;
+  residual_since_measured_ = 0;
 }
 
-// Of what is within the limit: what can touch until the surfaces have moved by `leg` since the measurement.
-void Tracker::take_near(double leg) {
-  Vicinity& v = *vicinity_;
-  v.leg = leg;
+// Of what is within the limit: what can touch until the surfaces have moved by `distance` since the measurement.
+void Tracker::take_near(double distance) {
+  NeighbourList& v = *neighbours_;
+  v.near_limit = distance;
   for (int slave : slave_sides(settings_))
-    v.near[slave] = not_apart(v.within[slave], v.apart_until[slave], v.path + leg + limits_.outside);
+    v.near[slave] = not_apart(v.within[slave], v.apart_until[slave], v.path + distance + limits_.outside);
   list_nodes();
 }
 
 // Of what is near: nodes with more clearance than that.
 void Tracker::leave_out(int slave, double clear) {
-  const Nearby all = std::exchange(vicinity_->near[slave], {});
+  const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension);
   const std::array reach_and_limit{std::max(limits_.depth, limits_.outside) + settings_.skin, clear};
   const double surely_seen = settings_.skin + limits_.outside;  // whichever side of the surface it is on
-  Nearby& near = vicinity_->near[slave];
+  Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {
     const int node = all.slave[i];
     const auto [clearance, faces] =
         approach(master, configuration_.x[slave].col(node), reach_and_limit, all.faces(i));
-    vicinity_->apart_until[slave][node] = vicinity_->path + std::min(clearance, surely_seen);
+    neighbours_->apart_until[slave][node] = neighbours_->path + std::min(clearance, surely_seen);
     if (clearance > clear) continue;
     near.slave.push_back(node);
     near.face.insert(near.face.end(), faces.begin(), faces.end());
@@ -206,32 +206,32 @@ void Tracker::leave_out(int slave, double clear) {
 }
 
 // Whether it had to be measured again, which places all its nodes.
-bool Tracker::update_vicinity() {
+bool Tracker::update_neighbours() {
   const bool search_is_due =
-      !vicinity_ || !(way(vicinity_->found_at) + yielded_since_found_ <= settings_.skin);
+      !neighbours_ || !(distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin);
   if (search_is_due) find_candidates();
-  const double leg = search_is_due ? 0 : way(vicinity_->measured_at) + yielded_since_measured_;
-  const bool is_used_up = search_is_due || !(leg <= vicinity_->limit);
+  const double distance = search_is_due ? 0 : distance_since(neighbours_->measured_at) + residual_since_measured_;
+  const bool is_used_up = search_is_due || !(distance <= neighbours_->limit);
   if (is_used_up) {
-    vicinity_->path += leg;
-    measure_clearance(next_limit(*vicinity_, settings_.skin));
-  } else if (leg > vicinity_->leg) {
-    take_near(std::min(2 * leg, vicinity_->limit));
+    neighbours_->path += distance;
+    measure_clearance(next_limit(*neighbours_, settings_.skin));
+  } else if (distance > neighbours_->near_limit) {
+    take_near(std::min(2 * distance, neighbours_->limit));
   }
-  ++vicinity_->uses;
+  ++neighbours_->uses;
   return is_used_up;
 }
 
 // Candidates within `margin` of each other where the nodes are placed now.
 void Tracker::find_candidates(double margin) {
   const auto& face_pairs = search_.face_pairs(configuration_, margin);
-  if (!vicinity_) vicinity_.emplace();
-  vicinity_->path = 0;
+  if (!neighbours_) neighbours_.emplace();
+  neighbours_->path = 0;
   for (int slave : slave_sides(settings_)) {
-    Candidates& candidates = vicinity_->candidates[slave];
+    Candidates& candidates = neighbours_->candidates[slave];
     candidates.collect(face_pairs, slave, view(slave, 0), view(1 - slave, settings_.extension), margin);
-    vicinity_->near[slave] = everything(candidates);
-    vicinity_->apart_until[slave].assign(static_cast<std::size_t>(configuration_.x[slave].cols()), 0);
+    neighbours_->near[slave] = everything(candidates);
+    neighbours_->apart_until[slave].assign(static_cast<std::size_t>(configuration_.x[slave].cols()), 0);
   }
   ++n_searches_;
 }
@@ -242,17 +242,17 @@ void Tracker::find_candidates() {
   for (int i : {0, 1})
     if (!deformed) margin += largest_displacement(side_[i].bound, now_[i]->q);
   for (int i : {0, 1})
-    if (yield_) margin += (*yield_)[i].largest;
+    if (residual_) margin += (*residual_)[i].largest;
   place(deformed);
   find_candidates(margin);
-  yielded_since_found_ = 0;
-  for (int i : {0, 1}) vicinity_->found_at[i] = {now_[i]->q, now_[i]->r_WB, now_[i]->R_WB};
+  residual_since_found_ = 0;
+  for (int i : {0, 1}) neighbours_->found_at[i] = {now_[i]->q, now_[i]->r_WB, now_[i]->R_WB};
 }
 
 void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   const SurfaceState* state[2] = {&a, &b};
   std::fill_n(now_, 2, nullptr);
-  yield_ = nullptr;
+  residual_ = nullptr;
   double margin = reach_;
   for (int i : {0, 1}) {
     validate(*state[i], *side_[i].surface, i);
@@ -262,24 +262,24 @@ void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   find_candidates(margin);
 }
 
-void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<Yield, 2>& yield) {
+void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<ResidualDisplacement, 2>& residual) {
   now_[0] = &a;
   now_[1] = &b;
-  yield_ = &yield;
-  yielded_ = yield[0].at || yield[1].at;
+  residual_ = &residual;
+  has_residual_ = residual[0].at || residual[1].at;
   for (int i : {0, 1}) validate(*now_[i], *side_[i].surface, i);
   n_displaced_ = 0;
   start_stage();
-  for (double* sum : {&yielded_since_found_, &yielded_since_measured_})
-    for (const Yield& y : yield) *sum += y.change;
-  if (!update_vicinity())
-    for (int i : {0, 1}) place_nodes(i, vicinity_->node[i]);
+  for (double* sum : {&residual_since_found_, &residual_since_measured_})
+    for (const ResidualDisplacement& y : residual) *sum += y.change;
+  if (!update_neighbours())
+    for (int i : {0, 1}) place_nodes(i, neighbours_->node[i]);
 }
 
-void Tracker::forget() { vicinity_.reset(); }
+void Tracker::forget() { neighbours_.reset(); }
 
 std::span<const int> Tracker::all_faces(int slave, int node) {
-  const auto faces = vicinity_->candidates[slave][node];
+  const auto faces = neighbours_->candidates[slave][node];
   const Tracked& master = side_[1 - slave];
   if (now_[0]) place_nodes(1 - slave, nodes_around(faces, master.topology, master.surface->face));
   return faces;
@@ -301,26 +301,26 @@ Eigen::Vector3d Tracker::velocity(int i, int node) const {
 }
 
 // Candidates and their clearance follow from where they were found.
-void Tracker::visit_memory(Tape& tape) {
-  bool found = vicinity_.has_value();
-  tape(found);
-  if (!found) return vicinity_.reset();
-  Vicinity then = vicinity_.value_or(Vicinity{});
-  visit_motion(then.found_at, side_, tape);
-  visit_motion(then.measured_at, side_, tape);
-  tape(then.limit);
-  tape(then.leg);
-  tape(then.uses);
-  tape(yielded_);
-  if (!tape.plays()) return;
-  if (yielded_) return vicinity_.reset();  // the yield of that time is not known
+void Tracker::serialize(Archive& archive) {
+  bool found = neighbours_.has_value();
+  archive(found);
+  if (!found) return neighbours_.reset();
+  NeighbourList then = neighbours_.value_or(NeighbourList{});
+  serialize_motion(then.found_at, side_, archive);
+  serialize_motion(then.measured_at, side_, archive);
+  archive(then.limit);
+  archive(then.near_limit);
+  archive(then.uses);
+  archive(has_residual_);
+  if (!archive.is_loading()) return;
+  if (has_residual_) return neighbours_.reset();  // the residual of that time is not known
   for (int i : {0, 1}) now_[i] = &then.found_at[i];
   find_candidates();
   for (int i : {0, 1}) now_[i] = &then.measured_at[i];
   start_stage();
   measure_clearance(then.limit);
-  take_near(then.leg);
-  vicinity_->uses = then.uses;
+  take_near(then.near_limit);
+  neighbours_->uses = then.uses;
   std::fill_n(now_, 2, nullptr);
 }
 

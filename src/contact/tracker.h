@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "elastogear/base/tape.h"
+#include "elastogear/base/archive.h"
 #include "elastogear/contact/coarse_search.h"
 #include "elastogear/contact/deformation_bound.h"
-#include "elastogear/contact/vicinity.h"
-#include "elastogear/contact/winner.h"
+#include "elastogear/contact/neighbour_list.h"
+#include "elastogear/contact/projection.h"
 
 namespace elastogear::contact {
 
@@ -34,7 +34,7 @@ class Tracker {
   void find(const SurfaceState& a, const SurfaceState& b);
   /// Places the nodes that can touch, after a search where one is due. Throws Error for motions that are not
   /// finite. Motions and yields must live as long as velocity and all_faces are asked for.
-  void follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<Yield, 2>& yield);
+  void follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<ResidualDisplacement, 2>& residual);
   /// The next call of follow searches anew.
   void forget();
   /// Nodes of either surface that follow places whether they can touch or not, until told otherwise.
@@ -44,7 +44,7 @@ class Tracker {
   const Configuration& configuration() const { return configuration_; }
   SurfaceView view(int i, double extension) const;
   /// Slave nodes that can touch, with the faces that can be nearest.
-  const Nearby& near(int slave) const { return vicinity_->near[slave]; }
+  const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
   /// All faces within the depth limit of a slave node, their nodes placed.
   std::span<const int> all_faces(int slave, int node);
   /// Of a node placed by follow, in the BRF of its surface.
@@ -56,7 +56,7 @@ class Tracker {
   int n_displaced() const { return n_displaced_; }  ///< in the last call of follow
 
   /// All that later calls of follow take from earlier ones.
-  void visit_memory(Tape& tape);
+  void serialize(Archive& archive);
 
  private:
   void place(const SurfaceState& a, const SurfaceState& b);
@@ -64,12 +64,12 @@ class Tracker {
   void place_nodes(int i, const std::vector<int>& nodes);
   Eigen::Vector3d position(int i, int node);
   void start_stage();
-  double way(const SurfaceMotion then[2]) const;
+  double distance_since(const SurfaceMotion then[2]) const;
   void list_nodes();
   void measure_clearance(double limit);
-  void take_near(double leg);
+  void take_near(double distance);
   void leave_out(int slave, double clear);
-  bool update_vicinity();
+  bool update_neighbours();
   void find_candidates(double margin);
   void find_candidates();
 
@@ -79,12 +79,12 @@ class Tracker {
   CoarseSearch search_;
   double reach_;  // m, largest distance of a slave node from a master face's corners that can still matter
   Configuration configuration_;
-  std::optional<Vicinity> vicinity_;
+  std::optional<NeighbourList> neighbours_;
   std::array<std::vector<int>, 2> kept_;
   const SurfaceMotion* now_[2] = {};                             // while contacts are detected by motions
-  const std::array<Yield, 2>* yield_ = nullptr;                  // beside them
-  bool yielded_ = false;                                         // did anything in the last call of follow?
-  double yielded_since_found_ = 0, yielded_since_measured_ = 0;  // m, bounds of the change
+  const std::array<ResidualDisplacement, 2>* residual_ = nullptr;                  // beside them
+  bool has_residual_ = false;                                         // did anything in the last call of follow?
+  double residual_since_found_ = 0, residual_since_measured_ = 0;  // m, bounds of the change
   struct Deformed {  // X + Phi q of the nodes with the stamp of this stage: yields alone may change within it
     Eigen::VectorXd q;
     Eigen::Matrix3Xd x_B;

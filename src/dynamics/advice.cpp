@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "elastogear/contact/penalty.h"
+#include "elastogear/contact/settings.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -113,14 +113,14 @@ void ValidityGuard::watch_body(std::size_t b, const model::Snapshot& snapshot, W
 }
 
 void ValidityGuard::watch_pair(std::size_t p, const model::Snapshot& snapshot, Warnings& said) {
-  double way = 0;
-  for (int b : system_->pairs()[p].body) way += dt_ * surface_speed(b, snapshot.bodies[b]);
-  const double share = way / system_->contact_settings(p).depth;
+  double distance = 0;
+  for (int b : system_->pairs()[p].body) distance += dt_ * surface_speed(b, snapshot.bodies[b]);
+  const double share = distance / system_->contact_settings(p).depth;
   if (too_fast_[p] || share <= 1) return;
   too_fast_[p] = true;
   said.push_back(
       sentence("pair " + system_->pairs()[p].name, snapshot.time, share,
-               "surfaces may pass through each other unseen; way in a step over the contact depth:"));
+               "surfaces may pass through each other unseen; distance in a step over the contact depth:"));
 }
 
 std::vector<std::string> ValidityGuard::warnings(const model::Snapshot& snapshot) {

@@ -33,71 +33,71 @@ void set_instant(Run& run, TS ts, const Instant& then) {
   run.summary.newton_iterations = then.newton;
 }
 
-void visit_instant(Run& run, TS ts, Tape& tape) {
+void serialize_instant(Run& run, TS ts, Archive& archive) {
   Instant at;
-  if (!tape.plays()) at = instant(run, ts);
-  for (double* x : {&at.time, &at.dt, &at.nominal_dt}) tape(*x);
-  for (PetscInt* n : {&at.step, &at.rejected, &at.newton}) tape(*n);
-  if (tape.plays()) set_instant(run, ts, at);
+  if (!archive.is_loading()) at = instant(run, ts);
+  for (double* x : {&at.time, &at.dt, &at.nominal_dt}) archive(*x);
+  for (PetscInt* n : {&at.step, &at.rejected, &at.newton}) archive(*n);
+  if (archive.is_loading()) set_instant(run, ts, at);
 }
 
-void visit_summary(RunSummary& summary, Tape& tape) {
-  tape(summary.most_contacts);
-  tape(summary.initial_energy);
-  tape(summary.largest_imbalance);
-  tape.each(summary.pair, [&](PairSummary& pair) {
-    tape(pair.peak_force);
-    tape(pair.peak_time);
-    tape(pair.penetration);
-    tape(pair.patch_nodes);
+void serialize_summary(RunSummary& summary, Archive& archive) {
+  archive(summary.most_contacts);
+  archive(summary.initial_energy);
+  archive(summary.largest_imbalance);
+  archive.each(summary.pair, [&](PairSummary& pair) {
+    archive(pair.peak_force);
+    archive(pair.peak_time);
+    archive(pair.penetration);
+    archive(pair.patch_nodes);
   });
 }
 
-void visit_motion(TS ts, Tape& tape) {
+void serialize_motion(TS ts, Archive& archive) {
   Vec motion[3];
-  if (tape.plays())
+  if (archive.is_loading())
     check(TS2GetSolution(ts, &motion[0], &motion[1]));
   else
     generalized_alpha_state(ts, &motion[0], &motion[1], &motion[2]);
   UniqueVec A;
-  if (tape.plays()) {
+  if (archive.is_loading()) {
     check(VecDuplicate(motion[0], A.out()));
     motion[2] = A;
   }
   for (Vec x : motion) {
     Eigen::VectorXd values = *ReadView(x);
     const Eigen::Index n = values.size();
-    tape(values);
+    archive(values);
     require(values.size() == n, "the stored state has ", values.size(), " coordinates, this run ", n);
-    if (tape.plays()) assign(x, values);
+    if (archive.is_loading()) assign(x, values);
   }
-  if (tape.plays()) generalized_alpha_set_state(ts, motion[0], motion[1], motion[2]);
+  if (archive.is_loading()) generalized_alpha_set_state(ts, motion[0], motion[1], motion[2]);
 }
 
 }  // namespace
 
-void visit_state(Run& run, TS ts, Tape& tape) {
-  visit_instant(run, ts, tape);
-  visit_motion(ts, tape);
-  run.problem.system.visit_memory(tape);
-  run.problem.solver.visit_memory(tape);
-  run.ledger.visit_memory(tape);
-  run.sanity.visit_memory(tape);
-  tape(run.kinetic_energy);
-  tape(run.n_outputs);
-  tape(run.touches);
-  tape(run.short_steps);
-  tape(run.longest_short);
-  visit_summary(run.summary, tape);
+void serialize_state(Run& run, TS ts, Archive& archive) {
+  serialize_instant(run, ts, archive);
+  serialize_motion(ts, archive);
+  run.problem.system.serialize(archive);
+  run.problem.solver.serialize(archive);
+  run.ledger.serialize(archive);
+  run.sanity.serialize(archive);
+  archive(run.kinetic_energy);
+  archive(run.n_outputs);
+  archive(run.touches);
+  archive(run.short_steps);
+  archive(run.longest_short);
+  serialize_summary(run.summary, archive);
   double wall_time = run.summary.wall_time + seconds_since(run.start);
-  tape(wall_time);
-  if (tape.plays()) run.summary.wall_time = wall_time;
+  archive(wall_time);
+  if (archive.is_loading()) run.summary.wall_time = wall_time;
 }
 
 std::vector<double> state_now(Run& run, TS ts) {
-  Tape tape;
-  visit_state(run, ts, tape);
-  return tape.numbers();
+  Archive archive;
+  serialize_state(run, ts, archive);
+  return archive.numbers();
 }
 
 void keep_state(Run& run, TS ts) {

@@ -214,13 +214,13 @@ Eigen::VectorXd ElasticBlock::response(const std::vector<int>& node, const Eigen
   return x;
 }
 
-void ElasticBlock::visit_memory(Tape& tape) {
+void ElasticBlock::serialize(Archive& archive) {
   double shift_v = shift_v_, shift_a = shift_a_;
   std::vector<std::vector<int>> batches = batches_;
-  tape(shift_v);
-  tape(shift_a);
-  tape(batches);
-  if (!tape.plays() || std::isnan(shift_v)) return;
+  archive(shift_v);
+  archive(shift_a);
+  archive(batches);
+  if (!archive.is_loading() || std::isnan(shift_v)) return;
   set_shifts(shift_v, shift_a);
   for (const std::vector<int>& nodes : batches) {
     for (int node : nodes)

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "elastogear/base/error.h"
-#include "elastogear/body/shape.h"
+#include "elastogear/body/deformed_inertia.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -16,14 +16,14 @@ const Eigen::SparseMatrix<double>& position_rows(const BodyTerms& t) {
 }
 
 // R on all columns of E: those of the nodes are the last.
-Eigen::MatrixXd yielding(const BodyTerms& t, const Eigen::MatrixXd& X) {
+Eigen::MatrixXd residual_displacement(const BodyTerms& t, const Eigen::MatrixXd& X) {
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.rows(), X.cols());
   if (t.R.size() > 0) Y.bottomRows(t.R.rows()).noalias() = t.R * X.bottomRows(t.R.rows());
   return Y;
 }
 
 // X' R on all columns of E.
-Eigen::MatrixXd yielding_rows(const BodyTerms& t, const Eigen::MatrixXd& X) {
+Eigen::MatrixXd residual_displacement_rows(const BodyTerms& t, const Eigen::MatrixXd& X) {
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.cols(), X.rows());
   if (t.R.size() > 0) Y.rightCols(t.R.cols()).noalias() = X.bottomRows(t.R.rows()).transpose() * t.R;
   return Y;
@@ -31,10 +31,10 @@ Eigen::MatrixXd yielding_rows(const BodyTerms& t, const Eigen::MatrixXd& X) {
 
 // L_V'G + L_x'R. Products of a sparse matrix that run down the columns of the dense one are the fast ones; G
 // is not symmetric where D^-1 is only approximated.
-Eigen::MatrixXd answers(const BodyTerms& t, const Eigen::MatrixXd& G) {
+Eigen::MatrixXd responses(const BodyTerms& t, const Eigen::MatrixXd& G) {
   const Eigen::MatrixXd G_t = G.transpose();
   Eigen::MatrixXd rows = (G_t * rows_of(t)).transpose();
-  if (t.R.size() > 0) rows += yielding_rows(t, position_rows(t));
+  if (t.R.size() > 0) rows += residual_displacement_rows(t, position_rows(t));
   return rows;
 }
 
@@ -59,13 +59,13 @@ void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
   const BodyTerms& t = A_.body[b];
   const auto [s, n_s, n_q, joint] = range_[b];
   const Eigen::Index r = A_.k.rows();
-  const Eigen::MatrixXd G = block_[b].compliance(t.node), V_answers = answers(t, G),
-                        rho_answers = t.rho.transpose() * G + yielding_rows(t, t.rho);
+  const Eigen::MatrixXd G = block_[b].compliance(t.node), V_responses = responses(t, G),
+                        rho_responses = t.rho.transpose() * G + residual_displacement_rows(t, t.rho);
   const Eigen::SparseMatrix<double> L_k = t.L * A_.k;
-  small.block(joint, joint, n_s, n_s) += t.C - rho_answers * t.beta;
-  small.block(joint, n_s_, n_s, r) += t.W_s * A_.k - rho_answers * L_k;
-  small.block(n_s_, joint, r, n_s) += V_answers * t.beta - t.V_s.transpose();
-  small.bottomRightCorner(r, r) += V_answers * L_k;
+  small.block(joint, joint, n_s, n_s) += t.C - rho_responses * t.beta;
+  small.block(joint, n_s_, n_s, r) += t.W_s * A_.k - rho_responses * L_k;
+  small.block(n_s_, joint, r, n_s) += V_responses * t.beta - t.V_s.transpose();
+  small.bottomRightCorner(r, r) += V_responses * L_k;
 }
 
 void LowRankSolver::set(EffectiveMatrix A) {
@@ -86,18 +86,18 @@ Eigen::VectorXd LowRankSolver::contact_forces(const Eigen::VectorXd& x,
                                               const std::vector<Eigen::VectorXd>& projected) const {
   const Eigen::Index r = A_.k.rows();
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(r);
-  Eigen::MatrixXd yielded = Eigen::MatrixXd::Identity(r, r);
-  bool yields = false;
+  Eigen::MatrixXd with_residual = Eigen::MatrixXd::Identity(r, r);
+  bool has_residual = false;
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const BodyTerms& t = A_.body[b];
     const auto x_s = x.segment(range_[b].s, range_[b].n_s);
     lambda += t.V_s.transpose() * x_s + rows_of(t).transpose() * projected[b];
     if (t.R.size() == 0) continue;
-    yields = true;
-    lambda -= position_rows(t).transpose() * yielding(t, t.beta * x_s).col(0);
-    yielded += position_rows(t).transpose() * yielding(t, t.L) * A_.k;
+    has_residual = true;
+    lambda -= position_rows(t).transpose() * residual_displacement(t, t.beta * x_s).col(0);
+    with_residual += position_rows(t).transpose() * residual_displacement(t, t.L) * A_.k;
   }
-  return A_.k * (yields ? Eigen::VectorXd(yielded.partialPivLu().solve(lambda)) : lambda);
+  return A_.k * (has_residual ? Eigen::VectorXd(with_residual.partialPivLu().solve(lambda)) : lambda);
 }
 
 Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
@@ -113,7 +113,7 @@ Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
     const BodyTerms& t = A_.body[b];
     const auto x_s = x.segment(s, n_s);
     const Eigen::VectorXd load = t.beta * x_s + t.L * k_lambda;
-    y.segment(s, n_s) = t.C * x_s + t.rho.transpose() * (projected[b] - yielding(t, load)) + t.W_s * k_lambda;
+    y.segment(s, n_s) = t.C * x_s + t.rho.transpose() * (projected[b] - residual_displacement(t, load)) + t.W_s * k_lambda;
     y.segment(s + n_s, n_q) =
         block_[b].multiply(x.segment(s + n_s, n_q)) + block_[b].columns().expand(t.node, load);
     if (t.Q_s.rows() > 0) add_second_order(b, x, y);
@@ -155,8 +155,8 @@ void LowRankSolver::on_solve(const std::function<void()>& pulse) {
   for (ElasticBlock& block : block_) block.on_solve(pulse);
 }
 
-void LowRankSolver::visit_memory(Tape& tape) {
-  for (ElasticBlock& block : block_) block.visit_memory(tape);
+void LowRankSolver::serialize(Archive& archive) {
+  for (ElasticBlock& block : block_) block.serialize(archive);
 }
 
 }  // namespace elastogear::dynamics

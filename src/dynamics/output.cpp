@@ -17,7 +17,7 @@ void enter(Run& run, const State& x) {
   run.ledger.enter(run.problem.system, now);
   try {
     run.sanity.require_small(now);
-    if (!run.settings.settle) run.sanity.require_balance(now.energy);
+    if (!run.settings.relax) run.sanity.require_balance(now.energy);
   } catch (const Error& error) {
     throw Insane(error.what());
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "answering.h"
+#include "response_newton.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -44,8 +44,8 @@ bool ResidualContact::any() const {
   return std::any_of(flexibility_.begin(), flexibility_.end(), [](const auto& f) { return f.has_value(); });
 }
 
-contact::Yield ResidualContact::yield(std::size_t b) {
-  if (!yields(b)) return {};
+contact::ResidualDisplacement ResidualContact::residual(std::size_t b) {
+  if (!has_flexibility(b)) return {};
   ResidualFlexibility& R = *flexibility_[b];
   return {[&R](int node) { return R.displacement(node); }, R.bound(R.forces()), change_[b]};
 }
@@ -53,20 +53,20 @@ contact::Yield ResidualContact::yield(std::size_t b) {
 void ResidualContact::seen() { std::fill(change_.begin(), change_.end(), 0); }
 
 MatrixXd ResidualContact::among(std::size_t b, const std::vector<int>& node) {
-  return yields(b) ? flexibility_[b]->among(node) : MatrixXd();
+  return has_flexibility(b) ? flexibility_[b]->among(node) : MatrixXd();
 }
 
-ResidualContact::Misfit ResidualContact::misfit(const std::vector<NodalForces>& found) const {
+ResidualContact::ForceResidual ResidualContact::force_residual(const std::vector<NodalForces>& found) const {
   double missing = 0, all = 0;
   for (std::size_t b = 0; b < found.size(); ++b) {
-    if (!yields(b)) continue;
+    if (!has_flexibility(b)) continue;
     missing += difference(found[b], flexibility_[b]->forces()).f_B.squaredNorm();
     all += found[b].f_B.squaredNorm();
   }
   return {std::sqrt(missing), missing > 0 ? std::sqrt(missing / std::max(all, missing)) : 0};
 }
 
-void ResidualContact::answer_to(std::size_t b, const NodalForces& forces) {
+void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
   ResidualFlexibility& R = *flexibility_[b];
   change_[b] += R.bound(difference(forces, R.forces()));
   R.set_forces(forces);
@@ -77,39 +77,39 @@ void ResidualContact::answer_to(std::size_t b, const NodalForces& forces) {
 VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
                                const std::vector<contact::SurfaceState>& surfaces,
                                const std::vector<NodalForces>& found) {
-  Answering answering(pairs);
+  ResponseNewton newton(pairs);
   for (std::size_t b = 0; b < found.size(); ++b) {
-    if (!yields(b)) continue;
+    if (!has_flexibility(b)) continue;
     const std::vector<int>& node = found[b].node;
     const MatrixXd& R = flexibility_[b]->among(node);
     VectorXd missing = R * found[b].f_B.reshaped();
     for (std::size_t i = 0; i < node.size(); ++i)
       missing.segment<3>(static_cast<Eigen::Index>(3 * i)) -= displacement(b, node[i]);
-    answering.add({b, surfaces[b].R_WB, node, R}, missing);
+    newton.add({b, surfaces[b].R_WB, node, R}, missing);
   }
-  const VectorXd lambda = answering.solve();
+  const VectorXd lambda = newton.solve();
   for (std::size_t b = 0, i = 0; b < found.size(); ++b) {
-    if (!yields(b)) continue;
+    if (!has_flexibility(b)) continue;
     NodalForces next = found[b];
-    next.f_B.reshaped() -= answering.force_change(i++, lambda);
+    next.f_B.reshaped() -= newton.force_change(i++, lambda);
     left_[b] = flexibility_[b]->forces();
-    answer_to(b, next);
+    respond_to(b, next);
   }
   return lambda;
 }
 
-void ResidualContact::improve(const std::vector<PairContacts>& pairs,
+void ResidualContact::newton_step(const std::vector<PairContacts>& pairs,
                               const std::vector<contact::SurfaceState>& surfaces,
                               const std::vector<NodalForces>& found) {
   step(pairs, surfaces, found);
 }
 
-void ResidualContact::retreat() {
+void ResidualContact::backtrack() {
   for (std::size_t b = 0; b < flexibility_.size(); ++b)
-    if (yields(b)) answer_to(b, mean(flexibility_[b]->forces(), left_[b], 0.5));
+    if (has_flexibility(b)) respond_to(b, mean(flexibility_[b]->forces(), left_[b], 0.5));
 }
 
-bool ResidualContact::settle(std::vector<PairContacts>& pairs,
+bool ResidualContact::linear_step(std::vector<PairContacts>& pairs,
                              const std::vector<contact::SurfaceState>& surfaces,
                              const std::vector<NodalForces>& found) {
   for (const PairContacts& pair : pairs)
@@ -129,10 +129,10 @@ bool ResidualContact::settle(std::vector<PairContacts>& pairs,
   return true;
 }
 
-void ResidualContact::take_answered(const std::vector<contact::SurfaceState>& surfaces,
+void ResidualContact::take_forces_of_response(const std::vector<contact::SurfaceState>& surfaces,
                                     std::vector<NodalForces>& found) const {
   for (std::size_t b = 0; b < found.size(); ++b) {
-    if (!yields(b)) continue;
+    if (!has_flexibility(b)) continue;
     found[b] = flexibility_[b]->forces();
     found[b].x_B = surfaces[b].x_B(Eigen::all, found[b].node);
   }
@@ -142,8 +142,8 @@ void ResidualContact::predict(double time) {
   if (before_.forces.empty() || !(last_.time > before_.time)) return;
   const double share = (time - before_.time) / (last_.time - before_.time);
   for (std::size_t b = 0; b < flexibility_.size(); ++b)
-    if (yields(b) && last_.forces[b].node == before_.forces[b].node)
-      answer_to(b, mean(last_.forces[b], before_.forces[b], share));
+    if (has_flexibility(b) && last_.forces[b].node == before_.forces[b].node)
+      respond_to(b, mean(last_.forces[b], before_.forces[b], share));
 }
 
 void ResidualContact::accept(double time) {
@@ -154,7 +154,7 @@ void ResidualContact::accept(double time) {
 }
 
 double ResidualContact::energy(std::size_t b) {
-  if (!yields(b)) return 0;
+  if (!has_flexibility(b)) return 0;
   ResidualFlexibility& R = *flexibility_[b];
   double energy = 0;
   for (std::size_t i = 0; i < R.forces().node.size(); ++i)
@@ -162,20 +162,20 @@ double ResidualContact::energy(std::size_t b) {
   return energy;
 }
 
-void ResidualContact::visit_memory(Tape& tape) {
+void ResidualContact::serialize(Archive& archive) {
   const auto visit = [&](NodalForces& forces) {
-    tape(forces.node);
-    tape(forces.f_B);
+    archive(forces.node);
+    archive(forces.f_B);
   };
   for (std::size_t b = 0; b < flexibility_.size(); ++b) {
-    if (!yields(b)) continue;
+    if (!has_flexibility(b)) continue;
     NodalForces forces = flexibility_[b]->forces();
     visit(forces);
-    if (tape.plays()) flexibility_[b]->set_forces(forces);
+    if (archive.is_loading()) flexibility_[b]->set_forces(forces);
   }
   for (Accepted* accepted : {&last_, &before_}) {
-    tape(accepted->time);
-    tape.each(accepted->forces, visit);
+    archive(accepted->time);
+    archive.each(accepted->forces, visit);
   }
 }
 

@@ -69,7 +69,7 @@ const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
   const int position = model::find_loaded(body_->flexibility, a);
   if (position < 0) return R = Eigen::Matrix3d::Zero();
   const auto& [b, F, Phi_over_Lambda] = loaded_[number];
-  R = model::answer(body_->flexibility, position, b, *F);
+  R = model::displacement_response(body_->flexibility, position, b, *F);
   R -= product(modes(*body_).row(3 * a).data(), Phi_over_Lambda.data(), Phi_over_Lambda.cols());
   return R;
 }

@@ -34,7 +34,7 @@ struct Run {
   int n_outputs = 1;                             // of those output_dt apart; the first is the start
   bool step_is_due = false;                      // an output falls on the end of the last step
   bool touches = false;                          // some bodies touch at the end of the last step
-  double kinetic_energy = 0;                     // J, after the last step of a settling run
+  double kinetic_energy = 0;                     // J, after the last step of a relaxing run
   double unbalanced = -1, least_unbalanced = 1;  // shares of its forces without velocities: last and least
   int short_steps = 0;                  // successive ones that Newton's failures keep far below nominal_dt
   double longest_short = 0;             // s, of those
@@ -64,12 +64,12 @@ Eigen::VectorXd coordinates_per_length(const System& system);
 /// Step-size control, when there is a tolerance.
 void control_steps(const Run& run, TS ts);
 
-/// After a step of a settling run: rest at each peak of the kinetic energy; the end when nothing moves any
+/// After a step of a relaxing run: rest at each peak of the kinetic energy; the end when nothing moves any
 /// more.
-void settle(Run& run, TS ts);
+void relax(Run& run, TS ts);
 
 /// Everything on which the rest of the run depends, between two steps. Played back into a TS that is set up.
-void visit_state(Run& run, TS ts, Tape& tape);
+void serialize_state(Run& run, TS ts, Archive& archive);
 
 std::vector<double> state_now(Run& run, TS ts);
 /// Hands the present state to the keeper of checkpoints, if there is one.

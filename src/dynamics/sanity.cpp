@@ -4,7 +4,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
-#include "elastogear/body/shape.h"
+#include "elastogear/body/deformed_inertia.h"
 #include "rigid_fields.h"
 
 namespace elastogear::dynamics {
@@ -87,9 +87,9 @@ void Sanity::require_balance(const model::Energies& now) {
           " J: the run is unstable. Try a smaller time step, -ts_alpha_radius below 1, or a softer contact");
 }
 
-void Sanity::visit_memory(Tape& tape) {
-  for (double* x : {&start_, &turnover_, &work_}) tape(*x);
-  tape(beyond_);
+void Sanity::serialize(Archive& archive) {
+  for (double* x : {&start_, &turnover_, &work_}) archive(*x);
+  archive(beyond_);
 }
 
 }  // namespace elastogear::dynamics

@@ -23,7 +23,7 @@ class Sanity {
   void require_small(const model::Snapshot& now) const;
   /// Error when energy came from nowhere: more of it than the run began with and the loads have turned over.
   void require_balance(const model::Energies& now);
-  void visit_memory(Tape& tape);
+  void serialize(Archive& archive);
 
  private:
   struct Body {

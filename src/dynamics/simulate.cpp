@@ -72,8 +72,8 @@ bool is_out_of_steps(TS ts) {
   return reason == TS_CONVERGED_ITS && time < end;
 }
 
-// How far a settling run has come, by the orders of magnitude that the unbalanced forces have fallen.
-double settled_share(const Run& run) {
+// How far a relaxing run has come, by the orders of magnitude that the unbalanced forces have fallen.
+double relaxed_share(const Run& run) {
   const double wanted = std::log(std::min(0.1, run.settings.rest_tolerance));
   return std::clamp(std::log(run.least_unbalanced) / wanted, 0.0, 0.99);
 }
@@ -86,8 +86,8 @@ void keep_if_due(Run& run, TS ts, PetscReal time) {
   check(TSGetConvergedReason(ts, &reason));
   const bool stopped = reason == TS_CONVERGED_USER || is_out_of_steps(ts),
              goes_on = reason == TS_CONVERGED_ITERATING && time < end;
-  if (run.settings.settle)
-    report(run.progress, "relax", goes_on || stopped ? settled_share(run) : 1);
+  if (run.settings.relax)
+    report(run.progress, "relax", goes_on || stopped ? relaxed_share(run) : 1);
   else
     report(run.progress, "simulate", goes_on || stopped ? time / end : 1);
   if (stopped || (goes_on && seconds_since(run.kept) >= run.checkpoints.every)) keep_state(run, ts);
@@ -182,7 +182,7 @@ PetscErrorCode post_step(TS ts) {
     observe_since_last_step(*run, ts);
     accept(run->problem.system, ts);
     rebase(run->problem.system, ts);
-    if (run->settings.settle) settle(*run, ts);
+    if (run->settings.relax) relax(*run, ts);
     require_long_steps(*run, ts);
     stop_if_asked(*run, ts);
   }));
@@ -284,9 +284,9 @@ void let_stop(Run& run) {
 }
 
 void go_on_from(Run& run, TS ts, const std::vector<double>& state) {
-  Tape tape(state);
-  visit_state(run, ts, tape);
-  tape.finish();
+  Archive archive(state);
+  serialize_state(run, ts, archive);
+  archive.finish();
 }
 
 }  // namespace

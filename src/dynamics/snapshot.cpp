@@ -68,11 +68,11 @@ model::Snapshot snapshot(System& system, const State& x) {
 void EnergyLedger::enter_joint(const System::Body& body, const model::BodyState& now,
                                const model::BodyState& before, const std::array<double, 2>& times) {
   for (Eigen::Index i = 0; const Axis& axis : body.axis) {
-    const double way = now.s[i] - before.s[i], rate = 0.5 * (now.s_dot[i] + before.s_dot[i]);
+    const double distance = now.s[i] - before.s[i], rate = 0.5 * (now.s_dot[i] + before.s_dot[i]);
     const double lost = (times[1] - times[0]) * rate * resistance(axis, rate);
     dissipated_ += lost;
-    work_ += axis.drive ? 0.5 * (now.joint_force[i] + before.joint_force[i]) * way + lost
-                        : at(axis.load, 0.5 * (times[0] + times[1])) * way;
+    work_ += axis.drive ? 0.5 * (now.joint_force[i] + before.joint_force[i]) * distance + lost
+                        : at(axis.load, 0.5 * (times[0] + times[1])) * distance;
     ++i;
   }
 }
@@ -120,22 +120,22 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
   loads_ = snapshot.loads;
 }
 
-void EnergyLedger::visit_memory(Tape& tape) {
-  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_, &time_}) tape(*x);
-  tape.each(bodies_, [&](model::BodyState& body) {
-    tape(body.r_WB);
-    tape(body.R_WB);
+void EnergyLedger::serialize(Archive& archive) {
+  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_, &time_}) archive(*x);
+  archive.each(bodies_, [&](model::BodyState& body) {
+    archive(body.r_WB);
+    archive(body.R_WB);
     for (Eigen::VectorXd* x :
          {&body.s, &body.s_dot, &body.s_ddot, &body.q, &body.q_dot, &body.q_ddot, &body.joint_force})
-      tape(*x);
+      archive(*x);
   });
-  tape.each(bushings_, [&](model::BushingState& b) {
+  archive.each(bushings_, [&](model::BushingState& b) {
     for (Eigen::Vector3d* x : {&b.displacement, &b.velocity, &b.angle, &b.rate, &b.force, &b.torque})
-      tape(*x);
+      archive(*x);
   });
-  tape.each(loads_, [&](model::LoadState& load) {
-    for (Eigen::Vector3d* x : {&load.force, &load.torque, &load.x}) tape(*x);
-    tape(load.R);
+  archive.each(loads_, [&](model::LoadState& load) {
+    for (Eigen::Vector3d* x : {&load.force, &load.torque, &load.x}) archive(*x);
+    archive(load.R);
   });
 }
 

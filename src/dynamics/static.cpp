@@ -14,7 +14,7 @@ namespace {
 // The joint block of the matrix is C + sigma M: no coordinate is without resistance before contact holds it.
 // The relative imbalance scales it down, so that Newton's method converges superlinearly in the end.
 constexpr double kResistance = 1;  // 1/s^2, sigma at full imbalance
-constexpr double kWayPerDepth =
+constexpr double kDistancePerDepth =
     0.5;                       // that a surface may go in one iteration, as a share of the contact depth
 constexpr double kTurn = 0.3;  // rad, that a body may
 constexpr int kMostIterations = 300;    // contact that is far away is approached depth by depth
@@ -63,8 +63,8 @@ PetscErrorCode jacobian(SNES, Vec U, Mat J, Mat P, void* ctx) {
   });
 }
 
-// Largest way of a node, m.
-double way(const model::Surface& surface, const contact::SurfaceMotion& from,
+// Largest distance of a node, m.
+double distance(const model::Surface& surface, const contact::SurfaceMotion& from,
            const contact::SurfaceMotion& to) {
   const contact::SurfaceState a = contact::surface_state(surface, from),
                               b = contact::surface_state(surface, to);
@@ -85,8 +85,8 @@ double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& 
   }
   for (std::size_t p = 0; p < system.pairs().size(); ++p)
     for (int b : system.pairs()[p].body)
-      most = std::max(most, way(system.bodies()[b].eq.body->surface, before[b], after[b]) /
-                                (kWayPerDepth * system.contact_settings(p).depth));
+      most = std::max(most, distance(system.bodies()[b].eq.body->surface, before[b], after[b]) /
+                                (kDistancePerDepth * system.contact_settings(p).depth));
   return most;
 }
 
@@ -127,8 +127,8 @@ UniqueSNES make_snes(Equilibrium& at, UniqueMat& J) {
 std::string coordinate_name(body::JointType type, Eigen::Index i) {
   static const char* const kFree[] = {
       "x", "y", "z", "the rotation about x", "the rotation about y", "the rotation about z"};
-  if (body::tumbles(type)) return kFree[type == body::JointType::free ? i : i + 3];
-  return body::turns(type) && i == 0 ? "the rotation about its axis" : "the displacement along its axis";
+  if (body::has_rotation_vector(type)) return kFree[type == body::JointType::free ? i : i + 3];
+  return body::has_rotation_axis(type) && i == 0 ? "the rotation about its axis" : "the displacement along its axis";
 }
 
 // Coordinates that only sigma holds.
@@ -154,7 +154,7 @@ std::string free_coordinates(const Equilibrium& at) {
           ": nothing holds (neither contact nor a spring) ", free);
   fail("no equilibrium found at load factor ", at.factor, ": ",
        at.problem.trouble.empty() ? "Newton's method does not converge" : at.problem.trouble,
-       ". Try more load steps, a softer contact, or a dynamic settling in place of the static analysis");
+       ". Try more load steps, a softer contact, or a dynamic relaxing in place of the static analysis");
 }
 
 bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {

@@ -37,7 +37,7 @@ Eigen::VectorXd amplitudes(const model::ElasticBody& body) {
 
 bool is_angle(body::JointType type, Eigen::Index i) {
   if (type == body::JointType::free) return i >= 3;
-  return type == body::JointType::spherical || (body::turns(type) && i == 0);
+  return type == body::JointType::spherical || (body::has_rotation_axis(type) && i == 0);
 }
 
 PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accept) {

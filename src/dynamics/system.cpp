@@ -269,7 +269,7 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
 bool System::rebase(Eigen::Ref<Eigen::VectorXd> U) {
   bool any = false;
   for (Body& body : bodies_) {
-    if (!body::tumbles(body.eq.joint.type)) continue;
+    if (!body::has_rotation_vector(body.eq.joint.type)) continue;
     body.eq.joint = body::rebased(body.eq.joint, U.segment(body.first, body.eq.n_s()));
     U.segment<3>(body.first + body.eq.n_s() - 3).setZero();
     any = true;
@@ -278,27 +278,27 @@ bool System::rebase(Eigen::Ref<Eigen::VectorXd> U) {
   return any;
 }
 
-void System::visit_contact_history(Tape& tape) {
+void System::serialize_contact_history(Archive& archive) {
   ContactHistory history = contact_history();
-  for (double* x : {&history.time, &history.power, &history.loss}) tape(*x);
+  for (double* x : {&history.time, &history.power, &history.loss}) archive(*x);
   for (auto& points : history.stuck)
-    tape.each(points, [&](contact::StickPoint& point) {
-      for (int* n : {&point.slave_side, &point.slave_node, &point.face}) tape(*n);
-      for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) tape(*x);
-      tape(point.slides);
+    archive.each(points, [&](contact::StickPoint& point) {
+      for (int* n : {&point.slave_side, &point.slave_node, &point.face}) archive(*n);
+      for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) archive(*x);
+      archive(point.slides);
     });
-  if (tape.plays()) restore(history);
+  if (archive.is_loading()) restore(history);
 }
 
-void System::visit_memory(Tape& tape) {
+void System::serialize(Archive& archive) {
   for (Body& body : bodies_) {
-    tape(body.eq.joint.r_WB0);
-    tape(body.eq.joint.R_WB0);
+    archive(body.eq.joint.r_WB0);
+    archive(body.eq.joint.R_WB0);
   }
-  visit_contact_history(tape);
-  for (contact::Pair& pair : detectors_) pair.visit_memory(tape);
-  residual_contact_.visit_memory(tape);
-  if (tape.plays()) U_of_state_.reset();
+  serialize_contact_history(archive);
+  for (contact::Pair& pair : detectors_) pair.serialize(archive);
+  residual_contact_.serialize(archive);
+  if (archive.is_loading()) U_of_state_.reset();
 }
 
 model::ResultHeader result_header(const System& system) {

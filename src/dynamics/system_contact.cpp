@@ -7,9 +7,9 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kMisfit = 1e-10;         // of contact forces and those that residual answers were given to
-constexpr double kRoundoffMisfit = 1e-7;  // that may be roundoff of gaps, where it falls no further
-constexpr double kSmallMisfit = 1e-3;     // whose square is negligible
+constexpr double kForceResidual = 1e-10;         // of contact forces and those that residual answers were given to
+constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, where it falls no further
+constexpr double kSmallResidual = 1e-3;     // whose square is negligible
 constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
 constexpr int kMostTrials = 30;   // until they fit
 constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
@@ -30,20 +30,20 @@ const ContactState& System::contacts(double time, ConstVector U, ConstVector V) 
   }
   if (residual_contact_.any() && time != time_of_state_) residual_contact_.predict(time);
   detect(motion);
-  if (residual_contact_.any()) find_answers(motion);
+  if (residual_contact_.any()) find_static_responses(motion);
   U_of_state_ = U;
   V_of_state_ = V;
   time_of_state_ = time;
   return state_;
 }
 
-// Contacts of the bodies as they yield to the forces of the last trial.
+// Contacts of the bodies as they residual to the forces of the last trial.
 void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
   state_.pair.clear();
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const int a = pairs_[p].body[0], b = pairs_[p].body[1];
-    const std::array<contact::Yield, 2> yield{residual_contact_.yield(a), residual_contact_.yield(b)};
-    state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b], yield)});
+    const std::array<contact::ResidualDisplacement, 2> residual{residual_contact_.residual(a), residual_contact_.residual(b)};
+    state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b], residual)});
     place_touched(p);
   }
   residual_contact_.seen();
@@ -51,36 +51,36 @@ void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
 }
 
 // Another trial.
-ResidualContact::Misfit System::misfit_now(const std::vector<contact::SurfaceMotion>& motion) {
+ResidualContact::ForceResidual System::force_residual_now(const std::vector<contact::SurfaceMotion>& motion) {
   detect(motion);
-  return residual_contact_.misfit(state_.force);
+  return residual_contact_.force_residual(state_.force);
 }
 
 // Contact forces and the bodies' answers to them: Newton's method, which goes less far where it would be
 // worse.
-void System::find_answers(const std::vector<contact::SurfaceMotion>& motion) {
-  auto misfit = residual_contact_.misfit(state_.force);
-  for (int trial = 0; misfit.relative > kMisfit && trial < kMostTrials; ++trial) {
-    if (misfit.relative < kSmallMisfit &&
-        residual_contact_.settle(state_.pair, state_.surface, state_.force)) {
+void System::find_static_responses(const std::vector<contact::SurfaceMotion>& motion) {
+  auto force_residual = residual_contact_.force_residual(state_.force);
+  for (int trial = 0; force_residual.relative > kForceResidual && trial < kMostTrials; ++trial) {
+    if (force_residual.relative < kSmallResidual &&
+        residual_contact_.linear_step(state_.pair, state_.surface, state_.force)) {
       state_.force = nodal_forces(state_.pair, state_.surface);
-      misfit = {};
+      force_residual = {};
       continue;
     }
-    residual_contact_.improve(state_.pair, state_.surface, state_.force);
-    const auto before = std::exchange(misfit, misfit_now(motion));
-    if (misfit.relative < kRoundoffMisfit && misfit.absolute > 0.1 * before.absolute) misfit = {};
-    for (int half = 0; misfit.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
-      residual_contact_.retreat();
-      misfit = misfit_now(motion);
+    residual_contact_.newton_step(state_.pair, state_.surface, state_.force);
+    const auto before = std::exchange(force_residual, force_residual_now(motion));
+    if (force_residual.relative < kRoundoffResidual && force_residual.absolute > 0.1 * before.absolute) force_residual = {};
+    for (int half = 0; force_residual.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
+      residual_contact_.backtrack();
+      force_residual = force_residual_now(motion);
     }
   }
   // A node held at an edge by a jump of its force: what it answers to lies between the values on both sides.
-  if (misfit.relative > kMisfit && misfit.relative < kJump) {
-    residual_contact_.take_answered(state_.surface, state_.force);
-    misfit = {};
+  if (force_residual.relative > kForceResidual && force_residual.relative < kJump) {
+    residual_contact_.take_forces_of_response(state_.surface, state_.force);
+    force_residual = {};
   }
-  state_.balanced = misfit.relative <= kMisfit;
+  state_.balanced = force_residual.relative <= kForceResidual;
 }
 
 // Positions of the nodes that contact touches; the others' stay undeformed.

@@ -29,16 +29,16 @@ bool is_default(const Axis& axis) {
 void validate_motion(const BodySetup& setup, const std::string& who) {
   const body::JointType type = setup.joint.type;
   const std::string& joint = body::joint_names()[static_cast<std::size_t>(type)];
-  require(body::turns(type) || is_default(setup.rotation), who, "a ", joint,
+  require(body::has_rotation_axis(type) || is_default(setup.rotation), who, "a ", joint,
           " joint has no axis to turn about: no initial angle or speed, torque, friction or prescribed "
           "rotation");
   require(
-      body::slides(type) || is_default(setup.translation), who, "a ", joint,
+      body::has_translation_axis(type) || is_default(setup.translation), who, "a ", joint,
       " joint has no axis to slide along: no initial displacement or speed, force, friction or prescribed "
       "translation");
   require(type == body::JointType::free || setup.velocity0.isZero(0), who,
           "only a free body takes an initial velocity as a vector");
-  require(body::tumbles(type) || setup.omega0.isZero(0), who,
+  require(body::has_rotation_vector(type) || setup.omega0.isZero(0), who,
           "only a free or spherical joint takes an initial angular velocity as a vector");
   require(setup.velocity0.allFinite() && setup.omega0.allFinite(), who, "initial velocity (",
           setup.velocity0.transpose(), ") and angular velocity (", setup.omega0.transpose(),
@@ -90,8 +90,8 @@ std::vector<int> node_groups(const model::Surface& surface) {
 
 std::vector<Axis> axes(const BodySetup& setup) {
   std::vector<Axis> axes;
-  if (body::turns(setup.joint.type)) axes.push_back(setup.rotation);
-  if (body::slides(setup.joint.type)) axes.push_back(setup.translation);
+  if (body::has_rotation_axis(setup.joint.type)) axes.push_back(setup.rotation);
+  if (body::has_translation_axis(setup.joint.type)) axes.push_back(setup.translation);
   return axes;
 }
 
@@ -109,7 +109,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> initial_motion(const BodySetup& setu
     s.head<3>() = setup.joint.r_WB0;
     s_dot.head<3>() = setup.velocity0;
   }
-  if (body::tumbles(setup.joint.type)) s_dot.tail<3>() = setup.omega0;
+  if (body::has_rotation_vector(setup.joint.type)) s_dot.tail<3>() = setup.omega0;
   for (Eigen::Index i = 0; const Axis& axis : axes(setup)) {
     s[i] = axis.s_0;
     s_dot[i++] = axis.s_dot_0;

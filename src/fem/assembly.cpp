@@ -9,28 +9,28 @@ namespace elastogear::fem {
 namespace {
 
 // Per owned block row the cells at its node.
-std::vector<std::vector<int>> cells_of_rows(const Share& share) {
-  std::vector<std::vector<int>> cells(static_cast<std::size_t>(share.row_end - share.row_begin));
-  for (int cell = 0; cell < share.mesh.cells.size(); ++cell)
-    for (int node : share.mesh.cells[cell]) {
-      const int row = share.row[node];
-      if (row >= share.row_begin && row < share.row_end) cells[row - share.row_begin].push_back(cell);
+std::vector<std::vector<int>> cells_of_rows(const MeshPart& part) {
+  std::vector<std::vector<int>> cells(static_cast<std::size_t>(part.row_end - part.row_begin));
+  for (int cell = 0; cell < part.mesh.cells.size(); ++cell)
+    for (int node : part.mesh.cells[cell]) {
+      const int row = part.row[node];
+      if (row >= part.row_begin && row < part.row_end) cells[row - part.row_begin].push_back(cell);
     }
   return cells;
 }
 
-BlockCounts count_blocks(const Share& share) {
+BlockCounts count_blocks(const MeshPart& part) {
   BlockCounts counts;
   std::vector<int> columns;
-  for (const auto& cells : cells_of_rows(share)) {
+  for (const auto& cells : cells_of_rows(part)) {
     columns.clear();
     for (int cell : cells)
-      for (int node : share.mesh.cells[cell])
-        if (share.row[node] >= 0) columns.push_back(share.row[node]);
+      for (int node : part.mesh.cells[cell])
+        if (part.row[node] >= 0) columns.push_back(part.row[node]);
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-    const auto mine = std::lower_bound(columns.begin(), columns.end(), share.row_end) -
-                      std::lower_bound(columns.begin(), columns.end(), share.row_begin);
+    const auto mine = std::lower_bound(columns.begin(), columns.end(), part.row_end) -
+                      std::lower_bound(columns.begin(), columns.end(), part.row_begin);
     counts.diagonal.push_back(static_cast<PetscInt>(mine));
     counts.other.push_back(static_cast<PetscInt>(columns.size()) - counts.diagonal.back());
   }
@@ -42,13 +42,13 @@ struct CellRows {
   std::vector<PetscInt> row, column;
 };
 
-void find_rows(const Share& share, int cell, CellRows& rows) {
+void find_rows(const MeshPart& part, int cell, CellRows& rows) {
   rows.row.clear();
   rows.column.clear();
-  for (int node : share.mesh.cells[cell]) {
-    const PetscInt column = share.row[node];
+  for (int node : part.mesh.cells[cell]) {
+    const PetscInt column = part.row[node];
     rows.column.push_back(column);
-    rows.row.push_back(column >= share.row_begin && column < share.row_end ? column : -1);
+    rows.row.push_back(column >= part.row_begin && column < part.row_end ? column : -1);
   }
 }
 
@@ -69,21 +69,21 @@ void add(Mat A, const CellRows& rows, const Eigen::MatrixXd& A_e) {
 
 }  // namespace
 
-Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::MaterialRegion>& regions,
+Matrices assemble(MPI_Comm comm, const MeshPart& part, const std::vector<model::MaterialRegion>& regions,
                   model::Element element, const Progress& progress) {
   constexpr int kReportEvery = 4096;
-  const BlockCounts counts = count_blocks(share);
+  const BlockCounts counts = count_blocks(part);
   Matrices matrices{create_spd_matrix(comm, 3, counts), create_spd_matrix(comm, 3, counts)};
-  const int n_cells = share.mesh.cells.size();
+  const int n_cells = part.mesh.cells.size();
   std::vector<Elasticity> elasticities;
   for (const auto& region : regions) elasticities.push_back(elasticity(region.material));
   CellRows rows;
   for (int cell = 0; cell < n_cells; ++cell) {
     if (cell % kReportEvery == 0) report(progress, "assembly", static_cast<double>(cell) / n_cells);
-    const ElementFunctions& functions = element_functions(share.mesh.cells.type[cell]);
-    const int region = share.region[cell];
-    const Eigen::Matrix3Xd X = cell_coordinates(share.mesh, cell);
-    find_rows(share, cell, rows);
+    const ElementFunctions& functions = element_functions(part.mesh.cells.type[cell]);
+    const int region = part.region[cell];
+    const Eigen::Matrix3Xd X = cell_coordinates(part.mesh, cell);
+    find_rows(part, cell, rows);
     add(matrices.K, rows, functions.stiffness(X, elasticities[region], element));
     add(matrices.M, rows, in_three_directions(functions.mass(X, regions[region].material.rho)));
   }

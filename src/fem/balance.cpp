@@ -24,7 +24,7 @@ MatrixXd inertia_forces(const MatrixXd& M_s, const MatrixXd& u) {
 
 }  // namespace
 
-Eigen::VectorXd imbalance(const MeshedBody& body, const MatrixXd& u, const Eigen::VectorXd& lambda) {
+Eigen::VectorXd residual(const MeshedBody& body, const MatrixXd& u, const Eigen::VectorXd& lambda) {
   MatrixXd rest = MatrixXd::Zero(u.rows(), u.cols()), moduli = rest;
   for (int cell = 0; cell < body.mesh.cells.size(); ++cell) {
     const ElementFunctions& functions = element_functions(body.mesh.cells.type[cell]);

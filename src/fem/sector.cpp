@@ -43,7 +43,7 @@ Eigen::Matrix3Xd first_positions(const Sector& sector) {
   for (std::size_t node = 0; node < sector.placement.orbit.size(); ++node) {
     const int orbit = sector.placement.orbit[node];
     if (orbit < 0) continue;
-    const double angle = 2 * std::numbers::pi / turn.n_sectors * sector.placement.turns[node];
+    const double angle = 2 * std::numbers::pi / turn.n_sectors * sector.placement.sector_index[node];
     x.col(orbit) = rotation_matrix(-angle * turn.axis) *
                    (sector.mesh.X.col(static_cast<Eigen::Index>(node)) - turn.point);
   }
@@ -67,7 +67,7 @@ Eigen::VectorXd coordinates(const Harmonic& harmonic, const Sector& sector, cons
 
 Placement free_placement(const mesh::Repetition& repetition, const std::vector<bool>& is_free) {
   std::vector<int> number(repetition.on_axis.size(), -1);
-  Placement placement{std::vector<int>(is_free.size(), -1), repetition.turns};
+  Placement placement{std::vector<int>(is_free.size(), -1), repetition.sector_index};
   int n_free = 0;
   for (std::size_t node = 0; node < is_free.size(); ++node) {
     const int orbit = repetition.orbit[node];
@@ -103,7 +103,7 @@ Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, c
   for (int node : nodes) {
     const int orbit = placement.orbit[node];
     sector.placement.orbit.push_back(orbit);
-    sector.placement.turns.push_back(placement.turns[node]);
+    sector.placement.sector_index.push_back(placement.sector_index[node]);
     if (orbit >= 0) sector.on_axis[orbit] = repetition.on_axis[repetition.orbit[node]];
   }
   return sector;
@@ -120,7 +120,7 @@ void broadcast(MPI_Comm comm, Sector& sector) {
   elastogear::broadcast(comm, sector.region);
   elastogear::broadcast(comm, sector.weight);
   elastogear::broadcast(comm, sector.placement.orbit);
-  elastogear::broadcast(comm, sector.placement.turns);
+  elastogear::broadcast(comm, sector.placement.sector_index);
   elastogear::broadcast(comm, sector.on_axis);
   sector.turn = turn.front();
   sector.mesh.X = Eigen::Map<const Eigen::Matrix3Xd>(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3));
@@ -152,7 +152,7 @@ Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
     const int orbit = placement.orbit[node];
     if (orbit < 0) continue;
     const int first = harmonic.first[orbit], count = harmonic.first[orbit + std::size_t{1}] - first;
-    const Eigen::MatrixXd& Q = harmonic.at(count < off_axis, placement.turns[node]);
+    const Eigen::MatrixXd& Q = harmonic.at(count < off_axis, placement.sector_index[node]);
     u.segment<3>(3 * static_cast<Eigen::Index>(node)).noalias() =
         scale * (Q.topRows<3>() * z.segment(first, count));
   }

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "assembly.h"
-#include "comb.h"
+#include "tooth_grid.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::gear {
@@ -15,7 +15,7 @@ namespace {
 // the bore (hub, web, ring, rim, tooth), planes along z. A row of cells fills the planes within its half
 // width.
 struct Sector {
-  Comb comb;
+  ToothGrid tooth_grid;
   double half_pitch = 0;           // rad
   std::vector<double> radius;      // m, rows 0 .. below the rim
   std::vector<double> half_width;  // m, of each row of cells
@@ -67,7 +67,7 @@ std::vector<double> plane_positions(const Design& d, const WheelCounts& n) {
 
 Sector sector(const Design& d, const Geometry& g, const WheelCounts& n) {
   Sector s{
-      .comb = comb(wheel_profile(d, g),
+      .tooth_grid = tooth_grid(wheel_profile(d, g),
                    {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim}),
       .radius = {d.wheel_bore / 2},
       .half_width = {},
@@ -78,26 +78,26 @@ Sector sector(const Design& d, const Geometry& g, const WheelCounts& n) {
   add_rows(s, n.ring, d.rim_diameter / 2, d.face_width);
   s.rim = n.hub + n.web + n.ring;
   s.tooth = s.rim + n.rim;
-  s.half_width.resize(static_cast<std::size_t>(s.tooth + s.comb.rows), d.face_width / 2);
+  s.half_width.resize(static_cast<std::size_t>(s.tooth + s.tooth_grid.rows), d.face_width / 2);
   return s;
 }
 
 bool has_cell(const Sector& s, int q, int row, int plane) {
-  const bool within = row < s.tooth || (q >= -s.comb.half_tooth && q < s.comb.half_tooth);
+  const bool within = row < s.tooth || (q >= -s.tooth_grid.half_tooth && q < s.tooth_grid.half_tooth);
   return within && std::max(std::abs(s.z[plane]), std::abs(s.z[plane + 1])) < s.half_width[row] + kSamePlane;
 }
 
 // (angle from the tooth's axis, radius) of a node of the section.
 Eigen::Vector2d polar_point(const Sector& s, int q, int row) {
-  if (row < s.rim) return {s.half_pitch * q / s.comb.half_pitch, s.radius[row]};
+  if (row < s.rim) return {s.half_pitch * q / s.tooth_grid.half_pitch, s.radius[row]};
   const Eigen::Vector2d x =
-      row <= s.tooth ? s.comb.strip_point(q, row - s.rim) : s.comb.tooth_point(q, row - s.tooth);
+      row <= s.tooth ? s.tooth_grid.strip_point(q, row - s.rim) : s.tooth_grid.tooth_point(q, row - s.tooth);
   return {std::atan2(x[0], x[1]), x.norm()};
 }
 
 bool has_node(const Sector& s, int q, int row, int plane) {
   const double below = row > 0 ? s.half_width[row - 1] : 0, above = row < s.rows() ? s.half_width[row] : 0;
-  return (row <= s.tooth || std::abs(q) <= s.comb.half_tooth) &&
+  return (row <= s.tooth || std::abs(q) <= s.tooth_grid.half_tooth) &&
          std::abs(s.z[plane]) < std::max(below, above) + kSamePlane;
 }
 
@@ -116,7 +116,7 @@ struct Numbering {
 };
 
 Numbering number_nodes(const Sector& s) {
-  Numbering n{.half_pitch = s.comb.half_pitch, .rows = s.rows(), .number = {}};
+  Numbering n{.half_pitch = s.tooth_grid.half_pitch, .rows = s.rows(), .number = {}};
   for (int plane = 0; plane < s.planes(); ++plane)
     for (int q = -n.half_pitch; q < n.half_pitch; ++q)
       for (int row = 0; row <= n.rows; ++row) n.number.push_back(has_node(s, q, row, plane) ? n.count++ : -1);
@@ -148,8 +148,8 @@ Eigen::Matrix3Xd positions(const Sector& s, const Numbering& n, const Toothing& 
 // land.
 bool on_fillet(const Sector& s, int q, int row) {
   const int column = std::abs(q);
-  if (row == s.tooth) return column >= s.comb.half_tooth && column <= s.comb.fillet_end;
-  return row > s.tooth && row <= s.tooth + s.comb.fillet && column == s.comb.half_tooth;
+  if (row == s.tooth) return column >= s.tooth_grid.half_tooth && column <= s.tooth_grid.fillet_end;
+  return row > s.tooth && row <= s.tooth + s.tooth_grid.fillet && column == s.tooth_grid.half_tooth;
 }
 
 void add_node_sets(mesh::Mesh& mesh, const Sector& s, const Numbering& n, int teeth) {
@@ -172,9 +172,9 @@ void add_cell(mesh::Mesh& mesh, const Sector& s, const Numbering& n, std::array<
   mesh.cell_sets[row < s.rim ? "body" : "rim"].push_back(mesh.cells.size());
   const auto faces = add_hex(mesh, {node(0, 0, 0), node(0, 1, 0), node(1, 1, 0), node(1, 0, 0), node(0, 0, 1),
                                     node(0, 1, 1), node(1, 1, 1), node(1, 0, 1)});
-  if (row < s.tooth + s.comb.fillet) return;
-  if (q == -s.comb.half_tooth) add_flank(mesh, faces[2], numbered("tooth", tooth, teeth), "right");
-  if (q == s.comb.half_tooth - 1) add_flank(mesh, faces[4], numbered("tooth", tooth, teeth), "left");
+  if (row < s.tooth + s.tooth_grid.fillet) return;
+  if (q == -s.tooth_grid.half_tooth) add_flank(mesh, faces[2], numbered("tooth", tooth, teeth), "right");
+  if (q == s.tooth_grid.half_tooth - 1) add_flank(mesh, faces[4], numbered("tooth", tooth, teeth), "left");
 }
 
 }  // namespace

@@ -66,11 +66,11 @@ void add_core(Builder& b) {
 
 void add_threads(Builder& b) {
   const WormGrid& g = b.g;
-  const int half = g.comb.half_tooth;
+  const int half = g.tooth_grid.half_tooth;
   for (int thread = 0; thread < g.design.z1; ++thread)
     for (int J = -g.half_thread; J < g.half_thread; ++J)
       for (int q = -half; q < half; ++q)
-        for (int row = 0; row < g.comb.rows; ++row) {
+        for (int row = 0; row < g.tooth_grid.rows; ++row) {
           const auto faces = add_cell(
               b, [&](int dr, int dphi, int dz) { return tooth_node(b, thread, J + dphi, q + dz, row + dr); });
           const std::string name = numbered("thread", thread, g.design.z1);
@@ -101,8 +101,8 @@ void add_root_set(Builder& b) {
     for (int J = -g.half_thread; J <= g.half_thread; ++J)
       for (int side : {-1, 1}) {
         for (int row = 0; row <= g.n.fillet; ++row)
-          add_root(b, thread, tooth_node(b, thread, J, side * g.comb.half_tooth, row));
-        for (int q = g.comb.half_tooth + 1; q <= g.comb.fillet_end; ++q)
+          add_root(b, thread, tooth_node(b, thread, J, side * g.tooth_grid.half_tooth, row));
+        for (int q = g.tooth_grid.half_tooth + 1; q <= g.tooth_grid.fillet_end; ++q)
           add_root(b, thread, tooth_node(b, thread, J, side * q, 0));
       }
 }

@@ -53,10 +53,10 @@ double tooth_weight(const WormGrid& g, int t, int j) {
 }
 
 Polar inner_position(const WormGrid& g, HelixNode node, int row) {
-  const int t = floor_div(node.k + g.comb.half_pitch, g.columns), q = node.k - t * g.columns;
+  const int t = floor_div(node.k + g.tooth_grid.half_pitch, g.columns), q = node.k - t * g.columns;
   const double weight = tooth_weight(g, t, node.j);
   const Eigen::Vector2d plain(q * g.layer, row_radius(g, row, g.geometry.worm.r_f));
-  const Eigen::Vector2d x = plain + weight * (g.comb.strip_point(q, row) - plain);
+  const Eigen::Vector2d x = plain + weight * (g.tooth_grid.strip_point(q, row) - plain);
   const double section = static_cast<double>(node.j) / g.helix.m;
   return {2 * kPi * node.j / g.n.turn,
           x[0] + (t * g.columns + section) * g.layer - sunk(g, node.k + section, row), x[1]};
@@ -124,7 +124,7 @@ Polar core_position(const WormGrid& g, HelixNode node, int row) {
 }
 
 Polar tooth_position(const WormGrid& g, int thread, int J, int q, int row) {
-  const Eigen::Vector2d x = g.comb.tooth_point(q, row);
+  const Eigen::Vector2d x = g.tooth_grid.tooth_point(q, row);
   const double section = static_cast<double>(J) / g.helix.m;
   return {2 * kPi * (J + g.helix.m * thread * g.columns) / g.n.turn, section * g.layer + x[0], x[1]};
 }
@@ -138,16 +138,16 @@ Polar shaft_position(const WormGrid& g, int end, int ring, int column, int row) 
 }
 
 WormGrid worm_grid(const Design& d, const WormCounts& n) {
-  WormGrid g{.design = d, .geometry = derive(d), .n = n, .comb = {}, .helix = {}, .treads = {}, .shaft = {}};
+  WormGrid g{.design = d, .geometry = derive(d), .n = n, .tooth_grid = {}, .helix = {}, .treads = {}, .shaft = {}};
   check(n, d, g.geometry.p_x);
-  g.comb = comb(worm_profile(d, g.geometry),
+  g.tooth_grid = tooth_grid(worm_profile(d, g.geometry),
                 {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.ring});
-  g.columns = 2 * g.comb.half_pitch;
+  g.columns = 2 * g.tooth_grid.half_pitch;
   g.layer = g.geometry.p_x / g.columns;
   g.helix.K = d.z1 * g.columns;
   g.helix.m = n.turn / g.helix.K;
   g.half_thread = static_cast<int>(std::lround(d.thread_length / 2 / g.layer * g.helix.m));
-  g.helix.top_0 = (g.half_thread - 1) / g.helix.m + 1 + g.comb.half_pitch + kPlainLayers;
+  g.helix.top_0 = (g.half_thread - 1) / g.helix.m + 1 + g.tooth_grid.half_pitch + kPlainLayers;
   g.treads = treads(g.helix);
   g.shaft[0] =
       rings(g, -d.seat_1_end, -d.seat_1_begin, -d.shaft_1_end, d.seat_1_diameter / 2, d.shaft_1_diameter / 2);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "comb.h"
+#include "tooth_grid.h"
 #include "elastogear/gear/worm.h"
 #include "helix.h"
 
@@ -23,7 +23,7 @@ struct WormGrid {
   Design design;
   Geometry geometry;
   WormCounts n;
-  Comb comb;
+  ToothGrid tooth_grid;
   Helix helix;
   int columns = 0;      // layers per axial pitch
   int half_thread = 0;  // sections from the middle of a thread to its end

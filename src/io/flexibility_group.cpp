@@ -15,7 +15,7 @@ const std::string kGroup = "/flexibility";
 void write_images(const h5::File& file, const std::string& name, const model::Images& images) {
   h5::make_group(file, kGroup + name);
   h5::write<int>(file, kGroup + name + "/orbit", view(images.orbit), "1");
-  h5::write<int>(file, kGroup + name + "/turns", view(images.turns), "1");
+  h5::write<int>(file, kGroup + name + "/turns", view(images.sector_index), "1");
 }
 
 model::Images read_images(const h5::File& file, const std::string& name, int n_sectors) {
@@ -88,7 +88,7 @@ model::Flexibility read_flexibility(const h5::File& file) {
   return flexibility;
 }
 
-Eigen::MatrixXf read_stress_answers(const std::string& path, int orbit) {
+Eigen::MatrixXf read_stress_responses(const std::string& path, int orbit) {
   const h5::File file = open_format(path, kBodyFormat);
   return read_columns(file, "/G", static_cast<hsize_t>(3 * orbit), 3);
 }

@@ -13,7 +13,7 @@ constexpr std::string_view kBanner = "%%MatrixMarket";
 constexpr std::string_view kComments = "#%";
 constexpr std::size_t kLabelled = 5, kPlain = 3;  // fields of an entry
 
-int direction(const FieldLines& lines, std::int64_t d) {
+int direction(const DelimitedReader& lines, std::int64_t d) {
   if (d > 3)
     lines.fail_here("direction ", d,
                     ", allowed are the displacements 1, 2, 3: only matrices of solid elements ",
@@ -22,7 +22,7 @@ int direction(const FieldLines& lines, std::int64_t d) {
 }
 
 // "12.3": node 12, direction 3.
-MatrixLabel split_label(const FieldLines& lines, std::string_view field) {
+MatrixLabel split_label(const DelimitedReader& lines, std::string_view field) {
   const std::size_t dot = field.find('.');
   const auto node = parse<std::int64_t>(field.substr(0, dot));
   const auto d = dot == std::string_view::npos ? std::nullopt : parse<std::int64_t>(field.substr(dot + 1));
@@ -118,7 +118,7 @@ std::vector<MatrixEntry> MatrixReader::read(std::size_t most) {
 }
 
 NodeTable read_node_table(std::istream& in, const std::string& source) {
-  FieldLines lines(in, source);
+  DelimitedReader lines(in, source);
   std::vector<std::int64_t> number;
   std::vector<double> X;
   while (lines.next("#*%")) {
@@ -141,7 +141,7 @@ NodeTable read_node_table(std::istream& in, const std::string& source) {
 }
 
 std::vector<MatrixLabel> read_dof_table(std::istream& in, const std::string& source) {
-  FieldLines lines(in, source);
+  DelimitedReader lines(in, source);
   std::vector<MatrixLabel> labels;
   while (lines.next(kComments)) {
     const auto& fields = lines.fields();

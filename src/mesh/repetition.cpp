@@ -198,12 +198,12 @@ void number_nodes(const Cloud& cloud, const std::vector<int>& image, Repetition&
   std::vector<int> reached;
   const auto reach = [&](int first) {
     if (repetition.orbit[first] >= 0) return;
-    int turns = 0;
+    int sector_index = 0;
     for (int node = first; repetition.orbit[node] < 0; node = image[node]) {
       repetition.orbit[node] = static_cast<int>(repetition.on_axis.size());
-      repetition.turns[node] = turns++;
+      repetition.sector_index[node] = sector_index++;
     }
-    repetition.on_axis.push_back(turns == 1);
+    repetition.on_axis.push_back(sector_index == 1);
     reached.push_back(first);
   };
   std::size_t next = 0;

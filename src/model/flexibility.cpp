@@ -12,29 +12,29 @@ namespace {
 
 using Eigen::Matrix3d;
 
-Matrix3d turn(const Flexibility& flexibility, int turns) {
-  const double angle = 2 * std::numbers::pi * turns / flexibility.n_sectors;
+Matrix3d turn(const Flexibility& flexibility, int sector_index) {
+  const double angle = 2 * std::numbers::pi * sector_index / flexibility.n_sectors;
   return Eigen::AngleAxisd(angle, flexibility.axis).toRotationMatrix();
 }
 
-// The node of the same orbit that comes to `node` by so many turns.
-int turned_back(const Images& images, int node, int turns) {
+// The node of the same orbit that comes to `node` by so many sector_index.
+int turned_back(const Images& images, int node, int sector_index) {
   const auto n_sectors = static_cast<int>(images.node.rows());
-  return images.node((images.turns[node] - turns + n_sectors) % n_sectors, images.orbit[node]);
+  return images.node((images.sector_index[node] - sector_index + n_sectors) % n_sectors, images.orbit[node]);
 }
 
 }  // namespace
 
-Images make_images(std::vector<int> orbit, std::vector<int> turns, int n_sectors, const std::string& source) {
+Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_sectors, const std::string& source) {
   const std::size_t n = orbit.size();
-  require(n_sectors >= 1 && n % static_cast<std::size_t>(n_sectors) == 0 && turns.size() == n, source, ": ",
+  require(n_sectors >= 1 && n % static_cast<std::size_t>(n_sectors) == 0 && sector_index.size() == n, source, ": ",
           n, " nodes are no whole number of orbits of ", n_sectors, " nodes");
-  Images images{std::move(orbit), std::move(turns), {}};
+  Images images{std::move(orbit), std::move(sector_index), {}};
   images.node.setConstant(n_sectors, static_cast<Eigen::Index>(n) / n_sectors, -1);
   for (std::size_t i = 0; i < n; ++i) {
-    const int o = images.orbit[i], t = images.turns[i];
+    const int o = images.orbit[i], t = images.sector_index[i];
     require(o >= 0 && o < images.node.cols() && t >= 0 && t < n_sectors && images.node(t, o) < 0, source,
-            ": node ", i, " has orbit ", o, " and ", t, " turns, which cannot be");
+            ": node ", i, " has orbit ", o, " and ", t, " sector_index, which cannot be");
     images.node(t, o) = static_cast<int>(i);
   }
   return images;
@@ -65,18 +65,18 @@ void set_self(Flexibility& flexibility) {
         flexibility.F.block<3, 3>(3 * flexibility.surface.node(0, orbit), 3 * orbit).cast<double>().norm();
 }
 
-Matrix3d answer(const Flexibility& flexibility, int a, int b, const Columns3& F) {
-  const int turns = flexibility.surface.turns[b];
-  const Matrix3d u = F.middleRows<3>(3 * turned_back(flexibility.surface, a, turns)).cast<double>();
-  if (turns == 0) return u;
-  const Matrix3d T = turn(flexibility, turns);
+Matrix3d displacement_response(const Flexibility& flexibility, int a, int b, const Columns3& F) {
+  const int sector_index = flexibility.surface.sector_index[b];
+  const Matrix3d u = F.middleRows<3>(3 * turned_back(flexibility.surface, a, sector_index)).cast<double>();
+  if (sector_index == 0) return u;
+  const Matrix3d T = turn(flexibility, sector_index);
   return T * u * T.transpose();
 }
 
-Eigen::Matrix<double, 6, 3> stress_answer(const Flexibility& flexibility, int e, int b, const Columns3& G) {
-  const int turns = flexibility.surface.turns[b],
-            row = turned_back(flexibility.stress, flexibility.stress_row[e], turns);
-  const Matrix3d T = turn(flexibility, turns);
+Eigen::Matrix<double, 6, 3> stress_response(const Flexibility& flexibility, int e, int b, const Columns3& G) {
+  const int sector_index = flexibility.surface.sector_index[b],
+            row = turned_back(flexibility.stress, flexibility.stress_row[e], sector_index);
+  const Matrix3d T = turn(flexibility, sector_index);
   const Eigen::Matrix<double, 6, 3> s = G.middleRows<6>(6 * row).cast<double>() * T.transpose();
   Eigen::Matrix<double, 6, 3> turned;
   for (int j = 0; j < 3; ++j) {

@@ -37,7 +37,7 @@ Eigen::VectorXd products(MPI_Comm comm, const Eigen::MatrixXd& F, const Eigen::M
 }
 
 // f' K^-1 f of each column. Loads of a free body are balanced: they do no work in rigid motions.
-Eigen::VectorXd exact_answers(const ElasticSystem& system, const Eigen::MatrixXd& F) {
+Eigen::VectorXd exact_responses(const ElasticSystem& system, const Eigen::MatrixXd& F) {
   UniqueMat grounded;
   if (system.rigid) grounded = InertiaRelief(system.M, *system.rigid).ground(system.K);
   ShiftedFactor factor(system.rigid ? grounded.get() : system.K, system.M);
@@ -47,7 +47,7 @@ Eigen::VectorXd exact_answers(const ElasticSystem& system, const Eigen::MatrixXd
   return products(comm_of(system.K), F, U);
 }
 
-double modal_answer(const model::ElasticBody& body, const Eigen::VectorXd& f) {
+double modal_response(const model::ElasticBody& body, const Eigen::VectorXd& f) {
   const Eigen::VectorXd h = std::get<model::DenseRows>(body.surface.Phi).transpose() * f;
   return h.cwiseAbs2().cwiseQuotient(Eigen::VectorXd(body.K_r.diagonal())).sum();
 }
@@ -83,13 +83,13 @@ Completeness static_completeness(const ElasticSystem& system, const model::Elast
   if (n_loads == 0) return {};
   std::vector<Eigen::VectorXd> f;
   for (const SurfaceLoad& load : loads) f.push_back(at_nodes(body.surface, load.f, n_nodes));
-  const Eigen::VectorXd exact = exact_answers(system, distribute(system, f, n_loads));
+  const Eigen::VectorXd exact = exact_responses(system, distribute(system, f, n_loads));
   Completeness result;
   std::vector<double> share;
   for (std::size_t j = 0; j < loads.size(); ++j) {
     if (exact(static_cast<Eigen::Index>(j)) <= 0) continue;
     result.load.push_back(loads[j].name);
-    share.push_back(modal_answer(body, loads[j].f) / exact(static_cast<Eigen::Index>(j)));
+    share.push_back(modal_response(body, loads[j].f) / exact(static_cast<Eigen::Index>(j)));
   }
   result.share = Eigen::Map<const Eigen::VectorXd>(share.data(), static_cast<Eigen::Index>(share.size()));
   return result;

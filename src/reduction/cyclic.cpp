@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/cutoff.h"
 #include "elastogear/reduction/factorisation.h"
@@ -24,7 +24,7 @@ constexpr int kPairsInDoubt = 4;     // in a sample
 constexpr int kSampleEvery = 5;      // harmonics counted for the first guess of the cutoff
 constexpr double kAtCutoff = 1e-6;   // relative: an eigenvalue may lie so close above it
 constexpr int kCheckedFields = 4;    // on the whole mesh
-constexpr double kImbalance = 1e-5;  // of their forces: the mesh repeats to 1e-6 only
+constexpr double kResidual = 1e-5;  // of their forces: the mesh repeats to 1e-6 only
 constexpr int kTag = 2;
 
 // The ranks that solve harmonics together; each group takes every n-th harmonic.
@@ -86,7 +86,7 @@ struct Search {
 void make_problems(Search& search) {
   const fem::MeshedBody& body = search.body.body;
   MPI_Comm_rank(search.comm, &search.rank);
-  agree(search.comm, [&] {
+  collectively(search.comm, [&] {
     if (search.rank != 0) return;
     search.placement = fem::free_placement(search.body.repetition, body.is_free);
     search.sector = fem::make_sector(body.mesh, search.body.repetition, body.region, search.placement);
@@ -108,7 +108,7 @@ void make_problems(Search& search) {
 // Eigenvalues below sigma of each of the harmonics `which`. Pairs are never split, even where roundoff may.
 std::vector<int> count_below(const Search& search, const std::vector<int>& which, double sigma) {
   std::vector<int> count(search.harmonics.size(), 0);
-  agree(search.comm, [&] {
+  collectively(search.comm, [&] {
     for (std::size_t i = 0; i < which.size(); ++i) {
       const int k = which[i];
       report(search.progress, "mode count", static_cast<double>(i) / which.size());
@@ -167,7 +167,7 @@ Cutoff choose_cutoff(const Search& search) {
 std::optional<HarmonicModes> recall(const Search& search, int k, double sigma) {
   std::optional<HarmonicModes> known;
   if (!search.options.known) return known;
-  agree(search.group->comm, [&] {
+  collectively(search.group->comm, [&] {
     if (search.group->first) known = search.options.known(k, sigma);
   });
   int is_known = known.has_value();
@@ -178,7 +178,7 @@ std::optional<HarmonicModes> recall(const Search& search, int k, double sigma) {
 
 void keep(const Search& search, int k) {
   if (!search.options.done) return;
-  agree(search.group->comm, [&] {
+  collectively(search.group->comm, [&] {
     if (search.group->first) search.options.done(search.modes[k]);
   });
 }
@@ -202,7 +202,7 @@ HarmonicModes solve(const Search& search, int k, const Cutoff& cutoff, const Pro
 
 void solve_all(Search& search, const Cutoff& cutoff) {
   const std::vector<int>& order = search.order;
-  agree(search.comm, [&] {
+  collectively(search.comm, [&] {
     for (std::size_t i = 0; i < order.size(); ++i) {
       const int k = order[i];
       if (!search.mine(k) || cutoff.count[k] == 0) continue;
@@ -263,11 +263,11 @@ void check_fields(const Search& search) {
     eigenvalue(column) = search.entries[i].eigenvalue;
     fields.col(column++) = field(search, search.entries[i]);
   }
-  agree(search.comm, [&] {
+  collectively(search.comm, [&] {
     if (search.rank != 0) return;
-    const double worst = fem::imbalance(search.body.body, fields, eigenvalue).maxCoeff();
-    require(worst <= kImbalance, "the modes of one sector leave ", worst,
-            " of their forces unbalanced in the whole mesh, allowed are ", kImbalance,
+    const double worst = fem::residual(search.body.body, fields, eigenvalue).maxCoeff();
+    require(worst <= kResidual, "the modes of one sector leave ", worst,
+            " of their forces unbalanced in the whole mesh, allowed are ", kResidual,
             ": the mesh does not repeat well enough");
   });
 }

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
@@ -18,15 +18,15 @@ namespace elastogear::reduction {
 namespace {
 
 constexpr Eigen::Index kBlock = 96;  // right-hand sides that go through the factor together
-constexpr const char* kStage = "static answers";
+constexpr const char* kStage = "static responses";
 
 using Eigen::MatrixXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 // What a sector must know of the loads and of the rows that are wanted, for the first node of each orbit.
 struct Wanted {
-  std::vector<int> surface_orbit, surface_turns;  // in the sector: of the loaded nodes; orbit -1: held
-  std::vector<int> row, orbit, direction, turns;  // stress operator, entry by entry
+  std::vector<int> surface_orbit, surface_sector_index;  // in the sector: of the loaded nodes; orbit -1: held
+  std::vector<int> row, orbit, direction, sector_index;  // stress operator, entry by entry
   std::vector<double> value;
   int n_stress_rows = 0;
 };
@@ -47,7 +47,7 @@ void add_stress_rows(const FlexibilityTask& task, const fem::MeshedBody& body,
       if (placement.orbit[node] < 0) continue;
       wanted.row.push_back(row);
       wanted.orbit.push_back(placement.orbit[node]);
-      wanted.turns.push_back(placement.turns[node]);
+      wanted.sector_index.push_back(placement.sector_index[node]);
       wanted.direction.push_back(static_cast<int>(it.col() % 3));
       wanted.value.push_back(it.value());
     }
@@ -59,15 +59,15 @@ Wanted find_wanted(const FlexibilityTask& task, const fem::MeshedBody& body, con
   for (Eigen::Index orbit = 0; orbit < plan.surface.node.cols(); ++orbit) {
     const int node = task.surface.node[plan.node[plan.surface.node(0, orbit)]];
     wanted.surface_orbit.push_back(placement.orbit[node]);
-    wanted.surface_turns.push_back(placement.turns[node]);
+    wanted.surface_sector_index.push_back(placement.sector_index[node]);
   }
   add_stress_rows(task, body, placement, plan, wanted);
   return wanted;
 }
 
 void broadcast(MPI_Comm comm, Wanted& wanted) {
-  for (std::vector<int>* list : {&wanted.surface_orbit, &wanted.surface_turns, &wanted.row, &wanted.orbit,
-                                 &wanted.direction, &wanted.turns})
+  for (std::vector<int>* list : {&wanted.surface_orbit, &wanted.surface_sector_index, &wanted.row, &wanted.orbit,
+                                 &wanted.direction, &wanted.sector_index})
     elastogear::broadcast(comm, *list);
   elastogear::broadcast(comm, wanted.value);
   MPI_Bcast(&wanted.n_stress_rows, 1, MPI_INT, 0, comm);
@@ -81,8 +81,8 @@ class Unfolding {
         sector_(sector),
         scale_(std::sqrt((harmonic.real ? 1.0 : 2.0) / harmonic.n_sectors)) {}
 
-  void add(int row, int orbit, int turns, const Eigen::RowVector3d& weight, Triplets& entries) const {
-    const MatrixXd& Q = harmonic_.at(sector_.on_axis[orbit], turns);
+  void add(int row, int orbit, int sector_index, const Eigen::RowVector3d& weight, Triplets& entries) const {
+    const MatrixXd& Q = harmonic_.at(sector_.on_axis[orbit], sector_index);
     const Eigen::RowVectorXd values = scale_ * weight * Q.topRows<3>();
     for (Eigen::Index j = 0; j < values.size(); ++j)
       entries.emplace_back(row, harmonic_.first[orbit] + static_cast<int>(j), values[j]);
@@ -102,9 +102,9 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const Wanted& wanted, const
   Triplets entries;
   for (int i = 0; i < n_u; ++i)
     if (const int orbit = wanted.surface_orbit[i / 3]; orbit >= 0)
-      unfolding.add(i, orbit, wanted.surface_turns[i / 3], Eigen::Vector3d::Unit(i % 3).transpose(), entries);
+      unfolding.add(i, orbit, wanted.surface_sector_index[i / 3], Eigen::Vector3d::Unit(i % 3).transpose(), entries);
   for (std::size_t i = 0; i < wanted.row.size(); ++i)
-    unfolding.add(n_u + wanted.row[i], wanted.orbit[i], wanted.turns[i],
+    unfolding.add(n_u + wanted.row[i], wanted.orbit[i], wanted.sector_index[i],
                   wanted.value[i] * Eigen::Vector3d::Unit(wanted.direction[i]).transpose(), entries);
   Eigen::SparseMatrix<double, Eigen::RowMajor> P(n_u + wanted.n_stress_rows, harmonic.size());
   P.setFromTriplets(entries.begin(), entries.end());
@@ -127,17 +127,17 @@ MatrixXd turning(const Eigen::Matrix3d& T, int components) {
 
 // Adds what the orbits' nodes, turned by j sectors, get from their amplitudes: `components` rows of Y a node.
 void add_turned(const Eigen::Ref<const MatrixXd>& Y, const MatrixXd& turn, const model::Images& images, int j,
-                Eigen::Ref<Eigen::MatrixXf> answers) {
+                Eigen::Ref<Eigen::MatrixXf> responses) {
   const Eigen::Index n = turn.rows();
   for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit)
-    answers.middleRows(n * images.node(j, orbit), n) += (turn * Y.middleRows(n * orbit, n)).cast<float>();
+    responses.middleRows(n * images.node(j, orbit), n) += (turn * Y.middleRows(n * orbit, n)).cast<float>();
 }
 
-// One harmonic's part of all answers.
-class HarmonicAnswers {
+// One harmonic's part of all responses.
+class HarmonicResponses {
  public:
   // rigid: the rigid motions that the harmonic contains; of a held body none.
-  HarmonicAnswers(const fem::Harmonic& harmonic, const fem::Sector& sector, const Wanted& wanted,
+  HarmonicResponses(const fem::Harmonic& harmonic, const fem::Sector& sector, const Wanted& wanted,
                   MatrixXd rigid)
       : harmonic_(harmonic),
         axis_(sector.turn.axis),
@@ -201,8 +201,8 @@ void sum_on_root(MPI_Comm comm, Eigen::MatrixXf& A) {
 
 void broadcast(MPI_Comm comm, model::Images& images, int n_sectors) {
   elastogear::broadcast(comm, images.orbit);
-  elastogear::broadcast(comm, images.turns);
-  images = model::make_images(images.orbit, images.turns, n_sectors, "nodes of the flexibility");
+  elastogear::broadcast(comm, images.sector_index);
+  images = model::make_images(images.orbit, images.sector_index, n_sectors, "nodes of the flexibility");
 }
 
 }  // namespace
@@ -216,7 +216,7 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   model::Flexibility flexibility;
   fem::Sector sector;
   Wanted wanted;
-  agree(comm, [&] {
+  collectively(comm, [&] {
     if (rank != 0) return;
     flexibility = plan_flexibility(task);
     const fem::Placement placement = fem::free_placement(task.repetition, body.is_free);
@@ -230,13 +230,13 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   flexibility.F.setZero(3 * flexibility.surface.node.size(), 3 * flexibility.surface.node.cols());
   flexibility.G.setZero(6 * flexibility.stress.node.size(), flexibility.F.cols());
   const int n_harmonics = sector.turn.n_sectors / 2 + 1;
-  agree(comm, [&] {
+  collectively(comm, [&] {
     for (int k = rank; k < n_harmonics; k += size) {
       const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
       if (harmonic.size() == 0) continue;
       const fem::Matrices matrices =
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.element);
-      HarmonicAnswers(harmonic, sector, wanted, floating ? fem::rigid_fields(harmonic, sector) : MatrixXd())
+      HarmonicResponses(harmonic, sector, wanted, floating ? fem::rigid_fields(harmonic, sector) : MatrixXd())
           .add(matrices, flexibility);
       report(progress, kStage, std::min(1.0, static_cast<double>(k + size) / n_harmonics));
     }

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "dense_eigenproblem.h"
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/fem/gather.h"
 #include "residual.h"
@@ -108,7 +108,7 @@ Solution solve_on_root(Mat K, Mat M, const EigenOptions& options) {
   int rank = 0;
   MPI_Comm_rank(comm_of(K), &rank);
   const MatrixXd K_all = gathered(K), M_all = gathered(M);
-  agree(comm_of(K), [&] {
+  collectively(comm_of(K), [&] {
     if (rank != 0) return;
     solution.spectrum = solve(K_all, M_all);
     solution.lowest = solution.spectrum.lambda(0);

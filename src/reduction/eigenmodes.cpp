@@ -8,7 +8,7 @@
 #include "dense_modes.h"
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/factorisation.h"
-#include "elastogear/reduction/windows.h"
+#include "elastogear/reduction/spectrum_slicing.h"
 #include "residual.h"
 
 namespace elastogear::reduction {
@@ -197,7 +197,7 @@ Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const Mode
   if (options.window == 0) return find_by_slepc(K, M, options, sink, progress);
   return options.n_rigid == 0 && suits_dense(size_of(K), options.n_modes)
              ? find_by_lapack(K, M, options, sink, progress)
-             : find_by_windows(K, M, options, sink, progress);
+             : find_by_slices(K, M, options, sink, progress);
 }
 
 void fix_sign(Eigen::VectorXd& phi) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/factorisation.h"
 #include "elastogear/reduction/inertia_relief.h"
@@ -68,13 +68,13 @@ std::vector<int> positions(const std::vector<int>& nodes, const std::vector<int>
 std::optional<model::Images> find_images(const std::vector<int>& nodes, const mesh::Repetition& repetition) {
   const int Z = repetition.turn.n_sectors;
   std::map<int, int> number;  // of the mesh's orbits
-  std::vector<int> orbit, turns;
+  std::vector<int> orbit, sector_index;
   for (int node : nodes) {
     orbit.push_back(number.emplace(repetition.orbit[node], static_cast<int>(number.size())).first->second);
-    turns.push_back(repetition.turns[node]);
+    sector_index.push_back(repetition.sector_index[node]);
   }
   if (nodes.size() != number.size() * static_cast<std::size_t>(Z)) return {};
-  return model::make_images(orbit, turns, Z, "nodes of the flexibility");
+  return model::make_images(orbit, sector_index, Z, "nodes of the flexibility");
 }
 
 std::vector<int> mesh_numbers(const FlexibilityTask& task, const std::vector<int>& local) {
@@ -213,7 +213,7 @@ model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSy
   model::Flexibility flexibility;
   std::vector<int> node;
   Eigen::VectorXd force;
-  agree(comm, [&] {
+  collectively(comm, [&] {
     if (rank != 0) return;
     flexibility = plan_flexibility(task);
     node = first_nodes(task, flexibility);

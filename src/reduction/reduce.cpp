@@ -43,7 +43,7 @@ void fill_report(Job& job) {
   report.n_free = static_cast<int>(job.plan.free_dof.size());
   report.n_ranks = job.size;
   report.edge_cut = job.plan.partition.edge_cut;
-  if (job.options.foreign) return;
+  if (job.options.imported) return;
   std::vector<int> cells(static_cast<std::size_t>(job.size), 0);
   for (int part : job.plan.partition.part) ++cells[part];
   if (!job.modes_by_sectors())
@@ -58,7 +58,7 @@ fem::Matrices assemble_cells(Job& job) {
     plan.rows = fem::number_rows(job.mesh, plan.is_free, plan.partition.part, job.size);
     plan.dof = fem::row_dofs(plan.rows);
   });
-  const fem::Share share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
+  const fem::MeshPart share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
   job.finish_stage("partition");
   fem::Matrices matrices = fem::assemble(job.comm, share, job.regions, job.options.element, job.progress);
   int single = job.rank == 0 && mesh::has_single_directions(plan.held);
@@ -85,7 +85,7 @@ void add_point_masses(Job& job, Mat M) {
 }  // namespace
 
 fem::Matrices assemble(Job& job) {
-  fem::Matrices matrices = job.options.foreign ? std::move(job.plan.foreign) : assemble_cells(job);
+  fem::Matrices matrices = job.options.imported ? std::move(job.plan.imported) : assemble_cells(job);
   add_point_masses(job, matrices.M);
   return matrices;
 }
@@ -100,7 +100,7 @@ ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOpt
   Job job{comm, mesh, options, output, progress};
   MPI_Comm_rank(comm, &job.rank);
   MPI_Comm_size(comm, &job.size);
-  if (options.foreign) {
+  if (options.imported) {
     read_matrices(job);
     job.finish_stage("reading matrices");
   } else {

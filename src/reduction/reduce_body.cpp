@@ -73,7 +73,7 @@ void validate_ritz(const ReductionOptions& options) {
 
 void validate(const ReductionOptions& options) {
   if (options.ritz) validate_ritz(options);
-  if (!options.foreign || !options.regions.empty()) fem::validate(options.regions);
+  if (!options.imported || !options.regions.empty()) fem::validate(options.regions);
   require(!options.floating || options.restrain.empty(), "a free body has no restrained sets");
   require(options.frame_origin.allFinite(), "the origin of the body frame (",
           options.frame_origin.transpose(), ") m must be finite");
@@ -171,8 +171,8 @@ void require_restraint(const Job& job, bool complete) {
           "nothing holds the body: name sets of nodes by option restrain, or reduce it ",
           "as a free body (restrain: none)");
   require(!held || !options.floating, "a free body needs matrices of all displacements, ",
-          options.foreign->stiffness, " lacks some: they are held");
-  require(complete || job.mesh.cells.size() > 0, options.foreign->mass,
+          options.imported->stiffness, " lacks some: they are held");
+  require(complete || job.mesh.cells.size() > 0, options.imported->mass,
           " lacks displacements, so that the inertia must come from a mesh with cells and materials");
 }
 
@@ -201,7 +201,7 @@ void place_materials(Job& job) {
 
 // Nodes that hang on nothing would seem to rest.
 void require_on_body(const Job& job) {
-  if (job.options.foreign) return;
+  if (job.options.imported) return;
   const std::vector<bool> in_cell = fem::free_nodes(job.mesh, {});
   std::vector<std::string> sets = job.options.markers;
   for (const auto& [set, mass] : job.options.point_mass) sets.push_back(set);
@@ -255,16 +255,16 @@ std::map<int, double> point_masses(const Job& job) {
 
 model::SparseRows scalar_mass(const Job& job) {
   model::SparseRows M_s =
-      job.options.foreign ? job.plan.foreign_mass : fem::scalar_mass(job.mesh, job.regions);
+      job.options.imported ? job.plan.imported_mass : fem::scalar_mass(job.mesh, job.regions);
   for (const auto& [node, mass] : point_masses(job)) M_s.coeffRef(node, node) += mass;
   return M_s;
 }
 
 void read_matrices(Job& job) {
   Plan& plan = job.plan;
-  const ForeignFiles& files = *job.options.foreign;
+  const ImportedFiles& files = *job.options.imported;
   job.on_root([&] { validate(job.options); });
-  ForeignSystem system = read_foreign(job.comm, job.mesh, files, job.progress);
+  ImportedSystem system = read_imported(job.comm, job.mesh, files, job.progress);
   require_positive(system.matrices.M, files.mass);
   int complete = job.rank == 0 && is_complete(job.mesh, system.dof);
   MPI_Bcast(&complete, 1, MPI_INT, 0, job.comm);
@@ -274,14 +274,14 @@ void read_matrices(Job& job) {
     check(MatCreateVecs(system.matrices.M, layout.out(), nullptr));
     plan.moments = mass_moments(system.matrices.M, {layout, system.dof, 3 * job.mesh.n_nodes()}, job.mesh);
   }
-  if (job.options.invariants == Invariants::full) plan.foreign_mass = scalar_mass(system, job.mesh.n_nodes());
+  if (job.options.invariants == Invariants::full) plan.imported_mass = scalar_mass(system, job.mesh.n_nodes());
   job.on_root([&] { plan.held = mesh::held_by(job.mesh, job.options.restrain); });
   int restrains = job.rank == 0 && !job.options.restrain.empty();
   MPI_Bcast(&restrains, 1, MPI_INT, 0, job.comm);
   if (restrains) fem::eliminate(plan.held, system.matrices, system.dof);
   if (!job.options.floating) require_positive(system.matrices.K, files.stiffness);
   plan.dof = plan.free_dof = system.dof;
-  plan.foreign = std::move(system.matrices);
+  plan.imported = std::move(system.matrices);
 }
 
 void prepare_body(Job& job) {

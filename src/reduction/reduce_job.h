@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "elastogear/base/agree.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/fem/assembly.h"
 #include "elastogear/fem/inertia.h"
 #include "elastogear/io/body_file.h"
@@ -27,8 +27,8 @@ struct Plan {
   mesh::Repetition repetition;  // n_sectors = 1 (on all ranks): none
   mesh::Partition partition;
   fem::RowNumbering rows;          // own matrices only
-  fem::Matrices foreign;           // on all ranks
-  model::SparseRows foreign_mass;  // its scalar mass, for full invariants
+  fem::Matrices imported;           // on all ranks
+  model::SparseRows imported_mass;  // its scalar mass, for full invariants
   std::vector<int> dof;            // displacement of every scalar row
   fem::MassMoments moments;
   model::SparseRows S;  // of stress, then of markers: see reduction/basis.h
@@ -54,7 +54,7 @@ struct Job {
 
   /// Runs `f` on rank 0; its errors reach all ranks.
   void on_root(const std::function<void()>& f) {
-    agree(comm, [&] {
+    collectively(comm, [&] {
       if (rank == 0) f();
     });
   }

@@ -13,8 +13,8 @@
 #include "elastogear/reduction/ritz_bases.h"
 #include "elastogear/reduction/second_moments.h"
 #include "fingerprint.h"
-#include "harmonic_pieces.h"
-#include "mode_pieces.h"
+#include "harmonic_checkpoints.h"
+#include "mode_checkpoints.h"
 #include "reduce_job.h"
 #include "residual.h"
 #include "ritz_task.h"
@@ -50,10 +50,10 @@ EigenOptions eigen_options(const ReductionOptions& o) {
   return options;
 }
 
-void report_continued(Job& job, int pieces, int discarded, const std::string& what) {
+void report_continued(Job& job, int checkpoints, int discarded, const std::string& what) {
   job.report.discarded = discarded;
-  if (pieces == 0) return;
-  job.report.continued_after = std::to_string(pieces) + " " + what;
+  if (checkpoints == 0) return;
+  job.report.continued_after = std::to_string(checkpoints) + " " + what;
   report(job.progress, "continues after " + job.report.continued_after, 1);
 }
 
@@ -111,17 +111,17 @@ class ModalWriter {
   std::optional<SecondMoments> moments_;
 };
 
-Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModePieces& pieces) {
+Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModeCheckpoints& checkpoints) {
   PetscInt n_own = 0;
   check(MatGetLocalSize(system.K, &n_own, nullptr));
   const auto keep = [&](int k, Vec v) {
     Eigen::VectorXd phi = system.gather(v);
-    job.on_root([&] { pieces.add(k, mode_record(job, std::move(phi))); });
+    job.on_root([&] { checkpoints.add(k, mode_record(job, std::move(phi))); });
   };
   EigenOptions options = eigen_options(job.options);
-  options.start = pieces.resume(static_cast<int>(n_own));
-  options.commit = [&](const SearchState& state) { pieces.commit(state); };
-  report_continued(job, static_cast<int>(options.start.eigenvalue.size()), pieces.discarded(),
+  options.start = checkpoints.resume(static_cast<int>(n_own));
+  options.commit = [&](const SearchState& state) { checkpoints.commit(state); };
+  report_continued(job, static_cast<int>(options.start.eigenvalue.size()), checkpoints.discarded(),
                    "of " + std::to_string(options.n_modes) + " modes");
   return system.rigid ? find_free_modes(system.K, system.M, *system.rigid, options, keep, job.progress)
                       : find_eigenmodes(system.K, system.M, options, keep, job.progress);
@@ -195,21 +195,21 @@ void reduce_whole(Job& job) {
   std::optional<RigidModes> rigid;
   if (job.options.floating) rigid = find_rigid_modes(matrices.K, matrices.M, gather, job.mesh.X);
   const ElasticSystem system{matrices.K, matrices.M, gather, rigid ? &*rigid : nullptr};
-  ModePieces pieces(job.comm, job.output + ".partial", fingerprint_of(job, matrices), precision(job.options));
-  set_eigenmodes(job, find_modes(job, system, pieces));
+  ModeCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of(job, matrices), precision(job.options));
+  set_eigenmodes(job, find_modes(job, system, checkpoints));
   job.finish_stage("eigenmodes");
   std::optional<ModalWriter> writer;
   job.on_root([&] {
     const int n_q = static_cast<int>(job.report.frequency.size());
     writer.emplace(job, n_q);
-    pieces.visit([&](int k, const ModeRecord& mode) {
+    checkpoints.visit([&](int k, const ModeRecord& mode) {
       if (k < n_q) writer->add(k, mode);  // later ones are void
     });
   });
   check_basis(job, system, asks_for_completeness(job.options));
   add_flexibility(job, system);
   job.on_root([&] { writer->finish(); });
-  pieces.clear();
+  checkpoints.clear();
 }
 
 void add(Fingerprint& f, const model::Material& material) {
@@ -249,16 +249,16 @@ void check_sectors(Job& job) {
 
 // From one sector of a body that repeats.
 void reduce_sectors(Job& job) {
-  HarmonicPieces pieces(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
+  HarmonicCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
   const Plan& plan = job.plan;
   const fem::MeshedBody body{job.mesh, job.regions, plan.region, plan.is_free, job.options.element};
   std::optional<ModalWriter> writer;
   CyclicOptions options;
   options.eigen = eigen_options(job.options);
-  options.known = [&](int k, double cutoff) { return pieces.read(k, cutoff); };
-  options.done = [&](const HarmonicModes& modes) { pieces.write(modes); };
+  options.known = [&](int k, double cutoff) { return checkpoints.read(k, cutoff); };
+  options.done = [&](const HarmonicModes& modes) { checkpoints.write(modes); };
   options.begin = [&](int n_q) { job.on_root([&] { writer.emplace(job, n_q); }); };
-  report_continued(job, pieces.n_known(), pieces.discarded(), "harmonics");
+  report_continued(job, checkpoints.n_known(), checkpoints.discarded(), "harmonics");
   const auto keep = [&](int k, const Eigen::VectorXd& phi) {
     job.on_root([&] { writer->add(k, mode_record(job, phi)); });
   };
@@ -266,7 +266,7 @@ void reduce_sectors(Job& job) {
   job.finish_stage("eigenmodes");
   check_sectors(job);
   job.on_root([&] { writer->finish(); });
-  pieces.clear();
+  checkpoints.clear();
 }
 
 // From other vectors than eigenmodes.

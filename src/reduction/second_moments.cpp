@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "elastogear/io/pieces.h"
+#include "elastogear/io/checkpoint_store.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -18,10 +18,10 @@ constexpr std::array<std::array<int, 2>, 6> kPairs = {{{0, 0}, {1, 1}, {2, 2}, {
 // Some modes, n_nodes x columns for each direction.
 using Block = std::array<MatrixXd, 3>;
 
-Block read_block(const io::PieceReader& piece, Index first, Index columns) {
+Block read_block(const io::CheckpointReader& checkpoint, Index first, Index columns) {
   Block block;
   for (Index k = 0; k < columns; ++k) {
-    const Eigen::VectorXd phi = piece.read_row(kArray, static_cast<int>(first + k));
+    const Eigen::VectorXd phi = checkpoint.read_row(kArray, static_cast<int>(first + k));
     for (int a = 0; a < 3; ++a) {
       block[a].conservativeResize(phi.size() / 3, columns);
       block[a].col(k) = phi(Eigen::seqN(a, phi.size() / 3, 3));
@@ -34,8 +34,8 @@ Block read_block(const io::PieceReader& piece, Index first, Index columns) {
 
 struct SecondMoments::Data {
   model::SparseRows M_s;
-  io::PieceStore store;
-  std::unique_ptr<io::PieceWriter> writer;
+  io::CheckpointStore store;
+  std::unique_ptr<io::CheckpointWriter> writer;
   int n_q = 0;
 
   ~Data() {
@@ -45,9 +45,9 @@ struct SecondMoments::Data {
 };
 
 SecondMoments::SecondMoments(const std::string& folder, model::SparseRows M_s)
-    : data_(new Data{std::move(M_s), io::PieceStore(folder, kPiece), {}}) {
+    : data_(new Data{std::move(M_s), io::CheckpointStore(folder, kPiece), {}}) {
   data_->store.clear();  // of a run that was killed
-  data_->writer = std::make_unique<io::PieceWriter>(data_->store, kPiece);
+  data_->writer = std::make_unique<io::CheckpointWriter>(data_->store, kPiece);
 }
 
 SecondMoments::~SecondMoments() = default;
@@ -60,15 +60,15 @@ void SecondMoments::add(const Eigen::VectorXd& phi) {
 std::vector<model::BasisRows> SecondMoments::finish() {
   Data& d = *data_;
   d.writer->commit();
-  const io::PieceReader piece(d.store, kPiece);
+  const io::CheckpointReader checkpoint(d.store, kPiece);
   const Index n_q = d.n_q,
               width = std::clamp<Index>(static_cast<Index>(kBytes / (24. * d.M_s.rows())), 1, n_q);
   std::vector<model::DenseRows> S(kPairs.size(), model::DenseRows(n_q, n_q));
   for (Index l = 0; l < n_q; l += width) {
-    Block mass_times = read_block(piece, l, std::min(width, n_q - l));
+    Block mass_times = read_block(checkpoint, l, std::min(width, n_q - l));
     for (MatrixXd& x : mass_times) x = (d.M_s * x).eval();
     for (Index k = 0; k < n_q; k += width) {
-      const Block phi = read_block(piece, k, std::min(width, n_q - k));
+      const Block phi = read_block(checkpoint, k, std::min(width, n_q - k));
       for (std::size_t i = 0; i < kPairs.size(); ++i) {
         const auto [a, b] = kPairs[i];
         S[i].block(k, l, phi[a].cols(), mass_times[b].cols()).noalias() = phi[a].transpose() * mass_times[b];

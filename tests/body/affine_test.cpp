@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "elastogear/base/rotation.h"
-#include "elastogear/body/shape.h"
+#include "elastogear/body/deformed_inertia.h"
 #include "random_body.h"
 
 using namespace elastogear;

@@ -5,7 +5,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
-#include "elastogear/body/shape.h"
+#include "elastogear/body/deformed_inertia.h"
 #include "elastogear/body/tangent.h"
 #include "random_body.h"
 
@@ -48,7 +48,7 @@ Motion some_motion(int n_s) {
 Motion later(const Equations& eq, const Motion& m, double h) {
   Motion n = m;
   n.s += h * m.s_dot + h * h / 2 * m.s_ddot;
-  if (tumbles(eq.joint.type)) {
+  if (has_rotation_vector(eq.joint.type)) {
     const Vector3d psi = m.s.tail<3>(), w = m.s_dot.tail<3>();
     n.s.tail<3>() = psi + h * cayley_tangent(psi).inverse() * w;  // to first order
   }

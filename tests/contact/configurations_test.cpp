@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "elastogear/contact/closest_point.h"
-#include "elastogear/contact/winner.h"
+#include "elastogear/contact/projection.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {
@@ -134,7 +134,7 @@ TEST(RandomConfigurations, search_misses_no_contact_and_adds_none) {
     auto next = found.begin();
     for (int node = 0; node < a.X.cols(); ++node, ++node_count) {
       const SlaveNode q{slave.x.col(node), [&] { return node_normal(slave, node); }};
-      const auto w = find_winner(master, q, limits, all);
+      const auto w = find_projection(master, q, limits, all);
       if (!w) continue;
       ASSERT_TRUE(next != found.end() && next->slave_node == node) << node_count;
       ASSERT_NEAR(next->g_n, w->g_n, kRoundoff);

@@ -61,8 +61,8 @@ Local beyond_end(Random& random, int sides, double depth) {
   return local;
 }
 
-Winner winner(const Local& local) {
-  Winner w{0, closest_point(local.face, local.q), {}, 0};
+Projection projection(const Local& local) {
+  Projection w{0, closest_point(local.face, local.q), {}, 0};
   const Vector3d d = local.q - w.point.x;
   if (w.point.feature == Feature::face) {
     w.n = normal(local.face, w.point.u, w.point.v);
@@ -74,26 +74,26 @@ Winner winner(const Local& local) {
   return w;
 }
 
-FaceFunction height_at(const Local& local, const Winner& w) {
+FaceFunction height_at(const Local& local, const Projection& w) {
   const FaceFunction full = height(local.face.sides, local.slopes, w.point.u, w.point.v);
   return w.point.feature == Feature::face ? full : FaceFunction{};
 }
 
-FaceFunction share_at(const Local& local, const Winner& w) {
+FaceFunction share_at(const Local& local, const Projection& w) {
   return w.point.feature == Feature::face ? end_share(local.face, w.point.u, w.point.v) : FaceFunction{1};
 }
 
 struct Outcome {
   ContactPoint contact;
-  Winner w;
-  Foot foot;
+  Projection w;
+  ProjectionKinematics foot;
 };
 
 // anchor: where the node stuck, local coordinates.
 Outcome force(const Local& local, const Law& law, const Eigen::Vector2d* anchor = nullptr) {
   Outcome o;
-  o.w = winner(local);
-  o.foot = make_foot(local.face, o.w, local.q);
+  o.w = projection(local);
+  o.foot = projection_kinematics(local.face, o.w, local.q);
   o.contact.v = local.v;
   o.contact.N = o.w.point.N;
   StickMotion stick;
@@ -188,7 +188,7 @@ TEST_P(ContactLaw, tangent_of_a_sticking_and_a_slipping_spring_equals_the_differ
       Law law = law_with(mu, thin);
       law.v_0 = 0;
       law.c_t = c_p;
-      const Winner w = winner(local);
+      const Projection w = projection(local);
       const Eigen::Vector2d anchor(w.point.u + 1e-3, w.point.v - 2e-3);
       const Errors e = tangent_errors(local, [&](const Local& x) { return force(x, law, &anchor); });
       EXPECT_LT(e.by_x, truncation) << mu;
@@ -300,12 +300,12 @@ TEST(ContactForce, damping_acts_on_approach_alone_and_never_pulls) {
   Law law = law_with(0, 0.1);
   for (double gap : {-1e-3, -1e-9})
     for (double rate : {-100.0, -1.0, 0.0, 1.0, 1e6}) {
-      const Pressing f = pressing(law, gap, rate);
+      const NormalForce f = normal_force(law, gap, rate);
       EXPECT_GE(f.p, 0);
       EXPECT_EQ(rate<0, f.p> - law.c_p * gap);
     }
-  EXPECT_EQ(pressing(law, 0, -1).p, 0);
-  EXPECT_EQ(pressing(law, 1e-9, -1).p, 0);
+  EXPECT_EQ(normal_force(law, 0, -1).p, 0);
+  EXPECT_EQ(normal_force(law, 1e-9, -1).p, 0);
 }
 
 TEST(ContactForce, friction_is_at_most_mu_times_the_normal_force_and_against_the_slip) {

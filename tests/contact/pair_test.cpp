@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "elastogear/base/error.h"
-#include "elastogear/contact/penalty.h"
-#include "elastogear/contact/winner.h"
+#include "elastogear/contact/settings.h"
+#include "elastogear/contact/projection.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

@@ -5,7 +5,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/contact/deformation_bound.h"
 #include "elastogear/contact/pair.h"
-#include "elastogear/contact/vicinity.h"
+#include "elastogear/contact/neighbour_list.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

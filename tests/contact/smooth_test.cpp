@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "elastogear/contact/bulge.h"
+#include "elastogear/contact/smoothing.h"
 #include "elastogear/contact/pair.h"
 #include "surfaces.h"
 
@@ -46,7 +46,7 @@ double height_error(const model::Surface& s, int facets) {
   return error;
 }
 
-TEST(Bulge, closes_the_gap_between_facets_and_a_cylinder_with_the_fourth_order) {
+TEST(Smoothing, closes_the_gap_between_facets_and_a_cylinder_with_the_fourth_order) {
   for (double side : {1.0, -1.0})
     for (bool triangles : {false, true}) {
       double error[3];
@@ -62,7 +62,7 @@ TEST(Bulge, closes_the_gap_between_facets_and_a_cylinder_with_the_fourth_order) 
     }
 }
 
-TEST(Bulge, keeps_creases_and_planes_as_they_are) {
+TEST(Smoothing, keeps_creases_and_planes_as_they_are) {
   const model::Surface ridges = test::grid(6, 3, [](double u, double v) {
     return Vector3d(6 * u, v, std::lround(6 * u) % 2 ? 0.5 : 0.0);  // 53 deg between faces
   });
@@ -74,7 +74,7 @@ TEST(Bulge, keeps_creases_and_planes_as_they_are) {
   EXPECT_GT(largest, 0.1);
 }
 
-TEST(Bulge, derivatives_of_the_height_are_its_slopes) {
+TEST(Smoothing, derivatives_of_the_height_are_its_slopes) {
   test::Random random(1);
   const double h = 1e-6;
   for (int sides : {3, 4})

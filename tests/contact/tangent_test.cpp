@@ -31,8 +31,8 @@ Local moved(Local local, const Vector15& x) {
 }
 
 // The slave node lies behind the face; on an edge or vertex it lies in the normal cone of a concave one.
-Winner winner(const Local& local) {
-  Winner w{0, closest_point(local.face, local.q), {}, 0};
+Projection projection(const Local& local) {
+  Projection w{0, closest_point(local.face, local.q), {}, 0};
   const Eigen::Vector3d d = local.q - w.point.x;
   w.g_n = -d.norm();
   w.n = d / w.g_n;
@@ -40,7 +40,7 @@ Winner winner(const Local& local) {
 }
 
 Vector15 force(const Local& local) {
-  const Winner w = winner(local);
+  const Projection w = projection(local);
   Vector15 F;
   F.head<3>() = -c_p * w.g_n * w.n;
   for (int i = 0; i < 4; ++i) F.segment<3>(3 + 3 * i) = c_p * w.g_n * w.point.N[i] * w.n;
@@ -59,7 +59,7 @@ Matrix15 difference_quotient(const Local& local) {
 }
 
 void expect_consistent(const Local& local, Feature feature) {
-  const Winner w = winner(local);
+  const Projection w = projection(local);
   ASSERT_EQ(w.point.feature, feature);
   const Tangent t = contact_tangent(local.face, w, c_p, true);
   EXPECT_LE(t.W.cols(), 5);
@@ -122,7 +122,7 @@ TEST(Tangent, equals_the_difference_quotient_at_vertices) {
 TEST(Tangent, normal_part_has_rank_one_and_misses_the_geometric_part) {
   Random random(6);
   const Local local = behind(random, 4, 0.3, 0.1);
-  const Tangent t = contact_tangent(local.face, winner(local), c_p, false);
+  const Tangent t = contact_tangent(local.face, projection(local), c_p, false);
   EXPECT_EQ(t.W.cols(), 1);
   const Matrix15 K = -t.W * t.k * t.W.transpose(), exact = difference_quotient(local);
   EXPECT_GT((K - exact).norm(), 100 * truncation * K.norm());
@@ -132,7 +132,7 @@ TEST(Tangent, normal_part_has_rank_one_and_misses_the_geometric_part) {
 TEST(Tangent, annihilates_translations) {
   Random random(7);
   const Local local = behind(random, 4, 0.3, 0.1);
-  const Tangent t = contact_tangent(local.face, winner(local), c_p, true);
+  const Tangent t = contact_tangent(local.face, projection(local), c_p, true);
   const Eigen::Matrix<double, 15, 3> translations = Eigen::Matrix3d::Identity().replicate<5, 1>();
   EXPECT_LT((t.W * t.k * t.W.transpose() * translations).norm(), 1e-13);
 }

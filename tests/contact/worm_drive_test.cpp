@@ -4,8 +4,8 @@
 #include <map>
 #include <numeric>
 
-#include "elastogear/contact/bulge.h"
-#include "elastogear/contact/winner.h"
+#include "elastogear/contact/smoothing.h"
+#include "elastogear/contact/projection.h"
 #include "surfaces.h"
 #include "worm_drive.h"
 
@@ -18,7 +18,7 @@ using test::WormDrive;
 
 constexpr double kPi = test::pi;
 constexpr double kMargin = 0.1e-3;  // m, from the ends of a flank, where the facets end a little elsewhere
-constexpr double kCrease = 30 * kPi / 180;
+constexpr double kFeatureAngle = 30 * kPi / 180;
 
 // One body's nodes against the other's flanks.
 struct Sides {
@@ -42,7 +42,7 @@ GapErrors gap_errors(const Sides& sides) {
   const Topology map_a = topology(a.face, static_cast<int>(a.X.cols())),
                  map_b = topology(b.face, static_cast<int>(b.X.cols()));
   const SurfaceView slave{a.face, map_a, a.X, 0}, master{b.face, map_b, b.X, 0};
-  const std::vector<CornerSlopes> slopes = corner_slopes(master, kCrease);
+  const std::vector<CornerSlopes> slopes = corner_slopes(master, kFeatureAngle);
   const Limits limits{kNear, std::cos(100 * kPi / 180), kNear};
   std::vector<int> all(static_cast<std::size_t>(b.face.cols()));
   std::iota(all.begin(), all.end(), 0);
@@ -53,7 +53,7 @@ GapErrors gap_errors(const Sides& sides) {
     const auto normal = [&]() -> Vector3d {
       return sides.master_at.R_WB.transpose() * sides.slave_at.R_WB * node_normal(slave, node);
     };
-    const auto w = find_winner(master, {q, normal}, limits, all);
+    const auto w = find_projection(master, {q, normal}, limits, all);
     if (!w) continue;
     const test::Flank flank = sides.masters.flank[w->face];
     if (!test::is_within(sides.masters, sides.master_at, flank, x, kMargin)) continue;

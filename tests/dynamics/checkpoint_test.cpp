@@ -101,7 +101,7 @@ TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_with_residual_flex
 
 TEST(Checkpoint, continuation_of_a_settling_run_equals_the_whole_one_to_the_bit) {
   TimeSettings settings = kSettings;
-  settings.settle = true;
+  settings.relax = true;
   expect_every_continuation_equal(model::Basis::modal, settings);
 }
 

@@ -1,4 +1,4 @@
-// Static equilibria against beam theory, against springs by hand, and against where a settling run comes to
+// Static equilibria against beam theory, against springs by hand, and against where a relaxing run comes to
 // rest.
 #include "elastogear/dynamics/static.h"
 
@@ -189,7 +189,7 @@ TEST(Relax, comes_to_rest_where_the_static_analysis_ends) {
   System system(press(0.02, 20), {contact_with(4e4)});
   model::Snapshot last;
   const TimeSettings settings{
-      .dt = 0.002, .end_time = 20, .rho_inf = 0, .output_every = 1 << 20, .settle = true};
+      .dt = 0.002, .end_time = 20, .rho_inf = 0, .output_every = 1 << 20, .relax = true};
   const RunSummary summary =
       simulate(system, settings, [&](const model::Snapshot& snapshot) { last = snapshot; });
   EXPECT_TRUE(summary.at_rest);
@@ -204,7 +204,7 @@ TEST(Relax, comes_to_rest_where_the_static_analysis_ends) {
 
 TEST(Relax, says_when_the_time_was_too_short) {
   System system(press(0.02, 20), {contact_with(4e4)});
-  const RunSummary summary = simulate(system, {.dt = 0.002, .end_time = 0.02, .settle = true}, {});
+  const RunSummary summary = simulate(system, {.dt = 0.002, .end_time = 0.02, .relax = true}, {});
   EXPECT_FALSE(summary.at_rest);
   EXPECT_TRUE(summary.complete);
 }

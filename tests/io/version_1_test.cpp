@@ -21,7 +21,7 @@ TEST(Version1, of_a_body_is_read) {
   EXPECT_EQ(body.n_q(), 3);
   EXPECT_EQ(body.provenance.at("git_hash"), "17c2e8296de7");
   EXPECT_EQ(body.flexibility.node.size(), 6u);
-  EXPECT_EQ(read_stress_answers(folder + "body.h5", 0).cols(), 3);
+  EXPECT_EQ(read_stress_responses(folder + "body.h5", 0).cols(), 3);
   EXPECT_EQ(read_displacement_field(folder + "body.h5", Eigen::Vector3d(1, 0, 0)).cols(), 12);
   EXPECT_THAT(describe(folder + "body.h5"), HasSubstr("elastogear body, version 1"));
 }

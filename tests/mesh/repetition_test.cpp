@@ -34,13 +34,13 @@ mesh::RepetitionSearch search(const mesh::Mesh& mesh) { return search(mesh, OwnL
 void expect_consistent(const mesh::Mesh& mesh, const mesh::Repetition& r) {
   std::map<int, int> first;
   for (int node = 0; node < mesh.n_nodes(); ++node)
-    if (r.turns[node] == 0) {
+    if (r.sector_index[node] == 0) {
       EXPECT_TRUE(first.try_emplace(r.orbit[node], node).second) << node;
     }
   const auto n_first = static_cast<int>(r.on_axis.size());
   EXPECT_EQ(static_cast<int>(first.size()), n_first);
   for (int node = 0; node < mesh.n_nodes(); ++node) {
-    const double angle = 2 * M_PI * r.turns[node] / r.turn.n_sectors;
+    const double angle = 2 * M_PI * r.sector_index[node] / r.turn.n_sectors;
     const Eigen::Vector3d x = mesh.X.col(first.at(r.orbit[node])) - r.turn.point;
     const Eigen::Vector3d image = r.turn.point + rotation_matrix(angle * r.turn.axis) * x;
     EXPECT_LT((image - mesh.X.col(node)).norm(), kSamePlace) << node;

@@ -108,7 +108,7 @@ Bar reduced_bar() {
   const model::Flexibility& f = bar.body.flexibility;
   bar.G.resize(6 * static_cast<Eigen::Index>(f.stress.node.size()), 3 * f.surface.node.cols());
   for (int b = 0; b < f.surface.node.cols(); ++b)
-    bar.G.middleCols<3>(3 * b) = io::read_stress_answers(path, b);
+    bar.G.middleCols<3>(3 * b) = io::read_stress_responses(path, b);
   std::filesystem::remove(path);
   return bar;
 }

@@ -2,8 +2,8 @@
 // Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory.md, sections
 // Damping and Friction), with the derivatives that the consistent tangent takes.
 
-#include "elastogear/contact/bulge.h"
-#include "elastogear/contact/foot.h"
+#include "elastogear/contact/smoothing.h"
+#include "elastogear/contact/projection_kinematics.h"
 #include "elastogear/contact/pair.h"
 
 namespace elastogear::contact {
@@ -21,13 +21,13 @@ struct Law {
 };
 
 /// Force normal to the (smoothed) surface, N, with its derivatives.
-struct Pressing {
+struct NormalForce {
   double p = 0, p_g = 0, p_r = 0;  ///< N, N/m by the gap, N s/m by its rate
   double energy = 0;               ///< J, stored
   double energy_g = 0;             ///< N, its derivative by the gap
   double power = 0;                ///< W, dissipated
 };
-Pressing pressing(const Law& law, double gap, double rate);
+NormalForce normal_force(const Law& law, double gap, double rate);
 
 /// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the share of
 /// the force that is left on a prolonged end.
@@ -38,7 +38,7 @@ struct Gap {
   LocalRow g_x;  ///< n' G
   FaceFunction share{1};
 };
-Gap gap(const Foot& foot, const FaceFunction& height, double offset, const FaceFunction& share = {1});
+Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset, const FaceFunction& share = {1});
 
 /// Tangential motion of the slave node on the master since it stuck, m.
 struct StickMotion {
@@ -50,7 +50,7 @@ struct StickMotion {
 /// Force, energy, power and tangent of a contact whose node velocities v and geometry are set. stick: none
 /// for a node that was not in contact after the last step, or without stick. The slid part of stick's u and
 /// the work it took go to the contact, too.
-void apply_law(const Law& law, const Foot& foot, const Gap& gap, const StickMotion* stick,
+void apply_law(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
                ContactPoint& contact);
 
 }  // namespace elastogear::contact

@@ -1,5 +1,5 @@
 #pragma once
-// Contact of two deformed surfaces: coarse search (k-DOP trees), fine search (closest point, one winner per
+// Contact of two deformed surfaces: coarse search (k-DOP trees), fine search (closest point, one projection per
 // slave node), penalty forces and their consistent tangent.
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "elastogear/base/tape.h"
+#include "elastogear/base/archive.h"
 #include "elastogear/model/elastic_body.h"
 
 namespace elastogear::contact {
@@ -48,7 +48,7 @@ struct Settings {
   double hysteresis = 0;      ///< s/m, Hunt and Crossley's factor of the penalty force while approaching
   double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
   bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
-  double crease = 30;         ///< deg, edges that turn by more stay sharp
+  double feature_angle = 30;         ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
   double extension = 0.2;  ///< by which open ends of the master are prolonged, share of a face's length;
                            ///< forces fade out over it
@@ -74,7 +74,7 @@ SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& m
 
 /// What moves the nodes of one surface beside X + Phi q: the static answer to contact forces that a basis
 /// leaves out. In the BRF; its velocity does not count.
-struct Yield {
+struct ResidualDisplacement {
   std::function<Eigen::Vector3d(int node)> at = {};  ///< m, of a node; empty: nothing
   double largest = 0;                                ///< m, bound for all nodes
   double change = 0;                                 ///< m, bound of any node's change since the last call
@@ -139,9 +139,9 @@ class Pair {
   /// The same contacts, but only nodes that can touch are displaced, and a search is made only when the
   /// surfaces have moved by the skin since the last one.
   std::vector<ContactPoint> detect(const SurfaceMotion& a, const SurfaceMotion& b,
-                                   const std::array<Yield, 2>& yield = {});
+                                   const std::array<ResidualDisplacement, 2>& residual = {});
 
-  /// m, in its BRF, of a node that a contact of the last detect (by motion) names; yield included.
+  /// m, in its BRF, of a node that a contact of the last detect (by motion) names; residual included.
   Eigen::Vector3d position(int side, int node) const;
 
   /// Makes the sticking of these contacts what the next step starts from.
@@ -158,7 +158,7 @@ class Pair {
   int n_displaced() const;
 
   /// All that later calls of detect (by motion) take from earlier ones.
-  void visit_memory(Tape& tape);
+  void serialize(Archive& archive);
 
  private:
   struct Data;

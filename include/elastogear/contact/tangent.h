@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "elastogear/contact/pair.h"
-#include "elastogear/contact/winner.h"
+#include "elastogear/contact/projection.h"
 
 namespace elastogear::contact {
 
@@ -16,6 +16,6 @@ struct Tangent {
 };
 
 /// full: normal and geometric part; otherwise the normal part c_p [n; -N_i n] [n; -N_i n]' only.
-Tangent contact_tangent(const Face& face, const Winner& winner, double c_p, bool full);
+Tangent contact_tangent(const Face& face, const Projection& projection, double c_p, bool full);
 
 }  // namespace elastogear::contact

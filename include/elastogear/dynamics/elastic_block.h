@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "elastogear/base/petsc.h"
-#include "elastogear/base/tape.h"
+#include "elastogear/base/archive.h"
 #include "elastogear/body/equations.h"
 
 namespace elastogear::dynamics {
@@ -57,7 +57,7 @@ class ElasticBlock {
   /// To be called between two solves; what it throws leaves the block without kept columns.
   void on_solve(std::function<void()> pulse) { pulse_ = std::move(pulse); }
   /// Shifts and the order in which nodes came, on which the roundoff of the kept columns depends.
-  void visit_memory(Tape& tape);
+  void serialize(Archive& archive);
 
  private:
   void make_solver();

@@ -61,7 +61,7 @@ class LowRankSolver {
   /// To be called between two solves with the blocks D; it may throw.
   void on_solve(const std::function<void()>& pulse);
   /// What set() takes from earlier calls.
-  void visit_memory(Tape& tape);
+  void serialize(Archive& archive);
 
  private:
   struct Range {

@@ -18,7 +18,7 @@ struct StepInfo {
   int newton_iterations = 0;  ///< so far
   int contacts = 0;
   double penetration = 0;  ///< m, largest
-  double unbalanced = -1;  ///< share of the forces, without velocities; of a settling run, else negative
+  double unbalanced = -1;  ///< share of the forces, without velocities; of a relaxing run, else negative
   double balance = 0;      ///< J, of the energy ledger
 };
 
@@ -30,7 +30,7 @@ struct TimeSettings {
   /// Not the motion is wanted but where it comes to rest: velocities are set to zero at each peak of the
   /// kinetic energy, and the run ends when without velocities the residual of every block is below
   /// rest_tolerance times the sum of the norms of its forces. Loads should be constant by then.
-  bool settle = false;
+  bool relax = false;
   double rest_tolerance = 1e-6;
   /// s; > 0: observe at its multiples in place of every n-th step. Between steps U follows (8.10), V its
   /// derivative, A is linear.
@@ -63,7 +63,7 @@ struct RunSummary {
   bool complete = false;         ///< reached the end time, or rest; else stopped before
   bool out_of_steps = false;     ///< stopped by -ts_max_steps
   double time = 0;               ///< s, reached
-  bool at_rest = false;          ///< of a settling run: came to rest before its end time
+  bool at_rest = false;          ///< of a relaxing run: came to rest before its end time
 };
 
 using Observer = std::function<void(const model::Snapshot&)>;

@@ -15,12 +15,12 @@ model::Snapshot snapshot(System& system, const State& x);
 /// velocity q'_m, which is exact for the midpoint rule (rho_inf = 1), second order otherwise. Loads and
 /// friction of joints likewise, and the dampers of bushings; drives and loads at markers by the mean of their
 /// forces at both ends. The weight's work is exact; while gravity grows it has its mean over the step. States
-/// of rest at growing load factors (analysis: static) are entered in the same way.
+/// of rest at growing load factors (analysis: static) are entered in the same distance.
 class EnergyLedger {
  public:
   void enter(const System& system, model::Snapshot& snapshot);
   bool has_entries() const { return !bodies_.empty(); }
-  void visit_memory(Tape& tape);
+  void serialize(Archive& archive);
 
  private:
   void enter_joint(const System::Body& body, const model::BodyState& now, const model::BodyState& before,

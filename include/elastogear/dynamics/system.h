@@ -136,15 +136,15 @@ class System {
   /// U. True when a joint has one.
   bool rebase(Eigen::Ref<Eigen::VectorXd> U);
   /// All that later evaluations take from earlier ones: re-based orientations, contact history.
-  void visit_memory(Tape& tape);
+  void serialize(Archive& archive);
 
  private:
   void add_body(const BodySetup& setup);
   void add_pair(const PairSetup& setup);
-  void visit_contact_history(Tape& tape);
+  void serialize_contact_history(Archive& archive);
   void detect(const std::vector<contact::SurfaceMotion>& motion);
-  ResidualContact::Misfit misfit_now(const std::vector<contact::SurfaceMotion>& motion);
-  void find_answers(const std::vector<contact::SurfaceMotion>& motion);
+  ResidualContact::ForceResidual force_residual_now(const std::vector<contact::SurfaceMotion>& motion);
+  void find_static_responses(const std::vector<contact::SurfaceMotion>& motion);
   void place_touched(std::size_t p);
   void add_marker_forces(const MarkerSetups& setups);
   /// Of all loads and bushings, one per body.

@@ -3,7 +3,7 @@
 
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/progress.h"
-#include "elastogear/fem/share.h"
+#include "elastogear/fem/mesh_part.h"
 #include "elastogear/model/material.h"
 
 namespace elastogear::fem {
@@ -15,9 +15,9 @@ struct Matrices {
   UniqueMat K, M;
 };
 
-/// Restraint by elimination: restrained displacements have no rows. Collective. The share's regions index
+/// Restraint by elimination: restrained displacements have no rows. Collective. The part's regions index
 /// `regions`; Jacobians must be positive (require_positive_jacobians).
-Matrices assemble(MPI_Comm comm, const Share& share, const std::vector<model::MaterialRegion>& regions,
+Matrices assemble(MPI_Comm comm, const MeshPart& part, const std::vector<model::MaterialRegion>& regions,
                   model::Element element, const Progress& progress = {});
 
 }  // namespace elastogear::fem

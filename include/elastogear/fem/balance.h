@@ -21,6 +21,6 @@ struct MeshedBody {
 /// For each column of u (3 n_nodes x n, m) with its lambda (rad^2/s^2) the norm of the forces K u - lambda M
 /// u left over at free nodes, over the norm of the sums of moduli of all the elements' stiffness and inertia
 /// forces there: of the size of roundoff for an exact mode, however slow.
-Eigen::VectorXd imbalance(const MeshedBody& body, const Eigen::MatrixXd& u, const Eigen::VectorXd& lambda);
+Eigen::VectorXd residual(const MeshedBody& body, const Eigen::MatrixXd& u, const Eigen::VectorXd& lambda);
 
 }  // namespace elastogear::fem

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "elastogear/base/petsc.h"
-#include "elastogear/fem/share.h"
+#include "elastogear/fem/mesh_part.h"
 
 namespace elastogear::fem {
 

@@ -52,7 +52,7 @@ enum class BodyUse { all, motion };
 /// Reads and validates, without flexibility.G; throws Error naming the file and what is wrong with it.
 model::ElasticBody read_body(const std::string& path, BodyUse use = BodyUse::all);
 /// The three columns of flexibility.G that belong to one orbit, 6 n_r x 3, Pa/N.
-Eigen::MatrixXf read_stress_answers(const std::string& path, int orbit);
+Eigen::MatrixXf read_stress_responses(const std::string& path, int orbit);
 BodySource read_body_source(const std::string& path);
 /// Empty when the file holds none.
 ModeChecks read_mode_checks(const std::string& path);

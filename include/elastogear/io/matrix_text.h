@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "elastogear/io/field_lines.h"
+#include "elastogear/io/delimited_reader.h"
 
 namespace elastogear::io {
 
@@ -47,7 +47,7 @@ class MatrixReader {
   void read_size();
   MatrixEntry entry() const;
 
-  FieldLines lines_;
+  DelimitedReader lines_;
   MatrixFormat format_;
   bool first_ = true, banner_ = false;
   std::int64_t size_ = 0, announced_ = 0, found_ = 0;  // of the banner

@@ -23,7 +23,7 @@ struct Turn {
 struct Repetition {
   Turn turn;
   std::vector<int> orbit;       ///< of each node, 0..n_orbits-1; -1: in no cell
-  std::vector<int> turns;       ///< of each node: how often its orbit's first node was turned to come here
+  std::vector<int> sector_index;       ///< of each node: how often its orbit's first node was turned to come here
   std::vector<bool> on_axis;    ///< of each orbit
   std::vector<int> cell;        ///< one of each orbit of cells
   std::vector<int> cell_count;  ///< cells in that orbit: Z, or a divisor of it when they enclose the axis

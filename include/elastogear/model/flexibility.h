@@ -14,20 +14,20 @@ namespace elastogear::model {
 /// orbit of its own.
 struct Images {
   std::vector<int> orbit;  ///< of each node, 0..n_orbits-1
-  std::vector<int> turns;  ///< of each node, 0..n_sectors-1: by how many sectors its orbit's first was turned
+  std::vector<int> sector_index;  ///< of each node, 0..n_sectors-1: by how many sectors its orbit's first was turned
   Eigen::MatrixXi node;    ///< n_sectors x n_orbits: the way back
 };
 
-/// The way back from orbit and turns. Throws Error naming `source` unless every orbit has one node at each of
-/// n_sectors turns.
-Images make_images(std::vector<int> orbit, std::vector<int> turns, int n_sectors, const std::string& source);
+/// The way back from orbit and sector_index. Throws Error naming `source` unless every orbit has one node at each of
+/// n_sectors sector_index.
+Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_sectors, const std::string& source);
 /// Of n nodes that are no copies of each other.
 Images no_images(int n);
 
 /// Body frame. Forces act on the first node of each orbit, along x, y, z.
 struct Flexibility {
   int n_sectors = 1;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector along the axis of the turns
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector along the axis of the sector_index
   std::vector<int> node;                            ///< n_c surface nodes (local numbers), ascending
   Images surface;                                   ///< of them
   Images stress;                ///< of the n_r nodes of G: evaluation nodes and their images
@@ -52,10 +52,10 @@ using Columns3 = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>;
 
 /// Displacement of node a by unit forces on node b (positions in flexibility.node), m/N, given the columns of
 /// F of b's orbit. F(a, b) = F(b, a)' to the accuracy of what is stored.
-Eigen::Matrix3d answer(const Flexibility& flexibility, int a, int b, const Columns3& F);
+Eigen::Matrix3d displacement_response(const Flexibility& flexibility, int a, int b, const Columns3& F);
 
 /// Stress at evaluation node e by unit forces on node b (position in flexibility.node), Pa/N, given the
 /// columns of G of b's orbit.
-Eigen::Matrix<double, 6, 3> stress_answer(const Flexibility& flexibility, int e, int b, const Columns3& G);
+Eigen::Matrix<double, 6, 3> stress_response(const Flexibility& flexibility, int e, int b, const Columns3& G);
 
 }  // namespace elastogear::model

@@ -18,7 +18,7 @@
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
 #include "elastogear/reduction/flexibility.h"
-#include "elastogear/reduction/foreign.h"
+#include "elastogear/reduction/imported.h"
 #include "elastogear/reduction/marker.h"
 #include "elastogear/reduction/ritz_options.h"
 
@@ -40,7 +40,7 @@ struct ReductionOptions {
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
   model::Element element = model::Element::incompatible;
   std::vector<std::string> restrain = {};      ///< node or face sets, "left:xy" in these directions only
-  std::optional<ForeignFiles> foreign = {};    ///< K and M from files; a mesh without cells will do
+  std::optional<ImportedFiles> imported = {};    ///< K and M from files; a mesh without cells will do
   bool floating = false;                       ///< a free body: `restrain` stays empty, free-free modes
   bool frame_at_center = false;                ///< body frame at the centre of mass
   Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise
@@ -90,7 +90,7 @@ struct ReductionReport {
   Eigen::VectorXd residual;          ///< |K phi - omega^2 M phi| / |K phi| of each mode; of `ritz`: empty
   double orthogonality = 0;          ///< largest |phi_i' M phi_j|, i != j, see Eigenmodes
   std::string continued_after;       ///< what was taken over from a run that was killed, if any
-  int discarded = 0;                 ///< pieces of another run that did not fit this one
+  int discarded = 0;                 ///< checkpoints of another run that did not fit this one
   std::vector<model::Check> checks;  ///< of a modal basis that does not come from one sector
   std::vector<StageTime> times;      ///< wall-clock time of each stage, in order
 };
@@ -102,7 +102,7 @@ struct ReductionReport {
 /// read on rank 0 only and must be valid (mesh::validate). Memory and work for K, M and the modes are
 /// distributed; rank 0 keeps the mesh and one mode at a time.
 ///
-/// With options.foreign K and M come from files. Materials and cells then serve the surface, the stress
+/// With options.imported K and M come from files. Materials and cells then serve the surface, the stress
 /// modes, and the inertia when the files lack displacements (which are held); none of these needed, none is.
 ///
 /// Throws the same Error on all ranks for wrong materials, unknown sets, inverted cells, a body that is not

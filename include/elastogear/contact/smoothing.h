@@ -1,0 +1,26 @@
+#pragma once
+// How far the smooth surface behind a faceted one stands out of each facet: a cubic height over the face
+// whose slopes at the corners follow the averaged normals there (docs/theory.md, section Smoothed normals).
+// From the undeformed surface; heights stay what they are when it moves and deforms a little.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::contact {
+
+/// Slopes of the height with the face's (u, v) at its corners, m.
+using CornerSlopes = Eigen::Matrix<double, 2, 4>;
+
+/// One entry per face. Normals are averaged over the faces at a node that turn by less than `feature_angle` (rad)
+/// against the face in question, so that true edges stay sharp.
+std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double feature_angle);
+
+/// Along the face normal, m.
+FaceFunction height(int sides, const CornerSlopes& slopes, double u, double v);
+
+/// Bound of |h| over all faces, m.
+double largest_height(const std::vector<CornerSlopes>& slopes);
+
+}  // namespace elastogear::contact

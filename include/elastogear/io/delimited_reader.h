@@ -1,0 +1,45 @@
+#pragma once
+// Text of numbers, line by line through a buffer of fixed size.
+
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::io {
+
+/// Lines split into fields at blanks and commas. Errors name source and line.
+class DelimitedReader {
+ public:
+  DelimitedReader(std::istream& in, std::string source) : in_(&in), source_(std::move(source)) {}
+  DelimitedReader(const DelimitedReader&) = delete;
+  DelimitedReader& operator=(const DelimitedReader&) = delete;
+
+  /// Moves to the next line that is not blank and does not begin with one of the characters of `comment`;
+  /// false at the end. Error for lines of more than 1023 characters.
+  bool next(std::string_view comment);
+  /// Of the current line.
+  const std::vector<std::string_view>& fields() const { return fields_; }
+  /// Finite number; Fortran's exponents (1.0D+3) are understood.
+  double number(std::size_t field) const;
+  /// Whole number of at least 1.
+  std::int64_t count(std::size_t field) const;
+
+  template <class... Parts>
+  [[noreturn]] void fail_here(const Parts&... parts) const {
+    fail(source_, ", line ", line_, ": ", parts...);
+  }
+
+ private:
+  static constexpr int kBuffer = 1024;
+  std::istream* in_;
+  std::string source_;
+  std::int64_t line_ = 0;
+  char buffer_[kBuffer] = {};
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace elastogear::io

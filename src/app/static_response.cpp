@@ -1,0 +1,141 @@
+#include "app/static_response.h"
+
+#include <algorithm>
+
+#include "elastogear/base/error.h"
+#include "elastogear/model/fingerprint.h"
+
+namespace elastogear::app {
+namespace {
+
+constexpr std::size_t kLargestReference =
+    500'000;  // displacements of a body that is factorised for an estimate
+constexpr const char* kPointMass = "option_point_mass_";  // beginning of keys in the provenance
+
+std::vector<recovery::PairContacts> contacts_of(const BodyOfRun& body) {
+  const model::ResultHeader header = io::read_result_header(body.result);
+  std::vector<recovery::PairContacts> pairs;
+  for (const auto& pair : header.pairs)
+    for (int side : {0, 1})
+      if (header.bodies[pair.body[side]].name == body.name)
+        pairs.push_back({side, io::read_contacts(body.result, pair.name)});
+  return pairs;
+}
+
+// Where the body file answers to forces on these surface nodes; empty when it does not to one of them.
+std::vector<int> find_responses(const model::Flexibility& flexibility, const std::vector<int>& nodes) {
+  std::vector<int> position;
+  for (int node : nodes) {
+    const int at = model::find_loaded(flexibility, node);
+    if (at < 0) return {};
+    position.push_back(at);
+  }
+  return position;
+}
+
+// Why no factor of the stiffness matrix can serve; empty: it can.
+std::string obstacle_to_factor(const model::ElasticBody& body) {
+  if (body.provenance.contains("option_stiffness"))
+    return "solves with the stiffness of the mesh, this body was reduced from matrices of another program "
+           "(-stiffness)";
+  const auto point_mass = body.provenance.lower_bound(kPointMass);
+  if (body.floating && point_mass != body.provenance.end() && point_mass->first.starts_with(kPointMass))
+    return "balances loads on a free body by the mass of its mesh, this one has point masses besides";
+  return "";
+}
+
+reduction::StaticResponse& response(StaticResponseOfRun& known_response) {
+  if (known_response.response) return *known_response.response;
+  const std::string obstacle = obstacle_to_factor(known_response.body);
+  require(obstacle.empty(), known_response.file, ": mode acceleration ", obstacle, "; use -mode_acceleration false");
+  known_response.source = io::read_body_source(known_response.file);
+  known_response.response = std::make_unique<reduction::StaticResponse>(*known_response.source, known_response.body.floating);
+  return *known_response.response;
+}
+
+// 6 n x n_t, from the body file; one loaded node at a time.
+Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
+  const model::Flexibility& flexibility = known_response.body.flexibility;
+  const std::vector<int>& known = known_response.body.stress.node;
+  Eigen::MatrixXd stress =
+      Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), known_response.force.cols());
+  Eigen::MatrixXd G(stress.rows(), 3);
+  for (std::size_t b = 0; b < known_response.position.size(); ++b) {
+    const Eigen::MatrixXf columns =
+        io::read_stress_responses(known_response.file, flexibility.surface.orbit[known_response.position[b]]);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto e = std::lower_bound(known.begin(), known.end(), nodes[i]) - known.begin();
+      G.middleRows<6>(static_cast<Eigen::Index>(6 * i)) =
+          model::stress_response(flexibility, static_cast<int>(e), known_response.position[b], columns);
+    }
+    stress += G * known_response.force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+  }
+  return stress;
+}
+
+// Nothing for the full basis, and for a body that is rigid in the run.
+std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body) {
+  if (body.history.q.rows() == 0) return nullptr;
+  model::ElasticBody elastic = io::read_body(body.file);
+  require_body_of_run(elastic, body);
+  if (elastic.basis == model::Basis::full) return nullptr;
+  const recovery::ForceHistory forces =
+      recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);
+  auto known_response = std::make_unique<StaticResponseOfRun>();
+  known_response->position = find_responses(elastic.flexibility, forces.node);
+  known_response->q = recovery::dynamic_part(elastic, body.history.q, forces);
+  for (int node : forces.node) known_response->node.push_back(elastic.surface.node[node]);
+  known_response->force = forces.force;
+  known_response->file = body.file;
+  elastic.surface.Phi = {};
+  known_response->body = std::move(elastic);
+  return known_response;
+}
+
+// Whether the body file holds the responses to all forces; without forces it holds none of them.
+bool is_stored(const StaticResponseOfRun& known_response) { return !known_response.position.empty(); }
+
+}  // namespace
+
+void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& body) {
+  const Eigen::Index n_q = body.history.q.rows();
+  const std::string remedy =
+      "name the body file of the run by option -" + body.name + "_file, or run simulate with this one";
+  require(elastic.n_q() == n_q, body.file, ": ", elastic.n_q(), " elastic coordinates, body '", body.name,
+          "' of ", body.result, " has ", n_q, n_q == 0 ? " (it is rigid there)" : "", ": ", remedy);
+  require(body.identity.empty() || model::fingerprint(elastic) == body.identity, body.file,
+          ": is not the body '", body.name, "' of ", body.result,
+          ": mesh, material, restraint, surface, markers or basis differ, and its elastic coordinates mean "
+          "something else: ",
+          remedy);
+}
+
+std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration) {
+  if (acceleration == Acceleration::never) return nullptr;
+  std::unique_ptr<StaticResponseOfRun> known_response = make_response(body);
+  if (!known_response || (acceleration == Acceleration::automatic && !is_stored(*known_response))) return nullptr;
+  const std::string obstacle = is_stored(*known_response) ? "" : obstacle_to_factor(known_response->body);
+  require(obstacle.empty(), body.file, ": mode acceleration ", obstacle);
+  return known_response;
+}
+
+std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body) {
+  std::unique_ptr<StaticResponseOfRun> known_response = make_response(body);
+  if (!known_response || known_response->node.empty() || is_stored(*known_response)) return known_response;
+  if (!obstacle_to_factor(known_response->body).empty()) return nullptr;
+  known_response->source = io::read_body_source(known_response->file);
+  return known_response->source->free_dof.size() <= kLargestReference ? std::move(known_response) : nullptr;
+}
+
+Eigen::MatrixXd stress_history(StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
+  if (known_response.node.empty()) return {};
+  if (!known_response.position.empty()) return stored_stress(known_response, nodes);
+  return response(known_response).stress(known_response.node, nodes) * known_response.force;
+}
+
+Eigen::VectorXd displacement(StaticResponseOfRun& known_response, Eigen::Index step) {
+  if (known_response.node.empty()) return {};
+  return response(known_response).displacement(known_response.node, known_response.force.col(step).reshaped(3, known_response.node.size()));
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,134 @@
+#include "elastogear/contact/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elastogear/base/error.h"
+#include "elastogear/contact/kdop.h"
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::contact {
+namespace {
+
+constexpr const char* surface_name[2] = {"contact: surface a", "contact: surface b"};
+
+constexpr double kSkin = 0.25;  // of the face size: dozens of time steps, and few more nodes than at 0
+
+double mean_stiffness(const model::Surface& surface, int side) {
+  const auto n_f = surface.face.cols();
+  require(surface.c_f.size() == n_f && (surface.c_f.array() > 0).all() && surface.c_f.allFinite(),
+          surface_name[side], " has no positive stiffness c_f for each face: give the penalty stiffness");
+  return surface.c_f.mean();
+}
+
+}  // namespace
+
+void validate(const FrictionSettings& s) {
+  require(std::isfinite(s.mu) && s.mu >= 0, "contact: friction ", s.mu, " must not be negative");
+  require(s.mu_static == 0 || (std::isfinite(s.mu_static) && s.mu_static >= s.mu),
+          "contact: static friction ", s.mu_static, ", allowed are 0 and values from the sliding one, ", s.mu,
+          ", on");
+  require(std::isfinite(s.v_0) && s.v_0 >= 0, "contact: friction speed ", s.v_0, " m/s must not be negative");
+  require(s.mu == 0 || s.law == FrictionLaw::stick || s.v_0 > 0,
+          "contact: regularised friction needs the speed below which it fades (m/s, > 0)");
+  require(std::isfinite(s.stiffness) && s.stiffness > 0, "contact: tangential stiffness ", s.stiffness,
+          " must be positive");
+}
+
+void validate(const Settings& s) {
+  directions(s.k);
+  require(std::isfinite(s.stiffness) && s.stiffness >= 0, "contact: stiffness ", s.stiffness,
+          ", allowed are positive values and 0 (from material and cell size)");
+  require(std::isfinite(s.depth) && s.depth >= 0, "contact: depth ", s.depth,
+          ", allowed are positive values and 0 (from the face size)");
+  require(std::isfinite(s.skin) && s.skin >= 0, "contact: skin ", s.skin,
+          ", allowed are positive values and 0 (from the face size)");
+  require(s.slave == 0 || s.slave == 1, "contact: slave ", s.slave, ", allowed are 0 and 1");
+  require(s.normal_angle >= 90 && s.normal_angle <= 180, "contact: normal_angle ", s.normal_angle,
+          " deg, allowed is 90 to 180");
+  require(std::isfinite(s.damping) && s.damping >= 0, "contact: damping ", s.damping,
+          " must not be negative");
+  require(std::isfinite(s.hysteresis) && s.hysteresis >= 0, "contact: hysteresis ", s.hysteresis,
+          " s/m must not be negative");
+  require(std::isfinite(s.offset), "contact: offset ", s.offset, " m must be finite");
+  require(s.feature_angle > 0 && s.feature_angle <= 90, "contact: feature_angle ", s.feature_angle, " deg, allowed is 0 to 90");
+  validate(s.friction);
+  require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
+          ", allowed is 0 to 0.5");
+}
+
+void validate(const model::Surface& surface, int side) {
+  const auto n_s = surface.X.cols();
+  require(surface.face.cols() > 0, surface_name[side], " has no faces");
+  require(surface.X.allFinite(), surface_name[side], " has a node at a position that is not finite");
+  require(surface.face.minCoeff() >= 0 && surface.face.maxCoeff() < n_s, surface_name[side],
+          " has a face with node ",
+          surface.face.minCoeff() < 0 ? surface.face.minCoeff() : surface.face.maxCoeff(),
+          ", allowed is 0 to ", n_s - 1);
+}
+
+void validate(const SurfaceState& state, const model::Surface& surface, int side) {
+  require(state.x_B.cols() == surface.X.cols(), surface_name[side], ": positions of ", state.x_B.cols(),
+          " nodes given, the surface has ", surface.X.cols());
+  require(state.r_WB.allFinite() && state.R_WB.allFinite(), surface_name[side],
+          ": the body's placement is not finite");
+  if (state.x_B.allFinite()) return;
+  for (Eigen::Index i = 0; i < state.x_B.cols(); ++i)
+    require(state.x_B.col(i).allFinite(), surface_name[side], ": position of node ", i, " is not finite");
+}
+
+void validate(const SurfaceMotion& motion, const model::Surface& surface, int side) {
+  const Eigen::Index n_q = std::visit([](const auto& rows) { return rows.cols(); }, surface.Phi);
+  require(motion.q.size() == n_q, surface_name[side], ": ", motion.q.size(),
+          " elastic coordinates given, the surface has ", n_q);
+  require(motion.q_dot.size() == 0 || motion.q_dot.size() == n_q, surface_name[side], ": ",
+          motion.q_dot.size(), " elastic velocities given, the surface has ", n_q);
+  require(motion.q.allFinite() && motion.r_WB.allFinite() && motion.R_WB.allFinite(), surface_name[side],
+          ": the body's placement or its elastic coordinates are not finite");
+  require(motion.q_dot.allFinite() && motion.v_WB_B.allFinite() && motion.w_WB_B.allFinite(),
+          surface_name[side], ": the body's velocities are not finite");
+}
+
+Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b) {
+  if (settings.stiffness == 0) {
+    settings.stiffness = 1 / (1 / mean_stiffness(a, 0) + 1 / mean_stiffness(b, 1));
+    const model::Surface& slave = settings.slave == 0 ? a : b;
+    if (settings.penalty == Penalty::per_node) settings.stiffness *= node_areas(slave.X, slave.face).mean();
+  }
+  const double size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
+  if (settings.depth == 0) settings.depth = 0.5 * size;
+  if (settings.skin == 0) settings.skin = kSkin * size;
+  require(settings.depth > 0, "contact: the faces have no area, give the depth");
+  require(std::abs(settings.offset) <= settings.depth, "contact: offset ", settings.offset,
+          " m must not exceed the depth that is searched, ", settings.depth, " m");
+  return settings;
+}
+
+std::vector<Law> node_laws(const Settings& s, const model::Surface& slave) {
+  const Eigen::VectorXd c_p = node_stiffness(s, slave);
+  std::vector<Law> laws(static_cast<std::size_t>(c_p.size()));
+  const bool sticks = s.friction.law == FrictionLaw::stick;
+  for (Eigen::Index i = 0; Law & law : laws) {
+    law.c_p = c_p[i++];
+    law.d_p = s.damping * law.c_p / s.stiffness;
+    law.hysteresis = s.hysteresis;
+    law.offset = s.offset;
+    law.mu = s.friction.mu;
+    law.mu_static = std::max(s.friction.mu, s.friction.mu_static);
+    law.v_0 = sticks ? 0 : s.friction.v_0;
+    law.c_t = sticks ? s.friction.stiffness * law.c_p : 0;
+  }
+  return laws;
+}
+
+bool has_potential(const Settings& s) {
+  return s.damping == 0 && s.hysteresis == 0 && s.offset == 0 && !s.smooth && s.friction.mu == 0;
+}
+
+Eigen::VectorXd node_stiffness(const Settings& settings, const model::Surface& slave) {
+  const double c_p = settings.two_pass ? 0.5 * settings.stiffness : settings.stiffness;
+  if (settings.penalty == Penalty::per_node) return Eigen::VectorXd::Constant(slave.X.cols(), c_p);
+  return c_p * node_areas(slave.X, slave.face);
+}
+
+}  // namespace elastogear::contact
