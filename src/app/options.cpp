@@ -87,6 +87,9 @@ std::map<std::string, std::string> options_in_database() {
 }
 
 // "-modes (number of modes)"; of equally near ones the program's own comes first.
+// Options by the names of earlier versions.
+const std::map<std::string, std::string> kRenamed = {{"contact_crease", "contact_feature_angle"}};
+
 std::string nearest_option(const std::string& name, const OptionTable& own) {
   const OptionSpec* best = nullptr;
   for (const OptionSpec& spec : own)
@@ -169,6 +172,8 @@ void Options::reject_unknown(const PlaceholderValues& values) const {
   const OptionTable known = expand(known_, values);
   for (const auto& [name, value] : given_) {
     if (has(known, name)) continue;
+    if (const auto renamed = kRenamed.find(name); renamed != kRenamed.end())
+      fail(label(name), " is now called -", renamed->second);
     if (is_petsc_name(name)) {
       check_petsc_type(label(name), name, value);
       continue;

@@ -417,6 +417,7 @@ SIMULATE = [
     Case("position of two numbers", r"a_position.*three", "{single} -a_position 0,1"),
     Case("rotation that is not finite", r"a_rotation.*nan", "{single} -a_rotation nan,0,0"),
     Case("unknown joint", r"a_joint.*revolute", "{single} -a_joint hinge"),
+    Case("option by its former name", r"-contact_crease.* is now called -contact_feature_angle", "{simulate} -contact_crease 30"),
     Case("kDOP of 7", r"7", "{simulate} -contact_kdop 7"),
     Case("negative contact stiffness", r"stiffness.*-1", "{simulate} -contact_stiffness -1"),
     Case("negative friction", r"friction.*-0.1", "{simulate} -contact_friction -0.1 -contact_friction_speed 1"),
