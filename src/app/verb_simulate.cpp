@@ -91,8 +91,9 @@ OptionTable table() {
 body::Joint joint(const Options& options, const std::string& prefix) {
   body::Joint joint;
   joint.type = static_cast<body::JointType>(options.choice(prefix + "joint", body::joint_names()));
-  require(!options.given(prefix + "axis") || body::has_rotation_axis(joint.type) || body::has_translation_axis(joint.type), "option -",
-          prefix, "axis: a ", options.text(prefix + "joint"),
+  require(!options.given(prefix + "axis") || body::has_rotation_axis(joint.type) ||
+              body::has_translation_axis(joint.type),
+          "option -", prefix, "axis: a ", options.text(prefix + "joint"),
           " joint has no axis; revolute, prismatic and cylindrical joints have");
   joint.axis = options.vector(prefix + "axis");
   joint.point = options.vector(prefix + "point");

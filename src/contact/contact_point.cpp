@@ -127,7 +127,8 @@ ContactPoint potential_contact(const MasterSide& master, const Projection& w, do
   return contact;
 }
 
-std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& slave, const Law& law) {
+std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& slave,
+                                            const Law& law) {
   const Projection w = smooth_projection(master, slave.projection, slave.x_slave);
   const Face face = face_of(master.surface, w.face);
   const ProjectionKinematics foot = projection_kinematics(face, w, slave.x_slave);

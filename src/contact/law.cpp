@@ -74,10 +74,10 @@ Friction sticking(const Vector3d& z, double c_t, double limit) {
 
 // All that makes up a force.
 struct Parts {
-  Varying slip;       // velocity
-  Varying motion;     // argument of friction: velocity, or displacement of a node that sticks
+  Varying slip;        // velocity
+  Varying motion;      // argument of friction: velocity, or displacement of a node that sticks
   NormalForce normal;  // of the whole node
-  double p = 0;       // N, what is left of it at an open end
+  double p = 0;        // N, what is left of it at an open end
   Friction friction;
   double mu = 0;
 };
@@ -170,7 +170,8 @@ NormalForce normal_force(const Law& law, double gap, double rate) {
 }
 
 // dn = -d(a y) with y = A^-1 h_a
-Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset, const FaceFunction& share) {
+Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
+        const FaceFunction& share) {
   Gap result{foot.g - height.f + offset, foot.n, foot.n_x, {}, share};
   if (foot.n_dir > 0 && !height.f_a.isZero(0)) {
     const Eigen::Matrix2d A_inverse = foot.A.inverse();

@@ -177,7 +177,8 @@ void Tracker::measure_clearance(double limit) {
   residual_since_measured_ = 0;
 }
 
-// Of what is within the limit: what can touch until the surfaces have moved by `distance` since the measurement.
+// Of what is within the limit: what can touch until the surfaces have moved by `distance` since the
+// measurement.
 void Tracker::take_near(double distance) {
   NeighbourList& v = *neighbours_;
   v.near_limit = distance;
@@ -210,7 +211,8 @@ bool Tracker::update_neighbours() {
   const bool search_is_due =
       !neighbours_ || !(distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin);
   if (search_is_due) find_candidates();
-  const double distance = search_is_due ? 0 : distance_since(neighbours_->measured_at) + residual_since_measured_;
+  const double distance =
+      search_is_due ? 0 : distance_since(neighbours_->measured_at) + residual_since_measured_;
   const bool is_used_up = search_is_due || !(distance <= neighbours_->limit);
   if (is_used_up) {
     neighbours_->path += distance;
@@ -262,7 +264,8 @@ void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   find_candidates(margin);
 }
 
-void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<ResidualDisplacement, 2>& residual) {
+void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b,
+                     const std::array<ResidualDisplacement, 2>& residual) {
   now_[0] = &a;
   now_[1] = &b;
   residual_ = &residual;

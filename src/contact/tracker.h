@@ -34,7 +34,8 @@ class Tracker {
   void find(const SurfaceState& a, const SurfaceState& b);
   /// Places the nodes that can touch, after a search where one is due. Throws Error for motions that are not
   /// finite. Motions and yields must live as long as velocity and all_faces are asked for.
-  void follow(const SurfaceMotion& a, const SurfaceMotion& b, const std::array<ResidualDisplacement, 2>& residual);
+  void follow(const SurfaceMotion& a, const SurfaceMotion& b,
+              const std::array<ResidualDisplacement, 2>& residual);
   /// The next call of follow searches anew.
   void forget();
   /// Nodes of either surface that follow places whether they can touch or not, until told otherwise.
@@ -81,9 +82,9 @@ class Tracker {
   Configuration configuration_;
   std::optional<NeighbourList> neighbours_;
   std::array<std::vector<int>, 2> kept_;
-  const SurfaceMotion* now_[2] = {};                             // while contacts are detected by motions
-  const std::array<ResidualDisplacement, 2>* residual_ = nullptr;                  // beside them
-  bool has_residual_ = false;                                         // did anything in the last call of follow?
+  const SurfaceMotion* now_[2] = {};                               // while contacts are detected by motions
+  const std::array<ResidualDisplacement, 2>* residual_ = nullptr;  // beside them
+  bool has_residual_ = false;                                      // did anything in the last call of follow?
   double residual_since_found_ = 0, residual_since_measured_ = 0;  // m, bounds of the change
   struct Deformed {  // X + Phi q of the nodes with the stamp of this stage: yields alone may change within it
     Eigen::VectorXd q;

@@ -113,7 +113,8 @@ Eigen::VectorXd LowRankSolver::multiply(const Eigen::VectorXd& x) const {
     const BodyTerms& t = A_.body[b];
     const auto x_s = x.segment(s, n_s);
     const Eigen::VectorXd load = t.beta * x_s + t.L * k_lambda;
-    y.segment(s, n_s) = t.C * x_s + t.rho.transpose() * (projected[b] - residual_displacement(t, load)) + t.W_s * k_lambda;
+    y.segment(s, n_s) =
+        t.C * x_s + t.rho.transpose() * (projected[b] - residual_displacement(t, load)) + t.W_s * k_lambda;
     y.segment(s + n_s, n_q) =
         block_[b].multiply(x.segment(s + n_s, n_q)) + block_[b].columns().expand(t.node, load);
     if (t.Q_s.rows() > 0) add_second_order(b, x, y);

@@ -99,8 +99,8 @@ VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
 }
 
 void ResidualContact::newton_step(const std::vector<PairContacts>& pairs,
-                              const std::vector<contact::SurfaceState>& surfaces,
-                              const std::vector<NodalForces>& found) {
+                                  const std::vector<contact::SurfaceState>& surfaces,
+                                  const std::vector<NodalForces>& found) {
   step(pairs, surfaces, found);
 }
 
@@ -110,8 +110,8 @@ void ResidualContact::backtrack() {
 }
 
 bool ResidualContact::linear_step(std::vector<PairContacts>& pairs,
-                             const std::vector<contact::SurfaceState>& surfaces,
-                             const std::vector<NodalForces>& found) {
+                                  const std::vector<contact::SurfaceState>& surfaces,
+                                  const std::vector<NodalForces>& found) {
   for (const PairContacts& pair : pairs)
     for (const contact::ContactPoint& point : pair.points)
       if (point.V_dot.cols() > 0) return false;
@@ -130,7 +130,7 @@ bool ResidualContact::linear_step(std::vector<PairContacts>& pairs,
 }
 
 void ResidualContact::take_forces_of_response(const std::vector<contact::SurfaceState>& surfaces,
-                                    std::vector<NodalForces>& found) const {
+                                              std::vector<NodalForces>& found) const {
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!has_flexibility(b)) continue;
     found[b] = flexibility_[b]->forces();

@@ -65,7 +65,7 @@ PetscErrorCode jacobian(SNES, Vec U, Mat J, Mat P, void* ctx) {
 
 // Largest distance of a node, m.
 double distance(const model::Surface& surface, const contact::SurfaceMotion& from,
-           const contact::SurfaceMotion& to) {
+                const contact::SurfaceMotion& to) {
   const contact::SurfaceState a = contact::surface_state(surface, from),
                               b = contact::surface_state(surface, to);
   const Eigen::Matrix3Xd moved = (b.R_WB * b.x_B - a.R_WB * a.x_B).colwise() + (b.r_WB - a.r_WB);
@@ -128,7 +128,8 @@ std::string coordinate_name(body::JointType type, Eigen::Index i) {
   static const char* const kFree[] = {
       "x", "y", "z", "the rotation about x", "the rotation about y", "the rotation about z"};
   if (body::has_rotation_vector(type)) return kFree[type == body::JointType::free ? i : i + 3];
-  return body::has_rotation_axis(type) && i == 0 ? "the rotation about its axis" : "the displacement along its axis";
+  return body::has_rotation_axis(type) && i == 0 ? "the rotation about its axis"
+                                                 : "the displacement along its axis";
 }
 
 // Coordinates that only sigma holds.

@@ -52,7 +52,7 @@ Rows count_entries(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic
 // Q of a cell: displacements of its nodes from the coordinates of their orbits, and where these are.
 struct CellBasis {
   std::vector<const MatrixXd*> Q;     // of each node; nullptr: restrained
-  std::vector<int> sector_index;             // of each node; -1: on the axis
+  std::vector<int> sector_index;      // of each node; -1: on the axis
   std::vector<PetscInt> row, column;  // of each coordinate; rows of other ranks are -1 (PETSc skips them)
 };
 
@@ -62,7 +62,8 @@ CellBasis cell_basis(const Sector& sector, const Harmonic& harmonic, const Rows&
     const int orbit = sector.placement.orbit[node];
     basis.Q.push_back(orbit < 0 ? nullptr
                                 : &harmonic.at(sector.on_axis[orbit], sector.placement.sector_index[node]));
-    basis.sector_index.push_back(orbit >= 0 && sector.on_axis[orbit] ? -1 : sector.placement.sector_index[node]);
+    basis.sector_index.push_back(orbit >= 0 && sector.on_axis[orbit] ? -1
+                                                                     : sector.placement.sector_index[node]);
     if (orbit < 0) continue;
     for (int i = harmonic.first[orbit]; i < harmonic.first[orbit + std::size_t{1}]; ++i) {
       basis.column.push_back(i);
@@ -83,7 +84,8 @@ MatrixXd projected(const MatrixXd& Q_a, const Eigen::Matrix3d& A_ab, const Matri
 // Q_a' Q_b; off the axis exactly the identity for nodes that are turned alike, so that zeros in M are exact.
 MatrixXd overlap(const Harmonic& harmonic, const CellBasis& basis, std::size_t a, std::size_t b) {
   if (basis.sector_index[a] < 0 || basis.sector_index[b] < 0) return basis.Q[a]->transpose() * *basis.Q[b];
-  return harmonic.turned[(basis.sector_index[b] - basis.sector_index[a] + harmonic.n_sectors) % harmonic.n_sectors];
+  return harmonic
+      .turned[(basis.sector_index[b] - basis.sector_index[a] + harmonic.n_sectors) % harmonic.n_sectors];
 }
 
 // The cell's matrix over the harmonic's coordinates. block(a, b): of its nodes.

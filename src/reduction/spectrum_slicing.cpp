@@ -350,7 +350,7 @@ void require_complete(int known, int exact, double sigma) {
 }
 
 Eigenmodes find_by_slices(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
-                           const Progress& progress) {
+                          const Progress& progress) {
   report(progress, "eigenmodes",  // ordering and the first factor take long in silence
          static_cast<double>(options.start.eigenvalue.size()) / options.n_modes);
   Search search{K,

@@ -9,17 +9,18 @@ namespace elastogear::contact {
 struct MasterSide {
   const SurfaceView& surface;
   const std::vector<CornerSlopes>& smoothing;  ///< empty: facets as they are
-  double feature_angle = 0;                       ///< rad
+  double feature_angle = 0;                    ///< rad
 };
 
 bool on_extension(const Projection& projection);
 
 /// Frictionless, undamped penalty on facets: F derives from a potential, W = V. Not for prolonged ends.
-ContactPoint potential_contact(const MasterSide& master, const Projection& projection, double c_p, bool full_tangent);
+ContactPoint potential_contact(const MasterSide& master, const Projection& projection, double c_p,
+                               bool full_tangent);
 
 /// The same for any law. Smooth surfaces are met on the face itself where the closest point is an edge or
-/// vertex that is no feature_angle. v: m/s, of a node of the slave (side 0) or master (1). stuck: of this slave node
-/// after the last step, or null. Nothing when the gap is open.
+/// vertex that is no feature_angle. v: m/s, of a node of the slave (side 0) or master (1). stuck: of this
+/// slave node after the last step, or null. Nothing when the gap is open.
 struct SlaveContact {
   Projection projection;
   int slave_node;
@@ -27,6 +28,7 @@ struct SlaveContact {
   std::function<Eigen::Vector3d(int side, int node)> velocity;
   const StickPoint* stuck;
 };
-std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& touch, const Law& law);
+std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& touch,
+                                            const Law& law);
 
 }  // namespace elastogear::contact

@@ -38,7 +38,8 @@ struct Gap {
   LocalRow g_x;  ///< n' G
   FaceFunction share{1};
 };
-Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset, const FaceFunction& share = {1});
+Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
+        const FaceFunction& share = {1});
 
 /// Tangential motion of the slave node on the master since it stuck, m.
 struct StickMotion {

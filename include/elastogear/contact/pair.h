@@ -1,6 +1,6 @@
 #pragma once
-// Contact of two deformed surfaces: coarse search (k-DOP trees), fine search (closest point, one projection per
-// slave node), penalty forces and their consistent tangent.
+// Contact of two deformed surfaces: coarse search (k-DOP trees), fine search (closest point, one projection
+// per slave node), penalty forces and their consistent tangent.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -48,7 +48,7 @@ struct Settings {
   double hysteresis = 0;      ///< s/m, Hunt and Crossley's factor of the penalty force while approaching
   double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
   bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
-  double feature_angle = 30;         ///< deg, edges that turn by more stay sharp
+  double feature_angle = 30;  ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
   double extension = 0.2;  ///< by which open ends of the master are prolonged, share of a face's length;
                            ///< forces fade out over it

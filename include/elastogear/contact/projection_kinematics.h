@@ -30,7 +30,8 @@ struct ProjectionKinematics {
   Local3 G;     ///< velocity of the slave node against the master's material carried along to it
 };
 
-ProjectionKinematics projection_kinematics(const Face& face, const Projection& projection, const Eigen::Vector3d& x_slave);
+ProjectionKinematics projection_kinematics(const Face& face, const Projection& projection,
+                                           const Eigen::Vector3d& x_slave);
 
 /// da_i/dx
 Local3 tangent_derivative(const ProjectionKinematics& foot, int i);

@@ -13,8 +13,8 @@ namespace elastogear::contact {
 /// Slopes of the height with the face's (u, v) at its corners, m.
 using CornerSlopes = Eigen::Matrix<double, 2, 4>;
 
-/// One entry per face. Normals are averaged over the faces at a node that turn by less than `feature_angle` (rad)
-/// against the face in question, so that true edges stay sharp.
+/// One entry per face. Normals are averaged over the faces at a node that turn by less than `feature_angle`
+/// (rad) against the face in question, so that true edges stay sharp.
 std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double feature_angle);
 
 /// Along the face normal, m.

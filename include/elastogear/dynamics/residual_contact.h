@@ -35,17 +35,17 @@ class ResidualContact {
   ForceResidual force_residual(const std::vector<NodalForces>& found) const;
   /// The next trial: the bodies answer to forces that, to first order, will be found.
   void newton_step(const std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
-               const std::vector<NodalForces>& found);
+                   const std::vector<NodalForces>& found);
   /// Half of the way back to the answers before the last improvement.
   void backtrack();
-  /// Brings contacts and answers together to first order, without another look at the surfaces: for a force_residual
-  /// whose square is negligible. False, and nothing done, where forces have no potential.
+  /// Brings contacts and answers together to first order, without another look at the surfaces: for a
+  /// force_residual whose square is negligible. False, and nothing done, where forces have no potential.
   bool linear_step(std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
-              const std::vector<NodalForces>& found);
+                   const std::vector<NodalForces>& found);
 
   /// Puts the forces that the bodies answer to in the place of those found.
   void take_forces_of_response(const std::vector<contact::SurfaceState>& surfaces,
-                     std::vector<NodalForces>& found) const;
+                               std::vector<NodalForces>& found) const;
   /// Lets the bodies answer to the forces that the last two accepted states make likely at another time.
   void predict(double time);
   /// The answers of now belong to a step that was accepted.

@@ -14,7 +14,7 @@ namespace elastogear::fem {
 
 /// Where nodes are: each is the first node of its orbit, turned by 2 pi sector_index/Z.
 struct Placement {
-  std::vector<int> orbit;  ///< of each node, counted over the free orbits; -1: no displacements
+  std::vector<int> orbit;         ///< of each node, counted over the free orbits; -1: no displacements
   std::vector<int> sector_index;  ///< of each node
 };
 
@@ -46,12 +46,15 @@ void broadcast(MPI_Comm comm, Sector& sector);
 struct Harmonic {
   int k = 0, n_sectors = 1;
   bool real = true;
-  std::vector<Eigen::MatrixXd> turned;  ///< of each number of sector_index: (Re u, Im u) of a node from coordinates
-  Eigen::MatrixXd on_axis;              ///< the same for nodes on the axis; possibly without columns
-  std::vector<int> first;               ///< of each free orbit its first coordinate, then their number
+  std::vector<Eigen::MatrixXd>
+      turned;               ///< of each number of sector_index: (Re u, Im u) of a node from coordinates
+  Eigen::MatrixXd on_axis;  ///< the same for nodes on the axis; possibly without columns
+  std::vector<int> first;   ///< of each free orbit its first coordinate, then their number
 
   int size() const { return first.back(); }
-  const Eigen::MatrixXd& at(bool axis, int sector_index) const { return axis ? on_axis : turned[sector_index]; }
+  const Eigen::MatrixXd& at(bool axis, int sector_index) const {
+    return axis ? on_axis : turned[sector_index];
+  }
 };
 
 /// 0 <= k <= Z/2.

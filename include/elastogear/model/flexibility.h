@@ -14,13 +14,15 @@ namespace elastogear::model {
 /// orbit of its own.
 struct Images {
   std::vector<int> orbit;  ///< of each node, 0..n_orbits-1
-  std::vector<int> sector_index;  ///< of each node, 0..n_sectors-1: by how many sectors its orbit's first was turned
-  Eigen::MatrixXi node;    ///< n_sectors x n_orbits: the way back
+  std::vector<int>
+      sector_index;      ///< of each node, 0..n_sectors-1: by how many sectors its orbit's first was turned
+  Eigen::MatrixXi node;  ///< n_sectors x n_orbits: the way back
 };
 
-/// The way back from orbit and sector_index. Throws Error naming `source` unless every orbit has one node at each of
-/// n_sectors sector_index.
-Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_sectors, const std::string& source);
+/// The way back from orbit and sector_index. Throws Error naming `source` unless every orbit has one node at
+/// each of n_sectors sector_index.
+Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_sectors,
+                   const std::string& source);
 /// Of n nodes that are no copies of each other.
 Images no_images(int n);
 

@@ -57,9 +57,9 @@ void require_mode_count(int n_modes, int n_free);
 
 /// SLEPc's Krylov-Schur with shift-and-invert about 0 and MUMPS' Cholesky for all modes at once, unless the
 /// options database says otherwise; with options.window != 0 block Lanczos in windows up the spectrum
-/// (reduction/spectrum_slicing.h). Reports the stage "eigenmodes". Collective. Throws Error when n_modes is not
-/// in 1..n (n: size of K), when K is singular (the body is not held, or has a mechanism), when modes do not
-/// converge or are missing.
+/// (reduction/spectrum_slicing.h). Reports the stage "eigenmodes". Collective. Throws Error when n_modes is
+/// not in 1..n (n: size of K), when K is singular (the body is not held, or has a mechanism), when modes do
+/// not converge or are missing.
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress = {});
 
@@ -67,8 +67,8 @@ Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const Mode
 /// inertia).
 int count_eigenvalues_below(Mat K, Mat M, double sigma);
 
-/// The sign rule: the entry of largest modulus is positive. Of entries whose moduli collectively to 1e-6 (symmetric
-/// bodies) the first decides, so that roundoff, and with it the number of ranks, does not matter.
+/// The sign rule: the entry of largest modulus is positive. Of entries whose moduli collectively to 1e-6
+/// (symmetric bodies) the first decides, so that roundoff, and with it the number of ranks, does not matter.
 /// phi: all displacements in the mesh's order.
 void fix_sign(Eigen::VectorXd& phi);
 

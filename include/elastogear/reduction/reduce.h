@@ -40,7 +40,7 @@ struct ReductionOptions {
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
   model::Element element = model::Element::incompatible;
   std::vector<std::string> restrain = {};      ///< node or face sets, "left:xy" in these directions only
-  std::optional<ImportedFiles> imported = {};    ///< K and M from files; a mesh without cells will do
+  std::optional<ImportedFiles> imported = {};  ///< K and M from files; a mesh without cells will do
   bool floating = false;                       ///< a free body: `restrain` stays empty, free-free modes
   bool frame_at_center = false;                ///< body frame at the centre of mass
   Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise

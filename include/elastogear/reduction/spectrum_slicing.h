@@ -24,6 +24,6 @@ void require_complete(int known, int exact, double sigma);
 /// so that equal or close eigenvalues stay together. Memory: the factor and the basis, 2 to 4 options.window
 /// vectors.
 Eigenmodes find_by_slices(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
-                           const Progress& progress);
+                          const Progress& progress);
 
 }  // namespace elastogear::reduction
