@@ -212,7 +212,7 @@ dynamics::TimeSettings time_settings(const Options& options) {
   return time;
 }
 
-// (docs/validation.md, section 11) With 18 nodes on the patch its largest pressure is 4 % off, with 37 less
+// With 18 nodes on the patch its largest pressure is 4 % off (docs/validation.md, section 11), with 37 less
 // than 0.1 %.
 void print_resolution(const Options& options, const dynamics::RunSummary& run) {
   constexpr int kResolved = 18;

@@ -29,7 +29,7 @@ ContactPoint geometry(const SurfaceView& master, const Projection& w) {
   return contact;
 }
 
-// ProjectionKinematics point on the face prolonged over its sides; nothing when there is none near.
+// Foot point on the face prolonged over its sides; nothing when there is none near.
 std::optional<Projection> prolonged(const Face& face, const Vector3d& q, Projection w) {
   const Eigen::Vector2d start(w.point.u, w.point.v);
   Eigen::Vector2d at = start;
@@ -80,6 +80,7 @@ FaceFunction share_at(const Face& face, const Projection& w) {
 }
 
 // Way of the closest point over the master since the last step, and what the spring held then.
+// docs/theory.md, Eq. (6.18).
 StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Projection& w,
                          const ProjectionKinematics& foot) {
   const Face face = face_of(master, stuck.face);

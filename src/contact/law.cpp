@@ -22,7 +22,7 @@ struct Varying {
 
 Local flat(const LocalVectors& v) { return v.reshaped(); }
 
-// Velocity of the slave node against the master.
+// Velocity of the slave node against the master. docs/theory.md, Eq. (6.13).
 Varying relative_velocity(const ProjectionKinematics& foot, const LocalVectors& v) {
   Varying rate;
   rate.value = foot.G * flat(v);
@@ -48,7 +48,7 @@ struct Friction {
   bool at_limit = true;
 };
 
-// -z / sqrt(z^2 + v_0^2) of the limit
+// -z / sqrt(z^2 + v_0^2) of the limit, docs/theory.md, Eq. (6.17).
 Friction regularised(const Vector3d& z, double v_0, double limit) {
   Friction f;
   const double s = std::sqrt(z.squaredNorm() + v_0 * v_0);
@@ -57,7 +57,7 @@ Friction regularised(const Vector3d& z, double v_0, double limit) {
   return f;
 }
 
-// A spring up to the limit.
+// A spring up to the limit. docs/theory.md, Eq. (6.18).
 Friction sticking(const Vector3d& z, double c_t, double limit) {
   Friction f;
   const double length = z.norm();
@@ -133,7 +133,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const Projec
 }
 
 // F = B' f + spin' (f x d), W = [B', P_alpha, spin' T]: dF = B' df + P_alpha dxi_alpha + spin' T T' d(f x d).
-// The change of the spin is left out.
+// The change of the spin is left out. docs/theory.md, Eq. (6.14).
 void set_tangent(const ProjectionKinematics& foot, const Varying& f, ContactPoint& contact) {
   const auto T = couple_directions(foot);
   const Eigen::Index m = T.cols(), n = 3 + foot.n_dir + m;

@@ -30,7 +30,7 @@ Tangent normal_part(const Projection& w, double c_p) {
   return t;
 }
 
-// ProjectionKinematics point inside the face: W = [N, D_1, D_2, N_1, N_2].
+// The closest point is inside the face: W = [N, D_1, D_2, N_1, N_2]. docs/theory.md, Eq. (6.7).
 Tangent face_tangent(const Face& face, const Projection& w, double c_p) {
   const Shape s = shape(face.sides, w.point.u, w.point.v);
   const Eigen::Vector3d a_u = combine(face, s.N_u), a_v = combine(face, s.N_v);
@@ -54,7 +54,8 @@ Tangent face_tangent(const Face& face, const Projection& w, double c_p) {
   return t;
 }
 
-// Closest point on a side: W = [V_n, V_p, V_e, E_n], with the side's direction e and p = n x e.
+// The closest point is on a side: W = [V_n, V_p, V_e, E_n], with the side's direction e and p = n x e.
+// docs/theory.md, Eq. (6.8).
 Tangent edge_tangent(const Face& face, const Projection& w, double c_p) {
   const int side = w.point.part, next = (side + 1) % face.sides;
   const Eigen::Vector3d along = face.x[next] - face.x[side];
@@ -73,7 +74,7 @@ Tangent edge_tangent(const Face& face, const Projection& w, double c_p) {
   return t;
 }
 
-// Closest point is a corner: a spring between two nodes.
+// The closest point is a corner: a spring between two nodes.
 Tangent vertex_tangent(const Projection& w, double c_p) {
   const Eigen::Vector3d p = w.n.unitOrthogonal();
   Tangent t = zero_tangent(3);

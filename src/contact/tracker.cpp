@@ -135,7 +135,7 @@ void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
   }
 }
 
-// Bound of the relative motion since.
+// Bound of the relative motion since. docs/theory.md, Eq. (5.5).
 double Tracker::distance_since(const SurfaceMotion then[2]) const {
   double distance = 0;
   for (int i : {0, 1}) distance += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);

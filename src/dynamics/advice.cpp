@@ -20,7 +20,7 @@ void raise(Vibration& to, const std::string& name, double frequency) {
 }
 
 // Inverse of the mass that a unit force on a surface node meets in the elastic coordinates, largest over the
-// nodes, 1/kg, times the stiffness there.
+// nodes, 1/kg, times the stiffness there. docs/theory.md, Eq. (8.18).
 double largest_rate(const model::ElasticBody& body, const Eigen::VectorXd& stiffness) {
   const Eigen::VectorXd flexibility = Eigen::VectorXd(body.M_r.diagonal()).cwiseInverse();
   double largest = 0;

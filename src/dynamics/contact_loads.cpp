@@ -51,7 +51,7 @@ void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& ter
 }
 
 // d(velocity): s_i turns it and adds P_dot_i at x_B; Phi q' grows by shift_v Phi q and turns with w. What
-// residual flexibility adds to positions has no rate of its own, but turns, too.
+// residual flexibility adds to positions has no rate of its own, but turns, too. docs/theory.md, Eq. (6.12).
 void add_rate_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms,
                       SparseColumns& sparse) {
   for (Eigen::Index j = 0; j < c.V_dot_B.cols(); ++j) {

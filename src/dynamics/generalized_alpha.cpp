@@ -107,7 +107,8 @@ PetscErrorCode step(TS ts) {
 
 PetscErrorCode roll_back(TS ts) { return set_solution(ts, method(ts).start); }
 
-// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated (8.10).
+// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated: docs/theory.md,
+// Eq. (8.10).
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   const Method& m = method(ts);
   const PetscReal dt = m.step_size, s = (t - m.step_time) / dt;
@@ -120,7 +121,7 @@ PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   return VecMAXPY(U, 4, weights, ends);
 }
 
-// Derivative of that polynomial.
+// Derivative of the Hermite polynomial of interpolate, docs/theory.md, Eq. (8.17).
 PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V) {
   const Method& m = method(ts);
   const PetscReal dt = m.step_size, s = (t - m.step_time) / dt, slope = 6 * s * (1 - s) / dt;
@@ -130,6 +131,7 @@ PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V) {
   return VecMAXPY(V, 4, weights, ends);
 }
 
+// Linear between the ends of the last step, docs/theory.md, Eq. (8.17).
 PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A) {
   const Method& m = method(ts);
   const PetscReal s = (t - m.step_time) / m.step_size;
@@ -166,7 +168,8 @@ PetscErrorCode velocity_error_norm(TS ts, NormType type, PetscReal* norm) {
   return code;
 }
 
-// Local error of U, third order in dt, and of the predicted V, second order (8.9).
+// Local error of U, third order in dt, and of the predicted V, second order: docs/theory.md,
+// Eq. (8.9).
 PetscErrorCode evaluate_wlte(TS ts, NormType type, PetscInt* order, PetscReal* wlte) {
   const Method& m = method(ts);
   const Parameters& p = m.parameters;

@@ -1,6 +1,6 @@
 #pragma once
-// The arithmetic of one generalised-alpha step and its nonlinear solves. Private to module dynamics.
-// Equation numbers (TI.n) are those of theory.md, "Time integration".
+// The arithmetic of one generalised-alpha step and its nonlinear solves (docs/theory.md, section 8). Private
+// to module dynamics.
 
 #include <petsc/private/tsimpl.h>
 
@@ -10,7 +10,7 @@ struct Parameters {
   PetscReal alpha_m, alpha_f, gamma, beta;
 };
 
-/// Optimal parameters for a spectral radius rho_inf in 0..1 (8.5).
+/// Optimal parameters for a spectral radius rho_inf in 0..1, Eqs. (8.4) and (8.5).
 Parameters parameters_for(PetscReal rho_inf);
 
 enum class Predictor { none, constant_acceleration, zero_acceleration };
@@ -19,7 +19,7 @@ struct Motion {
   Vec U, V, A;
 };
 
-/// Where F is evaluated: base + c * Delta at time t (8.6).
+/// The stage at which F is evaluated: base + c * Delta at time t, Eq. (8.6).
 struct Stage {
   PetscReal t, c_U, c_V, c_A;
   PetscReal shift_V, shift_A;  ///< dV/dU and dA/dU for the Jacobian callback
@@ -50,15 +50,16 @@ PetscErrorCode destroy_vectors(Method& m);
 PetscErrorCode copy(const Motion& from, const Motion& to);
 
 /// end := predictor, then the solution of F = 0 at the stage. The outcome is the reason of ts->snes.
+/// Eq. (8.1).
 PetscErrorCode solve_step(TS ts);
 
-/// current := (vec_sol, vec_dot, A) with F(t, U, V, A) = 0 (8.7). Fails with PETSC_ERR_NOT_CONVERGED, or
-/// with ts->reason where TSSetErrorIfStepFails is off.
+/// current := (vec_sol, vec_dot, A) with F(t, U, V, A) = 0, Eq. (8.7). Fails with PETSC_ERR_NOT_CONVERGED,
+/// or with ts->reason where TSSetErrorIfStepFails is off.
 PetscErrorCode solve_acceleration(TS ts);
 
 /// A of the method belongs to a time that lags t by (alpha_m - alpha_f) dt. When the next step is `ratio`
-/// times the last one, current.A moves to the lag of the next step (8.8), never past A at the start of the
-/// last.
+/// times the last one, current.A moves to the lag of the next step, Eq. (8.8), never past A at the start of
+/// the last.
 PetscErrorCode move_lag(const Method& m, PetscReal ratio);
 
 /// The callbacks of ts->snes.

@@ -68,6 +68,7 @@ void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
   small.bottomRightCorner(r, r) += V_responses * L_k;
 }
 
+// The dense matrix of the system that stays: docs/theory.md, Eq. (8.16).
 void LowRankSolver::set(EffectiveMatrix A) {
   A_ = std::move(A);
   const Eigen::Index r = A_.k.rows();

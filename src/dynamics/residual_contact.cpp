@@ -73,7 +73,7 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
 }
 
 // With w = R (f - L k lambda), lambda = L_V' (w - w_now) of all bodies: (I + H k) lambda = L_V' (R f -
-// w_now), H = L_V' R L.
+// w_now), H = L_V' R L. docs/theory.md, Eq. (6.21).
 VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
                                const std::vector<contact::SurfaceState>& surfaces,
                                const std::vector<NodalForces>& found) {

@@ -1,6 +1,6 @@
 #pragma once
 // One step of Newton's method that brings contact forces and the answers of the bodies to them together, at
-// unchanged closest points (docs/theory.md, Eq. 6.21).
+// unchanged closest points (docs/theory.md, Eq. (6.21)).
 
 #include <vector>
 

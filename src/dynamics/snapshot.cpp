@@ -10,6 +10,7 @@ model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& 
   return {placement.r_WB, placement.R_WB, m.s, m.s_dot, m.s_ddot, m.q, m.q_dot, m.q_ddot, joint_force};
 }
 
+// Stored energy: docs/theory.md, Eq. (7.1).
 double stored(const model::Energies& energy) {
   return energy.kinetic + energy.elastic + energy.contact + energy.bushing;
 }

@@ -52,7 +52,7 @@ void find_rows(const MeshPart& part, int cell, CellRows& rows) {
   }
 }
 
-// M_e (x) I_3
+// M_e (x) I_3, docs/theory.md, Eq. (1.3).
 Eigen::MatrixXd in_three_directions(const Eigen::MatrixXd& M_e) {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(3 * M_e.rows(), 3 * M_e.cols());
   for (Eigen::Index b = 0; b < M_e.cols(); ++b)

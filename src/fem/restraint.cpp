@@ -41,6 +41,7 @@ struct RigidMotions {
 
 // Those that move none of the held displacements. A motion displaces node X along e by [e; (X - c) x e] times
 // [t; w]: the rank of these columns is found by pivots, which do not depend on how many nodes are held.
+// docs/theory.md, Eq. (1.6a).
 RigidMotions free_motions(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& held,
                           const std::vector<int>& nodes) {
   RigidMotions left;

@@ -25,7 +25,7 @@ Eigen::MatrixXd mode_stress(const model::Stress& stress, const std::vector<int>&
   return result;
 }
 
-// n x n_t (theory.md, Eq. 4.7): root sum of squares over the upper half of the modes.
+// n x n_t (docs/theory.md, Eq. (4.7)): root sum of squares over the upper half of the modes.
 Eigen::MatrixXd upper_modes_part(const model::ElasticBody& body, const std::vector<int>& members,
                                  const Eigen::MatrixXd& q_d) {
   const Eigen::Index n = q_d.rows() - q_d.rows() / 2;

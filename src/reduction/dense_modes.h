@@ -9,7 +9,8 @@ namespace elastogear::reduction {
 /// small enough for dense matrices.
 bool suits_dense(int n, int n_modes);
 
-/// find_eigenmodes without a shift or a search (docs/theory.md 2.2). Memory on rank 0: 5 n^2 numbers.
+/// find_eigenmodes without a shift or a search (docs/theory.md, section 2.2). Memory on rank 0: 5 n^2
+/// numbers.
 Eigenmodes find_by_lapack(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                           const Progress& progress);
 

@@ -267,7 +267,7 @@ bool is_counted(const Search& search, const Choice& choice) {
 }
 
 // Whether the number of modes found under the shift is right. The last window is counted up to its end, too;
-// that leaves the factor at the shift again when modes are missing.
+// that leaves the factor at the shift again when modes are missing. docs/theory.md, Eq. (2.5).
 bool is_complete(Search& search, const Shift& shift, const Choice& choice) {
   if (!search.options.verify_count) return true;
   if (choice.below_shift != shift.below) return false;

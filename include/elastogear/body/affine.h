@@ -13,7 +13,7 @@ struct AffinePart {
   model::Inertia inertia;  ///< with y in place of q; S_2, whose S^ab y = [y_b in place of y_a], stays empty
 };
 
-/// Fields without mass (bodies without extension in a direction) have coordinates zero.
+/// Fields without mass (bodies without extension in a direction) have coordinates zero. Eq. (3.11c).
 AffinePart affine_part(const model::Inertia& inertia);
 
 /// du_b/dX_a of the affine part, row 3 a + b, 9 x n_q; zero without extension in a direction.

@@ -1,5 +1,5 @@
 #pragma once
-// How the deformation enters the inertia (docs/theory.md, section Inertia).
+// How the deformation enters the inertia (docs/theory.md, section 3.1).
 
 #include <Eigen/Core>
 
@@ -21,7 +21,7 @@ Eigen::VectorXd to_inertia(const Equations& eq, const Eigen::VectorXd& q);
 Eigen::VectorXd from_inertia(const Equations& eq, const Eigen::VectorXd& h_y);
 
 /// Second-order parts of C_r and dJ/dy, linear in x: C_r(y) = C_r + B(y), dJ/dy = J_1 + D(y). Both are
-/// bilinear: B_a'= -B_a, D(x)'y = D(y)'x.
+/// bilinear: B_a'= -B_a, D(x)'y = D(y)'x. Eq. (3.11b).
 struct SecondOrder {
   Eigen::Matrix<double, Eigen::Dynamic, 3> B;  ///< n_y x 3
   Eigen::Matrix<double, Eigen::Dynamic, 6> D;  ///< n_y x 6, xx yy zz xy yz xz
@@ -32,7 +32,7 @@ SecondOrder second_order(const Equations& eq, const Eigen::VectorXd& x);
 Eigen::VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& Gamma,
                          const Eigen::VectorXd& x);
 
-/// m c(q), kg m, about the BRF's origin.
+/// m c(q), kg m, about the BRF's origin. Eq. (3.11).
 Eigen::Vector3d first_moment(const Equations& eq, const Eigen::VectorXd& y);
 
 /// Inertia about the BRF's origin in the deformed state, and its rates.

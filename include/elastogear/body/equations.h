@@ -1,6 +1,6 @@
 #pragma once
-// Equations of motion of one elastic body in the floating frame of reference (the paper's Eq. 9, with the
-// signs of docs/theory.md), in minimal coordinates: s of the joint, q of the basis. With the frame's
+// Equations of motion of one elastic body in the floating frame of reference (docs/theory.md,
+// Eqs. (3.6), (3.14) and (3.15)), in minimal coordinates: s of the joint, q of the basis. With the frame's
 // acceleration a and angular acceleration alpha, the first moment S(q), inertia J(q) and coupling C_r(q),
 //
 //   H'[ m a + alpha x S + C_l'q'' + w x (w x S) + 2 w x S'                                     ]  = h_s
@@ -68,6 +68,8 @@ Force inner_force(const Equations& eq, const Motion& m);      ///< h_e = [0; D_r
 /// Weight in the field g_W (m/s^2, world).
 Force gravity_force(const Equations& eq, const Motion& m, const Eigen::Vector3d& g_W);
 
+/// Kinetic energy T from the velocity of a material point; the last equation is that of level affine: Eqs.
+/// (3.2), (3.3) and (3.11d).
 double kinetic_energy(const Equations& eq, const Motion& m);            ///< J
 double elastic_energy(const Equations& eq, const Motion& m);            ///< J, 1/2 q.K_r q
 double dissipation(const Equations& eq, const Eigen::VectorXd& q_dot);  ///< W, q'.D_r q'

@@ -14,13 +14,13 @@ struct MarkerMotion {
   Eigen::Vector3d a = Eigen::Vector3d::Zero();      ///< m/s^2
 };
 
-/// marker: of the body, or nullptr for its frame.
+/// marker: of the body, or nullptr for its frame. Eq. (3.17).
 MarkerMotion marker_motion(const Equations& eq, const model::Marker* marker, const Motion& m);
 
 /// Force and moment (N, N m) at a marker, components in the world.
 using Wrench = Eigen::Matrix<double, 6, 1>;
 
-/// Generalised force of a wrench.
+/// Generalised force of a wrench. Eq. (3.18).
 Force marker_force(const Equations& eq, const model::Marker* marker, const Motion& m, const Wrench& wrench);
 
 /// Changes of x, orientation, v and w (components in the world, three rows each) with s, and with the
@@ -34,7 +34,7 @@ MarkerDerivative marker_derivative(const Equations& eq, const model::Marker* mar
                                    const Shifts& shift);
 
 /// Minus the change of marker_force at a constant wrench: C (n_s x n_s) with s; rho (6 x n_s) of the force on
-/// s with Phi q; beta (6 x n_s) of the force on q, Phi' beta, with s; Z of Phi_r' Z Phi_r.
+/// s with Phi q; beta (6 x n_s) of the force on q, Phi' beta, with s; Z of Phi_r' Z Phi_r. Eq. (8.15a).
 struct WrenchStiffness {
   Eigen::MatrixXd C, rho, beta;
   Eigen::Matrix3d Z;

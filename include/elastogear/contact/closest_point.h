@@ -1,5 +1,5 @@
 #pragma once
-// Closest point on a face: its interior (Eq. 16), its sides and its corners.
+// Closest point on a face: its interior (docs/theory.md, Eq. (6.2)), its sides and its corners.
 
 #include "elastogear/contact/face.h"
 

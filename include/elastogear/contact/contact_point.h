@@ -15,6 +15,7 @@ struct MasterSide {
 bool on_extension(const Projection& projection);
 
 /// Frictionless, undamped penalty on facets: F derives from a potential, W = V. Not for prolonged ends.
+/// docs/theory.md, Eqs. (6.4) and (6.5).
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, double c_p,
                                bool full_tangent);
 

@@ -1,7 +1,6 @@
 #pragma once
-// How far a surface is deformed at most, from the elastic energy alone (docs/theory.md, section Contact
-// search): with C = Phi_i K_r^-1 Phi_i' of node i, |Phi_i q|^2 <= |C| q'K_r q. Costs n_q operations and
-// touches no node.
+// How far a surface is deformed at most, from the elastic energy alone (docs/theory.md, Eq. (5.4)): with C =
+// Phi_i K_r^-1 Phi_i' of node i, |Phi_i q|^2 <= |C| q'K_r q. Costs n_q operations and touches no node.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -20,7 +19,7 @@ struct DeformationBound {
 /// no K_r given) by the displacements of all nodes.
 DeformationBound deformation_bound(const model::BasisRows& Phi, const Eigen::SparseMatrix<double>& K_r);
 
-/// >= max over the nodes of |Phi_i q|, m.
+/// >= max over the nodes of |Phi_i q|, m. Eq. (5.4).
 double largest_displacement(const DeformationBound& bound, const Eigen::VectorXd& q);
 
 }  // namespace elastogear::contact

@@ -1,13 +1,13 @@
 #pragma once
 // One bilinear quadrilateral or plane triangle: interpolation, normals, and how far it is prolonged at open
-// ends. Side i runs from corner i to corner i+1.
+// ends (docs/theory.md, section 6). Side i runs from corner i to corner i+1.
 
 #include <Eigen/Core>
 #include <array>
 
 namespace elastogear::contact {
 
-/// Local coordinates (u, v): on quadrilaterals xi, eta of Eq. (15) in [-1, 1]; on triangles the weights of
+/// Local coordinates (u, v): on quadrilaterals xi, eta of Eq. (6.1) in [-1, 1]; on triangles the weights of
 /// the second and third corner.
 struct Face {
   std::array<Eigen::Vector3d, 4> x;   ///< m, corners, counter-clockwise from outside
@@ -16,7 +16,7 @@ struct Face {
                                       ///< shared edge, > 0: an open end of the surface
 };
 
-/// Interpolation functions and their derivatives with respect to (u, v).
+/// Interpolation functions N_i, Eq. (6.1), and their derivatives with respect to (u, v).
 struct Shape {
   Eigen::Vector4d N, N_u, N_v, N_uv;
 };
@@ -29,7 +29,7 @@ struct FaceFunction {
   Eigen::Matrix2d f_ab = Eigen::Matrix2d::Zero();
 };
 
-/// sum_i weight_i x_i
+/// sum_i weight_i x_i, the point x of Eq. (6.1) when the weights are N_i.
 Eigen::Vector3d combine(const Face& face, const Eigen::Vector4d& weight);
 
 /// Local coordinates of the point at s (0 at corner `side`, 1 at the next) on a side.
@@ -42,16 +42,16 @@ Eigen::Vector2d extended_corner(const Face& face, int corner);
 bool inside(const Face& face, double u, double v);
 
 /// Share of a contact force that is left on the prolonged ends: falls from 1 at the open side to 0 where they
-/// end, with a continuous slope.
+/// end, with a continuous slope. Eq. (6.2b).
 FaceFunction end_share(const Face& face, double u, double v);
 
-/// Outward unit normal at (u, v), Eq. (17); zero where the face is degenerate.
+/// Outward unit normal at (u, v), Eq. (6.3); zero where the face is degenerate.
 Eigen::Vector3d normal(const Face& face, double u, double v);
 
 /// Interior angle at a corner, rad; 0 when a side has no length.
 double corner_angle(const Face& face, int corner);
 
-/// xi, eta of Eq. (15), which on a triangle has its third and fourth node in one place.
+/// xi, eta of Eq. (6.1), which on a triangle has its third and fourth node in one place.
 Eigen::Vector2d natural_coordinates(int sides, double u, double v);
 
 }  // namespace elastogear::contact

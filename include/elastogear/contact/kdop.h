@@ -1,6 +1,6 @@
 #pragma once
-// Discrete oriented polytopes: convex bodies bounded by k planes of fixed orientation (the paper's Eq. 13,
-// 14). k/2 directions B_i with entries 0 and +-1; a k-DOP is one interval per direction.
+// Discrete oriented polytopes: convex bodies bounded by k planes of fixed orientation (docs/theory.md,
+// section 5). k/2 directions B_i with entries 0 and +-1; a k-DOP is one interval per direction.
 
 #include <Eigen/Core>
 #include <array>
@@ -30,12 +30,12 @@ struct Kdop {
 
 Kdop empty_kdop(int k);
 
-/// Smallest k-DOP that holds all points (columns, m).
+/// Smallest k-DOP that holds all points (columns, m), Eq. (5.1).
 Kdop tight_kdop(int k, const Eigen::Ref<const Eigen::Matrix3Xd>& points);
 
 void merge(Kdop& into, const Kdop& other);
 
-/// Eq. (14): false when an interval of one lies beyond the other's. Touching counts as overlap.
+/// Eq. (5.2): false when an interval of one lies beyond the other's. Touching counts as overlap.
 bool overlap(const Kdop& a, const Kdop& b);
 
 /// Moves every plane outwards by `margin` (m).

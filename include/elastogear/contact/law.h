@@ -1,6 +1,6 @@
 #pragma once
 // Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory.md, sections
-// Damping and Friction), with the derivatives that the consistent tangent takes.
+// 6.6 and 6.7), with the derivatives that the consistent tangent takes.
 
 #include "elastogear/contact/smoothing.h"
 #include "elastogear/contact/projection_kinematics.h"
@@ -27,6 +27,7 @@ struct NormalForce {
   double energy_g = 0;             ///< N, its derivative by the gap
   double power = 0;                ///< W, dissipated
 };
+/// Penalty and damping force while the gap closes: Eq. (6.15).
 NormalForce normal_force(const Law& law, double gap, double rate);
 
 /// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the share of
@@ -38,6 +39,7 @@ struct Gap {
   LocalRow g_x;  ///< n' G
   FaceFunction share{1};
 };
+/// Gap to the smooth surface and its gradient: Eq. (6.19).
 Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
         const FaceFunction& share = {1});
 

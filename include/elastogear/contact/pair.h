@@ -70,6 +70,7 @@ struct SurfaceMotion {
   Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< m/s, of the BRF's origin
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< rad/s
 };
+/// The deformed surface of a motion: docs/theory.md, Eq. (3.1).
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion);
 
 /// What moves the nodes of one surface beside X + Phi q: the static answer to contact forces that a basis

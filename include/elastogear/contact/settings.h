@@ -18,7 +18,7 @@ void validate(const SurfaceMotion& motion, const model::Surface& surface, int si
 
 /// Fills in what is 0. Stiffness: mean c_f of both sides in series, per node times the mean area of a slave
 /// node; one value for the whole pair, so that forces derive from a potential. Depth: half the smaller face
-/// size, skin: a quarter of it. Throws Error when c_f is needed and not positive.
+/// size, skin: a quarter of it. Throws Error when c_f is needed and not positive. docs/theory.md, Eq. (6.6).
 Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b);
 
 /// N/m per node of the slave surface, settings complete.

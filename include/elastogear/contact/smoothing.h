@@ -1,6 +1,6 @@
 #pragma once
 // How far the smooth surface behind a faceted one stands out of each facet: a cubic height over the face
-// whose slopes at the corners follow the averaged normals there (docs/theory.md, section Smoothed normals).
+// whose slopes at the corners follow the averaged normals there (docs/theory.md, section 6.8).
 // From the undeformed surface; heights stay what they are when it moves and deforms a little.
 
 #include <Eigen/Core>

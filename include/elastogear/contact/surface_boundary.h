@@ -6,7 +6,7 @@
 
 namespace elastogear::contact {
 
-/// -energy dw/dx on the local coordinates, which pushes a node off the end, and its derivative.
+/// -energy dw/dx on the local coordinates, which pushes a node off the end, and its derivative. Eq. (6.2b).
 struct EndForce {
   Local F = Local::Zero();                                                    ///< N
   Eigen::Matrix<double, 15, 15> F_x = Eigen::Matrix<double, 15, 15>::Zero();  ///< N/m

@@ -34,6 +34,7 @@ struct BushingState {
   body::Wrench on_first(const Eigen::Vector3d& r) const;
   body::Wrench on_second() const;
 };
+/// Displacement, angles, force and torque of a bushing: Eqs. (3.19) and (3.21).
 BushingState bushing_state(const Bushing& bushing, const body::MarkerMotion& first,
                            const body::MarkerMotion& second);
 
@@ -48,7 +49,7 @@ double dissipation(const BushingLaw& law, const Eigen::Vector3d& d_dot, const Ei
 /// Throws Error, beginning with `who`, for values that are not finite or negative.
 void validate(const BushingLaw& law, const std::string& who);
 
-/// Angles of a rotation and the torque of springs about them (theory.md, Eqs. 3.19 to 3.21), components along
+/// Angles of a rotation and the torque of springs about them (Eqs. (3.20) and (3.21)), components along
 /// the axes: the change of the torque with a further rotation is `derivative`.
 struct TiltAndTurn {
   Eigen::Vector3d angle, torque;

@@ -1,8 +1,8 @@
 #pragma once
-// From contact points (15 local displacements in the world frame) to generalised coordinates: node positions
-// x = r(s) + R(s) (X + Phi q), so that a twist i moves them by R (v_i + w_i x x_B), and dx/dq = R Phi. Forces
-// act on the joint's virtual twists H, positions change by the twists P = [r; theta] of
-// body::FrameDerivative.
+// From contact points (15 local displacements in the world frame) to generalised coordinates (docs/theory.md,
+// section 6.4): node positions x = r(s) + R(s) (X + Phi q), so that a twist i moves them by
+// R (v_i + w_i x x_B), and dx/dq = R Phi, Eq. (6.9). Forces act on the joint's virtual twists H, positions
+// change by the twists P = [r; theta] of body::FrameDerivative.
 
 #include <vector>
 
@@ -38,7 +38,7 @@ Eigen::Vector3d local_force(const contact::ContactPoint& point, int i);
 std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
                                       const std::vector<contact::SurfaceState>& states);
 
-/// Generalised contact force: s: H' [sum f; sum x x f], q: Phi' f.
+/// Generalised contact force: s: H' [sum f; sum x x f], q: Phi' f. Eqs. (3.7) and (6.10).
 body::Force contact_force(const body::Equations& eq, const NodalForces& forces);
 
 /// A body's virtual twists H, the twists P that its coordinates make, and how these change velocities.
@@ -51,6 +51,7 @@ struct JointTwists {
 
 /// Adds -d(contact force)/dz at constant local forces: the part that comes from the turning of the BRF.
 /// s_i s_j: -f.(theta_j x (v_i + w_i x x)); s_i q: -(f x w_i).Phi. The rows of U come before the nodes'.
+/// Eq. (6.11).
 void add_geometric_stiffness(const JointTwists& twists, const NodalForces& forces, BodyTerms& terms);
 
 /// P_dot of a body.

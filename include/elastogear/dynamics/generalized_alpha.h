@@ -1,5 +1,5 @@
 #pragma once
-// Generalised-alpha for F(t, U, V, A) = 0 as a PETSc TS type (theory.md, "Time integration").
+// Generalised-alpha for F(t, U, V, A) = 0 as a PETSc TS type (docs/theory.md, section 8).
 //
 // The problem is given by TSSetI2Function, TSSetI2Jacobian and TS2SetSolution; everything else is PETSc's
 // usual TS. Options, beside -ts_*, -ts_adapt_*, -snes_*, -ksp_*:
@@ -38,7 +38,7 @@ void generalized_alpha_set_state(TS ts, Vec U, Vec V, Vec A);
 struct MotionVectors {
   Vec U, V, A;
 };
-/// U by (8.10), V its derivative, A linear between the ends of the last step, as integrated.
+/// U by Eq. (8.10), V and A by Eq. (8.17) between the ends of the last step, as integrated.
 void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x);
 
 /// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.

@@ -1,7 +1,7 @@
 #pragma once
 // Contact of bodies with residual flexibility: contact forces f and the answers w = R f to them depend on
 // each other, f = f(x + R f). They are brought together by Newton's method at every evaluation, so that f
-// stays a function of the coordinates (docs/theory.md, section Residual flexibility).
+// stays a function of the coordinates (docs/theory.md, section 6.9).
 
 #include <optional>
 #include <vector>

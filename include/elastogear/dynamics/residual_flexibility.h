@@ -1,6 +1,6 @@
 #pragma once
 // Residual flexibility R = F - Phi_c Lambda^-1 Phi_c' of one modal body: what the modes leave out of its
-// static displacement_response to contact forces (docs/theory.md, section Residual flexibility).
+// static response to contact forces (docs/theory.md, Eq. (6.20)).
 
 #include <Eigen/Core>
 #include <unordered_map>

@@ -16,6 +16,7 @@ model::Snapshot snapshot(System& system, const State& x);
 /// friction of joints likewise, and the dampers of bushings; drives and loads at markers by the mean of their
 /// forces at both ends. The weight's work is exact; while gravity grows it has its mean over the step. States
 /// of rest at growing load factors (analysis: static) are entered in the same distance.
+/// docs/theory.md, Eq. (7.2).
 class EnergyLedger {
  public:
   void enter(const System& system, model::Snapshot& snapshot);

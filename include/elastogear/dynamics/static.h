@@ -1,6 +1,6 @@
 #pragma once
-// Static equilibrium F(lambda, U, 0, 0) = 0 by Newton's method with load stepping (theory.md, "Static
-// equilibrium").
+// Static equilibrium F(lambda, U, 0, 0) = 0 by Newton's method with load stepping (docs/theory.md,
+// section 8.6).
 
 #include "elastogear/dynamics/simulate.h"
 

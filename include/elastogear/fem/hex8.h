@@ -1,5 +1,5 @@
 #pragma once
-// The 8-node hexahedron: plain, with nine incompatible modes, or B-bar (docs/theory.md, section Elements).
+// The 8-node hexahedron: plain, with nine incompatible modes, or B-bar (docs/theory.md, section 1.1).
 //
 // Incompatible modes: P_k = 1 - xi_k^2, k = 1..3, for each direction of displacement; E. L. Wilson's modes
 // with the corrected gradient grad P = (det J_0/det J) J_0^-T dP/dxi (J_0: Jacobian at the centre) of R. L.

@@ -1,5 +1,5 @@
 #pragma once
-// Mass moments of a mesh (docs/theory.md, section Inertia).
+// Mass moments of a mesh (docs/theory.md, section 3.1).
 
 #include <Eigen/Core>
 #include <vector>
@@ -22,16 +22,17 @@ model::SparseRows scalar_mass(const mesh::Mesh& mesh, const std::vector<model::M
 
 MassMoments mass_moments(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
 
-/// m, c, J about the BRF origin; coupling terms stay empty.
+/// m, c, J about the BRF origin; coupling terms stay empty. Eq. (3.9).
 model::Inertia rigid_inertia(const mesh::Mesh& mesh, const MassMoments& moments);
 
 /// integral of rho X_a phi_b dV as a 3x3 matrix (row a, column b), for phi given at all nodes (3 n_nodes).
+/// Eq. (3.10).
 Eigen::Matrix3d first_moment(const MassMoments& moments, const Eigen::VectorXd& phi);
 
-/// integral of rho phi dV: one row of C_l.
+/// integral of rho phi dV: one row of C_l. Eq. (3.10).
 Eigen::Vector3d translational_coupling(const MassMoments& moments, const Eigen::VectorXd& phi);
 
-/// integral of rho X x phi dV: one row of C_r, the antisymmetric part of the first moment.
+/// integral of rho X x phi dV: one row of C_r, the antisymmetric part of the first moment. Eq. (3.10).
 Eigen::Vector3d rotational_coupling(const Eigen::Matrix3d& first_moment);
 
 }  // namespace elastogear::fem

@@ -1,6 +1,6 @@
 #pragma once
 // Materials of a mesh: which cell has which, and what elements need of them (docs/theory.md, section
-// Materials).
+// 1.3).
 
 #include <Eigen/Core>
 #include <variant>
@@ -35,7 +35,7 @@ Elasticity elasticity(const model::Material& material);
 /// radius.
 Eigen::Matrix3d material_axes(const model::Orientation& orientation, const Eigen::Vector3d& x);
 
-/// H in the body frame at each of the points x, 3 x n, m.
+/// H in the body frame at each of the points x, 3 x n, m. Eq. (1.8).
 std::vector<Matrix6> elasticity_at(const Orthotropy& material, const Eigen::Matrix3Xd& x);
 
 /// Young's modulus in the direction n at the point x (m), Pa.

@@ -1,6 +1,6 @@
 #pragma once
 // One sector of a body that repeats Z times around an axis, and displacements of one harmonic on it
-// (docs/theory.md, section Cyclic symmetry).
+// (docs/theory.md, section 2.6).
 
 #include <mpi.h>
 
@@ -42,7 +42,7 @@ void broadcast(MPI_Comm comm, Sector& sector);
 
 /// Displacements u_j = R^j Re(z exp(2 pi i j k/Z)) on the sectors j = 0..Z-1 with complex amplitudes z of the
 /// sector, which are real for k = 0 and 2 k = Z. Coordinates of an orbit: Re z then Im z (3 + 3, or 3 when
-/// real); on the axis those along the directions that the turn allows.
+/// real); on the axis those along the directions that the turn allows. Eq. (2.10).
 struct Harmonic {
   int k = 0, n_sectors = 1;
   bool real = true;
@@ -61,7 +61,7 @@ struct Harmonic {
 Harmonic make_harmonic(const Sector& sector, int k);
 
 /// Displacements of the whole mesh (3 n_nodes, node-major, 0 where restrained) from coordinates z of a
-/// harmonic. z' M_k z = 1 makes them mass-normalised.
+/// harmonic. z' M_k z = 1 makes them mass-normalised. Eq. (2.14).
 Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
                        const Eigen::Ref<const Eigen::VectorXd>& z);
 

@@ -17,7 +17,7 @@
 namespace elastogear::fem {
 
 /// S at the given nodes, 6 n_e x 3 n_nodes, Pa/m: rows 6 i .. 6 i + 5 are xx yy zz xy yz xz at nodes[i].
-/// Throws Error when a node belongs to no cell.
+/// Throws Error when a node belongs to no cell. docs/theory.md, Eq. (4.1).
 model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
                                   model::Element element, const std::vector<int>& nodes);
 

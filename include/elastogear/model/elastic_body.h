@@ -33,6 +33,7 @@ void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::
 
 /// Inertia of the free node cloud, from the consistent mass M_f (restrained nodes carry mass too).
 /// S_t, S_r: rigid unit translations and rotations about the BRF origin.
+/// docs/theory.md, Eqs. (3.4) and (3.8).
 struct Inertia {
   double m = 0;                                  ///< kg, m I = S_t' M_f S_t
   Eigen::Vector3d c = Eigen::Vector3d::Zero();   ///< m, centre of mass
@@ -41,11 +42,12 @@ struct Inertia {
   Eigen::Matrix<double, Eigen::Dynamic, 3> C_r;  ///< n_q x 3, Phi' M_f S_r
   Eigen::Matrix<double, 9, Eigen::Dynamic> S_1;  ///< 9 x n_q, row 3a+b: integral of rho X_a phi_b dV
   /// n_q x n_q each, [k, l]: integral of rho phi_ka phi_lb dV for ab = 11 22 33 12 23 13; may be empty (only
-  /// inertia level full needs it). Their counterparts ba are the transposes.
+  /// inertia level full needs it). Their counterparts ba are the transposes. docs/theory.md, Eq. (3.11a).
   std::vector<BasisRows> S_2;
 };
 
 /// First-order change of J with the elastic coordinate k: J(q) = J + sum_k q_k J_1(k), from S_1.
+/// docs/theory.md, Eq. (3.11).
 Eigen::Matrix3d J_1(const Inertia& inertia, int k);
 
 struct Surface {
@@ -77,6 +79,7 @@ struct Marker {
   BasisRows Phi = {};  ///< 6 x n_q: mean displacement, mean small rotation (rad); zero where it does not turn
 };
 
+/// Displacements u = Phi q and the reduced matrices M_r, K_r: docs/theory.md, Eqs. (2.1) and (2.2).
 struct ElasticBody {
   std::string name;
   Basis basis = Basis::modal;

@@ -1,7 +1,6 @@
 #pragma once
 // Static answers of the whole body to forces on its contact surface, F = B' K^-1 B and G = S K^-1 B, from
-// which dynamics and recovery take what a truncated modal basis leaves out (docs/theory.md, section Residual
-// flexibility).
+// which dynamics and recovery take what a truncated modal basis leaves out (docs/theory.md, section 6.9).
 
 #include <Eigen/Core>
 #include <functional>

@@ -22,7 +22,7 @@ struct RecoveredStress {
   bool has_residual = true;  ///< whether `stress` contains it
 };
 
-/// (theory.md, Eq. 4.8) n_t: dynamic over static amplitude of the upper half of the modes, in the norm of the
+/// Eq. (4.8), n_t: dynamic over static amplitude of the upper half of the modes, in the norm of the
 /// energy and at most 1. body: its K_r is diagonal.
 Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordinates& coordinates);
 
@@ -34,7 +34,7 @@ Eigen::MatrixXd upper_half(const Eigen::MatrixXd& q_d);
 struct FieldStress {
   Eigen::VectorXd found, whole, residual, upper;
 };
-/// (theory.md, Eq. 4.9) n, Pa. share: dynamic_share at this time.
+/// Eq. (4.9), n, Pa. share: dynamic_share at this time.
 Eigen::VectorXd field_error(const FieldStress& stress, double share);
 
 /// Estimated errors of the von Mises stress.
@@ -43,7 +43,7 @@ struct StressError {
   Eigen::VectorXd of_peak;  ///< n_t, Pa, of the largest value over the nodes
 };
 
-/// (theory.md, Eqs. 4.6 to 4.9) members: n local numbers in body.stress.node. The body's basis is modal.
+/// Eqs. (4.6) to (4.9). members: n local numbers in body.stress.node. The body's basis is modal.
 StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);
 

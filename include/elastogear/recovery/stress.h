@@ -1,6 +1,6 @@
 #pragma once
-// Stress from reduced coordinates: sigma = Psi q (paper Eq. 12), and the equivalent stresses engineers read.
-// Components in the body frame, Pa, order xx yy zz xy yz xz.
+// Stress from reduced coordinates: sigma = Psi q (docs/theory.md, Eq. (4.1)), and the equivalent stresses
+// engineers read. Components in the body frame, Pa, order xx yy zz xy yz xz.
 
 #include <Eigen/Core>
 #include <vector>
@@ -11,10 +11,10 @@ namespace elastogear::recovery {
 
 using StressVector = Eigen::Matrix<double, 6, 1>;
 
-/// sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + yz^2 + xz^2)), Pa.
+/// sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + yz^2 + xz^2)), Pa. Eq. (4.2).
 double von_mises(const StressVector& sigma);
 
-/// Largest principal stress (Rankine), Pa.
+/// Largest principal stress (Rankine), Pa. Eq. (4.2).
 double rankine(const StressVector& sigma);
 
 /// Histories at n nodes over n_t times.

@@ -14,6 +14,7 @@
 
 namespace elastogear::reduction {
 
+/// Shares c of the compliance that the modes have: Eq. (2.7).
 struct Completeness {
   std::vector<std::string> load;  ///< those that move something
   Eigen::VectorXd share;          ///< f' Phi Lambda^-1 Phi' f / f' K^-1 f, 0..1

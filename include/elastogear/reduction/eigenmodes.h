@@ -59,7 +59,7 @@ void require_mode_count(int n_modes, int n_free);
 /// options database says otherwise; with options.window != 0 block Lanczos in windows up the spectrum
 /// (reduction/spectrum_slicing.h). Reports the stage "eigenmodes". Collective. Throws Error when n_modes is
 /// not in 1..n (n: size of K), when K is singular (the body is not held, or has a mechanism), when modes do
-/// not converge or are missing.
+/// not converge or are missing. docs/theory.md, Eq. (2.3).
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress = {});
 

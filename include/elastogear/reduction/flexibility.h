@@ -1,5 +1,5 @@
 #pragma once
-// Static answers to unit forces on the contact surface (docs/theory.md, section Residual flexibility).
+// Static responses to unit forces on the contact surface (docs/theory.md, section 6.9).
 
 #include <string>
 #include <vector>
@@ -44,13 +44,13 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
 
 /// The same with F and G. Factorises K once and solves for three forces on one node of each orbit, kBlock
 /// nodes at a time. Forces on a free body are balanced by inertia, and what they do to it is orthogonal to
-/// rigid motions (section Free bodies). Collective; the result is on rank 0. Throws Error when the
+/// rigid motions (section 2.4). Collective; the result is on rank 0. Throws Error when the
 /// factorisation fails.
 model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSystem& system,
                                     const Progress& progress = {});
 
 /// The same from one sector: u = sum_k P_k K_k^-1 P_k' f over the harmonics, with the rows P_k that unfold
-/// harmonic k (docs/theory.md, section Cyclic symmetry). Each rank takes its share of the harmonics, one
+/// harmonic k (section 2.6). Each rank takes its share of the harmonics, one
 /// factor of a sector at a time. floating: a free body, whose rigid motions are in harmonics 0 and 1. Needs a
 /// plan that uses the symmetry. Collective; the result is on rank 0.
 model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,

@@ -1,6 +1,6 @@
 #pragma once
 // Static answers of a body that nothing holds: loads are balanced by inertia, and answers are orthogonal to
-// rigid motions (docs/theory.md, section Free bodies).
+// rigid motions (docs/theory.md, section 2.4).
 
 #include <Eigen/Core>
 
@@ -10,7 +10,7 @@
 namespace elastogear::reduction {
 
 /// P = I - M R R', R the rigid motions, orthonormal in the inner product of M. Rows are those of K and M that
-/// this rank owns.
+/// this rank owns. Eq. (2.9).
 class InertiaRelief {
  public:
   /// R: own rows of independent fields that K moves without force; of any scale. Collective. Throws Error

@@ -20,7 +20,7 @@ std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vecto
                                         MarkerWeights weights = MarkerWeights::equal);
 
 /// From the displacements of all nodes to mean displacement and mean small rotation of each set:
-/// 6 n_markers x 3 n_nodes. The rotation's rows are zero where the set lies on one line.
+/// 6 n_markers x 3 n_nodes. The rotation's rows are zero where the set lies on one line. Eq. (3.16).
 model::SparseRows marker_operator(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
                                   MarkerWeights weights = MarkerWeights::equal);
 

@@ -26,7 +26,7 @@ RitzSpace make_space(const BlockProduct& K, const BlockProduct& M, int capacity)
 /// which there must be room. Returns the columns added. Collective.
 Eigen::MatrixXd extend(RitzSpace& space, Eigen::MatrixXd W, int most);
 
-/// Stationary points phi = V s of the Rayleigh quotient in the space.
+/// Stationary points phi = V s of the Rayleigh quotient in the space. Eq. (2.16).
 struct RitzVectors {
   Eigen::VectorXd eigenvalue;  ///< rad^2/s^2, ascending; none below the eigenvalue of its number
   Eigen::MatrixXd s;           ///< phi' M phi = I, phi' K phi = diag(eigenvalue)

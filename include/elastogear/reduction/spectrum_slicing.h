@@ -20,9 +20,9 @@ WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked);
 /// rad^2/s^2.
 void require_complete(int known, int exact, double sigma);
 
-/// find_eigenmodes by block Lanczos in windows (docs/theory.md 2.2). Window ends lie in gaps of the spectrum,
-/// so that equal or close eigenvalues stay together. Memory: the factor and the basis, 2 to 4 options.window
-/// vectors.
+/// find_eigenmodes by block Lanczos in windows (docs/theory.md, section 2.2). Window ends lie in gaps of the
+/// spectrum, so that equal or close eigenvalues stay together. Memory: the factor and the basis, 2 to 4
+/// options.window vectors.
 Eigenmodes find_by_slices(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                           const Progress& progress);
 
