@@ -17,10 +17,10 @@ namespace elastogear::contact {
 namespace {
 
 struct Side {
-  std::vector<Law> law;             // of each node as slave
+  std::vector<Law> law;                 // of each node as slave
   std::vector<CornerSlopes> smoothing;  // of each face as master; empty: facets
-  std::vector<int> last_face;       // master face each node touched last; -1
-  std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
+  std::vector<int> last_face;           // master face each node touched last; -1
+  std::map<int, StickPoint> stuck;      // by slave node, after the last accepted step
 };
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
@@ -29,7 +29,8 @@ Side make_side(const Tracked& tracked, const Settings& settings) {
   const model::Surface& surface = *tracked.surface;
   const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
   return {node_laws(settings, surface),
-          settings.smooth ? corner_slopes(undeformed, radians(settings.feature_angle)) : std::vector<CornerSlopes>(),
+          settings.smooth ? corner_slopes(undeformed, radians(settings.feature_angle))
+                          : std::vector<CornerSlopes>(),
           std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
           {}};
 }

@@ -7,7 +7,7 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kForceResidual = 1e-10;         // of contact forces and those that residual answers were given to
+constexpr double kForceResidual = 1e-10;    // of contact forces and those that residual answers were given to
 constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, where it falls no further
 constexpr double kSmallResidual = 1e-3;     // whose square is negligible
 constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
@@ -42,7 +42,8 @@ void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
   state_.pair.clear();
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const int a = pairs_[p].body[0], b = pairs_[p].body[1];
-    const std::array<contact::ResidualDisplacement, 2> residual{residual_contact_.residual(a), residual_contact_.residual(b)};
+    const std::array<contact::ResidualDisplacement, 2> residual{residual_contact_.residual(a),
+                                                                residual_contact_.residual(b)};
     state_.pair.push_back({{a, b}, detectors_[p].detect(motion[a], motion[b], residual)});
     place_touched(p);
   }
@@ -69,7 +70,8 @@ void System::find_static_responses(const std::vector<contact::SurfaceMotion>& mo
     }
     residual_contact_.newton_step(state_.pair, state_.surface, state_.force);
     const auto before = std::exchange(force_residual, force_residual_now(motion));
-    if (force_residual.relative < kRoundoffResidual && force_residual.absolute > 0.1 * before.absolute) force_residual = {};
+    if (force_residual.relative < kRoundoffResidual && force_residual.absolute > 0.1 * before.absolute)
+      force_residual = {};
     for (int half = 0; force_residual.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
       residual_contact_.backtrack();
       force_residual = force_residual_now(motion);

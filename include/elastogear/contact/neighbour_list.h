@@ -26,11 +26,11 @@ struct NeighbourList {
   std::array<Candidates, 2> candidates;  ///< by slave side; only those of the passes that are run
   SurfaceMotion measured_at[2];          ///< when their clearance was measured
   double limit = 0;                      ///< m, relative motion since for which `within` is sufficient
-  double near_limit = 0;                        ///< m, and the same for `near`, which is a part of it
+  double near_limit = 0;                 ///< m, and the same for `near`, which is a part of it
   int uses = 0;                          ///< of `within` since
   double path = 0;                       ///< m, of the surfaces from the search to measured_at, step by step
   std::array<std::vector<double>, 2> apart_until;  ///< by slave side and node: the path without touch, m
-  std::array<Neighbours, 2> within, near;              ///< by slave side: the candidates that can touch
+  std::array<Neighbours, 2> within, near;          ///< by slave side: the candidates that can touch
   std::array<std::vector<int>, 2> node;  ///< per surface: whose positions their fine search reads, ascending
 };
 
