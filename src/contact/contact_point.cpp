@@ -59,7 +59,7 @@ Projection smooth_projection(const MasterSide& master, const Projection& w, cons
   return prolonged(face, q, w).value_or(w);
 }
 
-// Along the directions in which the closest point can move.
+// A function of (u, v) restricted to the directions in which the closest point can move.
 FaceFunction restricted(const FaceFunction& full, int sides, const Projection& w) {
   if (w.point.feature == Feature::face) return full;
   if (w.point.feature == Feature::vertex) return {full.f};
@@ -79,7 +79,7 @@ FaceFunction share_at(const Face& face, const Projection& w) {
   return restricted(end_share(face, w.point.u, w.point.v), face.sides, w);
 }
 
-// Way of the closest point over the master since the last step, and what the spring held then.
+// Displacement of the closest point over the master since the last step, and the stretch of the spring then.
 // docs/theory.md, Eq. (6.18).
 StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Projection& w,
                          const ProjectionKinematics& foot) {

@@ -48,7 +48,7 @@ struct Friction {
   bool at_limit = true;
 };
 
-// -z / sqrt(z^2 + v_0^2) of the limit, docs/theory.md, Eq. (6.17).
+// Regularised friction, -limit z / sqrt(z^2 + v_0^2): docs/theory.md, Eq. (6.17).
 Friction regularised(const Vector3d& z, double v_0, double limit) {
   Friction f;
   const double s = std::sqrt(z.squaredNorm() + v_0 * v_0);
@@ -57,7 +57,7 @@ Friction regularised(const Vector3d& z, double v_0, double limit) {
   return f;
 }
 
-// A spring up to the limit. docs/theory.md, Eq. (6.18).
+// Friction of a node that sticks, a spring up to the limit: docs/theory.md, Eq. (6.18).
 Friction sticking(const Vector3d& z, double c_t, double limit) {
   Friction f;
   const double length = z.norm();
@@ -72,7 +72,7 @@ Friction sticking(const Vector3d& z, double c_t, double limit) {
   return f;
 }
 
-// All that makes up a force.
+// The parts that make up a contact force.
 struct Parts {
   Varying slip;        // velocity
   Varying motion;      // argument of friction: velocity, or displacement of a node that sticks
@@ -169,7 +169,7 @@ NormalForce normal_force(const Law& law, double gap, double rate) {
   return f;
 }
 
-// dn = -d(a y) with y = A^-1 h_a
+// Gap to the smooth surface; its gradient changes by dn = -d(a y) with y = A^-1 h_a.
 Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
         const FaceFunction& share) {
   Gap result{foot.g - height.f + offset, foot.n, foot.n_x, {}, share};

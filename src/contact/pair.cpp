@@ -71,7 +71,7 @@ struct Pair::Data {
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
 };
 
-// The corners of the faces remembered must be placed as long as they are.
+// The corners of the faces on which nodes stick must be placed as long as these nodes stick.
 void Pair::Data::keep_stuck() {
   std::array<std::vector<int>, 2> corners;
   for (int slave : slave_sides(settings))

@@ -81,7 +81,8 @@ Eigen::Vector3d corner_normal(const Face& face, int corner) {
   return normal(face, at[0], at[1]);
 }
 
-// Faces at the node weighted with their angles there, without those beyond a feature_angle.
+// Mean normal of the faces at the node, weighted with their angles there, without faces beyond an edge that
+// turns by more than the feature angle.
 Eigen::Vector3d averaged_normal(const SurfaceView& surface, int node, const Eigen::Vector3d& own,
                                 double feature_angle) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

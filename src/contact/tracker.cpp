@@ -15,7 +15,7 @@ namespace {
 // as much when it has served few stages only, half as much after many.
 constexpr double kLimit = 0.125;
 constexpr int kFewUses = 8, kManyUses = 64;
-// Of that motion, for which the nodes that touch first serve; twice as much when it is used up.
+// The share of the measured motion for which the nodes that touch first serve; it doubles when it is used up.
 constexpr double kFirstStretch = 0.125;
 constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
 
@@ -109,7 +109,7 @@ void Tracker::start_stage() {
   for (int i : {0, 1}) deformed_[i].q = now_[i]->q;
 }
 
-// In the BRF of its surface.
+// Deformed position of a node, residual displacement included, in the BRF of its surface.
 Eigen::Vector3d Tracker::position(int i, int node) {
   Deformed& deformed = deformed_[i];
   if (deformed.stamp[node] != stage_) {
@@ -122,7 +122,7 @@ Eigen::Vector3d Tracker::position(int i, int node) {
   return deformed.x_B.col(node) + (*residual_)[i].at(node);
 }
 
-// Where the motion puts them now.
+// Places the nodes by the present motion, in the BRF of surface b.
 void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
   const RelativeMotion relative = relative_motion(*now_[0], *now_[1]);
   configuration_.R = relative.R;
@@ -135,7 +135,7 @@ void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
   }
 }
 
-// Bound of the relative motion since. docs/theory.md, Eq. (5.5).
+// Bound of the relative motion of both surfaces since `then`: docs/theory.md, Eq. (5.5).
 double Tracker::distance_since(const SurfaceMotion then[2]) const {
   double distance = 0;
   for (int i : {0, 1}) distance += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);
@@ -144,7 +144,7 @@ double Tracker::distance_since(const SurfaceMotion then[2]) const {
   return distance + travel(ball, relative_motion(then[0], then[1]), relative_motion(*now_[0], *now_[1]));
 }
 
-// Whose positions the fine search of the candidates at hand reads.
+// Lists the nodes whose positions the fine search of the present candidates reads.
 void Tracker::list_nodes() {
   std::array<std::vector<int>, 2>& lists = neighbours_->node = kept_;
   for (int slave : slave_sides(settings_))
@@ -159,8 +159,9 @@ void Tracker::list_nodes() {
   for (auto& list : lists) make_set(list);
 }
 
-// Of all candidates: those that cannot touch soon are left out, and faces that cannot be nearest. Clearance
-// that is left over from an earlier measurement needs no new one.
+// Measures the clearance of all candidates and leaves out those that cannot touch while the surfaces move by
+// `limit`, and the faces that cannot be nearest. A node whose earlier clearance is not used up is not
+// measured again.
 void Tracker::measure_clearance(double limit) {
   NeighbourList& v = *neighbours_;
   const double soon = limit + limits_.outside;
@@ -177,8 +178,8 @@ void Tracker::measure_clearance(double limit) {
   residual_since_measured_ = 0;
 }
 
-// Of what is within the limit: what can touch until the surfaces have moved by `distance` since the
-// measurement.
+// Takes from the nodes within the limit those that can touch until the surfaces have moved by `distance`
+// since the measurement.
 void Tracker::take_near(double distance) {
   NeighbourList& v = *neighbours_;
   v.near_limit = distance;
@@ -187,7 +188,7 @@ void Tracker::take_near(double distance) {
   list_nodes();
 }
 
-// Of what is near: nodes with more clearance than that.
+// Leaves out the near nodes that have more clearance than `clear`.
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension);
@@ -206,7 +207,8 @@ void Tracker::leave_out(int slave, double clear) {
   }
 }
 
-// Whether it had to be measured again, which places all its nodes.
+// Brings the neighbour lists up to date; returns whether clearances were measured, which places all nodes of
+// the lists.
 bool Tracker::update_neighbours() {
   const bool search_is_due =
       !neighbours_ || !(distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin);
@@ -303,7 +305,8 @@ Eigen::Vector3d Tracker::velocity(int i, int node) const {
   return i == 0 ? Eigen::Vector3d(R * v) : v;
 }
 
-// Candidates and their clearance follow from where they were found.
+// Stores the motions at which candidates were found and measured; on loading, candidates and clearances are
+// found anew from these.
 void Tracker::serialize(Archive& archive) {
   bool found = neighbours_.has_value();
   archive(found);

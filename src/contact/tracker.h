@@ -33,7 +33,7 @@ class Tracker {
   /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.
   void find(const SurfaceState& a, const SurfaceState& b);
   /// Places the nodes that can touch, after a search where one is due. Throws Error for motions that are not
-  /// finite. Motions and yields must live as long as velocity and all_faces are asked for.
+  /// finite. Motions and residual displacements must live as long as velocity and all_faces are called.
   void follow(const SurfaceMotion& a, const SurfaceMotion& b,
               const std::array<ResidualDisplacement, 2>& residual);
   /// The next call of follow searches anew.
@@ -48,9 +48,10 @@ class Tracker {
   const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
   /// All faces within the depth limit of a slave node, their nodes placed.
   std::span<const int> all_faces(int slave, int node);
-  /// Of a node placed by follow, in the BRF of its surface.
+  /// Position of a node placed by follow, in the BRF of its surface, m.
   Eigen::Vector3d position_B(int i, int node) const;
-  /// Zero after find, which knows no motion.
+  /// Velocity of a node placed by follow, m/s, components in the BRF of surface b; zero after find, which
+  /// knows no motion.
   Eigen::Vector3d velocity(int i, int node) const;
 
   int n_searches() const { return n_searches_; }
@@ -86,7 +87,8 @@ class Tracker {
   const std::array<ResidualDisplacement, 2>* residual_ = nullptr;  // beside them
   bool has_residual_ = false;                                      // did anything in the last call of follow?
   double residual_since_found_ = 0, residual_since_measured_ = 0;  // m, bounds of the change
-  struct Deformed {  // X + Phi q of the nodes with the stamp of this stage: yields alone may change within it
+  struct Deformed {  // X + Phi q of the nodes with the stamp of this stage, within which only residual
+                     // displacements change
     Eigen::VectorXd q;
     Eigen::Matrix3Xd x_B;
     std::vector<long> stamp;

@@ -137,7 +137,7 @@ Eigen::Matrix<double, 12, 24> bushing_derivative(const Bushing& bushing, const M
   const Matrix3d K = A * law.k.asDiagonal() * A.transpose(), C = A * law.c.asDiagonal() * A.transpose(),
                  C_r = A * law.c_r.asDiagonal() * A.transpose(),
                  K_r = A * springs(bushing, first, second).derivative * A.transpose();
-  // What the axes' turning leaves of the changes.
+  // Changes with respect to the axes of the bushing, which turn with the first marker.
   const Change turn = only(kTheta[0]), dr = difference(kX), d_turn = difference(kTheta);
   const Change dv_r = difference(kV) + skew(rel.r) * only(kW[0]) - skew(first.w) * dr;
   const Change d = dr + skew(rel.r) * turn, d_dot = dv_r + skew(rel.v_r) * turn;

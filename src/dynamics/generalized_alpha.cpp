@@ -151,7 +151,7 @@ PetscErrorCode error_norm(TS ts, Vec x, PetscReal scale, NormType type, PetscRea
   return TSErrorWeightedNorm(ts, x, y, type, norm, &absolute, &relative);
 }
 
-// The same against the tolerances of V, which has other units than U.
+// norm := weighted norm of the error of V against tolerances of its own, because V has other units than U.
 PetscErrorCode velocity_error_norm(TS ts, NormType type, PetscReal* norm) {
   const Method& m = method(ts);
   const PetscReal atol = ts->atol, rtol = ts->rtol;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSameTime = 1e-9;  // of a step: roundoff in times
 
-// What is not sane is not entered: the last state stays the one before.
+// Enters a state into ledger and summary. A state that Sanity rejects does not become the last state.
 void enter(Run& run, const State& x) {
   model::Snapshot now = snapshot(run.problem.system, x);
   run.ledger.enter(run.problem.system, now);

@@ -20,14 +20,14 @@ Eigen::Vector3d moment_on_b(const contact::ContactPoint& point, const contact::S
   return moment;
 }
 
-// World frame.
+// Velocity of a surface node in the world frame, m/s.
 Eigen::Vector3d velocity(const System::Body& body, const contact::SurfaceMotion& m, int node) {
   const model::Surface& surface = body.eq.body->surface;
   const Eigen::Vector3d x_B = surface.X.col(node) + model::displacement(surface.Phi, node, m.q);
   return m.R_WB * (m.v_WB_B + m.w_WB_B.cross(x_B) + model::displacement(surface.Phi, node, m.q_dot));
 }
 
-// Of a contact whose force does not ask for it.
+// Tangential velocity of the slave node on the master, m/s, for contacts whose force does not depend on it.
 Eigen::Vector3d slip(const contact::ContactPoint& point, const System::Body* body[2],
                      const contact::SurfaceMotion motion[2]) {
   const int slave = point.slave_side, master = 1 - slave;

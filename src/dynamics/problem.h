@@ -8,7 +8,7 @@
 
 namespace elastogear::dynamics {
 
-/// What the callbacks share. Must outlive the TS.
+/// Data that the callbacks share. It must outlive the TS.
 struct Problem {
   explicit Problem(System& s) : system(s), solver(s.solver_bodies()) {}
 
@@ -20,20 +20,20 @@ struct Problem {
   std::function<void()> pulse = [] {};  ///< called at every evaluation, product and solve; may throw
 };
 
-/// What a pulse throws to give up what is being solved: no error.
+/// Exception that a pulse throws to give up the present solve; it is no error.
 struct Interrupted {};
 
 /// Sets F, its Jacobian, the convergence test and the solvers of a TS whose type is known. `J` is created.
 void attach(Problem& problem, TS ts, UniqueMat& J);
 
-/// The same in parts. A shell matrix for the solver's products:
+/// Part of attach: creates the shell matrix for the solver's products.
 void make_matrix(Problem& problem, UniqueMat& J);
-/// The convergence test by blocks, and the exact solver as preconditioner.
+/// Part of attach: sets the convergence test by blocks, and the exact solver as preconditioner.
 void set_solvers(Problem& problem, SNES snes);
 void assemble(Mat J, Mat P);
 /// Largest norm of a block over the sum of the norms of its forces: 0 in balance, at most 1.
 double imbalance(const Residual& r);
-/// Can forces be computed there? If not, `trouble` says why.
+/// Returns whether forces can be computed at this state; if not, `trouble` says why.
 bool is_admissible(Problem& problem, double time, ConstVector U, ConstVector V);
 
 }  // namespace elastogear::dynamics

@@ -62,7 +62,7 @@ ResidualFlexibility::Row& ResidualFlexibility::row(int node) {
   return rows_[node];
 }
 
-// The same to the bit whenever it is worked out.
+// Block R(a, b) of the node with this number. It is the same to the bit whenever it is computed.
 const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
   Eigen::Matrix3d& R = row.R[number];
   if (!std::isnan(R(0, 0))) return R;
@@ -83,7 +83,8 @@ void ResidualFlexibility::set_forces(const NodalForces& forces) {
   forces_ = forces;
 }
 
-// Blocks that follow one another in memory: all nodes that may touch are asked for at every stage.
+// Copies the blocks of one row into contiguous memory, because all nodes that may touch are asked for at
+// every stage.
 void ResidualFlexibility::pack(Row& row, int a) {
   row.packed.setZero(3, 3 * static_cast<Eigen::Index>(numbers_.size()));
   for (std::size_t i = 0; i < numbers_.size(); ++i)

@@ -9,8 +9,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of a contact's columns, those that change the force at an unchanged closest point stand first: along n, or
-// in all directions where the force has no potential. At an open end any change of the closest point does.
+// Number of leading columns of a contact, which change its force at an unchanged closest point: the one along
+// n, or three where the force has no potential. At an open end all columns change it.
 Eigen::Index leading_columns(const contact::ContactPoint& point) {
   if (point.V_dot.cols() == 0) return 1;
   return point.W.cols() == contact::kColumns ? contact::kColumns : 3;
@@ -92,7 +92,8 @@ MatrixXd ResponseNewton::leading_block() const {
   return A;
 }
 
-// The other columns are of the order of the penetration over the radius of curvature: they converge fast.
+// Solves by fixed-point iteration with the leading block. The other columns are of the order of the
+// penetration over the radius of curvature, so that it converges fast.
 VectorXd ResponseNewton::solve() const {
   constexpr int kMostRounds = 20;
   constexpr double kTolerance = 1e-8;

@@ -1,6 +1,6 @@
 #pragma once
-// One step of Newton's method that brings contact forces and the answers of the bodies to them together, at
-// unchanged closest points (docs/theory.md, Eq. (6.21)).
+// One Newton step for contact forces f and the static responses w = R f of the bodies to them, at unchanged
+// closest points (docs/theory.md, Eq. (6.21)).
 
 #include <vector>
 
@@ -12,17 +12,17 @@ namespace elastogear::dynamics {
 /// contacts' W and V, one contact after the other.
 class ResponseNewton {
  public:
-  /// Contacts and what bodies yield by are borrowed.
+  /// Contacts and the members of Compliant are borrowed.
   explicit ResponseNewton(const std::vector<PairContacts>& pairs);
 
-  /// Where and by what a body yields: nodes in contact (ascending), R among them (m/N, BRF).
+  /// Residual flexibility of a body in contact: its touched nodes (ascending) and R among them (m/N, BRF).
   struct Compliant {
     std::size_t body;
     const Eigen::Matrix3d& R_WB;
     const std::vector<int>& node;
     const Eigen::MatrixXd& R;
   };
-  /// missing: 3 n, m, BRF, R f - w of the forces found and the answers there are.
+  /// missing: 3 n, m, BRF, R f - w of the forces f found and the present static response w.
   void add(const Compliant& compliant, const Eigen::VectorXd& missing);
 
   Eigen::VectorXd solve() const;  ///< lambda

@@ -30,7 +30,7 @@ Eigen::Matrix<double, 6, 6> carried_inertia(const model::ElasticBody& body) {
   return C.transpose() * rigid_fields(body);
 }
 
-// Of the body's frame, in the deformed state.
+// Inertia of the body's frame in the deformed state, 6 x 6.
 Eigen::Matrix<double, 6, 6> frame_inertia(const System::Body& body, const model::BodyState& x) {
   const body::Shape shape = body::shape(body.eq, {x.s, x.s_dot, x.s_ddot, x.q, x.q_dot, x.q_ddot});
   const Eigen::Matrix3d S = skew(shape.S);

@@ -1,5 +1,6 @@
 #pragma once
-// Whether anything is left of the theory in a state that was computed. Private to module dynamics.
+// Checks that a computed state is one that the theory describes (docs/theory.md, section 8.5). Private to
+// module dynamics.
 
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace elastogear::dynamics {
 
-/// What ends a run whose state is not worth keeping.
+/// Error that ends a run whose state is not worth keeping.
 struct Insane : Error {
   using Error::Error;
 };

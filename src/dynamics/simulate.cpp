@@ -54,7 +54,8 @@ void require_tables_cover(const System& system, double end_time) {
   system.marker_forces().require_tables_cover(end_time);
 }
 
-// What a step that is given up later began with; only where steps take so long that they may be.
+// Keeps the state that a step begins with, for the case that the step is given up. Only long steps are given
+// up, and only then is the state copied.
 void remember_step(Run& run, TS ts) {
   const bool first = run.step_start == run.start;
   const bool takes_long = first || seconds_since(run.step_start) >= run.checkpoints.patience;
@@ -113,8 +114,8 @@ bool has_fixed_steps(TS ts) {
   return fixed;
 }
 
-// Where steps stay far below the nominal one, what moves is too fast for it, and the run would take that much
-// longer than planned.
+// Throws Error when steps stay far below the nominal one: the motion is too fast for it, and the run would
+// take that much longer than planned.
 void require_long_steps(Run& run, TS ts) {
   constexpr double kShort = 1. / 64;  // of the nominal step
   constexpr int kMostShort = 2000;

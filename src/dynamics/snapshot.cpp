@@ -40,7 +40,7 @@ double weight_energy(const System& system, std::size_t b, const model::BodyState
                               system.environment().gravity);
 }
 
-// Of one frame to the other, as Cayley's vector: the rotation vector to second order.
+// Rotation from one frame to the other as Cayley's vector, which is the rotation vector to second order.
 Eigen::Vector3d turn(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   const Eigen::Matrix3d R = to * from.transpose(), S = R - R.transpose();
   return 2 / (1 + R.trace()) * Eigen::Vector3d(S(2, 1), S(0, 2), S(1, 0));

@@ -1,4 +1,4 @@
-// Contacts of a state, and the answers of residual flexibility to them.
+// Contacts of a state, and the static responses of residual flexibility to them.
 #include <algorithm>
 #include <utility>
 
@@ -7,7 +7,7 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kForceResidual = 1e-10;    // of contact forces and those that residual answers were given to
+constexpr double kForceResidual = 1e-10;    // of contact forces against those of the static responses
 constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, where it falls no further
 constexpr double kSmallResidual = 1e-3;     // whose square is negligible
 constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
@@ -37,7 +37,7 @@ const ContactState& System::contacts(double time, ConstVector U, ConstVector V) 
   return state_;
 }
 
-// Contacts of the bodies as they residual to the forces of the last trial.
+// Detects the contacts of the bodies with the residual displacements of the last trial.
 void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
   state_.pair.clear();
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -51,14 +51,14 @@ void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
   state_.force = nodal_forces(state_.pair, state_.surface);
 }
 
-// Another trial.
+// Detects contact with the present static responses and returns the force residual.
 ResidualContact::ForceResidual System::force_residual_now(const std::vector<contact::SurfaceMotion>& motion) {
   detect(motion);
   return residual_contact_.force_residual(state_.force);
 }
 
-// Contact forces and the bodies' answers to them: Newton's method, which goes less far where it would be
-// worse.
+// Solves for contact forces and static responses by Newton's method (docs/theory.md, Eq. (6.21)); a step that
+// makes the force residual larger is halved.
 void System::find_static_responses(const std::vector<contact::SurfaceMotion>& motion) {
   auto force_residual = residual_contact_.force_residual(state_.force);
   for (int trial = 0; force_residual.relative > kForceResidual && trial < kMostTrials; ++trial) {
@@ -77,7 +77,8 @@ void System::find_static_responses(const std::vector<contact::SurfaceMotion>& mo
       force_residual = force_residual_now(motion);
     }
   }
-  // A node held at an edge by a jump of its force: what it answers to lies between the values on both sides.
+  // A node is held at an edge by a jump of its force: the force of its static response lies between the
+  // values on both sides.
   if (force_residual.relative > kForceResidual && force_residual.relative < kJump) {
     residual_contact_.take_forces_of_response(state_.surface, state_.force);
     force_residual = {};
@@ -85,7 +86,7 @@ void System::find_static_responses(const std::vector<contact::SurfaceMotion>& mo
   state_.balanced = force_residual.relative <= kForceResidual;
 }
 
-// Positions of the nodes that contact touches; the others' stay undeformed.
+// Sets the positions of the nodes that contact touches; those of the others stay undeformed.
 void System::place_touched(std::size_t p) {
   const PairContacts& pair = state_.pair[p];
   for (const contact::ContactPoint& point : pair.points)

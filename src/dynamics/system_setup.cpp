@@ -25,7 +25,7 @@ bool is_default(const Axis& axis) {
          axis.friction == 0 && !axis.drive;
 }
 
-// What a joint does not have must not be set.
+// Throws Error for motions and loads that the joint does not have, or that are not finite.
 void validate_motion(const BodySetup& setup, const std::string& who) {
   const body::JointType type = setup.joint.type;
   const std::string& joint = body::joint_names()[static_cast<std::size_t>(type)];
@@ -157,7 +157,8 @@ void System::add_pair(const PairSetup& setup) {
     bodies_[b].in_contact = true;
   }
   require(setup.body[0] != setup.body[1], "contact pair '", setup.name, "' names one body twice");
-  // Its force jumps when a node touches; a node that yields at once would open the gap again, and so on.
+  // A dashpot's force jumps when a node touches. With residual flexibility the node would move back and open
+  // the gap again, so that there is no solution.
   for (int b : setup.body)
     require(setup.settings.damping == 0 || bodies_[b].eq.body->flexibility.empty(), "contact pair '",
             setup.name, "': damping = ", setup.settings.damping,

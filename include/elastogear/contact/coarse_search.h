@@ -10,7 +10,7 @@
 
 namespace elastogear::contact {
 
-/// Where the surfaces are. The common frame is that of surface b.
+/// Placement of both surfaces. The common frame is that of surface b.
 struct Configuration {
   Eigen::Matrix3Xd x[2];                            ///< 3 x n, m, both surfaces in the common frame
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< frame of a to common frame

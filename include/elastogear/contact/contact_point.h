@@ -5,7 +5,7 @@
 
 namespace elastogear::contact {
 
-/// What a pass needs of its master, beside the projection.
+/// The data of the master surface that a pass needs beside the projection.
 struct MasterSide {
   const SurfaceView& surface;
   const std::vector<CornerSlopes>& smoothing;  ///< empty: facets as they are
@@ -19,9 +19,10 @@ bool on_extension(const Projection& projection);
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, double c_p,
                                bool full_tangent);
 
-/// The same for any law. Smooth surfaces are met on the face itself where the closest point is an edge or
-/// vertex that is no feature_angle. v: m/s, of a node of the slave (side 0) or master (1). stuck: of this
-/// slave node after the last step, or null. Nothing when the gap is open.
+/// Contact point for any law; nothing when the gap is open. Smooth surfaces are met on the face itself where
+/// the closest point is on an edge or vertex across which normals turn by less than the feature angle.
+/// velocity: m/s, of a node of the slave (side 0) or master (1). stuck: of this slave node after the last
+/// step, or null.
 struct SlaveContact {
   Projection projection;
   int slave_node;

@@ -38,7 +38,7 @@ Eigen::Vector2d on_side(int sides, int side, double s);
 /// Local coordinates of a corner of the face with its open sides moved outwards.
 Eigen::Vector2d extended_corner(const Face& face, int corner);
 
-/// Whether (u, v) lies on the face with its open sides moved outwards.
+/// Returns whether (u, v) lies on the face with its open sides moved outwards.
 bool inside(const Face& face, double u, double v);
 
 /// Share of a contact force that is left on the prolonged ends: falls from 1 at the open side to 0 where they

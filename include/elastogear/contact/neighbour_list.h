@@ -1,6 +1,6 @@
 #pragma once
-// What may touch as long as two surfaces move by no more than a skin: kept from one search to the next, so
-// that the stages between neither search nor displace nodes that cannot touch.
+// The nodes and faces that may touch as long as two surfaces move by no more than a skin. They are kept from
+// one search to the next, so that the stages between neither search nor displace nodes that cannot touch.
 
 #include <array>
 #include <span>
@@ -53,7 +53,7 @@ double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion
 
 /// All candidates, with all faces they are near.
 Neighbours everything(const Candidates& candidates);
-/// The same without the nodes whose entry of apart_until exceeds `path`.
+/// Candidates or neighbours without the nodes whose entry of apart_until exceeds `path`.
 Neighbours not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path);
 Neighbours not_apart(const Neighbours& neighbours, const std::vector<double>& apart_until, double path);
 
@@ -61,7 +61,7 @@ Neighbours not_apart(const Neighbours& neighbours, const std::vector<double>& ap
 /// there. Ascending, without duplicates.
 std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,
                               const Eigen::Matrix4Xi& face);
-/// The same for nodes.
+/// The given nodes with all nodes of the faces around them, ascending, without duplicates.
 std::vector<int> nodes_around_nodes(const std::vector<int>& nodes, const Topology& topology,
                                     const Eigen::Matrix4Xi& face);
 

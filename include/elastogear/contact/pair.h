@@ -61,7 +61,7 @@ struct SurfaceState {
   Eigen::Matrix3d R_WB;
 };
 
-/// The same by elastic coordinates, x_B = X + Phi q, with velocities.
+/// Deformed surface of one body by its elastic coordinates, x_B = X + Phi q, with velocities.
 struct SurfaceMotion {
   Eigen::VectorXd q;
   Eigen::Vector3d r_WB;
@@ -73,8 +73,8 @@ struct SurfaceMotion {
 /// The deformed surface of a motion: docs/theory.md, Eq. (3.1).
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion);
 
-/// What moves the nodes of one surface beside X + Phi q: the static answer to contact forces that a basis
-/// leaves out. In the BRF; its velocity does not count.
+/// Residual displacement of the nodes of one surface beside X + Phi q: the part of the static response to
+/// contact forces that a basis leaves out. In the BRF; its velocity does not count.
 struct ResidualDisplacement {
   std::function<Eigen::Vector3d(int node)> at = {};  ///< m, of a node; empty: nothing
   double largest = 0;                                ///< m, bound for all nodes
@@ -86,8 +86,8 @@ using LocalVectors = Eigen::Matrix<double, 3, 5>;
 using LocalColumns = Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, kColumns>;
 using LocalStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kColumns, kColumns>;
 
-/// What a sticking node remembers from one step to the next: where on the master it was, and how far its
-/// tangential spring was stretched, in the face's tangents.
+/// History of a sticking node from one step to the next: its point on the master, and the stretch of its
+/// tangential spring in the face's tangents.
 struct StickPoint {
   int slave_side = 0, slave_node = 0;
   int face = 0;
@@ -137,8 +137,8 @@ class Pair {
   /// Active contacts in the given configuration, ordered by pass and slave node (deterministic).
   /// Throws Error when a surface has non-finite positions.
   std::vector<ContactPoint> detect(const SurfaceState& a, const SurfaceState& b);
-  /// The same contacts, but only nodes that can touch are displaced, and a search is made only when the
-  /// surfaces have moved by the skin since the last one.
+  /// Active contacts of the given motions. Only nodes that can touch are displaced, and a search is made only
+  /// when the surfaces have moved by the skin since the last one.
   std::vector<ContactPoint> detect(const SurfaceMotion& a, const SurfaceMotion& b,
                                    const std::array<ResidualDisplacement, 2>& residual = {});
 
@@ -147,7 +147,7 @@ class Pair {
 
   /// Makes the sticking of these contacts what the next step starts from.
   void accept(const std::vector<ContactPoint>& contacts);
-  /// What accept has kept: the state that a run must store to go on from here.
+  /// The stick points that accept has kept, which a run must store to go on from here.
   std::vector<StickPoint> history() const;
   /// Throws Error for nodes or faces that the surfaces do not have.
   void restore(const std::vector<StickPoint>& history);

@@ -1,6 +1,6 @@
 #pragma once
-// What a run should respect, from its bodies and contacts: the time step they ask for, and the limits of the
-// theory.
+// Advice for a run from its bodies and contacts: the time step that they require, and the limits of the
+// theory (docs/theory.md, section 8.5).
 
 #include <memory>
 
@@ -30,7 +30,7 @@ class ValidityGuard {
  public:
   /// dt: s, of a step; 0: there are no steps in time.
   explicit ValidityGuard(const System& system, double dt = 0);
-  /// What is left behind for the first time, one sentence each.
+  /// Returns one sentence for each limit that this state exceeds for the first time.
   std::vector<std::string> warnings(const model::Snapshot& snapshot);
 
  private:

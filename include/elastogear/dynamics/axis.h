@@ -1,5 +1,5 @@
 #pragma once
-// What acts along one coordinate of a joint: a load, friction, or a prescribed motion.
+// Load, friction and prescribed motion along one coordinate of a joint.
 
 #include <optional>
 #include <string>

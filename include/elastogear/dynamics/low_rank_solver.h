@@ -9,7 +9,7 @@
 //     = [y_s - rho'p; L_V'p]
 // where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory.md, Eqs. (8.11), (8.12) and (8.16)). V_s differs from
 // W_s where coordinates are not the integrals of their rates (free joints), and both from W for forces that
-// have no potential. Nodes that yield by w = -R (beta x_s + L k lambda) beside the modes make lambda = V'x +
+// have no potential. The residual displacement w = -R (beta x_s + L k lambda) makes lambda = V'x +
 // L_x'w, so that G + R takes the place of G, with L_x before R. At inertia level full A has further parts,
 // which the products with A hold and the inverse leaves out: it is then a preconditioner.
 
@@ -54,13 +54,13 @@ class LowRankSolver {
 
   /// Are the blocks D inverted exactly, see ElasticBlock? Otherwise solve() is a preconditioner.
   bool is_exact() const;
-  /// Factorises. Throws Error when A is singular.
+  /// Factorises A. Throws Error when it is singular.
   void set(EffectiveMatrix A);
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< A x
   Eigen::VectorXd solve(const Eigen::VectorXd& y) const;     ///< A^-1 y, without the parts of level full
   /// To be called between two solves with the blocks D; it may throw.
   void on_solve(const std::function<void()>& pulse);
-  /// What set() takes from earlier calls.
+  /// Stores or restores the data that set() takes from earlier calls.
   void serialize(Archive& archive);
 
  private:

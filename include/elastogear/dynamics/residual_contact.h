@@ -1,7 +1,7 @@
 #pragma once
-// Contact of bodies with residual flexibility: contact forces f and the answers w = R f to them depend on
-// each other, f = f(x + R f). They are brought together by Newton's method at every evaluation, so that f
-// stays a function of the coordinates (docs/theory.md, section 6.9).
+// Contact of bodies with residual flexibility: contact forces f and the static responses w = R f to them
+// depend on each other, f = f(x + R f). Newton's method solves for both at every evaluation, so that f stays
+// a function of the coordinates (docs/theory.md, section 6.9).
 
 #include <optional>
 #include <vector>
@@ -13,46 +13,49 @@ namespace elastogear::dynamics {
 
 class ResidualContact {
  public:
-  /// Bodies without static answers do not residual. They must outlive this.
+  /// Bodies without static responses have no residual displacement. The bodies must outlive this.
   explicit ResidualContact(const std::vector<const model::ElasticBody*>& bodies);
 
   bool any() const;
   bool has_flexibility(std::size_t b) const { return flexibility_[b].has_value(); }
-  /// For contact::Pair::detect, once for each pair of the body between two calls of seen().
+  /// Residual displacement for contact::Pair::detect; to be called once for each pair of the body between two
+  /// calls of seen().
   contact::ResidualDisplacement residual(std::size_t b);
   void seen();
   Eigen::Vector3d displacement(std::size_t b, int node) {
     return flexibility_[b]->displacement(node);
   }  ///< m, BRF
-  /// R among the nodes (model::Surface numbers), m/N; empty for a body that does not residual.
+  /// R among the nodes (model::Surface numbers), m/N; empty for a body without residual flexibility.
   Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);
 
-  /// Difference between the forces found and those that the nodes answered to.
+  /// Force residual: difference between the contact forces found and the forces whose static response was in
+  /// place.
   struct ForceResidual {
     double absolute = 0;  ///< N
     double relative = 0;  ///< of the forces found, at most 1
   };
   ForceResidual force_residual(const std::vector<NodalForces>& found) const;
-  /// The next trial: the bodies answer to forces that, to first order, will be found.
+  /// Newton step: puts the static responses in place to the forces that, to first order, contact will find.
   void newton_step(const std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
                    const std::vector<NodalForces>& found);
-  /// Half of the way back to the answers before the last improvement.
+  /// Goes half of the way back to the static responses before the last Newton step.
   void backtrack();
-  /// Brings contacts and answers together to first order, without another look at the surfaces: for a
-  /// force_residual whose square is negligible. False, and nothing done, where forces have no potential.
+  /// Newton step that changes the contacts to first order instead of detecting them again, for a force
+  /// residual whose square is negligible. Returns false and does nothing where forces have no potential.
   bool linear_step(std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
                    const std::vector<NodalForces>& found);
 
-  /// Puts the forces that the bodies answer to in the place of those found.
+  /// Puts the forces whose static responses are in place in the place of those found.
   void take_forces_of_response(const std::vector<contact::SurfaceState>& surfaces,
                                std::vector<NodalForces>& found) const;
-  /// Lets the bodies answer to the forces that the last two accepted states make likely at another time.
+  /// Puts the static responses in place to forces extrapolated from the last two accepted states to this
+  /// time.
   void predict(double time);
-  /// The answers of now belong to a step that was accepted.
+  /// Keeps the present forces as those of an accepted step at this time.
   void accept(double time);
 
   double energy(std::size_t b);  ///< J, f'R f / 2
-  /// Where the next solution starts from.
+  /// Stores or restores the forces that the next solution starts from.
   void serialize(Archive& archive);
 
  private:
@@ -68,7 +71,7 @@ class ResidualContact {
 
   std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
   Accepted last_, before_;
-  std::vector<NodalForces> left_;  // of each body, answered to before the last improvement
+  std::vector<NodalForces> left_;  // of each body, the forces before the last Newton step
   std::vector<double> change_;     // m, not yet seen by all pairs
 };
 

@@ -11,8 +11,8 @@
 
 namespace elastogear::dynamics {
 
-/// Blocks of R are worked out when they are first asked for, and kept. Forces on nodes that the body's
-/// flexibility does not provide for are answered by the modes alone: R = 0. Nodes are those of the surface.
+/// Blocks of R are computed when they are first asked for, and kept. For nodes that the body's flexibility
+/// does not provide for R = 0: forces there deform the modes alone. Nodes are those of the surface.
 class ResidualFlexibility {
  public:
   /// The body must outlive this.
@@ -23,7 +23,8 @@ class ResidualFlexibility {
   const NodalForces& forces() const { return forces_; }
   Eigen::Vector3d displacement(int node);   ///< m, BRF: sum_b R(node, b) f_b
   double bound(const NodalForces& forces);  ///< m, no node is displaced farther by these forces
-  /// R among the given nodes: 3 n x 3 n, m/N, symmetric. As it is until other nodes are asked for.
+  /// R among the given nodes: 3 n x 3 n, m/N, symmetric. The reference is valid until other nodes are asked
+  /// for.
   const Eigen::MatrixXd& among(const std::vector<int>& node);
 
  private:

@@ -49,10 +49,10 @@ struct ContactState {
   std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
-  bool balanced = true;            ///< do forces and the residual answers to them fit each other?
+  bool balanced = true;            ///< did Newton's method for contact forces and static responses converge?
 };
 
-/// What contact remembers from step to step; a run that goes on from a stored state needs it.
+/// History of contact from step to step, which a run that goes on from a stored state needs.
 struct ContactHistory {
   double time = 0;                                      ///< s, of the last accepted state
   double power = 0;                                     ///< W, taken by damping and regularised friction then
@@ -66,7 +66,7 @@ struct State {
   ConstVector U, V, A;
 };
 
-/// What acts on all bodies.
+/// Settings and loads common to all bodies.
 struct Environment {
   body::InertiaLevel inertia = body::InertiaLevel::affine;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
@@ -115,7 +115,7 @@ class System {
   const ContactState& contacts(double time, ConstVector U, ConstVector V);
   /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
   double depth_share(double time, ConstVector U, ConstVector V);
-  /// In force: with what was left open filled in.
+  /// Settings of a pair in force, with stiffness, depth and skin filled in.
   const contact::Settings& contact_settings(std::size_t pair) const { return detectors_[pair].settings(); }
   /// To be called once for the initial state and after every accepted step: what sticks now does so from
   /// here, and the energy that contact has taken is added up.
@@ -125,7 +125,7 @@ class System {
   void restore(const ContactHistory& history);
   /// J, taken by damping and friction of contact up to the last accepted state.
   double contact_loss() const { return history_.loss; }
-  /// J, of the residual answers of a body to the contact forces of the last evaluation.
+  /// J, stored in the residual flexibility of a body by the contact forces of the last evaluation.
   double residual_energy(std::size_t b) { return residual_contact_.energy(b); }
   Residual residual(const State& x);
   /// shift.v dF/dV + shift.a dF/dA + dF/dU
@@ -147,7 +147,7 @@ class System {
   void find_static_responses(const std::vector<contact::SurfaceMotion>& motion);
   void place_touched(std::size_t p);
   void add_marker_forces(const MarkerSetups& setups);
-  /// Of all loads and bushings, one per body.
+  /// Generalised forces of all loads and bushings, one entry per body.
   std::vector<MarkerForce> at_markers(const State& x) const;
   /// Sum and norms of a body's terms: [F_s (n_s); F_q].
   body::Force balance(std::size_t b, const State& x, const MarkerForce& marker_force, Residual* r);
