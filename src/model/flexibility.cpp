@@ -25,10 +25,11 @@ int turned_back(const Images& images, int node, int sector_index) {
 
 }  // namespace
 
-Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_sectors, const std::string& source) {
+Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_sectors,
+                   const std::string& source) {
   const std::size_t n = orbit.size();
-  require(n_sectors >= 1 && n % static_cast<std::size_t>(n_sectors) == 0 && sector_index.size() == n, source, ": ",
-          n, " nodes are no whole number of orbits of ", n_sectors, " nodes");
+  require(n_sectors >= 1 && n % static_cast<std::size_t>(n_sectors) == 0 && sector_index.size() == n, source,
+          ": ", n, " nodes are no whole number of orbits of ", n_sectors, " nodes");
   Images images{std::move(orbit), std::move(sector_index), {}};
   images.node.setConstant(n_sectors, static_cast<Eigen::Index>(n) / n_sectors, -1);
   for (std::size_t i = 0; i < n; ++i) {

@@ -17,13 +17,13 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kWindow = 256;         // modes
-constexpr double kSurplus = 0.05;    // modes found beyond the wanted ones, at most
-constexpr int kLeastSurplus = 8;     // and at least so many may be
-constexpr int kPairsInDoubt = 4;     // in a sample
-constexpr int kSampleEvery = 5;      // harmonics counted for the first guess of the cutoff
-constexpr double kAtCutoff = 1e-6;   // relative: an eigenvalue may lie so close above it
-constexpr int kCheckedFields = 4;    // on the whole mesh
+constexpr int kWindow = 256;        // modes
+constexpr double kSurplus = 0.05;   // modes found beyond the wanted ones, at most
+constexpr int kLeastSurplus = 8;    // and at least so many may be
+constexpr int kPairsInDoubt = 4;    // in a sample
+constexpr int kSampleEvery = 5;     // harmonics counted for the first guess of the cutoff
+constexpr double kAtCutoff = 1e-6;  // relative: an eigenvalue may lie so close above it
+constexpr int kCheckedFields = 4;   // on the whole mesh
 constexpr double kResidual = 1e-5;  // of their forces: the mesh repeats to 1e-6 only
 constexpr int kTag = 2;
 

@@ -66,8 +66,8 @@ Wanted find_wanted(const FlexibilityTask& task, const fem::MeshedBody& body, con
 }
 
 void broadcast(MPI_Comm comm, Wanted& wanted) {
-  for (std::vector<int>* list : {&wanted.surface_orbit, &wanted.surface_sector_index, &wanted.row, &wanted.orbit,
-                                 &wanted.direction, &wanted.sector_index})
+  for (std::vector<int>* list : {&wanted.surface_orbit, &wanted.surface_sector_index, &wanted.row,
+                                 &wanted.orbit, &wanted.direction, &wanted.sector_index})
     elastogear::broadcast(comm, *list);
   elastogear::broadcast(comm, wanted.value);
   MPI_Bcast(&wanted.n_stress_rows, 1, MPI_INT, 0, comm);
@@ -102,7 +102,8 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const Wanted& wanted, const
   Triplets entries;
   for (int i = 0; i < n_u; ++i)
     if (const int orbit = wanted.surface_orbit[i / 3]; orbit >= 0)
-      unfolding.add(i, orbit, wanted.surface_sector_index[i / 3], Eigen::Vector3d::Unit(i % 3).transpose(), entries);
+      unfolding.add(i, orbit, wanted.surface_sector_index[i / 3], Eigen::Vector3d::Unit(i % 3).transpose(),
+                    entries);
   for (std::size_t i = 0; i < wanted.row.size(); ++i)
     unfolding.add(n_u + wanted.row[i], wanted.orbit[i], wanted.sector_index[i],
                   wanted.value[i] * Eigen::Vector3d::Unit(wanted.direction[i]).transpose(), entries);
@@ -138,7 +139,7 @@ class HarmonicResponses {
  public:
   // rigid: the rigid motions that the harmonic contains; of a held body none.
   HarmonicResponses(const fem::Harmonic& harmonic, const fem::Sector& sector, const Wanted& wanted,
-                  MatrixXd rigid)
+                    MatrixXd rigid)
       : harmonic_(harmonic),
         axis_(sector.turn.axis),
         P_(rows_of(wanted, harmonic, sector)),

@@ -207,7 +207,7 @@ Eigen::VectorXd scalar_momentum(Mat M, const fem::VectorGather& gather, const Ei
 }  // namespace
 
 ImportedSystem read_imported(MPI_Comm comm, const mesh::Mesh& mesh, const ImportedFiles& files,
-                           const Progress& progress) {
+                             const Progress& progress) {
   int rank = 0;
   std::unique_ptr<LabelTable> labels;
   MPI_Comm_rank(comm, &rank);

@@ -84,7 +84,7 @@ MatrixXd scatter_rows(MPI_Comm comm, const MatrixXd& all, int n_own) {
 }  // namespace
 
 ModeCheckpoints::ModeCheckpoints(MPI_Comm comm, const std::string& folder, const std::string& fingerprint,
-                       io::Precision precision)
+                                 io::Precision precision)
     : comm_(comm), precision_(precision) {
   MPI_Comm_rank(comm, &rank_);
   collectively(comm, [&] {

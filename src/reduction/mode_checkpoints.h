@@ -1,6 +1,6 @@
 #pragma once
-// Modes on their way from the eigensolver to the body file: each finished window is a checkpoint on disk, so that
-// a killed reduction goes on where it was.
+// Modes on their way from the eigensolver to the body file: each finished window is a checkpoint on disk, so
+// that a killed reduction goes on where it was.
 
 #include <mpi.h>
 
@@ -24,7 +24,7 @@ class ModeCheckpoints {
  public:
   /// fingerprint: what the modes depend on, read on rank 0.
   ModeCheckpoints(MPI_Comm comm, const std::string& folder, const std::string& fingerprint,
-             io::Precision precision);
+                  io::Precision precision);
 
   /// What the last whole checkpoint left; the start of a new search when there is none.
   SearchState resume(int n_own) const;
@@ -42,7 +42,7 @@ class ModeCheckpoints {
   io::Precision precision_;
   std::optional<io::CheckpointStore> store_;     // rank 0
   std::optional<io::CheckpointWriter> current_;  // rank 0
-  int first_ = 0;                           // mode of the current checkpoint
+  int first_ = 0;                                // mode of the current checkpoint
 };
 
 }  // namespace elastogear::reduction

@@ -274,7 +274,8 @@ void read_matrices(Job& job) {
     check(MatCreateVecs(system.matrices.M, layout.out(), nullptr));
     plan.moments = mass_moments(system.matrices.M, {layout, system.dof, 3 * job.mesh.n_nodes()}, job.mesh);
   }
-  if (job.options.invariants == Invariants::full) plan.imported_mass = scalar_mass(system, job.mesh.n_nodes());
+  if (job.options.invariants == Invariants::full)
+    plan.imported_mass = scalar_mass(system, job.mesh.n_nodes());
   job.on_root([&] { plan.held = mesh::held_by(job.mesh, job.options.restrain); });
   int restrains = job.rank == 0 && !job.options.restrain.empty();
   MPI_Bcast(&restrains, 1, MPI_INT, 0, job.comm);

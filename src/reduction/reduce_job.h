@@ -26,10 +26,10 @@ struct Plan {
   std::vector<int> free_dof;
   mesh::Repetition repetition;  // n_sectors = 1 (on all ranks): none
   mesh::Partition partition;
-  fem::RowNumbering rows;          // own matrices only
+  fem::RowNumbering rows;           // own matrices only
   fem::Matrices imported;           // on all ranks
   model::SparseRows imported_mass;  // its scalar mass, for full invariants
-  std::vector<int> dof;            // displacement of every scalar row
+  std::vector<int> dof;             // displacement of every scalar row
   fem::MassMoments moments;
   model::SparseRows S;  // of stress, then of markers: see reduction/basis.h
   model::ElasticBody body;

@@ -195,7 +195,8 @@ void reduce_whole(Job& job) {
   std::optional<RigidModes> rigid;
   if (job.options.floating) rigid = find_rigid_modes(matrices.K, matrices.M, gather, job.mesh.X);
   const ElasticSystem system{matrices.K, matrices.M, gather, rigid ? &*rigid : nullptr};
-  ModeCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of(job, matrices), precision(job.options));
+  ModeCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of(job, matrices),
+                              precision(job.options));
   set_eigenmodes(job, find_modes(job, system, checkpoints));
   job.finish_stage("eigenmodes");
   std::optional<ModalWriter> writer;
