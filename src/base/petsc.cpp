@@ -31,7 +31,7 @@ PetscErrorCode keep_message(MPI_Comm, int, const char* function, const char*, Pe
   return code;
 }
 
-// Of PETSc's traceback the message alone, which stands between its heading and its advice.
+// The message of PETSc's traceback, which stands between its heading and its advice.
 std::string message_in(const std::string& text) {
   const auto begin = text.find('\n') + 1, end = text.find("\nSee http", begin);
   return text.substr(begin, end == text.npos ? text.npos : end - begin);

@@ -30,7 +30,7 @@ SecondOrder full_second_order(const model::Inertia& inertia, const VectorXd& x) 
   return order;
 }
 
-// The same with S^ab x = [x_b in place of x_a] for the three parts of x.
+// Second-order parts at level affine, where S^ab x = [x_b in place of x_a] for the three parts of x.
 SecondOrder affine_second_order(const VectorXd& x) {
   constexpr int kMixed[3][2] = {{0, 1}, {1, 2}, {0, 2}};
   const auto part = [&](int a) { return x.segment<4>(4 * a); };

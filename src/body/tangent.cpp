@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-// What all parts need. a includes the weight: a - g.
+// Motion, inertia and derivatives that all parts of the tangent need. a includes the weight: a - g.
 struct State {
   const Equations& eq;
   const Motion& m;

@@ -15,7 +15,7 @@ std::vector<int> ranks_of(const std::vector<int>& dof) {
   return number;
 }
 
-// The same matrix with every row and column on rank 0.
+// The matrix with every row and column on rank 0.
 UniqueMat on_root(Mat A) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(A));
   PetscMPIInt rank = 0;

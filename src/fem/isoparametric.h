@@ -20,7 +20,7 @@ struct Samples {
   int size() const { return static_cast<int>(dN.size()); }
 };
 
-/// What is known of a cell type before its coordinates are.
+/// Shape functions and quadrature of a cell type in reference coordinates.
 struct ReferenceCell {
   Samples stiffness, mass, stress;
   Eigen::MatrixXd extrapolation;  ///< n_nodes x stress points: nodal values from those at the points

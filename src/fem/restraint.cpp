@@ -39,9 +39,9 @@ struct RigidMotions {
   Eigen::MatrixXd motion = Eigen::MatrixXd::Identity(6, 6);
 };
 
-// Those that move none of the held displacements. A motion displaces node X along e by [e; (X - c) x e] times
-// [t; w]: the rank of these columns is found by pivots, which do not depend on how many nodes are held.
-// docs/theory.md, Eq. (1.6a).
+// Rigid motions that move none of the held displacements. A motion displaces node X along e by [e; (X - c) x
+// e] times [t; w]: the rank of these columns, docs/theory.md, Eq. (1.6a), is found by pivots, which do not
+// depend on how many nodes are held.
 RigidMotions free_motions(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& held,
                           const std::vector<int>& nodes) {
   RigidMotions left;
@@ -66,7 +66,7 @@ RigidMotions free_motions(const mesh::Mesh& mesh, const std::vector<mesh::Direct
   return left;
 }
 
-// Without roundoff.
+// Components for messages, without roundoff.
 Eigen::RowVector3d readable(const Eigen::Vector3d& v, double size) {
   return (v / (kFree * size)).array().round() * (kFree * size) + 0.0;
 }

@@ -8,7 +8,7 @@
 namespace elastogear::fem {
 namespace {
 
-// What each node averages over: its region, and how many of that region's cells it has.
+// The cells over which each node averages: its region, and the number of that region's cells at the node.
 struct Averaging {
   std::vector<int> region_of_cell;
   std::vector<int> region, count;  // per node

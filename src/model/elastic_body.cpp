@@ -33,7 +33,8 @@ bool in_range(const std::vector<int>& numbers, int n) {
   return std::all_of(numbers.begin(), numbers.end(), [n](int i) { return i >= 0 && i < n; });
 }
 
-// Of three rows, stored one after the other, with q. Four partial sums a row: no addition waits for the last.
+// Products of three rows, stored one after the other, with q. Each row has four partial sums, so that no
+// addition waits for the last.
 Eigen::Vector3d three_products(const double* rows, const Eigen::VectorXd& q) {
   using Four = Eigen::Array4d;
   const Eigen::Index n = q.size(), n_fours = n - n % 4;

@@ -17,7 +17,7 @@ Matrix3d turn(const Flexibility& flexibility, int sector_index) {
   return Eigen::AngleAxisd(angle, flexibility.axis).toRotationMatrix();
 }
 
-// The node of the same orbit that comes to `node` by so many sector_index.
+// The node of the same orbit that comes to `node` when it is turned by sector_index sectors.
 int turned_back(const Images& images, int node, int sector_index) {
   const auto n_sectors = static_cast<int>(images.node.rows());
   return images.node((images.sector_index[node] - sector_index + n_sectors) % n_sectors, images.orbit[node]);

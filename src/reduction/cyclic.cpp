@@ -163,7 +163,7 @@ Cutoff choose_cutoff(const Search& search) {
   return cutoff;
 }
 
-// What the hook knows, on all ranks of the group; z only on its first.
+// Returns the harmonic when the hook `known` has it, on all ranks of the group; z only on the first of them.
 std::optional<HarmonicModes> recall(const Search& search, int k, double sigma) {
   std::optional<HarmonicModes> known;
   if (!search.options.known) return known;

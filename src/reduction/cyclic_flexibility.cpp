@@ -23,7 +23,7 @@ constexpr const char* kStage = "static responses";
 using Eigen::MatrixXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// What a sector must know of the loads and of the rows that are wanted, for the first node of each orbit.
+// Loaded nodes and wanted rows of the stress operator in terms of a sector, for the first node of each orbit.
 struct Wanted {
   std::vector<int> surface_orbit, surface_sector_index;  // in the sector: of the loaded nodes; orbit -1: held
   std::vector<int> row, orbit, direction, sector_index;  // stress operator, entry by entry
@@ -31,7 +31,7 @@ struct Wanted {
   int n_stress_rows = 0;
 };
 
-// Of the nodes of G the rows of one node of each orbit.
+// Adds the rows of the stress operator at one node of each orbit of the nodes of G.
 void add_stress_rows(const FlexibilityTask& task, const fem::MeshedBody& body,
                      const fem::Placement& placement, const model::Flexibility& plan, Wanted& wanted) {
   const std::vector<int> all = stress_nodes(task, plan);

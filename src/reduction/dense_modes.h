@@ -5,8 +5,8 @@
 
 namespace elastogear::reduction {
 
-/// Whether so many of the n modes are wanted that a Krylov basis for them would fill the space, on a body
-/// small enough for dense matrices.
+/// Returns whether so many of the n modes are wanted that a Krylov basis for them would fill the space, on a
+/// body small enough for dense matrices.
 bool suits_dense(int n, int n_modes);
 
 /// find_eigenmodes without a shift or a search (docs/theory.md, section 2.2). Memory on rank 0: 5 n^2

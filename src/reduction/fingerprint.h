@@ -6,7 +6,8 @@
 
 namespace elastogear::reduction {
 
-/// Of the entries, their places and their distribution over the ranks. The same on all ranks. Collective.
+/// Fingerprint of the entries, their places and their distribution over the ranks; equal on all ranks.
+/// Collective.
 std::uint64_t fingerprint(Mat A);
 
 }  // namespace elastogear::reduction

@@ -184,8 +184,8 @@ std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibil
 
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
                             int n_ranks) {
-  // Of a three-dimensional mesh after nested dissection (docs/performance.md): entries of the factor and
-  // flops of the factorisation; speed of a core with many right-hand sides.
+  // Factors for a three-dimensional mesh after nested dissection (docs/performance.md): entries of the factor
+  // and flops of the factorisation; speed of a core with many right-hand sides.
   constexpr double kEntries = 17, kFactorFlops = 8, kSpeed = 25e9, kSingle = 4, kDouble = 8;
   const int Z = plan.n_sectors, n_factors = Z / 2 + 1;
   const double n_orbits = static_cast<double>(plan.surface.node.cols()),

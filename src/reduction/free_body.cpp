@@ -115,7 +115,7 @@ Eigen::VectorXd joined(const Eigen::VectorXd& head, const Eigen::VectorXd& tail)
   return all;
 }
 
-// The same search in K + shift M, whose states count the rigid modes too.
+// Options of the search in K + shift M, whose states count the rigid modes too.
 EigenOptions with_rigid_modes(const EigenOptions& options, double shift) {
   EigenOptions all = options;
   all.n_modes += kRigid;

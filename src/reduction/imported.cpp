@@ -111,7 +111,7 @@ std::vector<int> dofs_of(const std::vector<int>& row) {
   return dof;
 }
 
-// Of every node the directions that have rows, one bit each.
+// Returns for every node the directions that have rows, one bit each.
 std::vector<unsigned> find_directions(const std::vector<int>& dof, int n_nodes) {
   std::vector<unsigned> directions(static_cast<std::size_t>(n_nodes), 0);
   for (int i : dof) directions[i / 3] |= 1U << (i % 3);
@@ -150,7 +150,8 @@ std::array<model::SparseRows, 3> split_directions(const Eigen::SparseMatrix<doub
   return parts;
 }
 
-// Of each place the mean over the directions that both nodes have, which must collectively.
+// Returns for each pair of nodes the mean of the entries over the directions that both nodes have. Throws
+// Error unless these entries agree.
 model::SparseRows mean_of(const std::array<model::SparseRows, 3>& parts,
                           const std::vector<unsigned>& directions) {
   model::SparseRows mean = parts[0] + parts[1] + parts[2];

@@ -67,7 +67,7 @@ std::vector<Entry> read_own(MPI_Comm comm, const std::string& path, const LabelT
   }
 }
 
-// What a place of the upper half was given: above the diagonal (or on it), below, or both.
+// Entries of the file for one place of the upper half: above the diagonal (or on it), below, or both.
 struct Pair {
   Entry upper;
   double lower = 0;

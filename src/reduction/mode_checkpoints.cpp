@@ -44,7 +44,7 @@ struct Layout {
   int total = 0;
 };
 
-// Of the ranks' rows, on all ranks.
+// Distribution of the rows over the ranks, known on all ranks.
 Layout row_layout(MPI_Comm comm, int n_own) {
   int size = 1;
   MPI_Comm_size(comm, &size);

@@ -26,9 +26,9 @@ class ModeCheckpoints {
   ModeCheckpoints(MPI_Comm comm, const std::string& folder, const std::string& fingerprint,
                   io::Precision precision);
 
-  /// What the last whole checkpoint left; the start of a new search when there is none.
+  /// State of the search after the last whole checkpoint; the start of a new search when there is none.
   SearchState resume(int n_own) const;
-  /// Pieces of other options or another mesh that were removed, on rank 0.
+  /// Number of checkpoints of other options or another mesh that were removed, on rank 0.
   int discarded() const { return store_ ? store_->discarded() : 0; }
   void add(int index, const ModeRecord& mode);
   void commit(const SearchState& state);

@@ -104,7 +104,7 @@ std::string describe(const mesh::Turn& turn) {
   return text.str();
 }
 
-// Whether the turn leaves the material's directions as they are.
+// Returns whether the turn leaves the material's directions as they are.
 bool repeats(const model::Material& material, const mesh::Turn& turn) {
   if (!material.orthotropic) return true;
   const model::Orientation& o = material.orthotropic->orientation;
@@ -113,7 +113,7 @@ bool repeats(const model::Material& material, const mesh::Turn& turn) {
          axis.cross(o.origin - turn.point).norm() < kRounding;
 }
 
-// Of the mesh and of all materials; or why there is none.
+// Finds the repetition of the mesh and of all materials, or the reason why there is none.
 mesh::RepetitionSearch search_repetition(const Job& job) {
   auto search = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
   if (!search.found) return search;
@@ -123,7 +123,7 @@ mesh::RepetitionSearch search_repetition(const Job& job) {
   return search;
 }
 
-// On rank 0; whether there is one is known to all.
+// Finds the symmetry on rank 0; all ranks learn whether there is one.
 void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
   const ReductionOptions& options = job.options;
@@ -163,7 +163,7 @@ void number_on_root(Job& job) {
   if (job.modal()) require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
 }
 
-// What the user may still hold or not, given the displacements that the files have.
+// Throws Error when options and the displacements of the files together do not make a held or a free body.
 void require_restraint(const Job& job, bool complete) {
   const ReductionOptions& options = job.options;
   const bool held = !complete || !options.restrain.empty();

@@ -18,7 +18,7 @@
 
 namespace elastogear::reduction {
 
-/// What rank 0 alone knows: the numbering, and everything of the body that needs no solution.
+/// Data that rank 0 alone has: the numbering, and all of the body that needs no solution.
 struct Plan {
   std::vector<int> region;             // of each cell
   std::vector<mesh::Directions> held;  // of each node
@@ -49,7 +49,7 @@ struct Job {
 
   bool modal() const { return options.basis == model::Basis::modal; }
   bool cyclic() const { return plan.repetition.turn.n_sectors > 1; }
-  /// Modes from one sector: of a free body only the static answers come from there.
+  /// Returns whether the modes come from one sector; of a free body only the static responses do.
   bool modes_by_sectors() const { return cyclic() && !options.floating; }
 
   /// Runs `f` on rank 0; its errors reach all ranks.
@@ -68,9 +68,9 @@ struct Job {
 
 /// Checks options and mesh, numbers the displacements and looks for symmetry. Collective.
 void number(Job& job);
-/// The same for matrices of another program, which it reads. Collective.
+/// Reads the matrices of another program, checks options and mesh and numbers the displacements. Collective.
 void read_matrices(Job& job);
-/// kg, of every node that has some. Rank 0.
+/// Point masses, kg, of every node that has some. Rank 0.
 std::map<int, double> point_masses(const Job& job);
 /// The scalar mass of all nodes, point masses included. Rank 0.
 model::SparseRows scalar_mass(const Job& job);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr PetscInt kLargestCheckFactor = 500'000;  // displacements
 
-// What the modes depend on, but for what the way of finding them adds. Rank 0.
+// Fingerprint of all that the modes depend on, but for what the solver adds. Rank 0.
 Fingerprint fingerprint_of(const Job& job) {
   const ReductionOptions& o = job.options;
   Fingerprint f;
@@ -61,7 +61,7 @@ bool needs_fields(const ReductionOptions& o) {
   return o.store == Store::all || o.invariants == Invariants::full;
 }
 
-// Of fields until the body file is written.
+// Precision of fields until the body file is written.
 io::Precision precision(const ReductionOptions& o) {
   return o.invariants == Invariants::full ? io::Precision::float64 : o.precision;
 }
@@ -166,7 +166,7 @@ void announce_flexibility(Job& job) {
   });
 }
 
-// Whether the loaded nodes repeat as the mesh does. Collective.
+// Returns whether the loaded nodes repeat as the mesh does. Collective.
 bool flexibility_repeats(Job& job) {
   int repeats = 0;
   if (job.cyclic()) job.on_root([&] { repeats = plan_flexibility(flexibility_task(job)).n_sectors > 1; });

@@ -1,5 +1,5 @@
 #pragma once
-// What every eigensolver of this module does with a vector it found.
+// Normalisation and residual of an eigenvector, for all eigensolvers of this module.
 
 #include <Eigen/Core>
 #include <string>

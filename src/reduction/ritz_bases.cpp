@@ -103,7 +103,7 @@ RitzSpace krylov(const RitzTask& task, const RitzSpace& empty, const Progress& p
   return space;
 }
 
-// Of n rows, n_b of them on the interface.
+// Number of interface modes of a body with n rows, n_b of them on the interface.
 int interface_count(const RitzTask& task, int n) {
   const int n_modes = task.eigen.n_modes, n_b = static_cast<int>(task.interface_rows.size()),
             asked = task.options.interface_modes, most = std::min(n_b, n_modes),

@@ -15,7 +15,7 @@ model::Surface loaded_surface(const Job& job) {
   return o.loaded.empty() ? job.plan.body.surface : make_surface(job.mesh, job.regions, o.loaded);
 }
 
-// Of the displacements of the loaded nodes, on all ranks.
+// Rows of the displacements of the loaded nodes, on all ranks.
 std::vector<int> interface_rows(Job& job) {
   std::vector<int> rows;
   job.on_root([&] {
@@ -29,7 +29,7 @@ std::vector<int> interface_rows(Job& job) {
   return rows;
 }
 
-// Own rows.
+// Loads of a Krylov basis, rows of this rank.
 Eigen::MatrixXd krylov_loads(Job& job, const ElasticSystem& system) {
   std::vector<Eigen::VectorXd> loads;
   job.on_root([&] {

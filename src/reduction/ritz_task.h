@@ -1,5 +1,5 @@
 #pragma once
-// What a Ritz basis is asked of: the loaded faces of a reduction in terms of its matrices' rows.
+// Task of a Ritz basis: the loaded faces of a reduction in terms of its matrices' rows.
 
 #include "elastogear/reduction/completeness.h"
 #include "elastogear/reduction/ritz_bases.h"
@@ -7,7 +7,7 @@
 
 namespace elastogear::reduction {
 
-/// Of job.options.ritz, in the order of rows of the system's matrices. Collective.
+/// The task that job.options.ritz sets, in the order of rows of the system's matrices. Collective.
 RitzTask ritz_task(Job& job, const ElasticSystem& system, const EigenOptions& eigen);
 
 }  // namespace elastogear::reduction

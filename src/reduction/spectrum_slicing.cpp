@@ -80,7 +80,7 @@ Found trusted(const KrylovBasis& basis, const RitzPairs& pairs, double tolerance
   return found;
 }
 
-// Whether `found`, about sigma, comes down to where the last window ended.
+// Returns whether the modes `found` about sigma come down to the end of the last window.
 bool reaches_down(const Search& search, double sigma, const Found& found) {
   if (static_cast<int>(found.size()) == search.M_times.n()) return true;
   if (found.empty()) return false;
@@ -104,7 +104,7 @@ std::vector<End> possible_ends(const Found& modes, bool all) {
   return ends;
 }
 
-// Those of `found` above the last window and the rigid modes.
+// The modes of `found` above the last window and the rigid modes.
 Found new_modes(const Search& search, const Found& found) {
   const auto above = std::find_if(found.begin(), found.end(),
                                   [&](const auto& mode) { return mode.first > search.state.lower; });
@@ -140,8 +140,8 @@ int room(const Search& search) {
   return static_cast<int>(std::min<double>(std::max(needed, kFewestColumns), search.M_times.n()));
 }
 
-// Modes that one basis is to yield: windows of equal size up to the end, for a small last one costs as much
-// as any to begin.
+// Number of modes that one basis is to give: windows of equal size up to the end, for a small last one costs
+// as much as any to begin.
 int target(const Search& search) {
   const double windows = static_cast<double>(search.wanted()) / search.size.modes;
   const int n_windows = std::max(1, static_cast<int>(std::ceil(windows - kStretch)));
@@ -230,7 +230,8 @@ void deliver(Search& search, const KrylovBasis& basis, const RitzPairs& pairs, c
   search.state = std::move(next);
 }
 
-// Where N(lambda) comes to `more` above the modes known, by the power law of the last of them.
+// The eigenvalue up to which `more` modes are expected above the known ones, by the power law N(lambda) of
+// the last of these.
 double extrapolate(const SearchState& state, double more) {
   const auto n = state.eigenvalue.size();
   double exponent = kWeyl;
@@ -266,8 +267,8 @@ bool is_counted(const Search& search, const Choice& choice) {
   return options.n_rigid == 0 && choice.modes[search.wanted() - 1].first < options.counted_below;
 }
 
-// Whether the number of modes found under the shift is right. The last window is counted up to its end, too;
-// that leaves the factor at the shift again when modes are missing. docs/theory.md, Eq. (2.5).
+// Returns whether the number of modes found under the shift is right: docs/theory.md, Eq. (2.5). The last
+// window is counted up to its end, too; that leaves the factor at the shift again when modes are missing.
 bool is_complete(Search& search, const Shift& shift, const Choice& choice) {
   if (!search.options.verify_count) return true;
   if (choice.below_shift != shift.below) return false;

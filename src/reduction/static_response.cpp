@@ -47,7 +47,7 @@ std::vector<int> rows_of(const System& system, int n_dofs) {
   return row;
 }
 
-// Of all rows, about the middle of the nodes.
+// Rigid motions about the middle of the nodes, at all rows.
 Eigen::MatrixXd rigid_fields(const Eigen::Matrix3Xd& X, const std::vector<int>& dof) {
   const Eigen::Vector3d middle = X.rowwise().mean();
   Eigen::MatrixXd R(static_cast<Eigen::Index>(dof.size()), 6);

@@ -7,7 +7,7 @@
 
 namespace elastogear {
 
-/// What a user can cause: says what, where, which value, and what is allowed.
+/// An error that a user can cause: it says what, where, which value, and what is allowed.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

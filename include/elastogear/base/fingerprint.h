@@ -1,5 +1,5 @@
 #pragma once
-// Whether two computations have the same input, by one number.
+// One number that tells whether two computations have the same input.
 
 #include <cstddef>
 #include <cstdint>

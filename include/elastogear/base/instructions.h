@@ -3,7 +3,7 @@
 
 namespace elastogear {
 
-/// Of the processor.
+/// Instruction sets of the processor that kernels are compiled for.
 enum class Instructions { portable, avx2, avx512 };
 
 /// The best that this processor has.

@@ -19,10 +19,10 @@
 
 namespace elastogear::body {
 
-/// What the inertia keeps of the deformation. constant: nothing. linear: S and J to first order in q, C_r at
-/// q = 0. affine: all that its best affine field u ~ g + G X does, which contains `linear`. full: everything;
-/// needs Inertia::S_2. But for `constant` the kinetic energy kept is the Lagrangian of the equations, so that
-/// they conserve energy; but for `linear` it is positive in every deformed state.
+/// The part of the deformation that the inertia contains. constant: nothing. linear: S and J to first order
+/// in q, C_r at q = 0. affine: all that its best affine field u ~ g + G X does, which contains `linear`.
+/// full: everything; needs Inertia::S_2. But for `constant` the equations follow from one kinetic energy, so
+/// that they conserve energy; but for `linear` it is positive in every deformed state.
 enum class InertiaLevel { constant, linear, affine, full };
 /// "constant", "linear", ...; in the order of InertiaLevel.
 const std::vector<std::string>& inertia_level_names();
@@ -40,7 +40,7 @@ struct Equations {
   Eigen::Index n_q() const { return body->n_q(); }
   /// Does inertia keep products of deformations?
   bool second_order() const { return level >= InertiaLevel::affine; }
-  /// By the coordinates y in which deformation enters it: q, or those of the affine part.
+  /// Inertia by the coordinates y in which deformation enters it: q, or those of the affine part.
   const model::Inertia& inertia() const {
     return level == InertiaLevel::affine ? affine.inertia : body->inertia;
   }

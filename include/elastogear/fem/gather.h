@@ -34,7 +34,7 @@ class VectorGather {
 /// The whole matrix on rank 0 over the free displacements in ascending order of 3 node + direction; empty
 /// elsewhere. For small bodies: it is as large as it sounds. Collective.
 Eigen::SparseMatrix<double> gather_matrix(Mat A, const RowNumbering& rows);
-/// The same with the displacement of every scalar row.
+/// The whole matrix on rank 0 for scalar rows; dof: the displacement of every row.
 Eigen::SparseMatrix<double> gather_matrix(Mat A, const std::vector<int>& dof);
 
 }  // namespace elastogear::fem

@@ -17,7 +17,7 @@ struct MassMoments {
   Eigen::Matrix3Xd w_1;  ///< 3 x n_nodes, kg m: column i = sum_j M_s(i,j) X_j
 };
 
-/// M_s itself, n_nodes x n_nodes, kg.
+/// Scalar mass M_s of all nodes, n_nodes x n_nodes, kg.
 model::SparseRows scalar_mass(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
 
 MassMoments mass_moments(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);

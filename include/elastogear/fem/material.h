@@ -27,7 +27,7 @@ struct Orthotropy {
   model::Orientation orientation;
 };
 
-/// What elements need of a material. Isotropic ones take shorter ways.
+/// Elasticity as elements need it. Isotropic materials have shorter formulas of their own.
 using Elasticity = std::variant<Lame, Orthotropy>;
 Elasticity elasticity(const model::Material& material);
 

@@ -9,8 +9,9 @@
 
 namespace elastogear::fem {
 
-/// Of each node the directions in which it has no displacement: in which one of the sets holds it ("bore",
-/// "symmetry:z", see mesh/hold.h), and all where it belongs to no cell. Throws Error for an unknown set.
+/// Returns for each node the directions in which it has no displacement: those in which one of the sets holds
+/// it ("bore", "symmetry:z", see mesh/hold.h), and all where it belongs to no cell. Throws Error for an
+/// unknown set.
 std::vector<mesh::Directions> held_directions(const mesh::Mesh& mesh,
                                               const std::vector<std::string>& restrain);
 

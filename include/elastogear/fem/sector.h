@@ -12,13 +12,13 @@
 
 namespace elastogear::fem {
 
-/// Where nodes are: each is the first node of its orbit, turned by 2 pi sector_index/Z.
+/// Orbit and sector of each node, which is the first node of its orbit, turned by 2 pi sector_index/Z.
 struct Placement {
   std::vector<int> orbit;         ///< of each node, counted over the free orbits; -1: no displacements
   std::vector<int> sector_index;  ///< of each node
 };
 
-/// What the element matrices of a sector need; the same on all ranks.
+/// Data for the element matrices of a sector; the same on all ranks.
 struct Sector {
   mesh::Turn turn;
   mesh::Mesh mesh;             ///< one cell of each orbit, in local nodes, without sets
@@ -46,10 +46,9 @@ void broadcast(MPI_Comm comm, Sector& sector);
 struct Harmonic {
   int k = 0, n_sectors = 1;
   bool real = true;
-  std::vector<Eigen::MatrixXd>
-      turned;               ///< of each number of sector_index: (Re u, Im u) of a node from coordinates
-  Eigen::MatrixXd on_axis;  ///< the same for nodes on the axis; possibly without columns
-  std::vector<int> first;   ///< of each free orbit its first coordinate, then their number
+  std::vector<Eigen::MatrixXd> turned;  ///< for each sector: (Re u, Im u) of a node from coordinates
+  Eigen::MatrixXd on_axis;              ///< the same for nodes on the axis; possibly without columns
+  std::vector<int> first;               ///< of each free orbit its first coordinate, then their number
 
   int size() const { return first.back(); }
   const Eigen::MatrixXd& at(bool axis, int sector_index) const {

@@ -21,8 +21,8 @@ namespace elastogear::fem {
 model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
                                   model::Element element, const std::vector<int>& nodes);
 
-/// The same at all nodes for one displacement u (3 n_nodes, m, node-major): 6 x n_nodes, Pa, without forming
-/// S. Nodes outside all cells get 0.
+/// Stress at all nodes for one displacement u (3 n_nodes, m, node-major): 6 x n_nodes, Pa, without forming S.
+/// Nodes outside all cells get 0.
 Eigen::MatrixXd nodal_stress(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
                              model::Element element, const Eigen::VectorXd& u);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a body file means: everything that dynamics, contact and recovery need to know of one elastic body.
-// Immutable once built. SI units; all vectors in the body reference frame (BRF), which is the mesh's frame.
+// Contents of a body file: all that dynamics, contact and recovery need of one elastic body. Immutable once
+// built. SI units; all vectors in the body reference frame (BRF), which is the mesh's frame.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

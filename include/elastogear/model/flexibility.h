@@ -1,5 +1,5 @@
 #pragma once
-// Static answers of the whole body to forces on its contact surface, F = B' K^-1 B and G = S K^-1 B, from
+// Static responses of the whole body to forces on its contact surface, F = B' K^-1 B and G = S K^-1 B, from
 // which dynamics and recovery take what a truncated modal basis leaves out (docs/theory.md, section 6.9).
 
 #include <Eigen/Core>
@@ -18,17 +18,17 @@ struct Images {
   Eigen::MatrixXi node;  ///< n_sectors x n_orbits: the way back
 };
 
-/// The way back from orbit and sector_index. Throws Error naming `source` unless every orbit has one node at
-/// each of n_sectors sector_index.
+/// Images from the orbit and sector of each node. Throws Error naming `source` unless every orbit has one
+/// node in each of the n_sectors sectors.
 Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_sectors,
                    const std::string& source);
-/// Of n nodes that are no copies of each other.
+/// Images of n nodes that are no copies of each other.
 Images no_images(int n);
 
 /// Body frame. Forces act on the first node of each orbit, along x, y, z.
 struct Flexibility {
   int n_sectors = 1;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector along the axis of the sector_index
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector along the axis of the sectors
   std::vector<int> node;                            ///< n_c surface nodes (local numbers), ascending
   Images surface;                                   ///< of them
   Images stress;                ///< of the n_r nodes of G: evaluation nodes and their images

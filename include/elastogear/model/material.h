@@ -7,7 +7,7 @@
 
 namespace elastogear::model {
 
-/// Where the material's axes 1, 2, 3 point, in the body frame.
+/// Directions of the material's axes 1, 2, 3 in the body frame.
 struct Orientation {
   /// rectangular: 1 along axis_1, 2 in the plane of axis_1 and axis_2. cylindrical: radial, tangential and
   /// axial about the line through `origin` along `axis`, at each point of the body.

@@ -1,5 +1,5 @@
 #pragma once
-// What a result file means: the state of all bodies, contact pairs and energies at one time. SI units.
+// Contents of a result file: the state of all bodies, contact pairs and energies at one time. SI units.
 
 #include <Eigen/Core>
 #include <map>
@@ -30,7 +30,7 @@ struct ContactRecord {
   Eigen::Vector3d slip = Eigen::Vector3d::Zero();  ///< m/s, of the slave node on the master, world frame
 };
 
-/// What happens in a pair, or in one of its areas of contact.
+/// Figures of a pair, or of one of its areas of contact.
 struct ContactFigures {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m, on body b, about the world origin
   int count = 0;                                     ///< active contacts
@@ -91,7 +91,7 @@ struct Snapshot {
   std::vector<SensorState> sensors = {};
 };
 
-/// What does not change over a run.
+/// The data that do not change over a run.
 struct ResultHeader {
   struct Body {
     std::string name, file, joint;  ///< file: the body file as given by the user

@@ -44,8 +44,8 @@ Eigen::MatrixXd at_times(const Eigen::VectorXd& time, const Eigen::MatrixXd& val
 /// For each node of the reference its place among `node`; Error naming the first that is missing.
 std::vector<int> match_numbers(const std::vector<int>& node, const std::vector<int>& reference);
 
-/// The same by place: the nearest of X (3 x n, m) to each point of the reference. Error when one has none
-/// within the tolerance (m).
+/// For each point of the reference the nearest of X (3 x n, m). Error when a point has none within the
+/// tolerance (m).
 std::vector<int> match_positions(const Eigen::Matrix3Xd& X, const Eigen::Matrix3Xd& reference,
                                  double tolerance);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Mode acceleration: what truncated modes leave out of the answer to contact forces, added statically
-// (docs/theory.md, section 4.1).
+// Mode acceleration: the part of the response to contact forces that truncated modes leave out, added
+// statically (docs/theory.md, section 4.1).
 
 #include <Eigen/Core>
 #include <vector>
@@ -27,9 +27,9 @@ struct PairContacts {
 ForceHistory contact_forces(const std::vector<PairContacts>& pairs, const model::Surface& surface,
                             const Eigen::MatrixXd& R_WB);
 
-/// q - K_r^-1 Phi' f, n_q x n_t: the coordinates without their static answer to the forces. With the whole
-/// body's static answer instead, u = Phi q_d + K^-1 f and sigma = Psi q_d + S K^-1 f. K_r is diagonal.
-/// Eq. (4.3).
+/// q - K_r^-1 Phi' f, n_q x n_t: the coordinates without their static response to the forces. With the
+/// whole body's static response instead, u = Phi q_d + K^-1 f and sigma = Psi q_d + S K^-1 f. K_r is
+/// diagonal. Eq. (4.3).
 Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::MatrixXd& q,
                              const ForceHistory& forces);
 

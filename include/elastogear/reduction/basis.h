@@ -19,10 +19,10 @@ void allocate_modes(model::ElasticBody& body, int n_q);
 void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
               const model::SparseRows& S);
 
-/// The same in two steps: all numbers that the body keeps of phi, in one column,
+/// First step of add_mode: all numbers that the body keeps of phi, in one column.
 Eigen::VectorXd mode_column(const model::ElasticBody& body, const Eigen::VectorXd& phi,
                             const fem::MassMoments& moments, const model::SparseRows& S);
-/// and their entry as mode k.
+/// Second step of add_mode: enters the column of mode_column as mode k.
 void set_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& column);
 
 /// M_r = I, K_r = diag(eigenvalue), frequencies in Hz.

@@ -1,6 +1,6 @@
 #pragma once
-// Static completeness: how much of the answer to a load on the surface the modes give (docs/theory.md,
-// section 2.3).
+// Static completeness: the share of the static response to a load on the surface that the modes have
+// (docs/theory.md, section 2.3).
 
 #include <Eigen/Core>
 #include <string>
@@ -20,7 +20,8 @@ struct Completeness {
   Eigen::VectorXd share;          ///< f' Phi Lambda^-1 Phi' f / f' K^-1 f, 0..1
 };
 
-/// What it is asked of. rigid: of a free body, whose loads are balanced by inertia; else null.
+/// Matrices of the body whose modes are checked. rigid: rigid modes of a free body, whose loads are balanced
+/// by inertia; else null.
 struct ElasticSystem {
   Mat K, M;
   const fem::VectorGather& gather;

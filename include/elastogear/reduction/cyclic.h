@@ -32,7 +32,7 @@ struct CyclicOptions {
 /// The lowest options.eigen.n_modes modes of the body, and with options.eigen.whole_pairs the last one's
 /// partner. For each harmonic the eigenvalues below a common
 /// cutoff are counted by inertia; then the harmonics, spread over the ranks, are solved for exactly so many.
-/// Of equal eigenvalues those of lower k come first, and of a pair the amplitude z before i z. Memory: on
+/// Modes with equal eigenvalues come with ascending k, and in a pair the amplitude z before i z. Memory: on
 /// each rank the matrices and the factor of one harmonic, and its share of the sector's vectors. A few fields
 /// are checked against the whole mesh before any is delivered. Reports the stages "mode count" and
 /// "eigenmodes". Collective. Throws the same Error on all ranks for what find_eigenmodes throws, and when a

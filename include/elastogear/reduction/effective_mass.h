@@ -19,9 +19,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> effective_masses(const model::Inertia& 
 /// The body's own: m, m, m and the diagonal of J about the centre of mass.
 SixDirections body_masses(const model::Inertia& inertia);
 
-/// What the effective masses of all modes sum up to: S' M_:f M_ff^-1 M_f: S, less than the body's own because
-/// restrained nodes carry mass. M: over the free displacements. Collective; moments and c are read on rank 0,
-/// where the result is. Eq. (2.6).
+/// Sum of the effective masses of all modes, S' M_:f M_ff^-1 M_f: S, Eq. (2.6). It is less than the body's
+/// own because restrained nodes carry mass. M: over the free displacements. Collective; moments and c are
+/// read on rank 0, where the result is.
 SixDirections mobile_masses(Mat M, const fem::VectorGather& gather, const fem::MassMoments& moments,
                             const Eigen::Vector3d& c);
 

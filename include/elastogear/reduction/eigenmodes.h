@@ -13,7 +13,7 @@ namespace elastogear::reduction {
 
 constexpr int kAutomaticWindow = -1;
 
-/// Where a search stands between two windows: all that the next one depends on.
+/// State of a search between two windows: all that the next one depends on.
 struct SearchState {
   double lower = -std::numeric_limits<double>::infinity();  ///< rad^2/s^2, a gap above the modes found
   double shift = lower;        ///< of the last window; the modes under it are proved complete
@@ -67,7 +67,7 @@ Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const Mode
 /// inertia).
 int count_eigenvalues_below(Mat K, Mat M, double sigma);
 
-/// The sign rule: the entry of largest modulus is positive. Of entries whose moduli collectively to 1e-6
+/// The sign rule: the entry of largest modulus is positive. Of entries whose moduli agree to 1e-6
 /// (symmetric bodies) the first decides, so that roundoff, and with it the number of ranks, does not matter.
 /// phi: all displacements in the mesh's order.
 void fix_sign(Eigen::VectorXd& phi);

@@ -14,7 +14,7 @@
 
 namespace elastogear::reduction {
 
-/// What is asked, and of which body. Read on rank 0.
+/// Loaded nodes and evaluation nodes of a flexibility, and the body. Read on rank 0.
 struct FlexibilityTask {
   const model::Surface& surface;
   const std::vector<int>& stress_node;  ///< n_e evaluation nodes, mesh numbers
@@ -31,7 +31,7 @@ model::Flexibility plan_flexibility(const FlexibilityTask& task);
 /// The n_r nodes of G, mesh numbers, ascending.
 std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibility& plan);
 
-/// What finding F and G will take, by the sizes alone; right within a factor of about two.
+/// Estimated cost of finding F and G, from the sizes alone; right within a factor of about two.
 struct StaticResponseCost {
   std::size_t n_nodes = 0;    ///< n_c, that may be loaded
   std::size_t n_columns = 0;  ///< solutions: three for one node of each orbit, for each harmonic
@@ -42,17 +42,17 @@ struct StaticResponseCost {
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
                             int n_ranks);
 
-/// The same with F and G. Factorises K once and solves for three forces on one node of each orbit, kBlock
-/// nodes at a time. Forces on a free body are balanced by inertia, and what they do to it is orthogonal to
-/// rigid motions (section 2.4). Collective; the result is on rank 0. Throws Error when the
+/// Flexibility of the plan with F and G. Factorises K once and solves for three forces on one node of each
+/// orbit, kBlock nodes at a time. Forces on a free body are balanced by inertia, and its static response is
+/// orthogonal to rigid motions (section 2.4). Collective; the result is on rank 0. Throws Error when the
 /// factorisation fails.
 model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSystem& system,
                                     const Progress& progress = {});
 
-/// The same from one sector: u = sum_k P_k K_k^-1 P_k' f over the harmonics, with the rows P_k that unfold
-/// harmonic k (section 2.6). Each rank takes its share of the harmonics, one
-/// factor of a sector at a time. floating: a free body, whose rigid motions are in harmonics 0 and 1. Needs a
-/// plan that uses the symmetry. Collective; the result is on rank 0.
+/// Flexibility of the plan from one sector: u = sum_k P_k K_k^-1 P_k' f over the harmonics, with the rows P_k
+/// that unfold harmonic k (section 2.6). Each rank takes its share of the harmonics, one factor of a sector
+/// at a time. floating: a free body, whose rigid motions are in harmonics 0 and 1. Needs a plan that uses the
+/// symmetry. Collective; the result is on rank 0.
 model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,
                                            const fem::MeshedBody& body, bool floating,
                                            const Progress& progress = {});

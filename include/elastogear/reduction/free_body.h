@@ -19,10 +19,10 @@ struct RigidModes {
   double shift = 0;  ///< rad^2/s^2, > 0 and below the first elastic eigenvalue: K + shift M is definite
 };
 
-/// X: 3 x n_nodes, m, reference positions, on rank 0. The shift comes from the body's own answer to fields
-/// quadratic in X, a Rayleigh-Ritz estimate of its first elastic eigenvalue. Collective. Throws Error when K
-/// does not let the rigid fields move without force (coordinates that do not belong to K, a body that is
-/// held).
+/// X: 3 x n_nodes, m, reference positions, on rank 0. The shift comes from the body's stiffness and mass for
+/// fields quadratic in X, a Rayleigh-Ritz estimate of its first elastic eigenvalue. Collective. Throws Error
+/// when K does not let the rigid fields move without force (coordinates that do not belong to K, a body that
+/// is held).
 RigidModes find_rigid_modes(Mat K, Mat M, const fem::VectorGather& gather, const Eigen::Matrix3Xd& X);
 
 /// find_eigenmodes for a singular K: of K + shift M, whose modes are the same. Delivers n_modes elastic modes

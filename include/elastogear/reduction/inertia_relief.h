@@ -1,6 +1,6 @@
 #pragma once
-// Static answers of a body that nothing holds: loads are balanced by inertia, and answers are orthogonal to
-// rigid motions (docs/theory.md, section 2.4).
+// Static responses of a free body: loads are balanced by inertia, and responses are orthogonal to rigid
+// motions (docs/theory.md, section 2.4).
 
 #include <Eigen/Core>
 

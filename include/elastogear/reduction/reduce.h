@@ -51,7 +51,7 @@ struct ReductionOptions {
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                     ///< modal only
   std::optional<RitzOptions> ritz = {};  ///< modal only: in place of all eigenmodes, from the whole body
-  bool flexibility = false;              ///< modal only: static answers to contact forces,
+  bool flexibility = false;              ///< modal only: static responses to contact forces,
   std::vector<std::string> loaded = {};  ///< on the nodes of these face sets; none: of the whole surface.
                                          ///< Interface or loaded faces of `ritz` too
   /// Called on rank 0 before any eigenmode is looked for; may throw Error, which ends the reduction.
@@ -74,7 +74,7 @@ struct StageTime {
   double seconds = 0;
 };
 
-/// What a reduction did. Complete on rank 0.
+/// Report of a reduction. Complete on rank 0.
 struct ReductionReport {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, of the body frame in the mesh's coordinates
   double m = 0;                                      ///< kg
@@ -109,7 +109,7 @@ struct ReductionReport {
 /// held, more modes than free degrees of freedom, stress nodes outside the cells, and what find_eigenmodes,
 /// find_space and io::BodyWriter throw.
 ///
-/// Of options.ritz nothing is kept on the way: a killed reduction begins anew.
+/// A reduction with options.ritz keeps nothing on the way: when it is killed it begins anew.
 ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOptions& options,
                        const std::string& output, const Progress& progress = {});
 

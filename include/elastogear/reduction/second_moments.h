@@ -10,8 +10,8 @@
 
 namespace elastogear::reduction {
 
-/// Of modes that come one by one. They wait on disk until all are known, because every pair of them is
-/// needed: 24 n_nodes bytes a mode. Memory: about 1 GB, and the 6 n_q x n_q results.
+/// Second moments of modes that come one by one. The modes wait on disk until all are known, because every
+/// pair of them is needed: 24 n_nodes bytes a mode. Memory: about 1 GB, and the 6 n_q x n_q results.
 class SecondMoments {
  public:
   /// folder: of the waiting modes; must be of no other use, and goes in the end. M_s: fem::scalar_mass.
@@ -27,7 +27,8 @@ class SecondMoments {
   std::unique_ptr<Data> data_;
 };
 
-/// Of the unit basis: the entries of M_s between directions a and b of the free displacements, sparse.
+/// Second moments of the unit basis: the entries of M_s between directions a and b of the free displacements,
+/// sparse.
 std::vector<model::BasisRows> unit_second_moments(const model::SparseRows& M_s,
                                                   const std::vector<int>& free_dof);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What static forces do to the unreduced body: displacement K^-1 f and stress S K^-1 f (docs/theory.md,
-// section 4.1).
+// Static response of the unreduced body: displacement K^-1 f and stress S K^-1 f (docs/theory.md, section
+// 4.1).
 
 #include <Eigen/Core>
 #include <memory>

@@ -14,7 +14,7 @@ namespace elastogear::reduction {
 ///
 /// Groups ("areas of contact"): a face belongs to the *smallest* face set of the whole mesh that contains it,
 /// named in face_sets or not; of sets of one size the alphabetically first. So `flanks`, the union of all
-/// teeth's flanks, yields the groups tooth_01_left, tooth_01_right, ... by itself. Groups are in alphabetical
+/// teeth's flanks, gives the groups tooth_01_left, tooth_01_right, ... by itself. Groups are in alphabetical
 /// order.
 ///
 /// c_f = E A / V of the cell behind each face (A: the face's area, V: the cell's volume): the stiffness per

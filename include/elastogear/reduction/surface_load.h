@@ -1,5 +1,5 @@
 #pragma once
-// Unit loads on a contact surface, to ask a basis how much of the answer it gives.
+// Unit loads on a contact surface, for the static completeness of a basis and for Krylov bases.
 
 #include <Eigen/Core>
 #include <string>
@@ -14,7 +14,7 @@ struct SurfaceLoad {
   Eigen::VectorXd f;  ///< 3 n_s, N
 };
 
-/// Of each representative group of the surface two loads: unit normal pressure over the group ("<group>
+/// Two loads for each representative group of the surface: unit normal pressure over the group ("<group>
 /// pressure"), and a unit normal force on the node nearest to its centre ("<group> force"). Groups whose
 /// names differ in digits only (tooth_01_left, tooth_02_left) count as alike: the first stands for all. At
 /// most kMostGroups.
