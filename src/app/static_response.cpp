@@ -47,9 +47,11 @@ std::string obstacle_to_factor(const model::ElasticBody& body) {
 reduction::StaticResponse& response(StaticResponseOfRun& known_response) {
   if (known_response.response) return *known_response.response;
   const std::string obstacle = obstacle_to_factor(known_response.body);
-  require(obstacle.empty(), known_response.file, ": mode acceleration ", obstacle, "; use -mode_acceleration false");
+  require(obstacle.empty(), known_response.file, ": mode acceleration ", obstacle,
+          "; use -mode_acceleration false");
   known_response.source = io::read_body_source(known_response.file);
-  known_response.response = std::make_unique<reduction::StaticResponse>(*known_response.source, known_response.body.floating);
+  known_response.response =
+      std::make_unique<reduction::StaticResponse>(*known_response.source, known_response.body.floating);
   return *known_response.response;
 }
 
@@ -110,10 +112,12 @@ void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& bod
           remedy);
 }
 
-std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration) {
+std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body,
+                                                            Acceleration acceleration) {
   if (acceleration == Acceleration::never) return nullptr;
   std::unique_ptr<StaticResponseOfRun> known_response = make_response(body);
-  if (!known_response || (acceleration == Acceleration::automatic && !is_stored(*known_response))) return nullptr;
+  if (!known_response || (acceleration == Acceleration::automatic && !is_stored(*known_response)))
+    return nullptr;
   const std::string obstacle = is_stored(*known_response) ? "" : obstacle_to_factor(known_response->body);
   require(obstacle.empty(), body.file, ": mode acceleration ", obstacle);
   return known_response;
@@ -135,7 +139,9 @@ Eigen::MatrixXd stress_history(StaticResponseOfRun& known_response, const std::v
 
 Eigen::VectorXd displacement(StaticResponseOfRun& known_response, Eigen::Index step) {
   if (known_response.node.empty()) return {};
-  return response(known_response).displacement(known_response.node, known_response.force.col(step).reshaped(3, known_response.node.size()));
+  return response(known_response)
+      .displacement(known_response.node,
+                    known_response.force.col(step).reshaped(3, known_response.node.size()));
 }
 
 }  // namespace elastogear::app

@@ -34,8 +34,8 @@ void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& bod
 
 /// always: for all modal bodies; automatic: for those whose files hold static answers to their loads.
 enum class Acceleration { never, automatic, always };
-/// Nothing for a body in its full basis, whose known_response is complete already, for one that was rigid in the run,
-/// and where it is not asked for.
+/// Nothing for a body in its full basis, whose known_response is complete already, for one that was rigid in
+/// the run, and where it is not asked for.
 std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration);
 
 /// What stresses of a reduced body are held against to estimate their error: from the answers in the body

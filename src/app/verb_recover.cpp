@@ -53,8 +53,9 @@ const OptionTable kTable = {
 struct Body {
   std::string result, name, file, identity;
   io::BodyHistory history;
-  std::unique_ptr<StaticResponseOfRun> response = nullptr;     // of mode acceleration, when asked for
-  std::unique_ptr<StaticResponseOfRun> reference = nullptr;  // of the error estimate, where `response` is none
+  std::unique_ptr<StaticResponseOfRun> response = nullptr;  // of mode acceleration, when asked for
+  std::unique_ptr<StaticResponseOfRun> reference =
+      nullptr;  // of the error estimate, where `response` is none
 
   BodyOfRun of_run() const { return {result, name, file, identity, history}; }
   const Eigen::MatrixXd& q() const { return response ? response->q : history.q; }
@@ -198,7 +199,8 @@ recovery::StressHistory history(Body& body, const model::Stress& stress, const s
   const std::vector<int>& members = stress_set(stress, set, body.file);
   std::vector<int> nodes;
   for (int member : members) nodes.push_back(stress.node[member]);
-  const Eigen::MatrixXd sigma_static = body.response ? stress_history(*body.response, nodes) : Eigen::MatrixXd();
+  const Eigen::MatrixXd sigma_static =
+      body.response ? stress_history(*body.response, nodes) : Eigen::MatrixXd();
   return recovery::stress_history(stress, members, body.q(), sigma_static);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Results of a long run, kept checkpoint by checkpoint in a folder of their own, so that a killed run can be continued.
+// Results of a long run, kept checkpoint by checkpoint in a folder of their own, so that a killed run can be
+// continued.
 
 #include <Eigen/Core>
 #include <memory>

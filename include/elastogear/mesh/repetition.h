@@ -22,11 +22,11 @@ struct Turn {
 /// off the axis Z nodes, of a node on it that node alone.
 struct Repetition {
   Turn turn;
-  std::vector<int> orbit;       ///< of each node, 0..n_orbits-1; -1: in no cell
-  std::vector<int> sector_index;       ///< of each node: how often its orbit's first node was turned to come here
-  std::vector<bool> on_axis;    ///< of each orbit
-  std::vector<int> cell;        ///< one of each orbit of cells
-  std::vector<int> cell_count;  ///< cells in that orbit: Z, or a divisor of it when they enclose the axis
+  std::vector<int> orbit;         ///< of each node, 0..n_orbits-1; -1: in no cell
+  std::vector<int> sector_index;  ///< of each node: how often its orbit's first node was turned to come here
+  std::vector<bool> on_axis;      ///< of each orbit
+  std::vector<int> cell;          ///< one of each orbit of cells
+  std::vector<int> cell_count;    ///< cells in that orbit: Z, or a divisor of it when they enclose the axis
 };
 
 /// What a turn must keep besides the geometry.
