@@ -1,5 +1,5 @@
 #pragma once
-// Before a run: the step that it asks for. During it: where the theory ends.
+// Advice on the time step before a run, and warnings during the run where the theory ends.
 
 #include "elastogear/dynamics/simulate.h"
 
@@ -8,7 +8,8 @@ namespace elastogear::app {
 /// Prints the steps that the highest mode and the contact ask for, and warns when dt (s) is far from them.
 void print_advice(const dynamics::System& system, double dt);
 
-/// The same observer, which also prints warnings; the system must outlive it. dt: s, of a step; 0: none.
+/// An observer that prints warnings of dynamics::ValidityGuard and then calls `observer`; the system must
+/// outlive it. dt: s, of a step; 0: there are no steps in time.
 dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer, double dt = 0);
 
 }  // namespace elastogear::app

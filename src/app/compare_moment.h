@@ -19,8 +19,8 @@ struct Moment {
   double time, reference_time;  ///< s, in the file and in its reference
 };
 
-/// Of -at and -reference_at; `peak`: time of the reference's largest value, for -at peak. Error when a time
-/// lies outside of its file.
+/// Times that -at and -reference_at choose; `peak`: time of the reference's largest value, for -at peak.
+/// Error when a time lies outside of its file.
 Moment moment(const Options& options, const Eigen::VectorXd& time, const Eigen::VectorXd& reference_time,
               double peak);
 

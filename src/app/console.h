@@ -1,5 +1,5 @@
 #pragma once
-// What the program prints: progress with time remaining, and aligned summaries. Rank 0 only.
+// Output of the program: progress with time remaining, and aligned summaries. Rank 0 only.
 
 #include <functional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What contact does to a body's surface, as fields at its nodes for ParaView.
+// Contact forces, tractions and sliding speeds on a body's surface as fields at its nodes, for ParaView.
 
 #include <string>
 #include <vector>

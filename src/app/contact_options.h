@@ -12,7 +12,7 @@ const OptionTable& contact_table();
 /// One setup per pair that -contact_pairs names. Throws Error for unknown bodies.
 std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies);
 
-/// Whether pairs in contact have friction by tangential springs.
+/// Returns whether pairs in contact have friction by tangential springs.
 bool friction_sticks(const Options& options);
 
 }  // namespace elastogear::app

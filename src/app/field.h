@@ -11,7 +11,7 @@
 
 namespace elastogear::app {
 
-/// What the estimated error of a reduced body's field needs.
+/// Data for the estimated error of a reduced body's field.
 struct FieldReference {
   Eigen::VectorXd q, q_d;    ///< elastic coordinates of the run, and their dynamic part
   Eigen::VectorXd u_static;  ///< 3 n_nodes, m, BRF, the whole body's static response; empty: no force acts

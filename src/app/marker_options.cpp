@@ -72,7 +72,8 @@ void add_points(const Options& options, const std::string& option, model::Elasti
 
 }  // namespace
 
-// Of two rows that fit a key the first counts: the one with the longer word at its end.
+// Options of markers. When two rows fit a key the first counts, so that rows with the longer word at their
+// end stand first.
 OptionTable marker_table() {
   return {
       {"<body>_points", "m", "", "markers fixed to the body frame: name,x,y,z for each"},

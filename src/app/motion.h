@@ -1,6 +1,6 @@
 #pragma once
-// What acts along a joint's axis, from the options: words and numbers to loads and prescribed motions; and
-// damping ratios.
+// Loads and prescribed motions along a joint's axis from the words and numbers of the options; and damping
+// ratios.
 
 #include "app/options.h"
 #include "elastogear/dynamics/axis.h"

@@ -22,7 +22,7 @@
 namespace elastogear::app {
 namespace {
 
-// What the placeholder of `pattern` stands for in `name`; nullopt when it does not fit.
+// Returns the text in `name` that the placeholder of `pattern` stands for; nullopt when `name` does not fit.
 std::optional<std::string> placeholder(const std::string& pattern, const std::string& name) {
   const auto open = pattern.find('<');
   if (open == std::string::npos) return pattern == name ? std::optional<std::string>("") : std::nullopt;

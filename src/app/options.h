@@ -20,7 +20,7 @@ struct OptionSpec {
 
 using OptionTable = std::vector<OptionSpec>;
 
-/// What a placeholder, "body", may stand for.
+/// Values that a placeholder, such as "body", may stand for.
 using PlaceholderValues = std::map<std::string, std::vector<std::string>>;
 
 /// The options in force: files given on the command line first, then the command line again, so that it wins.
@@ -65,7 +65,7 @@ class Options {
   std::string label(const std::string& name) const;
   /// Files that the options were read from.
   const std::vector<std::string>& files() const { return files_; }
-  /// What is given for the verb's own options, by name.
+  /// Values given for the verb's own options, by name.
   std::map<std::string, std::string> given_to_verb() const;
 
  private:

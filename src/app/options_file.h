@@ -6,7 +6,7 @@
 
 namespace elastogear::app {
 
-/// Where an option was given.
+/// Name of an option and the line of the file in which it was given.
 struct OptionLine {
   std::string name;  ///< without '-'
   int line = 0;      ///< from 1

@@ -14,7 +14,7 @@ OptionTable output_table();
 /// s; empty when none are given. Throws Error for a word that is no number and no file of numbers.
 std::vector<double> output_times(const Options& options);
 
-/// What write_sensor_tables is going to write.
+/// Paths of the files that write_sensor_tables is going to write.
 std::vector<std::string> sensor_tables(const Options& options);
 
 /// One CSV file for each sensor of the finished result, named after both, when -sensor_csv asks for it.

@@ -19,7 +19,7 @@ struct StageProgress {
 /// not fit are left out. The time remaining follows from what this run has done itself.
 std::string progress_line(const StageProgress& stage, int width);
 
-/// Where lines go, and when the last one went there.
+/// The output that lines go to, and the time since the last one.
 struct ProgressScreen {
   bool terminal = false;
   double since_line = 0;  ///< s

@@ -22,7 +22,8 @@ std::vector<recovery::PairContacts> contacts_of(const BodyOfRun& body) {
   return pairs;
 }
 
-// Where the body file answers to forces on these surface nodes; empty when it does not to one of them.
+// Positions in the flexibility of these surface nodes; empty when the body file lacks the static response to
+// forces on one of them.
 std::vector<int> find_responses(const model::Flexibility& flexibility, const std::vector<int>& nodes) {
   std::vector<int> position;
   for (int node : nodes) {
@@ -94,7 +95,7 @@ std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body) {
   return known_response;
 }
 
-// Whether the body file holds the responses to all forces; without forces it holds none of them.
+// Returns whether the body file holds the static responses to all forces; false when there are no forces.
 bool is_stored(const StaticResponseOfRun& known_response) { return !known_response.position.empty(); }
 
 }  // namespace

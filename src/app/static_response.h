@@ -32,20 +32,21 @@ struct BodyOfRun {
 /// Throws Error unless the body file holds what the run was made with.
 void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& body);
 
-/// always: for all modal bodies; automatic: for those whose files hold static answers to their loads.
+/// always: for all modal bodies; automatic: for those whose files hold static responses to their loads.
 enum class Acceleration { never, automatic, always };
-/// Nothing for a body in its full basis, whose known_response is complete already, for one that was rigid in
-/// the run, and where it is not asked for.
+/// Static response of a body over the run. Nothing for a body in its full basis, whose response is complete
+/// already, for one that was rigid in the run, and where mode acceleration is not asked for.
 std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration);
 
-/// What stresses of a reduced body are held against to estimate their error: from the answers in the body
-/// file, or by a factor of K. Nothing where neither serves: for the full basis, and for free bodies, matrices
-/// of other programs and more than 500,000 displacements without such answers.
+/// Static response by which the error of stresses of a reduced body is estimated, from the body file or by a
+/// factor of K. Nothing for the full basis; nothing for free bodies, matrices of other programs and more than
+/// 500,000 displacements when the body file holds no static responses.
 std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body);
 
-/// 6 n x n_t, Pa, at mesh nodes: from the answers in the body file, or by a factor of K when it has none.
+/// Stress of the static response at mesh nodes, 6 n x n_t, Pa: from the body file, or by a factor of K when
+/// the file holds no static responses.
 Eigen::MatrixXd stress_history(StaticResponseOfRun& known_response, const std::vector<int>& nodes);
-/// 3 n_nodes, m, at one output time; takes a factor of K.
+/// Displacement of the static response at one output time, 3 n_nodes, m; takes a factor of K.
 Eigen::VectorXd displacement(StaticResponseOfRun& known_response, Eigen::Index step);
 
 }  // namespace elastogear::app

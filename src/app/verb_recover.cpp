@@ -67,7 +67,7 @@ struct Run {
   std::vector<Body> bodies;
 };
 
-// What lies before an item of a list, 0 .. 1.
+// Share of a list that lies before an item, 0 .. 1.
 template <class Item>
 double share(const std::vector<Item>& all, const Item& item) {
   return static_cast<double>(&item - all.data()) / static_cast<double>(all.size());
@@ -75,7 +75,7 @@ double share(const std::vector<Item>& all, const Item& item) {
 
 std::string stem(const std::string& path) { return std::filesystem::path(path).replace_extension().string(); }
 
-// Whether stresses of the body are wanted, with their error.
+// Returns whether stresses of the body are wanted together with their estimated error.
 bool is_asked(const Options& options, const std::string& body) {
   return (options.given("stress_" + body) || options.given("field_times")) && options.flag("error_estimate");
 }
@@ -143,7 +143,7 @@ std::pair<Eigen::Index, Eigen::Index> peak(const io::StressSet& set) {
 
 constexpr double kTrusted = 0.05;  // of the peak
 
-// What to do about stresses whose estimated error is too large.
+// Advice for stresses whose estimated error is too large.
 std::string remedy(const Body& body) {
   const bool untouched = body.reference && body.reference->node.empty();
   if (!body.response && !untouched)

@@ -188,8 +188,8 @@ Analysis analysis(const Options& options) {
   return static_cast<Analysis>(options.choice("analysis", {"dynamic", "static", "relax"}));
 }
 
-// Where friction sticks, rest is a range of states: nodes creep on in it for tens of thousands of steps
-// (docs/theory.md, section 8.7).
+// Default of rest_tolerance. With friction that sticks, rest is a range of states, in which nodes creep on
+// for tens of thousands of steps (docs/theory.md, section 8.7).
 double rest_tolerance(const Options& options) {
   if (options.given("rest_tolerance")) return options.positive("rest_tolerance");
   return friction_sticks(options) ? 1e-4 : 1e-6;

@@ -143,7 +143,8 @@ std::string folded(std::string name) {
   return name;
 }
 
-// What merge keys brought gives way; all else must be there once.
+// Keeps one entry for each name. Entries from merge keys give way to others; throws Error for names that are
+// given twice otherwise.
 std::vector<YamlEntry> each_once(const std::vector<YamlEntry>& all, const std::string& file) {
   std::map<std::string, const YamlEntry*> first;
   for (const YamlEntry& entry : all) {

@@ -33,7 +33,7 @@ enum class NodeKind { inner, step, rim };
 /// The one name of a node that has several: 0 <= j < turn, on the tread where riser and tread are joined.
 HelixNode canonical(const Helix& helix, HelixNode node);
 
-/// What a canonical node is: `step`: the foot of a step of the upper end (three cells meet there); `rim`: on
+/// Kind of a canonical node. `step`: the foot of a step of the upper end (three cells meet there); `rim`: on
 /// the treads that carry the upper shaft; `inner`: all others, those of the lower end included.
 NodeKind kind(const Helix& helix, HelixNode node);
 

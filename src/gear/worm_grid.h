@@ -1,5 +1,5 @@
 #pragma once
-// Where the worm's nodes lie.
+// Positions of the worm's nodes.
 
 #include <vector>
 

@@ -24,7 +24,7 @@ std::string fingerprint_of(const std::string& path) {
   }
 }
 
-// What a killed run left under a temporary name (base/file.h).
+// Returns whether a file is one that a killed run left under a temporary name (base/file.h).
 bool is_temporary(const fs::path& path) {
   return path.filename().string().find(".h5.tmp") != std::string::npos;
 }

@@ -9,7 +9,8 @@
 namespace elastogear::io {
 
 void write_checks(const h5::File& file, const std::vector<model::Check>& checks);
-/// Its tables (numbers and rows of numbers beside them are io::ModeChecks); none when there is no such group.
+/// Tables of the group /checks (numbers and rows of numbers beside them are io::ModeChecks); none when there
+/// is no such group.
 std::vector<model::Check> read_checks(const h5::File& file);
 
 }  // namespace elastogear::io

@@ -117,7 +117,7 @@ void write_rows(const File& file, hid_t dataset, const Rows& rows, const double*
 /// Error when the numbers are damaged or not finite.
 void read_rows(const File& file, const std::string& name, const Rows& rows, double* data);
 
-/// What each row of a Series is.
+/// Shape and unit of the rows of a Series.
 struct Item {
   Shape shape;  ///< of one row; empty: a number
   std::string unit;

@@ -1,5 +1,5 @@
 #pragma once
-// What the files hdf5*.cpp share.
+// Handles and helpers that the files hdf5*.cpp share.
 
 #include <functional>
 #include <string>

@@ -11,7 +11,7 @@
 
 namespace elastogear::io {
 
-/// Where the rows of a part of the histories begin.
+/// Rows of the histories that come before a part of them.
 struct RowCount {
   double last_time = -std::numeric_limits<double>::infinity();  ///< s
   int times = 0;                                                ///< before

@@ -1,5 +1,5 @@
 #pragma once
-// What our HDF5 files have in common: root attributes `format` and `version`, provenance.
+// Attributes that all HDF5 files of the program have: `format` and `version` at the root, and provenance.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace elastogear::io {
 constexpr const char* kBodyFormat = "elastogear body";
 constexpr const char* kResultFormat = "elastogear result";
 constexpr const char* kStressFormat = "elastogear stress";
-/// Of all formats. Version 2 has checksums and text of fixed length; version 1 is read as well.
+/// Version of all formats. Version 2 has checksums and text of fixed length; version 1 is read as well.
 constexpr int kVersion = 2, kOldestVersion = 1;
 
 /// Attribute of a body file's root: model::fingerprint.

@@ -31,7 +31,7 @@ void Series::append(const double* data, hsize_t rows) {
   if (whole > 0) write_first(whole);
 }
 
-// Of the rows that are buffered.
+// Writes the first of the buffered rows to the file and takes them out of the buffer.
 void Series::write_first(hsize_t rows) {
   Shape count{rows}, total{rows_ + rows};
   for (Shape* s : {&count, &total}) s->insert(s->end(), item_.shape.begin(), item_.shape.end());

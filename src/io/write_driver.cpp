@@ -17,7 +17,7 @@ namespace elastogear::io::h5 {
 namespace {
 
 constexpr haddr_t kMaxAddress = (haddr_t{1} << 62) - 1;
-// Those of HDF5's own driver for POSIX files.
+// Features of HDF5's own driver for POSIX files.
 constexpr unsigned long kFeatures = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
                                     H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA |
                                     H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
@@ -90,7 +90,7 @@ herr_t handle(H5FD_t* file, hid_t, void** found) {
   return 0;
 }
 
-// What both have in common goes to the buffer.
+// Copies the bytes that the unwritten piece and the wanted range have in common to the buffer.
 void overlay(const Unwritten& piece, haddr_t address, std::size_t size, char* buffer) {
   const haddr_t first = std::max(address, piece.address);
   const haddr_t last = std::min(address + size, piece.address + piece.bytes.size());

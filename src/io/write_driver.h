@@ -13,11 +13,12 @@ namespace elastogear::io::h5 {
 /// Makes the driver that of a file access property list.
 void use_write_driver(hid_t access_properties);
 
-/// What stopped the first write to an open file that failed: "no space left on the device"; empty: nothing
-/// did.
+/// Reason why the first write to an open file failed, such as "no space left on the device"; empty when none
+/// failed.
 std::string write_failure(hid_t file);
 
-/// The same of files that were closed since the last call: the last writes and the closing itself.
+/// Reason why the last writes to files that were closed since the last call, or the closing itself, failed;
+/// empty when none failed.
 std::string take_close_failure();
 
 }  // namespace elastogear::io::h5

@@ -16,7 +16,8 @@ struct BoundaryLine {
   int line = 0;
 };
 
-/// What a data line holds; displacements other than 0 and conditions of no displacement go to `ignored`.
+/// Reads the data lines of a *BOUNDARY; displacements other than 0 and conditions of no displacement go to
+/// `ignored`.
 void read_boundary(InpLines& in, const Keyword& key, std::vector<BoundaryLine>& boundary,
                    std::vector<std::string>& ignored);
 

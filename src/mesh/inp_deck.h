@@ -37,7 +37,7 @@ struct InpDeck : RawMesh {
   bool in_assembly = false, in_instance = false, in_step = false;
   std::set<std::pair<std::string, std::string>> assembly_sets;  // keyword and name in capitals
 
-  /// Of the assembly itself, not of its instance?
+  /// Returns whether the present keyword belongs to the assembly itself, not to its instance.
   bool of_assembly() const { return in_assembly && !in_instance; }
   /// A member of a set or surface without the name of its instance ("Part-1-1.Set-2").
   std::string_view member(std::string_view field) const;

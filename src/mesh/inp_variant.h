@@ -8,8 +8,8 @@
 
 namespace elastogear::mesh {
 
-/// What of the element type ("C3D20R", in capitals) is not computed as it says; empty when all is. 8-node
-/// hexahedra follow the option element, so that only C3D8I, its default, says nothing.
+/// Note on an element type ("C3D20R", in capitals) that is not computed as its name says; empty when it is.
+/// 8-node hexahedra follow the option element, so that of them only C3D8I, its default, has no note.
 std::string variant_note(std::string_view element, CellType type);
 
 }  // namespace elastogear::mesh

@@ -31,7 +31,7 @@ struct Cloud {
   Eigen::Matrix3d moments;  // second ones about the centroid, m^2, per node
 };
 
-// What came of one turn.
+// Outcome of the trial of one turn.
 struct Trial {
   std::optional<Repetition> found;
   std::size_t matched = 0;  // nodes and cells
@@ -126,7 +126,7 @@ std::string misfits(const char* what, const std::vector<int>& unmatched, std::si
   return text.str();
 }
 
-// Of each node the one that it is turned to; -1 for those without.
+// Returns for each node the node that it is turned to; -1 when there is none.
 std::vector<int> images_of_nodes(const Cloud& cloud, const PointIndex& index, const Turn& turn) {
   const Eigen::Matrix3d R = rotation_matrix(2 * std::numbers::pi / turn.n_sectors * turn.axis);
   std::vector<int> image(static_cast<std::size_t>(cloud.mesh.n_nodes()), -1);

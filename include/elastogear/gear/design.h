@@ -63,7 +63,7 @@ struct Toothing {
   double theta_1 = 0;  ///< rad, angle of tooth 1's centre at z = 0
 };
 
-/// What follows from a Design.
+/// Radii, angles and lengths that follow from a Design.
 struct Geometry {
   double gamma = 0;    ///< rad, lead angle of the worm = helix angle of the wheel
   double s_n = 0;      ///< m, normal tooth thickness at the pitch cylinders

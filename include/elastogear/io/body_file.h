@@ -14,7 +14,7 @@
 
 namespace elastogear::io {
 
-/// What a body file holds beside the ElasticBody: all that whole-field recovery needs.
+/// Contents of a body file beside the ElasticBody: all that whole-field recovery needs.
 struct BodySource {
   mesh::Mesh mesh;
   std::vector<model::MaterialRegion> regions;
@@ -25,7 +25,7 @@ struct BodySource {
                             0};  ///< m, of the body frame in the coordinates of the mesh that was reduced
 };
 
-/// What was checked of the modes; empty for a full basis.
+/// Results of the checks of the modes; empty for a full basis.
 struct ModeChecks {
   Eigen::VectorXd residual;  ///< n_q, |K phi - omega^2 M phi| / |K phi|
   double orthogonality = 0;  ///< largest |phi_i' M phi_j|, i != j
@@ -47,7 +47,7 @@ class BodyWriter {
   std::unique_ptr<Data> data_;
 };
 
-/// What a body is read for. `motion` leaves `stress` empty, which may be most of the file.
+/// Purpose for which a body is read. `motion` leaves `stress` empty, which may be most of the file.
 enum class BodyUse { all, motion };
 /// Reads and validates, without flexibility.G; throws Error naming the file and what is wrong with it.
 model::ElasticBody read_body(const std::string& path, BodyUse use = BodyUse::all);
@@ -56,7 +56,7 @@ Eigen::MatrixXf read_stress_responses(const std::string& path, int orbit);
 BodySource read_body_source(const std::string& path);
 /// Empty when the file holds none.
 ModeChecks read_mode_checks(const std::string& path);
-/// Whether the file holds the modes at all nodes.
+/// Returns whether the file holds the modes at all nodes.
 bool has_full_modes(const std::string& path);
 /// Whole-body displacement Phi q, 3 x n_nodes, m, BRF. Streams /modes/Phi (modal) or scatters q (full). Error
 /// with the remedy when the modes are not stored in full.

@@ -14,13 +14,13 @@ namespace elastogear::io {
 /// The checkpoints in a folder: one HDF5 file each, which appears under its name only when complete.
 class CheckpointStore {
  public:
-  /// Pieces of another fingerprint (what the results depend on, as text) and incomplete ones are removed. The
-  /// folder need not exist; it is made with the first checkpoint.
+  /// Checkpoints of another fingerprint (all that the results depend on, as text) and incomplete ones are
+  /// removed. The folder need not exist; it is made with the first checkpoint.
   CheckpointStore(std::string folder, std::string fingerprint);
 
-  /// Of the checkpoints at the start and of those added, ascending.
+  /// Names of the checkpoints at the start and of those added, ascending.
   const std::vector<std::string>& names() const { return names_; }
-  /// Pieces of another fingerprint that were removed.
+  /// Number of checkpoints of another fingerprint that were removed.
   int discarded() const { return discarded_; }
   void add(const std::string& name);
   std::string path(const std::string& name) const;

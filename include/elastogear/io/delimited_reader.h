@@ -21,7 +21,7 @@ class DelimitedReader {
   /// Moves to the next line that is not blank and does not begin with one of the characters of `comment`;
   /// false at the end. Error for lines of more than 1023 characters.
   bool next(std::string_view comment);
-  /// Of the current line.
+  /// Fields of the current line.
   const std::vector<std::string_view>& fields() const { return fields_; }
   /// Finite number; Fortran's exponents (1.0D+3) are understood.
   double number(std::size_t field) const;

@@ -1,5 +1,5 @@
 #pragma once
-// What a file holds, for people.
+// Description of the contents of a file, for users.
 
 #include <string>
 

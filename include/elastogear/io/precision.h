@@ -2,7 +2,7 @@
 
 namespace elastogear::io {
 
-/// Of stored numbers; in memory all are double.
+/// Precision of stored numbers; in memory all are double.
 enum class Precision { float64, float32 };
 
 }  // namespace elastogear::io

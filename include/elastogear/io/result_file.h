@@ -37,7 +37,7 @@ class ResultWriter {
   std::unique_ptr<Data> data_;
 };
 
-/// What a run that did not end left in the folder `path`.partial.
+/// Provenance and state that a run that did not end left in the folder `path`.partial.
 struct UnfinishedRun {
   std::map<std::string, std::string> provenance;
   std::vector<double> state;  ///< of its last checkpoint

@@ -10,7 +10,7 @@
 
 namespace elastogear::mesh {
 
-/// What a file says beside its mesh, and what a reader left out.
+/// Further contents of a mesh file, and a list of what the reader left out.
 struct ReadReport {
   std::vector<std::string> ignored;       ///< "*STATIC (line 12)": nothing is dropped without an entry
   std::vector<std::string> read_as;       ///< .inp: "C3D20R (line 3): ...", element types computed otherwise

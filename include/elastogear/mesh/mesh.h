@@ -29,9 +29,10 @@ std::span<const std::array<int, 2>> edges(CellType type);
 /// Four node numbers, counter-clockwise seen from outside the body; a triangle repeats its third node.
 using Face = std::array<int, 4>;
 
-/// The same for all faces with these nodes, whatever their direction and first node. Not itself a face.
+/// Key that is equal for all faces with these nodes, whatever their direction and first node. It is not
+/// itself a face.
 Face face_key(Face face);
-/// The same nodes in the same cyclic order?
+/// Returns whether both faces have the same nodes in the same cyclic order.
 bool same_direction(const Face& a, Face b);
 
 /// Cells in compressed rows: cell i has nodes[offset[i]] .. nodes[offset[i+1]-1].

@@ -12,7 +12,7 @@ enum class Encoding { ascii, binary };
 
 /// Either encoding. Coordinates are multiplied by `unit_in_m`. Error naming file and line or byte offset.
 Mesh read_msh(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
-/// The same from memory; `path` names the content in errors.
+/// Reads a mesh from memory as read_msh does from a file; `path` names the content in errors.
 Mesh parse_msh(const std::string& path, std::string content, double unit_in_m = 1,
                ReadReport* report = nullptr);
 

@@ -29,7 +29,7 @@ struct Repetition {
   std::vector<int> cell_count;    ///< cells in that orbit: Z, or a divisor of it when they enclose the axis
 };
 
-/// What a turn must keep besides the geometry.
+/// Labels of cells and nodes that a turn must keep besides the geometry.
 struct Labels {
   const std::vector<int>& cell;   ///< of each cell, e.g. its material
   const std::vector<bool>& node;  ///< of each node, e.g. whether it is free
