@@ -101,7 +101,8 @@ Eigen::Matrix<double, 2, 15> metric_derivative(const ProjectionKinematics& foot,
   return change;
 }
 
-ProjectionKinematics projection_kinematics(const Face& face, const Projection& projection, const Vector3d& x_slave) {
+ProjectionKinematics projection_kinematics(const Face& face, const Projection& projection,
+                                           const Vector3d& x_slave) {
   ProjectionKinematics foot;
   foot.d = x_slave - projection.point.x;
   foot.n = projection.n;

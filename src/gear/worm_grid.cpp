@@ -138,10 +138,12 @@ Polar shaft_position(const WormGrid& g, int end, int ring, int column, int row) 
 }
 
 WormGrid worm_grid(const Design& d, const WormCounts& n) {
-  WormGrid g{.design = d, .geometry = derive(d), .n = n, .tooth_grid = {}, .helix = {}, .treads = {}, .shaft = {}};
+  WormGrid g{
+      .design = d, .geometry = derive(d), .n = n, .tooth_grid = {}, .helix = {}, .treads = {}, .shaft = {}};
   check(n, d, g.geometry.p_x);
-  g.tooth_grid = tooth_grid(worm_profile(d, g.geometry),
-                {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.ring});
+  g.tooth_grid =
+      tooth_grid(worm_profile(d, g.geometry),
+                 {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.ring});
   g.columns = 2 * g.tooth_grid.half_pitch;
   g.layer = g.geometry.p_x / g.columns;
   g.helix.K = d.z1 * g.columns;
