@@ -3,7 +3,7 @@
 namespace elastogear::app {
 namespace {
 
-// In the order of the option's values; Ritz bases last, as in RitzKind.
+// Values of the option, in its order; Ritz bases last, as in RitzKind.
 enum Basis { modal, modal_residual, full, first_ritz };
 
 const std::vector<std::string> kBases = {"modal",  "modal_residual", "full", "modal_attachment",

@@ -12,7 +12,7 @@ constexpr double kRoundoff = 1e-9;  // of the last time
 
 double last(const Eigen::VectorXd& time) { return time[time.size() - 1]; }
 
-// A number or "last".
+// Time that an option gives as a number or as "last".
 double time_of(const Options& options, const std::string& name, const Eigen::VectorXd& time) {
   if (options.text(name) == "last") return last(time);
   const double t = options.number(name);

@@ -1,5 +1,5 @@
 #pragma once
-// At which times two files are compared, and which nodes belong together.
+// The times at which two files are compared, and the nodes that belong together.
 
 #include <Eigen/Core>
 #include <optional>

@@ -5,7 +5,7 @@
 namespace elastogear::app {
 namespace {
 
-// By surface node.
+// Fields of contact at the surface nodes.
 struct SurfaceFields {
   Eigen::Matrix3Xd force;
   Eigen::RowVectorXd speed;

@@ -87,7 +87,8 @@ const OptionTable& contact_table() { return kTable; }
 
 namespace {
 
-// In one pass the facets of the master alone are met.
+// Warns that smoothing has no effect on the slave surface of a pair with one pass, of which only the nodes
+// are in contact.
 void warn_of_facets(const dynamics::PairSetup& pair, const std::vector<std::string>& bodies) {
   if (!pair.settings.smooth || pair.settings.two_pass) return;
   const std::string& slave = bodies[pair.body[pair.settings.slave]];

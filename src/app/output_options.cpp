@@ -13,7 +13,7 @@
 namespace elastogear::app {
 namespace {
 
-// One a line.
+// Words of a file, one a line.
 std::vector<std::string> words_of(const std::string& path) {
   std::istringstream in(read_file(path));
   std::vector<std::string> words;

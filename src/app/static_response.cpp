@@ -76,7 +76,8 @@ Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const s
   return stress;
 }
 
-// Nothing for the full basis, and for a body that is rigid in the run.
+// Static response of a body over the run; nothing for the full basis, and for a body that is rigid in the
+// run.
 std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body) {
   if (body.history.q.rows() == 0) return nullptr;
   model::ElasticBody elastic = io::read_body(body.file);

@@ -1,6 +1,6 @@
 #pragma once
 // Mode acceleration for one body of a run: its dynamic coordinates, the contact forces on it, and the whole
-// body's static known_response to them.
+// body's static response to them.
 
 #include <memory>
 #include <optional>

@@ -287,7 +287,8 @@ FieldState state_at(const Body& body, int step) {
   return {body.history.r_WB.col(step), R, body.history.q.col(step)};
 }
 
-// With the whole body's static response in place of that of the modes, when it was asked for.
+// State for a field, with the whole body's static response in place of that of the modes when it was asked
+// for.
 FieldState recovered_state(const Options& options, const Body& body, int step) {
   FieldState state = state_at(body, step);
   StaticResponseOfRun* const known = body.response ? body.response.get() : body.reference.get();

@@ -29,7 +29,8 @@ Eigen::SparseMatrix<double> damping_matrix(const model::ElasticBody& body) {
   return D_r + Eigen::SparseMatrix<double>(d.asDiagonal());
 }
 
-// Without rotation there are no products of rotation and deformation, without deformation neither.
+// Lowers the level to linear where that is exact: without rotation or deformation there are no products of
+// both.
 InertiaLevel needed_level(const model::ElasticBody& body, const MotionSubspace& H, InertiaLevel level) {
   const bool simple = body.n_q() == 0 || (level == InertiaLevel::affine && H.cols() == 0);
   return level >= InertiaLevel::affine && simple ? InertiaLevel::linear : level;

@@ -22,7 +22,7 @@ struct Varying {
 
 Local flat(const LocalVectors& v) { return v.reshaped(); }
 
-// Velocity of the slave node against the master. docs/theory.md, Eq. (6.13).
+// Velocity of the slave node against the master, v_r of docs/theory.md, Eq. (6.13).
 Varying relative_velocity(const ProjectionKinematics& foot, const LocalVectors& v) {
   Varying rate;
   rate.value = foot.G * flat(v);

@@ -53,8 +53,8 @@ void set_normal(ProjectionKinematics& foot) {
     foot.n_x -= dual.col(i) * (foot.n.transpose() * spread(0, foot.N_a.col(i)) + b * foot.D.row(1 - i));
 }
 
-// Angular velocity of the face at the closest point: its normal's and, about the normal, that of the edge or
-// the mean of the tangents'.
+// Angular velocity Omega of the face at the closest point (docs/theory.md, Eq. (6.13)): that of its normal
+// and, about the normal, that of the edge or the mean of the tangents'.
 void set_spin(const Face& face, const Projection& w, ProjectionKinematics& foot) {
   foot.spin.setZero();
   const Vector3d n = normal(face, w.point.u, w.point.v);

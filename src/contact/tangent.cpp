@@ -8,7 +8,7 @@ namespace {
 
 using Column = Eigen::Matrix<double, 15, 1>;
 
-// [slave a; weight_i a]
+// The column [slave a; weight_i a].
 Column column(double slave, const Eigen::Vector4d& weight, const Eigen::Vector3d& a) {
   Column c;
   c.head<3>() = slave * a;

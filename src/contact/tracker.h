@@ -27,7 +27,7 @@ std::vector<int> slave_sides(const Settings& settings);
 /// Frame of all positions: the BRF of surface b.
 class Tracker {
  public:
-  /// Settings complete.
+  /// settings: complete, as with_defaults returns them.
   Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits);
 
   /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.

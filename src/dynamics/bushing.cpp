@@ -63,7 +63,7 @@ using Change = Eigen::Matrix<double, 3, 24>;
 // Columns of the derivative: x, orientation, v, w of both markers.
 constexpr int kX[] = {0, 12}, kTheta[] = {3, 15}, kV[] = {6, 18}, kW[] = {9, 21};
 
-// Second minus first.
+// Difference of the columns of both markers, second minus first.
 Change difference(const int (&column)[2]) {
   Change D = Change::Zero();
   D.middleCols<3>(column[0]) = -Matrix3d::Identity();

@@ -23,7 +23,8 @@ Instant instant(const Run& run, TS ts) {
   return now;
 }
 
-// Another nominal step than that of the stored run is what the user wants now.
+// Puts the run back to a stored instant, with its step size unless the user has asked for another nominal
+// step since.
 void set_instant(Run& run, TS ts, const Instant& then) {
   check(TSSetTime(ts, then.time));
   check(TSSetStepNumber(ts, then.step));

@@ -47,7 +47,7 @@ struct Run {
 /// Throws Error when surfaces of a pair lie inside each other at the start.
 void require_bodies_apart(System& system);
 RunSummary new_summary(const System& system);
-/// Enters peaks.
+/// Enters the peaks of a snapshot into the summary.
 void update(RunSummary& summary, const model::Snapshot& snapshot);
 UniqueVec vector(const Eigen::VectorXd& values);
 

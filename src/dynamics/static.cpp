@@ -133,7 +133,7 @@ std::string coordinate_name(body::JointType type, Eigen::Index i) {
                                                  : "the displacement along its axis";
 }
 
-// Coordinates that only sigma holds.
+// Names of the coordinates that only sigma holds.
 std::string free_coordinates(const Equilibrium& at) {
   std::string names;
   const System& system = at.problem.system;
@@ -177,7 +177,7 @@ struct Path {
   double reached = -1;  // load factor; negative: not even the unloaded state
 };
 
-// One load step; false: cut.
+// Tries one load step; returns false when it must be cut.
 bool advance(Equilibrium& at, SNES snes, Path& path, RunSummary& summary) {
   const bool last = path.reached + (1 + kRoundoff) * path.step >= 1;
   at.factor = path.reached < 0 ? 0 : last ? 1 : path.reached + path.step;

@@ -14,7 +14,7 @@ MatrixXd rows_of_cell(const MatrixXd& u, std::span<const int> nodes) {
   return rows;
 }
 
-// (M_s (x) I_3) u
+// Inertia forces (M_s (x) I_3) u.
 MatrixXd inertia_forces(const MatrixXd& M_s, const MatrixXd& u) {
   MatrixXd f(u.rows(), u.cols());
   for (Eigen::Index j = 0; j < u.cols(); ++j)

@@ -16,10 +16,10 @@ struct Rules {
   Rule stiffness, mass, stress;
 };
 
-// Stiffness: the rules of Abaqus and CalculiX, the smallest that pass the patch test on straight-edged cells.
-// They leave no zero-energy mode but one: wedge6's two points do not see its twist about the line through
-// them, which other cells beside it resist. Mass: exact on straight-edged cells. Stress: where it is most
-// accurate.
+// Quadrature rules of a cell type. Stiffness: the rules of Abaqus and CalculiX, the smallest that pass the
+// patch test on straight-edged cells. They leave no zero-energy mode but one: wedge6's two points do not see
+// its twist about the line through them, which other cells beside it resist. Mass: exact on straight-edged
+// cells. Stress: the points at which it is most accurate.
 Rules rules(CellType type) {
   switch (type) {
     case CellType::hex20:

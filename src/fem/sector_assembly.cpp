@@ -15,7 +15,7 @@ struct Rows {
   BlockCounts count;  // of single entries
 };
 
-// Own orbits with the orbits beside them.
+// Neighbours of the orbits that this rank owns.
 std::vector<std::vector<int>> neighbours(const Sector& sector, int begin, int end) {
   std::vector<std::vector<int>> near(static_cast<std::size_t>(end - begin));
   for (int cell = 0; cell < sector.mesh.cells.size(); ++cell)

@@ -62,7 +62,7 @@ Polar inner_position(const WormGrid& g, HelixNode node, int row) {
           x[0] + (t * g.columns + section) * g.layer - sunk(g, node.k + section, row), x[1]};
 }
 
-// Equally spaced in angle.
+// Position of a node at the rim; the nodes are equally spaced in angle.
 Polar rim_position(const WormGrid& g, HelixNode node, int row) {
   const int m = g.helix.m;
   const double j = node.j / m * m + 0.5 + (node.j % m - 1) * static_cast<double>(m) / (m - 1);

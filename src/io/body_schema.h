@@ -26,7 +26,7 @@ constexpr BodyUnits kModalUnits{"kg^-1/2",
                                 "kg^-1/2 or rad m^-1 kg^-1/2"};
 constexpr BodyUnits kFullUnits{"1", "Pa/m", "kg", "N/m", "kg", "kg m", "kg m", "kg", "1 or rad/m"};
 
-// In the order of model::Inertia::S_2.
+// Names of the second moments, in the order of model::Inertia::S_2.
 inline constexpr const char* kMoments[] = {"11", "22", "33", "12", "23", "13"};
 
 inline const BodyUnits& body_units(model::Basis basis) {
@@ -40,7 +40,7 @@ inline model::Basis parse_basis(const std::string& path, const std::string& name
   return model::Basis::full;
 }
 
-// In the order of model::Element.
+// Names of the elements, in the order of model::Element.
 inline constexpr const char* kElementNames[] = {"incompatible", "plain", "bbar"};
 
 inline std::string element_name(model::Element element) {

@@ -6,10 +6,10 @@
 
 namespace elastogear::io {
 
-/// Nothing when it is empty.
+/// Writes the flexibility; an empty one writes nothing.
 void write_flexibility(const h5::File& file, const model::Flexibility& flexibility);
-/// Without G, F column by column when it is asked for; empty when the file has none. What is read fits
-/// together in itself; model::validate compares it with the body.
+/// Reads the flexibility without G; it is empty when the file has none. F is read column by column when it is
+/// asked for. The parts fit each other; model::validate compares them with the body.
 model::Flexibility read_flexibility(const h5::File& file);
 
 }  // namespace elastogear::io

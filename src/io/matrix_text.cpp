@@ -69,7 +69,7 @@ bool MatrixReader::next(std::string_view comment) {
   return false;
 }
 
-// Moves to the first entry.
+// Moves to the first entry of the matrix.
 bool MatrixReader::start() {
   first_ = false;
   if (!next("#")) return false;

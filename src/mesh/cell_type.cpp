@@ -30,7 +30,7 @@ struct Topology {
   std::span<const Face> sides;
 };
 
-// In the order of CellType.
+// Topology of the cell types, in the order of CellType.
 constexpr Topology kTopology[kCellTypes] = {{"hex8", 8, false, kHexEdges, kHexSides},
                                             {"hex20", 8, true, kHexEdges, kHexSides},
                                             {"tet4", 4, false, kTetEdges, kTetSides},

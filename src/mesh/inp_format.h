@@ -12,7 +12,7 @@ constexpr std::string_view kFirstLine =
     "** elastogear mesh, in m; complete with the last line '** end of mesh'\n";
 constexpr std::string_view kLastLine = "** end of mesh\n";
 
-/// In the order of CellType; hex8 may be written as a variant.
+/// Names of the element types, in the order of CellType; hex8 may be written as a variant.
 constexpr std::string_view kElementTypes[kCellTypes] = {"C3D8", "C3D20", "C3D4", "C3D10",
                                                         "C3D6", "C3D15", "C3D5"};
 

@@ -19,7 +19,8 @@ void skip_table(InpLines& in, const Keyword& key, std::vector<std::string>& igno
                     "): of its table only the first row is used");
 }
 
-// At least n numbers, from as many lines as they take; further ones in the line are temperature and the like.
+// Reads at least n numbers, from as many lines as they take; further ones in the line are temperature and the
+// like.
 std::vector<double> read_constants(InpLines& in, const Keyword& key, std::size_t n) {
   std::vector<double> values;
   while (values.size() < n && in.next_data()) {

@@ -50,7 +50,8 @@ Corners hex8_corners(const Mesh& mesh, int cell) {
   return mesh.X(Eigen::all, mesh.cells[cell]);
 }
 
-// At corner a along the edge to corner b, for a reference length of 1: a parabola through a midside node.
+// Tangent of the edge to corner b at corner a, for a reference length of 1; the edge is a parabola when it
+// has a midside node.
 Eigen::Vector3d edge_tangent(const Mesh& mesh, int cell, int a, int b) {
   const auto nodes = mesh.cells[cell];
   const auto x = [&](std::size_t i) -> Eigen::Vector3d { return mesh.X.col(nodes[i]); };
@@ -95,7 +96,7 @@ Eigen::Matrix<double, 8, 1> gauss_jacobians(const Mesh& mesh, int cell) {
   return det;
 }
 
-// NaN, once met, stays.
+// The smaller number; a NaN among them is kept.
 double smaller(double a, double b) { return b >= a ? a : b; }
 
 }  // namespace

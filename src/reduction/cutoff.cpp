@@ -21,7 +21,7 @@ struct Point {
   int n;
 };
 
-// By the power law through both ends, or Weyl's where only one is known.
+// Next trial for the cutoff by the power law through both ends, or by Weyl's law where only one is known.
 double next_guess(const Point& lower, const Point& upper, double target) {
   const auto step = [](double ratio) {
     return std::clamp(std::pow(ratio, kWeyl), kSmallestStep, kLargestStep);

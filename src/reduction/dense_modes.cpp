@@ -96,7 +96,8 @@ void scatter(Mat A, const double* column, Vec own) {
   check(VecRestoreArrayWrite(own, &values));
 }
 
-// On rank 0: the spectrum, its wanted part, and what is wrong with that.
+// Solution on rank 0: the spectrum, the number of wanted modes, the lowest eigenvalue and the largest product
+// of two modes.
 struct Solution {
   Spectrum spectrum;
   int count = 0;

@@ -64,7 +64,7 @@ std::vector<int> positions(const std::vector<int>& nodes, const std::vector<int>
   return at;
 }
 
-// Nothing when some image of a node is not in the list (mesh numbers).
+// Images of the nodes (mesh numbers); nothing when some image of a node is not in the list.
 std::optional<model::Images> find_images(const std::vector<int>& nodes, const mesh::Repetition& repetition) {
   const int Z = repetition.turn.n_sectors;
   std::map<int, int> number;  // of the mesh's orbits

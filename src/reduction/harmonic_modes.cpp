@@ -27,7 +27,7 @@ struct Problem {
   int first_orbit;
   Residual work;
 
-  // Own rows of i W.
+  // The columns i W, rows of this rank.
   MatrixXd turned(const MatrixXd& W) const { return fem::times_i(harmonic, first_orbit, W); }
 };
 
@@ -96,7 +96,7 @@ MatrixXd complex_modes(const Problem& problem, const MatrixXd& W, HarmonicModes&
   return Z;
 }
 
-// All rows on rank 0.
+// Gathers all rows on rank 0.
 MatrixXd gathered(MPI_Comm comm, MatrixXd own) {
   int rank = 0, size = 1, rows = static_cast<int>(own.rows());
   MPI_Comm_rank(comm, &rank);

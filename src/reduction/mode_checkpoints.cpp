@@ -17,7 +17,7 @@ std::string checkpoint_name(std::size_t number) {
   return name;
 }
 
-// lower, shift, below_shift, orthogonality, iterations
+// Numbers of the state: lower, shift, below_shift, orthogonality, iterations.
 VectorXd numbers(const SearchState& state) {
   VectorXd v(5);
   v << state.lower, state.shift, state.below_shift, state.orthogonality, state.iterations;

@@ -68,7 +68,7 @@ fem::Matrices assemble_cells(Job& job) {
   return matrices;
 }
 
-// On the diagonal, from rank 0: few.
+// Adds the point masses, which are few, to the diagonal of M from rank 0.
 void add_point_masses(Job& job, Mat M) {
   if (job.options.point_mass.empty()) return;
   check(MatSetOption(M, MAT_NO_OFF_PROC_ENTRIES, PETSC_FALSE));

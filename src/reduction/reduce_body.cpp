@@ -92,7 +92,7 @@ void validate(const ReductionOptions& options) {
             "' must be finite and positive");
 }
 
-// Without the roundoff of zeros.
+// The vector rounded, so that zeros have no roundoff.
 Eigen::RowVector3d rounded(const Eigen::Vector3d& v) {
   return (v / kRounding).array().round() * kRounding + 0.0;
 }
@@ -193,7 +193,7 @@ void place_frame(Job& job) {
   job.report.origin = origin;
 }
 
-// On the other ranks.
+// Moves the materials into the body frame on all ranks but the first, which has done so.
 void place_materials(Job& job) {
   MPI_Bcast(job.report.origin.data(), 3, MPI_DOUBLE, 0, job.comm);
   if (job.rank != 0) move_materials(job, job.report.origin);

@@ -270,7 +270,7 @@ void reduce_sectors(Job& job) {
   checkpoints.clear();
 }
 
-// From other vectors than eigenmodes.
+// Reduces the body by Ritz vectors in place of eigenmodes.
 void reduce_ritz(Job& job) {
   const fem::Matrices matrices = assemble(job);
   UniqueVec layout;

@@ -14,7 +14,7 @@ struct Residual {
 
 Residual make_residual(Mat K);
 
-/// phi := own rows.
+/// Sets phi from the rows of this rank.
 void load(Vec phi, const Eigen::Ref<const Eigen::VectorXd>& own);
 
 /// Scales phi to phi' M phi = 1. eigenvalue: the Rayleigh quotient (more exact than a solver's value);

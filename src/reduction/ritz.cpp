@@ -45,7 +45,7 @@ MatrixXd orthonormaliser(const MatrixXd& G) {
   return U.leftCols(n);
 }
 
-// V' M V.
+// Mass projected on the space, V' M V.
 MatrixXd projected_mass(const RitzSpace& space) {
   MatrixXd own(space.size, space.size);
   for (int begin = 0; begin < space.size; begin += kBlock) {

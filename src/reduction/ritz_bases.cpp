@@ -47,7 +47,7 @@ void add_static_solutions(RitzSpace& space, const RitzTask& task, const Progress
   }
 }
 
-// Own rows of the eigenmodes.
+// Eigenmodes, rows of this rank.
 MatrixXd own_modes(Mat K, Mat M, const EigenOptions& options, const Progress& progress) {
   const auto [begin, end] = own_rows(K);
   MatrixXd own(end - begin, options.n_modes);

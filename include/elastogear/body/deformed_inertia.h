@@ -28,7 +28,7 @@ struct SecondOrder {
 };
 SecondOrder second_order(const Equations& eq, const Eigen::VectorXd& x);
 
-/// sum_ab Gamma_ab S^ab x
+/// The product sum_ab Gamma_ab S^ab x.
 Eigen::VectorXd contract(const model::Inertia& inertia, const Eigen::Matrix3d& Gamma,
                          const Eigen::VectorXd& x);
 
@@ -45,7 +45,7 @@ struct Shape {
 };
 Shape shape(const Equations& eq, const Motion& m);
 
-/// C_r(y)'x
+/// The product C_r(y)'x.
 Eigen::Vector3d project_C_r(const Equations& eq, const Shape& shape, const Eigen::VectorXd& x);
 
 }  // namespace elastogear::body

@@ -14,8 +14,8 @@ struct MasterSide {
 
 bool on_extension(const Projection& projection);
 
-/// Frictionless, undamped penalty on facets: F derives from a potential, W = V. Not for prolonged ends.
-/// docs/theory.md, Eqs. (6.4) and (6.5).
+/// Contact point of the frictionless, undamped penalty on facets, whose F derives from a potential, W = V:
+/// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on a prolonged side.
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, double c_p,
                                bool full_tangent);
 

@@ -15,8 +15,8 @@ struct DeformationBound {
   double compliance = 0;                  ///< largest |Phi_i K_r^-1 Phi_i'| of all nodes, m/N per unit force
 };
 
-/// By energy for a dense basis and a positive diagonal K_r. Otherwise (full basis, whose rows are sparse, or
-/// no K_r given) by the displacements of all nodes.
+/// Bound by the elastic energy for a dense basis and a positive diagonal K_r. Otherwise (full basis, whose
+/// rows are sparse, or no K_r given) the displacements of all nodes are taken.
 DeformationBound deformation_bound(const model::BasisRows& Phi, const Eigen::SparseMatrix<double>& K_r);
 
 /// >= max over the nodes of |Phi_i q|, m. Eq. (5.4).

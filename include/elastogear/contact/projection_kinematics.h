@@ -33,13 +33,13 @@ struct ProjectionKinematics {
 ProjectionKinematics projection_kinematics(const Face& face, const Projection& projection,
                                            const Eigen::Vector3d& x_slave);
 
-/// da_i/dx
+/// Derivative da_i/dx of a tangent.
 Local3 tangent_derivative(const ProjectionKinematics& foot, int i);
 
-/// (dA/dx) y
+/// Derivative (dA/dx) y of the metric at constant y.
 Eigen::Matrix<double, 2, 15> metric_derivative(const ProjectionKinematics& foot, const Eigen::Vector2d& y);
 
-/// [slave I, weight_i I]
+/// The matrix [slave I, weight_i I], which sums the local vectors with these weights.
 Local3 spread(double slave, const Eigen::Vector4d& weight);
 
 }  // namespace elastogear::contact

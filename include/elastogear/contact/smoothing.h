@@ -17,7 +17,7 @@ using CornerSlopes = Eigen::Matrix<double, 2, 4>;
 /// (rad) against the face in question, so that true edges stay sharp.
 std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double feature_angle);
 
-/// Along the face normal, m.
+/// Height h(u, v) along the face normal, m.
 FaceFunction height(int sides, const CornerSlopes& slopes, double u, double v);
 
 /// Bound of |h| over all faces, m.

@@ -1,6 +1,6 @@
 #pragma once
-// Which faces meet at the edges and nodes of a surface, and what follows from it: open ends, normals, shares
-// of area.
+// Topology of a surface: the faces that meet at its edges and nodes, its boundary (open sides), normals, and
+// shares of area.
 
 #include <Eigen/Core>
 #include <span>

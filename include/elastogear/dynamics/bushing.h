@@ -30,7 +30,7 @@ struct BushingState {
   Eigen::Vector3d force, torque;  ///< N, N m, on the second marker, components in the world
   double energy;                  ///< J, stored
 
-  /// On the first marker, which feels the force at the second: [-f; -m - r x f].
+  /// Wrench on the first marker, which takes the force at the place of the second: [-f; -m - r x f].
   body::Wrench on_first(const Eigen::Vector3d& r) const;
   body::Wrench on_second() const;
 };

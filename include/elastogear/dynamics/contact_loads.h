@@ -54,7 +54,7 @@ struct JointTwists {
 /// Eq. (6.11).
 void add_geometric_stiffness(const JointTwists& twists, const NodalForces& forces, BodyTerms& terms);
 
-/// P_dot of a body.
+/// Twists P_dot of a body, see JointTwists.
 body::MotionSubspace velocity_twists(const body::Joint& joint, const body::MotionSubspace& H,
                                      const body::JointMotion& m, double shift_v);
 

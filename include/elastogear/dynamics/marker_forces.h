@@ -75,7 +75,7 @@ class MarkerForces {
   Eigen::MatrixXd columns(std::size_t b) const;
   Eigen::Index row_count(std::size_t b) const { return 6 * marker_count(static_cast<int>(b)); }
 
-  /// Sets where bushings are unloaded.
+  /// Makes the present positions those at which bushings are unloaded.
   void set_unloaded(const std::vector<MovingBody>& bodies);
   /// Generalised forces of all loads and bushings, one per body.
   std::vector<MarkerForce> forces(double time, const std::vector<MovingBody>& bodies) const;

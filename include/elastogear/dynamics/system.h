@@ -104,7 +104,7 @@ class System {
   const Eigen::VectorXd& initial_velocity() const { return V_0_; }
   const MarkerForces& marker_forces() const { return marker_forces_; }
   std::vector<SolverBody> solver_bodies() const;
-  /// Is LowRankSolver's inverse exact?
+  /// Returns whether LowRankSolver's inverse is exact.
   bool solver_is_exact() const;
 
   /// Motion of a body, prescribed coordinates included.

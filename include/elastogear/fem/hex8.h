@@ -28,7 +28,7 @@ using StressOperator = Eigen::Matrix<double, 48, 24>;  ///< Pa/m, 6 rows per nod
 /// function below presumes that it is positive.
 double smallest_jacobian(const Coordinates& X);
 
-/// K_e, 2x2x2 Gauss points.
+/// Stiffness K_e of the cell, 2x2x2 Gauss points.
 Stiffness stiffness(const Coordinates& X, const Elasticity& material, model::Element element);
 
 /// Consistent mass, 3x3x3 Gauss points: exact for every trilinear hexahedron.
@@ -37,7 +37,7 @@ Mass mass(const Coordinates& X, double rho);
 /// Stress at the 2x2x2 Gauss points, incompatible part included, extrapolated trilinearly to the nodes.
 StressOperator stress(const Coordinates& X, const Elasticity& material, model::Element element);
 
-/// m^3, exact.
+/// Volume of the cell, m^3, exact.
 double volume(const Coordinates& X);
 
 }  // namespace elastogear::fem::hex8

@@ -56,7 +56,7 @@ struct Harmonic {
   }
 };
 
-/// 0 <= k <= Z/2.
+/// Harmonic k of a sector, 0 <= k <= Z/2.
 Harmonic make_harmonic(const Sector& sector, int k);
 
 /// Displacements of the whole mesh (3 n_nodes, node-major, 0 where restrained) from coordinates z of a
@@ -64,8 +64,8 @@ Harmonic make_harmonic(const Sector& sector, int k);
 Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
                        const Eigen::Ref<const Eigen::VectorXd>& z);
 
-/// Coordinates of i z: the second real field of a complex amplitude. Rows may be those of some orbits only.
-/// Not for real harmonics.
+/// Coordinates of i z, the second real field of a complex amplitude; the harmonic must not be real. Rows may
+/// be those of some orbits only.
 Eigen::MatrixXd times_i(const Harmonic& harmonic, int first_orbit,
                         const Eigen::Ref<const Eigen::MatrixXd>& z);
 

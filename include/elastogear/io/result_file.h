@@ -27,8 +27,8 @@ class ResultWriter {
   /// Ends a part. From here on a killed run can go on from `state`.
   void checkpoint(const std::vector<double>& state);
   int n_times() const;  ///< appended, in earlier runs too
-  /// Nothing can be appended afterwards. Not complete: the parts stay beside the file, to go on from. Error
-  /// when nothing was appended.
+  /// Joins the parts into the file; nothing can be appended afterwards. When not complete, the parts stay
+  /// beside the file, to go on from. Error when nothing was appended.
   void finish(bool complete = true);
 
  private:
@@ -43,7 +43,7 @@ struct UnfinishedRun {
   std::vector<double> state;  ///< of its last checkpoint
   double time = 0;            ///< s, last that it wrote before
 };
-/// Nothing when there is no checkpoint. Error when it is damaged.
+/// Reads the last checkpoint of an unfinished run; nothing when there is none. Error when it is damaged.
 std::optional<UnfinishedRun> read_unfinished_run(const std::string& path);
 
 /// Histories of one body, one column per output time.
@@ -89,7 +89,7 @@ model::ResultHeader read_result_header(const std::string& path);
 bool is_complete(const std::string& path);
 Eigen::VectorXd read_times(const std::string& path);
 BodyHistory read_body_history(const std::string& path, const std::string& body);
-/// Without the elastic coordinates, which a full basis has many of.
+/// History of a body without its elastic coordinates, of which a full basis has many.
 BodyHistory read_joint_history(const std::string& path, const std::string& body);
 PairHistory read_pair_history(const std::string& path, const std::string& pair);
 EnergyHistory read_energies(const std::string& path);

@@ -17,7 +17,7 @@ namespace elastogear::reduction {
 std::vector<model::Check> mass_checks(const ElasticSystem& system, const model::ElasticBody& body,
                                       const fem::MassMoments& moments);
 
-/// Table `static_completeness`. Collective, as static_completeness.
+/// Table `static_completeness`. Collective.
 std::vector<model::Check> load_checks(const ElasticSystem& system, const model::ElasticBody& body,
                                       int n_nodes);
 

@@ -10,7 +10,7 @@ namespace elastogear::reduction {
 
 enum class Ordering { metis, mumps };  ///< mumps: its own choice
 
-/// As estimated from the sparsity.
+/// Size of a factor, estimated from the sparsity.
 struct FactorSize {
   double entries = 0;  ///< of L
   double flops = 0;    ///< of one factorisation
