@@ -38,7 +38,7 @@ Eigen::Matrix3d material_axes(const model::Orientation& orientation, const Eigen
 /// H in the body frame at each of the points x, 3 x n, m. Eq. (1.8).
 std::vector<Matrix6> elasticity_at(const Orthotropy& material, const Eigen::Matrix3Xd& x);
 
-/// Young's modulus E_n in the direction n at the point x (m), Pa (docs/theory.md, section 1.3).
+/// Young's modulus E_n in the direction n at the point x (m), Pa (section 1.3).
 double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n, const Eigen::Vector3d& x);
 
 /// lame() of an isotropic material; of an orthotropic one with the mean moduli of compression and shear waves
