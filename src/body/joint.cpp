@@ -44,8 +44,12 @@ const std::vector<std::string>& joint_names() {
   return names;
 }
 
-bool has_rotation_axis(JointType type) { return type == JointType::revolute || type == JointType::cylindrical; }
-bool has_translation_axis(JointType type) { return type == JointType::prismatic || type == JointType::cylindrical; }
+bool has_rotation_axis(JointType type) {
+  return type == JointType::revolute || type == JointType::cylindrical;
+}
+bool has_translation_axis(JointType type) {
+  return type == JointType::prismatic || type == JointType::cylindrical;
+}
 bool has_rotation_vector(JointType type) { return type == JointType::spherical || type == JointType::free; }
 
 Placement placement(const Joint& joint, const Eigen::VectorXd& s) {
@@ -53,7 +57,8 @@ Placement placement(const Joint& joint, const Eigen::VectorXd& s) {
   if (joint.type == JointType::fixed) return {joint.r_WB0, joint.R_WB0};
   if (joint.type == JointType::spherical) return about_point(joint, cayley(s), Vector3d::Zero());
   const Vector3d axis = joint.axis.normalized();
-  const double angle = has_rotation_axis(joint.type) ? s[0] : 0, slid = has_translation_axis(joint.type) ? s[s.size() - 1] : 0;
+  const double angle = has_rotation_axis(joint.type) ? s[0] : 0,
+               slid = has_translation_axis(joint.type) ? s[s.size() - 1] : 0;
   return about_point(joint, rotation_matrix(angle * axis), slid * axis);
 }
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "elastogear/base/error.h"
-#include "elastogear/contact/smoothing.h"
 #include "elastogear/contact/contact_point.h"
 #include "elastogear/contact/settings.h"
+#include "elastogear/contact/smoothing.h"
 #include "tracker.h"
 
 namespace elastogear::contact {

@@ -94,8 +94,8 @@ Projection make_projection(const SurfaceView& master, const Eigen::Vector3d& q, 
 
 }  // namespace
 
-std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
-                                  std::span<const int> faces, int likely) {
+std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
+                                          const Limits& limits, std::span<const int> faces, int likely) {
   const Trial trial{master, slave.x, limits.depth, faces, likely};
   const Nearest any = nearest(trial, [](auto&&...) { return true; });
   if (!any.found()) return {};

@@ -51,7 +51,8 @@ void validate(const Settings& s) {
   require(std::isfinite(s.hysteresis) && s.hysteresis >= 0, "contact: hysteresis ", s.hysteresis,
           " s/m must not be negative");
   require(std::isfinite(s.offset), "contact: offset ", s.offset, " m must be finite");
-  require(s.feature_angle > 0 && s.feature_angle <= 90, "contact: feature_angle ", s.feature_angle, " deg, allowed is 0 to 90");
+  require(s.feature_angle > 0 && s.feature_angle <= 90, "contact: feature_angle ", s.feature_angle,
+          " deg, allowed is 0 to 90");
   validate(s.friction);
   require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
           ", allowed is 0 to 0.5");

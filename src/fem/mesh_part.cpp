@@ -25,7 +25,7 @@ std::vector<std::vector<int>> cells_of_ranks(const mesh::Mesh& mesh, const RowNu
 }
 
 MeshPart make_mesh_part(const mesh::Mesh& mesh, const std::vector<int>& region, const RowNumbering& rows,
-                 const std::vector<int>& cells) {
+                        const std::vector<int>& cells) {
   MeshPart part;
   std::vector<int> nodes;
   for (int cell : cells) nodes.insert(nodes.end(), mesh.cells[cell].begin(), mesh.cells[cell].end());
@@ -103,7 +103,7 @@ RowNumbering number_rows(const mesh::Mesh& mesh, const std::vector<bool>& is_fre
 }
 
 MeshPart distribute(MPI_Comm comm, const mesh::Mesh& mesh, const std::vector<int>& region,
-                 const RowNumbering& rows) {
+                    const RowNumbering& rows) {
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);

@@ -202,13 +202,13 @@ ToothGrid tooth_grid(const Profile& p, const ToothGridCounts& n) {
                    .s = uniform(n.space),
                    .t = rows});
   ToothGrid grid{.half_tooth = half_tooth,
-            .half_pitch = half_pitch,
-            .ring = n.ring,
-            .fillet = n.fillet,
-            .rows = n.fillet + n.flank,
-            .fillet_end = half_tooth + (n.space == 1 ? 0 : fillet_columns(p, n.space)),
-            .strip = below,
-            .tooth = tooth_block(p, n, bottom)};
+                 .half_pitch = half_pitch,
+                 .ring = n.ring,
+                 .fillet = n.fillet,
+                 .rows = n.fillet + n.flank,
+                 .fillet_end = half_tooth + (n.space == 1 ? 0 : fillet_columns(p, n.space)),
+                 .strip = below,
+                 .tooth = tooth_block(p, n, bottom)};
   grid.strip.insert(grid.strip.end(), beside.begin() + n.ring + 1, beside.end());
   return grid;
 }

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "assembly.h"
-#include "tooth_grid.h"
 #include "elastogear/base/error.h"
+#include "tooth_grid.h"
 
 namespace elastogear::gear {
 namespace {
@@ -66,12 +66,12 @@ std::vector<double> plane_positions(const Design& d, const WheelCounts& n) {
 }
 
 Sector sector(const Design& d, const Geometry& g, const WheelCounts& n) {
-  Sector s{
-      .tooth_grid = tooth_grid(wheel_profile(d, g),
-                   {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim}),
-      .radius = {d.wheel_bore / 2},
-      .half_width = {},
-      .z = plane_positions(d, n)};
+  Sector s{.tooth_grid = tooth_grid(
+               wheel_profile(d, g),
+               {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim}),
+           .radius = {d.wheel_bore / 2},
+           .half_width = {},
+           .z = plane_positions(d, n)};
   s.half_pitch = std::numbers::pi / g.wheel.z;
   add_rows(s, n.hub, d.hub_diameter / 2, d.hub_width);
   add_rows(s, n.web, d.web_diameter / 2, d.web_width);

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "tooth_grid.h"
 #include "elastogear/gear/worm.h"
 #include "helix.h"
+#include "tooth_grid.h"
 
 namespace elastogear::gear {
 

@@ -35,7 +35,7 @@ Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_
   for (std::size_t i = 0; i < n; ++i) {
     const int o = images.orbit[i], t = images.sector_index[i];
     require(o >= 0 && o < images.node.cols() && t >= 0 && t < n_sectors && images.node(t, o) < 0, source,
-            ": node ", i, " has orbit ", o, " and ", t, " sector_index, which cannot be");
+            ": node ", i, " has orbit ", o, " and ", t, " turns, which cannot be");
     images.node(t, o) = static_cast<int>(i);
   }
   return images;

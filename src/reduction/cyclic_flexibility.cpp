@@ -4,8 +4,8 @@
 #include <numbers>
 #include <optional>
 
-#include "elastogear/base/collectively.h"
 #include "elastogear/base/broadcast.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/fem/sector_assembly.h"

@@ -30,7 +30,8 @@ bool holds(const io::CheckpointStore& store, const std::string& name) {
 
 }  // namespace
 
-HarmonicCheckpoints::HarmonicCheckpoints(MPI_Comm comm, const std::string& folder, const std::string& fingerprint)
+HarmonicCheckpoints::HarmonicCheckpoints(MPI_Comm comm, const std::string& folder,
+                                         const std::string& fingerprint)
     : comm_(comm) {
   const std::string text = on_all_ranks(comm, fingerprint);
   int rank = 0;

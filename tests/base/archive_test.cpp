@@ -4,8 +4,8 @@
 
 #include <limits>
 
-using elastogear::Error;
 using elastogear::Archive;
+using elastogear::Error;
 
 namespace {
 

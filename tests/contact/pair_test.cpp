@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "elastogear/base/error.h"
-#include "elastogear/contact/settings.h"
 #include "elastogear/contact/projection.h"
+#include "elastogear/contact/settings.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

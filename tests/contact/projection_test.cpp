@@ -23,7 +23,7 @@ struct Master {
       : surface(std::move(s)), map(topology(surface.face, int(surface.X.cols()))) {}
   SurfaceView view() const { return {surface.face, map, surface.X, extension}; }
   std::optional<Projection> touch(const Eigen::Vector3d& q, const Eigen::Vector3d& n,
-                              const Limits& limits) const {
+                                  const Limits& limits) const {
     std::vector<int> faces(surface.face.cols());
     std::iota(faces.begin(), faces.end(), 0);
     return find_projection(view(), {q, [&] { return n; }}, limits, faces);

@@ -4,8 +4,8 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/contact/deformation_bound.h"
-#include "elastogear/contact/pair.h"
 #include "elastogear/contact/neighbour_list.h"
+#include "elastogear/contact/pair.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

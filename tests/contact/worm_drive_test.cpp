@@ -4,8 +4,8 @@
 #include <map>
 #include <numeric>
 
-#include "elastogear/contact/smoothing.h"
 #include "elastogear/contact/projection.h"
+#include "elastogear/contact/smoothing.h"
 #include "surfaces.h"
 #include "worm_drive.h"
 

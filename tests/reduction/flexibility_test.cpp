@@ -79,10 +79,11 @@ class Flexibility : public testing::Test {
           model::displacement_columns(body.flexibility, body.flexibility.surface.orbit[b]);
       const Eigen::MatrixXf G = io::read_stress_responses(path_, body.flexibility.surface.orbit[b]);
       for (std::size_t a = 0; a < node.size(); ++a)
-        EXPECT_LT((model::displacement_response(body.flexibility, static_cast<int>(a), static_cast<int>(b), F) * f -
-                   u.segment<3>(3 * node[a]))
-                      .norm(),
-                  kSinglePrecision * u.norm());
+        EXPECT_LT(
+            (model::displacement_response(body.flexibility, static_cast<int>(a), static_cast<int>(b), F) * f -
+             u.segment<3>(3 * node[a]))
+                .norm(),
+            kSinglePrecision * u.norm());
       for (std::size_t e = 0; e < body.stress.node.size(); ++e)
         EXPECT_LT((model::stress_response(body.flexibility, static_cast<int>(e), static_cast<int>(b), G) * f -
                    sigma.segment<6>(static_cast<Eigen::Index>(6 * e)))

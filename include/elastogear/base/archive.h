@@ -10,7 +10,8 @@
 
 namespace elastogear {
 
-/// Records what it is shown, or is_loading it back into it, to the bit. Whole numbers up to 2^53 are kept exactly.
+/// Records what it is shown, or is_loading it back into it, to the bit. Whole numbers up to 2^53 are kept
+/// exactly.
 class Archive {
  public:
   Archive() = default;  ///< records

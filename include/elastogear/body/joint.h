@@ -29,9 +29,9 @@ struct Joint {
 int coordinate_count(JointType type);
 /// "fixed", "revolute", ...; in the order of JointType.
 const std::vector<std::string>& joint_names();
-bool has_rotation_axis(JointType type);    ///< has an angle about an axis
-bool has_translation_axis(JointType type);   ///< has a displacement along an axis
-bool has_rotation_vector(JointType type);  ///< its last three coordinates are a local rotation vector
+bool has_rotation_axis(JointType type);     ///< has an angle about an axis
+bool has_translation_axis(JointType type);  ///< has a displacement along an axis
+bool has_rotation_vector(JointType type);   ///< its last three coordinates are a local rotation vector
 
 struct Placement {
   Eigen::Vector3d r_WB;  ///< m

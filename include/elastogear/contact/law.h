@@ -2,9 +2,9 @@
 // Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory.md, sections
 // 6.6 and 6.7), with the derivatives that the consistent tangent takes.
 
-#include "elastogear/contact/smoothing.h"
-#include "elastogear/contact/projection_kinematics.h"
 #include "elastogear/contact/pair.h"
+#include "elastogear/contact/projection_kinematics.h"
+#include "elastogear/contact/smoothing.h"
 
 namespace elastogear::contact {
 

@@ -40,8 +40,8 @@ struct Projection {
 /// the limit, or when only faces that do not oppose it are near. `faces` must hold all master faces within
 /// `depth` of the node; they ascend. `likely`, one of them or -1, is tried first: the search is quickest when
 /// it is right.
-std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave, const Limits& limits,
-                                  std::span<const int> faces, int likely = -1);
+std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
+                                          const Limits& limits, std::span<const int> faces, int likely = -1);
 
 struct Approach {
   double clearance = 0;    ///< m: before moving by as much the node cannot touch

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "elastogear/base/petsc.h"
 #include "elastogear/base/archive.h"
+#include "elastogear/base/petsc.h"
 #include "elastogear/body/equations.h"
 
 namespace elastogear::dynamics {

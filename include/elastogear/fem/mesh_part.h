@@ -36,6 +36,6 @@ struct MeshPart {
 
 /// Sends each rank its part. Collective; mesh, region (of each cell) and rows are read on rank 0 only.
 MeshPart distribute(MPI_Comm comm, const mesh::Mesh& mesh, const std::vector<int>& region,
-                 const RowNumbering& rows);
+                    const RowNumbering& rows);
 
 }  // namespace elastogear::fem

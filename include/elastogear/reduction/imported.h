@@ -39,7 +39,7 @@ struct ImportedSystem {
 /// unknown nodes and rows, asymmetry, diagonals that are not positive, and displacements that only one of the
 /// matrices has.
 ImportedSystem read_imported(MPI_Comm comm, const mesh::Mesh& mesh, const ImportedFiles& files,
-                           const Progress& progress = {});
+                             const Progress& progress = {});
 
 /// Does `dof` hold all displacements of every node (of a cell, when there are cells)?
 bool is_complete(const mesh::Mesh& mesh, const std::vector<int>& dof);
