@@ -4,34 +4,26 @@
 #   compare.sh PATH/TO/elastogear
 set -euo pipefail
 elastogear=$(realpath "$1")
+here=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# A bar of three hexahedra of 10 mm, nodes counted from 1 or backwards; FIX is the left end, TIP the right one.
-bar() {
-  awk -v back="$1" 'function node(i) { return back ? 17 - i : i }
-  BEGIN {
-    print "*NODE"
-    for (i = 0; i < 4; ++i) for (k = 0; k < 4; ++k)
-      printf "%d, %g, %g, %g\n", node(4*i + k + 1), 0.01*i, 0.01*(k == 1 || k == 2), 0.01*(k > 1)
-    print "*ELEMENT, TYPE=C3D8, ELSET=ALL"
-    for (i = 0; i < 3; ++i) { printf "%d", i + 1; for (k = 1; k <= 8; ++k) printf ", %d", node(4*i + k); print "" }
-    print "*NSET, NSET=FIX"; for (k = 1; k <= 4; ++k) print node(k)
-    print "*NSET, NSET=TIP"; for (k = 13; k <= 16; ++k) print node(k)
-    print "*NSET, NSET=MIDDLE"; for (k = 5; k <= 12; ++k) print node(k)
-  }'
-}
+# A bar of three hexahedra of 10 mm, nodes counted from 1 or backwards; FIX is the left end, END the right one.
+source "$here/bar.sh"
+{ bar 3 1 1 0.01 0.01 0.01 && printf '*NSET, NSET=MIDDLE\n5, 6, 7, 8, 9, 10, 11, 12\n'; } >forth.inp
+awk -F', ' -v OFS=', ' '/^\*/ { kind = $1; print; next } # the first number of a node is its own, of a cell not a node
+  { for (i = kind == "*ELEMENT" ? 2 : 1; i <= (kind == "*NODE" ? 1 : NF); ++i) if (kind != "*SURFACE") $i = 17 - $i; print }' \
+  forth.inp >back.inp
 
 # run NAME FORCE: static answer to a force on the tip; stress of the middle.
 run() {
-  "$elastogear" simulate -bodies a -a_file "$1.h5" -loads pull -pull_marker a.TIP -pull_force "$2,0,0" -analysis static \
+  "$elastogear" simulate -bodies a -a_file "$1.h5" -loads pull -pull_marker a.END -pull_force "$2,0,0" -analysis static \
     -static_steps 4 -output "$1_$2.h5" >log 2>&1 || { cat log; exit 1; }
   "$elastogear" recover -result "$1_$2.h5" -stress_a MIDDLE -output "$1_$2_stress.h5" >log 2>&1 || { cat log; exit 1; }
 }
 for name in forth back; do
-  bar $([ $name = back ] && echo 1 || echo 0) >$name.inp
-  "$elastogear" reduce -mesh $name.inp -material_E 210e9 -material_nu 0.3 -material_rho 7850 -restrain FIX -markers TIP \
+  "$elastogear" reduce -mesh $name.inp -material_E 210e9 -material_nu 0.3 -material_rho 7850 -restrain FIX -markers END \
     -stress_nodes MIDDLE -basis full -output $name.h5 >log 2>&1 || { cat log; exit 1; }
 done
 run forth 1000
