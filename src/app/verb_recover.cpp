@@ -204,6 +204,17 @@ recovery::StressHistory history(Body& body, const model::Stress& stress, const s
   return recovery::stress_history(stress, members, body.q(), sigma_static);
 }
 
+// The stress of the whole static response less that of the modes, which mode acceleration has added to `set`.
+// Eq. (4.6).
+Eigen::MatrixXd residual_stress(Body& body, const model::Stress& stress, const std::vector<int>& members,
+                                const io::StressSet& set) {
+  const Eigen::MatrixXd& q = body.history.q;
+  if (body.response) return set.stress - recovery::modal_stress(stress, members, q);
+  const Eigen::MatrixXd whole = stress_history(*body.reference, set.node);
+  const Eigen::MatrixXd of_modes = recovery::modal_stress(stress, members, q - body.reference->q);
+  return whole.size() > 0 ? Eigen::MatrixXd(whole - of_modes) : Eigen::MatrixXd(-of_modes);
+}
+
 // Sets `error` where it can be told: the full basis leaves nothing out.
 void estimate_error(Body& body, const model::ElasticBody& elastic, io::StressSet& set) {
   if (elastic.basis == model::Basis::full) {
@@ -214,12 +225,10 @@ void estimate_error(Body& body, const model::ElasticBody& elastic, io::StressSet
   StaticResponseOfRun* const reference = body.response ? body.response.get() : body.reference.get();
   if (!reference) return;
   const std::vector<int>& members = elastic.stress.sets.at(set.set);
-  const Eigen::MatrixXd whole =
-      recovery::stress_history(elastic.stress, members, reference->q, stress_history(*reference, set.node))
-          .stress;
-  const Eigen::MatrixXd of_modes = recovery::stress_history(elastic.stress, members, body.history.q).stress;
-  auto error = recovery::reduction_error(elastic, members, {reference->q, body.history.q - reference->q},
-                                         {set.stress, whole - of_modes, body.response != nullptr});
+  const Eigen::MatrixXd q_s = body.history.q - reference->q;
+  auto error = recovery::reduction_error(
+      elastic, members, {reference->q, q_s},
+      {set.stress, residual_stress(body, elastic.stress, members, set), body.response != nullptr});
   set.error = std::move(error.at_node);
   set.peak_error = std::move(error.of_peak);
 }

@@ -1,6 +1,7 @@
 #include "elastogear/recovery/stress.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace elastogear::recovery {
@@ -30,16 +31,29 @@ double rankine(const StressVector& s) {
 Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, von_mises); }
 Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, rankine); }
 
+Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>& members,
+                             const Eigen::MatrixXd& q) {
+  constexpr Eigen::Index kTogether = 256;  // nodes: fewer would pack q anew for each product
+  const auto n = static_cast<Eigen::Index>(members.size());
+  Eigen::MatrixXd sigma(6 * n, q.cols());
+  const auto product = [&](const auto& Psi) {
+    for (Eigen::Index first = 0; first < n; first += kTogether) {
+      const Eigen::Index count = std::min(kTogether, n - first);
+      Eigen::MatrixXd rows(6 * count, Psi.cols());
+      for (Eigen::Index i = 0; i < count; ++i)
+        rows.middleRows<6>(6 * i) = Eigen::MatrixXd(Psi.middleRows(6 * members[first + i], 6));
+      sigma.middleRows(6 * first, 6 * count).noalias() = rows * q;
+    }
+  };
+  std::visit(product, stress.Psi);
+  return sigma;
+}
+
 StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,
                              const Eigen::MatrixXd& q, const Eigen::MatrixXd& sigma_static) {
   StressHistory history;
-  history.stress.resize(6 * static_cast<Eigen::Index>(members.size()), q.cols());
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    history.node.push_back(stress.node[members[i]]);
-    std::visit(
-        [&](const auto& Psi) { history.stress.middleRows<6>(6 * i) = Psi.middleRows(6 * members[i], 6) * q; },
-        stress.Psi);
-  }
+  for (int member : members) history.node.push_back(stress.node[member]);
+  history.stress = modal_stress(stress, members, q);
   if (sigma_static.size() > 0) history.stress += sigma_static;
   history.von_mises = von_mises(history.stress);
   history.rankine = rankine(history.stress);

@@ -29,6 +29,11 @@ struct StressHistory {
 Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress);
 Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress);
 
+/// Psi q at the evaluation nodes `members` (local numbers in stress.node), 6 n x n_t, Pa; q: n_q x n_t.
+/// Eq. (4.1).
+Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>& members,
+                             const Eigen::MatrixXd& q);
+
 /// sigma(t) = Psi q(t) + sigma_static(t) at the evaluation nodes `members` (local numbers in stress.node);
 /// q: n_q x n_t; sigma_static: 6 n x n_t, Pa, or empty.
 StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,
