@@ -112,7 +112,8 @@ dynamics::RunSummary write_run(io::ResultWriter& writer, const std::string& outp
   } catch (const Error& error) {
     if (writer.n_times() == 0) throw;
     writer.finish(false);
-    fail(error.what(), ". The result until t = ", written.time, " s is in ", output,
+    const std::string why = error.what();
+    fail(why, why.ends_with('?') ? "" : ".", " The result until t = ", written.time, " s is in ", output,
          written.kept ? "; with changed options, -resume anyway goes on from there" : "");
   }
   require(writer.n_times() > 0, "stopped by signal ", int(stop_signal),

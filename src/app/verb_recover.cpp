@@ -99,11 +99,11 @@ Run read_run(const Options& options, const Progress& progress) {
   const auto acceleration =
       static_cast<Acceleration>(options.choice("mode_acceleration", {"false", "auto", "true"}));
   for (Body& body : run.bodies) {
-    report(progress, "static answers", share(run.bodies, body));
+    report(progress, "static responses", share(run.bodies, body));
     body.response = static_response_of_run(body.of_run(), acceleration);
     if (!body.response && is_asked(options, body.name)) body.reference = error_reference(body.of_run());
   }
-  report(progress, "static answers", 1);
+  report(progress, "static responses", 1);
   return run;
 }
 

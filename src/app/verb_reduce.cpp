@@ -72,7 +72,7 @@ const OptionTable kOptions = {
      "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none, and "
      "when SLEPc is asked for: from the whole body"},
     {"completeness", "-", "true",
-     "check how much of the static answer to loads on the surface the modes give: one more factorisation; "
+     "check how much of the static response to loads on the surface the modes give: one more factorisation; "
      "with "
      "sectors up to 500,000 displacements"},
     {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
@@ -186,7 +186,7 @@ void drop_static_responses(reduction::ReductionOptions& o) {
   if (!o.flexibility || !o.surface.empty() || !o.loaded.empty()) return;
   o.flexibility = false;
   print_item("basis",
-             "modal: without a contact surface (-surface) there are no static answers to forces on it");
+             "modal: without a contact surface (-surface) there are no static responses to forces on it");
 }
 
 struct Nodes {

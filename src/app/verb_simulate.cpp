@@ -31,7 +31,7 @@ const OptionTable kOwnTable = {
     {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
     {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
     {"<body>_residual", "-", "true",
-     "let contact feel the static answers that the file holds beside its modes (reduce -basis "
+     "let contact feel the static responses that the file holds beside its modes (reduce -basis "
      "modal_residual)"},
     {"<body>_mass", "kg", "", "rigid body without a file: mass"},
     {"<body>_center", "m", "0,0,0", "rigid body without a file: centre of mass in the body frame"},

@@ -110,7 +110,7 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
   if (f.empty()) return;
   const auto n_c = static_cast<Eigen::Index>(f.node.size()), n_r = f.stress.node.size();
   const std::size_t n_e = body.stress.node.size();
-  require(body.basis == Basis::modal, source, ": static answers belong to a modal basis");
+  require(body.basis == Basis::modal, source, ": static responses belong to a modal basis");
   require(std::is_sorted(f.node.begin(), f.node.end()) &&
               in_range(f.node, static_cast<int>(body.surface.node.size())),
           source, ": loaded nodes of the flexibility must ascend within the surface");
@@ -124,7 +124,7 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
   require((f.F.size() == 0 ? f.read_F != nullptr : f.F.rows() == 3 * n_c && f.F.cols() == n_columns) &&
               (f.G.size() == 0 || (f.G.rows() == 6 * n_r && f.G.cols() == n_columns)),
           source, ": F or G does not have a row for each node and a column for each force");
-  require(f.F.allFinite() && f.G.allFinite(), source, ": static answers are not finite");
+  require(f.F.allFinite() && f.G.allFinite(), source, ": static responses are not finite");
 }
 
 }  // namespace

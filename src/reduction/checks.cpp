@@ -46,7 +46,7 @@ std::vector<model::Check> load_checks(const ElasticSystem& system, const model::
   const Completeness completeness = static_completeness(system, body, n_nodes);
   if (completeness.load.empty()) return {};
   return {{"static_completeness", "1",
-           "share of the static answer to a load on the surface that the modes give", completeness.share,
+           "share of the static response to a load on the surface that the modes give", completeness.share,
            completeness.load}};
 }
 

@@ -15,7 +15,7 @@ namespace elastogear::reduction {
 namespace {
 
 constexpr int kBlock = 32;  // loaded nodes whose 3 x 32 right-hand sides go through the factor together
-constexpr const char* kStage = "static answers";
+constexpr const char* kStage = "static responses";
 
 using Eigen::MatrixXd;
 

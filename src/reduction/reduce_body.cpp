@@ -57,7 +57,7 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
 
 void validate_ritz(const ReductionOptions& options) {
   require(options.basis == model::Basis::modal && !options.flexibility,
-          "a Ritz basis is neither the full basis nor has it static answers to contact forces");
+          "a Ritz basis is neither the full basis nor has it static responses to contact forces");
   require(!options.floating, "Ritz bases need a held body: name sets of nodes by the option restrain");
   const RitzKind kind = options.ritz->kind;
   require(kind != RitzKind::modal_attachment || !options.loaded.empty(),
@@ -83,10 +83,10 @@ void validate(const ReductionOptions& options) {
   require(options.ratio.ratio.empty() || options.basis == model::Basis::modal,
           "damping ratios belong to modes: the full basis takes Rayleigh's alpha and beta only");
   require(!options.flexibility || options.basis == model::Basis::modal,
-          "static answers to contact forces belong to the modal basis");
+          "static responses to contact forces belong to the modal basis");
   require(
       !options.flexibility || !options.surface.empty(),
-      "static answers to contact forces need a contact surface: name its face sets by the option surface");
+      "static responses to contact forces need a contact surface: name its face sets by the option surface");
   for (const auto& [set, mass] : options.point_mass)
     require(std::isfinite(mass) && mass > 0, "point mass ", mass, " kg on '", set,
             "' must be finite and positive");
@@ -141,7 +141,7 @@ void find_symmetry(Job& job) {
     auto [found, reason] = search_repetition(job);
     if (found) repetition = std::move(*found);
     job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
-    if (found && options.floating) job.report.symmetry += ", for static answers";
+    if (found && options.floating) job.report.symmetry += ", for static responses";
   });
   MPI_Bcast(&repetition.turn.n_sectors, 1, MPI_INT, 0, job.comm);
 }

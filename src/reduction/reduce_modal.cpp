@@ -183,7 +183,7 @@ void add_flexibility(Job& job, const ElasticSystem& system) {
           ? find_cyclic_flexibility(job.comm, task, body, job.options.floating, job.progress)
           : find_flexibility(task, system, job.progress);
   if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
-  job.finish_stage("static answers");
+  job.finish_stage("static responses");
 }
 
 // From the matrices of the whole body.

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int kBlock = 96;  // right-hand sides that go through the factor together
-constexpr const char* kStage = "static answers";
+constexpr const char* kStage = "static responses";
 
 std::pair<int, int> own_rows(Mat K) {
   PetscInt begin = 0, end = 0;

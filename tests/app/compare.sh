@@ -16,7 +16,7 @@ awk -F', ' -v OFS=', ' '/^\*/ { kind = $1; print; next } # the first number of a
   { for (i = kind == "*ELEMENT" ? 2 : 1; i <= (kind == "*NODE" ? 1 : NF); ++i) if (kind != "*SURFACE") $i = 17 - $i; print }' \
   forth.inp >back.inp
 
-# run NAME FORCE: static answer to a force on the tip; stress of the middle.
+# run NAME FORCE: static response to a force on the tip; stress of the middle.
 run() {
   "$elastogear" simulate -bodies a -a_file "$1.h5" -loads pull -pull_marker a.END -pull_force "$2,0,0" -analysis static \
     -static_steps 4 -output "$1_$2.h5" >log 2>&1 || { cat log; exit 1; }

@@ -1,4 +1,4 @@
-// Two blocks that nothing holds collide: few free modes with residual flexibility, whose static answers are
+// Two blocks that nothing holds collide: few free modes with residual flexibility, whose static responses are
 // balanced by inertia, against all modes.
 #include <gtest/gtest.h>
 
