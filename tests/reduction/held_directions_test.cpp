@@ -108,8 +108,9 @@ TEST_F(HeldDirections, leave_no_sectors) {
   auto mesh = test::disc({5, 2, 3, 2});
   mesh.node_sets["few"] = {0, 7, 20};
   const auto report = reduce(mesh, o);
-  if (is_root())
+  if (is_root()) {
     EXPECT_THAT(report.symmetry, testing::HasSubstr("none: nodes are held in single directions"));
+  }
 }
 
 }  // namespace
