@@ -27,7 +27,7 @@
 #include "elastogear/mesh/file.h"
 #include "elastogear/mesh/partition.h"
 #include "elastogear/reduction/eigenmodes.h"
-#include "elastogear/reduction/factorisation.h"
+#include "reduction/eigensolver/factorisation.h"
 
 namespace {
 

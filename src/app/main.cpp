@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "app/command_line.h"
-#include "app/verbs.h"
+#include "app/options/command_line.h"
+#include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/version.h"

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "app/console.h"
+#include "app/console/console.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/fingerprint.h"

@@ -2,7 +2,7 @@
 // A run whose result survives: interrupted by force it goes on from its last checkpoint, stopped by a signal
 // or by a step that cannot be solved it leaves what it has.
 
-#include "app/options.h"
+#include "app/options/options.h"
 #include "elastogear/dynamics/simulate.h"
 #include "elastogear/io/result_file.h"
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "elastogear/base/error.h"
+#include "elastogear/contact/pair.h"
 #include "elastogear/contact/topology.h"
 
 namespace elastogear::contact {

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "contact/forces/contact_point.h"
+#include "contact/projection/smoothing.h"
+#include "contact/search/tracker.h"
+#include "contact/settings.h"
 #include "elastogear/base/error.h"
-#include "elastogear/contact/contact_point.h"
-#include "elastogear/contact/settings.h"
-#include "elastogear/contact/smoothing.h"
-#include "tracker.h"
 
 namespace elastogear::contact {
 namespace {

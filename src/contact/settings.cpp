@@ -1,10 +1,11 @@
-#include "elastogear/contact/settings.h"
+#include "contact/settings.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "elastogear/base/error.h"
 #include "elastogear/contact/kdop.h"
+#include "elastogear/contact/stiffness.h"
 #include "elastogear/contact/topology.h"
 
 namespace elastogear::contact {
@@ -13,13 +14,6 @@ namespace {
 constexpr const char* surface_name[2] = {"contact: surface a", "contact: surface b"};
 
 constexpr double kSkin = 0.25;  // of the face size: dozens of time steps, and few more nodes than at 0
-
-double mean_stiffness(const model::Surface& surface, int side) {
-  const auto n_f = surface.face.cols();
-  require(surface.c_f.size() == n_f && (surface.c_f.array() > 0).all() && surface.c_f.allFinite(),
-          surface_name[side], " has no positive stiffness c_f for each face: give the penalty stiffness");
-  return surface.c_f.mean();
-}
 
 }  // namespace
 
@@ -91,11 +85,7 @@ void validate(const SurfaceMotion& motion, const model::Surface& surface, int si
 }
 
 Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b) {
-  if (settings.stiffness == 0) {
-    settings.stiffness = 1 / (1 / mean_stiffness(a, 0) + 1 / mean_stiffness(b, 1));
-    const model::Surface& slave = settings.slave == 0 ? a : b;
-    if (settings.penalty == Penalty::per_node) settings.stiffness *= node_areas(slave.X, slave.face).mean();
-  }
+  if (settings.stiffness == 0) settings.stiffness = default_stiffness(settings, a, b);
   const double size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
   if (settings.depth == 0) settings.depth = 0.5 * size;
   if (settings.skin == 0) settings.skin = kSkin * size;
@@ -124,12 +114,6 @@ std::vector<Law> node_laws(const Settings& s, const model::Surface& slave) {
 
 bool has_potential(const Settings& s) {
   return s.damping == 0 && s.hysteresis == 0 && s.offset == 0 && !s.smooth && s.friction.mu == 0;
-}
-
-Eigen::VectorXd node_stiffness(const Settings& settings, const model::Surface& slave) {
-  const double c_p = settings.two_pass ? 0.5 * settings.stiffness : settings.stiffness;
-  if (settings.penalty == Penalty::per_node) return Eigen::VectorXd::Constant(slave.X.cols(), c_p);
-  return c_p * node_areas(slave.X, slave.face);
 }
 
 }  // namespace elastogear::contact

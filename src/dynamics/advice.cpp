@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "elastogear/contact/settings.h"
+#include "elastogear/contact/stiffness.h"
 
 namespace elastogear::dynamics {
 namespace {

@@ -1,6 +1,6 @@
+#include "dynamics/run.h"
+#include "dynamics/vec_view.h"
 #include "elastogear/dynamics/generalized_alpha.h"
-#include "run.h"
-#include "vec_view.h"
 
 namespace elastogear::dynamics {
 namespace {

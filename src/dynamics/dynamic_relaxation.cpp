@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "dynamics/run.h"
+#include "dynamics/vec_view.h"
 #include "elastogear/dynamics/generalized_alpha.h"
-#include "run.h"
-#include "vec_view.h"
 
 namespace elastogear::dynamics {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "dynamics/run.h"
+#include "dynamics/vec_view.h"
 #include "elastogear/dynamics/generalized_alpha.h"
-#include "run.h"
-#include "vec_view.h"
 
 namespace elastogear::dynamics {
 namespace {

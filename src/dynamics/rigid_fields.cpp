@@ -1,4 +1,4 @@
-#include "rigid_fields.h"
+#include "dynamics/rigid_fields.h"
 
 #include <Eigen/IterativeLinearSolvers>
 

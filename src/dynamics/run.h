@@ -3,10 +3,10 @@
 
 #include <chrono>
 
+#include "dynamics/integrator/problem.h"
+#include "dynamics/integrator/sanity.h"
+#include "dynamics/snapshot.h"
 #include "elastogear/dynamics/simulate.h"
-#include "elastogear/dynamics/snapshot.h"
-#include "problem.h"
-#include "sanity.h"
 
 namespace elastogear::dynamics {
 
@@ -49,7 +49,6 @@ void require_bodies_apart(System& system);
 RunSummary new_summary(const System& system);
 /// Enters the peaks of a snapshot into the summary.
 void update(RunSummary& summary, const model::Snapshot& snapshot);
-UniqueVec vector(const Eigen::VectorXd& values);
 
 /// Hands the last snapshot to the observer.
 void observe(Run& run);

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/run.h"
+#include "dynamics/vec_view.h"
 #include "elastogear/base/error.h"
 #include "elastogear/contact/initial_overlap.h"
 #include "elastogear/dynamics/generalized_alpha.h"
-#include "run.h"
-#include "vec_view.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -309,13 +309,6 @@ RunSummary new_summary(const System& system) {
   RunSummary summary;
   for (const PairSetup& pair : system.pairs()) summary.pair.push_back({pair.name});
   return summary;
-}
-
-UniqueVec vector(const Eigen::VectorXd& values) {
-  UniqueVec vec;
-  check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(values.size()), vec.out()));
-  assign(vec, values);
-  return vec;
 }
 
 RunSummary simulate(System& system, const TimeSettings& settings, const Observer& observer,

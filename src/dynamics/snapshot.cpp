@@ -1,6 +1,6 @@
-#include "elastogear/dynamics/snapshot.h"
+#include "dynamics/snapshot.h"
 
-#include "pair_state.h"
+#include "dynamics/contact/pair_state.h"
 
 namespace elastogear::dynamics {
 namespace {

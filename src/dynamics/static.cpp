@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/integrator/sanity.h"
+#include "dynamics/run.h"
+#include "dynamics/vec_view.h"
 #include "elastogear/base/error.h"
-#include "run.h"
-#include "sanity.h"
-#include "vec_view.h"
 
 namespace elastogear::dynamics {
 namespace {

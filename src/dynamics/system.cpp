@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "dynamics/integrator/low_rank_columns.h"
 #include "elastogear/base/error.h"
 #include "elastogear/body/tangent.h"
-#include "low_rank_columns.h"
 
 namespace elastogear::dynamics {
 namespace {

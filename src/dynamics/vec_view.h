@@ -1,5 +1,5 @@
 #pragma once
-// Eigen views of sequential PETSc vectors.
+// Eigen views of sequential PETSc vectors, and PETSc vectors of Eigen's.
 
 #include <Eigen/Core>
 
@@ -30,6 +30,14 @@ inline void assign(Vec vec, const Eigen::VectorXd& values) {
   check(VecGetArrayWrite(vec, &array));
   Eigen::Map<Eigen::VectorXd>(array, values.size()) = values;
   check(VecRestoreArrayWrite(vec, &array));
+}
+
+/// A new sequential vector of these values.
+inline UniqueVec vector(const Eigen::VectorXd& values) {
+  UniqueVec vec;
+  check(VecCreateSeq(PETSC_COMM_SELF, static_cast<PetscInt>(values.size()), vec.out()));
+  assign(vec, values);
+  return vec;
 }
 
 }  // namespace elastogear::dynamics

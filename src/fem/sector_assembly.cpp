@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "elastogear/fem/element.h"
-#include "spd_matrix.h"
+#include "fem/spd_matrix.h"
 
 namespace elastogear::fem {
 namespace {

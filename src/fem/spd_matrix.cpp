@@ -1,4 +1,4 @@
-#include "spd_matrix.h"
+#include "fem/spd_matrix.h"
 
 namespace elastogear::fem {
 

@@ -1,4 +1,4 @@
-#include "assembly.h"
+#include "gear/assembly.h"
 
 #include <algorithm>
 

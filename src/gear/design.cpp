@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
-#include "profile.h"
+#include "gear/profile.h"
 
 namespace elastogear::gear {
 namespace {

@@ -1,6 +1,6 @@
-#include "helix.h"
+#include "gear/helix.h"
 
-#include "assembly.h"
+#include "gear/assembly.h"
 
 namespace elastogear::gear {
 

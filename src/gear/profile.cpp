@@ -1,4 +1,4 @@
-#include "profile.h"
+#include "gear/profile.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "tooth_grid.h"
+#include "gear/tooth_grid.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "profile.h"
+#include "gear/profile.h"
 
 namespace elastogear::gear {
 

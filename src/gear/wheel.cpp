@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "assembly.h"
 #include "elastogear/base/error.h"
-#include "tooth_grid.h"
+#include "gear/assembly.h"
+#include "gear/tooth_grid.h"
 
 namespace elastogear::gear {
 namespace {

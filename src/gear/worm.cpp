@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "assembly.h"
 #include "elastogear/base/error.h"
-#include "worm_grid.h"
+#include "gear/assembly.h"
+#include "gear/worm_grid.h"
 
 namespace elastogear::gear {
 namespace {

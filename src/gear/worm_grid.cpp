@@ -1,11 +1,11 @@
-#include "worm_grid.h"
+#include "gear/worm_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "assembly.h"
 #include "elastogear/base/error.h"
+#include "gear/assembly.h"
 
 namespace elastogear::gear {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "elastogear/base/file.h"
-#include "schema.h"
+#include "io/hdf5/schema.h"
 
 namespace elastogear::io {
 namespace {

@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "body_schema.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/mesh/file.h"
 #include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/quality.h"
-#include "schema.h"
+#include "io/body/body_schema.h"
+#include "io/hdf5/schema.h"
 
 namespace elastogear::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "face_owner.h"
+#include "mesh/face_owner.h"
 
 namespace elastogear::mesh {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "elastogear/base/error.h"
-#include "elastogear/mesh/inp.h"
-#include "elastogear/mesh/msh.h"
+#include "mesh/inp/inp.h"
+#include "mesh/msh/msh.h"
 
 namespace elastogear::mesh {
 namespace {

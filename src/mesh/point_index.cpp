@@ -1,4 +1,4 @@
-#include "point_index.h"
+#include "mesh/point_index.h"
 
 #include <algorithm>
 #include <cmath>

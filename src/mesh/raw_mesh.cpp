@@ -1,4 +1,4 @@
-#include "raw_mesh.h"
+#include "mesh/raw_mesh.h"
 
 #include <limits>
 

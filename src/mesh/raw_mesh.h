@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "elastogear/mesh/mesh.h"
-#include "tag_table.h"
+#include "mesh/msh/tag_table.h"
 
 namespace elastogear::mesh {
 

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "elastogear/base/rotation.h"
-#include "point_index.h"
+#include "mesh/point_index.h"
 
 namespace elastogear::mesh {
 namespace {

@@ -1,6 +1,6 @@
-#include "elastogear/reduction/checks.h"
+#include "reduction/checks.h"
 
-#include "elastogear/reduction/effective_mass.h"
+#include "reduction/modes/effective_mass.h"
 
 namespace elastogear::reduction {
 namespace {

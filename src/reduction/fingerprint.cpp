@@ -1,4 +1,4 @@
-#include "fingerprint.h"
+#include "reduction/fingerprint.h"
 
 #include <vector>
 

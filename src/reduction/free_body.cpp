@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "elastogear/base/error.h"
-#include "residual.h"
+#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -5,9 +5,9 @@
 #include "elastogear/fem/elimination.h"
 #include "elastogear/fem/gather.h"
 #include "elastogear/fem/restraint.h"
-#include "elastogear/reduction/basis.h"
-#include "elastogear/reduction/second_moments.h"
-#include "reduce_job.h"
+#include "reduction/basis.h"
+#include "reduction/reduce_job.h"
+#include "reduction/second_moments.h"
 
 namespace elastogear::reduction {
 namespace {

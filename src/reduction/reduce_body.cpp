@@ -13,8 +13,8 @@
 #include "elastogear/mesh/named_nodes.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/marker.h"
-#include "elastogear/reduction/surface.h"
-#include "reduce_job.h"
+#include "reduction/reduce_job.h"
+#include "reduction/surface.h"
 
 namespace elastogear::reduction {
 namespace {

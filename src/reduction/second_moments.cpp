@@ -1,4 +1,4 @@
-#include "elastogear/reduction/second_moments.h"
+#include "reduction/second_moments.h"
 
 #include <algorithm>
 #include <array>

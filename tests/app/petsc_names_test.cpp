@@ -1,5 +1,5 @@
 // The names of PETSc's options as they stand in its libraries, against what its objects print as their help.
-#include "app/petsc_names.h"
+#include "app/options/petsc_names.h"
 
 #include <gtest/gtest.h>
 #include <petscts.h>

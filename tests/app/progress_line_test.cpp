@@ -1,5 +1,5 @@
 // Lines of progress: time remaining, width, and when one is due. No clock is involved.
-#include "app/progress_line.h"
+#include "app/console/progress_line.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which word was meant.
-#include "app/spelling.h"
+#include "app/options/spelling.h"
 
 #include <gtest/gtest.h>
 

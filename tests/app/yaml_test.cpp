@@ -1,5 +1,5 @@
 // YAML files as options.
-#include "app/yaml.h"
+#include "app/options/yaml.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "elastogear/contact/coarse_search.h"
+#include "contact/search/coarse_search.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

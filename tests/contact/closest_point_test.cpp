@@ -1,4 +1,4 @@
-#include "elastogear/contact/closest_point.h"
+#include "contact/projection/closest_point.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "elastogear/contact/closest_point.h"
-#include "elastogear/contact/projection.h"
+#include "contact/projection/closest_point.h"
+#include "contact/projection/projection.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

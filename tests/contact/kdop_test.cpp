@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "contact/search/realign.h"
 #include "elastogear/base/error.h"
-#include "elastogear/contact/realign.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

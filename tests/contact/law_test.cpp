@@ -1,12 +1,12 @@
 // Contact forces with damping, friction and smoothed normals: balance, objectivity, power, tangent.
-#include "elastogear/contact/law.h"
+#include "contact/forces/law.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <functional>
 
-#include "elastogear/contact/contact_point.h"
+#include "contact/forces/contact_point.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

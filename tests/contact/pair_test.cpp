@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/projection/projection.h"
+#include "contact/settings.h"
 #include "elastogear/base/error.h"
-#include "elastogear/contact/projection.h"
-#include "elastogear/contact/settings.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

@@ -1,4 +1,4 @@
-#include "elastogear/contact/projection.h"
+#include "contact/projection/projection.h"
 
 #include <gtest/gtest.h>
 

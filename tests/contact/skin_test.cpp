@@ -2,9 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "contact/search/neighbour_list.h"
 #include "elastogear/base/error.h"
 #include "elastogear/contact/deformation_bound.h"
-#include "elastogear/contact/neighbour_list.h"
 #include "elastogear/contact/pair.h"
 #include "surfaces.h"
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "contact/projection/smoothing.h"
 #include "elastogear/contact/pair.h"
-#include "elastogear/contact/smoothing.h"
 #include "surfaces.h"
 
 namespace elastogear::contact {

@@ -1,4 +1,4 @@
-#include "elastogear/contact/tangent.h"
+#include "contact/forces/tangent.h"
 
 #include <gtest/gtest.h>
 

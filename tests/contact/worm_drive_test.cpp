@@ -4,8 +4,8 @@
 #include <map>
 #include <numeric>
 
-#include "elastogear/contact/projection.h"
-#include "elastogear/contact/smoothing.h"
+#include "contact/projection/projection.h"
+#include "contact/projection/smoothing.h"
 #include "surfaces.h"
 #include "worm_drive.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "box_body.h"
-#include "elastogear/dynamics/snapshot.h"
+#include "dynamics/snapshot.h"
 
 using namespace elastogear;
 using namespace elastogear::dynamics;

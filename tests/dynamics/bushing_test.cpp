@@ -8,12 +8,12 @@
 
 #include "../fem/brick.h"
 #include "box_body.h"
+#include "dynamics/snapshot.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/body/rigid.h"
 #include "elastogear/dynamics/simulate.h"
-#include "elastogear/dynamics/snapshot.h"
 #include "elastogear/dynamics/static.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Bodies whose contact is the point of a test, and equilibria of their systems.
 
-#include "elastogear/dynamics/snapshot.h"
+#include "dynamics/snapshot.h"
 
 namespace elastogear::test {
 

@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include "box_body.h"
+#include "dynamics/snapshot.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
-#include "elastogear/dynamics/snapshot.h"
 #include "elastogear/dynamics/system.h"
 #include "markers.h"
 

@@ -1,4 +1,4 @@
-#include "elastogear/fem/hex8.h"
+#include "fem/elements/hex8.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "elastogear/fem/shape.h"
+#include "fem/elements/shape.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "elastogear/base/error.h"
-#include "elastogear/fem/quadrature.h"
+#include "fem/elements/quadrature.h"
 #include "other_cells.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // The .msh reader on any bytes, ASCII and binary.
-#include "elastogear/mesh/msh.h"
+#include "mesh/msh/msh.h"
 #include "elastogear/base/error.h"
 #include "target.h"
 

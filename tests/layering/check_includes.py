@@ -1,7 +1,13 @@
-"""Reads every include in src/ and include/ and reports edges between modules that the layering forbids.
+"""Reads every include in src/ and include/ and reports what the layering forbids.
 
-Includes go downwards: a module may include itself and modules of lower levels. Within one level, and between the two
-halves that meet only in `model` and its file, nothing may be included. Usage: check_includes.py REPOSITORY
+1. Includes go downwards: a module may include itself and modules of lower levels. Within one level, and between the two
+   halves that meet only in `model` and its file, nothing may be included.
+2. A header in src/ is private: only its own module includes it, and no public header does.
+3. A header in include/ is public: another module or an example includes it, directly or by another public header.
+4. Units (a header with its source) include each other at most in twos: a larger ring is a knot.
+5. A folder of a module holds at most 20 files.
+
+Usage: check_includes.py REPOSITORY
 """
 import os
 import re
@@ -19,7 +25,9 @@ LEVEL = {
 BUILDING = {"gear", "mesh", "fem", "reduction"}  # makes body files
 RUNNING = {"body", "contact", "dynamics", "recovery"}  # uses body files
 ROOTS = ("src", "include/elastogear")
-INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+API = ["dynamics/generalized_alpha.h"]  # a TS type for programs of others
+MOST_FILES = 20
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<][^">]+)[">]', re.MULTILINE)
 
 
 def allowed(source, target):
@@ -40,13 +48,21 @@ def module_of(path):
     return None
 
 
-def included_module(include, folder):
-    """Module that an include names, seen from a file in `folder`; None for system and third-party headers."""
+def header_of(include, folder):
+    """Path of the header that an include names, seen from a file in `folder`; None for those of other libraries."""
+    quoted, include = include[0] == '"', include[1:]
     if include.startswith("elastogear/"):
-        return module_of("include/" + include)
-    if include.startswith(".."):
-        return module_of(os.path.normpath(os.path.join(folder, include)))
-    return include.split("/")[0] if include.split("/")[0] in LEVEL else None  # src/ is an include path of the programs
+        return "include/" + include
+    if quoted and (include.startswith("..") or "/" not in include):
+        return os.path.normpath(os.path.join(folder, include))
+    return "src/" + include if include.split("/")[0] in LEVEL else None
+
+
+def read_includes(path, repository):
+    """Paths of the headers of ours that a file includes."""
+    with open(os.path.join(repository, path), encoding="utf-8") as file:
+        found = (header_of(include, os.path.dirname(path)) for include in INCLUDE.findall(file.read()))
+    return [header for header in found if header and module_of(header)]
 
 
 def source_files(repository):
@@ -57,27 +73,99 @@ def source_files(repository):
                     yield os.path.relpath(os.path.join(folder, name), repository)
 
 
-def violations(repository):
-    """One message per forbidden include or unknown module, empty when the layering holds."""
-    found = []
-    for path in source_files(repository):
+def forbidden_edges(includes):
+    """Rules 1 and 2."""
+    for path, headers in includes.items():
         source = module_of(path)
-        with open(os.path.join(repository, path), encoding="utf-8") as file:
-            includes = INCLUDE.findall(file.read())
-        targets = {include: included_module(include, os.path.dirname(path)) for include in includes}
-        for include, target in targets.items():
-            if target is None:
-                continue
+        for header in headers:
+            target = module_of(header)
+            private = header.startswith("src/")
             if source not in LEVEL or target not in LEVEL:
-                found.append(f"{path}: '{include}': the layering does not know {source} -> {target}")
+                yield f"{path}: the layering does not know {source} -> {target} ({header})"
             elif not allowed(source, target):
-                found.append(f"{path}: '{include}': {source} must not include {target}")
+                yield f"{path}: {source} must not include {target} ({header})"
+            elif private and source != target:
+                yield f"{path}: {header} is private to module {target}"
+            elif private and path.startswith("include/"):
+                yield f"{path}: a public header must not include a private one ({header})"
+
+
+def examples_includes(repository):
+    for folder, _, names in os.walk(os.path.join(repository, "examples")):
+        for name in names:
+            if name.endswith((".h", ".cpp")):
+                yield from read_includes(os.path.relpath(os.path.join(folder, name), repository), repository)
+
+
+def needless_public_headers(includes, repository):
+    """Rule 3."""
+    wanted = {"include/elastogear/" + header for header in API} | set(examples_includes(repository))
+    for path, headers in includes.items():
+        wanted.update(header for header in headers if module_of(header) != module_of(path) and path.startswith("src/"))
+    todo = list(wanted)
+    while todo:
+        more = [header for header in includes.get(todo.pop(), []) if header not in wanted]
+        wanted.update(more)
+        todo += more
+    for path in includes:
+        if path.startswith("include/") and path not in wanted:
+            yield f"{path}: no other module and no example includes it: move it to src/{module_of(path)}"
+
+
+def unit_of(path):
+    """Module and name that a header and its source have in common."""
+    return module_of(path) + "/" + os.path.splitext(os.path.basename(path))[0]
+
+
+def knots(includes):
+    """Rule 4: sets of units that reach each other, by Tarjan's algorithm."""
+    edges = {}
+    for path, headers in includes.items():
+        edges.setdefault(unit_of(path), set()).update(unit_of(header) for header in headers)
+    index, low, stack, found = {}, {}, [], []
+
+    def visit(unit):
+        index[unit] = low[unit] = len(index)
+        stack.append(unit)
+        for target in sorted(edges.get(unit, ())):
+            if target not in index:
+                visit(target)
+            if target in stack:
+                low[unit] = min(low[unit], low[target])
+        if low[unit] == index[unit]:
+            ring = stack[stack.index(unit):]
+            del stack[stack.index(unit):]
+            if len(ring) > 2:
+                found.append("a knot of includes: " + ", ".join(sorted(ring)))
+
+    for unit in sorted(edges):
+        if unit not in index:
+            visit(unit)
     return found
+
+
+def crowded_folders(repository):
+    """Rule 5."""
+    for root in ROOTS:
+        for folder, _, names in os.walk(os.path.join(repository, root)):
+            if len(names) > MOST_FILES:
+                yield f"{os.path.relpath(folder, repository)}: {len(names)} files, at most {MOST_FILES}"
+
+
+def violations(repository):
+    """One message for each breach of rules 1 and 2, empty when the layering holds."""
+    return list(forbidden_edges({path: read_includes(path, repository) for path in source_files(repository)}))
+
+
+def all_violations(repository):
+    includes = {path: read_includes(path, repository) for path in source_files(repository)}
+    return [*forbidden_edges(includes), *needless_public_headers(includes, repository), *knots(includes),
+            *crowded_folders(repository)]
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 2 or not os.path.isdir(os.path.join(sys.argv[1], "src")):
         sys.exit("usage: check_includes.py REPOSITORY (a folder that has src/)")
-    problems = violations(sys.argv[1])
+    problems = all_violations(sys.argv[1])
     print("\n".join(problems) if problems else "the include layering holds")
     sys.exit(1 if problems else 0)

@@ -6,13 +6,19 @@ import unittest
 import check_includes
 
 
+def found_in(files, check):
+    """What a check of a repository finds that holds these files, each a path and the headers that it includes."""
+    with tempfile.TemporaryDirectory() as repository:
+        for path, includes in files.items():
+            os.makedirs(os.path.join(repository, os.path.dirname(path)), exist_ok=True)
+            with open(os.path.join(repository, path), "w", encoding="utf-8") as file:
+                file.write("#pragma once\n#include <vector>\n" + "".join(f"  #include {name}\n" for name in includes))
+        return check(repository)
+
+
 def violations_of(path, include):
     """Violations in a repository whose only file is `path` with one include."""
-    with tempfile.TemporaryDirectory() as repository:
-        os.makedirs(os.path.join(repository, os.path.dirname(path)))
-        with open(os.path.join(repository, path), "w", encoding="utf-8") as file:
-            file.write(f"#pragma once\n#include <vector>\n  #include {include}\n")
-        return check_includes.violations(repository)
+    return found_in({path: [include]}, check_includes.violations)
 
 
 class CheckIncludes(unittest.TestCase):
@@ -56,6 +62,42 @@ class CheckIncludes(unittest.TestCase):
     def test_private_headers_of_other_modules_are_seen(self):
         self.assert_forbidden("src/mesh/a.cpp", '"../fem/quadrature.h"')
         self.assert_forbidden("src/mesh/a.cpp", '"fem/quadrature.h"')
+
+    def test_private_headers_are_for_their_module(self):
+        self.assert_allowed("src/fem/a.cpp", '"fem/elements/hex8.h"')
+        self.assert_forbidden("src/reduction/a.cpp", '"fem/elements/hex8.h"')
+        self.assert_forbidden("src/app/a.cpp", '"fem/elements/hex8.h"')
+        self.assert_forbidden("include/elastogear/fem/a.h", '"fem/elements/hex8.h"')
+
+    def test_public_headers_have_users_elsewhere(self):
+        api = [f"include/elastogear/{header}" for header in check_includes.API]
+
+        def needless(files):
+            return [message.split(":")[0] for message in found_in(files, check_includes.all_violations)
+                    if "no other module" in message and message.split(":")[0] not in api]
+
+        header, deeper = "include/elastogear/mesh/a.h", "include/elastogear/mesh/b.h"
+        files = {header: ['"elastogear/mesh/b.h"'], deeper: [], "src/mesh/a.cpp": ['"elastogear/mesh/a.h"']}
+        self.assertEqual(sorted(needless(files)), [header, deeper])
+        self.assertEqual(needless(files | {"src/fem/a.cpp": ['"elastogear/mesh/a.h"']}), [])
+        self.assertEqual(needless(files | {"examples/a.cpp": ['"elastogear/mesh/a.h"']}), [])
+
+    def test_knots_are_found_and_twos_are_not(self):
+        def knots(files):
+            return [message for message in found_in(files, check_includes.all_violations) if "knot" in message]
+
+        twos = {"src/fem/a.h": [], "src/fem/a.cpp": ['"fem/b.h"'], "src/fem/b.h": ['"fem/a.h"']}
+        self.assertEqual(knots(twos), [])
+        threes = twos | {"src/fem/b.h": ['"fem/c.h"'], "src/fem/c.h": ['"fem/a.h"']}
+        self.assertEqual(knots(threes), ["a knot of includes: fem/a, fem/b, fem/c"])
+
+    def test_crowded_folders_are_reported(self):
+        def crowded(n):
+            files = {f"src/fem/a{i}.cpp": [] for i in range(n)}
+            return [message for message in found_in(files, check_includes.all_violations) if "files, at most" in message]
+
+        self.assertEqual(crowded(check_includes.MOST_FILES), [])
+        self.assertEqual(len(crowded(check_includes.MOST_FILES + 1)), 1)
 
     def test_unknown_modules_are_reported(self):
         self.assert_forbidden("src/utils/a.cpp", '"elastogear/base/error.h"')

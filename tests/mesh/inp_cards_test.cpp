@@ -1,6 +1,6 @@
 // Materials, restraint, included files and parts in .inp files.
-#include "../../src/mesh/inp_variant.h"
-#include "elastogear/mesh/inp.h"
+#include "mesh/inp/inp.h"
+#include "mesh/inp/inp_variant.h"
 #include "reader_test.h"
 
 using namespace elastogear;

@@ -1,4 +1,4 @@
-#include "elastogear/mesh/inp.h"
+#include "mesh/inp/inp.h"
 #include "reader_test.h"
 
 using namespace elastogear;

@@ -5,8 +5,8 @@
 #include "box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
-#include "elastogear/mesh/inp.h"
-#include "elastogear/mesh/msh.h"
+#include "mesh/inp/inp.h"
+#include "mesh/msh/msh.h"
 
 using namespace elastogear;
 using namespace elastogear::mesh;

@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 
-#include "../../src/mesh/msh_format.h"
-#include "elastogear/mesh/msh.h"
+#include "mesh/msh/msh.h"
+#include "mesh/msh/msh_format.h"
 #include "reader_test.h"
 
 using namespace elastogear;

@@ -1,4 +1,4 @@
-#include "elastogear/reduction/basis.h"
+#include "reduction/basis.h"
 
 #include <gtest/gtest.h>
 

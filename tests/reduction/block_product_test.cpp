@@ -1,4 +1,4 @@
-#include "elastogear/reduction/block_product.h"
+#include "reduction/eigensolver/block_product.h"
 
 #include <gtest/gtest.h>
 

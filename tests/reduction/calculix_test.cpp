@@ -7,10 +7,10 @@
 
 #include "../fem/other_cells.h"
 #include "../fem/system.h"
-#include "elastogear/fem/quadrature.h"
-#include "elastogear/fem/shape.h"
 #include "elastogear/gear/worm.h"
 #include "elastogear/reduction/eigenmodes.h"
+#include "fem/elements/quadrature.h"
+#include "fem/elements/shape.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // How good a basis is: effective masses and static completeness, against dense algebra and their limits.
-#include "elastogear/reduction/checks.h"
+#include "reduction/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "../fem/system.h"
-#include "elastogear/reduction/basis.h"
-#include "elastogear/reduction/effective_mass.h"
-#include "elastogear/reduction/surface.h"
+#include "reduction/basis.h"
+#include "reduction/modes/effective_mass.h"
+#include "reduction/surface.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <Eigen/SparseCore>
 
 #include "../fem/system.h"
-#include "elastogear/reduction/cyclic.h"
+#include "reduction/cyclic/cyclic.h"
 
 namespace elastogear::test {
 

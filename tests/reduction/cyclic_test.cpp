@@ -2,7 +2,7 @@
 
 #include "../mesh/disc.h"
 #include "elastogear/base/error.h"
-#include "elastogear/reduction/cutoff.h"
+#include "reduction/modes/cutoff.h"
 
 namespace {
 

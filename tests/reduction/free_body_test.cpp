@@ -12,8 +12,8 @@
 #include "calculix.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/body_file.h"
-#include "elastogear/reduction/effective_mass.h"
 #include "elastogear/reduction/reduce.h"
+#include "reduction/modes/effective_mass.h"
 
 namespace {
 

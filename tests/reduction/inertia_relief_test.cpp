@@ -1,5 +1,5 @@
 // Static answers of bodies that nothing holds.
-#include "elastogear/reduction/inertia_relief.h"
+#include "reduction/static_response/inertia_relief.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "../fem/system.h"
 #include "elastogear/io/body_file.h"
-#include "elastogear/reduction/factorisation.h"
 #include "elastogear/reduction/reduce.h"
+#include "reduction/eigensolver/factorisation.h"
 
 namespace {
 

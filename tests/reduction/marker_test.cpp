@@ -7,7 +7,7 @@
 #include "../fem/brick.h"
 #include "elastogear/base/error.h"
 #include "elastogear/fem/restraint.h"
-#include "elastogear/reduction/basis.h"
+#include "reduction/basis.h"
 
 namespace {
 

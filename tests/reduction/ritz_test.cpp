@@ -1,6 +1,6 @@
 // What each basis beside eigenmodes promises, against the dense matrices of a small body, on any number of
 // ranks.
-#include "elastogear/reduction/ritz.h"
+#include "reduction/bases/ritz.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "elastogear/reduction/spectrum_slicing.h"
+#include "reduction/eigensolver/spectrum_slicing.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "../fem/system.h"
 #include "elastogear/base/error.h"
-#include "elastogear/reduction/ordering.h"
+#include "reduction/eigensolver/ordering.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "../fem/brick.h"
 #include "elastogear/base/error.h"
-#include "elastogear/reduction/surface.h"
+#include "reduction/surface.h"
 
 namespace {
 

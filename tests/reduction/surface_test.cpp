@@ -1,4 +1,4 @@
-#include "elastogear/reduction/surface.h"
+#include "reduction/surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "elastogear/reduction/tall_basis.h"
+#include "reduction/eigensolver/tall_basis.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "elastogear/contact/pair.h"
+#include "elastogear/contact/types.h"
 
 namespace elastogear::contact {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "elastogear/body/equations.h"
-#include "elastogear/contact/pair.h"
+#include "elastogear/contact/types.h"
 #include "elastogear/dynamics/low_rank_solver.h"
 
 namespace elastogear::dynamics {

@@ -1,0 +1,121 @@
+#pragma once
+// Data of contact: settings of a pair, surfaces in motion, and the contacts that are found.
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::contact {
+
+/// How trees follow the motion. bound: leaf-up from the undeformed surface in its new placement, wider by a
+/// bound of the deformation. refit: leaf-up from the deformed surface. realign: k-DOPs rotated by their hull
+/// points, wider by the bound.
+enum class Update { bound, refit, realign };
+enum class Penalty { per_node, per_area };
+/// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
+/// standstill.
+enum class FrictionLaw { regularised, stick };
+
+/// Coulomb friction; none when mu = 0.
+struct FrictionSettings {
+  double mu = 0;         ///< -, of sliding nodes
+  double mu_static = 0;  ///< -, stick only: of a node that sticks; 0: mu
+  FrictionLaw law = FrictionLaw::regularised;
+  double v_0 = 0;        ///< m/s, regularised only
+  double stiffness = 1;  ///< -, stick only: tangential over normal penalty stiffness
+};
+
+struct Settings {
+  int k = 24;  ///< k-DOP directions: 6, 14, 18, 24, 26
+  Update update = Update::bound;
+  Penalty penalty = Penalty::per_area;
+  /// per_node: N/m, per_area: Pa/m; 0 = from material and cell size (c_f of both sides in series)
+  double stiffness = 0;
+  int slave = 0;              ///< which of the two surfaces gives the slave nodes
+  bool two_pass = false;      ///< swap the roles in a second pass, half the stiffness each
+  double depth = 0;           ///< m, deepest penetration still taken for contact; 0 = from the face size
+  double skin = 0;            ///< m, relative motion after which a search is due; 0 = from the face size
+  double normal_angle = 100;  ///< deg, slave and master normals must be at least this far apart
+  bool full_tangent = true;   ///< with the geometric part; false: normal part only
+  double damping = 0;         ///< d_p while approaching; per_node: N s/m, per_area: Pa s/m
+  double hysteresis = 0;      ///< s/m, Hunt and Crossley's factor of the penalty force while approaching
+  double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
+  bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
+  double feature_angle = 30;  ///< deg, edges that turn by more stay sharp
+  FrictionSettings friction;
+  double extension = 0.2;  ///< by which open ends of the master are prolonged, share of a face's length;
+                           ///< forces fade out over it
+};
+
+/// Deformed surface of one body: node positions in the BRF and the BRF's placement.
+struct SurfaceState {
+  Eigen::Matrix3Xd x_B;  ///< 3 x n_s, m, X + Phi q in the BRF
+  Eigen::Vector3d r_WB;  ///< m
+  Eigen::Matrix3d R_WB;
+};
+
+/// Deformed surface of one body by its elastic coordinates, x_B = X + Phi q, with velocities.
+struct SurfaceMotion {
+  Eigen::VectorXd q;
+  Eigen::Vector3d r_WB;
+  Eigen::Matrix3d R_WB;
+  Eigen::VectorXd q_dot = {};                        ///< empty: zero
+  Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< m/s, of the BRF's origin
+  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< rad/s
+};
+/// The deformed surface of a motion: docs/theory.md, Eq. (3.1).
+SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion);
+
+/// Residual displacement of the nodes of one surface beside X + Phi q: the part of the static response to
+/// contact forces that a basis leaves out. In the BRF; its velocity does not count.
+struct ResidualDisplacement {
+  std::function<Eigen::Vector3d(int node)> at = {};  ///< m, of a node; empty: nothing
+  double largest = 0;                                ///< m, bound for all nodes
+  double change = 0;                                 ///< m, bound of any node's change since the last call
+};
+
+inline constexpr int kColumns = 15;  ///< most columns of a contact's tangent
+using LocalVectors = Eigen::Matrix<double, 3, 5>;
+using LocalColumns = Eigen::Matrix<double, 15, Eigen::Dynamic, 0, 15, kColumns>;
+using LocalStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kColumns, kColumns>;
+
+/// History of a sticking node from one step to the next: its point on the master, and the stretch of its
+/// tangential spring in the face's tangents.
+struct StickPoint {
+  int slave_side = 0, slave_node = 0;
+  int face = 0;
+  double u = 0, v = 0;      ///< local coordinates on the master face (contact/face.h)
+  double e_u = 0, e_v = 0;  ///< -, stretch e_u dx/du + e_v dx/dv
+  bool slides = false;
+};
+
+/// One active contact: x_slave - x_c = g_n n with the closest point x_c = sum_i N_i x_i of the master
+/// surface. On an edge or vertex n has the direction of that line, within the normals of the faces there.
+/// Local vectors have 15 rows: slave node, then the four master nodes (x y z each, world frame). The local
+/// force F changes by dF = -W k (V' dx + V_dot' dv), v the velocities of the local nodes.
+struct ContactPoint {
+  int slave_side = 0;
+  int slave_node = 0;
+  int face = 0;
+  Eigen::Vector4i master_node;
+  Eigen::Vector4d N;  ///< master shape functions at the closest point
+  double xi = 0, eta = 0;
+  Eigen::Vector3d n;                      ///< outward master normal, world frame
+  double g_n = 0;                         ///< m, < 0
+  Eigen::Vector3d f;                      ///< N, force on the slave node, world frame
+  LocalVectors F = LocalVectors::Zero();  ///< N, forces on the local nodes; they and their moments balance
+  double energy = 0;                      ///< J, c_p g_n^2 / 2 and that of the tangential spring
+  double power = 0;                       ///< W, taken by damping
+  double friction_power = 0;              ///< W, taken by friction
+  double slip_work = 0;                   ///< J, taken since the last accepted step where a node sticks
+  Eigen::Vector3d slip =
+      Eigen::Vector3d::Zero();  ///< m/s, tangential velocity on the master, where rates count
+  Eigen::Vector3d elastic_slip = Eigen::Vector3d::Zero();  ///< m, of the tangential spring
+  StickPoint stick;                                        ///< becomes history when the step is accepted
+  LocalVectors v = LocalVectors::Zero();                   ///< m/s, of the local nodes, where rates count
+  LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
+  LocalStiffness k;          ///< N/m
+};
+
+}  // namespace elastogear::contact

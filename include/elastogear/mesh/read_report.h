@@ -1,0 +1,22 @@
+#pragma once
+// What a mesh file holds beside the mesh.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "elastogear/model/material.h"
+
+namespace elastogear::mesh {
+
+/// Further contents of a mesh file, and a list of what the reader left out.
+struct ReadReport {
+  std::vector<std::string> ignored;       ///< "*STATIC (line 12)": nothing is dropped without an entry
+  std::vector<std::string> read_as;       ///< .inp: "C3D20R (line 3): ...", element types computed otherwise
+  std::vector<std::int64_t> node_number;  ///< the file's numbers of the nodes, ascending like ours
+  std::vector<model::MaterialRegion> regions;  ///< .inp: one for each *SOLID SECTION
+  /// .inp: node sets of the mesh that *BOUNDARY holds, with directions ("BOUNDARY_z:z", see mesh/hold.h).
+  std::vector<std::string> restrained;
+};
+
+}  // namespace elastogear::mesh

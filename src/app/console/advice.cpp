@@ -1,0 +1,44 @@
+#include "app/console/advice.h"
+
+#include <cmath>
+#include <memory>
+
+#include "app/console/console.h"
+#include "elastogear/dynamics/advice.h"
+
+namespace elastogear::app {
+namespace {
+
+constexpr double kFarTooLong = 10, kFarTooShort = 0.01;  // dt over the step asked for
+
+void print(const char* name, const char* whose, const dynamics::Vibration& vibration) {
+  if (vibration.frequency > 0)
+    print_item(name, with_unit(vibration.frequency, "Hz") + " (" + whose + " " + vibration.name +
+                         ") asks for a step of " + with_unit(vibration.step(), "s"));
+}
+
+}  // namespace
+
+void print_advice(const dynamics::System& system, double dt) {
+  const dynamics::Advice advice = dynamics::advise(system);
+  print("highest mode", "body", advice.mode);
+  print("contact vibration", "pair", advice.contact);
+  print_item("time step", with_unit(dt, "s"));
+  const double share = dt / advice.step();
+  if (share > kFarTooLong)
+    print_item("warning", "the step is " + with_unit(share, "times") +
+                              " what the fastest vibration asks for: it will not be resolved");
+  if (share > 0 && share < kFarTooShort)
+    print_item("warning", "the step is " + with_unit(share, "times") +
+                              " what the fastest vibration asks for: a longer one would do");
+}
+
+dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer, double dt) {
+  auto guard = std::make_shared<dynamics::ValidityGuard>(system, dt);
+  return [guard, observer = std::move(observer)](const model::Snapshot& snapshot) {
+    for (const std::string& warning : guard->warnings(snapshot)) print_item("warning", warning);
+    observer(snapshot);
+  };
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,74 @@
+#include "app/console/plausibility.h"
+
+#include "app/console/console.h"
+
+namespace elastogear::app {
+namespace {
+
+// From soft rubber to diamond; from cork to osmium.
+constexpr double kSoftest = 1e6, kStiffest = 2e12;         // Pa
+constexpr double kLightest = 50, kHeaviest = 30e3;         // kg/m^3
+constexpr double kLargestBody = 10, kSmallestBody = 1e-4;  // m, a mesh's longest side
+
+constexpr const char* kDirectional[] = {"E1", "E2", "E3"};
+
+std::string modulus_meant(double E) {
+  const double in_MPa = 1e6 * E, in_GPa = 1e9 * E;
+  if (E > kStiffest) return "";
+  if (in_MPa >= kSoftest * 100 && in_MPa <= kStiffest)
+    return "; MPa meant? Then give " + with_unit(in_MPa, "Pa");
+  if (in_GPa >= kSoftest && in_GPa <= kStiffest) return "; GPa meant? Then give " + with_unit(in_GPa, "Pa");
+  return "";
+}
+
+std::string density_meant(double rho) {
+  const auto fits = [](double value) { return value >= kLightest && value <= kHeaviest; };
+  if (fits(1e12 * rho)) return "; t/mm^3 meant? Then give " + with_unit(1e12 * rho, "kg/m^3");
+  if (fits(1e3 * rho)) return "; g/cm^3 meant? Then give " + with_unit(1e3 * rho, "kg/m^3");
+  if (fits(1e9 * rho)) return "; kg/mm^3 meant? Then give " + with_unit(1e9 * rho, "kg/m^3");
+  return "";
+}
+
+void warn(const model::MaterialRegion& region, bool from_mesh, const std::string& constant,
+          const std::string& value, const std::string& meant) {
+  const std::string set = region.cell_set.empty() ? "" : region.cell_set + "_";
+  const std::string name = from_mesh ? constant + " of '" + region.cell_set + "' in the mesh file"
+                                     : "option -material_" + set + constant;
+  print_item("warning", name + " = " + value + " is no material of a gear" + meant +
+                            (from_mesh ? "; a mesh file in mm, N and t needs -unit mm" : ""));
+}
+
+}  // namespace
+
+void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool from_mesh) {
+  for (const model::MaterialRegion& region : regions) {
+    const model::Material& m = region.material;
+    Eigen::Index largest = 0;
+    const double E = m.orthotropic ? m.orthotropic->E.maxCoeff(&largest) : m.E;
+    const char* const name = m.orthotropic ? kDirectional[largest] : "E";
+    if (E < kSoftest || E > kStiffest) warn(region, from_mesh, name, with_unit(E, "Pa"), modulus_meant(E));
+    if (m.rho < kLightest || m.rho > kHeaviest)
+      warn(region, from_mesh, "rho", with_unit(m.rho, "kg/m^3"), density_meant(m.rho));
+  }
+}
+
+void warn_of_size(const mesh::Mesh& mesh, double unit_in_m) {
+  if (mesh.X.cols() == 0) return;
+  const double size = (mesh.X.rowwise().maxCoeff() - mesh.X.rowwise().minCoeff()).maxCoeff();
+  const std::string is = "the mesh is " + with_unit(size, "m") + " long";
+  if (size > kLargestBody)
+    print_item("warning", is + (unit_in_m == 1 ? ": is it in mm? Then give -unit mm" : ""));
+  if (size < kSmallestBody)
+    print_item("warning", is + (unit_in_m < 1 ? ": is it in m? Then give -unit m" : ""));
+}
+
+void warn_of_idle_pairs(const dynamics::RunSummary& run) {
+  for (const dynamics::PairSummary& pair : run.pair)
+    if (pair.peak_force == 0 && pair.penetration == 0)
+      print_item("warning",
+                 "the bodies of " + pair.name +
+                     " never touch in the whole run: look at their positions and rotations, at the "
+                     "direction of their motion and at the time simulated");
+}
+
+}  // namespace elastogear::app

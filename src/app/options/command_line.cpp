@@ -1,0 +1,58 @@
+#include "app/options/command_line.h"
+
+#include <cctype>
+#include <cstdlib>
+
+#include "app/options/options_file.h"
+#include "elastogear/base/error.h"
+
+namespace elastogear::app {
+
+CommandLine parse(int argc, char** argv) {
+  CommandLine line;
+  const auto asks = [](const std::string& word, const char* name) {
+    return word == std::string("-") + name || word == std::string("--") + name;
+  };
+  bool options_began = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (asks(word, "help") || word == "-h") line.help = true;
+    if (asks(word, "version") && i == 1) line.version = true;
+    options_began = options_began || is_option(word) || word.starts_with("--");
+    if (options_began) continue;
+    if (line.verb.empty())
+      line.verb = word;
+    else
+      line.arguments.push_back(word);
+  }
+  return line;
+}
+
+bool is_option(const std::string& word) {
+  const std::size_t first = word.starts_with("--") ? 2 : 1;
+  if (word.size() <= first || word[0] != '-' || !std::isalpha(static_cast<unsigned char>(word[first])))
+    return false;
+  char* end = nullptr;
+  std::strtod(word.c_str() + first - 1, &end);  // -inf is a number, -inflow is not
+  const bool number = end != word.c_str() + first - 1;
+  return !number || *end == '_' || std::isalnum(static_cast<unsigned char>(*end));
+}
+
+void check_words(int argc, char** argv) {
+  bool options_began = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (!is_option(word)) {
+      require(!options_began, "'", word,
+              "' belongs to no option: an option takes one value, a list is written a,b without blanks, and "
+              "files stand before the options");
+      continue;
+    }
+    options_began = true;
+    const bool has_value = i + 1 < argc && !is_option(argv[i + 1]);
+    check_options_source(word, has_value ? argv[i + 1] : "");
+    if (has_value) ++i;
+  }
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,314 @@
+#include "app/options/options.h"
+
+#include <slepcsys.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "app/options/options_file.h"
+#include "app/options/petsc_names.h"
+#include "app/options/spelling.h"
+#include "app/options/yaml.h"
+#include "elastogear/base/broadcast.h"
+#include "elastogear/base/collectively.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/base/petsc.h"
+#include "elastogear/base/version.h"
+
+namespace elastogear::app {
+namespace {
+
+// Returns the text in `name` that the placeholder of `pattern` stands for; nullopt when `name` does not fit.
+std::optional<std::string> placeholder(const std::string& pattern, const std::string& name) {
+  const auto open = pattern.find('<');
+  if (open == std::string::npos) return pattern == name ? std::optional<std::string>("") : std::nullopt;
+  const std::string head = pattern.substr(0, open), tail = pattern.substr(pattern.find('>') + 1);
+  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return {};
+  return name.substr(head.size(), name.size() - head.size() - tail.size());
+}
+
+bool has(const OptionTable& table, const std::string& name) {
+  return std::any_of(table.begin(), table.end(),
+                     [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); });
+}
+
+// Tables with "<body>_x" written out for each value of "body".
+OptionTable expand(const OptionTable& table, const PlaceholderValues& values) {
+  OptionTable result;
+  for (const OptionSpec& spec : table) {
+    const auto open = spec.name.find('<'), close = spec.name.find('>');
+    const auto found =
+        open == std::string::npos ? values.end() : values.find(spec.name.substr(open + 1, close - open - 1));
+    if (found == values.end()) {
+      result.push_back(spec);
+      continue;
+    }
+    for (const std::string& value : found->second) {
+      result.push_back(spec);
+      result.back().name.replace(open, close - open + 1, value);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) {
+    const auto first = part.find_first_not_of(" []"), last = part.find_last_not_of(" []");
+    if (first != std::string::npos) parts.push_back(part.substr(first, last - first + 1));
+  }
+  return parts;
+}
+
+double parse_number(const std::string& label, const std::string& text, const std::string& unit) {
+  double value = 0;
+  const char* begin = text.c_str() + (text.starts_with('+') ? 1 : 0);
+  const char* end = text.c_str() + text.size();
+  const auto [stop, status] = std::from_chars(begin, end, value);
+  require(status == std::errc() && stop == end && std::isfinite(value), label, " = '", text,
+          "': must be a finite number (", unit, ")");
+  return value;
+}
+
+std::map<std::string, std::string> options_in_database() {
+  // Nothing has been queried yet, so that the unused options are all options.
+  PetscInt n = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &n, &names, &values));
+  std::map<std::string, std::string> options;
+  for (PetscInt i = 0; i < n; ++i) options[names[i]] = values[i] ? values[i] : "";
+  check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
+  return options;
+}
+
+// "-modes (number of modes)"; of equally near ones the program's own comes first.
+// Options by the names of earlier versions.
+const std::map<std::string, std::string> kRenamed = {{"contact_crease", "contact_feature_angle"}};
+
+std::string nearest_option(const std::string& name, const OptionTable& own) {
+  const OptionSpec* best = nullptr;
+  for (const OptionSpec& spec : own)
+    if (!best || misspelling(name, spec.name) < misspelling(name, best->name)) best = &spec;
+  const std::string prefix = name.starts_with("elastic_") ? "elastic_" : "";
+  std::string petsc;
+  for (const std::string& word : petsc_names())
+    if (petsc.empty() || misspelling(name, prefix + word) < misspelling(name, petsc)) petsc = prefix + word;
+  if (!best || (!petsc.empty() && misspelling(name, petsc).edits < misspelling(name, best->name).edits))
+    return "-" + petsc + " (PETSc's or SLEPc's)";
+  return "-" + best->name + " (" + best->help + ")";
+}
+
+std::string text_on_all_ranks(const std::string& file) {
+  std::vector<char> text;
+  collectively(PETSC_COMM_WORLD, [&] {
+    int rank = 0;
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    if (rank != 0) return;
+    const std::string content = read_file(file);
+    text.assign(content.begin(), content.end());
+  });
+  broadcast(PETSC_COMM_WORLD, text);
+  return {text.begin(), text.end()};
+}
+
+}  // namespace
+
+Options::Options(std::string verb, OptionTable own, OptionTable known)
+    : verb_(std::move(verb)), own_(std::move(own)), known_(std::move(known)) {}
+
+void Options::insert(const std::string& file) {
+  const std::string text = text_on_all_ranks(file);
+  for (const YamlEntry& entry : parse_yaml(text, file)) {
+    check(PetscOptionsSetValue(nullptr, ("-" + entry.name).c_str(), entry.value.c_str()));
+    place_[entry.name] = file + ", line " + std::to_string(entry.line);
+  }
+  files_.push_back(file);
+}
+
+// Their lines; PETSc itself takes their options.
+void Options::note_options_files(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (const std::string name = argv[i + 1]; names_options_file(argv[i]) && name.find("${") == name.npos) {
+      const std::string path = path_of_options_file(name);
+      for (const OptionLine& line : read_options_file(name))
+        place_[line.name] = path + ", line " + std::to_string(line.line);
+      files_.push_back(path);
+    }
+}
+
+void Options::load(const std::vector<std::string>& files, int argc, char** argv) {
+  for (const std::string& file : files) insert(file);
+  const std::string section = verb_ + "_";
+  for (const auto& [name, value] : options_in_database())
+    if (name.starts_with(section)) {
+      const std::string own = name.substr(section.size());
+      check(PetscOptionsSetValue(nullptr, ("-" + own).c_str(), value.c_str()));
+      check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
+      if (place_.contains(name)) place_[own] = place_[name];
+    }
+  given_in_files_ = options_in_database();
+  check(PetscOptionsInsert(nullptr, &argc, &argv, nullptr));
+  given_ = options_in_database();
+  std::erase_if(place_, [&](const auto& place) {  // the command line wins
+    const auto now = given_.find(place.first), then = given_in_files_.find(place.first);
+    return now == given_.end() || then == given_in_files_.end() || now->second != then->second;
+  });
+  note_options_files(argc, argv);
+  for (auto& [name, value] : given_) {
+    const auto equals = name.find('=');
+    require(equals == name.npos, label(name), ": write the name and its value as two words, -",
+            name.substr(0, equals), " ", equals == name.npos ? "" : name.substr(equals + 1));
+    // our own keys count as used; PETSc's are checked after the run
+    if (has(known_, name)) check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
+  }
+}
+
+void Options::reject_unknown(const PlaceholderValues& values) const {
+  const OptionTable known = expand(known_, values);
+  for (const auto& [name, value] : given_) {
+    if (has(known, name)) continue;
+    if (const auto renamed = kRenamed.find(name); renamed != kRenamed.end())
+      fail(label(name), " is now called -", renamed->second);
+    if (is_petsc_name(name)) {
+      check_petsc_type(label(name), name, value);
+      continue;
+    }
+    fail("unknown ", label(name), value.empty() ? "" : " = '" + value + "'", "; the nearest known option is ",
+         nearest_option(name, expand(own_, values)), ". 'elastogear ", verb_, " -help' lists all.");
+  }
+}
+
+std::string Options::label(const std::string& name) const {
+  const auto place = place_.find(name);
+  return "option -" + name + (place == place_.end() ? "" : " (" + place->second + ")");
+}
+
+std::map<std::string, std::string> Options::given_to_verb() const {
+  std::map<std::string, std::string> own;
+  for (const auto& [name, value] : given_)
+    if (has(own_, name)) own[name] = value;
+  return own;
+}
+
+const OptionSpec& Options::spec(const std::string& name) const {
+  const auto found = std::find_if(own_.begin(), own_.end(),
+                                  [&](const auto& s) { return placeholder(s.name, name).has_value(); });
+  require(found != own_.end(), "internal: option -", name, " is in no table of verb ", verb_);
+  return *found;
+}
+
+bool Options::given(const std::string& name) const { return given_.contains(name); }
+
+std::string Options::text(const std::string& name) const {
+  const auto found = given_.find(name);
+  const std::string value = found != given_.end() ? found->second : spec(name).default_value;
+  require(!value.empty(), label(name), " is missing: ", spec(name).help);
+  return value;
+}
+
+double Options::number(const std::string& name) const {
+  return parse_number(label(name), text(name), spec(name).unit);
+}
+
+double Options::positive(const std::string& name) const {
+  const double value = number(name);
+  require(value > 0, label(name), " = ", value, " ", spec(name).unit, ": must be positive");
+  return value;
+}
+
+int Options::count(const std::string& name, int smallest) const {
+  const std::string value = text(name);
+  int result = 0;
+  const auto [stop, status] = std::from_chars(value.data(), value.data() + value.size(), result);
+  require(status == std::errc() && stop == value.data() + value.size() && result >= smallest, label(name),
+          " = '", value, "': must be a whole number of at least ", smallest);
+  return result;
+}
+
+bool Options::flag(const std::string& name) const {
+  if (given(name) && given_.at(name).empty()) return true;
+  return choice(name, {"false", "true", "no", "yes", "0", "1"}) % 2 == 1;
+}
+
+Eigen::Vector3d Options::vector(const std::string& name) const {
+  const std::vector<double> values = numbers(name);
+  require(values.size() == 3, label(name), " = '", text(name), "': must be three numbers x,y,z (",
+          spec(name).unit, ")");
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<double> Options::numbers(const std::string& name) const {
+  std::vector<double> values;
+  for (const std::string& part : list(name))
+    values.push_back(parse_number(label(name), part, spec(name).unit));
+  return values;
+}
+
+std::vector<std::string> Options::list(const std::string& name) const {
+  const auto found = given_.find(name);
+  return split(found != given_.end() ? found->second : spec(name).default_value);
+}
+
+std::vector<std::string> Options::list_with_files(const std::string& name) const {
+  std::vector<std::string> all;
+  for (const auto* given : {&given_, &given_in_files_}) {
+    const auto found = given->find(name);
+    if (found == given->end()) continue;
+    for (const std::string& part : split(found->second))
+      if (std::find(all.begin(), all.end(), part) == all.end()) all.push_back(part);
+  }
+  return all;
+}
+
+bool Options::is_of_other_verb(const std::string& name) const {
+  return !has(own_, name) && has(known_, name);
+}
+
+int Options::choice(const std::string& name, const std::vector<std::string>& allowed) const {
+  const std::string value = text(name);
+  const auto found = std::find(allowed.begin(), allowed.end(), value);
+  std::string names;
+  for (const std::string& a : allowed) names += (names.empty() ? "" : ", ") + a;
+  require(found != allowed.end(), label(name), " = '", value, "': must be one of ", names);
+  return static_cast<int>(found - allowed.begin());
+}
+
+std::vector<std::string> Options::placeholder_values(const std::string& pattern) const {
+  std::vector<std::string> values;
+  for (const auto& [name, value] : given_)
+    if (const auto word = placeholder(pattern, name)) values.push_back(*word);
+  return values;
+}
+
+std::map<std::string, std::string> Options::provenance() const {
+  std::map<std::string, std::string> all;
+  for (const OptionSpec& s : own_)
+    if (s.name.find('<') == std::string::npos && !s.default_value.empty())
+      all["option_" + s.name] = s.default_value;
+  for (const auto& [name, value] : given_) all["option_" + name] = value;
+  char petsc[256], slepc[256];
+  check(PetscGetVersion(petsc, sizeof petsc));
+  check(SlepcGetVersion(slepc, sizeof slepc));
+  all["program_version"] = version();
+  all["git_hash"] = git_hash();
+  all["petsc_version"] = petsc;
+  all["slepc_version"] = slepc;
+  all["verb"] = verb_;
+  return all;
+}
+
+std::string help_text(const OptionTable& table) {
+  std::ostringstream out;
+  for (const OptionSpec& s : table) {
+    out << "  -" << s.name << (s.unit == "-" ? "" : " [" + s.unit + "]") << "\n      " << s.help
+        << (s.default_value.empty() ? "" : " (default: " + s.default_value + ")") << "\n";
+  }
+  return out.str();
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,18 @@
+#pragma once
+// Options of contact pairs in simulate.
+
+#include "app/options/options.h"
+#include "elastogear/dynamics/system.h"
+
+namespace elastogear::app {
+
+/// Part of simulate's option table.
+const OptionTable& contact_table();
+
+/// One setup per pair that -contact_pairs names. Throws Error for unknown bodies.
+std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies);
+
+/// Returns whether pairs in contact have friction by tangential springs.
+bool friction_sticks(const Options& options);
+
+}  // namespace elastogear::app

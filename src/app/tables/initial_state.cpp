@@ -1,0 +1,72 @@
+#include "app/tables/initial_state.h"
+
+#include <algorithm>
+
+#include "elastogear/base/error.h"
+#include "elastogear/io/result_file.h"
+#include "elastogear/recovery/deviation.h"
+
+namespace elastogear::app {
+namespace {
+
+// The axes of a joint in the order of its coordinates.
+std::vector<dynamics::Axis*> axes(dynamics::BodySetup& setup) {
+  std::vector<dynamics::Axis*> all;
+  if (body::has_rotation_axis(setup.joint.type)) all.push_back(&setup.rotation);
+  if (body::has_translation_axis(setup.joint.type)) all.push_back(&setup.translation);
+  return all;
+}
+
+Eigen::VectorXd initial_time(const Options& options, const Eigen::VectorXd& time) {
+  const bool last = options.text("initial_time") == "last";
+  return Eigen::VectorXd::Constant(1, last ? time[time.size() - 1] : options.number("initial_time"));
+}
+
+}  // namespace
+
+OptionTable initial_state_table() {
+  return {
+      {"initial_file", "-", "",
+       "result file whose joint coordinates and (dynamic analysis) rates the bodies of the same names begin "
+       "with; elastic coordinates begin with zero"},
+      {"initial_time", "s", "last", "time in that file: a number or last"}};
+}
+
+void require_state_is_used(const Options& options, const std::vector<dynamics::BodySetup>& bodies) {
+  if (!options.given("initial_file")) {
+    require(!options.given("initial_time"),
+            "option -initial_time needs -initial_file, the file of that time");
+    return;
+  }
+  const std::string file = options.text("initial_file");
+  const auto known = io::read_result_header(file).bodies;
+  const bool used = std::any_of(bodies.begin(), bodies.end(), [&](const auto& setup) {
+    return setup.joint.type != body::JointType::fixed &&
+           std::any_of(known.begin(), known.end(), [&](const auto& b) { return b.name == setup.name; });
+  });
+  require(used, "option -initial_file = '", file,
+          "': none of the bodies that can move is in it, so that nothing would begin with its state");
+}
+
+void set_initial_state(const Options& options, dynamics::BodySetup& setup) {
+  if (!options.given("initial_file") || setup.joint.type == body::JointType::fixed) return;
+  const std::string file = options.text("initial_file");
+  const auto bodies = io::read_result_header(file).bodies;
+  if (std::none_of(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == setup.name; })) return;
+  require(!body::has_rotation_vector(setup.joint.type), "option -initial_file: body '", setup.name,
+          "' is on a joint without an axis, which cannot begin with the state of a file");
+  const io::BodyHistory history = io::read_joint_history(file, setup.name);
+  const std::vector<dynamics::Axis*> all = axes(setup);
+  require(history.s.rows() == static_cast<Eigen::Index>(all.size()), file, ": body '", setup.name, "' has ",
+          history.s.rows(), " joint coordinates, here it has ", all.size());
+  const Eigen::VectorXd time = io::read_times(file), at = initial_time(options, time);
+  const bool moves = options.text("analysis") == "dynamic";
+  const Eigen::VectorXd s = recovery::at_times(time, history.s, at),
+                        s_dot = recovery::at_times(time, history.s_dot, at);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i]->s_0 = s[static_cast<Eigen::Index>(i)];
+    all[i]->s_dot_0 = moves ? s_dot[static_cast<Eigen::Index>(i)] : 0;
+  }
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,98 @@
+#include "app/tables/motion.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::app {
+namespace {
+
+double number(const std::string& name, const std::string& text) {
+  std::istringstream stream(text);
+  double value = 0;
+  require(stream >> value && stream.peek() == EOF, "option -", name, ": '", text, "' is not a number");
+  return value;
+}
+
+struct Table {
+  std::vector<double> time, value;
+};
+
+// Two columns separated by commas; one row of headings may come first.
+Table read_table(const std::string& path) {
+  std::ifstream file(path);
+  require(file.good(), path, ": cannot be read");
+  Table table;
+  std::string line;
+  for (int row = 1; std::getline(file, line); ++row) {
+    for (char& c : line)
+      if (c == ',') c = ' ';
+    std::istringstream stream(line);
+    double time = 0, value = 0;
+    const bool numbers = static_cast<bool>(stream >> time >> value);
+    const bool blank = line.find_first_not_of(" \t\r") == std::string::npos;
+    if (blank || (row == 1 && !numbers)) continue;
+    require(numbers && (stream >> std::ws).eof(), path, ", line ", row, ": must be two numbers");
+    table.time.push_back(time);
+    table.value.push_back(value);
+  }
+  return table;
+}
+
+// The file's name is added to what is wrong with its table.
+template <class Make>
+auto from_table(const std::string& path, const Make& make) {
+  Table table = read_table(path);
+  try {
+    return make(std::move(table.time), std::move(table.value));
+  } catch (const Error& error) {
+    fail(path, ": ", error.what());
+  }
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& allowed) {
+  fail("option -", name, ": must be ", allowed);
+}
+
+}  // namespace
+
+dynamics::Signal signal(const Options& options, const std::string& name) {
+  if (!options.given(name)) return {};
+  const std::vector<std::string> words = options.list(name);
+  if (words.size() == 1) return dynamics::constant_signal(number(name, words[0]));
+  if (words.size() == 3 && words[0] == "ramp")
+    return dynamics::ramp_signal(number(name, words[1]), number(name, words[2]));
+  if (words.size() == 2 && words[0] == "table") return from_table(words[1], dynamics::table_signal);
+  refuse(name, "a number, [ramp, VALUE, DURATION] or [table, FILE.csv]");
+}
+
+model::DampingRatio damping_ratio(const Options& options, const std::string& name) {
+  if (!options.given(name)) return {};
+  const std::vector<std::string> words = options.list(name);
+  model::DampingRatio damping;
+  if (words.size() == 1) {
+    damping = {{0}, {number(name, words[0])}};
+  } else {
+    if (words.size() != 2 || words[0] != "table") refuse(name, "a number or [table, FILE.csv]");
+    Table table = read_table(words[1]);
+    require(!table.time.empty(), words[1], ": the table is empty");
+    damping = {std::move(table.time), std::move(table.value)};
+  }
+  validate(damping);
+  return damping;
+}
+
+dynamics::Drive drive(const Options& options, const std::string& name, double s_0) {
+  const std::vector<std::string> words = options.list(name);
+  if (words.size() == 2 && words[0] == "speed") return dynamics::speed_drive(s_0, number(name, words[1]));
+  if (words.size() == 3 && words[0] == "spin_up")
+    return dynamics::spin_up_drive(s_0, number(name, words[1]), number(name, words[2]));
+  if (words.size() == 2 && words[0] == "table") {
+    require(s_0 == 0, "option -", name, ": a table holds the coordinate itself, without an initial one");
+    return from_table(words[1], dynamics::table_drive);
+  }
+  refuse(name, "[speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]");
+}
+
+}  // namespace elastogear::app

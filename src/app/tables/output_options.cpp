@@ -1,0 +1,85 @@
+#include "app/tables/output_options.h"
+
+#include <filesystem>
+#include <sstream>
+
+#include "app/console/console.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/base/number.h"
+#include "elastogear/io/csv.h"
+#include "elastogear/io/result_file.h"
+
+namespace elastogear::app {
+namespace {
+
+// Words of a file, one a line.
+std::vector<std::string> words_of(const std::string& path) {
+  std::istringstream in(read_file(path));
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+void add_columns(const char* name, const char* unit, const Eigen::MatrixXd& values,
+                 std::vector<io::CsvColumn>& columns) {
+  constexpr const char* kDirection[] = {" x", " y", " z"};
+  for (int d : {0, 1, 2}) columns.push_back({std::string(name) + kDirection[d], unit, values.row(d)});
+}
+
+std::string sensor_table(const std::string& output, const std::string& sensor) {
+  return std::filesystem::path(output).replace_extension().string() + "_" + sensor + ".csv";
+}
+
+}  // namespace
+
+OptionTable output_table() {
+  return {{"output_every", "-", "1", "write every n-th step"},
+          {"output_dt", "s", "0",
+           "write at multiples of this time in place of every n-th step, between steps by interpolation"},
+          {"output_times", "s", "",
+           "write at these times, the start and the end, likewise: t1,t2,... or a file with one a line"},
+          {"sensor_csv", "-", "false",
+           "write a CSV table of each sensor beside the result, <output>_<sensor>.csv"}};
+}
+
+std::vector<double> output_times(const Options& options) {
+  std::vector<std::string> words = options.list("output_times");
+  const bool file = words.size() == 1 && std::filesystem::is_regular_file(words[0]);
+  const std::string where = "option -output_times" + (file ? ", " + words[0] : std::string());
+  if (file) words = words_of(words[0]);
+  std::vector<double> times;
+  for (const std::string& word : words) {
+    const std::optional<double> time = parse<double>(word);
+    require(time.has_value(), where, ": '", word, "' is neither a time (s) nor a file of times");
+    times.push_back(*time);
+  }
+  return times;
+}
+
+std::vector<std::string> sensor_tables(const Options& options) {
+  std::vector<std::string> paths;
+  if (!options.flag("sensor_csv")) return paths;
+  for (const std::string& sensor : options.placeholder_values("sensors_<sensor>"))
+    paths.push_back(sensor_table(options.text("output"), sensor));
+  return paths;
+}
+
+void write_sensor_tables(const Options& options, const model::ResultHeader& header) {
+  if (!options.flag("sensor_csv")) return;
+  const std::string output = options.text("output");
+  const Eigen::VectorXd time = io::read_times(output);
+  for (const std::string& sensor : header.sensors) {
+    const io::SensorHistory history = io::read_sensor_history(output, sensor);
+    std::vector<io::CsvColumn> columns = {{"time", "s", time}};
+    add_columns("position", "m", history.position, columns);
+    add_columns("velocity", "m/s", history.velocity, columns);
+    add_columns("acceleration", "m/s^2", history.acceleration, columns);
+    add_columns("angular velocity", "rad/s", history.angular_velocity, columns);
+    const std::string path = sensor_table(output, sensor);
+    io::write_csv(path, columns);
+    print_item("written", path);
+  }
+}
+
+}  // namespace elastogear::app

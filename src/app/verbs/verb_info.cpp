@@ -1,0 +1,29 @@
+// elastogear info: what a file holds.
+
+#include <cstdio>
+
+#include "app/verbs/verbs.h"
+#include "elastogear/base/error.h"
+#include "elastogear/io/describe.h"
+
+namespace elastogear::app {
+namespace {
+
+void run(const Options& options, const std::vector<std::string>& files) {
+  options.reject_unknown();
+  require(!files.empty(), "no file given: elastogear info FILE ...");
+  for (const std::string& file : files) std::fputs(io::describe(file).c_str(), stdout);
+}
+
+}  // namespace
+
+Verb info_verb() {
+  return {.name = "info",
+          .usage = "info FILE ...",
+          .summary = "what a mesh, body, result or stress file holds",
+          .table = {},
+          .run = run,
+          .configured = false};
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,335 @@
+// elastogear simulate: bodies + joints + loads + contact -> result file.
+
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "app/console/advice.h"
+#include "app/console/console.h"
+#include "app/console/outputs.h"
+#include "app/console/plausibility.h"
+#include "app/resumable_run.h"
+#include "app/tables/contact_options.h"
+#include "app/tables/initial_state.h"
+#include "app/tables/marker_options.h"
+#include "app/tables/motion.h"
+#include "app/tables/output_options.h"
+#include "app/verbs/verbs.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/petsc.h"
+#include "elastogear/base/rotation.h"
+#include "elastogear/body/rigid.h"
+#include "elastogear/dynamics/static.h"
+#include "elastogear/io/body_file.h"
+#include "elastogear/model/fingerprint.h"
+
+namespace elastogear::app {
+namespace {
+
+const OptionTable kOwnTable = {
+    {"bodies", "-", "", "names of the bodies; each has its own <body>_... keys"},
+    {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
+    {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
+    {"<body>_residual", "-", "true",
+     "let contact feel the static responses that the file holds beside its modes (reduce -basis "
+     "modal_residual)"},
+    {"<body>_mass", "kg", "", "rigid body without a file: mass"},
+    {"<body>_center", "m", "0,0,0", "rigid body without a file: centre of mass in the body frame"},
+    {"<body>_inertia", "kg m^2", "", "rigid body without a file: xx,yy,zz,xy,yz,xz about the centre of mass"},
+    {"<body>_position", "m", "0,0,0", "origin of the body frame in the world"},
+    {"<body>_rotation", "rad", "0,0,0", "rotation vector from the body frame to the world"},
+    {"<body>_joint", "-", "fixed", "fixed, revolute, prismatic, cylindrical, spherical or free"},
+    {"<body>_axis", "-", "0,0,1", "direction of the joint's axis in the body frame"},
+    {"<body>_point", "m", "0,0,0", "point of the axis, or centre of a spherical joint, in the body frame"},
+    {"<body>_angle0", "rad", "0", "initial angle about the axis"},
+    {"<body>_omega0", "rad/s", "0",
+     "initial angular velocity: about the axis; free, spherical: x,y,z in the body frame"},
+    {"<body>_displacement0", "m", "0", "initial displacement along the axis"},
+    {"<body>_velocity0", "m/s", "0", "initial velocity: along the axis; free: x,y,z in the world"},
+    {"<body>_torque", "N m", "0", "about the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_force", "N", "0", "along the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_rotation_motion", "rad", "",
+     "prescribed rotation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_translation_motion", "m", "",
+     "prescribed translation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
+    {"<body>_rotation_damping", "N m s", "0", "viscous damping about the axis"},
+    {"<body>_rotation_friction", "N m", "0", "Coulomb friction about the axis"},
+    {"<body>_rotation_friction_rate", "rad/s", "0", "speed at which friction is tanh(1) of its full value"},
+    {"<body>_translation_damping", "N s/m", "0", "viscous damping along the axis"},
+    {"<body>_translation_friction", "N", "0", "Coulomb friction along the axis"},
+    {"<body>_translation_friction_rate", "m/s", "0", "speed at which friction is tanh(1) of its full value"},
+    {"gravity", "m/s^2", "0,0,0", "acceleration of gravity in the world"},
+    {"inertia", "-", "affine",
+     "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "
+     "its best affine field), or full (needs bodies reduced with -invariants full)"},
+    {"analysis", "-", "dynamic",
+     "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
+     "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
+    {"static_steps", "-", "10", "load steps of a static analysis"},
+    {"rest_tolerance", "-", "",
+     "relax: largest unbalanced share of the forces at rest (default: 1e-6; 1e-4 where friction sticks)"},
+    {"ts_dt", "s", "", "time step"},
+    {"ts_max_time", "s", "",
+     "end of the simulation; static: time of loads and prescribed motions, without it loads take their last "
+     "value"},
+    {"ts_alpha_radius", "-", "",
+     "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: 1; relax: 0)"},
+    {"output", "-", "", "result file to write (HDF5)"},
+    {"step_tolerance", "m", "0",
+     "choose the steps so that the local error moves no surface node farther; 0: all steps are ts_dt"},
+    {"velocity_tolerance", "m/s", "0", "with step_tolerance: the same for velocities; 0: without"},
+};
+
+OptionTable table() {
+  OptionTable all = kOwnTable;
+  for (const OptionTable& part :
+       {output_table(), contact_table(), initial_state_table(), resumable_run_table(), marker_table()})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+body::Joint joint(const Options& options, const std::string& prefix) {
+  body::Joint joint;
+  joint.type = static_cast<body::JointType>(options.choice(prefix + "joint", body::joint_names()));
+  require(!options.given(prefix + "axis") || body::has_rotation_axis(joint.type) ||
+              body::has_translation_axis(joint.type),
+          "option -", prefix, "axis: a ", options.text(prefix + "joint"),
+          " joint has no axis; revolute, prismatic and cylindrical joints have");
+  joint.axis = options.vector(prefix + "axis");
+  joint.point = options.vector(prefix + "point");
+  joint.r_WB0 = options.vector(prefix + "position");
+  joint.R_WB0 = rotation_matrix(options.vector(prefix + "rotation"));
+  return joint;
+}
+
+// A body reduced free has no nodes that carry its frame.
+void check_free_body(const dynamics::BodySetup& setup) {
+  const bool modal = setup.body->basis == model::Basis::modal;
+  if (!setup.body->floating || (modal && setup.joint.type == body::JointType::free)) return;
+  require(modal || setup.joint.type == body::JointType::fixed, "body ", setup.name,
+          " was reduced free with the full basis, which contains rigid motions: its joint must be fixed");
+  print_item("warning", "body " + setup.name +
+                            " was reduced free, but a joint holds its frame: no node is held, " +
+                            "its mean motion is");
+}
+
+// kind: "rotation" or "translation"; load: "torque" or "force". Initial values are set already.
+void set_axis(const Options& options, const std::string& prefix, const char* kind, const char* load_name,
+              dynamics::Axis& axis) {
+  const std::string name = prefix + kind;
+  axis.load = signal(options, prefix + load_name);
+  axis.damping = options.number(name + "_damping");
+  axis.friction = options.number(name + "_friction");
+  axis.friction_rate = options.number(name + "_friction_rate");
+  if (!options.given(name + "_motion")) return;
+  axis.drive = drive(options, name + "_motion", std::exchange(axis.s_0, 0));
+}
+
+// A number, or three where the joint takes a vector.
+void set_rate(const Options& options, const std::string& name, double& scalar, Eigen::Vector3d& vector) {
+  const std::size_t n = options.numbers(name).size();
+  require(n == 1 || n == 3, "option -", name, ": must be one number, or three x,y,z for a free body");
+  if (n == 3)
+    vector = options.vector(name);
+  else
+    scalar = options.number(name);
+}
+
+// identity: of the file's contents, whatever options leave out of them.
+model::ElasticBody read_or_make_body(const Options& options, const std::string& prefix,
+                                     std::string& identity) {
+  if (options.given(prefix + "file")) {
+    require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
+            "file and -", prefix, "mass, _inertia exclude each other");
+    model::ElasticBody body = io::read_body(options.text(prefix + "file"), io::BodyUse::motion);
+    identity = model::fingerprint(body);
+    if (options.flag(prefix + "rigid")) body = body::rigid_copy(body);
+    if (!options.flag(prefix + "residual")) body.flexibility = {};
+    return body;
+  }
+  require(options.given(prefix + "mass"), "option -", prefix,
+          "file is missing: body file made by reduce (or give -", prefix, "mass and -", prefix,
+          "inertia of a rigid body)");
+  const std::vector<double> J = options.numbers(prefix + "inertia");
+  require(J.size() == 6, "option -", prefix, "inertia: must be six numbers xx,yy,zz,xy,yz,xz (kg m^2)");
+  Eigen::Matrix3d J_c;
+  J_c << J[0], J[3], J[5], J[3], J[1], J[4], J[5], J[4], J[2];
+  return body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c);
+}
+
+dynamics::BodySetup body_setup(const Options& options, const std::string& name,
+                               std::map<std::string, std::string>& identities) {
+  const std::string prefix = name + "_";
+  dynamics::BodySetup setup;
+  setup.name = name;
+  setup.joint = joint(options, prefix);
+  setup.rotation.s_0 = options.number(prefix + "angle0");
+  setup.translation.s_0 = options.number(prefix + "displacement0");
+  set_rate(options, prefix + "omega0", setup.rotation.s_dot_0, setup.omega0);
+  set_rate(options, prefix + "velocity0", setup.translation.s_dot_0, setup.velocity0);
+  set_initial_state(options, setup);
+  set_axis(options, prefix, "rotation", "torque", setup.rotation);
+  set_axis(options, prefix, "translation", "force", setup.translation);
+  model::ElasticBody body = read_or_make_body(options, prefix, identities[name]);
+  change_body(options, prefix, body);
+  setup.body = std::make_shared<model::ElasticBody>(std::move(body));
+  check_free_body(setup);
+  return setup;
+}
+
+dynamics::Environment environment(const Options& options) {
+  return {static_cast<body::InertiaLevel>(options.choice("inertia", body::inertia_level_names())),
+          options.vector("gravity")};
+}
+
+enum class Analysis { dynamic, equilibrium, relax };
+
+Analysis analysis(const Options& options) {
+  return static_cast<Analysis>(options.choice("analysis", {"dynamic", "static", "relax"}));
+}
+
+// Default of rest_tolerance. With friction that sticks, rest is a range of states, in which nodes creep on
+// for tens of thousands of steps (docs/theory.md, section 8.7).
+double rest_tolerance(const Options& options) {
+  if (options.given("rest_tolerance")) return options.positive("rest_tolerance");
+  return friction_sticks(options) ? 1e-4 : 1e-6;
+}
+
+dynamics::TimeSettings time_settings(const Options& options) {
+  dynamics::TimeSettings time;
+  time.dt = options.positive("ts_dt");
+  time.end_time = options.positive("ts_max_time");
+  require(time.end_time >= time.dt, options.label("ts_max_time"), " = ", time.end_time,
+          " s: ends before the first step, -ts_dt = ", time.dt, " s");
+  time.relax = analysis(options) == Analysis::relax;
+  time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.relax ? 0 : 1;
+  time.rest_tolerance = rest_tolerance(options);
+  time.output_every = options.count("output_every", 1);
+  time.output_dt = options.number("output_dt");
+  time.output_times = output_times(options);
+  time.step_tolerance = options.number("step_tolerance");
+  time.velocity_tolerance = options.number("velocity_tolerance");
+  return time;
+}
+
+// With 18 nodes on the patch its largest pressure is 4 % off (docs/validation.md, section 11), with 37 less
+// than 0.1 %.
+void print_resolution(const Options& options, const dynamics::RunSummary& run) {
+  constexpr int kResolved = 18;
+  const int passes = options.flag("contact_two_pass") ? 2 : 1;
+  for (const dynamics::PairSummary& pair : run.pair)
+    if (pair.peak_force > 0 && pair.patch_nodes < kResolved * passes)
+      print_item("warning",
+                 "contact " + pair.name + ": too coarse a surface; its busiest area of contact has " +
+                     std::to_string((pair.patch_nodes + passes - 1) / passes) + " of the " +
+                     std::to_string(kResolved) + " nodes that resolve a patch to 4 %: pressures and " +
+                     "stresses under the contact are not to be trusted; take a finer mesh there");
+}
+
+void print_summary(const Options& options, const dynamics::RunSummary& run) {
+  print_item("time steps",
+             std::to_string(run.steps) + " (" + std::to_string(run.rejected_steps) + " rejected)");
+  print_item("Newton iterations", std::to_string(run.newton_iterations));
+  for (const dynamics::PairSummary& pair : run.pair)
+    print_item("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at " +
+                                           with_unit(pair.peak_time, "s") + ", penetration " +
+                                           with_unit(pair.penetration, "m"));
+  warn_of_idle_pairs(run);
+  print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
+  print_resolution(options, run);
+  if (analysis(options) == Analysis::relax)
+    print_item(run.at_rest ? "at rest after" : "warning",
+               run.at_rest ? with_unit(run.time, "s") : "not yet at rest");
+  if (analysis(options) == Analysis::dynamic)
+    print_item("energy at the start", with_unit(run.initial_energy, "J"));
+  if (analysis(options) == Analysis::equilibrium) print_item("work of the loads", with_unit(run.work, "J"));
+  if (analysis(options) != Analysis::relax)
+    print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
+  print_item("time", duration(run.wall_time));
+  print_item("largest memory", largest_memory());
+  print_item("written", options.text("output"));
+}
+
+// Load steps in place of time steps.
+void make_static(const Options& options, std::vector<dynamics::BodySetup>& bodies,
+                 dynamics::MarkerSetups& markers, dynamics::Environment& surroundings) {
+  constexpr double kLastValue = std::numeric_limits<double>::infinity();
+  const double time = options.given("ts_max_time") ? options.positive("ts_max_time") : kLastValue;
+  for (dynamics::BodySetup& setup : bodies) dynamics::scale_by_load_factor(setup, time);
+  dynamics::scale_by_load_factor(markers, time);
+  dynamics::scale_by_load_factor(surroundings);
+}
+
+std::string step_text(const dynamics::StepInfo& step) {
+  const auto brief = [](double value, const char* unit) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g %s", value, unit);
+    return std::string(text);
+  };
+  const std::string relaxing = step.unbalanced >= 0 ? ", unbalanced " + brief(step.unbalanced, "") : "";
+  return relaxing + ", t " + brief(step.time, "s") + ", balance " + brief(step.balance, "J") + ", " +
+         std::to_string(step.contacts) + " contacts " + brief(step.penetration, "m") + " deep, dt " +
+         brief(step.dt, "s") + ", " + std::to_string(step.newton_iterations) + " iterations in " +
+         std::to_string(step.step) + " steps";
+}
+
+Computation computation(const Options& options, dynamics::System& system) {
+  if (analysis(options) == Analysis::equilibrium)
+    return [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer,
+                                                               const dynamics::Checkpoints& checkpoints) {
+      return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress(),
+                                    checkpoints.stop);
+    };
+  dynamics::TimeSettings time = time_settings(options);
+  if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
+  auto info = std::make_shared<dynamics::StepInfo>();
+  time.monitor = [info](const dynamics::StepInfo& step) { *info = step; };
+  return [&system, time, info](const auto& observer, const auto& checkpoints) {
+    return dynamics::simulate(system, time, guarded(system, observer, time.dt),
+                              console_progress([info] { return step_text(*info); }), checkpoints);
+  };
+}
+
+model::ResultHeader header(const Options& options, const dynamics::System& system,
+                           const std::map<std::string, std::string>& identities) {
+  model::ResultHeader header = result_header(system);
+  for (auto& body : header.bodies) {
+    const std::string file = body.name + "_file";
+    body.file = options.given(file) ? options.text(file) : "";
+  }
+  header.provenance = options.provenance();
+  add_inputs(options, identities, header.provenance);
+  return header;
+}
+
+void run(const Options& options, const std::vector<std::string>&) {
+  const std::vector<std::string> names = options.list("bodies");
+  require(!names.empty(), "option -bodies is missing: names of the bodies");
+  options.reject_unknown(simulate_names(options));
+  const std::string output = options.text("output");
+  protect_inputs(options, {{"output", {output}}, {"sensor_csv", sensor_tables(options)}});
+  const OutputLock lock(output);
+  if (analysis(options) != Analysis::equilibrium) time_settings(options);
+  const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
+  dynamics::Environment surroundings = environment(options);
+  dynamics::MarkerSetups markers = marker_setups(options);
+  std::vector<dynamics::BodySetup> bodies;
+  std::map<std::string, std::string> identities;
+  for (const std::string& name : names) bodies.push_back(body_setup(options, name, identities));
+  require_state_is_used(options, bodies);
+  if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, markers, surroundings);
+
+  dynamics::System system(std::move(bodies), pairs, surroundings, markers);
+  const model::ResultHeader head = header(options, system, identities);
+  print_summary(options, keep(options, head, computation(options, system)));
+  write_sensor_tables(options, head);
+}
+
+}  // namespace
+
+Verb simulate_verb() {
+  return {"simulate", "simulate system.yaml [-option value ...]",
+          "bodies, joints, loads, contact -> result file", table(), run};
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,149 @@
+#include "contact/forces/contact_point.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "contact/forces/tangent.h"
+#include "elastogear/base/rotation.h"
+
+namespace elastogear::contact {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be prolonged over a smooth edge
+constexpr int kNewtonSteps = 8;
+
+ContactPoint geometry(const SurfaceView& master, const Projection& w) {
+  const int sides = side_count(master.face, w.face);
+  const Eigen::Vector2d natural = natural_coordinates(sides, w.point.u, w.point.v);
+  ContactPoint contact;
+  contact.face = w.face;
+  contact.master_node = master.face.col(w.face);
+  contact.N = w.point.N;
+  contact.xi = natural[0];
+  contact.eta = natural[1];
+  contact.n = w.n;
+  contact.g_n = w.g_n;
+  return contact;
+}
+
+// Foot point on the face prolonged over its sides; nothing when there is none near.
+std::optional<Projection> prolonged(const Face& face, const Vector3d& q, Projection w) {
+  const Eigen::Vector2d start(w.point.u, w.point.v);
+  Eigen::Vector2d at = start;
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const Shape s = shape(face.sides, at[0], at[1]);
+    Eigen::Matrix<double, 3, 2> a;
+    a << combine(face, s.N_u), combine(face, s.N_v);
+    const Vector3d d = q - combine(face, s.N);
+    Eigen::Matrix2d A = a.transpose() * a;
+    A(0, 1) -= d.dot(combine(face, s.N_uv));
+    A(1, 0) = A(0, 1);
+    at += A.inverse() * (a.transpose() * d);
+    if (!((at - start).cwiseAbs().maxCoeff() <= kBeyond)) return {};
+  }
+  const Shape s = shape(face.sides, at[0], at[1]);
+  w.point = {Feature::face, 0, at[0], at[1], s.N, combine(face, s.N), 0};
+  w.n = normal(face, at[0], at[1]);
+  w.g_n = w.n.dot(q - w.point.x);
+  return w;
+}
+
+Projection smooth_projection(const MasterSide& master, const Projection& w, const Vector3d& q) {
+  const bool on_face = w.point.feature == Feature::face;
+  if (master.smoothing.empty() || on_face) return w;
+  const Face face = face_of(master.surface, w.face);
+  if (normal(face, w.point.u, w.point.v).dot(w.n) < std::cos(master.feature_angle)) return w;
+  return prolonged(face, q, w).value_or(w);
+}
+
+// A function of (u, v) restricted to the directions in which the closest point can move.
+FaceFunction restricted(const FaceFunction& full, int sides, const Projection& w) {
+  if (w.point.feature == Feature::face) return full;
+  if (w.point.feature == Feature::vertex) return {full.f};
+  const Eigen::Vector2d along = on_side(sides, w.point.part, 1) - on_side(sides, w.point.part, 0);
+  FaceFunction side{full.f};
+  side.f_a[0] = full.f_a.dot(along);
+  side.f_ab(0, 0) = along.dot(full.f_ab * along);
+  return side;
+}
+
+FaceFunction height_at(const MasterSide& master, const Face& face, const Projection& w) {
+  if (master.smoothing.empty() || w.point.feature == Feature::vertex) return {};
+  return restricted(height(face.sides, master.smoothing[w.face], w.point.u, w.point.v), face.sides, w);
+}
+
+FaceFunction share_at(const Face& face, const Projection& w) {
+  return restricted(end_share(face, w.point.u, w.point.v), face.sides, w);
+}
+
+// Displacement of the closest point over the master since the last step, and the stretch of the spring then.
+// docs/theory.md, Eq. (6.18).
+StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Projection& w,
+                         const ProjectionKinematics& foot) {
+  const Face face = face_of(master, stuck.face);
+  const Shape s = shape(face.sides, stuck.u, stuck.v);
+  const Eigen::Vector4d anchor = s.N - stuck.e_u * s.N_u - stuck.e_v * s.N_v;
+  StickMotion motion;
+  motion.slides = stuck.slides;
+  motion.u = w.point.x - combine(face, anchor);
+  motion.u_x = foot.a * foot.D;
+  if (stuck.face == w.face)
+    motion.u_x += spread(0, w.point.N - anchor);
+  else  // the anchor's own nodes are not among the local ones: it turns with the present face
+    motion.u_x -= skew(motion.u) * foot.spin;
+  return motion;
+}
+
+StickPoint stick_point(const Face& face, const Projection& w, const ContactPoint& contact) {
+  const Shape s = shape(face.sides, w.point.u, w.point.v);
+  Eigen::Matrix<double, 3, 2> a;
+  a << combine(face, s.N_u), combine(face, s.N_v);
+  const Eigen::Vector2d e = (a.transpose() * a).inverse() * (a.transpose() * contact.elastic_slip);
+  StickPoint point = contact.stick;
+  point.slave_node = contact.slave_node;
+  point.face = w.face;
+  point.u = w.point.u;
+  point.v = w.point.v;
+  if (e.allFinite()) point.e_u = e[0], point.e_v = e[1];
+  return point;
+}
+
+}  // namespace
+
+bool on_extension(const Projection& w) { return w.point.N.minCoeff() < 0; }
+
+ContactPoint potential_contact(const MasterSide& master, const Projection& w, double c_p, bool full_tangent) {
+  const Face face = face_of(master.surface, w.face);
+  ContactPoint contact = geometry(master.surface, w);
+  contact.f = -c_p * w.g_n * w.n;
+  contact.F << contact.f, -contact.f * w.point.N.transpose();
+  contact.energy = 0.5 * c_p * w.g_n * w.g_n;
+  const Tangent tangent = contact_tangent(face, w, c_p, full_tangent);
+  contact.W = contact.V = tangent.W;
+  contact.V_dot.resize(15, 0);
+  contact.k = tangent.k;
+  return contact;
+}
+
+std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& slave,
+                                            const Law& law) {
+  const Projection w = smooth_projection(master, slave.projection, slave.x_slave);
+  const Face face = face_of(master.surface, w.face);
+  const ProjectionKinematics foot = projection_kinematics(face, w, slave.x_slave);
+  const Gap open = gap(foot, height_at(master, face, w), law.offset, share_at(face, w));
+  if (!(open.g < 0)) return {};
+  ContactPoint contact = geometry(master.surface, w);
+  contact.slave_node = slave.slave_node;
+  contact.v.col(0) = slave.velocity(0, slave.slave_node);
+  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.velocity(1, contact.master_node[i]);
+  std::optional<StickMotion> motion;
+  if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, foot);
+  apply_law(law, foot, open, motion ? &*motion : nullptr, contact);
+  contact.stick = stick_point(face, w, contact);
+  return contact;
+}
+
+}  // namespace elastogear::contact

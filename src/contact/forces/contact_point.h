@@ -1,0 +1,36 @@
+#pragma once
+// From a slave node's projection to its contact point: gap, force, tangent.
+
+#include "contact/forces/law.h"
+
+namespace elastogear::contact {
+
+/// The data of the master surface that a pass needs beside the projection.
+struct MasterSide {
+  const SurfaceView& surface;
+  const std::vector<CornerSlopes>& smoothing;  ///< empty: facets as they are
+  double feature_angle = 0;                    ///< rad
+};
+
+bool on_extension(const Projection& projection);
+
+/// Contact point of the frictionless, undamped penalty on facets, whose F derives from a potential, W = V:
+/// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on a prolonged side.
+ContactPoint potential_contact(const MasterSide& master, const Projection& projection, double c_p,
+                               bool full_tangent);
+
+/// Contact point for any law; nothing when the gap is open. Smooth surfaces are met on the face itself where
+/// the closest point is on an edge or vertex across which normals turn by less than the feature angle.
+/// velocity: m/s, of a node of the slave (side 0) or master (1). stuck: of this slave node after the last
+/// step, or null.
+struct SlaveContact {
+  Projection projection;
+  int slave_node;
+  Eigen::Vector3d x_slave;
+  std::function<Eigen::Vector3d(int side, int node)> velocity;
+  const StickPoint* stuck;
+};
+std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& touch,
+                                            const Law& law);
+
+}  // namespace elastogear::contact

@@ -1,0 +1,212 @@
+#include "contact/forces/law.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "contact/projection/surface_boundary.h"
+#include "elastogear/base/rotation.h"
+
+namespace elastogear::contact {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A vector with its derivatives by the local positions and velocities.
+struct Varying {
+  Vector3d value = Vector3d::Zero();
+  Local3 x = Local3::Zero(), v = Local3::Zero();
+};
+
+Local flat(const LocalVectors& v) { return v.reshaped(); }
+
+// Velocity of the slave node against the master, v_r of docs/theory.md, Eq. (6.13).
+Varying relative_velocity(const ProjectionKinematics& foot, const LocalVectors& v) {
+  Varying rate;
+  rate.value = foot.G * flat(v);
+  rate.v = foot.G;
+  rate.x = -skew(foot.spin * flat(v)) * foot.d_x;
+  for (int i = 0; i < foot.n_dir; ++i) rate.x -= (v.rightCols<4>() * foot.N_a.col(i)) * foot.D.row(i);
+  return rate;
+}
+
+// The part of y normal to the direction n.
+Varying tangential(const Varying& y, const Gap& gap) {
+  const double length = gap.n.norm();
+  const Vector3d n = gap.n / length;
+  const Matrix3d T = Matrix3d::Identity() - n * n.transpose();
+  const Local3 n_x = T * gap.n_x / length;
+  return {T * y.value, T * y.x - n * (y.value.transpose() * n_x) - n.dot(y.value) * n_x, T * y.v};
+}
+
+// Friction -limit * direction: changes by -K dz - direction dlimit.
+struct Friction {
+  Vector3d direction = Vector3d::Zero();
+  Matrix3d K = Matrix3d::Zero();
+  bool at_limit = true;
+};
+
+// Regularised friction, -limit z / sqrt(z^2 + v_0^2): docs/theory.md, Eq. (6.17).
+Friction regularised(const Vector3d& z, double v_0, double limit) {
+  Friction f;
+  const double s = std::sqrt(z.squaredNorm() + v_0 * v_0);
+  f.direction = z / s;
+  f.K = limit / s * (Matrix3d::Identity() - f.direction * f.direction.transpose());
+  return f;
+}
+
+// Friction of a node that sticks, a spring up to the limit: docs/theory.md, Eq. (6.18).
+Friction sticking(const Vector3d& z, double c_t, double limit) {
+  Friction f;
+  const double length = z.norm();
+  f.at_limit = c_t * length > limit;
+  if (f.at_limit) {
+    f.direction = z / length;
+    f.K = limit / length * (Matrix3d::Identity() - f.direction * f.direction.transpose());
+  } else {
+    f.direction = limit > 0 ? Vector3d(c_t / limit * z) : Vector3d(Vector3d::Zero());
+    f.K = c_t * Matrix3d::Identity();
+  }
+  return f;
+}
+
+// The parts that make up a contact force.
+struct Parts {
+  Varying slip;        // velocity
+  Varying motion;      // argument of friction: velocity, or displacement of a node that sticks
+  NormalForce normal;  // of the whole node
+  double p = 0;        // N, what is left of it at an open end
+  Friction friction;
+  double mu = 0;
+};
+
+Parts parts(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
+            const LocalVectors& v) {
+  Parts parts;
+  const Varying rate = relative_velocity(foot, v);
+  parts.slip = tangential(rate, gap);
+  parts.normal = normal_force(law, gap.g, gap.n.dot(rate.value));
+  parts.p = gap.share.f * parts.normal.p;
+  if (law.mu == 0) return parts;
+  if (law.v_0 > 0) {
+    parts.mu = law.mu;
+    parts.motion = parts.slip;
+    parts.friction = regularised(parts.motion.value, law.v_0, law.mu * parts.p);
+  } else if (stick) {
+    parts.mu = stick->slides ? law.mu : law.mu_static;
+    parts.motion = tangential({stick->u, stick->u_x, Local3::Zero()}, gap);
+    parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.p);
+    if (parts.friction.at_limit && !stick->slides) {
+      parts.mu = law.mu;
+      parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.p);
+    }
+  }
+  return parts;
+}
+
+// df = f_x dx + f_v dv
+Varying force(const ProjectionKinematics& foot, const Gap& gap, const Parts& parts, const LocalVectors& v) {
+  const NormalForce& normal = parts.normal;
+  const Friction& friction = parts.friction;
+  const Varying rate = relative_velocity(foot, v);
+  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
+  const LocalRow p_x = gap.share.f * (normal.p_g * gap.g_x + normal.p_r * rate_x) +
+                       normal.p * gap.share.f_a.transpose() * foot.D;
+  const LocalRow p_v = gap.share.f * normal.p_r * gap.g_x;
+  const Vector3d per_p = gap.n - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
+  Varying f;
+  f.value = parts.p * (gap.n - parts.mu * friction.direction);
+  f.x = per_p * p_x + parts.p * gap.n_x - friction.K * parts.motion.x;
+  f.v = per_p * p_v - friction.K * parts.motion.v;
+  return f;
+}
+
+// Directions that the couple f x d can have: on faces d is normal.
+Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const ProjectionKinematics& foot) {
+  if (foot.n_dir < 2) return Matrix3d::Identity();
+  Eigen::Matrix<double, 3, 2> tangents;
+  tangents.col(0) = foot.n.unitOrthogonal();
+  tangents.col(1) = foot.n.cross(tangents.col(0));
+  return tangents;
+}
+
+// F = B' f + spin' (f x d), W = [B', P_alpha, spin' T]: dF = B' df + P_alpha dxi_alpha + spin' T T' d(f x d).
+// The change of the spin is left out. docs/theory.md, Eq. (6.14).
+void set_tangent(const ProjectionKinematics& foot, const Varying& f, ContactPoint& contact) {
+  const auto T = couple_directions(foot);
+  const Eigen::Index m = T.cols(), n = 3 + foot.n_dir + m;
+  contact.W.setZero(15, n);
+  contact.V.setZero(15, n);
+  contact.V_dot.setZero(15, n);
+  contact.k.setIdentity(n, n);
+  contact.W.leftCols<3>() = spread(1, -contact.N).transpose();
+  contact.V.leftCols<3>() = -f.x.transpose();
+  contact.V_dot.leftCols<3>() = -f.v.transpose();
+  for (int i = 0; i < foot.n_dir; ++i) {
+    contact.W.col(3 + i) = -spread(0, foot.N_a.col(i)).transpose() * f.value;
+    contact.V.col(3 + i) = -foot.D.row(i).transpose();
+  }
+  contact.W.rightCols(m) = foot.spin.transpose() * T;
+  contact.V.rightCols(m) = (skew(foot.d) * f.x - skew(f.value) * foot.d_x).transpose() * T;
+  contact.V_dot.rightCols(m) = (skew(foot.d) * f.v).transpose() * T;
+}
+
+}  // namespace
+
+NormalForce normal_force(const Law& law, double gap, double rate) {
+  if (gap >= 0) return {};
+  const double depth = -gap, approach = std::max(0.0, -rate);
+  NormalForce f;
+  f.energy = 0.5 * law.c_p * depth * depth;
+  const double damping = law.d_p + law.hysteresis * law.c_p * depth;
+  f.p = law.c_p * depth + damping * approach;
+  f.energy_g = -law.c_p * depth;
+  f.p_g = -law.c_p * (1 + law.hysteresis * approach);
+  f.p_r = approach > 0 ? -damping : 0;
+  f.power = damping * approach * approach;
+  return f;
+}
+
+// Gap to the smooth surface; its gradient changes by dn = -d(a y) with y = A^-1 h_a.
+Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
+        const FaceFunction& share) {
+  Gap result{foot.g - height.f + offset, foot.n, foot.n_x, {}, share};
+  if (foot.n_dir > 0 && !height.f_a.isZero(0)) {
+    const Eigen::Matrix2d A_inverse = foot.A.inverse();
+    const Eigen::Vector2d y = A_inverse * height.f_a;
+    result.n -= foot.a * y;
+    result.n_x -= foot.a * (A_inverse * (height.f_ab * foot.D - metric_derivative(foot, y)));
+    for (int i = 0; i < foot.n_dir; ++i) result.n_x -= tangent_derivative(foot, i) * y[i];
+  }
+  result.g_x = result.n.transpose() * foot.G;
+  return result;
+}
+
+void apply_law(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
+               ContactPoint& contact) {
+  const Parts all = parts(law, foot, gap, stick, contact.v);
+  const Varying f = force(foot, gap, all, contact.v);
+  contact.g_n = gap.g;
+  contact.n = gap.n.normalized();
+  contact.f = f.value;
+  contact.F = (foot.G.transpose() * f.value).reshaped(3, 5);
+  contact.slip = all.slip.value;
+  contact.energy = gap.share.f * all.normal.energy;
+  contact.power = gap.share.f * all.normal.power;
+  contact.friction_power = 0;
+  set_tangent(foot, f, contact);
+  if (gap.share.f < 1) add_end_force(end_force(foot, gap, all.normal), contact);
+  if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
+  if (!stick || law.c_t == 0) return;
+  const Vector3d elastic = all.mu * all.p / law.c_t * all.friction.direction;
+  const double force_t = all.mu * all.p * all.friction.direction.norm();
+  contact.stick.slides = all.friction.at_limit;
+  contact.elastic_slip = elastic;
+  contact.energy += 0.5 * law.c_t * elastic.squaredNorm();
+  contact.slip_work = force_t * (all.motion.value - elastic).norm();
+  if (all.friction.at_limit) contact.friction_power = force_t * contact.slip.norm();
+}
+
+}  // namespace elastogear::contact

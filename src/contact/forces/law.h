@@ -1,0 +1,59 @@
+#pragma once
+// Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory.md, sections
+// 6.6 and 6.7), with the derivatives that the consistent tangent takes.
+
+#include "contact/projection/projection_kinematics.h"
+#include "contact/projection/smoothing.h"
+#include "elastogear/contact/types.h"
+
+namespace elastogear::contact {
+
+/// Constants of one slave node.
+struct Law {
+  double c_p = 0;         ///< N/m
+  double d_p = 0;         ///< N s/m, while approaching
+  double hysteresis = 0;  ///< s/m, Hunt and Crossley's factor, while approaching
+  double offset = 0;      ///< m, added to the gap
+  double mu = 0;          ///< coefficient of friction
+  double mu_static = 0;   ///< of a node that sticks
+  double v_0 = 0;         ///< m/s, of regularised friction; 0: sticks with c_t
+  double c_t = 0;         ///< N/m, tangential stiffness of a node that sticks
+};
+
+/// Force normal to the (smoothed) surface, N, with its derivatives.
+struct NormalForce {
+  double p = 0, p_g = 0, p_r = 0;  ///< N, N/m by the gap, N s/m by its rate
+  double energy = 0;               ///< J, stored
+  double energy_g = 0;             ///< N, its derivative by the gap
+  double power = 0;                ///< W, dissipated
+};
+/// Penalty and damping force while the gap closes: Eq. (6.15).
+NormalForce normal_force(const Law& law, double gap, double rate);
+
+/// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the share of
+/// the force that is left on a prolonged end.
+struct Gap {
+  double g = 0;       ///< m
+  Eigen::Vector3d n;  ///< force direction
+  Local3 n_x;
+  LocalRow g_x;  ///< n' G
+  FaceFunction share{1};
+};
+/// Gap to the smooth surface and its gradient: Eq. (6.19).
+Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
+        const FaceFunction& share = {1});
+
+/// Tangential motion of the slave node on the master since it stuck, m.
+struct StickMotion {
+  Eigen::Vector3d u = Eigen::Vector3d::Zero();
+  Local3 u_x = Local3::Zero();
+  bool slides = false;
+};
+
+/// Force, energy, power and tangent of a contact whose node velocities v and geometry are set. stick: none
+/// for a node that was not in contact after the last step, or without stick. The slid part of stick's u and
+/// the work it took go to the contact, too.
+void apply_law(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
+               ContactPoint& contact);
+
+}  // namespace elastogear::contact

@@ -1,0 +1,21 @@
+#pragma once
+// Consistent tangent of one penalty contact (docs/theory.md, section 6.3).
+
+#include <Eigen/Core>
+
+#include "contact/projection/projection.h"
+#include "elastogear/contact/types.h"
+
+namespace elastogear::contact {
+
+/// Stiffness W k W' of the 15 coordinates (slave node, four master nodes; x y z each): the force
+/// F = -c_p g_n [n; -N_i n] changes by dF = -W k W' dx.
+struct Tangent {
+  LocalColumns W;
+  LocalStiffness k;  ///< symmetric, N/m
+};
+
+/// full: normal and geometric part; otherwise the normal part c_p [n; -N_i n] [n; -N_i n]' only.
+Tangent contact_tangent(const Face& face, const Projection& projection, double c_p, bool full);
+
+}  // namespace elastogear::contact

@@ -1,0 +1,128 @@
+#include "contact/projection/projection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace elastogear::contact {
+namespace {
+
+struct Nearest {
+  int face = std::numeric_limits<int>::max();
+  ClosestPoint point;
+  double distance2;
+
+  explicit Nearest(double limit2) : distance2(limit2) {}
+  bool found() const { return face != std::numeric_limits<int>::max(); }
+
+  // Ties go to the lower face number. Neighbours find bitwise the same point on a shared edge or vertex.
+  void offer(int f, const ClosestPoint& p) {
+    if (p.distance2 < distance2 || (p.distance2 == distance2 && f < face))
+      face = f, point = p, distance2 = p.distance2;
+  }
+};
+
+double distance_bound(const Face& face, const Eigen::Vector3d& q) {
+  Eigen::Vector3d lo = face.x[0], hi = face.x[0];
+  for (int i = 1; i < face.sides; ++i) lo = lo.cwiseMin(face.x[i]), hi = hi.cwiseMax(face.x[i]);
+  const double extension = *std::max_element(face.extension.begin(), face.extension.end());
+  const double reach = 4 * extension * (hi - lo).norm();
+  const Eigen::Vector3d out = (lo - q).cwiseMax(q - hi).cwiseMax(0.0);
+  return std::max(0.0, out.norm() - reach);
+}
+
+// Master faces that a slave node is tried against.
+struct Trial {
+  const SurfaceView& master;
+  Eigen::Vector3d q;
+  double depth;
+  std::span<const int> faces;
+  int likely;
+};
+
+template <class Accept>
+Nearest nearest(const Trial& trial, const Accept& accept) {
+  Nearest best(trial.depth * trial.depth);
+  const auto offer = [&](int f) {
+    const Face face = face_of(trial.master, f);
+    const double bound = distance_bound(face, trial.q);
+    if (bound * bound > best.distance2) return;
+    const ClosestPoint p = closest_point(face, trial.q);
+    if (accept(face, p)) best.offer(f, p);
+  };
+  const bool known = std::binary_search(trial.faces.begin(), trial.faces.end(), trial.likely);
+  if (known) offer(trial.likely);
+  for (int f : trial.faces)
+    if (!known || f != trial.likely) offer(f);
+  return best;
+}
+
+// Points outwards at the closest point; zero where the surface is degenerate.
+Eigen::Vector3d outward(const SurfaceView& master, int f, const ClosestPoint& p) {
+  if (p.feature == Feature::vertex) return node_normal(master, master.face(p.part, f));
+  if (p.feature == Feature::edge)
+    return edge_normal(master, f, p.part, p.N[(p.part + 1) % side_count(master.face, f)]);
+  return normal(face_of(master, f), p.u, p.v);
+}
+
+enum class Place { inside, outside, unknown };
+
+Place place(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
+  if (!best.found() || best.point.feature == Feature::outside) return Place::unknown;
+  const double side = (q - best.point.x).dot(outward(master, best.face, best.point));
+  return side < 0 ? Place::inside : side > 0 ? Place::outside : Place::unknown;
+}
+
+bool is_taken(const SurfaceView& master, const SlaveNode& slave, const Nearest& best, double outside) {
+  const Place at = place(master, slave.x, best);
+  return at == Place::inside || (at == Place::outside && best.point.distance2 <= outside * outside);
+}
+
+Projection make_projection(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
+  Projection w{best.face, best.point, {}, 0};
+  const Eigen::Vector3d d = q - w.point.x;
+  if (w.point.feature == Feature::face) {
+    w.n = outward(master, w.face, w.point);
+    w.g_n = w.n.dot(d);
+  } else {  // x_slave lies in the normal cone of the edge or vertex: n follows it
+    const double side = place(master, q, best) == Place::outside ? 1 : -1;
+    w.g_n = side * d.stableNorm();
+    w.n = d / w.g_n;
+  }
+  return w;
+}
+
+}  // namespace
+
+std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
+                                          const Limits& limits, std::span<const int> faces, int likely) {
+  const Trial trial{master, slave.x, limits.depth, faces, likely};
+  const Nearest any = nearest(trial, [](auto&&...) { return true; });
+  if (!any.found()) return {};
+  if (place(master, slave.x, any) == Place::outside && !is_taken(master, slave, any, limits.outside))
+    return {};
+  const Eigen::Vector3d n_slave = slave.normal();
+  const auto opposes = [&](const Face& face, const ClosestPoint& p) {
+    return normal(face, p.u, p.v).dot(n_slave) <= limits.cos_angle;
+  };
+  const bool settled = opposes(face_of(master, any.face), any.point);
+  const auto all = [&] { return slave.all_faces ? slave.all_faces() : faces; };
+  const Nearest best = settled ? any : nearest({master, slave.x, trial.depth, all(), likely}, opposes);
+  if (!is_taken(master, slave, best, limits.outside)) return {};
+  return make_projection(master, slave.x, best);
+}
+
+Approach approach(const SurfaceView& master, const Eigen::Vector3d& x,
+                  const std::array<double, 2>& reach_and_limit, std::span<const int> faces) {
+  const auto [reach, limit] = reach_and_limit;
+  const Nearest any = nearest({master, x, reach, faces, -1}, [](auto&&...) { return true; });
+  if (!any.found()) return {std::numeric_limits<double>::infinity(), {}};
+  const double distance = std::sqrt(any.distance2);
+  Approach result{place(master, x, any) == Place::outside ? distance : 0, {}};
+  if (result.clearance > limit) return result;
+  for (int f : faces)  // the nearest moves away and another one comes nearer, by `limit` each
+    if (distance_bound(face_of(master, f), x) <= distance + 2 * limit) result.faces.push_back(f);
+  return result;
+}
+
+}  // namespace elastogear::contact

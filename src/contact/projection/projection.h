@@ -1,0 +1,57 @@
+#pragma once
+// The one face, edge or vertex of the master surface that a slave node touches (docs/theory.md, section
+// 6.2).
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/projection/closest_point.h"
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::contact {
+
+struct SlaveNode {
+  Eigen::Vector3d x;  ///< m
+  std::function<Eigen::Vector3d()>
+      normal;  ///< outward unit normal of the slave surface; asked for when inside
+  /// All master faces within the depth limit, where `faces` of find_projection are only those that can be the
+  /// nearest; asked for when the nearest does not oppose the node.
+  std::function<std::span<const int>()> all_faces = {};
+};
+
+struct Limits {
+  double depth = 0;         ///< m, largest distance to the surface
+  double cos_angle = -0.1;  ///< n_slave . n_master must not exceed this
+  double outside = 0;       ///< m, how far outside the surface a node is still taken
+};
+
+struct Projection {
+  int face = 0;
+  ClosestPoint point;
+  Eigen::Vector3d n;  ///< outward, x_slave - x_c = g_n n
+  double g_n = 0;     ///< m, < 0 inside
+};
+
+/// Nothing when the node is outside the master body (further than the limit), beyond an open end, deeper than
+/// the limit, or when only faces that do not oppose it are near. `faces` must hold all master faces within
+/// `depth` of the node; they ascend. `likely`, one of them or -1, is tried first: the search is quickest when
+/// it is right.
+std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
+                                          const Limits& limits, std::span<const int> faces, int likely = -1);
+
+struct Approach {
+  double clearance = 0;    ///< m: before moving by as much the node cannot touch
+  std::vector<int> faces;  ///< ascending: those that can be the nearest until it has moved by the limit
+};
+
+/// For moves of node and master towards each other by up to `limit`. The clearance of a node outside is its
+/// distance, infinite when no face is within `reach` (>= depth limit + limit); otherwise 0. `faces` must hold
+/// all that are.
+Approach approach(const SurfaceView& master, const Eigen::Vector3d& x,
+                  const std::array<double, 2>& reach_and_limit, std::span<const int> faces);
+
+}  // namespace elastogear::contact

@@ -1,0 +1,51 @@
+#include "contact/search/candidates.h"
+
+#include <algorithm>
+
+namespace elastogear::contact {
+
+void Candidates::collect(const std::vector<NodePair>& face_pairs, int slave_side, const SurfaceView& slave,
+                         const SurfaceView& master, double margin) {
+  near_.clear();
+  for (const NodePair& pair : face_pairs) {
+    const int f = pair[1 - slave_side];
+    const Eigen::Matrix<double, 3, 4> corners = master.x(Eigen::all, master.face.col(f));
+    const Eigen::Vector3d lo = corners.rowwise().minCoeff().array() - margin;
+    const Eigen::Vector3d hi = corners.rowwise().maxCoeff().array() + margin;
+    for (int i = 0; i < side_count(slave.face, pair[slave_side]); ++i) {
+      const int node = slave.face(i, pair[slave_side]);
+      const auto q = slave.x.col(node).array();
+      if ((q >= lo.array()).all() && (q <= hi.array()).all()) near_.push_back({node, f});
+    }
+  }
+  sort_by_node(static_cast<int>(slave.x.cols()));
+}
+
+// Counting sort by node, then each node's faces without duplicates.
+void Candidates::sort_by_node(int n_nodes) {
+  end_.assign(n_nodes, 0);
+  for (const auto& entry : near_) ++end_[entry[0]];
+  begin_.resize(n_nodes);
+  int sum = 0;
+  for (int i = 0; i < n_nodes; ++i) {
+    begin_[i] = sum;
+    sum += end_[i];
+    end_[i] = begin_[i];
+  }
+  face_.resize(near_.size());
+  for (const auto& [node, f] : near_) face_[end_[node]++] = f;
+  nodes_.clear();
+  for (int i = 0; i < n_nodes; ++i) {
+    const auto first = face_.begin() + begin_[i], last = face_.begin() + end_[i];
+    if (first != last) nodes_.push_back(i);
+    if (last - first < 2) continue;
+    std::sort(first, last);
+    end_[i] = static_cast<int>(std::unique(first, last) - face_.begin());
+  }
+}
+
+std::span<const int> Candidates::operator[](int slave_node) const {
+  return std::span(face_).subspan(begin_[slave_node], end_[slave_node] - begin_[slave_node]);
+}
+
+}  // namespace elastogear::contact

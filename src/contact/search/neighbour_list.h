@@ -1,0 +1,68 @@
+#pragma once
+// The nodes and faces that may touch as long as two surfaces move by no more than a skin. They are kept from
+// one search to the next, so that the stages between neither search nor displace nodes that cannot touch.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "contact/search/candidates.h"
+#include "contact/search/coarse_search.h"
+#include "elastogear/contact/types.h"
+
+namespace elastogear::contact {
+
+/// Slave nodes and for each the master faces that it is tried against.
+struct Neighbours {
+  std::vector<int> slave;  ///< ascending
+  std::vector<int> end;    ///< of each one's range of face
+  std::vector<int> face;   ///< ascending within a range
+
+  std::span<const int> faces(std::size_t i) const;
+};
+
+struct NeighbourList {
+  SurfaceMotion found_at[2];             ///< of both surfaces when the candidates were found
+  std::array<Candidates, 2> candidates;  ///< by slave side; only those of the passes that are run
+  SurfaceMotion measured_at[2];          ///< when their clearance was measured
+  double limit = 0;                      ///< m, relative motion since for which `within` is sufficient
+  double near_limit = 0;                 ///< m, and the same for `near`, which is a part of it
+  int uses = 0;                          ///< of `within` since
+  double path = 0;                       ///< m, of the surfaces from the search to measured_at, step by step
+  std::array<std::vector<double>, 2> apart_until;  ///< by slave side and node: the path without touch, m
+  std::array<Neighbours, 2> within, near;          ///< by slave side: the candidates that can touch
+  std::array<std::vector<int>, 2> node;  ///< per surface: whose positions their fine search reads, ascending
+};
+
+/// Ball around the undeformed nodes of a surface in its own frame.
+struct Ball {
+  Eigen::Vector3d centre;
+  double radius = 0;
+};
+Ball enclosing_ball(const Eigen::Matrix3Xd& X);
+
+/// Motion of a in the frame of b: x -> R x + r.
+struct RelativeMotion {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d r;
+};
+RelativeMotion relative_motion(const SurfaceMotion& a, const SurfaceMotion& b);
+
+/// Bound of the distance that the ball's points have gone from one placement to the other, m.
+double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion& to);
+
+/// All candidates, with all faces they are near.
+Neighbours everything(const Candidates& candidates);
+/// Candidates or neighbours without the nodes whose entry of apart_until exceeds `path`.
+Neighbours not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path);
+Neighbours not_apart(const Neighbours& neighbours, const std::vector<double>& apart_until, double path);
+
+/// Nodes of these faces, with all nodes of the faces around them: edges and vertices take their normals from
+/// there. Ascending, without duplicates.
+std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,
+                              const Eigen::Matrix4Xi& face);
+/// The given nodes with all nodes of the faces around them, ascending, without duplicates.
+std::vector<int> nodes_around_nodes(const std::vector<int>& nodes, const Topology& topology,
+                                    const Eigen::Matrix4Xi& face);
+
+}  // namespace elastogear::contact

@@ -1,0 +1,333 @@
+#include "contact/search/tracker.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/settings.h"
+#include "elastogear/base/error.h"
+
+namespace elastogear::contact {
+namespace {
+
+// The relative motion for which one measurement of clearance serves: at first this share of the skin, twice
+// as much when it has served few stages only, half as much after many.
+constexpr double kLimit = 0.125;
+constexpr int kFewUses = 8, kManyUses = 64;
+// The share of the measured motion for which the nodes that touch first serve; it doubles when it is used up.
+constexpr double kFirstStretch = 0.125;
+constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
+
+double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
+  return std::sqrt((state.x_B - surface.X).colwise().squaredNorm().maxCoeff());
+}
+
+// How far the prolonged open ends of a surface reach beyond its faces.
+double extension_reach(const SurfaceView& surface) {
+  double reach = 0;
+  for (int f : surface.topology.open_faces) {
+    const Face face = face_of(surface, f);
+    for (int corner = 0; corner < face.sides; ++corner) {
+      const Eigen::Vector2d at = extended_corner(face, corner);
+      reach = std::max(reach, (combine(face, shape(face.sides, at[0], at[1]).N) - face.x[corner]).norm());
+    }
+  }
+  return reach;
+}
+
+double next_limit(const NeighbourList& neighbours, double skin) {
+  if (neighbours.limit == 0) return kLimit * skin;
+  if (neighbours.uses < kFewUses) return std::min(2 * neighbours.limit, skin);
+  return neighbours.uses > kManyUses ? neighbours.limit / 2 : neighbours.limit;
+}
+
+void make_set(std::vector<int>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+void serialize_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Archive& archive) {
+  for (int i : {0, 1}) {
+    archive(motion[i].q);
+    archive(motion[i].r_WB);
+    archive(motion[i].R_WB);
+    validate(motion[i], *side[i].surface, i);
+  }
+}
+
+}  // namespace
+
+Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>* K_r) {
+  return {&surface, topology(surface.face, static_cast<int>(surface.X.cols())),
+          deformation_bound(surface.Phi, K_r ? *K_r : Eigen::SparseMatrix<double>()),
+          enclosing_ball(surface.X)};
+}
+
+std::vector<int> slave_sides(const Settings& settings) {
+  return settings.two_pass ? std::vector{settings.slave, 1 - settings.slave} : std::vector{settings.slave};
+}
+
+Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits)
+    : side_(std::move(sides)),
+      settings_(settings),
+      limits_(limits),
+      search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update) {
+  for (int i : {0, 1}) {
+    configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
+    deformed_[i].stamp.assign(static_cast<std::size_t>(side_[i].surface->X.cols()), stage_);
+  }
+  reach_ = limits.depth + kStretch * std::max(extension_reach(view(0, settings.extension)),
+                                              extension_reach(view(1, settings.extension)));
+}
+
+SurfaceView Tracker::view(int i, double extension) const {
+  return {side_[i].surface->face, side_[i].topology, configuration_.x[i], extension};
+}
+
+void Tracker::place(const SurfaceState& a, const SurfaceState& b) {
+  const RelativeMotion motion = relative_motion({{}, a.r_WB, a.R_WB}, {{}, b.r_WB, b.R_WB});
+  configuration_.R = motion.R;
+  configuration_.r = motion.r;
+  configuration_.x[0].noalias() = motion.R * a.x_B;
+  configuration_.x[0].colwise() += motion.r;
+  configuration_.x[1] = b.x_B;
+}
+
+void Tracker::place(bool deformed) {
+  SurfaceState state[2];
+  for (int i : {0, 1})
+    state[i] = deformed ? surface_state(*side_[i].surface, *now_[i])
+                        : SurfaceState{side_[i].surface->X, now_[i]->r_WB, now_[i]->R_WB};
+  place(state[0], state[1]);
+}
+
+// Deformed positions of earlier stages are of no use for other coordinates.
+void Tracker::start_stage() {
+  if (stage_ > 0 && now_[0]->q == deformed_[0].q && now_[1]->q == deformed_[1].q) return;
+  ++stage_;
+  for (int i : {0, 1}) deformed_[i].q = now_[i]->q;
+}
+
+// Deformed position of a node, residual displacement included, in the BRF of its surface.
+Eigen::Vector3d Tracker::position(int i, int node) {
+  Deformed& deformed = deformed_[i];
+  if (deformed.stamp[node] != stage_) {
+    const model::Surface& surface = *side_[i].surface;
+    deformed.x_B.col(node) = surface.X.col(node) + model::displacement(surface.Phi, node, deformed.q);
+    deformed.stamp[node] = stage_;
+    ++n_displaced_;
+  }
+  if (!residual_ || !(*residual_)[i].at) return deformed.x_B.col(node);
+  return deformed.x_B.col(node) + (*residual_)[i].at(node);
+}
+
+// Places the nodes by the present motion, in the BRF of surface b.
+void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
+  const RelativeMotion relative = relative_motion(*now_[0], *now_[1]);
+  configuration_.R = relative.R;
+  configuration_.r = relative.r;
+  for (int node : nodes) {
+    const Eigen::Vector3d x_B = position(i, node);
+    require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
+            " is not finite");
+    configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(relative.R * x_B + relative.r) : x_B;
+  }
+}
+
+// Bound of the relative motion of both surfaces since `then`: docs/theory.md, Eq. (5.5).
+double Tracker::distance_since(const SurfaceMotion then[2]) const {
+  double distance = 0;
+  for (int i : {0, 1}) distance += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);
+  Ball ball = side_[0].ball;
+  ball.radius += largest_displacement(side_[0].bound, then[0].q);
+  return distance + travel(ball, relative_motion(then[0], then[1]), relative_motion(*now_[0], *now_[1]));
+}
+
+// Lists the nodes whose positions the fine search of the present candidates reads.
+void Tracker::list_nodes() {
+  std::array<std::vector<int>, 2>& lists = neighbours_->node = kept_;
+  for (int slave : slave_sides(settings_))
+    for (int i : {0, 1}) {
+      const Topology& t = side_[i].topology;
+      const Eigen::Matrix4Xi& face = side_[i].surface->face;
+      const Neighbours& near = neighbours_->near[slave];
+      const auto nodes =
+          i == slave ? nodes_around_nodes(near.slave, t, face) : nodes_around(near.face, t, face);
+      lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
+    }
+  for (auto& list : lists) make_set(list);
+}
+
+// Measures the clearance of all candidates and leaves out those that cannot touch while the surfaces move by
+// `limit`, and the faces that cannot be nearest. A node whose earlier clearance is not used up is not
+// measured again.
+void Tracker::measure_clearance(double limit) {
+  NeighbourList& v = *neighbours_;
+  const double soon = limit + limits_.outside;
+  v.limit = limit;
+  v.uses = 0;
+  for (int slave : slave_sides(settings_))
+    v.near[slave] = not_apart(v.candidates[slave], v.apart_until[slave], v.path + soon);
+  list_nodes();
+  for (int i : {0, 1}) place_nodes(i, v.node[i]);
+  for (int slave : slave_sides(settings_)) leave_out(slave, soon);
+  v.within = std::exchange(v.near, {});
+  take_near(kFirstStretch * limit);
+  for (int i : {0, 1}) v.measured_at[i] = *now_[i];
+  residual_since_measured_ = 0;
+}
+
+// Takes from the nodes within the limit those that can touch until the surfaces have moved by `distance`
+// since the measurement.
+void Tracker::take_near(double distance) {
+  NeighbourList& v = *neighbours_;
+  v.near_limit = distance;
+  for (int slave : slave_sides(settings_))
+    v.near[slave] = not_apart(v.within[slave], v.apart_until[slave], v.path + distance + limits_.outside);
+  list_nodes();
+}
+
+// Leaves out the near nodes that have more clearance than `clear`.
+void Tracker::leave_out(int slave, double clear) {
+  const Neighbours all = std::exchange(neighbours_->near[slave], {});
+  const SurfaceView master = view(1 - slave, settings_.extension);
+  const std::array reach_and_limit{std::max(limits_.depth, limits_.outside) + settings_.skin, clear};
+  const double surely_seen = settings_.skin + limits_.outside;  // whichever side of the surface it is on
+  Neighbours& near = neighbours_->near[slave];
+  for (std::size_t i = 0; i < all.slave.size(); ++i) {
+    const int node = all.slave[i];
+    const auto [clearance, faces] =
+        approach(master, configuration_.x[slave].col(node), reach_and_limit, all.faces(i));
+    neighbours_->apart_until[slave][node] = neighbours_->path + std::min(clearance, surely_seen);
+    if (clearance > clear) continue;
+    near.slave.push_back(node);
+    near.face.insert(near.face.end(), faces.begin(), faces.end());
+    near.end.push_back(static_cast<int>(near.face.size()));
+  }
+}
+
+// Brings the neighbour lists up to date; returns whether clearances were measured, which places all nodes of
+// the lists.
+bool Tracker::update_neighbours() {
+  const bool search_is_due =
+      !neighbours_ || !(distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin);
+  if (search_is_due) find_candidates();
+  const double distance =
+      search_is_due ? 0 : distance_since(neighbours_->measured_at) + residual_since_measured_;
+  const bool is_used_up = search_is_due || !(distance <= neighbours_->limit);
+  if (is_used_up) {
+    neighbours_->path += distance;
+    measure_clearance(next_limit(*neighbours_, settings_.skin));
+  } else if (distance > neighbours_->near_limit) {
+    take_near(std::min(2 * distance, neighbours_->limit));
+  }
+  ++neighbours_->uses;
+  return is_used_up;
+}
+
+// Candidates within `margin` of each other where the nodes are placed now.
+void Tracker::find_candidates(double margin) {
+  const auto& face_pairs = search_.face_pairs(configuration_, margin);
+  if (!neighbours_) neighbours_.emplace();
+  neighbours_->path = 0;
+  for (int slave : slave_sides(settings_)) {
+    Candidates& candidates = neighbours_->candidates[slave];
+    candidates.collect(face_pairs, slave, view(slave, 0), view(1 - slave, settings_.extension), margin);
+    neighbours_->near[slave] = everything(candidates);
+    neighbours_->apart_until[slave].assign(static_cast<std::size_t>(configuration_.x[slave].cols()), 0);
+  }
+  ++n_searches_;
+}
+
+void Tracker::find_candidates() {
+  const bool deformed = settings_.update == Update::refit;
+  double margin = reach_ + settings_.skin;
+  for (int i : {0, 1})
+    if (!deformed) margin += largest_displacement(side_[i].bound, now_[i]->q);
+  for (int i : {0, 1})
+    if (residual_) margin += (*residual_)[i].largest;
+  place(deformed);
+  find_candidates(margin);
+  residual_since_found_ = 0;
+  for (int i : {0, 1}) neighbours_->found_at[i] = {now_[i]->q, now_[i]->r_WB, now_[i]->R_WB};
+}
+
+void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
+  const SurfaceState* state[2] = {&a, &b};
+  std::fill_n(now_, 2, nullptr);
+  residual_ = nullptr;
+  double margin = reach_;
+  for (int i : {0, 1}) {
+    validate(*state[i], *side_[i].surface, i);
+    if (settings_.update == Update::realign) margin += largest_displacement(*state[i], *side_[i].surface);
+  }
+  place(a, b);
+  find_candidates(margin);
+}
+
+void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b,
+                     const std::array<ResidualDisplacement, 2>& residual) {
+  now_[0] = &a;
+  now_[1] = &b;
+  residual_ = &residual;
+  has_residual_ = residual[0].at || residual[1].at;
+  for (int i : {0, 1}) validate(*now_[i], *side_[i].surface, i);
+  n_displaced_ = 0;
+  start_stage();
+  for (double* sum : {&residual_since_found_, &residual_since_measured_})
+    for (const ResidualDisplacement& y : residual) *sum += y.change;
+  if (!update_neighbours())
+    for (int i : {0, 1}) place_nodes(i, neighbours_->node[i]);
+}
+
+void Tracker::forget() { neighbours_.reset(); }
+
+std::span<const int> Tracker::all_faces(int slave, int node) {
+  const auto faces = neighbours_->candidates[slave][node];
+  const Tracked& master = side_[1 - slave];
+  if (now_[0]) place_nodes(1 - slave, nodes_around(faces, master.topology, master.surface->face));
+  return faces;
+}
+
+Eigen::Vector3d Tracker::position_B(int i, int node) const {
+  const Eigen::Vector3d x = configuration_.x[i].col(node);
+  return i == 0 ? Eigen::Vector3d(configuration_.R.transpose() * (x - configuration_.r)) : x;
+}
+
+Eigen::Vector3d Tracker::velocity(int i, int node) const {
+  if (!now_[i]) return Eigen::Vector3d::Zero();
+  const SurfaceMotion& m = *now_[i];
+  const Eigen::Matrix3d& R = configuration_.R;
+  const Eigen::Vector3d x_B = position_B(i, node);
+  Eigen::Vector3d v = m.v_WB_B + m.w_WB_B.cross(x_B);
+  if (m.q_dot.size() > 0) v += model::displacement(side_[i].surface->Phi, node, m.q_dot);
+  return i == 0 ? Eigen::Vector3d(R * v) : v;
+}
+
+// Stores the motions at which candidates were found and measured; on loading, candidates and clearances are
+// found anew from these.
+void Tracker::serialize(Archive& archive) {
+  bool found = neighbours_.has_value();
+  archive(found);
+  if (!found) return neighbours_.reset();
+  NeighbourList then = neighbours_.value_or(NeighbourList{});
+  serialize_motion(then.found_at, side_, archive);
+  serialize_motion(then.measured_at, side_, archive);
+  archive(then.limit);
+  archive(then.near_limit);
+  archive(then.uses);
+  archive(has_residual_);
+  if (!archive.is_loading()) return;
+  if (has_residual_) return neighbours_.reset();  // the residual displacement of that time is not known
+  for (int i : {0, 1}) now_[i] = &then.found_at[i];
+  find_candidates();
+  for (int i : {0, 1}) now_[i] = &then.measured_at[i];
+  start_stage();
+  measure_clearance(then.limit);
+  take_near(then.near_limit);
+  neighbours_->uses = then.uses;
+  std::fill_n(now_, 2, nullptr);
+}
+
+}  // namespace elastogear::contact

@@ -1,0 +1,101 @@
+#pragma once
+// Which nodes and faces of two moving surfaces can touch, where those nodes are and how fast they move. A
+// search is made only when the surfaces have used up a skin (docs/theory.md, section 5.1).
+
+#include <optional>
+
+#include "contact/projection/projection.h"
+#include "contact/search/coarse_search.h"
+#include "contact/search/neighbour_list.h"
+#include "elastogear/base/archive.h"
+#include "elastogear/contact/deformation_bound.h"
+
+namespace elastogear::contact {
+
+/// One surface with what bounds its motion.
+struct Tracked {
+  const model::Surface* surface;  ///< borrowed
+  Topology topology;
+  DeformationBound bound;
+  Ball ball;
+};
+Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>* K_r);
+
+/// The surfaces that give slave nodes, in the order of the passes.
+std::vector<int> slave_sides(const Settings& settings);
+
+/// Frame of all positions: the BRF of surface b.
+class Tracker {
+ public:
+  /// settings: complete, as with_defaults returns them.
+  Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits);
+
+  /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.
+  void find(const SurfaceState& a, const SurfaceState& b);
+  /// Places the nodes that can touch, after a search where one is due. Throws Error for motions that are not
+  /// finite. Motions and residual displacements must live as long as velocity and all_faces are called.
+  void follow(const SurfaceMotion& a, const SurfaceMotion& b,
+              const std::array<ResidualDisplacement, 2>& residual);
+  /// The next call of follow searches anew.
+  void forget();
+  /// Nodes of either surface that follow places whether they can touch or not, until told otherwise.
+  void keep(std::array<std::vector<int>, 2> nodes) { kept_ = std::move(nodes); }
+
+  const Tracked& side(int i) const { return side_[i]; }
+  const Configuration& configuration() const { return configuration_; }
+  SurfaceView view(int i, double extension) const;
+  /// Slave nodes that can touch, with the faces that can be nearest.
+  const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
+  /// All faces within the depth limit of a slave node, their nodes placed.
+  std::span<const int> all_faces(int slave, int node);
+  /// Position of a node placed by follow, in the BRF of its surface, m.
+  Eigen::Vector3d position_B(int i, int node) const;
+  /// Velocity of a node placed by follow, m/s, components in the BRF of surface b; zero after find, which
+  /// knows no motion.
+  Eigen::Vector3d velocity(int i, int node) const;
+
+  int n_searches() const { return n_searches_; }
+  int n_displaced() const { return n_displaced_; }  ///< in the last call of follow
+
+  /// All that later calls of follow take from earlier ones.
+  void serialize(Archive& archive);
+
+ private:
+  void place(const SurfaceState& a, const SurfaceState& b);
+  void place(bool deformed);
+  void place_nodes(int i, const std::vector<int>& nodes);
+  Eigen::Vector3d position(int i, int node);
+  void start_stage();
+  double distance_since(const SurfaceMotion then[2]) const;
+  void list_nodes();
+  void measure_clearance(double limit);
+  void take_near(double distance);
+  void leave_out(int slave, double clear);
+  bool update_neighbours();
+  void find_candidates(double margin);
+  void find_candidates();
+
+  std::array<Tracked, 2> side_;
+  Settings settings_;
+  Limits limits_;
+  CoarseSearch search_;
+  double reach_;  // m, largest distance of a slave node from a master face's corners that can still matter
+  Configuration configuration_;
+  std::optional<NeighbourList> neighbours_;
+  std::array<std::vector<int>, 2> kept_;
+  const SurfaceMotion* now_[2] = {};                               // while contacts are detected by motions
+  const std::array<ResidualDisplacement, 2>* residual_ = nullptr;  // beside them
+  bool has_residual_ = false;                                      // did anything in the last call of follow?
+  double residual_since_found_ = 0, residual_since_measured_ = 0;  // m, bounds of the change
+  struct Deformed {  // X + Phi q of the nodes with the stamp of this stage, within which only residual
+                     // displacements change
+    Eigen::VectorXd q;
+    Eigen::Matrix3Xd x_B;
+    std::vector<long> stamp;
+  };
+  std::array<Deformed, 2> deformed_;
+  long stage_ = 0;
+  int n_searches_ = 0, n_displaced_ = 0;
+};
+
+}  // namespace elastogear::contact

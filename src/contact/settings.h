@@ -1,0 +1,30 @@
+#pragma once
+// Settings of a pair: checks of what the user gave, defaults, and the law of each node.
+
+#include "contact/forces/law.h"
+#include "elastogear/contact/types.h"
+
+namespace elastogear::contact {
+
+/// Throws Error naming the setting and what is allowed.
+void validate(const Settings& settings);
+
+void validate(const FrictionSettings& settings);
+
+/// Throws Error naming surface a (0) or b (1).
+void validate(const model::Surface& surface, int side);
+void validate(const SurfaceState& state, const model::Surface& surface, int side);
+void validate(const SurfaceMotion& motion, const model::Surface& surface, int side);
+
+/// Fills in what is 0. Stiffness: that of contact/stiffness.h, one value for the whole pair, so that forces
+/// derive from a potential. Depth: half the smaller face size, skin: a quarter of it. Throws Error when a
+/// stiffness of the surface is needed and not positive.
+Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b);
+
+/// The law of each node of the slave surface, settings complete.
+std::vector<Law> node_laws(const Settings& settings, const model::Surface& slave);
+
+/// No more than the penalty on facets.
+bool has_potential(const Settings& settings);
+
+}  // namespace elastogear::contact

@@ -1,0 +1,104 @@
+#include "dynamics/contact/pair_state.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace elastogear::dynamics {
+namespace {
+
+// Moment of local node i's force about the world origin.
+Eigen::Vector3d local_moment(const contact::ContactPoint& point, int i,
+                             const contact::SurfaceState& surface) {
+  const Eigen::Vector3d x_W = surface.r_WB + surface.R_WB * surface.x_B.col(local_node(point, i).node);
+  return x_W.cross(local_force(point, i));
+}
+
+Eigen::Vector3d moment_on_b(const contact::ContactPoint& point, const contact::SurfaceState& b) {
+  if (point.slave_side == 1) return local_moment(point, 0, b);
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (int i = 1; i <= 4; ++i) moment += local_moment(point, i, b);
+  return moment;
+}
+
+// Velocity of a surface node in the world frame, m/s.
+Eigen::Vector3d velocity(const System::Body& body, const contact::SurfaceMotion& m, int node) {
+  const model::Surface& surface = body.eq.body->surface;
+  const Eigen::Vector3d x_B = surface.X.col(node) + model::displacement(surface.Phi, node, m.q);
+  return m.R_WB * (m.v_WB_B + m.w_WB_B.cross(x_B) + model::displacement(surface.Phi, node, m.q_dot));
+}
+
+// Tangential velocity of the slave node on the master, m/s, for contacts whose force does not depend on it.
+Eigen::Vector3d slip(const contact::ContactPoint& point, const System::Body* body[2],
+                     const contact::SurfaceMotion motion[2]) {
+  const int slave = point.slave_side, master = 1 - slave;
+  Eigen::Vector3d v = velocity(*body[slave], motion[slave], point.slave_node);
+  for (int i = 0; i < 4; ++i)
+    if (point.N[i] != 0) v -= point.N[i] * velocity(*body[master], motion[master], point.master_node[i]);
+  return v - point.n * point.n.dot(v);
+}
+
+model::ContactFigures figures(const contact::ContactPoint& point, double node_area, bool two_pass) {
+  model::ContactFigures f;
+  f.count = 1;
+  f.area = node_area;
+  const double share = two_pass ? 2 : 1;  // each pass carries half of the force
+  f.pressure = node_area > 0 ? share * point.f.dot(point.n) / node_area : 0;
+  f.sliding_speed = point.slip.norm();
+  f.friction_power = point.friction_power;
+  f.damping_power = point.power;
+  return f;
+}
+
+void add(model::ContactFigures& sum, const model::ContactFigures& f) {
+  sum.torque += f.torque;
+  sum.count += f.count;
+  sum.area += f.area;
+  sum.pressure = std::max(sum.pressure, f.pressure);
+  sum.sliding_speed = std::max(sum.sliding_speed, f.sliding_speed);
+  sum.friction_power += f.friction_power;
+  sum.damping_power += f.damping_power;
+}
+
+model::ContactRecord record(const contact::ContactPoint& point, double pressure) {
+  return {point.slave_side, point.slave_node, point.face, point.xi,  point.eta,
+          point.g_n,        point.f,          pressure,   point.slip};
+}
+
+}  // namespace
+
+model::PairState pair_state(System& system, const State& x, std::size_t p) {
+  const ContactState& contact = system.contacts(x.time, x.U, x.V);
+  const PairContacts& pair = contact.pair[p];
+  const System::Body* body[2] = {&system.bodies()[pair.body[0]], &system.bodies()[pair.body[1]]};
+  model::PairState state;
+  for (int side : {0, 1}) {
+    const std::size_t n = body[side]->eq.body->surface.group_name.size();
+    state.group_force[side].assign(n, Eigen::Vector3d::Zero());
+    state.area[side].resize(n);
+  }
+  const contact::SurfaceMotion motion[2] = {system.surface_motion(pair.body[0], x.time, x.U, x.V),
+                                            system.surface_motion(pair.body[1], x.time, x.U, x.V)};
+  for (contact::ContactPoint point : pair.points) {
+    const int slave = point.slave_side, master = 1 - slave;
+    const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
+    if (point.V_dot.cols() == 0) point.slip = slip(point, body, motion);
+    model::ContactFigures f =
+        figures(point, body[slave]->node_area[point.slave_node], system.pairs()[p].settings.two_pass);
+    f.torque = moment_on_b(point, contact.surface[pair.body[1]]);
+    const int group[2] = {body[slave]->node_group[point.slave_node],
+                          body[master]->eq.body->surface.group[point.face]};
+    state.group_force[slave][group[0]] += f_b;
+    state.group_force[master][group[1]] += f_b;
+    add(state.area[slave][group[0]], f);
+    add(state.area[master][group[1]], f);
+    add(state.total, f);
+    state.force += f_b;
+    state.penetration = std::max(state.penetration, -point.g_n);
+    state.contacts.push_back(record(point, f.pressure));
+  }
+  state.torque = state.total.torque;
+  state.count = state.total.count;
+  return state;
+}
+
+}  // namespace elastogear::dynamics

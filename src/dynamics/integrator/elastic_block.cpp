@@ -1,0 +1,233 @@
+#include "elastogear/dynamics/elastic_block.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/rigid_fields.h"
+#include "dynamics/vec_view.h"
+#include "elastogear/base/error.h"
+#include "elastogear/body/tangent.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+// Nodes whose compliance is kept before the store is emptied: bounds it to about 300 MB a body.
+constexpr std::size_t kMaxKeptNodes = 2000;
+// Nodes whose responses of a full basis are solved for together: 0.5 GB for each copy at a million
+// displacements.
+constexpr std::size_t kNodesAtOnce = 16;
+// Responses that are kept, in numbers: 512 MB a body.
+constexpr std::size_t kMaxKeptNumbers = std::size_t{1} << 26;
+
+bool is_diagonal(const Eigen::SparseMatrix<double>& A) {
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
+      if (it.row() != it.col() && it.value() != 0) return false;
+  return true;
+}
+
+bool is_factorisation(KSP ksp, PC pc) {
+  PetscBool once = PETSC_FALSE, factor = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPPREONLY, &once));
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &factor, PCCHOLESKY, PCLU, ""));
+  return once && factor;
+}
+
+}  // namespace
+
+BorderColumns::BorderColumns(const body::Equations& eq, const Eigen::MatrixXd& markers)
+    : Phi_(&eq.body->surface.Phi) {
+  const Eigen::MatrixXd U = body::border(eq);
+  U_.resize(eq.n_q(), U.cols() + markers.cols());
+  U_.leftCols(U.cols()) = U;
+  if (markers.cols() > 0) U_.rightCols(markers.cols()) = markers;  // none: 0 x 0
+}
+
+Eigen::Index BorderColumns::size(const std::vector<int>& node) const {
+  return n_u() + 3 * static_cast<Eigen::Index>(node.size());
+}
+
+Eigen::MatrixXd BorderColumns::project(const std::vector<int>& node, const Eigen::MatrixXd& X) const {
+  Eigen::MatrixXd P(size(node), X.cols());
+  P.topRows(n_u()) = U_.transpose() * X;
+  std::visit(
+      [&](const auto& rows) {
+        for (std::size_t i = 0; i < node.size(); ++i)
+          P.middleRows(n_u() + 3 * static_cast<Eigen::Index>(i), 3) = rows.middleRows(3 * node[i], 3) * X;
+      },
+      *Phi_);
+  return P;
+}
+
+Eigen::VectorXd BorderColumns::expand(const std::vector<int>& node, const Eigen::VectorXd& c) const {
+  Eigen::VectorXd x = U_ * c.head(n_u());
+  for (std::size_t i = 0; i < node.size(); ++i)
+    model::add_force(*Phi_, node[i], c.segment<3>(n_u() + 3 * static_cast<Eigen::Index>(i)), x);
+  return x;
+}
+
+Eigen::MatrixXd BorderColumns::node_columns(const std::vector<int>& node) const {
+  Eigen::MatrixXd columns(U_.rows(), 3 * static_cast<Eigen::Index>(node.size()));
+  std::visit(
+      [&](const auto& rows) {
+        for (std::size_t i = 0; i < node.size(); ++i)
+          columns.middleCols(3 * static_cast<Eigen::Index>(i), 3) =
+              rows.middleRows(3 * node[i], 3).transpose();
+      },
+      *Phi_);
+  return columns;
+}
+
+ElasticBlock::ElasticBlock(const body::Equations& eq, const Eigen::MatrixXd& markers)
+    : body_(eq.body.get()), D_r_(eq.D_r), columns_(eq, markers), slot_(eq.body->surface.node.size(), -1) {
+  diagonal_ = is_diagonal(body_->M_r) && is_diagonal(body_->K_r);
+  if (!diagonal_) make_solver();
+}
+
+void ElasticBlock::set_shifts(double shift_v, double shift_a) {
+  if (shift_v == shift_v_ && shift_a == shift_a_) return;
+  shift_v_ = shift_v;
+  shift_a_ = shift_a;
+  D_ = shift_a * body_->M_r + shift_v * D_r_ + body_->K_r;
+  D_.makeCompressed();
+  if (diagonal_) {
+    inverse_ = D_.diagonal().cwiseInverse();
+    require(inverse_.allFinite(), "body '", body_->name, "': the effective elastic matrix is singular");
+  } else {
+    factorise();
+  }
+  reset_compliance();
+}
+
+void ElasticBlock::make_solver() {
+  PC pc = nullptr;
+  check(KSPCreate(PETSC_COMM_SELF, ksp_.out()));
+  check(KSPSetOptionsPrefix(ksp_, "elastic_"));
+  check(KSPSetType(ksp_, KSPPREONLY));
+  check(KSPGetPC(ksp_, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetFromOptions(ksp_));
+  exact_ = is_factorisation(ksp_, pc);
+}
+
+void ElasticBlock::attach_rigid_fields() {
+  if (is_node_by_node(*body_)) check(MatSetBlockSize(D_mat_, 3));
+  if (rigid_.size() == 0)
+    rigid_ = Eigen::HouseholderQR<Eigen::MatrixXd>(rigid_fields(*body_)).householderQ() *
+             Eigen::MatrixXd::Identity(body_->n_q(), 6);
+  std::vector<UniqueVec> fields;
+  std::vector<Vec> borrowed;
+  for (Eigen::Index i = 0; i < rigid_.cols(); ++i) {
+    fields.push_back(vector(rigid_.col(i)));
+    borrowed.push_back(fields.back());
+  }
+  Handle<MatNullSpace, MatNullSpaceDestroy> space;
+  check(MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, static_cast<PetscInt>(borrowed.size()),
+                           borrowed.data(), space.out()));
+  check(MatSetNearNullSpace(D_mat_, space));
+}
+
+void ElasticBlock::factorise() {
+  const auto n = static_cast<PetscInt>(D_.rows());
+  make_solver();
+  check(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, D_.outerIndexPtr(), D_.innerIndexPtr(),
+                                  D_.valuePtr(), D_mat_.out()));
+  check(MatSetOption(D_mat_, MAT_SPD, PETSC_TRUE));
+  if (!exact_) attach_rigid_fields();
+  check(KSPSetOperators(ksp_, D_mat_, D_mat_));
+  check(KSPSetUp(ksp_));
+}
+
+Eigen::VectorXd ElasticBlock::multiply(const Eigen::VectorXd& x) const { return D_ * x; }
+
+Eigen::MatrixXd ElasticBlock::solve(const Eigen::MatrixXd& Y) const {
+  if (diagonal_) return inverse_.asDiagonal() * Y;
+  const auto n = static_cast<PetscInt>(Y.rows()), m = static_cast<PetscInt>(Y.cols());
+  Eigen::MatrixXd right = Y, X = Eigen::MatrixXd::Zero(n, m);
+  if (m == 0) return X;
+  UniqueMat right_mat, X_mat;
+  check(MatCreateSeqDense(PETSC_COMM_SELF, n, m, right.data(), right_mat.out()));
+  check(MatCreateSeqDense(PETSC_COMM_SELF, n, m, X.data(), X_mat.out()));
+  check(KSPMatSolve(ksp_, right_mat, X_mat));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check(KSPGetConvergedReason(ksp_, &reason));
+  require(reason >= 0 && X.allFinite(), "body '", body_->name,
+          "': the effective elastic matrix could not be factorised (is it positive definite?)");
+  return X;
+}
+
+void ElasticBlock::reset_compliance() {
+  kept_.clear();
+  batches_.clear();
+  std::fill(slot_.begin(), slot_.end(), -1);
+  response_.clear();
+  U_response_ = solve(columns_.U());
+  G_ = columns_.U().transpose() * U_response_;
+}
+
+void ElasticBlock::add_to_compliance(const std::vector<int>& node) {
+  const Eigen::Index before = G_.rows();
+  const Eigen::MatrixXd X = solve(columns_.node_columns(node));
+  batches_.push_back(node);
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    slot_[node[i]] = static_cast<int>(kept_.size());
+    kept_.push_back(node[i]);
+    const bool room = kept_.size() * 3 * static_cast<std::size_t>(X.rows()) <= kMaxKeptNumbers;
+    if (!diagonal_ && room) response_.push_back(X.middleCols<3>(3 * static_cast<Eigen::Index>(i)));
+  }
+  const Eigen::Index after = columns_.size(kept_);
+  G_.conservativeResize(after, after);
+  G_.rightCols(after - before) = columns_.project(kept_, X);
+  G_.bottomLeftCorner(after - before, before) = G_.topRightCorner(before, after - before).transpose();
+}
+
+Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
+  std::vector<int> missing;
+  std::copy_if(node.begin(), node.end(), std::back_inserter(missing), [&](int i) { return slot_[i] < 0; });
+  if (kept_.size() + missing.size() > kMaxKeptNodes) {
+    reset_compliance();
+    missing = node;
+  }
+  const auto at_once = static_cast<std::ptrdiff_t>(diagonal_ ? missing.size() : kNodesAtOnce);
+  for (auto part = missing.begin(); part != missing.end();) {
+    const auto end = part + std::min(at_once, missing.end() - part);
+    if (pulse_) pulse_();
+    add_to_compliance({part, end});
+    part = end;
+  }
+  std::vector<Eigen::Index> index;
+  for (Eigen::Index u = 0; u < columns_.n_u(); ++u) index.push_back(u);
+  for (int i : node)
+    for (Eigen::Index d = 0; d < 3; ++d) index.push_back(columns_.n_u() + 3 * slot_[i] + d);
+  return G_(index, index);
+}
+
+Eigen::VectorXd ElasticBlock::response(const std::vector<int>& node, const Eigen::VectorXd& c) const {
+  const auto is_kept = [&](int i) { return slot_[i] < static_cast<int>(response_.size()); };
+  if (diagonal_ || !std::all_of(node.begin(), node.end(), is_kept)) return solve(columns_.expand(node, c));
+  Eigen::VectorXd x = U_response_ * c.head(columns_.n_u());
+  for (std::size_t i = 0; i < node.size(); ++i)
+    x += response_[static_cast<std::size_t>(slot_[node[i]])] *
+         c.segment<3>(columns_.n_u() + 3 * static_cast<Eigen::Index>(i));
+  return x;
+}
+
+void ElasticBlock::serialize(Archive& archive) {
+  double shift_v = shift_v_, shift_a = shift_a_;
+  std::vector<std::vector<int>> batches = batches_;
+  archive(shift_v);
+  archive(shift_a);
+  archive(batches);
+  if (!archive.is_loading() || std::isnan(shift_v)) return;
+  set_shifts(shift_v, shift_a);
+  for (const std::vector<int>& nodes : batches) {
+    for (int node : nodes)
+      require(node >= 0 && node < static_cast<int>(slot_.size()), "body '", body_->name,
+              "': the stored state names node ", node, " of a surface of ", slot_.size(), " nodes");
+    add_to_compliance(nodes);
+  }
+}
+
+}  // namespace elastogear::dynamics

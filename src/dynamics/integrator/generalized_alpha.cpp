@@ -1,0 +1,387 @@
+#include "elastogear/dynamics/generalized_alpha.h"
+
+#include <cmath>
+
+#include "dynamics/integrator/generalized_alpha_method.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/petsc.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+using namespace generalized_alpha;
+
+constexpr const char* type_name = "generalized_alpha";
+const char* const predictor_names[] = {"none", "constant_acceleration", "zero_acceleration"};
+
+// ---- the accepted state
+
+// PETSc asks for a restart whenever the solution was merely touched, which would throw away an A that is
+// still good: only changed values count, or a request without any touch (TSRestartStep, the start of
+// TSSolve).
+PetscErrorCode acceleration_is_known(TS ts, bool* known) {
+  const Method& m = method(ts);
+  PetscBool U_same = PETSC_FALSE, V_same = PETSC_FALSE;
+  PetscObjectState state = 0;
+  *known = false;
+  if (!m.acceleration_known) return 0;
+  PetscCall(VecEqual(ts->vec_sol, m.current.U, &U_same));
+  PetscCall(VecEqual(ts->vec_dot, m.current.V, &V_same));
+  PetscCall(PetscObjectStateGet((PetscObject)ts->vec_sol, &state));
+  *known = U_same && V_same && (!ts->steprestart || state != m.solution_state);
+  return 0;
+}
+
+PetscErrorCode ensure_acceleration(TS ts) {
+  bool known = false;
+  PetscCall(acceleration_is_known(ts, &known));
+  if (known) return 0;
+  PetscCall(solve_acceleration(ts));
+  ts->steprestart = PETSC_FALSE;
+  return PetscObjectStateGet((PetscObject)ts->vec_sol, &method(ts).solution_state);
+}
+
+PetscErrorCode set_solution(TS ts, const Motion& x) {
+  Method& m = method(ts);
+  PetscCall(copy(x, m.current));
+  PetscCall(VecCopy(x.U, ts->vec_sol));
+  PetscCall(VecCopy(x.V, ts->vec_dot));
+  m.acceleration_known = true;
+  return PetscObjectStateGet((PetscObject)ts->vec_sol, &m.solution_state);
+}
+
+// ---- one step
+
+// One try with the present time step. A rejected one leaves the state untouched and a smaller ts->time_step.
+PetscErrorCode attempt(TS ts, PetscBool* accept, PetscReal* next_step) {
+  Method& m = method(ts);
+  PetscBool solved = PETSC_FALSE;
+  PetscCall(solve_step(ts));
+  PetscCall(TSAdaptCheckStage(ts->adapt, ts, m.stage.t, m.at_stage.U, &solved));
+  if (!solved) {
+    *accept = PETSC_FALSE;
+    return 0;
+  }
+  PetscCall(set_solution(ts, m.end));
+  PetscCall(TSAdaptChoose(ts->adapt, ts, ts->time_step, nullptr, next_step, accept));
+  if (*accept) return 0;
+  PetscCall(set_solution(ts, m.start));
+  ts->time_step = *next_step;
+  return 0;
+}
+
+// A step that hardly moves the time is none, for steps after a cut may be cut again and again.
+bool moves_time(TS ts) {
+  constexpr double kRoundoff = 1e-13;
+  return ts->time_step > kRoundoff * std::abs(ts->ptime);
+}
+
+PetscErrorCode count_rejection(TS ts, PetscInt* rejections) {
+  ts->reject++;
+  const bool may_go_on = ts->max_reject < 0 || ++*rejections <= ts->max_reject;
+  if (ts->reason || (may_go_on && moves_time(ts))) return 0;
+  ts->reason = TS_DIVERGED_STEP_REJECTED;
+  return PetscInfo(ts, "step %" PetscInt_FMT " rejected %" PetscInt_FMT " times\n", ts->steps, *rejections);
+}
+
+PetscErrorCode step(TS ts) {
+  Method& m = method(ts);
+  PetscBool accept = PETSC_TRUE;
+  PetscReal next_step = ts->time_step;
+  PetscInt rejections = 0;
+  PetscCall(ensure_acceleration(ts));
+  PetscCall(copy(m.current, m.start));
+  while (!ts->reason) {
+    PetscCall(attempt(ts, &accept, &next_step));
+    if (accept) break;
+    PetscCall(count_rejection(ts, &rejections));
+  }
+  if (ts->reason) return 0;
+  PetscCall(move_lag(m, next_step / ts->time_step));
+  m.step_time = ts->ptime;
+  m.step_size = ts->time_step;
+  ts->ptime += ts->time_step;
+  ts->time_step = next_step;
+  return 0;
+}
+
+PetscErrorCode roll_back(TS ts) { return set_solution(ts, method(ts).start); }
+
+// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated: docs/theory.md,
+// Eq. (8.10).
+PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
+  const Method& m = method(ts);
+  const PetscReal dt = m.step_size, s = (t - m.step_time) / dt;
+  PetscCheck(dt > 0 && m.step_time == ts->ptime_prev, PetscObjectComm((PetscObject)ts),
+             PETSC_ERR_ARG_WRONGSTATE, "No step to interpolate: none was taken, or it was rolled back");
+  const PetscReal h = s * s * (3 - 2 * s);
+  const PetscScalar weights[] = {1 - h, h, dt * s * (1 - s) * (1 - s), dt * s * s * (s - 1)};
+  Vec ends[] = {m.start.U, m.end.U, m.start.V, m.end.V};
+  PetscCall(VecZeroEntries(U));
+  return VecMAXPY(U, 4, weights, ends);
+}
+
+// Derivative of the Hermite polynomial of interpolate, docs/theory.md, Eq. (8.17).
+PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V) {
+  const Method& m = method(ts);
+  const PetscReal dt = m.step_size, s = (t - m.step_time) / dt, slope = 6 * s * (1 - s) / dt;
+  const PetscScalar weights[] = {-slope, slope, (1 - s) * (1 - 3 * s), s * (3 * s - 2)};
+  Vec ends[] = {m.start.U, m.end.U, m.start.V, m.end.V};
+  PetscCall(VecZeroEntries(V));
+  return VecMAXPY(V, 4, weights, ends);
+}
+
+// Linear between the ends of the last step, docs/theory.md, Eq. (8.17).
+PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A) {
+  const Method& m = method(ts);
+  const PetscReal s = (t - m.step_time) / m.step_size;
+  PetscCall(VecCopy(m.start.A, A));
+  return VecAXPBY(A, s, 1 - s, m.end.A);
+}
+
+// ---- error estimate
+
+// norm := weighted norm of scale * (A1 - A0), as an error of x
+PetscErrorCode error_norm(TS ts, Vec x, PetscReal scale, NormType type, PetscReal* norm) {
+  const Method& m = method(ts);
+  PetscReal absolute = 0, relative = 0;
+  const Vec y = m.at_stage.U;  // free until the next stage
+  PetscCall(VecWAXPY(y, -1, m.start.A, m.end.A));
+  PetscCall(VecAYPX(y, scale, x));
+  return TSErrorWeightedNorm(ts, x, y, type, norm, &absolute, &relative);
+}
+
+// norm := weighted norm of the error of V against tolerances of its own, because V has other units than U.
+PetscErrorCode velocity_error_norm(TS ts, NormType type, PetscReal* norm) {
+  const Method& m = method(ts);
+  const PetscReal atol = ts->atol, rtol = ts->rtol;
+  Vec vatol = m.velocity_vatol, vrtol = nullptr;
+  std::swap(vatol, ts->vatol);
+  std::swap(vrtol, ts->vrtol);
+  ts->atol = m.velocity_atol;
+  ts->rtol = m.velocity_rtol;
+  const PetscErrorCode code = error_norm(ts, m.end.V, m.parameters.gamma * ts->time_step, type, norm);
+  ts->atol = atol;
+  ts->rtol = rtol;
+  std::swap(vatol, ts->vatol);
+  std::swap(vrtol, ts->vrtol);
+  return code;
+}
+
+// Local error of U, third order in dt, and of the predicted V, second order: docs/theory.md,
+// Eq. (8.9).
+PetscErrorCode evaluate_wlte(TS ts, NormType type, PetscInt* order, PetscReal* wlte) {
+  const Method& m = method(ts);
+  const Parameters& p = m.parameters;
+  const PetscReal dt = ts->time_step;
+  const PetscReal C_U = PetscAbsReal(p.beta - (p.alpha_m - p.alpha_f) / 2 - PetscReal(1) / 6);
+  PetscReal velocity = 0;
+  PetscCall(error_norm(ts, m.end.U, C_U * dt * dt, type, wlte));
+  if (m.velocity_vatol || m.velocity_atol > 0 || m.velocity_rtol > 0)
+    PetscCall(velocity_error_norm(ts, type, &velocity));
+  *wlte = PetscMax(*wlte, PetscPowReal(velocity, 1.5));  // asks for the step that second order would
+  if (order) *order = 3;
+  return 0;
+}
+
+// ---- parameters and options
+
+PetscErrorCode set_parameters(TS ts, PetscReal alpha_m, PetscReal alpha_f, PetscReal gamma, PetscReal beta) {
+  const bool finite = !PetscIsInfOrNanReal(alpha_m + alpha_f + gamma + beta);
+  PetscCheck(
+      finite && alpha_m > 0 && alpha_f > 0 && beta > 0, PetscObjectComm((PetscObject)ts),
+      PETSC_ERR_ARG_OUTOFRANGE,
+      "alpha_m %g, alpha_f %g and beta %g must be > 0 and gamma %g finite (alpha_m, alpha_f weight the new "
+      "state)",
+      (double)alpha_m, (double)alpha_f, (double)beta, (double)gamma);
+  method(ts).parameters = {alpha_m, alpha_f, gamma, beta};
+  return 0;
+}
+
+PetscErrorCode set_radius(TS ts, PetscReal rho_inf) {
+  PetscCheck(rho_inf >= 0 && rho_inf <= 1, PetscObjectComm((PetscObject)ts), PETSC_ERR_ARG_OUTOFRANGE,
+             "Spectral radius -ts_alpha_radius %g must be in 0..1", (double)rho_inf);
+  method(ts).parameters = parameters_for(rho_inf);
+  return 0;
+}
+
+PetscErrorCode get_parameters(TS ts, PetscReal* alpha_m, PetscReal* alpha_f, PetscReal* gamma,
+                              PetscReal* beta) {
+  const Parameters& p = method(ts).parameters;
+  if (alpha_m) *alpha_m = p.alpha_m;
+  if (alpha_f) *alpha_f = p.alpha_f;
+  if (gamma) *gamma = p.gamma;
+  if (beta) *beta = p.beta;
+  return 0;
+}
+
+PetscErrorCode read_parameters(TS ts, PetscOptionItems* PetscOptionsObject) {
+  PetscReal rho_inf = 1;
+  PetscBool given = PETSC_FALSE;
+  PetscCall(PetscOptionsReal("-ts_alpha_radius", "Spectral radius at infinite frequency", "TSAlpha2SetRadius",
+                             rho_inf, &rho_inf, &given));
+  if (given) PetscCall(set_radius(ts, rho_inf));
+  Parameters p = method(ts).parameters;
+  PetscCall(PetscOptionsReal("-ts_alpha_alpha_m", "Weight of the new A in the stage", "TSAlpha2SetParams",
+                             p.alpha_m, &p.alpha_m, nullptr));
+  PetscCall(PetscOptionsReal("-ts_alpha_alpha_f", "Weight of the new U, V in the stage", "TSAlpha2SetParams",
+                             p.alpha_f, &p.alpha_f, nullptr));
+  PetscCall(PetscOptionsReal("-ts_alpha_gamma", "Newmark's gamma", "TSAlpha2SetParams", p.gamma, &p.gamma,
+                             nullptr));
+  PetscCall(
+      PetscOptionsReal("-ts_alpha_beta", "Newmark's beta", "TSAlpha2SetParams", p.beta, &p.beta, nullptr));
+  return set_parameters(ts, p.alpha_m, p.alpha_f, p.gamma, p.beta);
+}
+
+PetscErrorCode read_velocity_tolerances(TS ts, PetscOptionItems* PetscOptionsObject) {
+  Method& m = method(ts);
+  PetscCall(PetscOptionsReal("-ts_alpha_velocity_rtol", "Relative tolerance of V", "TSSetTolerances",
+                             m.velocity_rtol, &m.velocity_rtol, nullptr));
+  PetscCall(PetscOptionsReal("-ts_alpha_velocity_atol", "Absolute tolerance of V", "TSSetTolerances",
+                             m.velocity_atol, &m.velocity_atol, nullptr));
+  PetscCheck(m.velocity_rtol >= 0 && m.velocity_atol >= 0, PetscObjectComm((PetscObject)ts),
+             PETSC_ERR_ARG_OUTOFRANGE, "-ts_alpha_velocity_rtol %g and _atol %g must be >= 0",
+             (double)m.velocity_rtol, (double)m.velocity_atol);
+  return 0;
+}
+
+PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
+  Method& m = method(ts);
+  auto predictor = static_cast<PetscInt>(m.predictor);
+  PetscOptionsHeadBegin(PetscOptionsObject, "Generalised-alpha options");
+  PetscCall(read_parameters(ts, PetscOptionsObject));
+  PetscCall(read_velocity_tolerances(ts, PetscOptionsObject));
+  PetscCall(PetscOptionsEList("-ts_alpha_predictor", "Start of Newton's method", "", predictor_names, 3,
+                              predictor_names[predictor], &predictor, nullptr));
+  PetscOptionsHeadEnd();
+  m.predictor = static_cast<Predictor>(predictor);
+  return 0;
+}
+
+// ---- the type
+
+PetscErrorCode set_up(TS ts) {
+  TSI2Function F = nullptr;
+  DM dm = nullptr;
+  const MPI_Comm comm = PetscObjectComm((PetscObject)ts);
+  PetscCall(TSGetDM(ts, &dm));
+  PetscCall(DMTSGetI2Function(dm, &F, nullptr));
+  PetscCheck(F, comm, PETSC_ERR_ARG_WRONGSTATE, "%s needs F(t, U, V, A): call TSSetI2Function()", type_name);
+  PetscCheck(ts->vec_dot, comm, PETSC_ERR_ARG_WRONGSTATE, "%s needs U and V: call TS2SetSolution()",
+             type_name);
+  PetscCall(TSGetAdapt(ts, &ts->adapt));
+  PetscCall(TSAdaptCandidatesClear(ts->adapt));
+  PetscCall(TSGetSNES(ts, &ts->snes));
+  return create_vectors(ts);
+}
+
+PetscErrorCode reset(TS ts) {
+  Method& m = method(ts);
+  m.acceleration_known = false;
+  m.step_size = 0;
+  return destroy_vectors(m);
+}
+
+PetscErrorCode compose(TS ts, decltype(&set_radius) radius, decltype(&set_parameters) parameters,
+                       decltype(&get_parameters) get) {
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, "TSAlpha2SetRadius_C", radius));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, "TSAlpha2SetParams_C", parameters));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, "TSAlpha2GetParams_C", get));
+  return 0;
+}
+
+PetscErrorCode destroy(TS ts) {
+  PetscCall(reset(ts));
+  PetscCall(compose(ts, nullptr, nullptr, nullptr));
+  PetscCall(VecDestroy(&method(ts).velocity_vatol));
+  delete static_cast<Method*>(ts->data);
+  ts->data = nullptr;
+  return 0;
+}
+
+PetscErrorCode view(TS ts, PetscViewer viewer) {
+  const Method& m = method(ts);
+  const Parameters& p = m.parameters;
+  PetscBool ascii = PETSC_FALSE;
+  PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
+  if (!ascii) return 0;
+  return PetscViewerASCIIPrintf(viewer, "  alpha_m=%g, alpha_f=%g, gamma=%g, beta=%g, predictor %s\n",
+                                (double)p.alpha_m, (double)p.alpha_f, (double)p.gamma, (double)p.beta,
+                                predictor_names[static_cast<int>(m.predictor)]);
+}
+
+PetscErrorCode create(TS ts) {
+  ts->ops->setup = set_up;
+  ts->ops->reset = reset;
+  ts->ops->destroy = destroy;
+  ts->ops->view = view;
+  ts->ops->setfromoptions = set_from_options;
+  ts->ops->step = step;
+  ts->ops->rollback = roll_back;
+  ts->ops->interpolate = interpolate;
+  ts->ops->evaluatewlte = evaluate_wlte;
+  ts->ops->snesfunction = stage_function;
+  ts->ops->snesjacobian = stage_jacobian;
+  ts->default_adapt_type = TSADAPTNONE;
+  ts->usessnes = PETSC_TRUE;
+  ts->data = new Method{};
+  method(ts).parameters = parameters_for(1);
+  method(ts).predictor = Predictor::constant_acceleration;
+  return compose(ts, set_radius, set_parameters, get_parameters);
+}
+
+Method& ready_method(TS ts) {
+  TSType type = nullptr;
+  check(TSGetType(ts, &type));
+  require(ts->ops->step == step, "TS type ", type ? type : "(none)", ": must be ", type_name, " or alpha2");
+  check(TSSetUp(ts));
+  return method(ts);
+}
+
+}  // namespace
+
+void register_generalized_alpha() {
+  check(TSRegister(type_name, create));
+  check(TSRegister(TSALPHA2, create));
+}
+
+void generalized_alpha_state(TS ts, Vec* U, Vec* V, Vec* A) {
+  const Method& m = ready_method(ts);
+  check(ensure_acceleration(ts));
+  require(m.acceleration_known, "no acceleration with F(t, U, V, A) = 0 at t = ", ts->ptime);
+  if (U) *U = ts->vec_sol;
+  if (V) *V = ts->vec_dot;
+  if (A) *A = m.current.A;
+}
+
+void generalized_alpha_set_state(TS ts, Vec U, Vec V, Vec A) {
+  Method& m = ready_method(ts);
+  check(set_solution(ts, {U, V, A}));
+  m.solution_state = -1;
+}
+
+void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x) {
+  ready_method(ts);
+  check(interpolate(ts, t, x.U));
+  check(interpolate_velocity(ts, t, x.V));
+  check(interpolate_acceleration(ts, t, x.A));
+}
+
+void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity) {
+  Method& m = ready_method(ts);
+  UniqueVec absolute;
+  check(VecDuplicate(scale, absolute.out()));
+  check(VecCopy(scale, absolute));
+  check(VecScale(absolute, position));
+  check(TSSetTolerances(ts, PETSC_DEFAULT, absolute, 0, nullptr));
+  ts->adapt->wnormtype = NORM_INFINITY;
+  check(VecDestroy(&m.velocity_vatol));
+  if (velocity <= 0) return;
+  check(VecDuplicate(scale, &m.velocity_vatol));
+  check(VecCopy(scale, m.velocity_vatol));
+  check(VecScale(m.velocity_vatol, velocity));
+}
+
+void generalized_alpha_restart(TS ts) { ready_method(ts).acceleration_known = false; }
+
+}  // namespace elastogear::dynamics

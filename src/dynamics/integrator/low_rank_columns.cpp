@@ -1,0 +1,45 @@
+#include "dynamics/integrator/low_rank_columns.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+void append_zeros(Index n, MatrixXd& A) {
+  A.conservativeResize(Eigen::NoChange, A.cols() + n);
+  A.rightCols(n).setZero();
+}
+
+}  // namespace
+
+Index add_columns(Index n, EffectiveMatrix& A) {
+  const Index first = A.k.rows(), r = first + n;
+  A.k.conservativeResize(r, r);
+  for (BodyTerms& terms : A.body) {
+    append_zeros(n, terms.W_s);
+    append_zeros(n, terms.V_s);
+    for (auto* L : elastic_rows(terms)) L->conservativeResize(L->rows(), r);
+  }
+  return first;
+}
+
+void add_block(Index row, Index column, const MatrixXd& block, Eigen::SparseMatrix<double>& A) {
+  for (Index j = 0; j < block.cols(); ++j)
+    for (Index i = 0; i < block.rows(); ++i)
+      if (block(i, j) != 0) A.coeffRef(row + i, column + j) += block(i, j);
+}
+
+std::vector<Eigen::SparseMatrix<double>*> elastic_rows(BodyTerms& terms) {
+  if (terms.L_V.rows() == 0) return {&terms.L};
+  return {&terms.L, &terms.L_V, &terms.L_x};
+}
+
+void add_border_stiffness(const MatrixXd& Z, std::size_t b, EffectiveMatrix& A) {
+  if (Z.size() == 0) return;
+  const Index first = add_columns(Z.rows(), A);
+  for (auto* L : elastic_rows(A.body[b])) add_block(0, first, MatrixXd::Identity(Z.rows(), Z.cols()), *L);
+  add_block(first, first, Z, A.k);
+}
+
+}  // namespace elastogear::dynamics

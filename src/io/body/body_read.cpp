@@ -1,0 +1,189 @@
+#include <algorithm>
+
+#include "elastogear/io/body_file.h"
+#include "io/body/basis_rows.h"
+#include "io/body/body_schema.h"
+#include "io/body/flexibility_group.h"
+#include "io/hdf5/checks.h"
+
+namespace elastogear::io {
+namespace {
+
+using model::Basis;
+
+hsize_t extent(Eigen::Index n) { return static_cast<hsize_t>(n); }
+
+Eigen::Matrix<double, Eigen::Dynamic, 3> read_coupling(const h5::File& file, const std::string& name,
+                                                       Eigen::Index n_q) {
+  const auto values = h5::read<double>(file, name, {extent(n_q), 3});
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(values.data(), n_q, 3);
+}
+
+model::Inertia read_inertia(const h5::File& file, Eigen::Index n_q) {
+  model::Inertia inertia;
+  inertia.m = h5::read<double>(file, "/rigid/mass", {}).front();
+  inertia.c = Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, "/rigid/center", {3}).data());
+  inertia.J = Eigen::Map<const Eigen::Matrix3d>(h5::read<double>(file, "/rigid/inertia", {3, 3}).data());
+  inertia.C_l = read_coupling(file, "/reduced/C_l", n_q);
+  inertia.C_r = read_coupling(file, "/reduced/C_r", n_q);
+  const auto S_1 = h5::read<double>(file, "/reduced/S_1", {extent(n_q), 3, 3});
+  inertia.S_1 = Eigen::Map<const Eigen::Matrix<double, 9, Eigen::Dynamic>>(S_1.data(), 9, n_q);
+  if (h5::exists(file, "/reduced/S_2"))
+    for (const char* moment : kMoments)
+      inertia.S_2.push_back(read_matrix(file, std::string("/reduced/S_2/") + moment));
+  return inertia;
+}
+
+model::Surface read_surface(const h5::File& file) {
+  model::Surface surface;
+  surface.node = h5::read<int>(file, "/surface/nodes", {h5::kAny});
+  surface.X = read_points(file, "/surface/X");
+  const auto face = h5::read<int>(file, "/surface/face", {h5::kAny, 4});
+  surface.face =
+      Eigen::Map<const Eigen::Matrix4Xi>(face.data(), 4, static_cast<Eigen::Index>(face.size() / 4));
+  surface.group = h5::read<int>(file, "/surface/group", {h5::kAny});
+  surface.group_name = h5::read_strings(file, "/surface/group_name");
+  surface.c_f = read_vector(file, "/surface/c_f");
+  surface.Phi = read_rows(file, "/surface/Phi", 3);
+  return surface;
+}
+
+model::Stress read_stress(const h5::File& file) {
+  model::Stress stress;
+  stress.node = h5::read<int>(file, "/stress/nodes", {h5::kAny});
+  stress.X = read_points(file, "/stress/X");
+  stress.Psi = read_rows(file, "/stress/Psi", 6);
+  for (const std::string& name : h5::members(file, "/stress/sets"))
+    stress.sets[name] = h5::read<int>(file, "/stress/sets/" + name, {h5::kAny});
+  return stress;
+}
+
+std::vector<model::Marker> read_markers(const h5::File& file) {
+  std::vector<model::Marker> markers;
+  if (!h5::exists(file, "/markers")) return markers;
+  for (const std::string& name : h5::members(file, "/markers")) {
+    const std::string group = "/markers/" + name;
+    const auto X = h5::read<double>(file, group + "/X", {3});
+    markers.push_back({name, Eigen::Map<const Eigen::Vector3d>(X.data()),
+                       h5::int_attribute(file, group, "turns").front() != 0,
+                       read_rows(file, group + "/Phi", 6)});
+  }
+  return markers;
+}
+
+model::Material read_material(const h5::File& file, const std::string& group) {
+  const auto number = [&](const char* name) { return h5::read<double>(file, group + name, {}).front(); };
+  const auto vector = [&](const char* name) -> Eigen::Vector3d {
+    return Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, group + name, {3}).data());
+  };
+  if (!h5::exists(file, group + "/G")) return {number("/E"), number("/nu"), number("/rho")};
+  model::Orthotropic m{vector("/E"), vector("/nu"), vector("/G"), {}};
+  m.orientation.system = parse_system(file.path, h5::string_attribute(file, group, "orientation"));
+  m.orientation.axis_1 = vector("/axis_1");
+  m.orientation.axis_2 = vector("/axis_2");
+  m.orientation.origin = vector("/origin");
+  m.orientation.axis = vector("/axis");
+  m.orientation.rotation = vector("/rotation");
+  return {0, 0, number("/rho"), m};
+}
+
+std::vector<model::MaterialRegion> read_materials(const h5::File& file) {
+  std::vector<model::MaterialRegion> regions;
+  for (std::size_t i = 0; h5::exists(file, "/material/" + std::to_string(i)); ++i) {
+    const std::string group = "/material/" + std::to_string(i);
+    regions.push_back({h5::string_attribute(file, group, "cell_set"), read_material(file, group)});
+  }
+  return regions;
+}
+
+std::vector<int> read_free_dof(const h5::File& file, Eigen::Index n_dof) {
+  auto dof = h5::read<int>(file, "/reduced/free_dof", {h5::kAny});
+  const bool ascending = std::adjacent_find(dof.begin(), dof.end(), std::greater_equal<>()) == dof.end();
+  require(ascending && (dof.empty() || (dof.front() >= 0 && dof.back() < n_dof)), file.path,
+          ": /reduced/free_dof must ascend within 0..", n_dof - 1);
+  return dof;
+}
+
+Basis read_basis(const h5::File& file) {
+  return parse_basis(file.path, h5::string_attribute(file, "/", "basis"));
+}
+
+// Sum of modes; one mode in memory at a time.
+Eigen::VectorXd sum_modes(const h5::File& file, const Eigen::VectorXd& q) {
+  require(h5::exists(file, "/modes/Phi"), file.path,
+          ": holds the modes at surface and stress nodes only; reduce the body with -store all to recover "
+          "whole fields");
+  const h5::Shape shape = h5::shape(file, "/modes/Phi");
+  require(shape.size() == 3 && shape[0] == extent(q.size()) && shape[2] == 3, file.path,
+          ": /modes/Phi does not hold ", q.size(), " modes of n nodes x 3");
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * shape[1])), phi(u.size());
+  for (Eigen::Index k = 0; k < q.size(); ++k) {
+    h5::read_rows(file, "/modes/Phi", {extent(k), {1, shape[1], 3}}, phi.data());
+    u += q[k] * phi;
+  }
+  return u;
+}
+
+}  // namespace
+
+model::ElasticBody read_body(const std::string& path, BodyUse use) {
+  const h5::File file = open_format(path, kBodyFormat);
+  model::ElasticBody body;
+  body.name = h5::string_attribute(file, "/", "name");
+  body.basis = read_basis(file);
+  body.floating = h5::string_attribute(file, "/", "restraint") == "none";
+  body.provenance = h5::read_map(file, "/provenance");
+  body.M_r = read_square(file, "/reduced/M");
+  body.K_r = read_square(file, "/reduced/K");
+  body.alpha = h5::number_attribute(file, "/reduced", "alpha");
+  body.beta = h5::number_attribute(file, "/reduced", "beta");
+  if (body.basis == Basis::modal) body.frequency = read_vector(file, "/modes/frequency", extent(body.n_q()));
+  if (h5::exists(file, "/modes/damping_ratio")) body.zeta = read_vector(file, "/modes/damping_ratio");
+  body.inertia = read_inertia(file, body.n_q());
+  body.surface = read_surface(file);
+  if (use == BodyUse::all) body.stress = read_stress(file);
+  body.markers = read_markers(file);
+  body.flexibility = read_flexibility(file);
+  model::validate(body, path);
+  return body;
+}
+
+BodySource read_body_source(const std::string& path) {
+  const h5::File file = open_format(path, kBodyFormat);
+  BodySource source;
+  source.mesh = read_mesh(file);
+  source.regions = read_materials(file);
+  source.element = parse_element(path, h5::string_attribute(file, "/", "element"));
+  source.free_dof = read_free_dof(file, 3 * source.mesh.X.cols());
+  source.origin = Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, "/rigid/origin", {3}).data());
+  source.checks = read_checks(file);
+  return source;
+}
+
+ModeChecks read_mode_checks(const std::string& path) {
+  const h5::File file = open_format(path, kBodyFormat);
+  if (!h5::exists(file, "/checks/residual")) return {};
+  return {read_vector(file, "/checks/residual"), h5::read<double>(file, "/checks/orthogonality", {}).front()};
+}
+
+bool has_full_modes(const std::string& path) {
+  return h5::exists(open_format(path, kBodyFormat), "/modes/Phi");
+}
+
+Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q) {
+  const h5::File file = open_format(path, kBodyFormat);
+  require(q.allFinite(), path, ": elastic coordinates are not finite");
+  if (read_basis(file) == Basis::modal) {
+    const Eigen::VectorXd u = sum_modes(file, q);
+    return Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+  }
+  const auto n_nodes = static_cast<Eigen::Index>(h5::shape(file, "/mesh/X").at(0));
+  const std::vector<int> dof = read_free_dof(file, 3 * n_nodes);
+  require(static_cast<Eigen::Index>(dof.size()) == q.size(), path, ": has ", dof.size(), " coordinates, not ",
+          q.size());
+  Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, n_nodes);
+  for (std::size_t i = 0; i < dof.size(); ++i) u.data()[dof[i]] = q[static_cast<Eigen::Index>(i)];
+  return u;
+}
+
+}  // namespace elastogear::io

@@ -1,0 +1,96 @@
+#include "io/body/flexibility_group.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "elastogear/io/body_file.h"
+#include "io/hdf5/schema.h"
+
+namespace elastogear::io {
+namespace {
+
+constexpr hsize_t kColumns = 96;  // that are converted at a time
+const std::string kGroup = "/flexibility";
+
+void write_images(const h5::File& file, const std::string& name, const model::Images& images) {
+  h5::make_group(file, kGroup + name);
+  h5::write<int>(file, kGroup + name + "/orbit", view(images.orbit), "1");
+  h5::write<int>(file, kGroup + name + "/turns", view(images.sector_index), "1");
+}
+
+model::Images read_images(const h5::File& file, const std::string& name, int n_sectors) {
+  return model::make_images(h5::read<int>(file, kGroup + name + "/orbit", {h5::kAny}),
+                            h5::read<int>(file, kGroup + name + "/turns", {h5::kAny}), n_sectors,
+                            file.path + ": " + kGroup + name);
+}
+
+// A row of the dataset is a column of the matrix, in single precision.
+void write_columns(const h5::File& file, const std::string& name, const Eigen::MatrixXf& A,
+                   const std::string& unit) {
+  const hsize_t rows = static_cast<hsize_t>(A.rows()), n = static_cast<hsize_t>(A.cols());
+  if (A.size() == 0) return;
+  const h5::Id dataset = h5::create_chunked(file, kGroup + name, {{n, rows}, {1, rows}, unit, true});
+  for (hsize_t first = 0; first < n; first += kColumns) {
+    const hsize_t count = std::min(kColumns, n - first);
+    const Eigen::MatrixXd piece =
+        A.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).cast<double>();
+    h5::write_rows(file, dataset, {first, {count, rows}}, piece.data());
+  }
+}
+
+Eigen::MatrixXf read_columns(const h5::File& file, const std::string& name, hsize_t first, hsize_t n) {
+  const h5::Shape shape = h5::shape(file, kGroup + name);
+  require(shape.size() == 2 && first + n <= shape[0], file.path, ": ", kGroup, name,
+          " must have a row for each of ", first + n, " forces");
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(shape[1]), static_cast<Eigen::Index>(n));
+  h5::read_rows(file, kGroup + name, {first, {n, shape[1]}}, A.data());
+  return A.cast<float>();
+}
+
+}  // namespace
+
+void write_flexibility(const h5::File& file, const model::Flexibility& flexibility) {
+  if (flexibility.empty()) return;
+  h5::make_group(file, kGroup);
+  h5::set_attribute(file, kGroup, "n_sectors", flexibility.n_sectors);
+  h5::write<double>(file, kGroup + "/axis", {{3}, flexibility.axis.data()}, "1");
+  h5::write<int>(file, kGroup + "/node", view(flexibility.node), "1");
+  write_images(file, "/surface", flexibility.surface);
+  write_images(file, "/stress", flexibility.stress);
+  h5::write<int>(file, kGroup + "/stress/row", view(flexibility.stress_row), "1");
+  h5::write<double>(file, kGroup + "/self", view(flexibility.self), "m/N");
+  write_columns(file, "/F", flexibility.F, "m/N");
+  write_columns(file, "/G", flexibility.G, "Pa/N");
+}
+
+model::Flexibility read_flexibility(const h5::File& file) {
+  model::Flexibility flexibility;
+  if (!h5::exists(file, kGroup)) return flexibility;
+  const std::vector<int> n_sectors = h5::int_attribute(file, kGroup, "n_sectors");
+  require(n_sectors.size() == 1, file.path, ": ", kGroup, ": attribute n_sectors must be one number");
+  flexibility.n_sectors = n_sectors.front();
+  flexibility.axis = Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, kGroup + "/axis", {3}).data());
+  flexibility.node = h5::read<int>(file, kGroup + "/node", {h5::kAny});
+  flexibility.surface = read_images(file, "/surface", flexibility.n_sectors);
+  flexibility.stress = read_images(file, "/stress", flexibility.n_sectors);
+  flexibility.stress_row = h5::read<int>(file, kGroup + "/stress/row", {h5::kAny});
+  const auto n_orbits = static_cast<hsize_t>(flexibility.surface.node.cols());
+  flexibility.self = read_vector(file, kGroup + "/self", n_orbits);
+  require(h5::shape(file, kGroup + "/F") == h5::Shape{3 * n_orbits, 3 * flexibility.node.size()}, file.path,
+          ": ", kGroup, "/F must have a row for each force and a column for each displacement");
+  // Kept open: a file that takes its place while a run reads on is another body's.
+  flexibility.read_F =
+      [body = std::make_shared<const h5::File>(open_format(file.path, kBodyFormat))](int orbit) {
+        const Eigen::MatrixXf F = read_columns(*body, "/F", static_cast<hsize_t>(3 * orbit), 3);
+        require(F.allFinite(), body->path, ": ", kGroup, "/F is not finite");
+        return F;
+      };
+  return flexibility;
+}
+
+Eigen::MatrixXf read_stress_responses(const std::string& path, int orbit) {
+  const h5::File file = open_format(path, kBodyFormat);
+  return read_columns(file, "/G", static_cast<hsize_t>(3 * orbit), 3);
+}
+
+}  // namespace elastogear::io

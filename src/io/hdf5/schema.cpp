@@ -1,0 +1,52 @@
+#include "io/hdf5/schema.h"
+
+#include <algorithm>
+
+namespace elastogear::io {
+
+void write_format(const h5::File& file, const std::string& format) {
+  h5::set_attribute(file, "/", "format", format);
+  h5::set_attribute(file, "/", "version", kVersion);
+}
+
+int version(const h5::File& file) { return h5::int_attribute(file, "/", "version").front(); }
+
+void require_format(const h5::File& file, const std::string& format) {
+  const std::string found = h5::string_attribute(file, "/", "format");
+  require(found == format, file.path, ": has the format '", found, "', must be '", format, "'");
+  const int found_version = version(file);
+  require(found_version >= kOldestVersion && found_version <= kVersion, file.path, ": has version ",
+          found_version, " of the format '", format, "', this program reads versions ", kOldestVersion,
+          " to ", kVersion);
+}
+
+h5::File open_format(const std::string& path, const std::string& format) {
+  h5::File file = h5::open(path);
+  require_format(file, format);
+  return file;
+}
+
+void require_name(const h5::File& file, const std::string& name) {
+  require(!name.empty() && name != "." && name.find('/') == std::string::npos, file.path, ": the name '",
+          name, "' cannot be stored: it must not be empty, '.' or hold a slash");
+}
+
+Eigen::Matrix3Xd read_points(const h5::File& file, const std::string& name) {
+  const auto values = h5::read<double>(file, name, {h5::kAny, 3});
+  return Eigen::Map<const Eigen::Matrix3Xd>(values.data(), 3, static_cast<Eigen::Index>(values.size() / 3));
+}
+
+Eigen::VectorXd read_vector(const h5::File& file, const std::string& name, hsize_t size) {
+  const auto values = h5::read<double>(file, name, {size});
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+Eigen::VectorXd read_time(const h5::File& file) {
+  Eigen::VectorXd time = read_vector(file, "/time");
+  const auto step = std::adjacent_find(time.begin(), time.end(), std::greater_equal<>());
+  require(step == time.end(), file.path, ": /time does not increase: ", *step, " s is followed by ",
+          *(step + 1), " s");
+  return time;
+}
+
+}  // namespace elastogear::io

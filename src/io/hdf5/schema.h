@@ -1,0 +1,48 @@
+#pragma once
+// Attributes that all HDF5 files of the program have: `format` and `version` at the root, and provenance.
+
+#include <string>
+
+#include "elastogear/mesh/mesh.h"
+#include "io/hdf5/hdf5.h"
+
+namespace elastogear::io {
+
+constexpr const char* kBodyFormat = "elastogear body";
+constexpr const char* kResultFormat = "elastogear result";
+constexpr const char* kStressFormat = "elastogear stress";
+/// Version of all formats. Version 2 has checksums and text of fixed length; version 1 is read as well.
+constexpr int kVersion = 2, kOldestVersion = 1;
+
+/// Attribute of a body file's root: model::fingerprint.
+constexpr const char* kIdentity = "identity";
+
+void write_format(const h5::File& file, const std::string& format);
+int version(const h5::File& file);
+/// Error when the file has another format, or a version that this program does not know.
+void require_format(const h5::File& file, const std::string& format);
+/// Opens and checks the format.
+h5::File open_format(const std::string& path, const std::string& format);
+
+/// Names in HDF5 paths; Error when empty or with a slash.
+void require_name(const h5::File& file, const std::string& name);
+
+/// Group /mesh of a body file.
+void write_mesh(const h5::File& file, const mesh::Mesh& mesh);
+mesh::Mesh read_mesh(const h5::File& file);
+
+inline h5::View<double> view(const Eigen::Matrix3Xd& X) {
+  return {{static_cast<hsize_t>(X.cols()), 3}, X.data()};
+}
+inline h5::View<double> view(const Eigen::VectorXd& x) {
+  return {{static_cast<hsize_t>(x.size())}, x.data()};
+}
+inline h5::View<int> view(const std::vector<int>& v) { return {{v.size()}, v.data()}; }
+inline h5::View<double> view(const double& value) { return {{}, &value}; }
+
+Eigen::Matrix3Xd read_points(const h5::File& file, const std::string& name);
+Eigen::VectorXd read_vector(const h5::File& file, const std::string& name, hsize_t size = h5::kAny);
+/// /time; Error unless it increases strictly.
+Eigen::VectorXd read_time(const h5::File& file);
+
+}  // namespace elastogear::io

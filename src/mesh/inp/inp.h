@@ -1,0 +1,30 @@
+#pragma once
+// Abaqus/CalculiX input files: mesh, sets, materials and restraint (docs/file_format.md).
+
+#include <functional>
+#include <string>
+
+#include "elastogear/base/file.h"
+#include "elastogear/mesh/mesh.h"
+#include "elastogear/mesh/read_report.h"
+
+namespace elastogear::mesh {
+
+/// Element types C3D4, 5, 6, 8, 10, 15, 20; letters behind (C3D8I, C3D20R) do not matter, because a body's
+/// formulation is chosen when it is reduced. Set names match without regard to case and keep their first
+/// spelling. Units as in read_mesh. Error naming file and line.
+Mesh read_inp(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
+
+/// A file's content in memory; `open` gives that of the files it includes and throws Error when there is
+/// none.
+struct InpText {
+  std::string path;  ///< for errors, and the folder that names of included files are relative to
+  std::string content;
+  std::function<std::string(const std::string& path)> open = read_file;
+};
+Mesh parse_inp(InpText text, double unit_in_m = 1, ReadReport* report = nullptr);
+
+/// `element`: the type written for hex8; C3D8I has incompatible modes like our own default element.
+void write_inp(const std::string& path, const Mesh& mesh, const std::string& element = "C3D8I");
+
+}  // namespace elastogear::mesh

@@ -1,0 +1,109 @@
+#include "mesh/inp/inp_boundary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "elastogear/mesh/hold.h"
+
+namespace elastogear::mesh {
+namespace {
+
+constexpr int kX = 1, kY = 2, kZ = 4, kAll = kAllDirections;
+
+struct Label {
+  const char* name;
+  int directions;
+};
+constexpr Label kLabels[] = {{"ENCASTRE", kAll},  {"PINNED", kAll},   {"XSYMM", kX},
+                             {"YSYMM", kY},       {"ZSYMM", kZ},      {"XASYMM", kY | kZ},
+                             {"YASYMM", kX | kZ}, {"ZASYMM", kX | kY}};
+
+std::optional<int> label_directions(const std::string& name) {
+  for (const Label& label : kLabels)
+    if (name == label.name) return label.directions;
+  return std::nullopt;
+}
+
+// Degrees of freedom first..last; those above 3 are no displacements.
+int directions_between(const InpLines& in, int first, int last) {
+  if (first < 1 || last < first) in.fail_here("*BOUNDARY from degree of freedom ", first, " to ", last);
+  int directions = 0;
+  for (int k = first; k <= std::min(last, 3); ++k) directions |= 1 << (k - 1);
+  return directions;
+}
+
+// Node or set, first and last degree of freedom, displacement; or node or set and a label.
+BoundaryLine read_line(InpLines& in, std::vector<std::string>& ignored) {
+  const auto& f = in.fields();
+  if (f.size() < 2 || f.size() > 4 || f[0].empty())
+    in.fail_here("*BOUNDARY needs a node or node set and degrees of freedom");
+  BoundaryLine line{std::string(f[0]), 0, in.number()};
+  if (const auto label = label_directions(upper(f[1]))) {
+    line.directions = *label;
+    return line;
+  }
+  const char* const what = "a degree of freedom";
+  const int first = in.parse_field<int>(f[1], what);
+  const int last = f.size() > 2 && !f[2].empty() ? in.parse_field<int>(f[2], what) : first;
+  const double value = f.size() > 3 && !f[3].empty() ? in.real(f[3], "a displacement") : 0;
+  line.directions = directions_between(in, first, last);
+  if (value == 0 && line.directions != 0) return line;
+  ignored.push_back("*BOUNDARY (" + in.place(in.number()) +
+                    "): " + (value == 0 ? "no displacement" : "a displacement other than 0"));
+  line.directions = 0;
+  return line;
+}
+
+std::string unused_name(const Mesh& mesh, std::string name) {
+  while (mesh.node_sets.contains(name) || mesh.face_sets.contains(name)) name += "_";
+  return name;
+}
+
+// One node set for each combination of directions that occurs, and how to name it as a restraint.
+void make_sets(const std::vector<Directions>& held, Mesh& mesh, std::vector<std::string>& restrained) {
+  for (int directions = kAll; directions > 0; --directions) {
+    std::vector<int> nodes;
+    for (int i = 0; i < mesh.n_nodes(); ++i)
+      if (held[i] == directions) nodes.push_back(i);
+    if (nodes.empty()) continue;
+    const std::string letters =
+        directions == kAll ? "" : direction_names(static_cast<Directions>(directions));
+    const std::string name = unused_name(mesh, letters.empty() ? "BOUNDARY" : "BOUNDARY_" + letters);
+    mesh.node_sets[name] = std::move(nodes);
+    restrained.push_back(letters.empty() ? name : name + ":" + letters);
+  }
+}
+
+}  // namespace
+
+void read_boundary(InpLines& in, const Keyword& key, std::vector<BoundaryLine>& boundary,
+                   std::vector<std::string>& ignored) {
+  const std::string type = key.value("TYPE");
+  if (!type.empty() && type != "DISPLACEMENT") {
+    while (in.next_data()) continue;
+    ignored.push_back("*BOUNDARY, TYPE=" + type + " (" + in.place(key.line) + ")");
+    return;
+  }
+  while (in.next_data()) {
+    BoundaryLine line = read_line(in, ignored);
+    if (line.directions != 0) boundary.push_back(std::move(line));
+  }
+}
+
+void apply_boundary(const InpLines& in, const std::vector<BoundaryLine>& boundary, const InpSets& node_sets,
+                    const TagTable& nodes, Mesh& mesh, ReadReport& report) {
+  std::vector<Directions> held(static_cast<std::size_t>(mesh.n_nodes()), 0);
+  for (const BoundaryLine& line : boundary) {
+    const auto number = parse<Tag>(line.members);
+    const std::string* set = number ? nullptr : node_sets.spelling(line.members);
+    const int node = number ? nodes.find(*number) : -1;
+    if (node < 0 && !set)
+      in.fail_at(line.line, "*BOUNDARY names the unknown node or node set '", line.members, "'");
+    for (int i : number ? std::vector<int>{node} : mesh.node_sets.at(*set))
+      held[i] = static_cast<Directions>(held[i] | line.directions);
+  }
+  make_sets(held, mesh, report.restrained);
+}
+
+}  // namespace elastogear::mesh

@@ -1,0 +1,54 @@
+#pragma once
+// An Abaqus input file as it stands, in its own numbers, names and units.
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/inp/inp_boundary.h"
+#include "mesh/inp/inp_materials.h"
+#include "mesh/inp/inp_sets.h"
+#include "mesh/raw_mesh.h"
+
+namespace elastogear::mesh {
+
+struct SurfaceLine {
+  std::string name;     // of the surface
+  std::string members;  // cell number or element set
+  int side = 0;
+  int line = 0;
+};
+
+struct InpDeck : RawMesh {
+  std::vector<Tag> other_elements;  // shells, beams, ...: left out, but sets may name them
+  InpSets node_sets{"node"}, cell_sets{"element"};
+  InpNames surfaces;
+  std::vector<SurfaceLine> surface_lines;
+  InpMaterials materials;
+  std::vector<BoundaryLine> boundary;
+  std::vector<std::string> ignored;
+  std::map<std::string, std::pair<CellType, int>> element_types;  // in capitals: type and first line
+  // One *PART, whose one *INSTANCE is the *ASSEMBLY, is the same as its content alone, wherever of the two
+  // it stands: instances that Abaqus CAE calls independent hold it themselves.
+  int n_parts = 0;
+  std::string instance;  // its name in capitals
+  bool in_assembly = false, in_instance = false, in_step = false;
+  std::set<std::pair<std::string, std::string>> assembly_sets;  // keyword and name in capitals
+
+  /// Returns whether the present keyword belongs to the assembly itself, not to its instance.
+  bool of_assembly() const { return in_assembly && !in_instance; }
+  /// A member of a set or surface without the name of its instance ("Part-1-1.Set-2").
+  std::string_view member(std::string_view field) const;
+};
+
+/// *NSET or *ELSET, and *SURFACE by elements.
+void read_set(InpLines& in, const Keyword& key, InpDeck& deck);
+void read_surface(InpLines& in, const Keyword& key, InpDeck& deck);
+/// The mesh's face sets, when its cell sets are there. Error for unknown elements and sets and sides a cell
+/// has not.
+void build_surfaces(const InpLines& in, const InpDeck& deck, const TagTable& cells, Mesh& mesh,
+                    MemberBudget& budget);
+
+}  // namespace elastogear::mesh

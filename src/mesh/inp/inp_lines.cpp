@@ -1,0 +1,186 @@
+#include "mesh/inp/inp_lines.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+namespace elastogear::mesh {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kInclude = "INCLUDE";
+constexpr std::size_t kMaxIncludes = 10;  // of files within files
+
+std::string_view trim(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string_view unquoted(std::string_view text) {
+  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  while (!line.empty()) {
+    const std::size_t comma = std::min(line.find(','), line.size());
+    fields.push_back(unquoted(trim(line.substr(0, comma))));
+    line.remove_prefix(std::min(comma + 1, line.size()));
+  }
+}
+
+}  // namespace
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return std::toupper(c); });
+  return result;
+}
+
+std::string Keyword::value(const std::string& parameter) const {
+  const auto found = parameters.find(parameter);
+  return found == parameters.end() ? "" : upper(found->second);
+}
+
+InpLines::InpLines(InpText text) : open_file_(std::move(text.open)) {
+  enter(files_.emplace_back(File{std::move(text.path), std::move(text.content)}));
+}
+
+void InpLines::enter(File& file) {
+  open_.push_back(&file);
+  segments_.push_back({number_ + 1, {&file, 1}});
+}
+
+std::size_t InpLines::total_size() const {
+  std::size_t size = 0;
+  for (const File& file : files_) size += file.text.size();
+  return size;
+}
+
+InpLines::Location InpLines::locate(int number) const {
+  const auto after = [](int n, const Segment& segment) { return n < segment.first; };
+  const auto next = std::upper_bound(segments_.begin() + 1, segments_.end(), number, after);
+  const Segment& segment = *(next - 1);
+  return {segment.location.file, segment.location.line + number - segment.first};
+}
+
+std::string InpLines::place(int number) const {
+  const auto [file, line] = locate(number);
+  return (file == &files_.front() ? "" : file->path + ", ") + "line " + std::to_string(line);
+}
+
+// The next line with content of whatever file is being read.
+bool InpLines::next_line() {
+  while (!open_.empty()) {
+    File& file = *open_.back();
+    while (file.position < file.text.size()) {
+      const std::size_t end = std::min(file.text.find('\n', file.position), file.text.size());
+      line_ = trim(std::string_view(file.text).substr(file.position, end - file.position));
+      file.position = std::min(end + 1, file.text.size());
+      ++number_;
+      ++file.lines;
+      if (!line_.empty() && !line_.starts_with("**")) return true;
+    }
+    open_.pop_back();
+    if (!open_.empty()) segments_.push_back({number_ + 1, {open_.back(), open_.back()->lines + 1}});
+  }
+  line_ = {};
+  return false;
+}
+
+void InpLines::include() {
+  namespace fs = std::filesystem;
+  if (continues()) fail_here("*INCLUDE must stand on one line");
+  const Keyword key = keyword();
+  if (!key.has("INPUT")) fail_here("*INCLUDE without INPUT=file");
+  if (open_.size() > kMaxIncludes) fail_here("files include each other more than ", kMaxIncludes, " deep");
+  const fs::path name = fs::path(open_.back()->path).parent_path() / key.parameters.at("INPUT");
+  const std::string path = name.lexically_normal().string();
+  for (const File& file : files_)
+    if (fs::path(file.path).lexically_normal() == path)
+      fail_here("*INCLUDE of ", path, ", which is read already");
+  std::string content;
+  try {
+    content = open_file_(path);
+  } catch (const Error& error) {
+    fail_here("*INCLUDE: ", error.what());
+  }
+  enter(files_.emplace_back(File{path, std::move(content)}));
+}
+
+bool InpLines::next() {
+  if (ahead_) {
+    line_ = ahead_->text;
+    number_ = ahead_->number;
+    ahead_.reset();
+    return true;
+  }
+  while (next_line()) {
+    if (!at_keyword() || !upper(line_.substr(1, kInclude.size())).starts_with(kInclude)) return true;
+    include();
+  }
+  return false;
+}
+
+bool InpLines::next_data() {
+  const Line current{line_, number_};
+  const bool found = next();
+  if (found && !at_keyword()) return true;
+  if (found) ahead_ = Line{line_, number_};
+  line_ = current.text;
+  number_ = current.number;
+  return false;
+}
+
+void InpLines::add_parameter(Keyword& keyword, std::string_view text) const {
+  if (text.empty()) return;
+  const std::size_t equal = text.find('=');
+  const std::string name = upper(trim(text.substr(0, equal)));
+  const std::string_view value =
+      equal == std::string_view::npos ? std::string_view() : unquoted(trim(text.substr(equal + 1)));
+  if (!keyword.parameters.emplace(name, value).second) fail_here("parameter ", name, " is given twice");
+}
+
+Keyword InpLines::keyword() {
+  Keyword result;
+  result.line = number_;
+  split(line_.substr(1), fields_);
+  if (!fields_.empty()) result.name = upper(fields_[0]);
+  // "*SOLID  SECTION" is "*SOLID SECTION".
+  result.name.erase(std::unique(result.name.begin(), result.name.end(),
+                                [](char a, char b) { return a == ' ' && b == ' '; }),
+                    result.name.end());
+  for (std::size_t i = 1; i < fields_.size(); ++i) add_parameter(result, fields_[i]);
+  while (continues() && next()) {
+    if (at_keyword()) fail_here("a keyword line ends with a comma but does not continue");
+    split(line_, fields_);
+    for (std::string_view field : fields_) add_parameter(result, field);
+  }
+  return result;
+}
+
+const std::vector<std::string_view>& InpLines::fields() {
+  split(line_, fields_);
+  return fields_;
+}
+
+double InpLines::real(std::string_view field, const char* what) const {
+  std::string text(field);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
+  const double value = parse_field<double>(text, what);
+  if (!std::isfinite(value)) fail_here(what, " is ", value, ", must be finite");
+  return value;
+}
+
+std::vector<double> InpLines::reals(const char* what) {
+  std::vector<double> values;
+  for (std::string_view field : fields()) values.push_back(field.empty() ? 0 : real(field, what));
+  return values;
+}
+
+}  // namespace elastogear::mesh

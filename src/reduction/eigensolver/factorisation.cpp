@@ -1,0 +1,153 @@
+#include "reduction/eigensolver/factorisation.h"
+
+#include <dmumps_c.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "elastogear/base/error.h"
+#include "reduction/eigensolver/ordering.h"
+#include "reduction/static_response/residual.h"
+
+namespace elastogear::reduction {
+namespace {
+
+enum Job { start = -1, end = -2, analyse = 1, factorise = 2, solve = 3 };
+constexpr int kSymmetric = 2;           // indefinite: pivots of both signs
+constexpr int kWorkspace = 30;          // per cent above MUMPS' estimate
+constexpr int kMaxWorkspace = 1000;     // per cent
+constexpr int kSharedFront = 9;         // KEEP: order from which a front's rows are shared among ranks
+constexpr int kSingular = -10;          // INFOG(1)
+constexpr int kWorkspaceTooSmall = -9;  // INFOG(1), and -8 for the integers
+
+MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
+
+}  // namespace
+
+struct ShiftedFactor::Solver {
+  Mat K, M;
+  MPI_Comm comm;
+  int rank = 0;
+  DMUMPS_STRUC_C id = {};
+  std::vector<int> row = {}, column = {};        // own entries of the lower triangle, from 1
+  std::vector<double> value = {};                // of K - sigma M there
+  std::vector<int> position = {};                // of each row in the elimination, from 1; rank 0
+  std::vector<int> n_rows = {}, first_row = {};  // of each rank
+  std::vector<double> right_hand_sides = {};     // on rank 0 of several
+
+  int& icntl(int i) { return id.icntl[i - 1]; }
+  int infog(int i) const { return id.infog[i - 1]; }
+
+  int call(Job job) {
+    id.job = job;
+    dmumps_c(&id);
+    return infog(1);
+  }
+
+  void check_call(Job job) {
+    const int code = call(job);
+    require(code >= 0, "MUMPS error ", code, " (detail ", infog(2), ") in phase ", static_cast<int>(job));
+  }
+
+  template <class F>
+  void visit_lower(Mat A, F&& f) {
+    const int first = first_row[rank];
+    for (int i = first; i < first + n_rows[rank]; ++i) {
+      PetscInt n = 0;
+      const PetscInt* columns = nullptr;
+      const PetscScalar* values = nullptr;
+      check(MatGetRow(A, i, &n, &columns, &values));
+      for (PetscInt k = 0; k < n; ++k)
+        if (columns[k] <= i) f(i, columns[k], values[k]);
+      check(MatRestoreRow(A, i, &n, &columns, &values));
+    }
+  }
+};
+
+ShiftedFactor::ShiftedFactor(Mat K, Mat M, Ordering ordering) : solver_(new Solver{K, M, comm_of(K)}) {
+  Solver& s = *solver_;
+  int n_ranks = 1;
+  MPI_Comm_rank(s.comm, &s.rank);
+  MPI_Comm_size(s.comm, &n_ranks);
+  const PetscInt* ranges = nullptr;
+  check(MatGetOwnershipRanges(K, &ranges));
+  for (int r = 0; r < n_ranks; ++r) {
+    s.first_row.push_back(ranges[r]);
+    s.n_rows.push_back(ranges[r + 1] - ranges[r]);
+  }
+  s.visit_lower(K, [&](int i, int j, double) {
+    s.row.push_back(i + 1);
+    s.column.push_back(j + 1);
+  });
+  s.value.resize(s.row.size());
+  s.id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(s.comm));
+  s.id.sym = kSymmetric;
+  s.id.par = 1;
+  s.check_call(start);
+  for (int stream : {1, 2, 3, 4}) s.icntl(stream) = 0;  // silent
+  s.icntl(13) = 1;  // no ScaLAPACK on the root: it counts no negative pivots
+  s.icntl(14) = kWorkspace;
+  s.icntl(18) = 3;  // entries come distributed
+  // Two ranks have one subtree each. Sharing the few fronts above would make them wait for one another in
+  // every solve, which costs more than one rank idling there.
+  if (n_ranks == 2) s.id.keep[kSharedFront - 1] = ranges[n_ranks];
+  s.id.n = ranges[n_ranks];
+  s.id.nnz_loc = static_cast<MUMPS_INT8>(s.row.size());
+  s.id.irn_loc = s.row.data();
+  s.id.jcn_loc = s.column.data();
+  s.id.a_loc = s.value.data();
+  if (ordering == Ordering::metis) {
+    s.position = nested_dissection(K);
+    for (int& p : s.position) ++p;
+    s.icntl(7) = 1;  // the order is given
+    s.id.perm_in = s.position.data();
+  }
+  s.check_call(analyse);
+}
+
+ShiftedFactor::~ShiftedFactor() { solver_->call(end); }
+
+int ShiftedFactor::factorise(double sigma) {
+  Solver& s = *solver_;
+  std::size_t k = 0, m = 0;
+  s.visit_lower(s.K, [&](int, int, double a) { s.value[k++] = a; });
+  s.visit_lower(s.M, [&](int, int, double a) { s.value[m++] -= sigma * a; });
+  require(k == m, "K and M differ in their sparsity");
+  int code = s.call(Job::factorise);
+  while ((code == kWorkspaceTooSmall || code == kWorkspaceTooSmall + 1) && s.icntl(14) < kMaxWorkspace) {
+    s.icntl(14) *= 2;
+    code = s.call(Job::factorise);
+  }
+  if (code == kSingular) fail_singular("a pivot is zero");
+  require(code >= 0, "MUMPS error ", code, " (detail ", s.infog(2),
+          ") in the factorisation at sigma = ", sigma, " rad^2/s^2");
+  return s.infog(12);
+}
+
+void ShiftedFactor::solve(Eigen::Ref<Eigen::MatrixXd> B) {
+  Solver& s = *solver_;
+  const int n = s.id.n, columns = static_cast<int>(B.cols()), own = s.n_rows[s.rank];
+  const bool serial = s.n_rows.size() == 1;
+  if (!serial && s.rank == 0) s.right_hand_sides.resize(static_cast<std::size_t>(n) * columns);
+  double* all = serial ? B.data() : s.right_hand_sides.data();
+  const auto column = [&](int j) { return s.rank == 0 ? all + static_cast<std::ptrdiff_t>(j) * n : nullptr; };
+  for (int j = 0; !serial && j < columns; ++j)
+    MPI_Gatherv(B.col(j).data(), own, MPI_DOUBLE, column(j), s.n_rows.data(), s.first_row.data(), MPI_DOUBLE,
+                0, s.comm);
+  s.id.rhs = all;
+  s.id.nrhs = columns;
+  s.id.lrhs = n;
+  s.icntl(27) = columns;  // all at once
+  s.check_call(Job::solve);
+  for (int j = 0; !serial && j < columns; ++j)
+    MPI_Scatterv(column(j), s.n_rows.data(), s.first_row.data(), MPI_DOUBLE, B.col(j).data(), own, MPI_DOUBLE,
+                 0, s.comm);
+}
+
+FactorSize ShiftedFactor::size() const {
+  const double million = 1e6;
+  const int entries = solver_->infog(20);  // negative: in millions
+  return {entries < 0 ? -million * entries : entries, solver_->id.rinfog[0]};
+}
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,66 @@
+#include "reduction/modes/cutoff.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "elastogear/fem/element.h"
+
+namespace elastogear::reduction {
+namespace {
+
+constexpr double kWeyl = 2.0 / 3;       // sigma ~ N^(2/3)
+constexpr double kLargestStep = 8;      // factor of sigma between two counts
+constexpr double kSmallestStep = 1.02;  // its least while sigma is known from one side only
+constexpr double kLeastProgress = 0.1;  // of the logarithmic width of the bracket
+constexpr double kNarrow = 1e-10;       // relative width of a bracket around equal eigenvalues
+
+struct Point {
+  double sigma;
+  int n;
+};
+
+// Next trial for the cutoff by the power law through both ends, or by Weyl's law where only one is known.
+double next_guess(const Point& lower, const Point& upper, double target) {
+  const auto step = [](double ratio) {
+    return std::clamp(std::pow(ratio, kWeyl), kSmallestStep, kLargestStep);
+  };
+  if (!std::isfinite(upper.sigma)) return lower.sigma * step(target / std::max(1, lower.n));
+  if (lower.sigma == 0) return upper.sigma / step(upper.n / target);
+  const double fraction = lower.n == 0 ? 0.5 : std::log(target / lower.n) / std::log(upper.n * 1.0 / lower.n);
+  return lower.sigma *
+         std::pow(upper.sigma / lower.sigma, std::clamp(fraction, kLeastProgress, 1 - kLeastProgress));
+}
+
+}  // namespace
+
+double find_cutoff(const Count& count, CountRange wanted, double start) {
+  const double target = (wanted.least + wanted.most) / 2.0;
+  Point lower{0, 0}, upper{std::numeric_limits<double>::infinity(), 0};
+  for (double sigma = start;; sigma = next_guess(lower, upper, target)) {
+    const int n = count(sigma);
+    if (n >= wanted.least && n <= wanted.most) return sigma;
+    (n < wanted.least ? lower : upper) = {sigma, n};
+    if (upper.sigma - lower.sigma < kNarrow * upper.sigma) {
+      count(upper.sigma);
+      return upper.sigma;
+    }
+  }
+}
+
+double weyl_cutoff(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions, int n) {
+  double density = 0;  // of modes: N = density omega^3 / (6 pi^2)
+  for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
+    const model::Material& material = regions[sector.region[cell]].material;
+    const auto [lambda, mu] = fem::mean_lame(material);
+    const double c_p = std::sqrt((lambda + 2 * mu) / material.rho), c_s = std::sqrt(mu / material.rho);
+    const double volume =
+        fem::element_functions(sector.mesh.cells.type[cell]).volume(fem::cell_coordinates(sector.mesh, cell));
+    density +=
+        sector.turn.n_sectors * sector.weight[cell] * volume * (std::pow(c_p, -3) + 2 * std::pow(c_s, -3));
+  }
+  return std::pow(6 * std::numbers::pi * std::numbers::pi * n / density, kWeyl);
+}
+
+}  // namespace elastogear::reduction

@@ -1,0 +1,75 @@
+#include "reduction/modes/effective_mass.h"
+
+#include <petscksp.h>
+
+#include <Eigen/Geometry>
+
+namespace elastogear::reduction {
+namespace {
+
+constexpr double kTolerance = 1e-10;  // of the solution; the masses are as exact as its square
+
+// Conjugate gradients: the consistent mass scaled by its diagonal has a condition number that depends on the
+// cell types alone (A. J. Wathen, IMA J. Numer. Anal. 7 (1987) 449-457).
+UniqueKSP mass_solver(Mat M) {
+  UniqueKSP ksp;
+  PC pc = nullptr;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(M)), ksp.out()));
+  check(KSPSetOperators(ksp, M, M));
+  check(KSPSetType(ksp, KSPCG));
+  check(KSPSetTolerances(ksp, kTolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  check(KSPSetErrorIfNotConverged(ksp, PETSC_TRUE));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCJACOBI));
+  return ksp;
+}
+
+// M S at all nodes for one of the six rigid fields; rotations are about c.
+Eigen::VectorXd momentum(const fem::MassMoments& moments, const Eigen::Vector3d& c, int direction) {
+  const Eigen::Vector3d e = Eigen::Vector3d::Unit(direction % 3);
+  Eigen::VectorXd p(3 * moments.w_0.size());
+  for (Eigen::Index i = 0; i < moments.w_0.size(); ++i) {
+    const double w = moments.w_0(i);
+    const Eigen::Vector3d w_c = moments.w_1.col(i) - w * c;
+    p.segment<3>(3 * i) = direction < 3 ? Eigen::Vector3d(w * e) : Eigen::Vector3d(e.cross(w_c));
+  }
+  return p;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, Eigen::Dynamic, 6> effective_masses(const model::Inertia& inertia) {
+  Eigen::Matrix<double, Eigen::Dynamic, 6> coupling(inertia.C_l.rows(), 6);
+  coupling.leftCols<3>() = inertia.C_l;
+  for (Eigen::Index k = 0; k < coupling.rows(); ++k) {
+    const Eigen::Vector3d C_l = inertia.C_l.row(k);
+    coupling.row(k).tail<3>() = inertia.C_r.row(k) - inertia.c.cross(C_l).transpose();
+  }
+  return coupling.cwiseAbs2();
+}
+
+SixDirections body_masses(const model::Inertia& inertia) {
+  const Eigen::Vector3d c = inertia.c;
+  SixDirections masses;
+  masses.head<3>().setConstant(inertia.m);
+  masses.tail<3>() = inertia.J.diagonal().array() - inertia.m * (c.squaredNorm() - c.array().square());
+  return masses;
+}
+
+SixDirections mobile_masses(Mat M, const fem::VectorGather& gather, const fem::MassMoments& moments,
+                            const Eigen::Vector3d& c) {
+  const UniqueKSP ksp = mass_solver(M);
+  UniqueVec p, v;
+  check(MatCreateVecs(M, v.out(), p.out()));
+  SixDirections masses;
+  for (int direction = 0; direction < 6; ++direction) {
+    PetscScalar product = 0;
+    gather.scatter(momentum(moments, c, direction), p);
+    check(KSPSolve(ksp, p, v));
+    check(VecDot(p, v, &product));
+    masses(direction) = product;
+  }
+  return masses;
+}
+
+}  // namespace elastogear::reduction
