@@ -5,6 +5,7 @@
 #include "box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/mesh/file.h"
 #include "mesh/inp/inp.h"
 #include "mesh/msh/msh.h"
 

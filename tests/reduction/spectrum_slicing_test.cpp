@@ -1,4 +1,5 @@
 #include "reduction/eigensolver/spectrum_slicing.h"
+#include "elastogear/reduction/eigenmodes.h"
 
 #include <gtest/gtest.h>
 
