@@ -65,6 +65,8 @@ struct Pair::Data {
   bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
   void keep_stuck();
+  std::vector<StickPoint> stuck() const;
+  void set_stuck(const std::vector<StickPoint>& points);
   std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, int node,
                                       const Projection& w) const;
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
@@ -137,27 +139,27 @@ void Pair::accept(const std::vector<ContactPoint>& contacts) {
   data_->keep_stuck();
 }
 
-std::vector<StickPoint> Pair::history() const {
+std::vector<StickPoint> Pair::Data::stuck() const {
   std::vector<StickPoint> all;
-  for (const Side& side : data_->side)
-    for (const auto& [node, point] : side.stuck) all.push_back(point);
+  for (const Side& one : side)
+    for (const auto& [node, point] : one.stuck) all.push_back(point);
   return all;
 }
 
-void Pair::restore(const std::vector<StickPoint>& history) {
-  for (Side& side : data_->side) side.stuck.clear();
-  for (const StickPoint& point : history) {
+void Pair::Data::set_stuck(const std::vector<StickPoint>& points) {
+  for (Side& one : side) one.stuck.clear();
+  for (const StickPoint& point : points) {
     require(point.slave_side == 0 || point.slave_side == 1, "contact history: slave side ", point.slave_side,
             ", allowed are 0 and 1");
-    const auto n_nodes = data_->surface(point.slave_side).X.cols(),
-               n_faces = data_->surface(1 - point.slave_side).face.cols();
+    const auto n_nodes = surface(point.slave_side).X.cols(),
+               n_faces = surface(1 - point.slave_side).face.cols();
     require(point.slave_node >= 0 && point.slave_node < n_nodes && point.face >= 0 && point.face < n_faces,
             "contact history: node ", point.slave_node, " on face ", point.face, ", there are ", n_nodes,
             " nodes and ", n_faces, " faces");
-    data_->side[point.slave_side].stuck[point.slave_node] = point;
+    side[point.slave_side].stuck[point.slave_node] = point;
   }
-  data_->keep_stuck();
-  data_->tracker.forget();  // the nodes kept are placed from the next search on
+  keep_stuck();
+  tracker.forget();  // the nodes kept are placed from the next search on
 }
 
 Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
@@ -183,13 +185,13 @@ int Pair::n_searches() const { return data_->tracker.n_searches(); }
 int Pair::n_displaced() const { return data_->tracker.n_displaced(); }
 
 void Pair::serialize(Archive& archive) {
-  std::vector<StickPoint> stuck = history();
+  std::vector<StickPoint> stuck = data_->stuck();
   archive.each(stuck, [&](StickPoint& point) {
     for (int* n : {&point.slave_side, &point.slave_node, &point.face}) archive(*n);
     for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) archive(*x);
     archive(point.slides);
   });
-  if (archive.is_loading()) restore(stuck);  // before the tracker, which it makes forget
+  if (archive.is_loading()) data_->set_stuck(stuck);  // before the tracker, which it makes forget
   data_->tracker.serialize(archive);
   for (Side& side : data_->side) {
     const std::size_t n_nodes = side.last_face.size();

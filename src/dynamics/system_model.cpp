@@ -1,5 +1,4 @@
-// How a System is set up: what of bodies, pairs and forces at markers is refused, and where everything
-// starts.
+#include "elastogear/dynamics/system_model.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -8,7 +7,6 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/contact/topology.h"
-#include "elastogear/dynamics/system.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -59,7 +57,7 @@ void validate_joint(const BodySetup& setup) {
 }
 
 // Inertia of the undeformed body against what the joint lets it do.
-void require_inertia(const System::Body& body) {
+void require_inertia(const SystemModel::Body& body) {
   const model::Inertia& inertia = body.eq.body->inertia;
   Eigen::Matrix<double, 6, 6> M;
   const Eigen::Matrix3d S = skew(inertia.m * inertia.c);
@@ -70,9 +68,9 @@ void require_inertia(const System::Body& body) {
           " kg and no (or a negative) inertia against a motion that its joint allows");
 }
 
-void validate_body(const BodySetup& setup, const std::vector<System::Body>& others) {
+void validate_body(const BodySetup& setup, const std::vector<SystemModel::Body>& others) {
   require(!setup.name.empty(), "a body has no name");
-  for (const System::Body& other : others)
+  for (const SystemModel::Body& other : others)
     require(other.name != setup.name, "two bodies are named '", setup.name, "'");
   require(setup.body != nullptr, "body '", setup.name, "' has no elastic body");
   require(setup.q_dot0.size() == 0 || setup.q_dot0.size() == setup.body->n_q(), "body '", setup.name,
@@ -117,64 +115,113 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> initial_motion(const BodySetup& setu
   return {s, s_dot};
 }
 
-}  // namespace
-
-System::System(std::vector<BodySetup> bodies, std::vector<PairSetup> pairs, const Environment& environment,
-               const MarkerSetups& markers)
-    : environment_(environment) {
-  require(!bodies.empty(), "there is no body to simulate");
-  require(environment.gravity.allFinite(), "gravity (", environment.gravity.transpose(), ") must be finite");
-  for (const BodySetup& setup : bodies) add_body(setup);
-  for (const PairSetup& setup : pairs) add_pair(setup);
-  add_marker_forces(markers);
-  std::vector<const model::ElasticBody*> elastic;
-  for (const Body& body : bodies_) elastic.push_back(body.eq.body.get());
-  residual_contact_ = ResidualContact(elastic);
-}
-
-void System::add_body(const BodySetup& setup) {
-  validate_body(setup, bodies_);
+void add_body(const BodySetup& setup, SystemModel& model) {
+  validate_body(setup, model.bodies);
   const std::vector<Axis> axis = axes(setup);
   const auto [s, s_dot] = initial_motion(setup, body::coordinate_count(setup.joint.type));
   const std::vector<Eigen::Index> open = open_coordinates(axis, s.size());
-  bodies_.push_back({setup.name, body::make_equations(setup.body, setup.joint, environment_.inertia), size(),
-                     axis, open, false, node_groups(setup.body->surface),
-                     contact::node_areas(setup.body->surface.X, setup.body->surface.face)});
-  require_inertia(bodies_.back());
+  const model::Surface& surface = setup.body->surface;
+  model.bodies.push_back(
+      {setup.name, body::make_equations(setup.body, setup.joint, model.environment.inertia), model.U_0.size(),
+       axis, open, false, node_groups(surface), contact::node_areas(surface.X, surface.face)});
+  require_inertia(model.bodies.back());
   const Eigen::Index n_q = setup.body->n_q();
-  append(U_0_, s(open));
-  append(U_0_, Eigen::VectorXd::Zero(n_q));
-  append(V_0_, s_dot(open));
-  append(V_0_, setup.q_dot0.size() ? setup.q_dot0 : Eigen::VectorXd::Zero(n_q));
+  append(model.U_0, s(open));
+  append(model.U_0, Eigen::VectorXd::Zero(n_q));
+  append(model.V_0, s_dot(open));
+  append(model.V_0, setup.q_dot0.size() ? setup.q_dot0 : Eigen::VectorXd::Zero(n_q));
 }
 
-void System::add_pair(const PairSetup& setup) {
-  const auto n = static_cast<int>(bodies_.size());
+void add_pair(const PairSetup& setup, SystemModel& model) {
+  const auto n = static_cast<int>(model.bodies.size());
   for (int b : setup.body) {
     require(b >= 0 && b < n, "contact pair '", setup.name, "' names body ", b, ", allowed are 0..", n - 1);
-    require(bodies_[b].eq.body->surface.face.cols() > 0, "contact pair '", setup.name, "': body '",
-            bodies_[b].name, "' has no surface faces");
-    bodies_[b].in_contact = true;
+    require(model.bodies[b].eq.body->surface.face.cols() > 0, "contact pair '", setup.name, "': body '",
+            model.bodies[b].name, "' has no surface faces");
+    model.bodies[b].in_contact = true;
   }
   require(setup.body[0] != setup.body[1], "contact pair '", setup.name, "' names one body twice");
   // A dashpot's force jumps when a node touches. With residual flexibility the node would move back and open
   // the gap again, so that there is no solution.
   for (int b : setup.body)
-    require(setup.settings.damping == 0 || bodies_[b].eq.body->flexibility.empty(), "contact pair '",
+    require(setup.settings.damping == 0 || model.bodies[b].eq.body->flexibility.empty(), "contact pair '",
             setup.name, "': damping = ", setup.settings.damping,
-            " jumps at touch, which the residual flexibility of body '", bodies_[b].name,
+            " jumps at touch, which the residual flexibility of body '", model.bodies[b].name,
             "' cannot follow: use hysteresis instead, or leave the residual flexibility out");
-  pairs_.push_back(setup);
-  const model::ElasticBody& a = *bodies_[setup.body[0]].eq.body;
-  const model::ElasticBody& b = *bodies_[setup.body[1]].eq.body;
-  detectors_.emplace_back(a.surface, b.surface, setup.settings, std::array{&a.K_r, &b.K_r});
+  model.pairs.push_back(setup);
 }
 
-void System::add_marker_forces(const MarkerSetups& setups) {
+void add_marker_forces(const MarkerSetups& setups, SystemModel& model) {
   std::vector<MarkerForces::Body> bodies;
-  for (const Body& body : bodies_) bodies.push_back({body.name, body.eq.body.get()});
-  marker_forces_ = MarkerForces(setups, bodies);
-  marker_forces_.set_unloaded(moving_bodies({0, U_0_, V_0_, V_0_}));
+  for (const SystemModel::Body& body : model.bodies) bodies.push_back({body.name, body.eq.body.get()});
+  model.marker_forces = MarkerForces(setups, bodies);
+  model.marker_forces.set_unloaded(moving_bodies(model, {0, model.U_0, model.V_0, model.V_0}));
+}
+
+}  // namespace
+
+double gravity_share(const Environment& environment, double time) {
+  return environment.gravity_rise > 0 ? std::clamp(time / environment.gravity_rise, 0.0, 1.0) : 1;
+}
+
+Eigen::Vector3d gravity(const Environment& environment, double time) {
+  return gravity_share(environment, time) * environment.gravity;
+}
+
+SystemModel make_system_model(const std::vector<BodySetup>& bodies, const std::vector<PairSetup>& pairs,
+                              const Environment& environment, const MarkerSetups& markers) {
+  require(!bodies.empty(), "there is no body to simulate");
+  require(environment.gravity.allFinite(), "gravity (", environment.gravity.transpose(), ") must be finite");
+  SystemModel model;
+  model.environment = environment;
+  for (const BodySetup& setup : bodies) add_body(setup, model);
+  for (const PairSetup& setup : pairs) add_pair(setup, model);
+  add_marker_forces(markers, model);
+  return model;
+}
+
+body::Motion motion(const SystemModel& model, std::size_t b, const State& x) {
+  const SystemModel::Body& body = model.bodies[b];
+  const Eigen::Index n_s = body.eq.n_s(), s = body.first, q = s + body.n_open(), n_q = body.eq.n_q();
+  body::Motion m{Eigen::VectorXd(n_s), Eigen::VectorXd(n_s), Eigen::VectorXd(n_s),
+                 x.U.segment(q, n_q),  x.V.segment(q, n_q),  x.A.segment(q, n_q)};
+  m.s(body.open) = x.U.segment(s, body.n_open());
+  m.s_dot(body.open) = x.V.segment(s, body.n_open());
+  m.s_ddot(body.open) = x.A.segment(s, body.n_open());
+  for (Eigen::Index i = 0; const Axis& axis : body.axis) {
+    if (axis.drive) {
+      const Prescribed p = at(*axis.drive, x.time);
+      m.s[i] = p.s;
+      m.s_dot[i] = p.s_dot;
+      m.s_ddot[i] = p.s_ddot;
+    }
+    ++i;
+  }
+  return m;
+}
+
+std::vector<MovingBody> moving_bodies(const SystemModel& model, const State& x) {
+  std::vector<MovingBody> bodies;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    bodies.push_back({&model.bodies[b].eq, motion(model, b, x)});
+  return bodies;
+}
+
+model::ResultHeader result_header(const SystemModel& model) {
+  model::ResultHeader header;
+  for (const SystemModel::Body& body : model.bodies)
+    header.bodies.push_back(
+        {body.name, "", body::joint_names()[static_cast<std::size_t>(body.eq.joint.type)]});
+  for (const PairSetup& pair : model.pairs) {
+    model::ResultHeader::Pair entry{pair.name, {pair.body[0], pair.body[1]}, {}};
+    for (int side : {0, 1})
+      entry.group_name[side] = model.bodies[pair.body[side]].eq.body->surface.group_name;
+    header.pairs.push_back(entry);
+  }
+  const MarkerSetups& markers = model.marker_forces.setups();
+  for (const BushingSetup& bushing : markers.bushings) header.bushings.push_back(bushing.name);
+  for (const SensorSetup& sensor : markers.sensors) header.sensors.push_back(sensor.name);
+  return header;
 }
 
 }  // namespace elastogear::dynamics

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "box_body.h"
+#include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
 #include "elastogear/dynamics/static.h"

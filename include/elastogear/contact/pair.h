@@ -35,10 +35,6 @@ class Pair {
 
   /// Makes the sticking of these contacts what the next step starts from.
   void accept(const std::vector<ContactPoint>& contacts);
-  /// The stick points that accept has kept, which a run must store to go on from here.
-  std::vector<StickPoint> history() const;
-  /// Throws Error for nodes or faces that the surfaces do not have.
-  void restore(const std::vector<StickPoint>& history);
 
   /// The settings in force: as given, with stiffness, depth and skin filled in where they were 0.
   const Settings& settings() const;
@@ -46,7 +42,8 @@ class Pair {
   int n_searches() const;
   int n_displaced() const;
 
-  /// All that later calls of detect (by motion) take from earlier ones.
+  /// The stick points that accept has kept, and all else that later calls of detect (by motion) take from
+  /// earlier ones. Throws Error for nodes or faces that the surfaces do not have.
   void serialize(Archive& archive);
 
  private:

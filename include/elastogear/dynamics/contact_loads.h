@@ -25,6 +25,14 @@ struct PairContacts {
   std::vector<contact::ContactPoint> points;
 };
 
+/// Contact of all bodies at one time, by positions and velocities alone.
+struct ContactState {
+  std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
+  std::vector<PairContacts> pair;
+  std::vector<NodalForces> force;  ///< per body
+  bool balanced = true;            ///< did Newton's method for contact forces and static responses converge?
+};
+
 inline constexpr int kLocalNodes = 5;  ///< of a contact point: slave, four master nodes
 /// Body side and surface node of local node i = 0 (slave), 1..4 (master).
 struct LocalNode {

@@ -292,7 +292,7 @@ Computation computation(const Options& options, dynamics::System& system) {
 
 model::ResultHeader header(const Options& options, const dynamics::System& system,
                            const std::map<std::string, std::string>& identities) {
-  model::ResultHeader header = result_header(system);
+  model::ResultHeader header = result_header(system.model());
   for (auto& body : header.bodies) {
     const std::string file = body.name + "_file";
     body.file = options.given(file) ? options.text(file) : "";

@@ -1,7 +1,8 @@
-#include "elastogear/dynamics/residual_contact.h"
+#include "dynamics/contact/residual_contact.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dynamics/contact/response_newton.h"
 
@@ -10,6 +11,13 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr double kForceResidual = 1e-10;    // of contact forces against those of the static responses
+constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, where it falls no further
+constexpr double kSmallResidual = 1e-3;     // whose square is negligible
+constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
+constexpr int kMostTrials = 30;   // until they fit
+constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
 
 // share_a a + share_b b
 NodalForces sum(const NodalForces& a, double share_a, const NodalForces& b, double share_b) {
@@ -74,10 +82,9 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
 
 // With w = R (f - L k lambda), lambda = L_V' (w - w_now) of all bodies: (I + H k) lambda = L_V' (R f -
 // w_now), H = L_V' R L. docs/theory.md, Eq. (6.21).
-VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
-                               const std::vector<contact::SurfaceState>& surfaces,
-                               const std::vector<NodalForces>& found) {
-  ResponseNewton newton(pairs);
+VectorXd ResidualContact::newton_step(const ContactState& state) {
+  const std::vector<NodalForces>& found = state.force;
+  ResponseNewton newton(state.pair);
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = found[b].node;
@@ -85,7 +92,7 @@ VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
     VectorXd missing = R * found[b].f_B.reshaped();
     for (std::size_t i = 0; i < node.size(); ++i)
       missing.segment<3>(static_cast<Eigen::Index>(3 * i)) -= displacement(b, node[i]);
-    newton.add({b, surfaces[b].R_WB, node, R}, missing);
+    newton.add({b, state.surface[b].R_WB, node, R}, missing);
   }
   const VectorXd lambda = newton.solve();
   for (std::size_t b = 0, i = 0; b < found.size(); ++b) {
@@ -98,26 +105,18 @@ VectorXd ResidualContact::step(const std::vector<PairContacts>& pairs,
   return lambda;
 }
 
-void ResidualContact::newton_step(const std::vector<PairContacts>& pairs,
-                                  const std::vector<contact::SurfaceState>& surfaces,
-                                  const std::vector<NodalForces>& found) {
-  step(pairs, surfaces, found);
-}
-
 void ResidualContact::backtrack() {
   for (std::size_t b = 0; b < flexibility_.size(); ++b)
     if (has_flexibility(b)) respond_to(b, mean(flexibility_[b]->forces(), left_[b], 0.5));
 }
 
-bool ResidualContact::linear_step(std::vector<PairContacts>& pairs,
-                                  const std::vector<contact::SurfaceState>& surfaces,
-                                  const std::vector<NodalForces>& found) {
-  for (const PairContacts& pair : pairs)
+bool ResidualContact::linear_step(ContactState& state) {
+  for (const PairContacts& pair : state.pair)
     for (const contact::ContactPoint& point : pair.points)
       if (point.V_dot.cols() > 0) return false;
-  const VectorXd lambda = step(pairs, surfaces, found);
+  const VectorXd lambda = newton_step(state);
   Eigen::Index column = 0;
-  for (PairContacts& pair : pairs)
+  for (PairContacts& pair : state.pair)
     for (contact::ContactPoint& point : pair.points) {
       const VectorXd change = lambda.segment(column, point.W.cols());
       point.F.reshaped() -= point.W * (point.k * change);
@@ -126,16 +125,42 @@ bool ResidualContact::linear_step(std::vector<PairContacts>& pairs,
       point.energy = 0.5 * point.k(0, 0) * point.g_n * point.g_n;
       column += point.W.cols();
     }
+  state.force = nodal_forces(state.pair, state.surface);
   return true;
 }
 
-void ResidualContact::take_forces_of_response(const std::vector<contact::SurfaceState>& surfaces,
-                                              std::vector<NodalForces>& found) const {
-  for (std::size_t b = 0; b < found.size(); ++b) {
+void ResidualContact::take_forces_of_response(ContactState& state) const {
+  for (std::size_t b = 0; b < state.force.size(); ++b) {
     if (!has_flexibility(b)) continue;
-    found[b] = flexibility_[b]->forces();
-    found[b].x_B = surfaces[b].x_B(Eigen::all, found[b].node);
+    state.force[b] = flexibility_[b]->forces();
+    state.force[b].x_B = state.surface[b].x_B(Eigen::all, state.force[b].node);
   }
+}
+
+void ResidualContact::solve(ContactState& state, const std::function<void()>& detect) {
+  ForceResidual residual = force_residual(state.force);
+  for (int trial = 0; residual.relative > kForceResidual && trial < kMostTrials; ++trial) {
+    if (residual.relative < kSmallResidual && linear_step(state)) {
+      residual = {};
+      continue;
+    }
+    newton_step(state);
+    detect();
+    const ForceResidual before = std::exchange(residual, force_residual(state.force));
+    if (residual.relative < kRoundoffResidual && residual.absolute > 0.1 * before.absolute) residual = {};
+    for (int half = 0; residual.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
+      backtrack();
+      detect();
+      residual = force_residual(state.force);
+    }
+  }
+  // A node is held at an edge by a jump of its force: the force of its static response lies between the
+  // values on both sides.
+  if (residual.relative > kForceResidual && residual.relative < kJump) {
+    take_forces_of_response(state);
+    residual = {};
+  }
+  state.balanced = residual.relative <= kForceResidual;
 }
 
 void ResidualContact::predict(double time) {

@@ -3,11 +3,12 @@
 // depend on each other, f = f(x + R f). Newton's method solves for both at every evaluation, so that f stays
 // a function of the coordinates (docs/theory.md, section 6.9).
 
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/archive.h"
-#include "elastogear/dynamics/residual_flexibility.h"
 
 namespace elastogear::dynamics {
 
@@ -28,26 +29,10 @@ class ResidualContact {
   /// R among the nodes (model::Surface numbers), m/N; empty for a body without residual flexibility.
   Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);
 
-  /// Force residual: difference between the contact forces found and the forces whose static response was in
-  /// place.
-  struct ForceResidual {
-    double absolute = 0;  ///< N
-    double relative = 0;  ///< of the forces found, at most 1
-  };
-  ForceResidual force_residual(const std::vector<NodalForces>& found) const;
-  /// Newton step: puts the static responses in place to the forces that, to first order, contact will find.
-  void newton_step(const std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
-                   const std::vector<NodalForces>& found);
-  /// Goes half of the way back to the static responses before the last Newton step.
-  void backtrack();
-  /// Newton step that changes the contacts to first order instead of detecting them again, for a force
-  /// residual whose square is negligible. Returns false and does nothing where forces have no potential.
-  bool linear_step(std::vector<PairContacts>& pairs, const std::vector<contact::SurfaceState>& surfaces,
-                   const std::vector<NodalForces>& found);
-
-  /// Puts the forces whose static responses are in place in the place of those found.
-  void take_forces_of_response(const std::vector<contact::SurfaceState>& surfaces,
-                               std::vector<NodalForces>& found) const;
+  /// Solves for contact forces and static responses by Newton's method, Eq. (6.21); a step that makes the
+  /// force residual larger is halved. The state holds the contacts found with the present static responses,
+  /// which `detect` finds anew. Sets state.balanced.
+  void solve(ContactState& state, const std::function<void()>& detect);
   /// Puts the static responses in place to forces extrapolated from the last two accepted states to this
   /// time.
   void predict(double time);
@@ -59,10 +44,22 @@ class ResidualContact {
   void serialize(Archive& archive);
 
  private:
+  // Difference between the contact forces found and the forces whose static response was in place.
+  struct ForceResidual {
+    double absolute = 0;  // N
+    double relative = 0;  // of the forces found, at most 1
+  };
+  ForceResidual force_residual(const std::vector<NodalForces>& found) const;
+  // Newton step: puts the static responses in place to the forces that, to first order, contact will find.
+  Eigen::VectorXd newton_step(const ContactState& state);
+  // Goes half of the way back to the static responses before the last Newton step.
+  void backtrack();
+  // Newton step that changes the contacts to first order instead of detecting them again, for a force
+  // residual whose square is negligible. Returns false and does nothing where forces have no potential.
+  bool linear_step(ContactState& state);
+  // Puts the forces whose static responses are in place in the place of those found.
+  void take_forces_of_response(ContactState& state) const;
   void respond_to(std::size_t b, const NodalForces& forces);
-  Eigen::VectorXd step(const std::vector<PairContacts>& pairs,
-                       const std::vector<contact::SurfaceState>& surfaces,
-                       const std::vector<NodalForces>& found);
 
   struct Accepted {
     double time = 0;

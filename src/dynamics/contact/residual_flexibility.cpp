@@ -1,4 +1,4 @@
-#include "elastogear/dynamics/residual_flexibility.h"
+#include "dynamics/contact/residual_flexibility.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,44 +1,59 @@
-// Contacts of a state, and the static responses of residual flexibility to them.
-#include <algorithm>
-#include <utility>
+#include "dynamics/contact/system_contact.h"
 
-#include "elastogear/dynamics/system.h"
+#include <algorithm>
 
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kForceResidual = 1e-10;    // of contact forces against those of the static responses
-constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, where it falls no further
-constexpr double kSmallResidual = 1e-3;     // whose square is negligible
-constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
-constexpr int kMostTrials = 30;   // until they fit
-constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
+std::vector<const model::ElasticBody*> elastic_bodies(const SystemModel& model) {
+  std::vector<const model::ElasticBody*> bodies;
+  for (const SystemModel::Body& body : model.bodies) bodies.push_back(body.eq.body.get());
+  return bodies;
+}
 
 }  // namespace
 
-const ContactState& System::contacts(double time, ConstVector U, ConstVector V) {
-  if (U_of_state_ && time == time_of_state_ && *U_of_state_ == U && V_of_state_ == V) return state_;
-  U_of_state_.reset();
-  std::vector<contact::SurfaceMotion> motion;
-  state_.surface.resize(bodies_.size());
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    motion.push_back(surface_motion(b, time, U, V));
-    const bool first = state_.surface[b].x_B.cols() == 0 && bodies_[b].in_contact;
-    if (first) state_.surface[b].x_B = bodies_[b].eq.body->surface.X;
-    state_.surface[b].r_WB = motion[b].r_WB;
-    state_.surface[b].R_WB = motion[b].R_WB;
+SystemContact::SystemContact(const SystemModel& model)
+    : pairs_(model.pairs), residual_contact_(elastic_bodies(model)) {
+  for (const SystemModel::Body& body : model.bodies)
+    surface_.push_back(body.in_contact ? &body.eq.body->surface : nullptr);
+  for (const PairSetup& pair : pairs_) {
+    const model::ElasticBody &a = *model.bodies[pair.body[0]].eq.body,
+                             &b = *model.bodies[pair.body[1]].eq.body;
+    detectors_.emplace_back(a.surface, b.surface, pair.settings, std::array{&a.K_r, &b.K_r});
   }
-  if (residual_contact_.any() && time != time_of_state_) residual_contact_.predict(time);
+}
+
+const ContactState* SystemContact::known(double time, ConstVector U, ConstVector V) const {
+  return U_ && time == time_ && *U_ == U && V_ == V ? &state_ : nullptr;
+}
+
+const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVector V,
+                                            const std::vector<contact::SurfaceMotion>& motion) {
+  forget();
+  place(motion);
+  if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
   detect(motion);
-  if (residual_contact_.any()) find_static_responses(motion);
-  U_of_state_ = U;
-  V_of_state_ = V;
-  time_of_state_ = time;
+  if (residual_contact_.any()) residual_contact_.solve(state_, [&] { detect(motion); });
+  U_ = U;
+  V_ = V;
+  time_ = time;
   return state_;
 }
 
+// Sets the placements of the bodies; surfaces are undeformed at first.
+void SystemContact::place(const std::vector<contact::SurfaceMotion>& motion) {
+  state_.surface.resize(motion.size());
+  for (std::size_t b = 0; b < motion.size(); ++b) {
+    contact::SurfaceState& surface = state_.surface[b];
+    if (surface.x_B.cols() == 0 && surface_[b]) surface.x_B = surface_[b]->X;
+    surface.r_WB = motion[b].r_WB;
+    surface.R_WB = motion[b].R_WB;
+  }
+}
+
 // Detects the contacts of the bodies with the residual displacements of the last trial.
-void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
+void SystemContact::detect(const std::vector<contact::SurfaceMotion>& motion) {
   state_.pair.clear();
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const int a = pairs_[p].body[0], b = pairs_[p].body[1];
@@ -51,43 +66,8 @@ void System::detect(const std::vector<contact::SurfaceMotion>& motion) {
   state_.force = nodal_forces(state_.pair, state_.surface);
 }
 
-// Detects contact with the present static responses and returns the force residual.
-ResidualContact::ForceResidual System::force_residual_now(const std::vector<contact::SurfaceMotion>& motion) {
-  detect(motion);
-  return residual_contact_.force_residual(state_.force);
-}
-
-// Solves for contact forces and static responses by Newton's method (docs/theory.md, Eq. (6.21)); a step that
-// makes the force residual larger is halved.
-void System::find_static_responses(const std::vector<contact::SurfaceMotion>& motion) {
-  auto force_residual = residual_contact_.force_residual(state_.force);
-  for (int trial = 0; force_residual.relative > kForceResidual && trial < kMostTrials; ++trial) {
-    if (force_residual.relative < kSmallResidual &&
-        residual_contact_.linear_step(state_.pair, state_.surface, state_.force)) {
-      state_.force = nodal_forces(state_.pair, state_.surface);
-      force_residual = {};
-      continue;
-    }
-    residual_contact_.newton_step(state_.pair, state_.surface, state_.force);
-    const auto before = std::exchange(force_residual, force_residual_now(motion));
-    if (force_residual.relative < kRoundoffResidual && force_residual.absolute > 0.1 * before.absolute)
-      force_residual = {};
-    for (int half = 0; force_residual.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
-      residual_contact_.backtrack();
-      force_residual = force_residual_now(motion);
-    }
-  }
-  // A node is held at an edge by a jump of its force: the force of its static response lies between the
-  // values on both sides.
-  if (force_residual.relative > kForceResidual && force_residual.relative < kJump) {
-    residual_contact_.take_forces_of_response(state_.surface, state_.force);
-    force_residual = {};
-  }
-  state_.balanced = force_residual.relative <= kForceResidual;
-}
-
 // Sets the positions of the nodes that contact touches; those of the others stay undeformed.
-void System::place_touched(std::size_t p) {
+void SystemContact::place_touched(std::size_t p) {
   const PairContacts& pair = state_.pair[p];
   for (const contact::ContactPoint& point : pair.points)
     for (int i = 0; i < kLocalNodes; ++i) {
@@ -96,13 +76,44 @@ void System::place_touched(std::size_t p) {
     }
 }
 
-double System::depth_share(double time, ConstVector U, ConstVector V) {
+double SystemContact::depth_share() const {
   double share = 0;
-  const ContactState& contact = contacts(time, U, V);
   for (std::size_t p = 0; p < pairs_.size(); ++p)
-    for (const contact::ContactPoint& point : contact.pair[p].points)
-      share = std::max(share, -point.g_n / detectors_[p].settings().depth);
+    for (const contact::ContactPoint& point : state_.pair[p].points)
+      share = std::max(share, -point.g_n / settings(p).depth);
   return share;
+}
+
+bool SystemContact::sticks(std::size_t p) const {
+  const contact::FrictionSettings& friction = pairs_[p].settings.friction;
+  return friction.mu > 0 && friction.law == contact::FrictionLaw::stick;
+}
+
+void SystemContact::accept() {
+  double power = 0;
+  bool any_sticks = false;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    any_sticks |= sticks(p);
+    for (const contact::ContactPoint& point : state_.pair[p].points) {
+      history_.loss += point.slip_work;
+      power += point.power + (sticks(p) ? 0 : point.friction_power);
+    }
+    detectors_[p].accept(state_.pair[p].points);
+  }
+  if (history_.accepted) history_.loss += 0.5 * (time_ - history_.time) * (power + history_.power);
+  history_.accepted = true;
+  history_.time = time_;
+  history_.power = power;
+  if (residual_contact_.any()) residual_contact_.accept(time_);
+  if (any_sticks) forget();  // forces of the same state start from the new history
+}
+
+void SystemContact::serialize(Archive& archive) {
+  archive(history_.accepted);
+  for (double* x : {&history_.time, &history_.power, &history_.loss}) archive(*x);
+  for (contact::Pair& pair : detectors_) pair.serialize(archive);
+  residual_contact_.serialize(archive);
+  if (archive.is_loading()) forget();
 }
 
 }  // namespace elastogear::dynamics

@@ -1,0 +1,84 @@
+#pragma once
+// What a system of elastic bodies consists of: bodies on joints, contact pairs, loads, and where everything
+// starts. It does not change during a run, but for the placements from which rotation vectors count.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elastogear/body/equations.h"
+#include "elastogear/contact/types.h"
+#include "elastogear/dynamics/axis.h"
+#include "elastogear/dynamics/marker_forces.h"
+#include "elastogear/model/result.h"
+
+namespace elastogear::dynamics {
+
+struct BodySetup {
+  std::string name;
+  std::shared_ptr<const model::ElasticBody> body = nullptr;
+  body::Joint joint = {};
+  Axis rotation = {};                                   ///< revolute and cylindrical: about the axis
+  Axis translation = {};                                ///< prismatic and cylindrical: along the axis
+  Eigen::Vector3d velocity0 = Eigen::Vector3d::Zero();  ///< free: m/s, of the BRF's origin, in W
+  Eigen::Vector3d omega0 = Eigen::Vector3d::Zero();     ///< free and spherical: rad/s, in the BRF
+  Eigen::VectorXd q_dot0 = {};                          ///< n_q, initial elastic velocity; empty: zero
+};
+
+struct PairSetup {
+  std::string name;      ///< "a:b", surface a and surface b of the contact module
+  int body[2] = {0, 1};  ///< indices into the bodies
+  contact::Settings settings;
+};
+
+/// Settings and loads common to all bodies.
+struct Environment {
+  body::InertiaLevel inertia = body::InertiaLevel::affine;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
+  double gravity_rise = 0;  ///< s, from time 0 on, within which gravity grows from zero
+};
+double gravity_share(const Environment& environment, double time);  ///< 0..1, of its gravity
+Eigen::Vector3d gravity(const Environment& environment, double time);
+
+struct SystemModel {
+  struct Body {
+    std::string name;
+    body::Equations eq;
+    Eigen::Index first;              ///< first entry of [s; q] in a system vector
+    std::vector<Axis> axis;          ///< one per joint coordinate; free, spherical: none
+    std::vector<Eigen::Index> open;  ///< joint coordinates without prescribed motion, ascending
+    bool in_contact;                 ///< named by a pair
+    std::vector<int> node_group;     ///< face group of each surface node: that of its lowest face
+    Eigen::VectorXd node_area;       ///< m^2, share of the surface of each of its nodes
+
+    Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
+  };
+
+  std::vector<Body> bodies;
+  std::vector<PairSetup> pairs;
+  Environment environment;
+  MarkerForces marker_forces;
+  Eigen::VectorXd U_0, V_0;  ///< initial positions and velocities
+};
+
+/// Throws Error for what cannot be simulated: no bodies, equal names, values that are not finite, motion or
+/// loads that the joint does not have, bodies without mass that may move, pairs of a body with itself or
+/// without surfaces.
+SystemModel make_system_model(const std::vector<BodySetup>& bodies, const std::vector<PairSetup>& pairs,
+                              const Environment& environment = {}, const MarkerSetups& markers = {});
+
+using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
+
+/// A state of the system. The vectors must outlive it.
+struct State {
+  double time;  ///< s
+  ConstVector U, V, A;
+};
+
+/// Motion of a body, prescribed coordinates included.
+body::Motion motion(const SystemModel& model, std::size_t b, const State& x);
+std::vector<MovingBody> moving_bodies(const SystemModel& model, const State& x);
+/// Names of bodies, joints, pairs and face groups for the result file; the bodies' files stay empty.
+model::ResultHeader result_header(const SystemModel& model);
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,66 @@
+#pragma once
+// Contact of all pairs of a system: its evaluation at one state, and what the next one takes from the steps
+// before.
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/contact/residual_contact.h"
+#include "elastogear/contact/pair.h"
+#include "elastogear/dynamics/system_model.h"
+
+namespace elastogear::dynamics {
+
+class SystemContact {
+ public:
+  /// The elastic bodies of the model must outlive this.
+  explicit SystemContact(const SystemModel& model);
+
+  /// What was evaluated last, if that was this state; null otherwise.
+  const ContactState* known(double time, ConstVector U, ConstVector V) const;
+  /// Contacts and static responses of a state with these motions of the bodies' surfaces.
+  const ContactState& evaluate(double time, ConstVector U, ConstVector V,
+                               const std::vector<contact::SurfaceMotion>& motion);
+  /// Makes known() forget the last evaluation.
+  void forget() { U_.reset(); }
+
+  const contact::Settings& settings(std::size_t pair) const { return detectors_[pair].settings(); }
+  /// The following are those of the last evaluation. System has their docstrings.
+  double depth_share() const;
+  double residual_energy(std::size_t b) { return residual_contact_.energy(b); }
+  Eigen::MatrixXd flexibility_among(std::size_t b, const std::vector<int>& node) {
+    return residual_contact_.among(b, node);
+  }
+
+  /// Accepts the last evaluation as the end of a step.
+  void accept();
+  /// J, taken by damping and friction up to the last accepted state.
+  double loss() const { return history_.loss; }
+  /// The history of contact, and all else that later evaluations take from earlier ones.
+  void serialize(Archive& archive);
+
+ private:
+  struct History {
+    bool accepted = false;  // is there an accepted state?
+    double time = 0;        // s, of the last one
+    double power = 0;       // W, taken by damping and regularised friction then
+    double loss = 0;        // J, taken since the start
+  };
+
+  void place(const std::vector<contact::SurfaceMotion>& motion);
+  void place_touched(std::size_t p);
+  void detect(const std::vector<contact::SurfaceMotion>& motion);
+  bool sticks(std::size_t p) const;
+
+  std::vector<PairSetup> pairs_;
+  std::vector<const model::Surface*> surface_;  // of each body; null where no pair names it
+  std::vector<contact::Pair> detectors_;        // they keep the nodes that stick
+  ResidualContact residual_contact_;
+  History history_;
+  double time_ = 0;  // s, of the last evaluation
+  std::optional<Eigen::VectorXd> U_;
+  Eigen::VectorXd V_;
+  ContactState state_;
+};
+
+}  // namespace elastogear::dynamics
