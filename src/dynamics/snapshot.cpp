@@ -20,7 +20,7 @@ void add_markers(const System& system, const State& x, model::Snapshot& result) 
   const std::vector<MovingBody> bodies = system.moving_bodies(x);
   const MarkerSetups& setups = forces.setups();
   for (std::size_t i = 0; i < setups.bushings.size(); ++i) {
-    const BushingState b = forces.bushing_state(i, bodies);
+    const BushingForce b = forces.bushing_force(i, bodies);
     result.bushings.push_back({b.d, b.d_dot, b.angle, b.w, b.force, b.torque});
     result.energy.bushing += b.energy;
   }

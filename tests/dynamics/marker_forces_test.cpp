@@ -170,7 +170,7 @@ TEST(Bushing, forces_and_moments_on_both_bodies_balance) {
       .x = {1, 2, 3}, .R = rotation_matrix({0.1, 0.2, 0.3}), .v = {1, 0, 2}, .w = {0, 1, 1}},
       second{.x = {1.3, 2.2, 2.5}, .R = rotation_matrix({-0.4, 0.5, 0.3}), .v = {0, 2, 1}, .w = {1, -1, 2}};
   const Bushing b = make_bushing({{2, 3, 4}, {5, 6, 7}, {1, 2, 3}, {2, 1, 3}}, Matrix3d::Identity(), {}, {});
-  const BushingState state = dynamics::bushing_state(b, first, second);
+  const BushingForce state = dynamics::bushing_force(b, first, second);
   const body::Wrench on_1 = state.on_first(second.x - first.x), on_2 = state.on_second();
   const Vector3d moment =
       on_1.tail<3>() + first.x.cross(on_1.head<3>()) + on_2.tail<3>() + second.x.cross(on_2.head<3>());

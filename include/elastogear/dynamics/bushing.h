@@ -24,7 +24,7 @@ struct Bushing {
 Bushing make_bushing(const BushingLaw& law, const Eigen::Matrix3d& A, const body::MarkerMotion& first,
                      const body::MarkerMotion& second);
 
-struct BushingState {
+struct BushingForce {
   Eigen::Vector3d d, d_dot;       ///< m, m/s, displacement of the second marker, along the axes
   Eigen::Vector3d angle, w;       ///< rad, tilt about x and y, turn about z; rad/s
   Eigen::Vector3d force, torque;  ///< N, N m, on the second marker, components in the world
@@ -35,7 +35,7 @@ struct BushingState {
   body::Wrench on_second() const;
 };
 /// Displacement, angles, force and torque of a bushing: Eqs. (3.19) and (3.21).
-BushingState bushing_state(const Bushing& bushing, const body::MarkerMotion& first,
+BushingForce bushing_force(const Bushing& bushing, const body::MarkerMotion& first,
                            const body::MarkerMotion& second);
 
 /// Change of [on_first; on_second] with x, orientation, v, w of the first and of the second marker, all

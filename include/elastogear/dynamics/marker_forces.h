@@ -90,7 +90,7 @@ class MarkerForces {
   body::MarkerMotion load_motion(std::size_t i, const std::vector<MovingBody>& bodies) const;
   body::MarkerMotion sensor_motion(std::size_t i, const std::vector<MovingBody>& bodies) const;
   body::Wrench load_wrench(std::size_t i, double time, const body::MarkerMotion& marker) const;
-  BushingState bushing_state(std::size_t i, const std::vector<MovingBody>& bodies) const;
+  BushingForce bushing_force(std::size_t i, const std::vector<MovingBody>& bodies) const;
 
  private:
   /// Columns of a marker in W k V': changes of x, orientation, v and w; elastic markers have three more, of

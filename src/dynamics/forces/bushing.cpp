@@ -101,23 +101,23 @@ Bushing make_bushing(const BushingLaw& law, const Matrix3d& A, const MarkerMotio
   return {law, first.R.transpose() * A, second.R.transpose() * A, A.transpose() * (second.x - first.x)};
 }
 
-body::Wrench BushingState::on_first(const Vector3d& r) const {
+body::Wrench BushingForce::on_first(const Vector3d& r) const {
   body::Wrench wrench;
   wrench << -force, -torque - r.cross(force);
   return wrench;
 }
 
-body::Wrench BushingState::on_second() const {
+body::Wrench BushingForce::on_second() const {
   body::Wrench wrench;
   wrench << force, torque;
   return wrench;
 }
 
-BushingState bushing_state(const Bushing& bushing, const MarkerMotion& first, const MarkerMotion& second) {
+BushingForce bushing_force(const Bushing& bushing, const MarkerMotion& first, const MarkerMotion& second) {
   const Relative rel = relative(bushing, first, second);
   const BushingLaw& law = bushing.law;
   const TiltAndTurn turned = springs(bushing, first, second);
-  BushingState state;
+  BushingForce state;
   state.d = rel.A.transpose() * rel.r - bushing.d_0;
   state.d_dot = rel.A.transpose() * rel.v_r;
   state.angle = turned.angle;
@@ -132,7 +132,7 @@ Eigen::Matrix<double, 12, 24> bushing_derivative(const Bushing& bushing, const M
                                                  const MarkerMotion& second) {
   const BushingLaw& law = bushing.law;
   const Relative rel = relative(bushing, first, second);
-  const BushingState state = bushing_state(bushing, first, second);
+  const BushingForce state = bushing_force(bushing, first, second);
   const Matrix3d& A = rel.A;
   const Matrix3d K = A * law.k.asDiagonal() * A.transpose(), C = A * law.c.asDiagonal() * A.transpose(),
                  C_r = A * law.c_r.asDiagonal() * A.transpose(),

@@ -173,7 +173,7 @@ std::vector<Wrench> MarkerForces::bushing_wrenches(const std::vector<MarkerMotio
   std::vector<Wrench> wrench(place_.size(), Wrench::Zero());
   for (std::size_t i = 0; i < bushing_.size(); ++i) {
     const auto [first, second] = bushing_at_[i];
-    const BushingState state = dynamics::bushing_state(bushing_[i], motion[first], motion[second]);
+    const BushingForce state = dynamics::bushing_force(bushing_[i], motion[first], motion[second]);
     wrench[first] += state.on_first(motion[second].x - motion[first].x);
     wrench[second] += state.on_second();
   }
@@ -274,9 +274,9 @@ Wrench MarkerForces::load_wrench(std::size_t i, double time, const MarkerMotion&
   return wrench_of(setups_.loads[i], time, marker);
 }
 
-BushingState MarkerForces::bushing_state(std::size_t i, const std::vector<MovingBody>& bodies) const {
+BushingForce MarkerForces::bushing_force(std::size_t i, const std::vector<MovingBody>& bodies) const {
   const auto [first, second] = bushing_at_[i];
-  return dynamics::bushing_state(bushing_[i], motion(place(first), bodies), motion(place(second), bodies));
+  return dynamics::bushing_force(bushing_[i], motion(place(first), bodies), motion(place(second), bodies));
 }
 
 }  // namespace elastogear::dynamics
