@@ -6,29 +6,18 @@
 #include <fstream>
 
 #include "elastogear/io/body_file.h"
-#include "elastogear/io/result_file.h"
-#include "elastogear/io/stress_file.h"
 #include "elastogear/mesh/file.h"
 #include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/quality.h"
 #include "io/body/body_schema.h"
+#include "io/describe_text.h"
 #include "io/hdf5/schema.h"
+#include "io/result/describe_result.h"
 
 namespace elastogear::io {
 namespace {
 
-using Out = std::ostringstream;
-
 const Eigen::IOFormat kRow(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ");
-
-template <class... Parts>
-void line(Out& out, const Parts&... parts) {
-  (out << ... << parts) << '\n';
-}
-
-std::string counted(std::size_t n, const std::string& thing) {
-  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
-}
 
 template <class Set>
 void describe_sets(Out& out, const char* kind, const std::map<std::string, Set>& sets) {
@@ -56,12 +45,6 @@ void describe_mesh(Out& out, const mesh::Mesh& mesh) {
   describe_sets(out, "node", mesh.node_sets);
   describe_sets(out, "cell", mesh.cell_sets);
   describe_sets(out, "face", mesh.face_sets);
-}
-
-void describe_map(Out& out, const std::map<std::string, std::string>& provenance) {
-  if (provenance.empty()) return;
-  line(out, "provenance:");
-  for (const auto& [key, value] : provenance) line(out, "  ", key, ": ", value);
 }
 
 void describe_materials(Out& out, const std::vector<model::MaterialRegion>& regions) {
@@ -171,67 +154,6 @@ void describe_body(Out& out, const std::string& path) {
   for (const model::Check& check : source.checks) describe_check(out, check);
   describe_mesh(out, source.mesh);
   describe_map(out, body.provenance);
-}
-
-void describe_pair(Out& out, const std::string& path, const std::string& name, const Eigen::VectorXd& time) {
-  const PairHistory history = read_pair_history(path, name);
-  line(out, "contact ", name, ": ", counted(history.group_name[0].size(), "group"), " and ",
-       counted(history.group_name[1].size(), "group"));
-  Eigen::Index at = 0;
-  const double peak = history.force.colwise().norm().maxCoeff(&at);
-  line(out, "  peak force: ", peak, " N at t = ", time[at], " s");
-  line(out, "  most contacts: ", history.count.maxCoeff(),
-       ", largest penetration: ", history.penetration.maxCoeff(), " m");
-}
-
-void describe_energies(Out& out, const EnergyHistory& energy) {
-  const auto last = energy.balance.size() - 1;
-  line(out, "energy at the start: ", energy.kinetic[0], " J kinetic, ", energy.elastic[0], " J elastic, ",
-       energy.contact[0], " J contact");
-  line(out, "energy at the end: ", energy.kinetic[last], " J kinetic, ", energy.elastic[last], " J elastic, ",
-       energy.contact[last], " J contact, ", energy.dissipated[last], " J dissipated, ", energy.work[last],
-       " J work of loads");
-  line(out, "energy balance: at most ", energy.balance.cwiseAbs().maxCoeff(), " J off");
-}
-
-void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& time) {
-  require(time.size() > 0, path, ": holds no times");
-  line(out, "times: ", time.size(), " from ", time[0], " to ", time[time.size() - 1], " s");
-}
-
-void describe_result(Out& out, const std::string& path) {
-  const model::ResultHeader header = read_result_header(path);
-  const Eigen::VectorXd time = read_times(path);
-  describe_times(out, path, time);
-  if (!is_complete(path)) line(out, "incomplete: the run has not reached its end");
-  for (const auto& body : header.bodies) {
-    const h5::Shape q = h5::shape(h5::open(path), "/bodies/" + body.name + "/q");
-    line(out, "body ", body.name, ": ", body.file, ", joint ", body.joint, ", ",
-         counted(q.back(), "elastic coordinate"));
-  }
-  for (const auto& pair : header.pairs) describe_pair(out, path, pair.name, time);
-  for (const std::string& name : header.bushings) {
-    const BushingHistory history = read_bushing_history(path, name);
-    line(out, "bushing ", name, ": peak force ", history.force.colwise().norm().maxCoeff(),
-         " N, peak torque ", history.torque.colwise().norm().maxCoeff(), " N m");
-  }
-  for (const std::string& name : header.sensors) line(out, "sensor ", name);
-  describe_energies(out, read_energies(path));
-  describe_map(out, header.provenance);
-}
-
-void describe_stress(Out& out, const std::string& path) {
-  const StressHistory history = read_stress(path);
-  describe_times(out, path, history.time);
-  for (const StressSet& set : history.sets) {
-    line(out, "stress of ", set.body, "/", set.set, ": ", counted(set.node.size(), "node"), ", body frame");
-    if (set.node.empty()) continue;
-    Eigen::Index node = 0, step = 0;
-    const double peak = set.von_mises.maxCoeff(&node, &step);
-    line(out, "  peak von Mises: ", peak, " Pa at node ", set.node[node], ", t = ", history.time[step], " s");
-    line(out, "  peak Rankine: ", set.rankine.maxCoeff(), " Pa");
-  }
-  describe_map(out, history.provenance);
 }
 
 void describe_hdf5(Out& out, const std::string& path) {

@@ -115,7 +115,7 @@ std::string reading_of_stress(const std::string& path) {
   for (const StressSet& set : history.sets) {
     all += set.body + set.set;
     for (int node : set.node) all += std::to_string(node);
-    add_each(all, set.stress, set.von_mises, set.rankine, set.X);
+    add_each(all, set.stress, set.von_mises, set.rankine, set.X, set.error, set.peak_error);
   }
   return all;
 }
@@ -171,7 +171,15 @@ void make_stress(const std::string& path) {
     return Eigen::MatrixXd(Eigen::MatrixXd::Random(rows, columns));
   };
   StressHistory history{Eigen::Vector2d(0, 1e-6), {}, {{"elastogear", "0.1.0"}}};
-  history.sets = {{"worm", "root", {4, 7}, random(12, 2), random(2, 2), random(2, 2), random(3, 2)}};
+  history.sets = {{"worm",
+                   "root",
+                   {4, 7},
+                   random(12, 2),
+                   random(2, 2),
+                   random(2, 2),
+                   random(3, 2),
+                   random(2, 2),
+                   random(2, 1)}};
   write_stress(path, history);
 }
 

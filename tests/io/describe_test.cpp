@@ -103,11 +103,22 @@ TEST_F(Describe, result_files) {
 
 TEST_F(Describe, stress_and_field_files) {
   write_stress(path("stress.h5"), sample_stress());
-  EXPECT_THAT(describe(path("stress.h5")),
-              AllOf(HasSubstr("worm/root: 2 nodes"),
-                    HasSubstr("peak von Mises: 1.23e+08 Pa at node 7, t = 2e-06 s")));
+  EXPECT_THAT(
+      describe(path("stress.h5")),
+      AllOf(HasSubstr("worm/root: 2 nodes"), HasSubstr("peak von Mises: 1.23e+08 Pa at node 7, t = 2e-06 s"),
+            HasSubstr("estimated error of the reduction: none in the file")));
   write_vtu(path("a.vtu"), mesh::box_mesh({1, 1, 1}), {});
   EXPECT_THAT(describe(path("a.vtu")), HasSubstr("VTK unstructured grid"));
+}
+
+TEST_F(Describe, estimated_errors_of_stresses) {
+  StressHistory history = sample_stress();
+  history.sets[0].error = Eigen::MatrixXd::Constant(2, 3, 2e6);
+  history.sets[0].error(0, 1) = 5e6;
+  history.sets[0].peak_error = Eigen::Vector3d(1e6, 2e6, 1.23e6);
+  write_stress(path("stress.h5"), history);
+  EXPECT_THAT(describe(path("stress.h5")),
+              HasSubstr("estimated error of the reduction: 1.23e+06 Pa of the peak (1 %), at most 5e+06 Pa"));
 }
 
 TEST_F(Describe, unknown_files_are_errors) {

@@ -1,0 +1,13 @@
+#pragma once
+// Description of result and stress files. Private to module io.
+
+#include <string>
+
+#include "io/describe_text.h"
+
+namespace elastogear::io {
+
+void describe_result(Out& out, const std::string& path);
+void describe_stress(Out& out, const std::string& path);
+
+}  // namespace elastogear::io
