@@ -81,14 +81,11 @@ def last_states(path):
                 for body in BODIES}
 
 
-def contact_points(path):
-    """Contacts at the end of a result file: side of the slave (0: worm), its node, face, shape functions, force (N, world)."""
-    with results.open_file(path, "result") as file:
-        points = file["contact/worm:wheel/points"]
-        last = slice(*points["offset"][-2:])
-        xi, eta = points["xi"][last], points["eta"][last]
-        N = np.array([(1 + a * xi) * (1 + b * eta) / 4 for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]).T
-        return zip(points["slave_side"][last], points["slave_node"][last], points["face"][last], N, points["force"][last])
+def contact_points(file):
+    """Contacts at the end of a result file: side of the slave (0: worm), its node, face, force on the node (N, world)."""
+    points = file["contact/worm:wheel/points"]
+    last = slice(*points["offset"][-2:])
+    return zip(*(points[name][last] for name in ("slave_side", "slave_node", "face", "force")))
 
 
 class Surface:
@@ -104,17 +101,15 @@ class Surface:
 
 def contact_loads(result, surfaces):
     """Our contact forces at the end: {node of the mesh: N} of each body, and {(worm's area, wheel's): N on the wheel}."""
-    loads, pairs = ({}, {}), {}
-
-    def add(table, key, force):
-        table[key] = table.get(key, 0) + force
-    for side, slave, face, N, force in contact_points(result):
-        master = surfaces[1 - side]
-        add(loads[side], surfaces[side].node[slave], force)
-        for node, share in zip(master.face[face], N):
-            add(loads[1 - side], master.node[node], -share * force)
-        areas = (surfaces[side].area_of_node[slave], master.area[face])
-        add(pairs, areas if side == 0 else areas[::-1], force if side == 1 else -force)
+    loads, pairs = [], {}
+    with results.open_file(result, "result") as file:
+        for body, surface in zip(BODIES, surfaces):
+            nodes, forces = results.nodal_forces(file, body, -1)
+            loads.append(dict(zip(surface.node[nodes], forces)))
+        for side, slave, face, force in contact_points(file):
+            areas = (surfaces[side].area_of_node[slave], surfaces[1 - side].area[face])
+            key = areas if side == 0 else areas[::-1]
+            pairs[key] = pairs.get(key, 0) + (force if side == 1 else -force)
     return loads, pairs
 
 

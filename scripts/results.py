@@ -53,6 +53,18 @@ def total_force(pair):
     return np.linalg.norm(pair["force"][:], axis=1)
 
 
+def nodal_forces(file, body, step):
+    """Contact forces on a body at one output time: its surface nodes (numbers into /surface/nodes of the body file), and the
+    forces (n x 3, N, world frame)."""
+    state = file[f"bodies/{body}"]
+    if "contact_forces" not in state:
+        sys.exit(f"{file.filename}: holds no contact forces at nodes, as results of older versions: run simulate again")
+    forces, offset = state["contact_forces"], state["contact_forces/offset"][:]
+    start = range(len(offset) - 1)[step]
+    rows = slice(offset[start], offset[start + 1])
+    return forces["node"][rows], forces["force"][rows] @ state["rotation"][step].T
+
+
 def torque_on_worm(file):
     """Moment of the contact forces about the worm's axis at all times, N m; the pair's force and moment are those on the wheel."""
     pair, worm = next(iter(file["contact"].values())), file["bodies/worm"]

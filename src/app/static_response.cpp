@@ -12,16 +12,6 @@ constexpr std::size_t kLargestReference =
     500'000;  // displacements of a body that is factorised for an estimate
 constexpr const char* kPointMass = "option_point_mass_";  // beginning of keys in the provenance
 
-std::vector<recovery::PairContacts> contacts_of(const BodyOfRun& body) {
-  const model::ResultHeader header = io::read_result_header(body.result);
-  std::vector<recovery::PairContacts> pairs;
-  for (const auto& pair : header.pairs)
-    for (int side : {0, 1})
-      if (header.bodies[pair.body[side]].name == body.name)
-        pairs.push_back({side, io::read_contacts(body.result, pair.name)});
-  return pairs;
-}
-
 // Positions in the flexibility of these surface nodes; empty when the body file lacks the static response to
 // forces on one of them.
 std::vector<int> find_responses(const model::Flexibility& flexibility, const std::vector<int>& nodes) {
@@ -83,8 +73,7 @@ std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body) {
   model::ElasticBody elastic = io::read_body(body.file);
   require_body_of_run(elastic, body);
   if (elastic.basis == model::Basis::full) return nullptr;
-  const recovery::ForceHistory forces =
-      recovery::contact_forces(contacts_of(body), elastic.surface, body.history.R_WB);
+  const model::ForceHistory forces = io::read_contact_forces(body.result, body.name, elastic.surface);
   auto known_response = std::make_unique<StaticResponseOfRun>();
   known_response->position = find_responses(elastic.flexibility, forces.node);
   known_response->q = recovery::dynamic_part(elastic, body.history.q, forces);

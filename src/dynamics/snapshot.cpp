@@ -6,8 +6,16 @@ namespace elastogear::dynamics {
 namespace {
 
 model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& placement,
-                            const Eigen::VectorXd& joint_force) {
-  return {placement.r_WB, placement.R_WB, m.s, m.s_dot, m.s_ddot, m.q, m.q_dot, m.q_ddot, joint_force};
+                            const NodalForces& contact) {
+  return {.r_WB = placement.r_WB,
+          .R_WB = placement.R_WB,
+          .s = m.s,
+          .s_dot = m.s_dot,
+          .s_ddot = m.s_ddot,
+          .q = m.q,
+          .q_dot = m.q_dot,
+          .q_ddot = m.q_ddot,
+          .contact = {contact.node, contact.f_B}};
 }
 
 // Stored energy: docs/theory.md, Eq. (7.1).
@@ -54,7 +62,8 @@ model::Snapshot snapshot(System& system, const State& x) {
   result.time = x.time;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {
     const body::Motion m = system.motion(b, x);
-    result.bodies.push_back(body_state(m, contact.surface[b], system.joint_force(b, x)));
+    result.bodies.push_back(body_state(m, contact.surface[b], contact.force[b]));
+    result.bodies.back().joint_force = system.joint_force(b, x);
     result.energy.kinetic += body::kinetic_energy(system.bodies()[b].eq, m);
     result.energy.elastic += body::elastic_energy(system.bodies()[b].eq, m) + system.residual_energy(b);
   }

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCheckpointFormat = "elastogear piece";
+constexpr Format kCheckpointFormat{"elastogear piece"};
 constexpr const char* kExtension = ".h5";
 
 // The fingerprint of a whole checkpoint, or nothing.

@@ -160,10 +160,10 @@ void describe_hdf5(Out& out, const std::string& path) {
   const h5::File file = h5::open(path);
   const std::string format = h5::string_attribute(file, "/", "format");
   line(out, "format: ", format, ", version ", version(file), "; SI units");
-  if (format == kBodyFormat) return describe_body(out, path);
-  if (format == kResultFormat) return describe_result(out, path);
-  require(format == kStressFormat, path, ": unknown format '", format, "', known are '", kBodyFormat, "', '",
-          kResultFormat, "', '", kStressFormat, "'");
+  if (format == kBodyFormat.name) return describe_body(out, path);
+  if (format == kResultFormat.name) return describe_result(out, path);
+  require(format == kStressFormat.name, path, ": unknown format '", format, "', known are '",
+          kBodyFormat.name, "', '", kResultFormat.name, "', '", kStressFormat.name, "'");
   describe_stress(out, path);
 }
 

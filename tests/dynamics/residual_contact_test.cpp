@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kSinglePrecision = 2e-6;  // of stored answers
+constexpr double kBalanced = 1e-7;         // of the forces
 constexpr int kModes = 6;
 
 enum class Kind { modal, flexible, full };
@@ -31,7 +32,8 @@ std::shared_ptr<model::ElasticBody> block(Kind kind, const Eigen::Vector3i& cell
 
 // A block on a slide meets another one, beside it by a third of its width and tilted, so that only a part
 // touches.
-System blocks(Kind kind, double force, double speed, double stiffness) {
+System blocks(Kind kind, double force, double speed, double stiffness,
+              const contact::FrictionSettings& friction = {}) {
   std::vector<BodySetup> setups{{.name = "ram", .body = block(kind, {2, 3, 2}, 0)},
                                 {.name = "wall", .body = block(kind, {2, 2, 2}, 1)}};
   setups[0].joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}};
@@ -42,16 +44,18 @@ System blocks(Kind kind, double force, double speed, double stiffness) {
   pair.settings.stiffness = stiffness;
   pair.settings.depth = 0.05;
   pair.settings.two_pass = true;
+  pair.settings.friction = friction;
   if (force != 0) scale_by_load_factor(setups[0], std::numeric_limits<double>::infinity());
   return System(std::move(setups), {pair});
 }
 
-model::Snapshot equilibrium(Kind kind) {
-  System system = blocks(kind, 300, 0, 1e5);
+model::Snapshot equilibrium(System system) {
   model::Snapshot last;
   solve_static(system, {4}, [&](const model::Snapshot& snapshot) { last = snapshot; });
   return last;
 }
+
+model::Snapshot equilibrium(Kind kind) { return equilibrium(blocks(kind, 300, 0, 1e5)); }
 
 std::vector<model::Snapshot> impact(Kind kind) {
   System system = blocks(kind, 0, 0.5, 5e3);
@@ -80,6 +84,24 @@ TEST(ResidualContact, equilibrium_is_that_of_the_full_basis) {
     EXPECT_LT((flexible.pairs[0].contacts[i].f - f).norm(),
               10 * kSinglePrecision * full.pairs[0].force.norm());
   }
+}
+
+// Friction and the open ends of the surfaces give forces and couples beside those of the facets.
+TEST(ResidualContact, forces_at_the_nodes_are_those_that_bend_the_bodies) {
+  for (Kind kind : {Kind::modal, Kind::flexible, Kind::full})
+    for (double mu : {0.0, 0.3}) {
+      const model::Snapshot rest = equilibrium(
+          blocks(kind, 300, 0, 1e5, {.mu = mu, .law = contact::FrictionLaw::stick, .stiffness = 0.5}));
+      for (std::size_t b : {0u, 1u}) {
+        const auto body = block(kind, {2, b == 0 ? 3 : 2, 2}, b == 0 ? 0 : 1);
+        const model::ContactForces& contact = rest.bodies[b].contact;
+        Eigen::VectorXd h = Eigen::VectorXd::Zero(body->n_q());
+        for (std::size_t i = 0; i < contact.node.size(); ++i)
+          model::add_force(body->surface.Phi, contact.node[i], contact.f_B.col(static_cast<Eigen::Index>(i)),
+                           h);
+        EXPECT_LT((body->K_r * rest.bodies[b].q - h).norm(), kBalanced * h.norm()) << mu;
+      }
+    }
 }
 
 TEST(ResidualContact, stored_energy_of_an_equilibrium_is_that_of_the_full_basis) {

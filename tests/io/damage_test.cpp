@@ -88,6 +88,9 @@ std::string reading_of_result(const std::string& path) {
   for (const char* name : {"wheel", "ground"}) {
     const BodyHistory h = read_body_history(path, name);
     add_each(all, h.q, h.q_dot, h.q_ddot, h.s, h.s_dot, h.s_ddot, h.r_WB, h.R_WB);
+    const model::ForceHistory f = read_contact_forces(path, name, sample_surface());
+    for (int node : f.node) all += std::to_string(node) + " ";
+    add_each(all, f.force);
   }
   const PairHistory p = read_pair_history(path, "wheel:ground");
   add_each(all, p.force, p.torque, p.count.cast<double>(), p.penetration, p.area, p.pressure, p.sliding_speed,

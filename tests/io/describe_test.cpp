@@ -97,6 +97,8 @@ TEST_F(Describe, result_files) {
   write_result(path("impact.h5"), sample_snapshots(5));
   EXPECT_THAT(describe(path("impact.h5")),
               AllOf(HasSubstr("times: 5 from 0 to 4e-06 s"), HasSubstr("wheel.h5, joint revolute, 5 elastic"),
+                    HasSubstr("elastogear result, version 3"),
+                    HasSubstr("touched at 4 surface nodes, largest contact force on one: "),
                     HasSubstr("most contacts: 3, largest penetration: 3e-06 m"), HasSubstr("peak force"),
                     HasSubstr("energy balance: at most 0.006 J off"), HasSubstr("-ts_dt 1e-6")));
 }

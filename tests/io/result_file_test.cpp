@@ -28,7 +28,10 @@ struct ResultFile : testing::Test {
     return "no error";
   }
   void read_all() const {
-    for (const auto& body : read_result_header(path).bodies) read_body_history(path, body.name);
+    for (const auto& body : read_result_header(path).bodies) {
+      read_body_history(path, body.name);
+      read_contact_forces(path, body.name, sample_surface());
+    }
     read_pair_history(path, "wheel:ground");
     read_contacts(path, "wheel:ground");
     read_energies(path);
@@ -133,6 +136,24 @@ TEST_F(ResultFile, gives_contacts_back_to_the_bit) {
   }
 }
 
+TEST_F(ResultFile, gives_contact_forces_at_nodes_back_to_the_bit) {
+  const auto snapshots = sample_snapshots(kSteps);
+  write_result(path, snapshots);
+  const model::ForceHistory history = read_contact_forces(path, "wheel", sample_surface());
+  ASSERT_EQ(history.node, (std::vector<int>{5, 6, 7, 8, 9, 10, 11}));
+  ASSERT_EQ(history.force.cols(), kSteps);
+  for (int i = 0; i < kSteps; ++i) {
+    const model::ContactForces& forces = snapshots[i].bodies[0].contact;
+    Eigen::Matrix3Xd expected = Eigen::Matrix3Xd::Zero(3, 7);
+    for (std::size_t k = 0; k < forces.node.size(); ++k)
+      expected.col(forces.node[k] - 5) = forces.f_B.col(static_cast<Eigen::Index>(k));
+    EXPECT_EQ(history.force.col(i), expected.reshaped());
+  }
+  EXPECT_TRUE(read_contact_forces(path, "ground", sample_surface(0)).node.empty());
+  EXPECT_THAT(message([&] { read_contact_forces(path, "wheel", sample_surface(11)); }),
+              HasSubstr("acts on node 11 of 'wheel', whose surface has 0..10"));
+}
+
 TEST_F(ResultFile, gives_energies_back_to_the_bit) {
   write_result(path, sample_snapshots(3));
   const EnergyHistory energy = read_energies(path);
@@ -169,6 +190,10 @@ void expect_equal_histories(const std::string& a, const std::string& b) {
   EXPECT_EQ(read_body_history(a, "ground").q.cols(), read_body_history(b, "ground").q.cols());
   EXPECT_EQ(read_pair_history(a, "wheel:ground").group_force[0],
             read_pair_history(b, "wheel:ground").group_force[0]);
+  const model::ForceHistory f_a = read_contact_forces(a, "wheel", sample_surface()),
+                            f_b = read_contact_forces(b, "wheel", sample_surface());
+  EXPECT_EQ(f_a.node, f_b.node);
+  EXPECT_EQ(f_a.force, f_b.force);
   const auto of_a = read_contacts(a, "wheel:ground"), of_b = read_contacts(b, "wheel:ground");
   ASSERT_EQ(of_a.size(), of_b.size());
   for (std::size_t i = 0; i < of_a.size(); ++i) {
@@ -250,6 +275,12 @@ TEST_F(ResultFile, refuses_snapshots_that_do_not_fit) {
   snapshot = sample_snapshot(2);
   snapshot.bodies[0].q[1] = NAN;
   EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("not finite"));
+  snapshot = sample_snapshot(2);
+  snapshot.bodies[0].contact.f_B(2, 1) = NAN;
+  EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("not finite"));
+  snapshot = sample_snapshot(2);
+  snapshot.bodies[0].contact.node.pop_back();
+  EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("wheel has 2 contact forces at 1 nodes"));
   snapshot = sample_snapshot(2);
   snapshot.bodies.pop_back();
   EXPECT_THAT(message([&] { writer.append(snapshot); }), HasSubstr("1 bodies"));

@@ -24,11 +24,20 @@ inline model::BodyState sample_state(int n_q, int n_s) {
   return body;
 }
 
-/// n contacts at step n % 4.
+/// A surface of n nodes that the contact forces of sample_snapshot() act on.
+inline model::Surface sample_surface(int n = 20) {
+  model::Surface surface;
+  surface.X.setZero(3, n);
+  return surface;
+}
+
+/// n contacts at step n % 4, and as many nodes of the wheel that are touched.
 inline model::Snapshot sample_snapshot(int step) {
   model::Snapshot snapshot;
   snapshot.time = 1e-6 * step;
   snapshot.bodies = {sample_state(5, 1), sample_state(0, 0)};
+  for (int i = 0; i < step % 4; ++i) snapshot.bodies[0].contact.node.push_back(5 + 2 * i + step % 3);
+  snapshot.bodies[0].contact.f_B.setRandom(3, step % 4);
   model::PairState pair;
   pair.force.setRandom();
   pair.torque.setRandom();

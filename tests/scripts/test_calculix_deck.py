@@ -4,8 +4,8 @@ import sys
 import tempfile
 import types
 import unittest
-from unittest import mock
 
+import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
@@ -115,17 +115,31 @@ class Calculix(unittest.TestCase):
         self.assertIn("HELDworm, 1, 3\n", deck)
         self.assertNotIn("CONTACT", deck)
 
-    def test_a_contact_force_goes_to_the_slave_and_the_corners_of_its_face(self):
+    def test_contact_forces_are_those_of_the_result_and_sums_between_areas(self):
         worm = types.SimpleNamespace(node=np.arange(10, 14), area_of_node={0: "thread"})
         wheel = types.SimpleNamespace(node=np.arange(20, 24), face=np.array([[0, 1, 2, 3]]), area=["tooth"])
-        f = np.array([4.0, 0, 0])
-        point = (0, 0, 0, np.array([0.5, 0.25, 0.25, 0]), f)
-        with mock.patch.object(calculix, "contact_points", return_value=[point]):
-            loads, pairs = calculix.contact_loads("", (worm, wheel))
-        self.assertEqual(list(loads[0]), [10])
-        np.testing.assert_allclose(loads[1][20], -f / 2)
-        np.testing.assert_allclose(sum(loads[1].values()), -f)
-        np.testing.assert_allclose(np.abs(pairs["thread", "tooth"]), np.abs(f))
+        turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "result.h5")
+            with h5py.File(path, "w") as file:
+                file.attrs["format"] = "elastogear result"
+                for body, offset, node, force in (("worm", [0, 0, 1], [0], [[4.0, 0, 0]]),
+                                                  ("wheel", [0, 1, 3], [3, 0, 1], [[9.0, 9, 9], [0, 3, 0], [0, 1, 0]])):
+                    file[f"bodies/{body}/rotation"] = np.stack([np.eye(3), turn if body == "wheel" else np.eye(3)])
+                    for name, values in (("offset", offset), ("node", node), ("force", force)):
+                        file[f"bodies/{body}/contact_forces/{name}"] = values
+                for name, values in (("offset", [0, 1, 2]), ("slave_side", [1, 0]), ("slave_node", [3, 0]), ("face", [0, 0]),
+                                     ("force", [[9.0, 9, 9], [4, 0, 0]])):
+                    file[f"contact/worm:wheel/points/{name}"] = values
+            loads, pairs = calculix.contact_loads(path, (worm, wheel))
+            with h5py.File(path, "r+") as file:
+                del file["bodies/worm/contact_forces"]
+            with self.assertRaisesRegex(SystemExit, "result.h5: holds no contact forces at nodes"):
+                calculix.contact_loads(path, (worm, wheel))
+        self.assertEqual([list(load) for load in loads], [[10], [20, 21]])
+        np.testing.assert_allclose(loads[0][10], [4, 0, 0])
+        np.testing.assert_allclose([loads[1][20], loads[1][21]], [[-3, 0, 0], [-1, 0, 0]])
+        np.testing.assert_allclose(pairs["thread", "tooth"], [-4, 0, 0])
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "elastogear/model/elastic_body.h"
 #include "elastogear/model/result.h"
 
 namespace elastogear::io {
@@ -91,6 +92,12 @@ Eigen::VectorXd read_times(const std::string& path);
 BodyHistory read_body_history(const std::string& path, const std::string& body);
 /// History of a body without its elastic coordinates, of which a full basis has many.
 BodyHistory read_joint_history(const std::string& path, const std::string& body);
+/// Contact forces on a body with this surface, over all output times. Files of version 1 and 2 hold contact
+/// points only: forces are taken to act along the facets' shape functions, without the couples of smoothed
+/// surfaces and the forces at their open ends. Error when a node or face is named that the surface does not
+/// have.
+model::ForceHistory read_contact_forces(const std::string& path, const std::string& body,
+                                        const model::Surface& surface);
 PairHistory read_pair_history(const std::string& path, const std::string& pair);
 EnergyHistory read_energies(const std::string& path);
 BushingHistory read_bushing_history(const std::string& path, const std::string& bushing);

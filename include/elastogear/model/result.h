@@ -8,6 +8,18 @@
 
 namespace elastogear::model {
 
+/// Sums of all contact forces on one body at the n surface nodes that are touched.
+struct ContactForces {
+  std::vector<int> node = {};  ///< local numbers in the surface, ascending
+  Eigen::Matrix3Xd f_B = {};   ///< N, body frame
+};
+
+/// The same over n_t times, at the n surface nodes that are touched at one of them.
+struct ForceHistory {
+  std::vector<int> node;  ///< n, local numbers in the surface, ascending
+  Eigen::MatrixXd force;  ///< 3 n x n_t, N, body frame
+};
+
 struct BodyState {
   Eigen::Vector3d r_WB;  ///< m, BRF origin in the world
   Eigen::Matrix3d R_WB;  ///< body to world
@@ -16,6 +28,7 @@ struct BodyState {
   Eigen::VectorXd q, q_dot, q_ddot;  ///< n_q, elastic coordinates and their rates
   /// n_s, N or N m: of load, friction and drive along the joint coordinates
   Eigen::VectorXd joint_force = {};
+  ContactForces contact = {};
 };
 
 /// One active contact of a pair.

@@ -313,29 +313,6 @@ FieldState recovered_state(const Options& options, const Body& body, int step) {
   return state;
 }
 
-// All contacts of a pair, and which of its surfaces is the body's.
-struct BodyPair {
-  int side;
-  std::vector<std::vector<model::ContactRecord>> contacts;
-};
-
-std::vector<BodyPair> pairs_of(const std::string& result, const std::string& body) {
-  const model::ResultHeader header = io::read_result_header(result);
-  std::vector<BodyPair> pairs;
-  for (const auto& pair : header.pairs)
-    for (int side : {0, 1})
-      if (header.bodies[pair.body[side]].name == body)
-        pairs.push_back({side, io::read_contacts(result, pair.name)});
-  return pairs;
-}
-
-std::vector<PairAtTime> at_time(const std::vector<BodyPair>& pairs, int step) {
-  std::vector<PairAtTime> now;
-  for (const BodyPair& pair : pairs)
-    now.push_back({pair.side, pair.contacts[static_cast<std::size_t>(step)]});
-  return now;
-}
-
 std::string field_prefix(const Options& options) {
   return options.given("fields") ? options.text("fields") : stem(options.text("result"));
 }
@@ -357,15 +334,15 @@ void write_fields(const Options& options, const Run& run, const std::vector<int>
     if (body.file.empty()) continue;  // rigid, without a mesh
     const double before = share(run.bodies, body), each = 1.0 / static_cast<double>(run.bodies.size());
     const io::BodySource source = io::read_body_source(body.file);
-    const std::vector<BodyPair> pairs = pairs_of(run.result, body.name);
     const model::Surface surface = read_elastic(body).surface;
+    const BodyContact contact = read_body_contact(run.result, body.name, surface);
     const std::string base = field_prefix(options) + "_" + body.name;
     std::vector<io::TimeStep> series;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       report(progress, "fields", before + each * share(steps, steps[i]));
       const std::string path = field_path(base, i, steps.size());
       FieldState state = recovered_state(options, body, steps[i]);
-      state.more = contact_fields(at_time(pairs, steps[i]), surface, source.mesh.X.cols());
+      state.more = contact_fields(contact, steps[i], state.R_WB, surface, source.mesh.X.cols());
       write_field(path, body.file, source, state);
       series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string()});
       print_item("written", path);

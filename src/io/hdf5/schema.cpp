@@ -4,25 +4,21 @@
 
 namespace elastogear::io {
 
-void write_format(const h5::File& file, const std::string& format) {
-  h5::set_attribute(file, "/", "format", format);
-  h5::set_attribute(file, "/", "version", kVersion);
+void write_format(const h5::File& file, const Format& format) {
+  h5::set_attribute(file, "/", "format", std::string(format.name));
+  h5::set_attribute(file, "/", "version", format.version);
 }
 
 int version(const h5::File& file) { return h5::int_attribute(file, "/", "version").front(); }
 
-void require_format(const h5::File& file, const std::string& format) {
-  const std::string found = h5::string_attribute(file, "/", "format");
-  require(found == format, file.path, ": has the format '", found, "', must be '", format, "'");
-  const int found_version = version(file);
-  require(found_version >= kOldestVersion && found_version <= kVersion, file.path, ": has version ",
-          found_version, " of the format '", format, "', this program reads versions ", kOldestVersion,
-          " to ", kVersion);
-}
-
-h5::File open_format(const std::string& path, const std::string& format) {
+h5::File open_format(const std::string& path, const Format& format) {
   h5::File file = h5::open(path);
-  require_format(file, format);
+  const std::string found = h5::string_attribute(file, "/", "format");
+  require(found == format.name, path, ": has the format '", found, "', must be '", format.name, "'");
+  const int found_version = version(file);
+  require(found_version >= format.oldest && found_version <= format.version, path, ": has version ",
+          found_version, " of the format '", format.name, "', this program reads versions ", format.oldest,
+          " to ", format.version);
   return file;
 }
 

@@ -8,21 +8,22 @@
 
 namespace elastogear::io {
 
-constexpr const char* kBodyFormat = "elastogear body";
-constexpr const char* kResultFormat = "elastogear result";
-constexpr const char* kStressFormat = "elastogear stress";
-/// Version of all formats. Version 2 has checksums and text of fixed length; version 1 is read as well.
-constexpr int kVersion = 2, kOldestVersion = 1;
+/// A kind of file: its name, the version that is written, and the oldest one that is read. Version 2 has
+/// checksums and text of fixed length, version 3 of a result the contact forces at nodes.
+struct Format {
+  const char* name;
+  int version = 2, oldest = 1;
+};
+constexpr Format kBodyFormat{"elastogear body"}, kStressFormat{"elastogear stress"};
+constexpr Format kResultFormat{"elastogear result", 3};
 
 /// Attribute of a body file's root: model::fingerprint.
 constexpr const char* kIdentity = "identity";
 
-void write_format(const h5::File& file, const std::string& format);
+void write_format(const h5::File& file, const Format& format);
 int version(const h5::File& file);
-/// Error when the file has another format, or a version that this program does not know.
-void require_format(const h5::File& file, const std::string& format);
-/// Opens and checks the format.
-h5::File open_format(const std::string& path, const std::string& format);
+/// Opens a file. Error when it has another format, or a version that this program does not know.
+h5::File open_format(const std::string& path, const Format& format);
 
 /// Names in HDF5 paths; Error when empty or with a slash.
 void require_name(const h5::File& file, const std::string& name);

@@ -1,8 +1,11 @@
 #include "io/result/describe_result.h"
 
+#include <set>
+
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "io/hdf5/schema.h"
+#include "io/result/contact_forces.h"
 
 namespace elastogear::io {
 namespace {
@@ -16,6 +19,16 @@ void describe_pair(Out& out, const std::string& path, const std::string& name, c
   line(out, "  peak force: ", peak, " N at t = ", time[at], " s");
   line(out, "  most contacts: ", history.count.maxCoeff(),
        ", largest penetration: ", history.penetration.maxCoeff(), " m");
+}
+
+// Of results that hold contact forces at nodes.
+void describe_forces(Out& out, const h5::File& file, const std::string& body) {
+  const std::string group = "/bodies/" + body + kForces;
+  if (version(file) < kFirstWithForces || h5::shape(file, group + "/node")[0] == 0) return;
+  const auto node = h5::read<int>(file, group + "/node", {h5::kAny});
+  const Eigen::Matrix3Xd f_B = read_points(file, group + "/force");
+  line(out, "  touched at ", counted(std::set<int>(node.begin(), node.end()).size(), "surface node"),
+       ", largest contact force on one: ", f_B.colwise().norm().maxCoeff(), " N");
 }
 
 void describe_energies(Out& out, const EnergyHistory& energy) {
@@ -48,10 +61,12 @@ void describe_result(Out& out, const std::string& path) {
   const Eigen::VectorXd time = read_times(path);
   describe_times(out, path, time);
   if (!is_complete(path)) line(out, "incomplete: the run has not reached its end");
+  const h5::File file = open_format(path, kResultFormat);
   for (const auto& body : header.bodies) {
-    const h5::Shape q = h5::shape(h5::open(path), "/bodies/" + body.name + "/q");
+    const h5::Shape q = h5::shape(file, "/bodies/" + body.name + "/q");
     line(out, "body ", body.name, ": ", body.file, ", joint ", body.joint, ", ",
          counted(q.back(), "elastic coordinate"));
+    describe_forces(out, file, body.name);
   }
   for (const auto& pair : header.pairs) describe_pair(out, path, pair.name, time);
   for (const std::string& name : header.bushings) {

@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStateFormat = "elastogear state";
+// Parts of older versions lack what those of this one have.
+constexpr Format kStateFormat{"elastogear state", 3, 3};
 constexpr const char* kStateFile = "state.h5";
 constexpr const char* kPartPrefix = "part_";
 constexpr hsize_t kNumbersAtOnce = 1 << 20;
@@ -36,10 +37,13 @@ struct StoredState {
 };
 
 StoredState read_state(const std::string& result) {
+  const int found = version(h5::open(state_path(result)));
+  require(found >= kStateFormat.oldest, state_path(result), ": has version ", found,
+          " and goes on with the program that wrote it; this one begins anew with -resume discard");
   const h5::File file = open_format(state_path(result), kStateFormat);
   return {h5::int_attribute(file, "/", "parts").front(),
           {h5::number_attribute(file, "/", "last_time"), h5::int_attribute(file, "/", "times").front(),
-           h5::read<double>(file, "/contacts", {h5::kAny})},
+           h5::read<double>(file, "/contacts", {h5::kAny}), h5::read<double>(file, "/forces", {h5::kAny})},
           h5::read<double>(file, "/state", {h5::kAny}, h5::Finite::any)};
 }
 
@@ -126,6 +130,7 @@ void ResultParts::write_state(const std::vector<double>& state, const RowCount& 
   h5::set_attribute(file, "/", "times", count.times);
   h5::set_attribute(file, "/", "last_time", count.last_time);
   h5::write<double>(file, "/contacts", {{count.contacts.size()}, count.contacts.data()}, "1");
+  h5::write<double>(file, "/forces", {{count.forces.size()}, count.forces.data()}, "1");
   h5::write<double>(file, "/state", {{state.size()}, state.data()}, "1");
   h5::close(file);
   pending.commit();

@@ -2,6 +2,7 @@
 
 #include "elastogear/io/result_file.h"
 #include "io/hdf5/schema.h"
+#include "io/result/contact_forces.h"
 
 namespace elastogear::io {
 namespace {
@@ -47,6 +48,32 @@ Eigen::MatrixXd read_columns(const h5::File& file, const std::string& name, cons
   // An item of size 0 or a file without times leaves no values to divide.
   return Eigen::Map<const Eigen::MatrixXd>(
       values.data(), columns == 0 ? 0 : static_cast<Eigen::Index>(values.size()) / columns, columns);
+}
+
+// n_t + 1 ends of the rows of each time.
+std::vector<int> read_offset(const h5::File& file, const std::string& group) {
+  auto offset = h5::read<int>(file, group + "/offset", {time_count(file) + 1});
+  require(offset.front() == 0 && std::is_sorted(offset.begin(), offset.end()), file.path, ": ", group,
+          "/offset does not ascend from 0");
+  return offset;
+}
+
+Eigen::Matrix3Xd read_vectors(const h5::File& file, const std::string& name, hsize_t n) {
+  const auto values = h5::read<double>(file, name, {n, 3});
+  return Eigen::Map<const Eigen::Matrix3Xd>(values.data(), 3, static_cast<Eigen::Index>(n));
+}
+
+std::vector<NodalForce> stored_forces(const h5::File& file, const std::string& body) {
+  const std::string group = "/bodies/" + body + kForces;
+  const std::vector<int> offset = read_offset(file, group);
+  const auto n = static_cast<hsize_t>(offset.back());
+  const auto node = h5::read<int>(file, group + "/node", {n});
+  const Eigen::Matrix3Xd f_B = read_vectors(file, group + "/force", n);
+  std::vector<NodalForce> forces;
+  for (std::size_t step = 0; step + 1 < offset.size(); ++step)
+    for (int i = offset[step]; i < offset[step + 1]; ++i)
+      forces.push_back({static_cast<Eigen::Index>(step), node[i], f_B.col(i)});
+  return forces;
 }
 
 model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& name, std::size_t n_bodies) {
@@ -112,6 +139,30 @@ BodyHistory read_body_history(const std::string& path, const std::string& body) 
   return history;
 }
 
+model::ForceHistory read_contact_forces(const std::string& path, const std::string& body,
+                                        const model::Surface& surface) {
+  const h5::File file = open_with(path, "/bodies", body);
+  const std::vector<NodalForce> forces =
+      version(file) < kFirstWithForces ? forces_of_points(path, body, surface) : stored_forces(file, body);
+  model::ForceHistory history;
+  std::vector<int>& nodes = history.node;
+  for (const NodalForce& force : forces) nodes.push_back(force.node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto outside = std::find_if(nodes.begin(), nodes.end(),
+                                    [&](int node) { return node < 0 || node >= surface.X.cols(); });
+  if (outside != nodes.end())
+    fail(path, ": a contact force acts on node ", *outside, " of '", body, "', whose surface has 0..",
+         surface.X.cols() - 1, ": is this the body file of the run?");
+  history.force.setZero(3 * static_cast<Eigen::Index>(nodes.size()),
+                        static_cast<Eigen::Index>(time_count(file)));
+  for (const NodalForce& force : forces) {
+    const auto slot = std::lower_bound(nodes.begin(), nodes.end(), force.node) - nodes.begin();
+    history.force.block<3, 1>(3 * slot, force.step) += force.f_B;
+  }
+  return history;
+}
+
 PairHistory read_pair_history(const std::string& path, const std::string& pair) {
   const h5::File file = open_with(path, "/contact", pair);
   const std::string group = "/contact/" + pair;
@@ -172,25 +223,20 @@ std::vector<std::vector<model::ContactRecord>> read_contacts(const std::string& 
                                                              const std::string& pair) {
   const h5::File file = open_with(path, "/contact", pair);
   const std::string group = "/contact/" + pair + "/points/";
-  const auto offset = h5::read<int>(file, group + "offset", {time_count(file) + 1});
-  require(offset.front() == 0 && std::is_sorted(offset.begin(), offset.end()), path, ": ", group,
-          "offset does not ascend from 0");
+  const std::vector<int> offset = read_offset(file, "/contact/" + pair + "/points");
   const auto n = static_cast<hsize_t>(offset.back());
   const auto integers = [&](const char* name) { return h5::read<int>(file, group + name, {n}); };
   const auto side = integers("slave_side"), node = integers("slave_node"), face = integers("face");
   const Eigen::VectorXd xi = read_vector(file, group + "xi", n), eta = read_vector(file, group + "eta", n),
                         gap = read_vector(file, group + "gap", n);
   const Eigen::VectorXd pressure = read_vector(file, group + "pressure", n);
-  const auto vectors = [&](const char* name) { return h5::read<double>(file, group + name, {n, 3}); };
-  const auto force = vectors("force"), slip = vectors("slip");
-  const auto at = [](const std::vector<double>& values, int i) {
-    return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(&values[3 * static_cast<std::size_t>(i)]));
-  };
+  const Eigen::Matrix3Xd force = read_vectors(file, group + "force", n),
+                         slip = read_vectors(file, group + "slip", n);
   std::vector<std::vector<model::ContactRecord>> contacts(offset.size() - 1);
   for (std::size_t step = 0; step < contacts.size(); ++step)
     for (int i = offset[step]; i < offset[step + 1]; ++i)
       contacts[step].push_back(
-          {side[i], node[i], face[i], xi[i], eta[i], gap[i], at(force, i), pressure[i], at(slip, i)});
+          {side[i], node[i], face[i], xi[i], eta[i], gap[i], force.col(i), pressure[i], slip.col(i)});
   return contacts;
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "io/result/contact_forces.h"
+
 namespace elastogear::io {
 namespace {
 
@@ -16,7 +18,7 @@ bool finite(const model::Snapshot& snapshot) {
   for (const auto& body : snapshot.bodies)
     good = good && body.r_WB.allFinite() && body.R_WB.allFinite() && body.s.allFinite() &&
            body.s_dot.allFinite() && body.s_ddot.allFinite() && body.q.allFinite() &&
-           body.q_dot.allFinite() && body.q_ddot.allFinite();
+           body.q_dot.allFinite() && body.q_ddot.allFinite() && body.contact.f_B.allFinite();
   for (const auto& pair : snapshot.pairs)
     good = good && pair.force.allFinite() && pair.torque.allFinite() && std::isfinite(pair.penetration);
   for (const auto& bushing : snapshot.bushings)
@@ -30,6 +32,7 @@ bool finite(const model::Snapshot& snapshot) {
 ResultRows::ResultRows(const h5::File& file, const model::ResultHeader& header, RowCount before)
     : file_(file), header_(header), count_(std::move(before)), first_(count_.times == 0) {
   count_.contacts.resize(header.pairs.size(), 0);
+  count_.forces.resize(header.bodies.size(), 0);
 }
 
 h5::Series& ResultRows::series_at(const std::string& name, const Item& item) {
@@ -54,7 +57,8 @@ void ResultRows::append_rotation(const std::string& name,
 
 // Joint coordinates are lengths or angles, q depends on the basis: their unit is told by the attributes joint
 // and file of the body.
-void ResultRows::append_body(const std::string& group, const model::BodyState& body) {
+void ResultRows::append_body(std::size_t index, const model::BodyState& body) {
+  const std::string group = "/bodies/" + header_.bodies[index].name;
   append(group + "/rigid", body.s, "rad or m");
   append(group + "/rigid_velocity", body.s_dot, "rad/s or m/s");
   append(group + "/rigid_acceleration", body.s_ddot, "rad/s^2 or m/s^2");
@@ -64,6 +68,22 @@ void ResultRows::append_body(const std::string& group, const model::BodyState& b
   append(group + "/q", body.q, "as in the body file");
   append(group + "/q_velocity", body.q_dot, "as q, per s");
   append(group + "/q_acceleration", body.q_ddot, "as q, per s^2");
+  append_forces(group + kForces, body.contact);
+  append_offset(group + kForces, count_.forces[index], body.contact.node.size());
+}
+
+void ResultRows::append_forces(const std::string& group, const model::ContactForces& forces) {
+  const std::vector<double> node(forces.node.begin(), forces.node.end());
+  series_at(group + "/node", {{}, "1", true}).append(node.data(), node.size());
+  series_at(group + "/force", {{3}, "N"}).append(forces.f_B.data(), node.size());
+}
+
+// The end of n more rows, after the leading 0 of the first.
+void ResultRows::append_offset(const std::string& group, double& count, std::size_t n) {
+  const std::string offset = group + "/offset";
+  if (first_ && !series_.contains(offset)) append(offset, 0, "1", true);
+  count += static_cast<double>(n);
+  append(offset, count, "1", true);
 }
 
 void ResultRows::append_pair(std::size_t index, const model::PairState& pair) {
@@ -82,10 +102,7 @@ void ResultRows::append_pair(std::size_t index, const model::PairState& pair) {
   }
   append_total(group, pair.total);
   append_contacts(group + "/points", pair.contacts);
-  const std::string offset = group + "/points/offset";
-  if (first_ && !series_.contains(offset)) append(offset, 0, "1", true);
-  count_.contacts[index] += static_cast<double>(pair.contacts.size());
-  append(offset, count_.contacts[index], "1", true);
+  append_offset(group + "/points", count_.contacts[index], pair.contacts.size());
 }
 
 void ResultRows::append_total(const std::string& group, const model::ContactFigures& total) {
@@ -183,6 +200,12 @@ void ResultRows::check(const model::Snapshot& snapshot) const {
           file_.path, ": a snapshot has ", snapshot.bushings.size(), " bushings and ",
           snapshot.sensors.size(), " sensors, the header ", header_.bushings.size(), " and ",
           header_.sensors.size());
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+    const model::ContactForces& forces = snapshot.bodies[i].contact;
+    require(forces.f_B.cols() == static_cast<Eigen::Index>(forces.node.size()), file_.path, ": body ",
+            header_.bodies[i].name, " has ", forces.f_B.cols(), " contact forces at ", forces.node.size(),
+            " nodes");
+  }
   require(finite(snapshot), file_.path, ": the state at t = ", snapshot.time, " s is not finite");
   require(snapshot.time > count_.last_time, file_.path, ": time ", snapshot.time, " s does not come after ",
           count_.last_time, " s");
@@ -193,8 +216,7 @@ void ResultRows::append(const model::Snapshot& snapshot) {
   count_.last_time = snapshot.time;
   ++count_.times;
   append("/time", snapshot.time, "s");
-  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
-    append_body("/bodies/" + header_.bodies[i].name, snapshot.bodies[i]);
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) append_body(i, snapshot.bodies[i]);
   for (std::size_t i = 0; i < snapshot.pairs.size(); ++i) append_pair(i, snapshot.pairs[i]);
   append_energy(snapshot.energy);
   for (std::size_t i = 0; i < snapshot.bushings.size(); ++i)

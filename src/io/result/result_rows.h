@@ -16,6 +16,7 @@ struct RowCount {
   double last_time = -std::numeric_limits<double>::infinity();  ///< s
   int times = 0;                                                ///< before
   std::vector<double> contacts;                                 ///< before, by pair
+  std::vector<double> forces;                                   ///< before, at nodes, by body
 };
 
 /// Appends to a file with a header; both must outlive it.
@@ -34,7 +35,9 @@ class ResultRows {
   void append(const std::string& name, double value, const std::string& unit, bool integer = false);
   void append(const std::string& name, const Eigen::VectorXd& value, const std::string& unit);
   void append_rotation(const std::string& name, const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>& R);
-  void append_body(const std::string& group, const model::BodyState& body);
+  void append_offset(const std::string& group, double& count, std::size_t n);
+  void append_body(std::size_t index, const model::BodyState& body);
+  void append_forces(const std::string& group, const model::ContactForces& forces);
   void append_pair(std::size_t index, const model::PairState& pair);
   void append_total(const std::string& group, const model::ContactFigures& total);
   void append_areas(const std::string& group, std::vector<model::ContactFigures> areas, std::size_t n);
