@@ -7,6 +7,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/fingerprint.h"
+#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
@@ -125,8 +126,6 @@ dynamics::RunSummary write_run(io::ResultWriter& writer, const std::string& outp
 
 }  // namespace
 
-std::string identity_key(const std::string& body) { return "identity_" + body; }
-
 OptionTable resumable_run_table() {
   return {
       {"checkpoint_every", "s", "60", "wall-clock time between checkpoints; 0: after each step"},
@@ -138,7 +137,7 @@ OptionTable resumable_run_table() {
 void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance) {
   for (const auto& [body, identity] : identities)
-    if (!identity.empty()) provenance[identity_key(body)] = identity;
+    if (!identity.empty()) provenance[model::identity_key(body)] = identity;
   for (const auto& [key, value] : options.provenance()) {
     const std::string file = file_in(key, value);
     if (file.empty() || !std::filesystem::is_regular_file(file)) continue;

@@ -11,9 +11,6 @@ namespace elastogear::app {
 /// Rows for the options.
 OptionTable resumable_run_table();
 
-/// Key of the provenance: model::fingerprint of what the file of a body holds.
-std::string identity_key(const std::string& body);
-
 /// Adds the identities of bodies, by name, and fingerprints of the files of tables to the provenance.
 void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance);

@@ -57,4 +57,6 @@ std::string fingerprint(const ElasticBody& body) {
   return f.text();
 }
 
+std::string identity_key(const std::string& body) { return "identity_" + body; }
+
 }  // namespace elastogear::model

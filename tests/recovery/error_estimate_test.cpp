@@ -1,4 +1,4 @@
-#include "elastogear/recovery/error_estimate.h"
+#include "recovery/error_estimate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "elastogear/recovery/mode_acceleration.h"
+#include "recovery/mode_acceleration.h"
 
 #include <gtest/gtest.h>
 

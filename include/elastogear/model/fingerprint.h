@@ -11,4 +11,7 @@ namespace elastogear::model {
 /// elastic coordinates. Names, provenance and what only recovery needs do not count.
 std::string fingerprint(const ElasticBody& body);
 
+/// Key of the provenance of a result: fingerprint of what the file of this body held.
+std::string identity_key(const std::string& body);
+
 }  // namespace elastogear::model

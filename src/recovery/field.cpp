@@ -1,10 +1,9 @@
-#include "app/field.h"
+#include "elastogear/recovery/field.h"
 
-#include "elastogear/fem/stress.h"
-#include "elastogear/recovery/error_estimate.h"
 #include "elastogear/recovery/stress.h"
+#include "recovery/error_estimate.h"
 
-namespace elastogear::app {
+namespace elastogear::recovery {
 
 namespace {
 
@@ -12,6 +11,7 @@ namespace {
 struct Fields {
   const std::string& body_file;
   const io::BodySource& source;
+  const FiniteElements& finite_elements;
 
   Eigen::Matrix3Xd displacement(const Eigen::VectorXd& q, const Eigen::VectorXd& u_static) const {
     Eigen::Matrix3Xd u = io::read_displacement_field(body_file, q);
@@ -19,38 +19,38 @@ struct Fields {
     return u;
   }
   Eigen::MatrixXd stress(const Eigen::Matrix3Xd& u) const {  // 6 x n_nodes
-    return fem::nodal_stress(source.mesh, source.regions, source.element,
-                             Eigen::Map<const Eigen::VectorXd>(u.data(), u.size()));
+    return finite_elements.nodal_stress(source, u.reshaped());
   }
 };
 
-Eigen::VectorXd von_mises(const Eigen::MatrixXd& stress) {
-  return recovery::von_mises(Eigen::MatrixXd(stress.reshaped()));
+Eigen::VectorXd von_mises_at_nodes(const Eigen::MatrixXd& stress) {
+  return von_mises(Eigen::MatrixXd(stress.reshaped()));
 }
 
 Eigen::VectorXd estimated_error(const Fields& fields, const FieldReference& reference,
                                 const Eigen::VectorXd& found) {
   const Eigen::MatrixXd whole = fields.stress(fields.displacement(reference.q_d, reference.u_static)),
                         of_modes = fields.stress(fields.displacement(reference.q, {})),
-                        upper = fields.stress(fields.displacement(recovery::upper_half(reference.q_d), {}));
-  return recovery::field_error({found, von_mises(whole), von_mises(whole - of_modes), von_mises(upper)},
-                               reference.share);
+                        upper = fields.stress(fields.displacement(upper_half(reference.q_d), {}));
+  return field_error(
+      {found, von_mises_at_nodes(whole), von_mises_at_nodes(whole - of_modes), von_mises_at_nodes(upper)},
+      reference.share);
 }
 
 }  // namespace
 
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
-                 const FieldState& state) {
-  const Fields body{body_file, source};
+                 const FieldState& state, const FiniteElements& finite_elements) {
+  const Fields body{body_file, source, finite_elements};
   const Eigen::Matrix3Xd u_B = body.displacement(state.q, state.u_static);
   const Eigen::MatrixXd stress = body.stress(u_B), tensors = stress.reshaped();
-  const Eigen::VectorXd equivalent = von_mises(stress);
-  mesh::Mesh placed = source.mesh;
+  const Eigen::VectorXd equivalent = von_mises_at_nodes(stress);
+  auto placed = source.mesh;
   placed.X = (state.R_WB * placed.X).colwise() + state.r_WB;
   std::vector<io::NodeField> fields = {{"displacement [m]", state.R_WB * u_B},
                                        {"stress [Pa]", stress},
                                        {"von_mises [Pa]", equivalent.transpose()},
-                                       {"rankine [Pa]", recovery::rankine(tensors).transpose()}};
+                                       {"rankine [Pa]", rankine(tensors).transpose()}};
   if (state.reference)
     fields.push_back(
         {"error_of_von_mises [Pa]", estimated_error(body, *state.reference, equivalent).transpose()});
@@ -58,4 +58,4 @@ void write_field(const std::string& path, const std::string& body_file, const io
   io::write_vtu(path, placed, fields);
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::recovery

@@ -1,9 +1,9 @@
-#include "app/contact_field.h"
+#include "elastogear/recovery/contact_field.h"
 
 #include "elastogear/contact/topology.h"
 #include "elastogear/io/result_file.h"
 
-namespace elastogear::app {
+namespace elastogear::recovery {
 namespace {
 
 // Largest speed at which each surface node slides as a slave, m/s.
@@ -44,4 +44,4 @@ std::vector<io::NodeField> contact_fields(const BodyContact& contact, Eigen::Ind
   return {{"contact_force [N]", force}, {"contact_traction [Pa]", traction}, {"sliding_speed [m/s]", speed}};
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::recovery

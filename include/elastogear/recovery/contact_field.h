@@ -8,7 +8,7 @@
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/result.h"
 
-namespace elastogear::app {
+namespace elastogear::recovery {
 
 /// Contact of one body over a run.
 struct BodyContact {
@@ -32,4 +32,4 @@ std::vector<io::NodeField> contact_fields(const BodyContact& contact, Eigen::Ind
                                           const Eigen::Matrix3d& R_WB, const model::Surface& surface,
                                           Eigen::Index n_nodes);
 
-}  // namespace elastogear::app
+}  // namespace elastogear::recovery

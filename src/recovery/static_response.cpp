@@ -1,11 +1,11 @@
-#include "app/static_response.h"
+#include "elastogear/recovery/static_response.h"
 
 #include <algorithm>
 
 #include "elastogear/base/error.h"
-#include "elastogear/model/fingerprint.h"
+#include "recovery/mode_acceleration.h"
 
-namespace elastogear::app {
+namespace elastogear::recovery {
 namespace {
 
 constexpr std::size_t kLargestReference =
@@ -35,15 +35,15 @@ std::string obstacle_to_factor(const model::ElasticBody& body) {
   return "";
 }
 
-reduction::StaticResponse& response(StaticResponseOfRun& known_response) {
-  if (known_response.response) return *known_response.response;
+const UnreducedResponse& unreduced(StaticResponseOfRun& known_response) {
+  if (known_response.unreduced) return *known_response.unreduced;
   const std::string obstacle = obstacle_to_factor(known_response.body);
   require(obstacle.empty(), known_response.file, ": mode acceleration ", obstacle,
           "; use -mode_acceleration false");
   known_response.source = io::read_body_source(known_response.file);
-  known_response.response =
-      std::make_unique<reduction::StaticResponse>(*known_response.source, known_response.body.floating);
-  return *known_response.response;
+  known_response.unreduced =
+      known_response.finite_elements.unreduced_response(*known_response.source, known_response.body.floating);
+  return *known_response.unreduced;
 }
 
 // 6 n x n_t, from the body file; one loaded node at a time.
@@ -68,18 +68,19 @@ Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const s
 
 // Static response of a body over the run; nothing for the full basis, and for a body that is rigid in the
 // run.
-std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body) {
+std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body,
+                                                   const FiniteElements& finite_elements) {
   if (body.history.q.rows() == 0) return nullptr;
-  model::ElasticBody elastic = io::read_body(body.file);
-  require_body_of_run(elastic, body);
+  model::ElasticBody elastic = read_elastic_body(body);
   if (elastic.basis == model::Basis::full) return nullptr;
   const model::ForceHistory forces = io::read_contact_forces(body.result, body.name, elastic.surface);
   auto known_response = std::make_unique<StaticResponseOfRun>();
   known_response->position = find_responses(elastic.flexibility, forces.node);
-  known_response->q = recovery::dynamic_part(elastic, body.history.q, forces);
+  known_response->q = dynamic_part(elastic, body.history.q, forces);
   for (int node : forces.node) known_response->node.push_back(elastic.surface.node[node]);
   known_response->force = forces.force;
   known_response->file = body.file;
+  known_response->finite_elements = finite_elements;
   elastic.surface.Phi = {};
   known_response->body = std::move(elastic);
   return known_response;
@@ -90,23 +91,10 @@ bool is_stored(const StaticResponseOfRun& known_response) { return !known_respon
 
 }  // namespace
 
-void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& body) {
-  const Eigen::Index n_q = body.history.q.rows();
-  const std::string remedy =
-      "name the body file of the run by option -" + body.name + "_file, or run simulate with this one";
-  require(elastic.n_q() == n_q, body.file, ": ", elastic.n_q(), " elastic coordinates, body '", body.name,
-          "' of ", body.result, " has ", n_q, n_q == 0 ? " (it is rigid there)" : "", ": ", remedy);
-  require(body.identity.empty() || model::fingerprint(elastic) == body.identity, body.file,
-          ": is not the body '", body.name, "' of ", body.result,
-          ": mesh, material, restraint, surface, markers or basis differ, and its elastic coordinates mean "
-          "something else: ",
-          remedy);
-}
-
-std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body,
-                                                            Acceleration acceleration) {
+std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration,
+                                                            const FiniteElements& finite_elements) {
   if (acceleration == Acceleration::never) return nullptr;
-  std::unique_ptr<StaticResponseOfRun> known_response = make_response(body);
+  std::unique_ptr<StaticResponseOfRun> known_response = make_response(body, finite_elements);
   if (!known_response || (acceleration == Acceleration::automatic && !is_stored(*known_response)))
     return nullptr;
   const std::string obstacle = is_stored(*known_response) ? "" : obstacle_to_factor(known_response->body);
@@ -114,25 +102,26 @@ std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& bod
   return known_response;
 }
 
-std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body) {
-  std::unique_ptr<StaticResponseOfRun> known_response = make_response(body);
+std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
+                                                     const FiniteElements& finite_elements) {
+  std::unique_ptr<StaticResponseOfRun> known_response = make_response(body, finite_elements);
   if (!known_response || known_response->node.empty() || is_stored(*known_response)) return known_response;
   if (!obstacle_to_factor(known_response->body).empty()) return nullptr;
   known_response->source = io::read_body_source(known_response->file);
   return known_response->source->free_dof.size() <= kLargestReference ? std::move(known_response) : nullptr;
 }
 
-Eigen::MatrixXd stress_history(StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
+Eigen::MatrixXd static_stress(StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
   if (known_response.node.empty()) return {};
   if (!known_response.position.empty()) return stored_stress(known_response, nodes);
-  return response(known_response).stress(known_response.node, nodes) * known_response.force;
+  return unreduced(known_response).stress(known_response.node, nodes) * known_response.force;
 }
 
-Eigen::VectorXd displacement(StaticResponseOfRun& known_response, Eigen::Index step) {
+Eigen::VectorXd static_displacement(StaticResponseOfRun& known_response, Eigen::Index step) {
   if (known_response.node.empty()) return {};
-  return response(known_response)
+  return unreduced(known_response)
       .displacement(known_response.node,
                     known_response.force.col(step).reshaped(3, known_response.node.size()));
 }
 
-}  // namespace elastogear::app
+}  // namespace elastogear::recovery

@@ -8,14 +8,15 @@
 
 #include "elastogear/io/body_file.h"
 #include "elastogear/io/field_file.h"
+#include "elastogear/recovery/finite_elements.h"
 
-namespace elastogear::app {
+namespace elastogear::recovery {
 
-/// Data for the estimated error of a reduced body's field.
+/// Data for the estimated error of a reduced body's field, Eq. (4.9).
 struct FieldReference {
   Eigen::VectorXd q, q_d;    ///< elastic coordinates of the run, and their dynamic part
   Eigen::VectorXd u_static;  ///< 3 n_nodes, m, BRF, the whole body's static response; empty: no force acts
-  double share = 0;          ///< recovery::dynamic_share
+  double share = 0;          ///< dynamic_share, Eq. (4.8)
 };
 
 /// One body at one time.
@@ -29,8 +30,9 @@ struct FieldState {
 };
 
 /// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),
-/// von_mises, its estimated error, rankine and the fields in `more`. `body_file` gives Phi.
+/// von_mises, its estimated error, rankine and the fields in `more`. `body_file` gives Phi, and `source` is
+/// read from it.
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
-                 const FieldState& state);
+                 const FieldState& state, const FiniteElements& finite_elements);
 
-}  // namespace elastogear::app
+}  // namespace elastogear::recovery

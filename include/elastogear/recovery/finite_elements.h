@@ -1,0 +1,29 @@
+#pragma once
+// What recovery asks of the finite elements of a whole body. They belong to the modules that make bodies,
+// which recovery does not include: its caller hands them in, as src/app/finite_elements.cpp does.
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "elastogear/io/body_file.h"
+
+namespace elastogear::recovery {
+
+/// Static response of the unreduced body to forces on its nodes, K^-1 f and S K^-1 f. Nodes are mesh numbers.
+struct UnreducedResponse {
+  /// Displacement, 3 n_nodes, m, node-major, for forces f (3 x n, N) on the n nodes `loaded`.
+  std::function<Eigen::VectorXd(const std::vector<int>& loaded, const Eigen::Matrix3Xd& f)> displacement;
+  /// Stress at the n_e nodes `evaluated` for unit forces in x, y, z on each of `loaded`: 6 n_e x 3 n, Pa/N.
+  std::function<Eigen::MatrixXd(const std::vector<int>& loaded, const std::vector<int>& evaluated)> stress;
+};
+
+struct FiniteElements {
+  /// Factorises K of a body. The source outlives the response. floating: nothing holds the body, whose loads
+  /// are balanced by its inertia.
+  std::function<UnreducedResponse(const io::BodySource& source, bool floating)> unreduced_response;
+  /// Stress at all nodes, 6 x n_nodes, Pa, of displacements u (3 n_nodes, m, node-major).
+  std::function<Eigen::MatrixXd(const io::BodySource& source, const Eigen::VectorXd& u)> nodal_stress;
+};
+
+}  // namespace elastogear::recovery

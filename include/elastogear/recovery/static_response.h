@@ -1,0 +1,50 @@
+#pragma once
+// Mode acceleration for one body of a run: its dynamic coordinates, the contact forces on it, and the whole
+// body's static response to them.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "elastogear/io/body_file.h"
+#include "elastogear/recovery/body_of_run.h"
+#include "elastogear/recovery/finite_elements.h"
+
+namespace elastogear::recovery {
+
+struct StaticResponseOfRun {
+  Eigen::MatrixXd q;          ///< n_q x n_t, without the static part
+  std::vector<int> node;      ///< loaded nodes, mesh numbers
+  Eigen::MatrixXd force;      ///< 3 n x n_t, N, body frame
+  std::string file;           ///< the body's
+  model::ElasticBody body;    ///< what it holds, without the basis at the surface
+  std::vector<int> position;  ///< of the loaded nodes in body.flexibility; empty unless it has them all
+  FiniteElements finite_elements;
+  std::optional<io::BodySource> source = {};        ///< read when it is needed:
+  std::optional<UnreducedResponse> unreduced = {};  ///< by a factor of K
+};
+
+/// Bodies for which mode acceleration is asked: always, all modal ones; automatic, those whose files hold
+/// static responses to their loads.
+enum class Acceleration { never, automatic, always };
+/// Static response of a body over the run. Nothing for a body in its full basis, whose response is complete
+/// already, for one that was rigid in the run, and where mode acceleration is not asked for. Error where it
+/// is asked for always and no factor of K can serve.
+std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration,
+                                                            const FiniteElements& finite_elements);
+
+/// Static response by which the error of stresses of a reduced body is estimated, from the body file or by a
+/// factor of K. Nothing for the full basis; nothing for free bodies with point masses, matrices of other
+/// programs and more than 500,000 displacements when the body file holds no static responses.
+std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
+                                                     const FiniteElements& finite_elements);
+
+/// Stress of the static response at mesh nodes, 6 n x n_t, Pa: from the body file, or by a factor of K when
+/// the file holds no static responses. Empty when no force acts.
+Eigen::MatrixXd static_stress(StaticResponseOfRun& known_response, const std::vector<int>& nodes);
+/// Displacement of the static response at one output time, 3 n_nodes, m; takes a factor of K. Empty when no
+/// force acts.
+Eigen::VectorXd static_displacement(StaticResponseOfRun& known_response, Eigen::Index step);
+
+}  // namespace elastogear::recovery

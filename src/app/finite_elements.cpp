@@ -1,0 +1,29 @@
+#include "app/finite_elements.h"
+
+#include <memory>
+
+#include "elastogear/fem/stress.h"
+#include "elastogear/reduction/static_response.h"
+
+namespace elastogear::app {
+namespace {
+
+recovery::UnreducedResponse unreduced_response(const io::BodySource& source, bool floating) {
+  const auto factor = std::make_shared<reduction::StaticResponse>(source, floating);
+  return {[factor](const std::vector<int>& loaded, const Eigen::Matrix3Xd& f) {
+            return factor->displacement(loaded, f);
+          },
+          [factor](const std::vector<int>& loaded, const std::vector<int>& evaluated) {
+            return factor->stress(loaded, evaluated);
+          }};
+}
+
+Eigen::MatrixXd nodal_stress(const io::BodySource& source, const Eigen::VectorXd& u) {
+  return fem::nodal_stress(source.mesh, source.regions, source.element, u);
+}
+
+}  // namespace
+
+recovery::FiniteElements finite_elements() { return {unreduced_response, nodal_stress}; }
+
+}  // namespace elastogear::app

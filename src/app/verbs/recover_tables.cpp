@@ -1,0 +1,83 @@
+#include "app/verbs/recover_tables.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/console/console.h"
+#include "elastogear/io/csv.h"
+
+namespace elastogear::app {
+namespace {
+
+constexpr int kSmallSet = 10;  // nodes; larger sets go to CSV with their peak node only
+
+// Position (node, time) of the largest von Mises stress.
+std::pair<Eigen::Index, Eigen::Index> peak(const io::StressSet& set) {
+  Eigen::Index node = 0, time = 0;
+  if (set.von_mises.size() > 0) set.von_mises.maxCoeff(&node, &time);
+  return {node, time};
+}
+
+constexpr double kTrusted = 0.05;  // of the peak
+
+// Advice for stresses whose estimated error is too large.
+std::string remedy(const recovery::RecoveredBody& body) {
+  const bool untouched = body.reference && body.reference->node.empty();
+  if (!body.response && !untouched)
+    return "reduce the body with -basis modal_residual, loaded wherever it is touched (option loaded; by "
+           "default "
+           "everywhere)";
+  return "reduce the body with more modes (-modes)";
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  return text;
+}
+
+void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) {
+  const auto [node, step] = peak(set);
+  if (set.error.size() == 0)
+    return print_item("", "error of the reduction not estimated: not to be trusted; " + remedy(body));
+  const double share = set.peak_error[step] / std::max(set.von_mises(node, step), 1e-300);
+  print_item("", "estimated error of the reduction " + with_unit(1e-6 * set.peak_error[step], "MPa") + ", " +
+                     percent(share));
+  if (share > kTrusted)
+    print_item("warning", set.body + " " + set.set + ": not to be trusted; " + remedy(body));
+}
+
+void print_peak(const io::StressSet& set, const Eigen::VectorXd& time) {
+  const auto [node, step] = peak(set);
+  print_item(set.body + " " + set.set,
+             "peak von Mises " + with_unit(1e-6 * set.von_mises(node, step), "MPa") + " at node " +
+                 std::to_string(set.node[node]) + ", " + with_unit(time[step], "s"));
+}
+
+void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, Eigen::Index node) {
+  const char* components[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+  const std::string suffix = " node " + std::to_string(set.node[node]);
+  for (int c = 0; c < 6; ++c) columns.push_back({components[c] + suffix, "Pa", set.stress.row(6 * node + c)});
+  columns.push_back({"von_mises" + suffix, "Pa", set.von_mises.row(node)});
+  columns.push_back({"rankine" + suffix, "Pa", set.rankine.row(node)});
+  if (set.error.size() > 0) columns.push_back({"error of von_mises" + suffix, "Pa", set.error.row(node)});
+}
+
+}  // namespace
+
+void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
+                  const Eigen::VectorXd& time) {
+  print_peak(set, time);
+  print_error(body, set);
+}
+
+void write_table(const std::string& path, const io::StressSet& set, const Eigen::VectorXd& time, bool all) {
+  std::vector<io::CsvColumn> columns = {{"time", "s", time}};
+  if (all || set.node.size() <= kSmallSet)
+    for (std::size_t node = 0; node < set.node.size(); ++node) add_columns(columns, set, node);
+  else
+    add_columns(columns, set, peak(set).first);
+  io::write_csv(path, columns);
+}
+
+}  // namespace elastogear::app

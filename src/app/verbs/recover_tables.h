@@ -1,0 +1,16 @@
+#pragma once
+// What recover says of a recovered stress: peak, estimated error, table.
+
+#include <string>
+
+#include "elastogear/recovery/recover.h"
+
+namespace elastogear::app {
+
+/// Peak and estimated error of the reduction, with a warning where the stress is not to be trusted.
+void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set, const Eigen::VectorXd& time);
+
+/// CSV table of the nodes of a small set; of a larger one the node of the peak, unless `all` are wanted.
+void write_table(const std::string& path, const io::StressSet& set, const Eigen::VectorXd& time, bool all);
+
+}  // namespace elastogear::app

@@ -1,0 +1,99 @@
+#include "elastogear/recovery/recover.h"
+
+#include "elastogear/base/error.h"
+#include "elastogear/recovery/stress.h"
+#include "recovery/error_estimate.h"
+
+namespace elastogear::recovery {
+namespace {
+
+const std::vector<int>& members_of(const model::Stress& stress, const std::string& set,
+                                   const std::string& file) {
+  const auto found = stress.sets.find(set);
+  std::string known;
+  for (const auto& [name, members] : stress.sets) known += (known.empty() ? "" : ", ") + name;
+  require(found != stress.sets.end(), file, ": no stress modes at the set '", set,
+          "'; there are: ", known.empty() ? "none" : known, ". Name it in -stress_nodes of reduce");
+  return found->second;
+}
+
+// The stress of the whole static response less that of the modes, which mode acceleration has added to `set`.
+// Eq. (4.6).
+Eigen::MatrixXd residual_stress(RecoveredBody& body, const model::Stress& stress,
+                                const std::vector<int>& members, const io::StressSet& set) {
+  const Eigen::MatrixXd& q = body.run.history.q;
+  if (body.response) return set.stress - modal_stress(stress, members, q);
+  const Eigen::MatrixXd whole = static_stress(*body.reference, set.node);
+  const Eigen::MatrixXd of_modes = modal_stress(stress, members, q - body.reference->q);
+  return whole.size() > 0 ? Eigen::MatrixXd(whole - of_modes) : Eigen::MatrixXd(-of_modes);
+}
+
+// Sets `error` where it can be told: the full basis leaves nothing out.
+void estimate_error(RecoveredBody& body, const model::ElasticBody& elastic, io::StressSet& set) {
+  if (elastic.basis == model::Basis::full) {
+    set.error.setZero(set.von_mises.rows(), set.von_mises.cols());
+    set.peak_error.setZero(set.von_mises.cols());
+    return;
+  }
+  const StaticResponseOfRun* const known = body.known();
+  if (!known) return;
+  const std::vector<int>& members = elastic.stress.sets.at(set.set);
+  const Eigen::MatrixXd q_s = body.run.history.q - known->q;
+  auto error = reduction_error(
+      elastic, members, {known->q, q_s},
+      {set.stress, residual_stress(body, elastic.stress, members, set), body.response != nullptr});
+  set.error = std::move(error.at_node);
+  set.peak_error = std::move(error.of_peak);
+}
+
+}  // namespace
+
+RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool with_error,
+                               const FiniteElements& finite_elements) {
+  RecoveredBody body{std::move(run)};
+  body.response = static_response_of_run(body.run, acceleration, finite_elements);
+  if (!body.response && with_error) body.reference = error_reference(body.run, finite_elements);
+  return body;
+}
+
+io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elastic, const std::string& set,
+                             bool with_error) {
+  const model::Stress& stress = elastic.stress;
+  const std::vector<int>& members = members_of(stress, set, body.run.file);
+  std::vector<int> nodes;
+  for (int member : members) nodes.push_back(stress.node[member]);
+  const Eigen::MatrixXd sigma_static =
+      body.response ? static_stress(*body.response, nodes) : Eigen::MatrixXd();
+  StressHistory h = stress_history(stress, members, body.q(), sigma_static);
+  io::StressSet recovered{body.run.name,
+                          set,
+                          std::move(h.node),
+                          std::move(h.stress),
+                          std::move(h.von_mises),
+                          std::move(h.rankine),
+                          stress.X(Eigen::all, members)};
+  if (with_error) estimate_error(body, elastic, recovered);
+  return recovered;
+}
+
+FieldState state_of_run(const BodyOfRun& body, Eigen::Index step) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(body.history.R_WB.col(step).data());
+  return {body.history.r_WB.col(step), R, body.history.q.col(step)};
+}
+
+FieldState recovered_state(const RecoveredBody& body, Eigen::Index step, bool with_error) {
+  FieldState state = state_of_run(body.run, step);
+  StaticResponseOfRun* const known = body.known();
+  if (!known) return state;
+  const Eigen::VectorXd u_static = static_displacement(*known, step), q_d = known->q.col(step);
+  if (with_error) {
+    const Eigen::VectorXd share = dynamic_share(known->body, {q_d, state.q - q_d});
+    state.reference = {state.q, q_d, u_static, share[0]};
+  }
+  if (!body.response) return state;
+  state.q = q_d;
+  state.u_static = u_static;
+  return state;
+}
+
+}  // namespace elastogear::recovery

@@ -1,0 +1,147 @@
+// Stresses of a bar at rest under contact forces, recovered from its result by the library, against those of
+// the full basis.
+
+#include "elastogear/recovery/recover.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+
+#include "../fem/brick.h"
+#include "../mesh/box_mesh.h"
+#include "elastogear/base/error.h"
+#include "elastogear/fem/stress.h"
+#include "elastogear/model/fingerprint.h"
+#include "elastogear/recovery/contact_field.h"
+#include "elastogear/recovery/stress.h"
+#include "elastogear/reduction/reduce.h"
+#include "elastogear/reduction/static_response.h"
+
+namespace elastogear::recovery {
+namespace {
+
+constexpr double kRoundoff = 1e-9;         // of factorisations, relative
+constexpr double kSinglePrecision = 1e-6;  // of stored static responses, relative
+constexpr double kForces = 1e-3;           // of a stress: what the estimate adds for contact forces, (4.9)
+constexpr int kModes = 8;
+
+FiniteElements finite_elements() {
+  return {[](const io::BodySource& source, bool floating) {
+            const auto factor = std::make_shared<reduction::StaticResponse>(source, floating);
+            return UnreducedResponse{
+                [factor](const auto& loaded, const auto& f) { return factor->displacement(loaded, f); },
+                [factor](const auto& loaded, const auto& nodes) { return factor->stress(loaded, nodes); }};
+          },
+          [](const io::BodySource& source, const Eigen::VectorXd& u) {
+            return fem::nodal_stress(source.mesh, source.regions, source.element, u);
+          }};
+}
+
+struct Recover : testing::Test {
+  mesh::Folder folder{"recover"};
+  std::string file = folder / "bar.h5", result = folder / "result.h5";
+  Eigen::MatrixXd exact;  // 6 n x 1, Pa, at the set xmax
+
+  model::ElasticBody reduce(model::Basis basis, bool with_responses = false) const {
+    reduction::ReductionOptions o;
+    o.regions = {{"", test::kSteel}};
+    o.restrain = {"xmin"};
+    o.surface = {"zmax"};
+    o.stress_nodes = {"ymax"};
+    o.basis = basis;
+    o.n_modes = basis == model::Basis::full ? 1 : kModes;
+    o.flexibility = with_responses;
+    reduction::reduce(MPI_COMM_SELF, test::distorted(test::brick({4, 2, 2}, {1, 0.4, 0.3}), 0.02), o, file);
+    return io::read_body(file);
+  }
+  // Coordinates at rest under the forces that the result of write() holds.
+  static Eigen::VectorXd at_rest(const model::ElasticBody& body) {
+    Eigen::VectorXd h = Eigen::VectorXd::Zero(body.n_q());
+    for (std::size_t i = 0; i < forces(body).node.size(); ++i)
+      model::add_force(body.surface.Phi, forces(body).node[i],
+                       forces(body).f_B.col(static_cast<Eigen::Index>(i)), h);
+    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(body.K_r).solve(h);
+  }
+  static model::ContactForces forces(const model::ElasticBody& body) {
+    const int last = static_cast<int>(body.surface.node.size()) - 1;
+    Eigen::Matrix3Xd f(3, 2);
+    f << 100, 0, -300, 50, -200, -400;
+    return {{last / 2, last}, f};
+  }
+  BodyOfRun write(const model::ElasticBody& body) const {
+    const auto n_q = body.n_q();
+    model::BodyState state;
+    state.r_WB = Eigen::Vector3d(1, 2, 3);
+    state.R_WB.setIdentity();
+    state.q = at_rest(body);
+    state.q_dot = state.q_ddot = Eigen::VectorXd::Zero(n_q);
+    state.contact = forces(body);
+    model::ResultHeader header;
+    header.bodies = {{"bar", file, "fixed"}};
+    header.provenance[model::identity_key("bar")] = model::fingerprint(body);
+    io::ResultWriter writer(result, header);
+    writer.append({.time = 0, .bodies = {state}, .pairs = {}, .energy = {}});
+    writer.finish();
+    return read_bodies_of_run(result).front();
+  }
+  void SetUp() override {
+    const model::ElasticBody body = reduce(model::Basis::full);
+    exact = modal_stress(body.stress, body.stress.sets.at("ymax"), at_rest(body));
+  }
+};
+
+TEST_F(Recover, with_mode_acceleration_gives_the_stress_of_the_full_basis) {
+  for (bool stored : {false, true}) {
+    const model::ElasticBody body = reduce(model::Basis::modal, stored);
+    RecoveredBody recovered = prepare_recovery(
+        write(body), stored ? Acceleration::automatic : Acceleration::always, true, finite_elements());
+    const io::StressSet set = recover_stress(recovered, body, "ymax", true);
+    EXPECT_LT((set.stress - exact).norm(), (stored ? kSinglePrecision : kRoundoff) * exact.norm());
+    EXPECT_LT((set.error - kForces * set.von_mises).norm(), kRoundoff * set.von_mises.norm());
+  }
+}
+
+TEST_F(Recover, at_rest_estimates_the_true_error_of_the_modes) {
+  const model::ElasticBody body = reduce(model::Basis::modal);
+  RecoveredBody recovered = prepare_recovery(write(body), Acceleration::automatic, true, finite_elements());
+  EXPECT_FALSE(recovered.response);
+  const io::StressSet set = recover_stress(recovered, body, "ymax", true);
+  const Eigen::MatrixXd true_error = (set.von_mises - von_mises(exact)).cwiseAbs();
+  ASSERT_GT(true_error.maxCoeff(), 0.05 * set.von_mises.maxCoeff());
+  EXPECT_LT((set.error - kForces * set.von_mises - true_error).norm(), kRoundoff * set.von_mises.norm());
+}
+
+TEST_F(Recover, of_the_full_basis_errs_by_nothing) {
+  const model::ElasticBody body = reduce(model::Basis::full);
+  RecoveredBody recovered = prepare_recovery(write(body), Acceleration::always, true, finite_elements());
+  const io::StressSet set = recover_stress(recovered, body, "ymax", true);
+  EXPECT_LT((set.stress - exact).norm(), kRoundoff * exact.norm());
+  EXPECT_EQ(set.error.norm(), 0);
+}
+
+TEST_F(Recover, fields_of_contact_have_the_forces_in_the_world) {
+  const model::ElasticBody body = reduce(model::Basis::modal);
+  write(body);
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
+  const BodyContact contact = read_body_contact(result, "bar", body.surface);
+  const Eigen::Index n_nodes = io::read_body_source(file).mesh.n_nodes();
+  const auto fields = contact_fields(contact, 0, R, body.surface, n_nodes);
+  ASSERT_EQ(fields[0].values.cols(), n_nodes);
+  const model::ContactForces f = forces(body);
+  for (std::size_t i = 0; i < f.node.size(); ++i)
+    EXPECT_EQ(fields[0].values.col(body.surface.node[f.node[i]]),
+              R * f.f_B.col(static_cast<Eigen::Index>(i)));
+  EXPECT_NEAR(fields[0].values.squaredNorm(), f.f_B.squaredNorm(), kRoundoff * f.f_B.squaredNorm());
+}
+
+TEST_F(Recover, refuses_the_body_of_another_run_and_sets_that_are_not_there) {
+  const model::ElasticBody body = reduce(model::Basis::modal);
+  RecoveredBody recovered = prepare_recovery(write(body), Acceleration::never, false, finite_elements());
+  EXPECT_THROW(recover_stress(recovered, body, "xmax", false), Error);
+  reduce(model::Basis::full);
+  EXPECT_THROW(read_elastic_body(recovered.run), Error);
+}
+
+}  // namespace
+}  // namespace elastogear::recovery
