@@ -1,10 +1,12 @@
 #pragma once
-// A run whose result survives: interrupted by force it goes on from its last checkpoint, stopped by a signal
-// or by a step that cannot be solved it leaves what it has.
+// Options of runs whose result survives (dynamics/resumable_run.h), what makes two runs the same, and
+// signals.
+
+#include <map>
+#include <string>
 
 #include "app/options/options.h"
-#include "elastogear/dynamics/simulate.h"
-#include "elastogear/io/result_file.h"
+#include "elastogear/dynamics/resumable_run.h"
 
 namespace elastogear::app {
 
@@ -15,13 +17,9 @@ OptionTable resumable_run_table();
 void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance);
 
-/// Observes all output times, from the start or from a checkpoint on.
-using Computation = std::function<dynamics::RunSummary(const dynamics::Observer& observer,
-                                                       const dynamics::Checkpoints& checkpoints)>;
-
-/// Runs and writes -output. Error when an unfinished run with other input is there, or when the run does not
-/// reach its end; what it has is in the file then.
+/// Runs and writes -output by dynamics::resumable_run, and says where an earlier run goes on. SIGTERM and
+/// SIGINT stop the run, a second one ends the program.
 dynamics::RunSummary keep(const Options& options, const model::ResultHeader& header,
-                          const Computation& computation);
+                          const dynamics::Computation& computation);
 
 }  // namespace elastogear::app

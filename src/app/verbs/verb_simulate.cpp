@@ -273,7 +273,7 @@ std::string step_text(const dynamics::StepInfo& step) {
          std::to_string(step.step) + " steps";
 }
 
-Computation computation(const Options& options, dynamics::System& system) {
+dynamics::Computation computation(const Options& options, dynamics::System& system) {
   if (analysis(options) == Analysis::equilibrium)
     return [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer,
                                                                const dynamics::Checkpoints& checkpoints) {

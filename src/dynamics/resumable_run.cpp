@@ -1,0 +1,117 @@
+#include "elastogear/dynamics/resumable_run.h"
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/io/result_file.h"
+
+namespace elastogear::dynamics {
+namespace {
+
+constexpr std::string_view kOption = "option_";  // beginning of the keys of options in the provenance
+
+// "ts_dt 2e-07 (was 1e-07)", one for each key with an effect that differs.
+std::string differences(const ResumableSettings& settings, const std::map<std::string, std::string>& now,
+                        const std::map<std::string, std::string>& then) {
+  std::string text;
+  const auto value = [](const auto& map, const std::string& key) {
+    const auto found = map.find(key);
+    return found == map.end() ? std::string("not given") : found->second;
+  };
+  std::map<std::string, std::string> all = now;
+  all.insert(then.begin(), then.end());
+  for (const auto& [key, unused] : all) {
+    const std::string a = value(now, key), b = value(then, key);
+    if (a == b || (settings.has_effect && !settings.has_effect(key))) continue;
+    const std::string name = key.starts_with(kOption) ? key.substr(kOption.size()) : key;
+    text += (text.empty() ? "" : ", ") + name + " " + a + " (was " + b + ")";
+  }
+  return text;
+}
+
+std::optional<io::UnfinishedRun> earlier_run(const ResumableSettings& settings,
+                                             const model::ResultHeader& header) {
+  if (settings.resume == Resume::discard) return {};
+  std::optional<io::UnfinishedRun> earlier = io::read_unfinished_run(settings.output);
+  if (!earlier) return {};
+  const std::string other = differences(settings, header.provenance, earlier->provenance);
+  require(other.empty() || settings.resume == Resume::anyway, settings.output,
+          ".partial holds a run that did not end, until t = ", earlier->time, " s, with other input: ", other,
+          ". -resume anyway continues it with the present one, -resume discard begins anew");
+  if (settings.on_resume) settings.on_resume(earlier->time, other);
+  return earlier;
+}
+
+// A run that is being computed and written.
+struct Writing {
+  const ResumableSettings& settings;
+  io::ResultWriter& writer;
+  std::optional<double>& kept;  // s, last time before a checkpoint, to go on from
+  double time;                  // s, last that was written
+
+  std::string stop_cause() const { return settings.stop_cause ? settings.stop_cause() : ""; }
+};
+
+// Throws Error that says why the run ended before its time, and how it can go on.
+void require_complete(const RunSummary& summary, const Writing& run) {
+  const std::string cause = summary.out_of_steps
+                                ? "stopped after " + std::to_string(summary.steps) + " steps (-ts_max_steps)"
+                                : "stopped by " + run.stop_cause();
+  require(summary.complete, cause, " at t = ", summary.time,
+          " s, before the end. The result until then is in ", run.settings.output,
+          !run.kept              ? "; the same command begins anew"
+          : summary.out_of_steps ? "; with more of them the same command goes on from there"
+                                 : "; the same command goes on from there");
+}
+
+// Computes and writes the whole run, or what there is when a step cannot be solved or the run is stopped.
+RunSummary write_run(Writing& run, const Computation& computation, const Checkpoints& checkpoints) {
+  RunSummary summary;
+  try {
+    summary = computation(
+        [&run](const model::Snapshot& snapshot) {
+          run.writer.append(snapshot);
+          run.time = snapshot.time;
+        },
+        checkpoints);
+  } catch (const WriteFailure&) {
+    throw;
+  } catch (const Error& error) {
+    if (run.writer.n_times() == 0) throw;
+    run.writer.finish(false);
+    const std::string why = error.what();
+    fail(why, why.ends_with('?') ? "" : ".", " The result until t = ", run.time, " s is in ",
+         run.settings.output, run.kept ? "; with changed options, -resume anyway goes on from there" : "");
+  }
+  require(run.writer.n_times() > 0, "stopped by ", run.stop_cause(),
+          " before the first state was found: there is no result");
+  run.writer.finish(summary.complete);
+  require_complete(summary, run);
+  return summary;
+}
+
+}  // namespace
+
+RunSummary resumable_run(const ResumableSettings& settings, const model::ResultHeader& header,
+                         const Computation& computation) {
+  std::optional<io::UnfinishedRun> earlier = earlier_run(settings, header);
+  std::optional<double> kept;
+  if (earlier) kept = earlier->time;
+  try {
+    io::ResultWriter writer(settings.output, header, earlier.has_value());
+    Writing run{settings, writer, kept, kept.value_or(0)};
+    Checkpoints checkpoints;
+    checkpoints.every = settings.checkpoint_every;
+    checkpoints.keep = [&](const std::vector<double>& state) {
+      writer.checkpoint(state);
+      kept = run.time;
+    };
+    checkpoints.stop = [&run] { return !run.stop_cause().empty(); };
+    if (earlier) checkpoints.state = std::move(earlier->state);
+    return write_run(run, computation, checkpoints);
+  } catch (const WriteFailure& failure) {
+    if (!kept) throw;
+    fail(failure.what(), ". The run until t = ", *kept, " s is kept in ", settings.output, ".partial");
+  }
+}
+
+}  // namespace elastogear::dynamics
