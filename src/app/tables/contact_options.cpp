@@ -3,75 +3,59 @@
 #include <algorithm>
 
 #include "app/console/console.h"
+#include "app/options/rows.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::app {
 namespace {
 
-const OptionTable kTable = {
+using S = contact::Settings;
+using F = contact::FrictionSettings;
+
+const Rows<S> kRows = {
     {"contact_pairs", "-", "", "pairs of bodies that may touch, a:b"},
-    {"contact_slave", "-", "first", "which body of a pair gives the slave nodes: first or second"},
-    {"contact_two_pass", "-", "false",
+    {"contact_slave", &S::slave, one_of("first", "second"),
+     "which body of a pair gives the slave nodes: first or second"},
+    {"contact_two_pass", &S::two_pass, "-",
      "check both bodies' nodes against the other's faces, half the stiffness each"},
-    {"contact_penalty", "-", "per_area", "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
-    {"contact_stiffness", "Pa/m or N/m", "0",
+    {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
+     "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
+    {"contact_stiffness", &S::stiffness, "Pa/m or N/m",
      "penalty stiffness; 0: from material and size of the cells, both sides in series"},
-    {"contact_depth", "m", "0", "deepest penetration still taken for contact; 0: from the size of the faces"},
-    {"contact_kdop", "-", "24", "directions of the bounding volumes: 6, 14, 18, 24 or 26"},
-    {"contact_skin", "m", "0",
+    {"contact_depth", &S::depth, "m",
+     "deepest penetration still taken for contact; 0: from the size of the faces"},
+    {"contact_kdop", &S::k, "-", "directions of the bounding volumes: 6, 14, 18, 24 or 26"},
+    {"contact_skin", &S::skin, "m",
      "relative motion after which the surfaces are searched anew; 0: from the size of the faces"},
-    {"contact_update", "-", "bound",
+    {"contact_update", &S::update, one_of("bound", "refit", "realign"),
      "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
      "(leaf-up from the deformed surface) or realign (hull points)"},
-    {"contact_offset", "m", "0", "added to every gap: > 0 takes initial overlap out, < 0 backlash"},
-    {"contact_smooth", "-", "false",
+    {"contact_offset", &S::offset, "m", "added to every gap: > 0 takes initial overlap out, < 0 backlash"},
+    {"contact_smooth", &S::smooth, "-",
      "gaps and normals of the smooth surface behind the facets (averaged normals at the nodes)"},
-    {"contact_feature_angle", "deg", "30", "smooth: edges that turn by more stay sharp"},
-    {"contact_extension", "-", "0.2",
+    {"contact_feature_angle", &S::feature_angle, "deg", "smooth: edges that turn by more stay sharp"},
+    {"contact_extension", &S::extension, "-",
      "share of a face's length by which surfaces are prolonged at open ends; forces fade out over it"},
-    {"contact_damping", "Pa s/m or N s/m", "0", "damping while bodies approach, per area or per node"},
-    {"contact_hysteresis", "s/m", "0",
+    {"contact_damping", &S::damping, "Pa s/m or N s/m",
+     "damping while bodies approach, per area or per node"},
+    {"contact_hysteresis", &S::hysteresis, "s/m",
      "Hunt and Crossley's factor of the penalty force while bodies approach"},
-    {"contact_friction", "-", "0", "coefficient of friction"},
-    {"contact_friction_static", "-", "0", "stick: coefficient of nodes that stick; 0: that of sliding"},
-    {"contact_friction_law", "-", "regularised",
+    {"contact_friction", in(&S::friction, &F::mu), "-", "coefficient of friction"},
+    {"contact_friction_static", in(&S::friction, &F::mu_static), "-",
+     "stick: coefficient of nodes that stick; 0: that of sliding"},
+    {"contact_friction_law", in(&S::friction, &F::law), one_of("regularised", "stick"),
      "regularised (fades below a speed; for rolling) or stick (tangential springs; for standstill)"},
-    {"contact_friction_speed", "m/s", "0", "regularised: speed at which friction is 0.7 of its full value"},
-    {"contact_tangential", "-", "1", "stick: tangential over normal penalty stiffness"},
-    {"contact_tangent", "-", "full", "contact tangent: full, or normal (without its geometric part)"},
+    {"contact_friction_speed", in(&S::friction, &F::v_0), "m/s",
+     "regularised: speed at which friction is 0.7 of its full value"},
+    {"contact_tangential", in(&S::friction, &F::stiffness), "-",
+     "stick: tangential over normal penalty stiffness"},
+    {"contact_tangent", &S::full_tangent, one_of("normal", "full"),
+     "contact tangent: full, or normal (without its geometric part)"},
 };
-
-contact::FrictionSettings friction(const Options& options) {
-  contact::FrictionSettings f;
-  f.mu = options.number("contact_friction");
-  f.mu_static = options.number("contact_friction_static");
-  f.law = options.choice("contact_friction_law", {"regularised", "stick"}) == 0
-              ? contact::FrictionLaw::regularised
-              : contact::FrictionLaw::stick;
-  f.v_0 = options.number("contact_friction_speed");
-  f.stiffness = options.number("contact_tangential");
-  return f;
-}
 
 contact::Settings settings(const Options& options) {
   contact::Settings s;
-  s.k = options.count("contact_kdop");
-  s.slave = options.choice("contact_slave", {"first", "second"});
-  s.two_pass = options.flag("contact_two_pass");
-  s.penalty = options.choice("contact_penalty", {"per_area", "per_node"}) == 0 ? contact::Penalty::per_area
-                                                                               : contact::Penalty::per_node;
-  s.stiffness = options.number("contact_stiffness");
-  s.depth = options.number("contact_depth");
-  s.skin = options.number("contact_skin");
-  s.offset = options.number("contact_offset");
-  s.smooth = options.flag("contact_smooth");
-  s.feature_angle = options.number("contact_feature_angle");
-  s.extension = options.number("contact_extension");
-  s.damping = options.number("contact_damping");
-  s.hysteresis = options.number("contact_hysteresis");
-  s.friction = friction(options);
-  s.update = static_cast<contact::Update>(options.choice("contact_update", {"bound", "refit", "realign"}));
-  s.full_tangent = options.choice("contact_tangent", {"full", "normal"}) == 0;
+  read_rows(options, kRows, s);
   return s;
 }
 
@@ -80,12 +64,6 @@ int body_index(const std::vector<std::string>& bodies, const std::string& name, 
   require(found != bodies.end(), "option -contact_pairs = '", pair, "': there is no body '", name, "'");
   return static_cast<int>(found - bodies.begin());
 }
-
-}  // namespace
-
-const OptionTable& contact_table() { return kTable; }
-
-namespace {
 
 // Warns that smoothing has no effect on the slave surface of a pair with one pass, of which only the nodes
 // are in contact.
@@ -98,6 +76,8 @@ void warn_of_facets(const dynamics::PairSetup& pair, const std::vector<std::stri
 }
 
 }  // namespace
+
+OptionTable contact_table() { return table_of(kRows); }
 
 std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies) {
   std::vector<dynamics::PairSetup> setups;
@@ -115,7 +95,7 @@ std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::
 }
 
 bool friction_sticks(const Options& options) {
-  const contact::FrictionSettings f = friction(options);
+  const contact::FrictionSettings f = settings(options).friction;
   return !options.list("contact_pairs").empty() && f.mu > 0 && f.law == contact::FrictionLaw::stick;
 }
 

@@ -7,7 +7,7 @@
 namespace elastogear::app {
 
 /// Part of simulate's option table.
-const OptionTable& contact_table();
+OptionTable contact_table();
 
 /// One setup per pair that -contact_pairs names. Throws Error for unknown bodies.
 std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies);

@@ -1,7 +1,9 @@
 #include "app/tables/marker_options.h"
 
+#include <algorithm>
 #include <set>
 
+#include "app/options/rows.h"
 #include "app/tables/motion.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
@@ -9,6 +11,10 @@
 
 namespace elastogear::app {
 namespace {
+
+using Bushing = dynamics::BushingSetup;
+using Load = dynamics::LoadSetup;
+using dynamics::BushingLaw, model::ElasticBody;
 
 constexpr const char* kGround = "ground";
 
@@ -20,41 +26,15 @@ dynamics::MarkerName marker_name(const std::string& option, const std::string& t
   return {text.substr(0, dot), text.substr(dot + 1)};
 }
 
-Eigen::Vector3d vector_or_zero(const Options& options, const std::string& name) {
-  return options.given(name) ? options.vector(name) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-}
-
-bool in_body(const Options& options, const std::string& name) {
-  return options.choice(name + "_frame", {"world", "body"}) == 1;
-}
-
-dynamics::LoadSetup load(const Options& options, const std::string& name) {
-  dynamics::LoadSetup load{name, marker_name(name + "_marker", options.text(name + "_marker"))};
-  require(options.given(name + "_force") || options.given(name + "_torque"), "load ", name, ": give -", name,
-          "_force or -", name, "_torque");
-  load.force = vector_or_zero(options, name + "_force");
-  load.torque = vector_or_zero(options, name + "_torque");
-  load.follows = in_body(options, name);
-  if (options.given(name + "_signal")) load.signal = signal(options, name + "_signal");
-  return load;
-}
-
-dynamics::BushingSetup bushing(const Options& options, const std::string& name) {
-  const std::string option = name + "_markers";
-  const std::vector<std::string> ends = options.list(option);
-  require(ends.size() == 2, "option -", option, ": must be two, BODY.MARKER or ", kGround);
-  dynamics::BushingSetup bushing{name, {}};
+void set_ends(const Options& options, const std::string& name, Bushing& bushing) {
+  const std::vector<std::string> ends = options.list(name);
+  require(ends.size() == 2, "option -", name, ": must be two, BODY.MARKER or ", kGround);
   for (int i : {0, 1})
-    if (ends[i] != kGround) bushing.marker[i] = marker_name(option, ends[i]);
-  bushing.law = {options.vector(name + "_stiffness"), options.vector(name + "_rotational_stiffness"),
-                 vector_or_zero(options, name + "_damping"), options.vector(name + "_rotational_damping")};
-  bushing.axes = rotation_matrix(options.vector(name + "_axes"));
-  bushing.axes_of_first = in_body(options, name);
-  return bushing;
+    if (ends[i] != kGround) bushing.marker[i] = marker_name(name, ends[i]);
 }
 
 // name,x,y,z, ...
-void add_points(const Options& options, const std::string& option, model::ElasticBody& body) {
+void add_points(const Options& options, const std::string& option, ElasticBody& body) {
   const std::vector<std::string> words = options.list(option);
   require(words.size() % 4 == 0, "option -", option, ": must be a name and x,y,z (m) for each point");
   for (std::size_t i = 0; i < words.size(); i += 4) {
@@ -70,36 +50,63 @@ void add_points(const Options& options, const std::string& option, model::Elasti
   }
 }
 
+void set_ratio(const Options& options, const std::string& name, ElasticBody& body) {
+  if (!options.given(name)) return;
+  const std::string prefix = name.substr(0, name.size() - std::string_view("damping_ratio").size());
+  require(body.basis == model::Basis::modal, "option -", name,
+          ": ratios belong to modes; the full basis takes -", prefix, "damping_alpha and _beta");
+  body.zeta = model::ratios_at(damping_ratio(options, name), body.frequency);
+}
+
+const Rows<ElasticBody> kBodyRows = {
+    {"<body>_points", "m", "", "markers fixed to the body frame: name,x,y,z for each", add_points},
+    {"<body>_damping_alpha", &ElasticBody::alpha, "1/s", "Rayleigh damping in place of the body file's",
+     kDependent},
+    {"<body>_damping_beta", &ElasticBody::beta, "s", "Rayleigh damping in place of the body file's",
+     kDependent},
+    {"<body>_damping_ratio", "-", "",
+     "damping ratios of modes in place of the body file's: a number or [table, FILE.csv] (Hz, ratio)",
+     set_ratio},
+};
+
+const Rows<Load> kLoadRows = {
+    {"loads", "-", "", "names of forces and torques at markers; each has its own <load>_... keys"},
+    {"<load>_marker", "-", "", "BODY.MARKER; every body has the marker frame",
+     [](auto& o, auto& name, auto& load) { load.marker = marker_name(name, o.text(name)); }},
+    {"<load>_force", &Load::force, "N", "force"},
+    {"<load>_torque", &Load::torque, "N m", "torque"},
+    {"<load>_frame", &Load::follows, one_of("world", "body"),
+     "directions of force and torque: world, or body (they turn with the marker)"},
+    {"<load>_signal", "-", "1", "factor: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]",
+     [](auto& o, auto& name, auto& load) {
+       if (o.given(name)) load.signal = signal(o, name);
+     }},
+};
+
+// When two rows fit a key the first counts, so that rows with the longer word at their end stand first.
+const Rows<Bushing> kBushingRows = {
+    {"bushings", "-", "",
+     "names of springs and dampers in six directions; each has its own <bushing>_... keys"},
+    {"<bushing>_markers", "-", "", "the two ends: BODY.MARKER or ground; unloaded at the start", set_ends},
+    {"<bushing>_rotational_stiffness", in(&Bushing::law, &BushingLaw::k_r), "N m/rad",
+     "tilt about x and y, turn about z"},
+    {"<bushing>_rotational_damping", in(&Bushing::law, &BushingLaw::c_r), "N m s/rad", "about its axes"},
+    {"<bushing>_stiffness", in(&Bushing::law, &BushingLaw::k), "N/m",
+     "along its axes x,y,z, which turn with the first marker", kRequired},
+    {"<bushing>_damping", in(&Bushing::law, &BushingLaw::c), "N s/m", "along its axes"},
+    {"<bushing>_axes", "rad", "0,0,0",
+     "rotation vector that turns x,y,z into its axes; z is the one about which it may turn all the way",
+     [](auto& o, auto& name, auto& b) { b.axes = rotation_matrix(o.vector(name)); }},
+    {"<bushing>_frame", &Bushing::axes_of_first, one_of("world", "body"),
+     "which x,y,z at the start: world, or body (of the first marker)"},
+};
+
 }  // namespace
 
-// Options of markers. When two rows fit a key the first counts, so that rows with the longer word at their
-// end stand first.
 OptionTable marker_table() {
-  return {
-      {"<body>_points", "m", "", "markers fixed to the body frame: name,x,y,z for each"},
-      {"<body>_damping_alpha", "1/s", "", "Rayleigh damping in place of the body file's"},
-      {"<body>_damping_beta", "s", "", "Rayleigh damping in place of the body file's"},
-      {"<body>_damping_ratio", "-", "",
-       "damping ratios of modes in place of the body file's: a number or [table, FILE.csv] (Hz, ratio)"},
-      {"loads", "-", "", "names of forces and torques at markers; each has its own <load>_... keys"},
-      {"<load>_marker", "-", "", "BODY.MARKER; every body has the marker frame"},
-      {"<load>_force", "N", "0,0,0", "force"},
-      {"<load>_torque", "N m", "0,0,0", "torque"},
-      {"<load>_frame", "-", "world",
-       "directions of force and torque: world, or body (they turn with the marker)"},
-      {"<load>_signal", "-", "1", "factor: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]"},
-      {"bushings", "-", "",
-       "names of springs and dampers in six directions; each has its own <bushing>_... keys"},
-      {"<bushing>_markers", "-", "", "the two ends: BODY.MARKER or ground; unloaded at the start"},
-      {"<bushing>_rotational_stiffness", "N m/rad", "0,0,0", "tilt about x and y, turn about z"},
-      {"<bushing>_rotational_damping", "N m s/rad", "0,0,0", "about its axes"},
-      {"<bushing>_stiffness", "N/m", "", "along its axes x,y,z, which turn with the first marker"},
-      {"<bushing>_damping", "N s/m", "0,0,0", "along its axes"},
-      {"<bushing>_axes", "rad", "0,0,0",
-       "rotation vector that turns x,y,z into its axes; z is the one about which it may turn all the way"},
-      {"<bushing>_frame", "-", "world", "which x,y,z at the start: world, or body (of the first marker)"},
-      {"sensors_<sensor>", "-", "", "BODY.MARKER whose motion is written as this sensor's"},
-  };
+  OptionTable table = table_of(kBodyRows, kLoadRows, kBushingRows);
+  table.push_back({"sensors_<sensor>", "-", "", "BODY.MARKER whose motion is written as this sensor's"});
+  return table;
 }
 
 PlaceholderValues simulate_names(const Options& options) {
@@ -116,8 +123,13 @@ PlaceholderValues simulate_names(const Options& options) {
 
 dynamics::MarkerSetups marker_setups(const Options& options) {
   dynamics::MarkerSetups setups;
-  for (const std::string& name : options.list("loads")) setups.loads.push_back(load(options, name));
-  for (const std::string& name : options.list("bushings")) setups.bushings.push_back(bushing(options, name));
+  for (const std::string& name : options.list("loads")) {
+    require(options.given(name + "_force") || options.given(name + "_torque"), "load ", name, ": give -",
+            name, "_force or -", name, "_torque");
+    read_rows(options, kLoadRows, setups.loads.emplace_back(Load{name, {}}), name);
+  }
+  for (const std::string& name : options.list("bushings"))
+    read_rows(options, kBushingRows, setups.bushings.emplace_back(Bushing{name, {}}), name);
   for (const std::string& name : options.placeholder_values("sensors_<sensor>")) {
     const std::string option = "sensors_" + name;
     setups.sensors.push_back({name, marker_name(option, options.text(option))});
@@ -125,20 +137,12 @@ dynamics::MarkerSetups marker_setups(const Options& options) {
   return setups;
 }
 
-void change_body(const Options& options, const std::string& prefix, model::ElasticBody& body) {
-  const auto given = [&](const char* name) { return options.given(prefix + name); };
-  if (!given("points") && !given("damping_alpha") && !given("damping_beta") && !given("damping_ratio"))
+void change_body(const Options& options, const std::string& name, ElasticBody& body) {
+  if (std::none_of(kBodyRows.begin(), kBodyRows.end(),
+                   [&](const auto& row) { return options.given(with_word(row.spec.name, name)); }))
     return;
-  add_points(options, prefix + "points", body);
-  if (options.given(prefix + "damping_alpha")) body.alpha = options.number(prefix + "damping_alpha");
-  if (options.given(prefix + "damping_beta")) body.beta = options.number(prefix + "damping_beta");
-  if (options.given(prefix + "damping_ratio")) {
-    require(body.basis == model::Basis::modal, "option -", prefix,
-            "damping_ratio: ratios belong to modes; the full basis takes -", prefix,
-            "damping_alpha and _beta");
-    body.zeta = model::ratios_at(damping_ratio(options, prefix + "damping_ratio"), body.frequency);
-  }
-  model::validate(body, "options -" + prefix + "...");
+  read_rows(options, kBodyRows, body, name);
+  model::validate(body, "options -" + name + "_...");
 }
 
 }  // namespace elastogear::app

@@ -20,6 +20,6 @@ PlaceholderValues simulate_names(const Options& options);
 dynamics::MarkerSetups marker_setups(const Options& options);
 
 /// Markers at points of the body frame, and damping in place of the body file's.
-void change_body(const Options& options, const std::string& prefix, model::ElasticBody& body);
+void change_body(const Options& options, const std::string& name, model::ElasticBody& body);
 
 }  // namespace elastogear::app

@@ -3,58 +3,68 @@
 #include <algorithm>
 #include <set>
 
+#include "app/options/rows.h"
+
 namespace elastogear::app {
 namespace {
 
-const OptionTable kMaterial = {
-    {"E", "Pa", "", "Young's modulus"},
-    {"nu", "-", "", "Poisson's ratio"},
-    {"rho", "kg/m^3", "", "density"},
-    {"E1", "Pa", "", "orthotropic: Young's modulus along the material's axis 1"},
-    {"E2", "Pa", "", "along axis 2"},
-    {"E3", "Pa", "", "along axis 3"},
-    {"nu12", "-", "", "strain along -2 per strain along 1 when pulled along 1"},
-    {"nu13", "-", "", "strain along -3 when pulled along 1"},
-    {"nu23", "-", "", "strain along -3 when pulled along 2"},
-    {"G12", "Pa", "", "shear modulus of the plane 1 2"},
-    {"G13", "Pa", "", "shear modulus of the plane 1 3"},
-    {"G23", "Pa", "", "shear modulus of the plane 2 3"},
-    {"orientation", "-", "rectangular",
+using model::Material, model::Orientation, model::Orthotropic;
+
+// One number of a vector.
+auto component(Eigen::Vector3d Orthotropic::*vector, int i) {
+  return [=](Orthotropic& m) -> double& { return (m.*vector)[i]; };
+}
+
+auto axes(Eigen::Vector3d Orientation::*vector) { return in(&Orthotropic::orientation, vector); }
+
+const Rows<Material> kIsotropic = {
+    {"<material>_E", &Material::E, "Pa", "Young's modulus", kPositive | kRequired},
+    {"<material>_nu", &Material::nu, "-", "Poisson's ratio", kRequired},
+    {"<material>_rho", &Material::rho, "kg/m^3", "density", kPositive | kRequired},
+};
+
+const Rows<Orthotropic> kOrthotropic = {
+    {"<material>_E1", component(&Orthotropic::E, 0), "Pa",
+     "orthotropic: Young's modulus along the material's axis 1", kRequired},
+    {"<material>_E2", component(&Orthotropic::E, 1), "Pa", "along axis 2", kRequired},
+    {"<material>_E3", component(&Orthotropic::E, 2), "Pa", "along axis 3", kRequired},
+    {"<material>_nu12", component(&Orthotropic::nu, 0), "-",
+     "strain along -2 per strain along 1 when pulled along 1", kRequired},
+    {"<material>_nu13", component(&Orthotropic::nu, 1), "-", "strain along -3 when pulled along 1",
+     kRequired},
+    {"<material>_nu23", component(&Orthotropic::nu, 2), "-", "strain along -3 when pulled along 2",
+     kRequired},
+    {"<material>_G12", component(&Orthotropic::G, 0), "Pa", "shear modulus of the plane 1 2", kRequired},
+    {"<material>_G13", component(&Orthotropic::G, 1), "Pa", "shear modulus of the plane 1 3", kRequired},
+    {"<material>_G23", component(&Orthotropic::G, 2), "Pa", "shear modulus of the plane 2 3", kRequired},
+    {"<material>_orientation", in(&Orthotropic::orientation, &Orientation::system),
+     one_of("rectangular", "cylindrical"),
      "rectangular: axis 1 along axis_1, axis 2 in the plane of axis_1 and axis_2; cylindrical: radial, "
      "tangential, axial"},
-    {"axis_1", "-", "1,0,0", "rectangular: direction of axis 1"},
-    {"axis_2", "-", "0,1,0", "rectangular: axis 2 lies in the plane of axis_1 and this direction"},
-    {"origin", "m", "0,0,0", "cylindrical: a point on the axis"},
-    {"axis", "-", "0,0,1", "cylindrical: direction of the axis"},
-    {"rotation", "rad", "0,0,0",
-     "rotation vector in these axes that turns them into the material's (a winding angle)"}};
-
-const char* const kConstants[] = {"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"};
+    {"<material>_axis_1", axes(&Orientation::axis_1), "-", "rectangular: direction of axis 1"},
+    {"<material>_axis_2", axes(&Orientation::axis_2), "-",
+     "rectangular: axis 2 lies in the plane of axis_1 and this direction"},
+    {"<material>_origin", axes(&Orientation::origin), "m", "cylindrical: a point on the axis"},
+    {"<material>_axis", axes(&Orientation::axis), "-", "cylindrical: direction of the axis"},
+    {"<material>_rotation", axes(&Orientation::rotation), "rad",
+     "rotation vector in these axes that turns them into the material's (a winding angle)"},
+};
 
 bool given(const Options& options, const std::string& prefix, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(),
                      [&](const char* name) { return options.given(prefix + name); });
 }
 
-model::Orthotropic orthotropic(const Options& options, const std::string& prefix) {
-  double c[std::size(kConstants)];
-  std::transform(std::begin(kConstants), std::end(kConstants), c,
-                 [&](const char* name) { return options.number(prefix + name); });
-  model::Orthotropic m{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}, {}};
-  const int system = options.choice(prefix + "orientation", {"rectangular", "cylindrical"});
-  m.orientation = {static_cast<model::Orientation::System>(system),
-                   options.vector(prefix + "axis_1"),
-                   options.vector(prefix + "axis_2"),
-                   options.vector(prefix + "origin"),
-                   options.vector(prefix + "axis"),
-                   options.vector(prefix + "rotation")};
-  return m;
-}
-
-model::Material material(const Options& options, const std::string& prefix) {
-  if (!given(options, prefix, {"E1", "E2", "E3"}))
-    return {options.positive(prefix + "E"), options.number(prefix + "nu"), options.positive(prefix + "rho")};
-  return {0, 0, options.positive(prefix + "rho"), orthotropic(options, prefix)};
+// name: "material" or "material_<set>".
+Material material(const Options& options, const std::string& name) {
+  Material material;
+  if (!given(options, name + "_", {"E1", "E2", "E3"})) {
+    read_rows(options, kIsotropic, material, name);
+  } else {
+    material.rho = options.positive(name + "_rho");
+    read_rows(options, kOrthotropic, material.orthotropic.emplace(), name);
+  }
+  return material;
 }
 
 // All numbers of a material; visit(x) sees them in the same order for writing and reading.
@@ -91,9 +101,9 @@ void broadcast(MPI_Comm comm, model::MaterialRegion& region) {
 
 OptionTable material_table() {
   OptionTable table;
-  for (const auto& [prefix, of] : {std::pair{"material_", ""}, {"material_<set>_", " (one cell set)"}})
-    for (OptionSpec spec : kMaterial) {
-      spec.name = prefix + spec.name;
+  for (const auto& [name, of] : {std::pair{"material", ""}, {"material_<set>", " (one cell set)"}})
+    for (OptionSpec spec : table_of(kIsotropic, kOrthotropic)) {
+      spec.name = with_word(spec.name, name);
       spec.help += of;
       table.push_back(spec);
     }
@@ -106,9 +116,8 @@ std::vector<model::MaterialRegion> material_options(const Options& options) {
     for (const std::string& set : options.placeholder_values("material_<set>_" + std::string(constant)))
       sets.insert(set);
   std::vector<model::MaterialRegion> regions;
-  for (const std::string& set : sets) regions.push_back({set, material(options, "material_" + set + "_")});
-  if (given(options, "material_", {"E", "E1", "rho"}))
-    regions.push_back({"", material(options, "material_")});
+  for (const std::string& set : sets) regions.push_back({set, material(options, "material_" + set)});
+  if (given(options, "material_", {"E", "E1", "rho"})) regions.push_back({"", material(options, "material")});
   return regions;
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "app/console/console.h"
+#include "app/options/rows.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
@@ -12,6 +13,8 @@
 
 namespace elastogear::app {
 namespace {
+
+using dynamics::TimeSettings;
 
 // Words of a file, one a line.
 std::vector<std::string> words_of(const std::string& path) {
@@ -31,31 +34,36 @@ std::string sensor_table(const std::string& output, const std::string& sensor) {
   return std::filesystem::path(output).replace_extension().string() + "_" + sensor + ".csv";
 }
 
-}  // namespace
-
-OptionTable output_table() {
-  return {{"output_every", "-", "1", "write every n-th step"},
-          {"output_dt", "s", "0",
-           "write at multiples of this time in place of every n-th step, between steps by interpolation"},
-          {"output_times", "s", "",
-           "write at these times, the start and the end, likewise: t1,t2,... or a file with one a line"},
-          {"sensor_csv", "-", "false",
-           "write a CSV table of each sensor beside the result, <output>_<sensor>.csv"}};
-}
-
-std::vector<double> output_times(const Options& options) {
-  std::vector<std::string> words = options.list("output_times");
+// s; empty when none are given. A file of times holds one a line.
+std::vector<double> times(const Options& options, const std::string& name) {
+  std::vector<std::string> words = options.list(name);
   const bool file = words.size() == 1 && std::filesystem::is_regular_file(words[0]);
-  const std::string where = "option -output_times" + (file ? ", " + words[0] : std::string());
+  const std::string where = "option -" + name + (file ? ", " + words[0] : std::string());
   if (file) words = words_of(words[0]);
-  std::vector<double> times;
+  std::vector<double> all;
   for (const std::string& word : words) {
     const std::optional<double> time = parse<double>(word);
     require(time.has_value(), where, ": '", word, "' is neither a time (s) nor a file of times");
-    times.push_back(*time);
+    all.push_back(*time);
   }
-  return times;
+  return all;
 }
+
+const Rows<TimeSettings> kRows = {
+    {"output_every", &TimeSettings::output_every, "-", "write every n-th step", kPositive},
+    {"output_dt", &TimeSettings::output_dt, "s",
+     "write at multiples of this time in place of every n-th step, between steps by interpolation"},
+    {"output_times", "s", "",
+     "write at these times, the start and the end, likewise: t1,t2,... or a file with one a line",
+     [](auto& o, auto& name, auto& time) { time.output_times = times(o, name); }},
+    {"sensor_csv", "-", "false", "write a CSV table of each sensor beside the result, <output>_<sensor>.csv"},
+};
+
+}  // namespace
+
+OptionTable output_table() { return table_of(kRows); }
+
+void set_output_times(const Options& options, TimeSettings& time) { read_rows(options, kRows, time); }
 
 std::vector<std::string> sensor_tables(const Options& options) {
   std::vector<std::string> paths;

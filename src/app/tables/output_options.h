@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/options/options.h"
+#include "elastogear/dynamics/simulate.h"
 #include "elastogear/model/result.h"
 
 namespace elastogear::app {
@@ -11,8 +12,8 @@ namespace elastogear::app {
 /// Rows of the option table of simulate.
 OptionTable output_table();
 
-/// s; empty when none are given. Throws Error for a word that is no number and no file of numbers.
-std::vector<double> output_times(const Options& options);
+/// Sets when a run writes. Throws Error for a word that is neither a time nor a file of times.
+void set_output_times(const Options& options, dynamics::TimeSettings& time);
 
 /// Paths of the files that write_sensor_tables is going to write.
 std::vector<std::string> sensor_tables(const Options& options);

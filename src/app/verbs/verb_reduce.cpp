@@ -11,6 +11,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
+#include "app/options/rows.h"
 #include "app/tables/basis_options.h"
 #include "app/tables/material_options.h"
 #include "app/tables/motion.h"
@@ -27,13 +28,15 @@
 namespace elastogear::app {
 namespace {
 
-const OptionTable kOptions = {
+using reduction::ReductionOptions, reduction::ImportedFiles;
+
+const Rows<ReductionOptions> kMeshRows = {
     {"mesh", "-", "", "volume mesh to read, Gmsh 4.1 .msh or Abaqus .inp"},
     {"unit", "-", "m",
      "unit of length of the mesh file or node table: m, or mm (then matrices and the file's materials are in "
      "N, mm and t)"},
     {"output", "-", "", "body file to write (HDF5)"},
-    {"element", "-", "incompatible",
+    {"element", &ReductionOptions::element, one_of("incompatible", "plain", "bbar"),
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
     {"restrain", "-", "",
      "node sets or face sets whose nodes are held and carry the body frame, in all directions or, with :x, "
@@ -41,44 +44,55 @@ const OptionTable kOptions = {
      "modes; not given: *BOUNDARY of an .inp file. Also single nodes by their numbers, [4711:z]"},
     {"restrain_nodes", "-", "",
      "nodes that are held besides in all directions, by their numbers in the mesh file or node table"},
-    {"stiffness", "-", "",
+};
+
+const Rows<ImportedFiles> kImportedRows = {
+    {"stiffness", &ImportedFiles::stiffness, "-",
      "stiffness matrix of another program, in place of assembly: Abaqus *MATRIX OUTPUT, CalculiX .sti, "
-     "triplets"},
-    {"mass", "-", "", "its mass matrix"},
-    {"matrix_format", "-", "auto", "of both: auto, abaqus, calculix or triplets (Matrix Market among them)"},
-    {"dofs", "-", "",
+     "triplets",
+     kRequired},
+    {"mass", &ImportedFiles::mass, "-", "its mass matrix", kRequired},
+    {"matrix_format", &ImportedFiles::format, one_of("auto", "abaqus", "calculix", "triplets"),
+     "of both: auto, abaqus, calculix or triplets (Matrix Market among them)"},
+    {"dofs", &ImportedFiles::dofs, "-",
      "file that names the rows of calculix or triplets, node.direction a line (CalculiX .dof)"},
     {"nodes", "-", "", "table of nodes, number x y z, in place of the mesh"},
+};
+
+const Rows<ReductionOptions> kRows = {
     {"frame", "m", "",
      "origin of the body frame: mesh, centre_of_mass, or x,y,z in the mesh's coordinates (default: "
      "centre_of_mass for a free body, else mesh)"},
-    {"surface", "-", "", "face sets of the contact surface"},
-    {"stress_nodes", "-", "", "node sets, or face sets for their nodes, at which stress modes are stored"},
-    {"markers", "-", "",
+    {"surface", &ReductionOptions::surface, "-", "face sets of the contact surface"},
+    {"stress_nodes", &ReductionOptions::stress_nodes, "-",
+     "node sets, or face sets for their nodes, at which stress modes are stored"},
+    {"markers", &ReductionOptions::markers, "-",
      "node sets or face sets whose mean motion is stored, for loads, bushings and sensors of simulate (which "
      "always has the body frame); also single nodes by their numbers in the mesh file, [tip, 4711]"},
-    {"marker_weights", "-", "equal",
+    {"marker_weights", &ReductionOptions::marker_weights, one_of("equal", "area"),
      "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
     {"window", "-", "auto",
      "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc; auto: windows of the "
      "best size, or SLEPc when an -eps_* or -st_* option is given"},
-    {"store", "-", "all",
+    {"store", &ReductionOptions::store, one_of("surface", "all"),
      "modes at all nodes, or at the surface and stress nodes only (no whole fields): all or surface"},
-    {"precision", "-", "float64", "of modes stored at all nodes: float64 or float32"},
-    {"invariants", "-", "linear",
+    {"precision", &ReductionOptions::precision, one_of("float64", "float32"),
+     "of modes stored at all nodes: float64 or float32"},
+    {"invariants", &ReductionOptions::invariants, one_of("linear", "full"),
      "of inertia: linear, or full for simulate's inertia level full (6 n_q^2 numbers more; modal: all modes "
      "wait on disk, beside the output)"},
-    {"symmetry", "-", "auto",
+    {"symmetry", &ReductionOptions::symmetry, one_of("auto", "none"),
      "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none, and "
      "when SLEPc is asked for: from the whole body"},
-    {"completeness", "-", "true",
+    {"completeness", &ReductionOptions::completeness, "-",
      "check how much of the static response to loads on the surface the modes give: one more factorisation; "
      "with "
      "sectors up to 500,000 displacements"},
-    {"damping_alpha", "1/s", "0", "Rayleigh damping, mass-proportional part"},
-    {"damping_beta", "s", "0", "Rayleigh damping, stiffness-proportional part"},
+    {"damping_alpha", &ReductionOptions::alpha, "1/s", "Rayleigh damping, mass-proportional part"},
+    {"damping_beta", &ReductionOptions::beta, "s", "Rayleigh damping, stiffness-proportional part"},
     {"damping_ratio", "-", "",
-     "damping ratios of the modes besides: a number or [table, FILE.csv] (frequency in Hz, ratio)"},
+     "damping ratios of the modes besides: a number or [table, FILE.csv] (frequency in Hz, ratio)",
+     [](auto& options, auto& name, auto& o) { o.ratio = damping_ratio(options, name); }},
     {"point_mass_<set>", "kg", "", "mass spread evenly over the nodes of a node set or face set"},
 };
 
@@ -86,7 +100,7 @@ const OptionTable kOptions = {
 constexpr const char* kListedNodes = "restrain_nodes";
 
 OptionTable table() {
-  OptionTable table = kOptions;
+  OptionTable table = table_of(kMeshRows, kImportedRows, kRows);
   for (const OptionTable& more : {basis_table(), material_table()})
     table.insert(table.end(), more.begin(), more.end());
   return table;
@@ -105,23 +119,21 @@ int window(const Options& options) {
 
 double unit_in_m(const Options& options) { return options.choice("unit", {"m", "mm"}) == 0 ? 1 : 1e-3; }
 
-std::optional<reduction::ImportedFiles> imported_files(const Options& options) {
+std::optional<ImportedFiles> imported_files(const Options& options) {
   if (!options.given("stiffness")) {
     for (const char* name : {"mass", "matrix_format", "dofs", "nodes"})
       require(!options.given(name), "option -", name, " needs -stiffness, a matrix of another program");
     return {};
   }
-  reduction::ImportedFiles files{options.text("stiffness"), options.text("mass")};
-  if (options.given("dofs")) files.dofs = options.text("dofs");
-  files.format = static_cast<io::MatrixFormat>(
-      options.choice("matrix_format", {"auto", "abaqus", "calculix", "triplets"}));
+  ImportedFiles files;
+  read_rows(options, kImportedRows, files);
   require(files.format != io::MatrixFormat::calculix || !files.dofs.empty(),
           "option -matrix_format = 'calculix' needs -dofs, the .dof file beside the matrices");
   files.stiffness_unit = files.mass_unit = 1 / unit_in_m(options);  // N and s stay: N/mm, t = N s^2/mm
   return files;
 }
 
-void set_restraint(const Options& options, reduction::ReductionOptions& o) {
+void set_restraint(const Options& options, ReductionOptions& o) {
   o.restrain = options.list("restrain");
   o.floating = o.restrain == std::vector<std::string>{"none"};
   if (o.floating) o.restrain.clear();
@@ -148,32 +160,18 @@ void print_cost(const reduction::StaticResponseCost& cost) {
   if (cost.seconds > kLong || cost.bytes > kMuch) print_item("advice", remedy);
 }
 
-reduction::ReductionOptions reduction_options(const Options& options) {
-  reduction::ReductionOptions o;
+ReductionOptions reduction_options(const Options& options) {
+  ReductionOptions o;
   o.name = std::filesystem::path(options.text("output")).stem().string();
   o.regions = material_options(options);
   o.imported = imported_files(options);
-  o.element = static_cast<model::Element>(options.choice("element", {"incompatible", "plain", "bbar"}));
+  read_rows(options, kMeshRows, o);
+  read_rows(options, kRows, o);
   set_restraint(options, o);
-  o.surface = options.list("surface");
-  o.stress_nodes = options.list("stress_nodes");
-  o.markers = options.list("markers");
-  o.marker_weights =
-      static_cast<reduction::MarkerWeights>(options.choice("marker_weights", {"equal", "area"}));
   set_basis(options, o);
   o.window = window(options);
-  o.store =
-      options.choice("store", {"surface", "all"}) == 0 ? reduction::Store::surface : reduction::Store::all;
-  o.precision = options.choice("precision", {"float64", "float32"}) == 0 ? io::Precision::float64
-                                                                         : io::Precision::float32;
-  o.invariants = static_cast<reduction::Invariants>(options.choice("invariants", {"linear", "full"}));
   // SLEPc's solver, when it was asked for, works on the whole body.
-  const bool sectors = options.choice("symmetry", {"auto", "none"}) == 0 && o.window != 0;
-  o.symmetry = sectors ? reduction::Symmetry::automatic : reduction::Symmetry::none;
-  o.completeness = options.flag("completeness");
-  o.alpha = options.number("damping_alpha");
-  o.beta = options.number("damping_beta");
-  o.ratio = damping_ratio(options, "damping_ratio");
+  if (o.window == 0) o.symmetry = reduction::Symmetry::none;
   for (const std::string& set : options.placeholder_values("point_mass_<set>"))
     o.point_mass[set] = options.positive("point_mass_" + set);
   o.announce = print_cost;
@@ -182,7 +180,7 @@ reduction::ReductionOptions reduction_options(const Options& options) {
 }
 
 // Without a contact surface nothing can be loaded.
-void drop_static_responses(reduction::ReductionOptions& o) {
+void drop_static_responses(ReductionOptions& o) {
   if (!o.flexibility || !o.surface.empty() || !o.loaded.empty()) return;
   o.flexibility = false;
   print_item("basis",
@@ -249,7 +247,7 @@ Nodes read_on_rank_0(const Options& options) {
 }
 
 // Materials and restraint that the options leave open are those of the mesh file.
-void take_materials(const Options& options, const mesh::ReadReport& report, reduction::ReductionOptions& o) {
+void take_materials(const Options& options, const mesh::ReadReport& report, ReductionOptions& o) {
   if (!o.regions.empty()) return warn_of_materials(o.regions, false);
   o.regions = report.regions;
   broadcast(PETSC_COMM_WORLD, o.regions);
@@ -261,7 +259,7 @@ void take_materials(const Options& options, const mesh::ReadReport& report, redu
   print_item("materials", "from the mesh file");
 }
 
-void take_restraint(const Options& options, const mesh::ReadReport& report, reduction::ReductionOptions& o) {
+void take_restraint(const Options& options, const mesh::ReadReport& report, ReductionOptions& o) {
   if (options.given("restrain") || options.given("restrain_nodes")) return;
   if (report.restrained.empty()) return;
   o.restrain = report.restrained;
@@ -341,7 +339,7 @@ void run(const Options& options, const std::vector<std::string>&) {
   options.reject_unknown();
   const std::string output = options.text("output");
   protect_inputs(options, {{"output", {output}}});
-  reduction::ReductionOptions reduction = reduction_options(options);
+  ReductionOptions reduction = reduction_options(options);
   const OutputLock lock(output);
   const Nodes nodes = read_on_rank_0(options);
   if (reduction.imported) reduction.imported->node_number = nodes.report.node_number;

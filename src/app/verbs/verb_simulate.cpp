@@ -8,6 +8,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
+#include "app/options/rows.h"
 #include "app/resumable_run.h"
 #include "app/tables/contact_options.h"
 #include "app/tables/initial_state.h"
@@ -26,80 +27,126 @@
 namespace elastogear::app {
 namespace {
 
-const OptionTable kOwnTable = {
+// Where a body comes from: a file, or numbers.
+struct BodySource {
+  std::string file = {};
+  bool rigid = false, residual = true;
+  double mass = 0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  std::vector<double> inertia = {};
+};
+
+enum class Analysis { dynamic, equilibrium, relax };
+
+struct AnalysisSettings {
+  Analysis kind = Analysis::dynamic;
+  int static_steps = 10;
+};
+
+using Setup = dynamics::BodySetup;
+using body::Joint, dynamics::Axis, dynamics::Environment, dynamics::TimeSettings;
+
+// A number, or three where the joint takes a vector.
+void set_rate(const Options& options, const std::string& name, double& scalar, Eigen::Vector3d& vector) {
+  const std::size_t n = options.numbers(name).size();
+  require(n == 1 || n == 3, "option -", name, ": must be one number, or three x,y,z for a free body");
+  if (n == 3)
+    vector = options.vector(name);
+  else
+    scalar = options.number(name);
+}
+
+const Rows<BodySource> kSourceRows = {
     {"bodies", "-", "", "names of the bodies; each has its own <body>_... keys"},
-    {"<body>_file", "-", "", "body file made by reduce; without one give mass and inertia"},
-    {"<body>_rigid", "-", "false", "leave out the elastic coordinates of the file"},
-    {"<body>_residual", "-", "true",
+    {"<body>_file", &BodySource::file, "-", "body file made by reduce; without one give mass and inertia"},
+    {"<body>_rigid", &BodySource::rigid, "-", "leave out the elastic coordinates of the file"},
+    {"<body>_residual", &BodySource::residual, "-",
      "let contact feel the static responses that the file holds beside its modes (reduce -basis "
      "modal_residual)"},
-    {"<body>_mass", "kg", "", "rigid body without a file: mass"},
-    {"<body>_center", "m", "0,0,0", "rigid body without a file: centre of mass in the body frame"},
-    {"<body>_inertia", "kg m^2", "", "rigid body without a file: xx,yy,zz,xy,yz,xz about the centre of mass"},
-    {"<body>_position", "m", "0,0,0", "origin of the body frame in the world"},
-    {"<body>_rotation", "rad", "0,0,0", "rotation vector from the body frame to the world"},
-    {"<body>_joint", "-", "fixed", "fixed, revolute, prismatic, cylindrical, spherical or free"},
-    {"<body>_axis", "-", "0,0,1", "direction of the joint's axis in the body frame"},
-    {"<body>_point", "m", "0,0,0", "point of the axis, or centre of a spherical joint, in the body frame"},
-    {"<body>_angle0", "rad", "0", "initial angle about the axis"},
+    {"<body>_mass", &BodySource::mass, "kg", "rigid body without a file: mass", kDependent},
+    {"<body>_center", &BodySource::center, "m",
+     "rigid body without a file: centre of mass in the body frame"},
+    {"<body>_inertia", &BodySource::inertia, "kg m^2",
+     "rigid body without a file: xx,yy,zz,xy,yz,xz about the centre of mass"},
+};
+
+const Rows<Setup> kBodyRows = {
+    {"<body>_position", in(&Setup::joint, &Joint::r_WB0), "m", "origin of the body frame in the world"},
+    {"<body>_rotation", "rad", "0,0,0", "rotation vector from the body frame to the world",
+     [](auto& o, auto& name, auto& s) { s.joint.R_WB0 = rotation_matrix(o.vector(name)); }},
+    {"<body>_joint", in(&Setup::joint, &Joint::type), body::joint_names(),
+     "fixed, revolute, prismatic, cylindrical, spherical or free"},
+    {"<body>_axis", in(&Setup::joint, &Joint::axis), "-", "direction of the joint's axis in the body frame"},
+    {"<body>_point", in(&Setup::joint, &Joint::point), "m",
+     "point of the axis, or centre of a spherical joint, in the body frame"},
+    {"<body>_angle0", in(&Setup::rotation, &Axis::s_0), "rad", "initial angle about the axis"},
     {"<body>_omega0", "rad/s", "0",
-     "initial angular velocity: about the axis; free, spherical: x,y,z in the body frame"},
-    {"<body>_displacement0", "m", "0", "initial displacement along the axis"},
-    {"<body>_velocity0", "m/s", "0", "initial velocity: along the axis; free: x,y,z in the world"},
-    {"<body>_torque", "N m", "0", "about the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]"},
-    {"<body>_force", "N", "0", "along the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]"},
+     "initial angular velocity: about the axis; free, spherical: x,y,z in the body frame",
+     [](auto& o, auto& name, auto& s) { set_rate(o, name, s.rotation.s_dot_0, s.omega0); }},
+    {"<body>_displacement0", in(&Setup::translation, &Axis::s_0), "m", "initial displacement along the axis"},
+    {"<body>_velocity0", "m/s", "0", "initial velocity: along the axis; free: x,y,z in the world",
+     [](auto& o, auto& name, auto& s) { set_rate(o, name, s.translation.s_dot_0, s.velocity0); }},
+    {"<body>_torque", "N m", "0", "about the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]",
+     [](auto& o, auto& name, auto& s) { s.rotation.load = signal(o, name); }},
+    {"<body>_force", "N", "0", "along the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]",
+     [](auto& o, auto& name, auto& s) { s.translation.load = signal(o, name); }},
     {"<body>_rotation_motion", "rad", "",
      "prescribed rotation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
     {"<body>_translation_motion", "m", "",
      "prescribed translation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
-    {"<body>_rotation_damping", "N m s", "0", "viscous damping about the axis"},
-    {"<body>_rotation_friction", "N m", "0", "Coulomb friction about the axis"},
-    {"<body>_rotation_friction_rate", "rad/s", "0", "speed at which friction is tanh(1) of its full value"},
-    {"<body>_translation_damping", "N s/m", "0", "viscous damping along the axis"},
-    {"<body>_translation_friction", "N", "0", "Coulomb friction along the axis"},
-    {"<body>_translation_friction_rate", "m/s", "0", "speed at which friction is tanh(1) of its full value"},
-    {"gravity", "m/s^2", "0,0,0", "acceleration of gravity in the world"},
-    {"inertia", "-", "affine",
+    {"<body>_rotation_damping", in(&Setup::rotation, &Axis::damping), "N m s",
+     "viscous damping about the axis"},
+    {"<body>_rotation_friction", in(&Setup::rotation, &Axis::friction), "N m",
+     "Coulomb friction about the axis"},
+    {"<body>_rotation_friction_rate", in(&Setup::rotation, &Axis::friction_rate), "rad/s",
+     "speed at which friction is tanh(1) of its full value"},
+    {"<body>_translation_damping", in(&Setup::translation, &Axis::damping), "N s/m",
+     "viscous damping along the axis"},
+    {"<body>_translation_friction", in(&Setup::translation, &Axis::friction), "N",
+     "Coulomb friction along the axis"},
+    {"<body>_translation_friction_rate", in(&Setup::translation, &Axis::friction_rate), "m/s",
+     "speed at which friction is tanh(1) of its full value"},
+};
+
+const Rows<Environment> kEnvironmentRows = {
+    {"gravity", &Environment::gravity, "m/s^2", "acceleration of gravity in the world"},
+    {"inertia", &Environment::inertia, body::inertia_level_names(),
      "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "
      "its best affine field), or full (needs bodies reduced with -invariants full)"},
-    {"analysis", "-", "dynamic",
+};
+
+const Rows<AnalysisSettings> kAnalysisRows = {
+    {"analysis", &AnalysisSettings::kind, one_of("dynamic", "static", "relax"),
      "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
      "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
-    {"static_steps", "-", "10", "load steps of a static analysis"},
-    {"rest_tolerance", "-", "",
-     "relax: largest unbalanced share of the forces at rest (default: 1e-6; 1e-4 where friction sticks)"},
-    {"ts_dt", "s", "", "time step"},
-    {"ts_max_time", "s", "",
+    {"static_steps", &AnalysisSettings::static_steps, "-", "load steps of a static analysis", kPositive},
+};
+
+const Rows<TimeSettings> kTimeRows = {
+    {"rest_tolerance", &TimeSettings::rest_tolerance, "-",
+     "relax: largest unbalanced share of the forces at rest (default: 1e-6; 1e-4 where friction sticks)",
+     kPositive | kDependent},
+    {"ts_dt", &TimeSettings::dt, "s", "time step", kPositive | kRequired},
+    {"ts_max_time", &TimeSettings::end_time, "s",
      "end of the simulation; static: time of loads and prescribed motions, without it loads take their last "
-     "value"},
-    {"ts_alpha_radius", "-", "",
-     "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: 1; relax: 0)"},
+     "value",
+     kPositive | kRequired},
+    {"ts_alpha_radius", &TimeSettings::rho_inf, "-",
+     "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: 1; relax: 0)",
+     kDependent},
     {"output", "-", "", "result file to write (HDF5)"},
-    {"step_tolerance", "m", "0",
+    {"step_tolerance", &TimeSettings::step_tolerance, "m",
      "choose the steps so that the local error moves no surface node farther; 0: all steps are ts_dt"},
-    {"velocity_tolerance", "m/s", "0", "with step_tolerance: the same for velocities; 0: without"},
+    {"velocity_tolerance", &TimeSettings::velocity_tolerance, "m/s",
+     "with step_tolerance: the same for velocities; 0: without"},
 };
 
 OptionTable table() {
-  OptionTable all = kOwnTable;
+  OptionTable all = table_of(kSourceRows, kBodyRows, kEnvironmentRows, kAnalysisRows, kTimeRows);
   for (const OptionTable& part :
        {output_table(), contact_table(), initial_state_table(), resumable_run_table(), marker_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
-}
-
-body::Joint joint(const Options& options, const std::string& prefix) {
-  body::Joint joint;
-  joint.type = static_cast<body::JointType>(options.choice(prefix + "joint", body::joint_names()));
-  require(!options.given(prefix + "axis") || body::has_rotation_axis(joint.type) ||
-              body::has_translation_axis(joint.type),
-          "option -", prefix, "axis: a ", options.text(prefix + "joint"),
-          " joint has no axis; revolute, prismatic and cylindrical joints have");
-  joint.axis = options.vector(prefix + "axis");
-  joint.point = options.vector(prefix + "point");
-  joint.r_WB0 = options.vector(prefix + "position");
-  joint.R_WB0 = rotation_matrix(options.vector(prefix + "rotation"));
-  return joint;
 }
 
 // A body reduced free has no nodes that carry its frame.
@@ -113,102 +160,74 @@ void check_free_body(const dynamics::BodySetup& setup) {
                             "its mean motion is");
 }
 
-// kind: "rotation" or "translation"; load: "torque" or "force". Initial values are set already.
-void set_axis(const Options& options, const std::string& prefix, const char* kind, const char* load_name,
-              dynamics::Axis& axis) {
-  const std::string name = prefix + kind;
-  axis.load = signal(options, prefix + load_name);
-  axis.damping = options.number(name + "_damping");
-  axis.friction = options.number(name + "_friction");
-  axis.friction_rate = options.number(name + "_friction_rate");
-  if (!options.given(name + "_motion")) return;
-  axis.drive = drive(options, name + "_motion", std::exchange(axis.s_0, 0));
-}
-
-// A number, or three where the joint takes a vector.
-void set_rate(const Options& options, const std::string& name, double& scalar, Eigen::Vector3d& vector) {
-  const std::size_t n = options.numbers(name).size();
-  require(n == 1 || n == 3, "option -", name, ": must be one number, or three x,y,z for a free body");
-  if (n == 3)
-    vector = options.vector(name);
-  else
-    scalar = options.number(name);
+// The initial value is set already.
+void set_drive(const Options& options, const std::string& name, Axis& axis) {
+  if (options.given(name)) axis.drive = drive(options, name, std::exchange(axis.s_0, 0));
 }
 
 // identity: of the file's contents, whatever options leave out of them.
-model::ElasticBody read_or_make_body(const Options& options, const std::string& prefix,
-                                     std::string& identity) {
-  if (options.given(prefix + "file")) {
+model::ElasticBody read_or_make_body(const Options& options, const std::string& name, std::string& identity) {
+  const std::string prefix = name + "_";
+  BodySource source;
+  read_rows(options, kSourceRows, source, name);
+  if (!source.file.empty()) {
     require(!options.given(prefix + "mass") && !options.given(prefix + "inertia"), "options -", prefix,
             "file and -", prefix, "mass, _inertia exclude each other");
-    model::ElasticBody body = io::read_body(options.text(prefix + "file"), io::BodyUse::motion);
+    model::ElasticBody body = io::read_body(source.file, io::BodyUse::motion);
     identity = model::fingerprint(body);
-    if (options.flag(prefix + "rigid")) body = body::rigid_copy(body);
-    if (!options.flag(prefix + "residual")) body.flexibility = {};
+    if (source.rigid) body = body::rigid_copy(body);
+    if (!source.residual) body.flexibility = {};
     return body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,
           "file is missing: body file made by reduce (or give -", prefix, "mass and -", prefix,
           "inertia of a rigid body)");
-  const std::vector<double> J = options.numbers(prefix + "inertia");
+  const std::vector<double>& J = source.inertia;
   require(J.size() == 6, "option -", prefix, "inertia: must be six numbers xx,yy,zz,xy,yz,xz (kg m^2)");
   Eigen::Matrix3d J_c;
   J_c << J[0], J[3], J[5], J[3], J[1], J[4], J[5], J[4], J[2];
-  return body::rigid_body(options.number(prefix + "mass"), options.vector(prefix + "center"), J_c);
+  return body::rigid_body(source.mass, source.center, J_c);
 }
 
 dynamics::BodySetup body_setup(const Options& options, const std::string& name,
                                std::map<std::string, std::string>& identities) {
-  const std::string prefix = name + "_";
-  dynamics::BodySetup setup;
+  Setup setup;
   setup.name = name;
-  setup.joint = joint(options, prefix);
-  setup.rotation.s_0 = options.number(prefix + "angle0");
-  setup.translation.s_0 = options.number(prefix + "displacement0");
-  set_rate(options, prefix + "omega0", setup.rotation.s_dot_0, setup.omega0);
-  set_rate(options, prefix + "velocity0", setup.translation.s_dot_0, setup.velocity0);
+  read_rows(options, kBodyRows, setup, name);
+  const body::JointType joint = setup.joint.type;
+  require(
+      !options.given(name + "_axis") || body::has_rotation_axis(joint) || body::has_translation_axis(joint),
+      "option -", name, "_axis: a ", options.text(name + "_joint"),
+      " joint has no axis; revolute, prismatic and cylindrical joints have");
   set_initial_state(options, setup);
-  set_axis(options, prefix, "rotation", "torque", setup.rotation);
-  set_axis(options, prefix, "translation", "force", setup.translation);
-  model::ElasticBody body = read_or_make_body(options, prefix, identities[name]);
-  change_body(options, prefix, body);
+  set_drive(options, name + "_rotation_motion", setup.rotation);
+  set_drive(options, name + "_translation_motion", setup.translation);
+  model::ElasticBody body = read_or_make_body(options, name, identities[name]);
+  change_body(options, name, body);
   setup.body = std::make_shared<model::ElasticBody>(std::move(body));
   check_free_body(setup);
   return setup;
 }
 
-dynamics::Environment environment(const Options& options) {
-  return {static_cast<body::InertiaLevel>(options.choice("inertia", body::inertia_level_names())),
-          options.vector("gravity")};
+AnalysisSettings analysis_settings(const Options& options) {
+  AnalysisSettings settings;
+  read_rows(options, kAnalysisRows, settings);
+  return settings;
 }
 
-enum class Analysis { dynamic, equilibrium, relax };
+Analysis analysis(const Options& options) { return analysis_settings(options).kind; }
 
-Analysis analysis(const Options& options) {
-  return static_cast<Analysis>(options.choice("analysis", {"dynamic", "static", "relax"}));
-}
-
-// Default of rest_tolerance. With friction that sticks, rest is a range of states, in which nodes creep on
-// for tens of thousands of steps (docs/theory.md, section 8.7).
-double rest_tolerance(const Options& options) {
-  if (options.given("rest_tolerance")) return options.positive("rest_tolerance");
-  return friction_sticks(options) ? 1e-4 : 1e-6;
-}
-
-dynamics::TimeSettings time_settings(const Options& options) {
-  dynamics::TimeSettings time;
-  time.dt = options.positive("ts_dt");
-  time.end_time = options.positive("ts_max_time");
+// With friction that sticks, rest is a range of states, in which nodes creep on for tens of thousands of
+// steps (docs/theory.md, section 8.7): the default of rest_tolerance is larger then.
+TimeSettings time_settings(const Options& options) {
+  TimeSettings time;
+  time.relax = analysis(options) == Analysis::relax;
+  if (time.relax) time.rho_inf = 0;
+  if (friction_sticks(options)) time.rest_tolerance = 1e-4;
+  read_rows(options, kTimeRows, time);
+  set_output_times(options, time);
   require(time.end_time >= time.dt, options.label("ts_max_time"), " = ", time.end_time,
           " s: ends before the first step, -ts_dt = ", time.dt, " s");
-  time.relax = analysis(options) == Analysis::relax;
-  time.rho_inf = options.given("ts_alpha_radius") ? options.number("ts_alpha_radius") : time.relax ? 0 : 1;
-  time.rest_tolerance = rest_tolerance(options);
-  time.output_every = options.count("output_every", 1);
-  time.output_dt = options.number("output_dt");
-  time.output_times = output_times(options);
-  time.step_tolerance = options.number("step_tolerance");
-  time.velocity_tolerance = options.number("velocity_tolerance");
   return time;
 }
 
@@ -252,7 +271,7 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
 
 // Load steps in place of time steps.
 void make_static(const Options& options, std::vector<dynamics::BodySetup>& bodies,
-                 dynamics::MarkerSetups& markers, dynamics::Environment& surroundings) {
+                 dynamics::MarkerSetups& markers, Environment& surroundings) {
   constexpr double kLastValue = std::numeric_limits<double>::infinity();
   const double time = options.given("ts_max_time") ? options.positive("ts_max_time") : kLastValue;
   for (dynamics::BodySetup& setup : bodies) dynamics::scale_by_load_factor(setup, time);
@@ -275,12 +294,12 @@ std::string step_text(const dynamics::StepInfo& step) {
 
 dynamics::Computation computation(const Options& options, dynamics::System& system) {
   if (analysis(options) == Analysis::equilibrium)
-    return [&system, steps = options.count("static_steps", 1)](const dynamics::Observer& observer,
-                                                               const dynamics::Checkpoints& checkpoints) {
+    return [&system, steps = analysis_settings(options).static_steps](
+               const dynamics::Observer& observer, const dynamics::Checkpoints& checkpoints) {
       return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress(),
                                     checkpoints.stop);
     };
-  dynamics::TimeSettings time = time_settings(options);
+  TimeSettings time = time_settings(options);
   if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
   auto info = std::make_shared<dynamics::StepInfo>();
   time.monitor = [info](const dynamics::StepInfo& step) { *info = step; };
@@ -311,7 +330,8 @@ void run(const Options& options, const std::vector<std::string>&) {
   const OutputLock lock(output);
   if (analysis(options) != Analysis::equilibrium) time_settings(options);
   const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
-  dynamics::Environment surroundings = environment(options);
+  Environment surroundings;
+  read_rows(options, kEnvironmentRows, surroundings);
   dynamics::MarkerSetups markers = marker_setups(options);
   std::vector<dynamics::BodySetup> bodies;
   std::map<std::string, std::string> identities;
