@@ -8,6 +8,7 @@
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
+#include "elastogear/base/text.h"
 #include "elastogear/base/version.h"
 
 namespace elastogear::app {
@@ -33,9 +34,7 @@ void print_help(const Verb& verb) {
 const Verb& find(const std::vector<Verb>& verbs, const std::string& name) {
   for (const Verb& verb : verbs)
     if (verb.name == name) return verb;
-  std::string known;
-  for (const Verb& verb : verbs) known += (known.empty() ? "" : ", ") + verb.name;
-  fail("unknown verb '", name, "'; the verbs are ", known);
+  fail("unknown verb '", name, "'; the verbs are ", join(verbs, ", ", &Verb::name));
 }
 
 // An option of PETSc that is known, but that the solvers of this run have not asked for.

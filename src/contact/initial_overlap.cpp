@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/sort_unique.h"
 #include "elastogear/contact/pair.h"
 #include "elastogear/contact/topology.h"
 
@@ -46,8 +47,7 @@ std::vector<int> part_nodes(const Eigen::Matrix4Xi& face, int n_nodes) {
   std::vector<int> nodes;
   for (const auto& f : face.colwise())
     if (root(f[0]) == f[0]) nodes.push_back(f[0]);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "elastogear/base/sort_unique.h"
 #include "elastogear/fem/element.h"
 #include "fem/spd_matrix.h"
 
@@ -27,8 +28,7 @@ BlockCounts count_blocks(const MeshPart& part) {
     for (int cell : cells)
       for (int node : part.mesh.cells[cell])
         if (part.row[node] >= 0) columns.push_back(part.row[node]);
-    std::sort(columns.begin(), columns.end());
-    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    sort_unique(columns);
     const auto mine = std::lower_bound(columns.begin(), columns.end(), part.row_end) -
                       std::lower_bound(columns.begin(), columns.end(), part.row_begin);
     counts.diagonal.push_back(static_cast<PetscInt>(mine));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "elastogear/base/sort_unique.h"
+
 namespace elastogear::fem {
 namespace {
 
@@ -29,8 +31,7 @@ MeshPart make_mesh_part(const mesh::Mesh& mesh, const std::vector<int>& region, 
   MeshPart part;
   std::vector<int> nodes;
   for (int cell : cells) nodes.insert(nodes.end(), mesh.cells[cell].begin(), mesh.cells[cell].end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   std::vector<int> local;
   for (int cell : cells) {
     local.clear();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "elastogear/base/sort_unique.h"
 #include "elastogear/fem/element.h"
 #include "fem/spd_matrix.h"
 
@@ -25,10 +26,7 @@ std::vector<std::vector<int>> neighbours(const Sector& sector, int begin, int en
       for (int b : sector.mesh.cells[cell])
         if (sector.placement.orbit[b] >= 0) near[row - begin].push_back(sector.placement.orbit[b]);
     }
-  for (auto& orbits : near) {
-    std::sort(orbits.begin(), orbits.end());
-    orbits.erase(std::unique(orbits.begin(), orbits.end()), orbits.end());
-  }
+  for (auto& orbits : near) sort_unique(orbits);
   return near;
 }
 

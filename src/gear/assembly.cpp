@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/sort_unique.h"
 #include "elastogear/mesh/quality.h"
 
 namespace elastogear::gear {
@@ -38,10 +39,7 @@ void check_cells(const mesh::Mesh& mesh, const std::string& body) {
 }
 
 void sort_node_sets(mesh::Mesh& mesh) {
-  for (auto& [name, nodes] : mesh.node_sets) {
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  }
+  for (auto& [name, nodes] : mesh.node_sets) sort_unique(nodes);
 }
 
 std::string numbered(const std::string& prefix, int i, int n) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "elastogear/base/text.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/mesh/file.h"
 #include "elastogear/mesh/hold.h"
@@ -30,10 +31,8 @@ void describe_sets(Out& out, const char* kind, const std::map<std::string, Set>&
 std::string cell_types(const mesh::Cells& cells) {
   std::map<mesh::CellType, int> count;
   for (mesh::CellType type : cells.type) ++count[type];
-  std::string text;
-  for (const auto& [type, n] : count)
-    text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + mesh::name(type);
-  return text;
+  return join(count, ", ",
+              [](const auto& of) { return std::to_string(of.second) + " " + mesh::name(of.first); });
 }
 
 void describe_mesh(Out& out, const mesh::Mesh& mesh) {

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
 
 namespace elastogear::mesh {
 namespace {
@@ -20,9 +21,7 @@ template <class Set>
 const Set& named(const std::map<std::string, Set>& sets, const std::string& name, const char* kind) {
   const auto found = sets.find(name);
   if (found != sets.end()) return found->second;
-  std::string known;
-  for (const auto& [key, value] : sets) known += (known.empty() ? "" : ", ") + key;
-  fail("the mesh has no ", kind, " set '", name, "'; it has: ", known.empty() ? "none" : known);
+  fail("the mesh has no ", kind, " set '", name, "'; it has: ", sets.empty() ? "none" : join_keys(sets));
 }
 
 using FaceMap = std::unordered_map<Face, int, KeyHash>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/sort_unique.h"
+#include "elastogear/base/text.h"
 
 namespace elastogear::mesh {
 namespace {
@@ -10,16 +12,13 @@ namespace {
 std::vector<int> nodes_of(const std::vector<Face>& faces) {
   std::vector<int> nodes;
   for (const Face& face : faces) nodes.insert(nodes.end(), face.begin(), face.end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 
 template <class Set>
 std::string names(const std::map<std::string, Set>& sets) {
-  std::string text;
-  for (const auto& [name, members] : sets) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
+  return sets.empty() ? "none" : join_keys(sets);
 }
 
 }  // namespace

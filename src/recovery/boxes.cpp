@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elastogear/base/sort_unique.h"
+
 namespace elastogear::recovery {
 namespace {
 
@@ -48,8 +50,7 @@ Boxes overlapping_boxes(const contact::Bvh& tree, const contact::Bvh& other) {
   contact::overlapping_faces(tree, other, {}, work, pairs);
   std::vector<int> faces;
   for (const contact::NodePair& pair : pairs) faces.push_back(pair[0]);
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sort_unique(faces);
   const std::vector<int> leaf = leaf_of_face(tree);
   Boxes boxes;
   for (int face : faces) append(boxes, contact::box(tree, leaf[face]), contact::depth(tree), 1);

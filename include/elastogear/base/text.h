@@ -21,4 +21,10 @@ std::string join(const Items& items, std::string_view separator = ", ", const Te
   return all;
 }
 
+/// The keys of a map.
+template <class Map>
+std::string join_keys(const Map& map) {
+  return join(map, ", ", [](const auto& entry) { return entry.first; });
+}
+
 }  // namespace elastogear

@@ -17,6 +17,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/petsc.h"
+#include "elastogear/base/text.h"
 #include "elastogear/base/version.h"
 
 namespace elastogear::app {
@@ -272,9 +273,7 @@ bool Options::is_of_other_verb(const std::string& name) const {
 int Options::choice(const std::string& name, const std::vector<std::string>& allowed) const {
   const std::string value = text(name);
   const auto found = std::find(allowed.begin(), allowed.end(), value);
-  std::string names;
-  for (const std::string& a : allowed) names += (names.empty() ? "" : ", ") + a;
-  require(found != allowed.end(), label(name), " = '", value, "': must be one of ", names);
+  require(found != allowed.end(), label(name), " = '", value, "': must be one of ", join(allowed));
   return static_cast<int>(found - allowed.begin());
 }
 

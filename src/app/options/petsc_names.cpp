@@ -10,6 +10,8 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
+#include "elastogear/base/sort_unique.h"
+#include "elastogear/base/text.h"
 
 namespace elastogear::app {
 namespace {
@@ -87,11 +89,6 @@ int visit_object(dl_phdr_info* object, std::size_t, void* data) {
   return 0;
 }
 
-void sort_once(std::vector<std::string>& words) {
-  std::sort(words.begin(), words.end());
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-}
-
 Literals read_literals() {
   Literals literals;
   dl_iterate_phdr(visit_object, &literals);
@@ -101,8 +98,8 @@ Literals read_literals() {
     if (const auto at = literals.prefixes[i].rfind(number); at != std::string::npos && at > 0)
       literals.prefixes.push_back(std::string(literals.prefixes[i]).erase(at, number.size()));
   literals.prefixes.push_back("elastic_");  // of this program's own solver
-  sort_once(literals.names);
-  sort_once(literals.prefixes);
+  sort_unique(literals.names);
+  sort_unique(literals.prefixes);
   const auto found = [&](const char* name) {
     return std::binary_search(literals.names.begin(), literals.names.end(), name);
   };
@@ -184,10 +181,8 @@ void check_petsc_type(const std::string& label, const std::string& name, const s
     const std::size_t begin = ends_so ? name.size() - std::string_view(types.option).size() : 0;
     if (!ends_so || (begin > 0 && !(nests && name[begin - 1] == '_'))) continue;
     const std::vector<std::string> allowed = names_of(types);
-    std::string text;
-    for (const std::string& type : allowed) text += (text.empty() ? "" : ", ") + type;
     require(std::find(allowed.begin(), allowed.end(), value) != allowed.end(), label, " = '", value,
-            "': must be one of ", text);
+            "': must be one of ", join(allowed));
   }
 }
 

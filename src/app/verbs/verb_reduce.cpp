@@ -21,6 +21,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/petsc.h"
+#include "elastogear/base/sort_unique.h"
 #include "elastogear/mesh/file.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/reduce.h"
@@ -217,8 +218,7 @@ std::vector<int> listed_nodes(const Options& options, const std::vector<std::int
             "option -restrain_nodes: there is no node '", text, "'");
     nodes.push_back(static_cast<int>(found - numbers.begin()));
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   return nodes;
 }
 

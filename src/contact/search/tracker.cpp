@@ -7,6 +7,7 @@
 
 #include "contact/settings.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/sort_unique.h"
 
 namespace elastogear::contact {
 namespace {
@@ -40,11 +41,6 @@ double next_limit(const NeighbourList& neighbours, double skin) {
   if (neighbours.limit == 0) return kLimit * skin;
   if (neighbours.uses < kFewUses) return std::min(2 * neighbours.limit, skin);
   return neighbours.uses > kManyUses ? neighbours.limit / 2 : neighbours.limit;
-}
-
-void make_set(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 void serialize_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Archive& archive) {
@@ -156,7 +152,7 @@ void Tracker::list_nodes() {
           i == slave ? nodes_around_nodes(near.slave, t, face) : nodes_around(near.face, t, face);
       lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
     }
-  for (auto& list : lists) make_set(list);
+  for (auto& list : lists) sort_unique(list);
 }
 
 // Measures the clearance of all candidates and leaves out those that cannot touch while the surfaces move by

@@ -3,15 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "elastogear/base/sort_unique.h"
+
 namespace elastogear::dynamics {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
-
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 Eigen::Index slot(const std::vector<int>& node, int number) {
   return std::lower_bound(node.begin(), node.end(), number) - node.begin();

@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "elastogear/base/text.h"
 #include "elastogear/model/elastic_body.h"
 #include "io/hdf5/schema.h"
 
@@ -11,12 +12,6 @@ namespace {
 const std::string kGroup = "/checks";
 
 // Names of rows are one attribute, a line each.
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-  return text;
-}
-
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
@@ -49,7 +44,7 @@ void write_checks(const h5::File& file, const std::vector<model::Check>& checks)
         file, path, {{static_cast<hsize_t>(value.rows()), static_cast<hsize_t>(value.cols())}, value.data()},
         check.unit);
     h5::set_attribute(file, path, "meaning", check.meaning);
-    h5::set_attribute(file, path, "rows", joined(check.row));
+    h5::set_attribute(file, path, "rows", join(check.row, "\n"));
   }
 }
 

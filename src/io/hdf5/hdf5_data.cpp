@@ -7,6 +7,8 @@
 #include <functional>
 #include <numeric>
 
+#include "elastogear/base/text.h"
+
 #include "io/hdf5/hdf5_objects.h"
 
 namespace elastogear::io::h5 {
@@ -67,9 +69,8 @@ Id select(hid_t dataset, const Rows& rows) {
 }
 
 std::string text(const Shape& shape) {
-  std::string result;
-  for (hsize_t n : shape) result += (result.empty() ? "" : " x ") + (n == kAny ? "n" : std::to_string(n));
-  return shape.empty() ? "one number" : result;
+  const auto size = [](hsize_t n) { return n == kAny ? "n" : std::to_string(n); };
+  return shape.empty() ? "one number" : join(shape, " x ", size);
 }
 
 bool matches(const Shape& shape, const Shape& expected) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "elastogear/base/sort_unique.h"
 #include "mesh/inp/inp_lines.h"
 
 namespace elastogear::mesh {
@@ -12,9 +13,7 @@ constexpr int kMaxDepth = 100;  // of sets within sets
 
 // Sorts out repeated members once there are more than `most`.
 void compact(std::vector<int>& members, std::size_t most) {
-  if (members.size() <= most) return;
-  std::sort(members.begin(), members.end());
-  members.erase(std::unique(members.begin(), members.end()), members.end());
+  if (members.size() > most) sort_unique(members);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "elastogear/base/file.h"
+#include "elastogear/base/sort_unique.h"
 #include "mesh/face_owner.h"
 #include "mesh/msh/msh.h"
 #include "mesh/msh/msh_format.h"
@@ -216,11 +217,6 @@ std::vector<int> numbers(const std::vector<Tag>& tags, const TagTable& table, co
   found.reserve(tags.size());
   for (Tag tag : tags) found.push_back(table.at(tag, [&] { return user; }));
   return found;
-}
-
-void sort_unique(std::vector<int>& members) {
-  std::sort(members.begin(), members.end());
-  members.erase(std::unique(members.begin(), members.end()), members.end());
 }
 
 // Faces in the order of their elements' tags, whatever the blocks.

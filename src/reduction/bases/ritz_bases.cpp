@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
 #include "elastogear/fem/assembly.h"
 #include "reduction/eigensolver/factorisation.h"
 #include "reduction/static_response/residual.h"
@@ -171,8 +172,7 @@ RitzSpace craig_bampton(const RitzTask& task, const RitzSpace& empty, const Prog
 }  // namespace
 
 void require_affordable(const std::vector<int>& interface_rows, const std::vector<std::string>& sets) {
-  std::string names;
-  for (const std::string& set : sets) names += (names.empty() ? "" : ", ") + set;
+  const std::string names = join(sets);
   require(!interface_rows.empty(), "all nodes of ", names, " are restrained: forces there move nothing");
   require(interface_rows.size() <= static_cast<std::size_t>(kMostInterface), "the nodes of ", names, " have ",
           interface_rows.size(), " displacements, and a static solution for each is affordable up to ",
