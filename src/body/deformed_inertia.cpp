@@ -52,12 +52,6 @@ SecondOrder affine_second_order(const VectorXd& x) {
 
 }  // namespace
 
-Eigen::Matrix3d symmetric(const Vector6& j) {
-  Eigen::Matrix3d J;
-  J << j[0], j[3], j[5], j[3], j[1], j[4], j[5], j[4], j[2];
-  return J;
-}
-
 Matrix36 factor(const Eigen::Vector3d& y) {
   Matrix36 Y;
   Y << y[0], 0, 0, y[1], 0, y[2], 0, y[1], 0, y[0], y[2], 0, 0, 0, y[2], 0, y[1], y[0];

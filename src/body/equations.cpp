@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/tensor.h"
 #include "elastogear/body/deformed_inertia.h"
 
 namespace elastogear::body {
@@ -14,10 +15,7 @@ using Eigen::VectorXd;
 
 Eigen::MatrixXd inertia_derivatives(const model::Inertia& inertia) {
   Eigen::MatrixXd J_1(inertia.S_1.cols(), 6);
-  for (int k = 0; k < J_1.rows(); ++k) {
-    const Eigen::Matrix3d J = model::J_1(inertia, k);
-    J_1.row(k) << J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(1, 2), J(0, 2);
-  }
+  for (int k = 0; k < J_1.rows(); ++k) J_1.row(k) = six_entries(model::J_1(inertia, k));
   return J_1;
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/tensor.h"
 
 namespace elastogear::model {
 namespace {
@@ -80,12 +81,7 @@ Eigen::Matrix<double, 6, 3> stress_response(const Flexibility& flexibility, int 
   const Matrix3d T = turn(flexibility, sector_index);
   const Eigen::Matrix<double, 6, 3> s = G.middleRows<6>(6 * row).cast<double>() * T.transpose();
   Eigen::Matrix<double, 6, 3> turned;
-  for (int j = 0; j < 3; ++j) {
-    Matrix3d sigma;
-    sigma << s(0, j), s(3, j), s(5, j), s(3, j), s(1, j), s(4, j), s(5, j), s(4, j), s(2, j);
-    sigma = (T * sigma * T.transpose()).eval();
-    turned.col(j) << sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2);
-  }
+  for (int j = 0; j < 3; ++j) turned.col(j) = six_entries(T * symmetric(s.col(j)) * T.transpose());
   return turned;
 }
 

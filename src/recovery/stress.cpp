@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elastogear/base/tensor.h"
+
 namespace elastogear::recovery {
 namespace {
 
@@ -23,9 +25,8 @@ double von_mises(const StressVector& s) {
 }
 
 double rankine(const StressVector& s) {
-  Eigen::Matrix3d tensor;
-  tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric(s), Eigen::EigenvaluesOnly)
+      .eigenvalues()[2];
 }
 
 Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, von_mises); }

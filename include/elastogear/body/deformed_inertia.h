@@ -3,15 +3,14 @@
 
 #include <Eigen/Core>
 
+#include "elastogear/base/tensor.h"
+
 #include "elastogear/body/equations.h"
 
 namespace elastogear::body {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-/// The symmetric matrix with the entries xx yy zz xy yz xz.
-Eigen::Matrix3d symmetric(const Vector6& j);
 /// Y(y) in symmetric(j) y = Y(y) j.
 Matrix36 factor(const Eigen::Vector3d& y);
 

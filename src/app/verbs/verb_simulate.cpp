@@ -19,6 +19,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/base/tensor.h"
 #include "elastogear/body/rigid.h"
 #include "elastogear/dynamics/static.h"
 #include "elastogear/io/body_file.h"
@@ -184,9 +185,7 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
           "inertia of a rigid body)");
   const std::vector<double>& J = source.inertia;
   require(J.size() == 6, "option -", prefix, "inertia: must be six numbers xx,yy,zz,xy,yz,xz (kg m^2)");
-  Eigen::Matrix3d J_c;
-  J_c << J[0], J[3], J[5], J[3], J[1], J[4], J[5], J[4], J[2];
-  return body::rigid_body(source.mass, source.center, J_c);
+  return body::rigid_body(source.mass, source.center, symmetric(Vector6(J.data())));
 }
 
 dynamics::BodySetup body_setup(const Options& options, const std::string& name,

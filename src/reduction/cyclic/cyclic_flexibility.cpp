@@ -8,6 +8,7 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/base/tensor.h"
 #include "elastogear/fem/sector_assembly.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/flexibility.h"
@@ -115,14 +116,8 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const Wanted& wanted, const
 // A vector or, by its six components, a symmetric tensor turned by T.
 MatrixXd turning(const Eigen::Matrix3d& T, int components) {
   if (components == 3) return T;
-  constexpr std::array<std::pair<int, int>, 6> kPlace{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
   MatrixXd turn(6, 6);
-  for (int j = 0; j < 6; ++j) {
-    Eigen::Matrix3d unit = Eigen::Matrix3d::Zero();
-    unit(kPlace[j].first, kPlace[j].second) = unit(kPlace[j].second, kPlace[j].first) = 1;
-    const Eigen::Matrix3d turned = T * unit * T.transpose();
-    for (int i = 0; i < 6; ++i) turn(i, j) = turned(kPlace[i].first, kPlace[i].second);
-  }
+  for (int j = 0; j < 6; ++j) turn.col(j) = six_entries(T * symmetric(Vector6::Unit(j)) * T.transpose());
   return turn;
 }
 
