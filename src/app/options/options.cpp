@@ -3,7 +3,6 @@
 #include <slepcsys.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -16,6 +15,7 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/base/number.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/text.h"
 #include "elastogear/base/version.h"
@@ -67,13 +67,9 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 double parse_number(const std::string& label, const std::string& text, const std::string& unit) {
-  double value = 0;
-  const char* begin = text.c_str() + (text.starts_with('+') ? 1 : 0);
-  const char* end = text.c_str() + text.size();
-  const auto [stop, status] = std::from_chars(begin, end, value);
-  require(status == std::errc() && stop == end && std::isfinite(value), label, " = '", text,
-          "': must be a finite number (", unit, ")");
-  return value;
+  const std::optional<double> value = parse<double>(text);
+  require(value && std::isfinite(*value), label, " = '", text, "': must be a finite number (", unit, ")");
+  return *value;
 }
 
 std::map<std::string, std::string> options_in_database() {
@@ -224,11 +220,10 @@ double Options::positive(const std::string& name) const {
 
 int Options::count(const std::string& name, int smallest) const {
   const std::string value = text(name);
-  int result = 0;
-  const auto [stop, status] = std::from_chars(value.data(), value.data() + value.size(), result);
-  require(status == std::errc() && stop == value.data() + value.size() && result >= smallest, label(name),
-          " = '", value, "': must be a whole number of at least ", smallest);
-  return result;
+  const std::optional<int> number = parse<int>(value);
+  require(number && *number >= smallest, label(name), " = '", value, "': must be a whole number of at least ",
+          smallest);
+  return *number;
 }
 
 bool Options::flag(const std::string& name) const {

@@ -1,18 +1,19 @@
 #include "app/tables/motion.h"
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/number.h"
 
 namespace elastogear::app {
 namespace {
 
 double number(const std::string& name, const std::string& text) {
-  std::istringstream stream(text);
-  double value = 0;
-  require(stream >> value && stream.peek() == EOF, "option -", name, ": '", text, "' is not a number");
-  return value;
+  const std::optional<double> value = parse<double>(text);
+  require(value && std::isfinite(*value), "option -", name, ": '", text, "' is not a number");
+  return *value;
 }
 
 struct Table {
