@@ -54,11 +54,6 @@ void allocate_modes(model::ElasticBody& body, int n_q) {
   for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows::Zero(6, n_q);
 }
 
-void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
-              const model::SparseRows& S) {
-  set_mode(body, k, mode_column(body, phi, moments, S));
-}
-
 Eigen::VectorXd mode_column(const model::ElasticBody& body, const Eigen::VectorXd& phi,
                             const fem::MassMoments& moments, const model::SparseRows& S) {
   const auto n_s = 3 * static_cast<Eigen::Index>(body.surface.node.size()), n_e = S.rows();

@@ -10,19 +10,15 @@
 
 namespace elastogear::reduction {
 
-/// Sizes the body's dense fields for n_q modes: zero until add_mode.
+/// Sizes the body's dense fields for n_q modes: zero until set_mode.
 void allocate_modes(model::ElasticBody& body, int n_q);
 
-/// Enters one mode: column k of Phi (surface), Psi = S phi (stress) and the markers' Phi, row k of C_l and
-/// C_r, column k of S_1. phi: 3 n_nodes, node-major. S: the stress operator at body.stress.node, then the
-/// operator of body.markers (reduction/marker.h).
-void add_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& phi, const fem::MassMoments& moments,
-              const model::SparseRows& S);
-
-/// First step of add_mode: all numbers that the body keeps of phi, in one column.
+/// All numbers that the body keeps of a mode, in one column: rows of Phi (surface), of Psi = S phi (stress)
+/// and of the markers' Phi, those of C_l, C_r and S_1. phi: 3 n_nodes, node-major. S: the stress operator at
+/// body.stress.node, then the operator of body.markers (reduction/marker.h).
 Eigen::VectorXd mode_column(const model::ElasticBody& body, const Eigen::VectorXd& phi,
                             const fem::MassMoments& moments, const model::SparseRows& S);
-/// Second step of add_mode: enters the column of mode_column as mode k.
+/// Enters the column of mode_column as mode k.
 void set_mode(model::ElasticBody& body, int k, const Eigen::VectorXd& column);
 
 /// M_r = I, K_r = diag(eigenvalue), frequencies in Hz.

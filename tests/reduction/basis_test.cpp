@@ -66,7 +66,9 @@ TEST(ModalBasis, couples_like_the_dense_matrices) {
   const Eigen::MatrixXd M = dense_mass(example.mesh);
   const Eigen::MatrixXd Phi = Eigen::MatrixXd::Random(M.rows(), 2);
   reduction::allocate_modes(example.body, 2);
-  for (int k = 0; k < 2; ++k) reduction::add_mode(example.body, k, Phi.col(k), example.moments, example.S);
+  for (int k = 0; k < 2; ++k)
+    reduction::set_mode(example.body, k,
+                        reduction::mode_column(example.body, Phi.col(k), example.moments, example.S));
   const auto& inertia = example.body.inertia;
   const Eigen::MatrixXd C_l = Phi.transpose() * M * rigid_fields(example.mesh, false);
   const Eigen::MatrixXd C_r = Phi.transpose() * M * rigid_fields(example.mesh, true);
@@ -85,7 +87,7 @@ TEST(ModalBasis, has_the_rows_of_its_nodes) {
   Example example;
   const Eigen::VectorXd phi = Eigen::VectorXd::Random(3 * example.mesh.n_nodes());
   reduction::allocate_modes(example.body, 1);
-  reduction::add_mode(example.body, 0, phi, example.moments, example.S);
+  reduction::set_mode(example.body, 0, reduction::mode_column(example.body, phi, example.moments, example.S));
   const Eigen::VectorXd q = Eigen::VectorXd::Ones(1);
   const auto& nodes = example.body.surface.node;
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i)
@@ -100,8 +102,10 @@ TEST(FullBasis, is_the_modal_one_of_unit_vectors) {
   reduction::set_full_basis(full.body, free_dof, full.moments, full.S);
   reduction::allocate_modes(modal.body, n);
   for (int k = 0; k < n; ++k)
-    reduction::add_mode(modal.body, k, Eigen::VectorXd::Unit(3 * full.mesh.n_nodes(), free_dof[k]),
-                        full.moments, full.S);
+    reduction::set_mode(
+        modal.body, k,
+        reduction::mode_column(modal.body, Eigen::VectorXd::Unit(3 * full.mesh.n_nodes(), free_dof[k]),
+                               full.moments, full.S));
   const auto &a = full.body, &b = modal.body;
   EXPECT_LT((a.inertia.C_l - b.inertia.C_l).norm(), kRoundoff * b.inertia.C_l.norm());
   EXPECT_LT((a.inertia.C_r - b.inertia.C_r).norm(), kRoundoff * b.inertia.C_r.norm());

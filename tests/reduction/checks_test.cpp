@@ -50,7 +50,7 @@ struct Block {
     for (int k = 0; k < n_modes; ++k) {
       Eigen::VectorXd phi = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
       phi(dofs) = eigen.eigenvectors().col(k);
-      reduction::add_mode(body, k, phi, moments, no_stress);
+      reduction::set_mode(body, k, reduction::mode_column(body, phi, moments, no_stress));
     }
     reduction::set_modal_matrices(body, eigen.eigenvalues().head(n_modes));
     return body;
@@ -84,7 +84,8 @@ TEST(EffectiveMass, of_rotations_is_taken_about_the_centre_of_mass) {
     reduction::allocate_modes(body, 1);
     Eigen::VectorXd phi(3 * mesh.n_nodes());
     for (int i = 0; i < phi.size(); ++i) phi(i) = std::sin(i);
-    reduction::add_mode(body, 0, phi, moments, model::SparseRows(0, phi.size()));
+    reduction::set_mode(body, 0,
+                        reduction::mode_column(body, phi, moments, model::SparseRows(0, phi.size())));
     return body.inertia;
   };
   const auto a = inertia(block.mesh), b = inertia(moved);

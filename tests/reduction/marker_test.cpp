@@ -108,7 +108,8 @@ TEST(Marker, has_the_same_rows_in_the_full_basis_as_in_unit_modes) {
   reduction::set_full_basis(full, free_dof, moments, Q);
   reduction::allocate_modes(modal, n);
   for (int k = 0; k < n; ++k)
-    reduction::add_mode(modal, k, VectorXd::Unit(3 * mesh.n_nodes(), free_dof[k]), moments, Q);
+    reduction::set_mode(
+        modal, k, reduction::mode_column(modal, VectorXd::Unit(3 * mesh.n_nodes(), free_dof[k]), moments, Q));
   const VectorXd q = VectorXd::Random(n);
   for (int i : {0, 1}) {
     const VectorXd motion = model::multiply(full.markers[i].Phi, q);
