@@ -50,7 +50,7 @@ Local at_edge(Random& random, double depth) {
   return local;
 }
 
-// Over the prolonged side 1, where some share of the force is left.
+// Over the extended side 1, where part of the force is left.
 Local beyond_end(Random& random, int sides, double depth) {
   Local local = behind(random, sides, 0);
   const double extension = 0.2, beyond = random.uniform(0.2, 0.8) * extension;
@@ -79,31 +79,31 @@ FaceFunction height_at(const Local& local, const Projection& w) {
   return w.point.feature == Feature::face ? full : FaceFunction{};
 }
 
-FaceFunction share_at(const Local& local, const Projection& w) {
-  return w.point.feature == Feature::face ? end_share(local.face, w.point.u, w.point.v) : FaceFunction{1};
+FaceFunction fade_at(const Local& local, const Projection& w) {
+  return w.point.feature == Feature::face ? fade_factor(local.face, w.point.u, w.point.v) : FaceFunction{1};
 }
 
 struct Outcome {
   ContactPoint contact;
   Projection w;
-  ProjectionKinematics foot;
+  ProjectionKinematics kinematics;
 };
 
 // anchor: where the node stuck, local coordinates.
 Outcome force(const Local& local, const Law& law, const Eigen::Vector2d* anchor = nullptr) {
   Outcome o;
   o.w = projection(local);
-  o.foot = projection_kinematics(local.face, o.w, local.q);
+  o.kinematics = projection_kinematics(local.face, o.w, local.q);
   o.contact.v = local.v;
   o.contact.N = o.w.point.N;
   StickMotion stick;
   if (anchor) {
     const Eigen::Vector4d N = shape(local.face.sides, (*anchor)[0], (*anchor)[1]).N;
     stick.u = o.w.point.x - combine(local.face, N);
-    stick.u_x = o.foot.a * o.foot.D + spread(0, o.w.point.N - N);
+    stick.u_x = o.kinematics.a * o.kinematics.D + spread(0, o.w.point.N - N);
   }
-  const Gap open = gap(o.foot, height_at(local, o.w), law.offset, share_at(local, o.w));
-  apply_law(law, o.foot, open, anchor ? &stick : nullptr, o.contact);
+  const Gap open = gap(o.kinematics, height_at(local, o.w), law.offset, fade_at(local, o.w));
+  apply_law(law, o.kinematics, open, anchor ? &stick : nullptr, o.contact);
   return o;
 }
 
@@ -274,19 +274,19 @@ TEST(EndShare, falls_from_one_to_nothing_with_a_continuous_slope) {
                             beyond = at + (at - on_side(sides, (side + 2) % sides, 0.5));
       const Eigen::Vector2d centre =
           0.5 * (extended_corner(face, side) + extended_corner(face, (side + 1) % sides));
-      EXPECT_EQ(end_share(face, at[0], at[1]).f, 1);
-      EXPECT_NEAR(end_share(face, centre[0], centre[1]).f, 0, roundoff);
-      EXPECT_EQ(end_share(face, beyond[0], beyond[1]).f, 0);
+      EXPECT_EQ(fade_factor(face, at[0], at[1]).f, 1);
+      EXPECT_NEAR(fade_factor(face, centre[0], centre[1]).f, 0, roundoff);
+      EXPECT_EQ(fade_factor(face, beyond[0], beyond[1]).f, 0);
       const Eigen::Vector2d half = 0.5 * (on_side(sides, side, 0.5) + centre);
-      const FaceFunction share = end_share(face, half[0], half[1]);
-      EXPECT_NEAR(share.f, 0.5, roundoff);
+      const FaceFunction fade = fade_factor(face, half[0], half[1]);
+      EXPECT_NEAR(fade.f, 0.5, roundoff);
       for (const Eigen::Vector2d& p : {at, half, centre})
         for (int i : {0, 1}) {
           const double h = 1e-6;
           const Eigen::Vector2d e = h * Eigen::Vector2d::Unit(i), right = p + e, left = p - e;
           const double slope =
-              (end_share(face, right[0], right[1]).f - end_share(face, left[0], left[1]).f) / (2 * h);
-          EXPECT_NEAR(end_share(face, p[0], p[1]).f_a[i], slope, 1e-3);
+              (fade_factor(face, right[0], right[1]).f - fade_factor(face, left[0], left[1]).f) / (2 * h);
+          EXPECT_NEAR(fade_factor(face, p[0], p[1]).f_a[i], slope, 1e-3);
         }
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
-// One bilinear quadrilateral or plane triangle: interpolation, normals, and how far it is prolonged at open
-// ends (docs/theory.md, section 6). Side i runs from corner i to corner i+1.
+// One bilinear quadrilateral or plane triangle: interpolation, normals, and its extensions at the surface
+// boundary (docs/theory.md, section 6). Side i runs from corner i to corner i+1.
 
 #include <Eigen/Core>
 #include <array>
@@ -12,8 +12,8 @@ namespace elastogear::contact {
 struct Face {
   std::array<Eigen::Vector3d, 4> x;   ///< m, corners, counter-clockwise from outside
   int sides = 4;                      ///< 4, or 3 (x[3] unused)
-  std::array<double, 4> extension{};  ///< per side, share of the face's length it is moved outwards; 0: a
-                                      ///< shared edge, > 0: an open end of the surface
+  std::array<double, 4> extension{};  ///< per side, part of the face's length it is moved outwards; 0: a
+                                      ///< shared edge, > 0: a surface boundary
 };
 
 /// Interpolation functions N_i, Eq. (6.1), and their derivatives with respect to (u, v).
@@ -41,9 +41,9 @@ Eigen::Vector2d extended_corner(const Face& face, int corner);
 /// Returns whether (u, v) lies on the face with its open sides moved outwards.
 bool inside(const Face& face, double u, double v);
 
-/// Share of a contact force that is left on the prolonged ends: falls from 1 at the open side to 0 where they
-/// end, with a continuous slope. Eq. (6.2b).
-FaceFunction end_share(const Face& face, double u, double v);
+/// Factor of a contact force on the extensions: falls from 1 at the open side to 0 where they end, with a
+/// continuous slope. Eq. (6.2b).
+FaceFunction fade_factor(const Face& face, double u, double v);
 
 /// Outward unit normal at (u, v), Eq. (6.3); zero where the face is degenerate.
 Eigen::Vector3d normal(const Face& face, double u, double v);

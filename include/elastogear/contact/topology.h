@@ -43,7 +43,7 @@ struct SurfaceView {
   const Eigen::Matrix4Xi& face;
   const Topology& topology;
   const Eigen::Matrix3Xd& x;  ///< 3 x n_nodes, m
-  double extension = 0;       ///< by which open sides are moved outwards, share of the face's length
+  double extension = 0;       ///< by which open sides are moved outwards, part of the face's length
 };
 
 Face face_of(const SurfaceView& surface, int f);

@@ -44,7 +44,7 @@ struct Settings {
   bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
   double feature_angle = 30;  ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
-  double extension = 0.2;  ///< by which open ends of the master are prolonged, share of a face's length;
+  double extension = 0.2;  ///< of the master at its surface boundary, as part of a face's length;
                            ///< forces fade out over it
 };
 

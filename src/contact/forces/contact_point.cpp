@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be prolonged over a smooth edge
+constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be extended over a smooth edge
 constexpr int kNewtonSteps = 8;
 
 ContactPoint geometry(const SurfaceView& master, const Projection& w) {
@@ -29,8 +29,8 @@ ContactPoint geometry(const SurfaceView& master, const Projection& w) {
   return contact;
 }
 
-// Foot point on the face prolonged over its sides; nothing when there is none near.
-std::optional<Projection> prolonged(const Face& face, const Vector3d& q, Projection w) {
+// The closest point on the face extended over its sides; nothing when there is none near.
+std::optional<Projection> extended(const Face& face, const Vector3d& q, Projection w) {
   const Eigen::Vector2d start(w.point.u, w.point.v);
   Eigen::Vector2d at = start;
   for (int step = 0; step < kNewtonSteps; ++step) {
@@ -56,7 +56,7 @@ Projection smooth_projection(const MasterSide& master, const Projection& w, cons
   if (master.smoothing.empty() || on_face) return w;
   const Face face = face_of(master.surface, w.face);
   if (normal(face, w.point.u, w.point.v).dot(w.n) < std::cos(master.feature_angle)) return w;
-  return prolonged(face, q, w).value_or(w);
+  return extended(face, q, w).value_or(w);
 }
 
 // A function of (u, v) restricted to the directions in which the closest point can move.
@@ -75,25 +75,25 @@ FaceFunction height_at(const MasterSide& master, const Face& face, const Project
   return restricted(height(face.sides, master.smoothing[w.face], w.point.u, w.point.v), face.sides, w);
 }
 
-FaceFunction share_at(const Face& face, const Projection& w) {
-  return restricted(end_share(face, w.point.u, w.point.v), face.sides, w);
+FaceFunction fade_at(const Face& face, const Projection& w) {
+  return restricted(fade_factor(face, w.point.u, w.point.v), face.sides, w);
 }
 
 // Displacement of the closest point over the master since the last step, and the stretch of the spring then.
 // docs/theory.md, Eq. (6.18).
 StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Projection& w,
-                         const ProjectionKinematics& foot) {
+                         const ProjectionKinematics& kinematics) {
   const Face face = face_of(master, stuck.face);
   const Shape s = shape(face.sides, stuck.u, stuck.v);
   const Eigen::Vector4d anchor = s.N - stuck.e_u * s.N_u - stuck.e_v * s.N_v;
   StickMotion motion;
   motion.slides = stuck.slides;
   motion.u = w.point.x - combine(face, anchor);
-  motion.u_x = foot.a * foot.D;
+  motion.u_x = kinematics.a * kinematics.D;
   if (stuck.face == w.face)
     motion.u_x += spread(0, w.point.N - anchor);
   else  // the anchor's own nodes are not among the local ones: it turns with the present face
-    motion.u_x -= skew(motion.u) * foot.spin;
+    motion.u_x -= skew(motion.u) * kinematics.spin;
   return motion;
 }
 
@@ -132,16 +132,16 @@ std::optional<ContactPoint> general_contact(const MasterSide& master, const Slav
                                             const Law& law) {
   const Projection w = smooth_projection(master, slave.projection, slave.x_slave);
   const Face face = face_of(master.surface, w.face);
-  const ProjectionKinematics foot = projection_kinematics(face, w, slave.x_slave);
-  const Gap open = gap(foot, height_at(master, face, w), law.offset, share_at(face, w));
+  const ProjectionKinematics kinematics = projection_kinematics(face, w, slave.x_slave);
+  const Gap open = gap(kinematics, height_at(master, face, w), law.offset, fade_at(face, w));
   if (!(open.g < 0)) return {};
   ContactPoint contact = geometry(master.surface, w);
   contact.slave_node = slave.slave_node;
   contact.v.col(0) = slave.velocity(0, slave.slave_node);
   for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.velocity(1, contact.master_node[i]);
   std::optional<StickMotion> motion;
-  if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, foot);
-  apply_law(law, foot, open, motion ? &*motion : nullptr, contact);
+  if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, kinematics);
+  apply_law(law, kinematics, open, motion ? &*motion : nullptr, contact);
   contact.stick = stick_point(face, w, contact);
   return contact;
 }

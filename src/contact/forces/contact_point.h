@@ -15,7 +15,7 @@ struct MasterSide {
 bool on_extension(const Projection& projection);
 
 /// Contact point of the frictionless, undamped penalty on facets, whose F derives from a potential, W = V:
-/// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on a prolonged side.
+/// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on an extended side.
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, double c_p,
                                bool full_tangent);
 

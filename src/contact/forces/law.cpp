@@ -23,12 +23,13 @@ struct Varying {
 Local flat(const LocalVectors& v) { return v.reshaped(); }
 
 // Velocity of the slave node against the master, v_r of docs/theory.md, Eq. (6.13).
-Varying relative_velocity(const ProjectionKinematics& foot, const LocalVectors& v) {
+Varying relative_velocity(const ProjectionKinematics& kinematics, const LocalVectors& v) {
   Varying rate;
-  rate.value = foot.G * flat(v);
-  rate.v = foot.G;
-  rate.x = -skew(foot.spin * flat(v)) * foot.d_x;
-  for (int i = 0; i < foot.n_dir; ++i) rate.x -= (v.rightCols<4>() * foot.N_a.col(i)) * foot.D.row(i);
+  rate.value = kinematics.G * flat(v);
+  rate.v = kinematics.G;
+  rate.x = -skew(kinematics.spin * flat(v)) * kinematics.d_x;
+  for (int i = 0; i < kinematics.n_dir; ++i)
+    rate.x -= (v.rightCols<4>() * kinematics.N_a.col(i)) * kinematics.D.row(i);
   return rate;
 }
 
@@ -77,18 +78,18 @@ struct Parts {
   Varying slip;        // velocity
   Varying motion;      // argument of friction: velocity, or displacement of a node that sticks
   NormalForce normal;  // of the whole node
-  double p = 0;        // N, what is left of it at an open end
+  double p = 0;        // N, what is left of it on an extension
   Friction friction;
   double mu = 0;
 };
 
-Parts parts(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
+Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap, const StickMotion* stick,
             const LocalVectors& v) {
   Parts parts;
-  const Varying rate = relative_velocity(foot, v);
+  const Varying rate = relative_velocity(kinematics, v);
   parts.slip = tangential(rate, gap);
   parts.normal = normal_force(law, gap.g, gap.n.dot(rate.value));
-  parts.p = gap.share.f * parts.normal.p;
+  parts.p = gap.fade.f * parts.normal.p;
   if (law.mu == 0) return parts;
   if (law.v_0 > 0) {
     parts.mu = law.mu;
@@ -107,14 +108,15 @@ Parts parts(const Law& law, const ProjectionKinematics& foot, const Gap& gap, co
 }
 
 // df = f_x dx + f_v dv
-Varying force(const ProjectionKinematics& foot, const Gap& gap, const Parts& parts, const LocalVectors& v) {
+Varying force(const ProjectionKinematics& kinematics, const Gap& gap, const Parts& parts,
+              const LocalVectors& v) {
   const NormalForce& normal = parts.normal;
   const Friction& friction = parts.friction;
-  const Varying rate = relative_velocity(foot, v);
+  const Varying rate = relative_velocity(kinematics, v);
   const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
-  const LocalRow p_x = gap.share.f * (normal.p_g * gap.g_x + normal.p_r * rate_x) +
-                       normal.p * gap.share.f_a.transpose() * foot.D;
-  const LocalRow p_v = gap.share.f * normal.p_r * gap.g_x;
+  const LocalRow p_x = gap.fade.f * (normal.p_g * gap.g_x + normal.p_r * rate_x) +
+                       normal.p * gap.fade.f_a.transpose() * kinematics.D;
+  const LocalRow p_v = gap.fade.f * normal.p_r * gap.g_x;
   const Vector3d per_p = gap.n - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
   Varying f;
   f.value = parts.p * (gap.n - parts.mu * friction.direction);
@@ -124,19 +126,19 @@ Varying force(const ProjectionKinematics& foot, const Gap& gap, const Parts& par
 }
 
 // Directions that the couple f x d can have: on faces d is normal.
-Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const ProjectionKinematics& foot) {
-  if (foot.n_dir < 2) return Matrix3d::Identity();
+Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const ProjectionKinematics& kinematics) {
+  if (kinematics.n_dir < 2) return Matrix3d::Identity();
   Eigen::Matrix<double, 3, 2> tangents;
-  tangents.col(0) = foot.n.unitOrthogonal();
-  tangents.col(1) = foot.n.cross(tangents.col(0));
+  tangents.col(0) = kinematics.n.unitOrthogonal();
+  tangents.col(1) = kinematics.n.cross(tangents.col(0));
   return tangents;
 }
 
 // F = B' f + spin' (f x d), W = [B', P_alpha, spin' T]: dF = B' df + P_alpha dxi_alpha + spin' T T' d(f x d).
 // The change of the spin is left out. docs/theory.md, Eq. (6.14).
-void set_tangent(const ProjectionKinematics& foot, const Varying& f, ContactPoint& contact) {
-  const auto T = couple_directions(foot);
-  const Eigen::Index m = T.cols(), n = 3 + foot.n_dir + m;
+void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, ContactPoint& contact) {
+  const auto T = couple_directions(kinematics);
+  const Eigen::Index m = T.cols(), n = 3 + kinematics.n_dir + m;
   contact.W.setZero(15, n);
   contact.V.setZero(15, n);
   contact.V_dot.setZero(15, n);
@@ -144,13 +146,13 @@ void set_tangent(const ProjectionKinematics& foot, const Varying& f, ContactPoin
   contact.W.leftCols<3>() = spread(1, -contact.N).transpose();
   contact.V.leftCols<3>() = -f.x.transpose();
   contact.V_dot.leftCols<3>() = -f.v.transpose();
-  for (int i = 0; i < foot.n_dir; ++i) {
-    contact.W.col(3 + i) = -spread(0, foot.N_a.col(i)).transpose() * f.value;
-    contact.V.col(3 + i) = -foot.D.row(i).transpose();
+  for (int i = 0; i < kinematics.n_dir; ++i) {
+    contact.W.col(3 + i) = -spread(0, kinematics.N_a.col(i)).transpose() * f.value;
+    contact.V.col(3 + i) = -kinematics.D.row(i).transpose();
   }
-  contact.W.rightCols(m) = foot.spin.transpose() * T;
-  contact.V.rightCols(m) = (skew(foot.d) * f.x - skew(f.value) * foot.d_x).transpose() * T;
-  contact.V_dot.rightCols(m) = (skew(foot.d) * f.v).transpose() * T;
+  contact.W.rightCols(m) = kinematics.spin.transpose() * T;
+  contact.V.rightCols(m) = (skew(kinematics.d) * f.x - skew(f.value) * kinematics.d_x).transpose() * T;
+  contact.V_dot.rightCols(m) = (skew(kinematics.d) * f.v).transpose() * T;
 }
 
 }  // namespace
@@ -170,34 +172,35 @@ NormalForce normal_force(const Law& law, double gap, double rate) {
 }
 
 // Gap to the smooth surface; its gradient changes by dn = -d(a y) with y = A^-1 h_a.
-Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
-        const FaceFunction& share) {
-  Gap result{foot.g - height.f + offset, foot.n, foot.n_x, {}, share};
-  if (foot.n_dir > 0 && !height.f_a.isZero(0)) {
-    const Eigen::Matrix2d A_inverse = foot.A.inverse();
+Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,
+        const FaceFunction& fade) {
+  Gap result{kinematics.g - height.f + offset, kinematics.n, kinematics.n_x, {}, fade};
+  if (kinematics.n_dir > 0 && !height.f_a.isZero(0)) {
+    const Eigen::Matrix2d A_inverse = kinematics.A.inverse();
     const Eigen::Vector2d y = A_inverse * height.f_a;
-    result.n -= foot.a * y;
-    result.n_x -= foot.a * (A_inverse * (height.f_ab * foot.D - metric_derivative(foot, y)));
-    for (int i = 0; i < foot.n_dir; ++i) result.n_x -= tangent_derivative(foot, i) * y[i];
+    result.n -= kinematics.a * y;
+    result.n_x -=
+        kinematics.a * (A_inverse * (height.f_ab * kinematics.D - metric_derivative(kinematics, y)));
+    for (int i = 0; i < kinematics.n_dir; ++i) result.n_x -= tangent_derivative(kinematics, i) * y[i];
   }
-  result.g_x = result.n.transpose() * foot.G;
+  result.g_x = result.n.transpose() * kinematics.G;
   return result;
 }
 
-void apply_law(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
-               ContactPoint& contact) {
-  const Parts all = parts(law, foot, gap, stick, contact.v);
-  const Varying f = force(foot, gap, all, contact.v);
+void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
+               const StickMotion* stick, ContactPoint& contact) {
+  const Parts all = parts(law, kinematics, gap, stick, contact.v);
+  const Varying f = force(kinematics, gap, all, contact.v);
   contact.g_n = gap.g;
   contact.n = gap.n.normalized();
   contact.f = f.value;
-  contact.F = (foot.G.transpose() * f.value).reshaped(3, 5);
+  contact.F = (kinematics.G.transpose() * f.value).reshaped(3, 5);
   contact.slip = all.slip.value;
-  contact.energy = gap.share.f * all.normal.energy;
-  contact.power = gap.share.f * all.normal.power;
+  contact.energy = gap.fade.f * all.normal.energy;
+  contact.power = gap.fade.f * all.normal.power;
   contact.friction_power = 0;
-  set_tangent(foot, f, contact);
-  if (gap.share.f < 1) add_end_force(end_force(foot, gap, all.normal), contact);
+  set_tangent(kinematics, f, contact);
+  if (gap.fade.f < 1) add_boundary_force(boundary_force(kinematics, gap, all.normal), contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   if (!stick || law.c_t == 0) return;
   const Vector3d elastic = all.mu * all.p / law.c_t * all.friction.direction;

@@ -30,18 +30,18 @@ struct NormalForce {
 /// Penalty and damping force while the gap closes: Eq. (6.15).
 NormalForce normal_force(const Law& law, double gap, double rate);
 
-/// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the share of
-/// the force that is left on a prolonged end.
+/// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the part of
+/// the force that is left on an extension.
 struct Gap {
   double g = 0;       ///< m
   Eigen::Vector3d n;  ///< force direction
   Local3 n_x;
   LocalRow g_x;  ///< n' G
-  FaceFunction share{1};
+  FaceFunction fade{1};
 };
 /// Gap to the smooth surface and its gradient: Eq. (6.19).
-Gap gap(const ProjectionKinematics& foot, const FaceFunction& height, double offset,
-        const FaceFunction& share = {1});
+Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,
+        const FaceFunction& fade = {1});
 
 /// Tangential motion of the slave node on the master since it stuck, m.
 struct StickMotion {
@@ -53,7 +53,7 @@ struct StickMotion {
 /// Force, energy, power and tangent of a contact whose node velocities v and geometry are set. stick: none
 /// for a node that was not in contact after the last step, or without stick. The slid part of stick's u and
 /// the work it took go to the contact, too.
-void apply_law(const Law& law, const ProjectionKinematics& foot, const Gap& gap, const StickMotion* stick,
-               ContactPoint& contact);
+void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
+               const StickMotion* stick, ContactPoint& contact);
 
 }  // namespace elastogear::contact

@@ -6,10 +6,10 @@
 namespace elastogear::contact {
 
 enum class Feature {
-  face,    ///< foot point inside the face (or on its prolongation at an open end)
+  face,    ///< foot point inside the face (or on its extension at a surface boundary)
   edge,    ///< on a shared side
   vertex,  ///< at a corner
-  outside  ///< at the limit of an open end's prolongation: beyond the surface
+  outside  ///< at the limit of an extension: beyond the surface
 };
 
 struct ClosestPoint {

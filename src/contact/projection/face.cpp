@@ -81,16 +81,16 @@ bool inside(const Face& face, double u, double v) {
   return u >= -1 - 2 * e[3] && u <= 1 + 2 * e[1] && v >= -1 - 2 * e[0] && v <= 1 + 2 * e[2];
 }
 
-FaceFunction end_share(const Face& face, double u, double v) {
-  FaceFunction share{1};
+FaceFunction fade_factor(const Face& face, double u, double v) {
+  FaceFunction fade{1};
   for (int side = 0; side < face.sides; ++side) {
     const double extension = face.extension[side];
     if (extension == 0) continue;
     const Beyond way = beyond(face.sides, side);
     const Eigen::Vector2d slope = way.slope / extension;
-    share = product(share, fall(way.offset / extension + slope.dot(Eigen::Vector2d(u, v)), slope));
+    fade = product(fade, fall(way.offset / extension + slope.dot(Eigen::Vector2d(u, v)), slope));
   }
-  return share;
+  return fade;
 }
 
 Eigen::Vector3d normal(const Face& face, double u, double v) {

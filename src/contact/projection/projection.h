@@ -36,10 +36,10 @@ struct Projection {
   double g_n = 0;     ///< m, < 0 inside
 };
 
-/// Nothing when the node is outside the master body (further than the limit), beyond an open end, deeper than
-/// the limit, or when only faces that do not oppose it are near. `faces` must hold all master faces within
-/// `depth` of the node; they ascend. `likely`, one of them or -1, is tried first: the search is quickest when
-/// it is right.
+/// Nothing when the node is outside the master body (further than the limit), beyond a surface boundary,
+/// deeper than the limit, or when only faces that do not oppose it are near. `faces` must hold all master
+/// faces within `depth` of the node; they ascend. `likely`, one of them or -1, is tried first: the search is
+/// quickest when it is right.
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
                                           const Limits& limits, std::span<const int> faces, int likely = -1);
 

@@ -34,10 +34,11 @@ ProjectionKinematics projection_kinematics(const Face& face, const Projection& p
                                            const Eigen::Vector3d& x_slave);
 
 /// Derivative da_i/dx of a tangent.
-Local3 tangent_derivative(const ProjectionKinematics& foot, int i);
+Local3 tangent_derivative(const ProjectionKinematics& kinematics, int i);
 
 /// Derivative (dA/dx) y of the metric at constant y.
-Eigen::Matrix<double, 2, 15> metric_derivative(const ProjectionKinematics& foot, const Eigen::Vector2d& y);
+Eigen::Matrix<double, 2, 15> metric_derivative(const ProjectionKinematics& kinematics,
+                                               const Eigen::Vector2d& y);
 
 /// The matrix [slave I, weight_i I], which sums the local vectors with these weights.
 Local3 spread(double slave, const Eigen::Vector4d& weight);

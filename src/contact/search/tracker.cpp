@@ -18,13 +18,13 @@ constexpr double kLimit = 0.125;
 constexpr int kFewUses = 8, kManyUses = 64;
 // The share of the measured motion for which the nodes that touch first serve; it doubles when it is used up.
 constexpr double kFirstStretch = 0.125;
-constexpr double kStretch = 1.1;  // of prolonged ends when the surface is deformed, generously
+constexpr double kStretch = 1.1;  // of extensions when the surface is deformed, generously
 
 double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
   return std::sqrt((state.x_B - surface.X).colwise().squaredNorm().maxCoeff());
 }
 
-// How far the prolonged open ends of a surface reach beyond its faces.
+// How far the extensions of a surface reach beyond its faces.
 double extension_reach(const SurfaceView& surface) {
   double reach = 0;
   for (int f : surface.topology.open_faces) {

@@ -10,7 +10,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Number of leading columns of a contact, which change its force at an unchanged closest point: the one along
-// n, or three where the force has no potential. At an open end all columns change it.
+// n, or three where the force has no potential. On an extension all columns change it.
 Eigen::Index leading_columns(const contact::ContactPoint& point) {
   if (point.V_dot.cols() == 0) return 1;
   return point.W.cols() == contact::kColumns ? contact::kColumns : 3;
