@@ -143,9 +143,14 @@ TEST(PetscNames, OptionsOfNestedSolversAndOfPetscItselfAreKnown) {
 }
 
 TEST(PetscNames, MisspeltOnesAreNot) {
-  for (const char* name : {"ts_dtt", "ts_dt=1e-7", "infoo", "debugg", "is_foo", "ts_adapt_typ", "snes_rtoll",
-                           "elastc_ksp_rtol", "elastic_pc_typ", "log_veiw", "eps_nvc", "st_", "ts_",
-                           "elastic_", "mg_levels_x_ksp_type", "modes", "worm_file", "contact_pairs"})
+  for (const char* name : {"ts_dtt",       "ts_dt=1e-7",      "infoo",
+                           "debugg",       "is_foo",          "ts_adapt_typ",
+                           "snes_rtoll",   "elastc_ksp_rtol", "elastic_pc_typ",
+                           "log_veiw",     "eps_nvc",         "st_",
+                           "ts_",          "elastic_",        "mg_levels_x_ksp_type",
+                           "modes",        "worm_file",       "contact_pairs",
+                           "basis_info",   "damping_info",    "is_ts_dt",
+                           "elastic_info", "st_options_left", "mg_levels_1_ts_dt"})
     EXPECT_FALSE(is_petsc_name(name)) << name;
 }
 

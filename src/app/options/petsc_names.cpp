@@ -128,21 +128,27 @@ void match(std::string_view pattern, std::string_view text, std::size_t at, std:
     match(pattern, text, ++at, ends);
 }
 
-bool is_known(std::string_view name, int depth) {
+bool is_option(std::string_view name) {
   const Literals& all = literals();
   if (std::binary_search(all.names.begin(), all.names.end(), name)) return true;
-  const auto fits = [&](const std::string& pattern) {
+  return std::any_of(all.names.begin(), all.names.end(), [&](const std::string& pattern) {
     std::vector<std::size_t> ends;
     if (pattern.find('%') != pattern.npos) match(pattern, name, 0, ends);
     return std::find(ends.begin(), ends.end(), name.size()) != ends.end();
-  };
-  if (std::any_of(all.names.begin(), all.names.end(), fits)) return true;
+  });
+}
+
+// Returns whether `name` is at most `depth` prefixes and an option of an object that solvers nest.
+bool is_nested(std::string_view name, int depth) {
+  constexpr std::string_view kNested[] = {"bv_", "eps_", "ksp_", "lme_", "mat_", "pc_", "snes_", "st_"};
+  const auto begins = [&](std::string_view object) { return name.starts_with(object); };
+  if (std::any_of(std::begin(kNested), std::end(kNested), begins) && is_option(name)) return true;
   if (depth == 0) return false;
-  for (const std::string& prefix : all.prefixes) {
+  for (const std::string& prefix : literals().prefixes) {
     std::vector<std::size_t> ends;
     match(prefix, name, 0, ends);
     for (std::size_t end : ends)
-      if (is_known(name.substr(end), depth - 1)) return true;
+      if (is_nested(name.substr(end), depth - 1)) return true;
   }
   return false;
 }
@@ -190,7 +196,8 @@ const std::vector<std::string>& petsc_names() { return literals().names; }
 
 bool is_petsc_name(const std::string& name) {
   constexpr int kMostPrefixes = 6;
-  return petsc_names().empty() || is_known(folded(name), kMostPrefixes);
+  const std::string small = folded(name);
+  return petsc_names().empty() || is_option(small) || is_nested(small, kMostPrefixes);
 }
 
 }  // namespace elastogear::app
