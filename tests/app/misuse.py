@@ -18,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 
+import misuse_case
 import misuse_cases
 import misuse_files
 
@@ -52,9 +53,9 @@ def changes(before, after, leaves, killed):
 
 
 def expand(command, places):
-    """Words of a command; {names} of misuse_cases.COMMANDS and of places are written out."""
+    """Words of a command; {names} of misuse_case.COMMANDS and of places are written out."""
     while re.search(r"\{\w+\}", command):
-        command = re.sub(r"\{(\w+)\}", lambda match: places.get(match[1]) or misuse_cases.COMMANDS[match[1]], command)
+        command = re.sub(r"\{(\w+)\}", lambda match: places.get(match[1]) or misuse_case.COMMANDS[match[1]], command)
     return shlex.split(command)
 
 
