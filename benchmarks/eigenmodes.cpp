@@ -3,7 +3,7 @@
 //   benchmark_eigenmodes -mesh worm.msh [-restrain seats] [-modes 500] [-window auto] [-slepc 100,200,400]
 //   [-at 0,0.5,1] [-kernels | -hertz 50e3,60e3] [-known frequencies.txt]
 //
-// -kernels: only assembly, one factorisation and solves with it, the measurements of scripts/cost_model.py.
+// -kernels: only assembly, one factorisation and solves with it, the measurements of studies/cost_model.py.
 // -hertz: only SLEPc, with shifts at these frequencies. -known: the lowest frequencies in Hz, ascending, from
 // which the windows go on instead of from 0; -modes counts them too. Else first all modes by windows. Then
 // SLEPc at some places of the spectrum (0: its lower end, 1: below the last mode): for each size one EPSSolve

@@ -23,7 +23,7 @@ def read(*path):  # empty when there is no such file
 
 
 def source_files(repository):
-    for root in CODE + ("tests", "scripts"):
+    for root in CODE + ("tests", "scripts", "studies"):
         for path in sorted(pathlib.Path(repository, root).rglob("*")):
             if path.suffix in (".h", ".cpp", ".py", ".sh"):
                 yield path.relative_to(repository).as_posix()

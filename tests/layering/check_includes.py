@@ -3,7 +3,7 @@
 1. Includes go downwards: a module may include itself and modules of lower levels. Within one level, and between the two
    halves that meet only in `model` and its file, nothing may be included.
 2. A header in src/ is private: only its own module includes it, and no public header does.
-3. A header in include/ is public: another module or an example includes it, directly or by another public header.
+3. A header in include/ is public: another module, an example or a study includes it, directly or by another public header.
 4. Units (a header with its source) include each other at most in twos: a larger ring is a knot.
 5. A folder of a module holds at most 20 files.
 
@@ -25,6 +25,7 @@ LEVEL = {
 BUILDING = {"gear", "mesh", "fem", "reduction"}  # makes body files
 RUNNING = {"body", "contact", "dynamics", "recovery"}  # uses body files
 ROOTS = ("src", "include/elastogear")
+PROGRAMS = ("examples", "studies")  # use the library as programs outside the tree do
 API = ["dynamics/generalized_alpha.h"]  # a TS type for programs of others
 MOST_FILES = 20
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<][^">]+)[">]', re.MULTILINE)
@@ -90,16 +91,17 @@ def forbidden_edges(includes):
                 yield f"{path}: a public header must not include a private one ({header})"
 
 
-def examples_includes(repository):
-    for folder, _, names in os.walk(os.path.join(repository, "examples")):
-        for name in names:
-            if name.endswith((".h", ".cpp")):
-                yield from read_includes(os.path.relpath(os.path.join(folder, name), repository), repository)
+def includes_of_programs(repository):
+    for root in PROGRAMS:
+        for folder, _, names in os.walk(os.path.join(repository, root)):
+            for name in names:
+                if name.endswith((".h", ".cpp")):
+                    yield from read_includes(os.path.relpath(os.path.join(folder, name), repository), repository)
 
 
 def needless_public_headers(includes, repository):
     """Rule 3."""
-    wanted = {"include/elastogear/" + header for header in API} | set(examples_includes(repository))
+    wanted = {"include/elastogear/" + header for header in API} | set(includes_of_programs(repository))
     for path, headers in includes.items():
         wanted.update(header for header in headers if module_of(header) != module_of(path) and path.startswith("src/"))
     todo = list(wanted)
@@ -109,7 +111,7 @@ def needless_public_headers(includes, repository):
         todo += more
     for path in includes:
         if path.startswith("include/") and path not in wanted:
-            yield f"{path}: no other module and no example includes it: move it to src/{module_of(path)}"
+            yield f"{path}: no other module, example or study includes it: move it to src/{module_of(path)}"
 
 
 def unit_of(path):

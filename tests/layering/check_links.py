@@ -7,7 +7,8 @@ import re
 import sys
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-PLACE = re.compile(r"`((?:src|include|tests|scripts|examples)/[\w./]+):([\w:~]+)`")
+PAGES = ("*.md", "docs/*.md", "*/README.md", "examples/*/README.md")
+PLACE = re.compile(r"`((?:src|include|tests|scripts|studies|examples)/[\w./]+):([\w:~]+)`")
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$")
 
 
@@ -55,7 +56,7 @@ def dead_places(path, repository):
 
 def check(repository):
     """All complaints about the pages of a repository."""
-    pages = sorted(glob.glob(os.path.join(repository, "*.md")) + glob.glob(os.path.join(repository, "docs", "*.md")))
+    pages = sorted(page for place in PAGES for page in glob.glob(os.path.join(repository, place)))
     return [f"{os.path.relpath(page, repository)}: there is no {what}"
             for page in pages for what in dead_links(page) + dead_places(page, repository)]
 

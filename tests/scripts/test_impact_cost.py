@@ -8,9 +8,9 @@ import unittest
 import h5py
 import numpy as np
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
-sys.path.insert(0, SCRIPTS)
-import impact_cost  # noqa: E402
+REPOSITORY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(REPOSITORY, "scripts"))
+from cut import cut
 
 N_MODES = 4
 
@@ -37,23 +37,23 @@ class Cost(unittest.TestCase):
         write_body(self.body)
 
     def run_script(self, *arguments):
-        return subprocess.run([sys.executable, os.path.join(SCRIPTS, "impact_cost.py"), self.body, self.body, *arguments],
-                              capture_output=True, encoding="utf-8", cwd=self.folder.name)
+        return subprocess.run([sys.executable, os.path.join(REPOSITORY, "studies", "impact_cost.py"), self.body, self.body,
+                               *arguments], capture_output=True, encoding="utf-8", cwd=self.folder.name)
 
     def test_a_cut_body_has_the_first_modes_and_all_else(self):
         target = os.path.join(self.folder.name, "cut.h5")
-        impact_cost.cut(self.body, target, 2)
-        with h5py.File(target) as cut, h5py.File(self.body) as whole:
-            self.assertEqual(cut.attrs["format"], "elastogear body")
-            self.assertEqual(cut["reduced"].attrs["alpha"], 0.5)
-            self.assertEqual(cut["surface/X"].attrs["unit"], "m")
-            self.assertEqual(cut["rigid/mass"][()], 2.5)
-            self.assertEqual(cut["surface/group_name"].asstr()[0], "left")
-            np.testing.assert_array_equal(cut["modes/frequency"], [1, 2])
-            np.testing.assert_array_equal(cut["reduced/K"], [[1, 0], [0, 2]])
-            np.testing.assert_array_equal(cut["surface/Phi"], whole["surface/Phi"][:, :, :2])
-            np.testing.assert_array_equal(cut["surface/X"], whole["surface/X"])
-            self.assertNotIn("Phi", cut["modes"])
+        cut(self.body, target, 2)
+        with h5py.File(target) as part, h5py.File(self.body) as whole:
+            self.assertEqual(part.attrs["format"], "elastogear body")
+            self.assertEqual(part["reduced"].attrs["alpha"], 0.5)
+            self.assertEqual(part["surface/X"].attrs["unit"], "m")
+            self.assertEqual(part["rigid/mass"][()], 2.5)
+            self.assertEqual(part["surface/group_name"].asstr()[0], "left")
+            np.testing.assert_array_equal(part["modes/frequency"], [1, 2])
+            np.testing.assert_array_equal(part["reduced/K"], [[1, 0], [0, 2]])
+            np.testing.assert_array_equal(part["surface/Phi"], whole["surface/Phi"][:, :, :2])
+            np.testing.assert_array_equal(part["surface/X"], whole["surface/X"])
+            self.assertNotIn("Phi", part["modes"])
 
     def test_every_number_of_modes_has_its_row(self):
         run = self.run_script("--modes", "2", "4", "--elastogear", "true")

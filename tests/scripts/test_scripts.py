@@ -63,7 +63,7 @@ def write_body(path):
 class CostModel(unittest.TestCase):
     def eigenmodes(self, *options):
         """Seconds for the whole body and by sectors."""
-        command = [sys.executable, os.path.join(SCRIPTS, "cost_model.py"), *options]
+        command = [sys.executable, os.path.join(SCRIPTS, "..", "studies", "cost_model.py"), *options]
         text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         return [float(line.split()[1]) for line in text.splitlines() if line.strip().startswith("eigenmodes")]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Time and memory that a reduction takes, on paper: fitted to kernels measured on one and two ranks.
-Run: scripts/cost_model.py [--dofs 10e6] [--modes 2000] [--ranks 64] [--sectors 41] [--kernels benchmarks/kernels.csv]
+Run: studies/cost_model.py [--dofs 10e6] [--modes 2000] [--ranks 64] [--sectors 41] [--kernels benchmarks/kernels.csv]
 
 docs/performance.md, "A model of the cost", holds the formulas. The kernels are those of benchmark_eigenmodes -kernels."""
 import argparse

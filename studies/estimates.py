@@ -3,13 +3,15 @@
 has made, beside the unreduced bodies. Prints the table of docs/validation.md, section 8.
 
     scripts/example impact --size tiny --bases modal,modal_residual --modes 10,25,50,100,200       and so on
-    scripts/estimates.py out/examples/tiny/impact out/examples/tiny/turn_in ...
+    studies/estimates.py out/examples/tiny/impact out/examples/tiny/turn_in ...
 """
 import argparse
 import os
+import sys
 
 import numpy as np
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
 import report
 
 NEGLIGIBLE = 0.01  # of the unreduced stress: an estimate below this may be larger than three times the error

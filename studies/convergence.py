@@ -4,13 +4,14 @@ that scripts/example has run with several bases and mode numbers.
 
     scripts/example impact  --size small --bases modal,modal_residual --modes 10,25,50,100,200
     scripts/example turn_in --size small --bases modal,modal_residual --modes 10,25,50,100,200
-    scripts/convergence.py out/examples/small --out convergence.svg --table convergence.md
+    studies/convergence.py out/examples/small --out convergence.svg --table convergence.md
 """
 import argparse
 import csv
 import glob
 import os
 import re
+import sys
 
 import matplotlib
 
@@ -18,6 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
 from plots import COLOURS
 
 EXAMPLES = {"impact": "impact, at the largest force", "turn_in": "turn-in, at rest"}

@@ -4,7 +4,7 @@ by the number of modes, in the static state of the turn-in, beside the deviation
 figure (equal forces: lines, forces of their own: dotted).
 
     scripts/example turn_in --size small --modes 100,500,1000,2000
-    scripts/same_forces.py out/examples/small [--modes 100 500 1000 2000] [--figure same_forces.svg]
+    studies/same_forces.py out/examples/small [--modes 100 500 1000 2000] [--figure same_forces.svg]
 
 At rest the elastic coordinates of the unreduced body give the forces on its nodes, f = K_r q, and those the coordinates of the
 reduced one, q_i = phi_i . f / lambda_i (docs/theory.md, section 4).
@@ -13,6 +13,7 @@ import argparse
 import glob
 import os
 import re
+import sys
 
 import matplotlib
 
@@ -20,6 +21,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
 import results
 from plots import COLOURS
 

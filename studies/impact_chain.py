@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The impact example from mesh to stress histories, as a user with two cores would run it:
 
-    scripts/impact_chain.py --size paper --modes 200
+    studies/impact_chain.py --size paper --modes 200
 
 Meshes both bodies, reduces one after the other on two ranks, simulates 0.5 ms and recovers the stresses at all roots. Prints CPU and
 wall-clock time and memory of every step, then of all; of a reduction the memory of its largest rank (all ranks: times their number). Everything
@@ -9,7 +9,9 @@ is made anew in OUT (default out/chain/SIZE), with what every step printed besid
 """
 import argparse
 import os
+import sys
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
 from steps import Steps
 
 REPOSITORY = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))

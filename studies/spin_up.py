@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Spin-up of a flexible beam by Kane's ramp: what floating frames with linear strains show of it, beside beam theory.
 
-    scripts/spin_up.py [--elastogear PROGRAM] [--calculix ccx] --out FOLDER
+    studies/spin_up.py [--elastogear PROGRAM] [--calculix ccx] --out FOLDER
 
 The beam of J. C. Simo and L. Vu-Quoc (J. Appl. Mech. 53 (1986) 855-863; EA = 2.8e7 N, EI = 1.4e4 N m^2, 1.2 kg/m, 10 m) is
 meshed, reduced and brought from rest to 6 rad/s in 15 s (T. R. Kane, R. R. Ryan, A. K. Banerjee, J. Guid. Control Dyn. 10

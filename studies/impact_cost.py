@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """CPU time of the impact example by the number of modes a body, beside the paper's.
 
-    scripts/impact_cost.py WORM.h5 WHEEL.h5 [--modes 100 500 1000 2000] [--elastogear PROGRAM] [-- OPTION ...]
+    studies/impact_cost.py WORM.h5 WHEEL.h5 [--modes 100 500 1000 2000] [--elastogear PROGRAM] [-- OPTION ...]
 
 The body files must hold at least as many modes as the largest number asked for; smaller ones are cut from them, in a
 temporary folder. Further options go to `elastogear simulate`. Times are those of one process on one core, user and
@@ -17,32 +17,11 @@ import time
 
 import h5py
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+from cut import cut
+
 EXAMPLE = os.path.join(os.path.dirname(__file__), "..", "examples", "worm_gear", "impact.yaml")
 PAPER = {100: 17, 500: 70, 1000: 339, 2000: 1374}  # s, 0.5 ms, modes of each body
-LEFT_OUT = {"modes/Phi", "checks", "reduced/S_2"}  # of no use to this simulation
-# Datasets with an axis of modes, and which.
-MODE_AXES = {"reduced/M": (0, 1), "reduced/K": (0, 1), "reduced/C_l": (0,), "reduced/C_r": (0,), "reduced/S_1": (0,),
-             "modes/frequency": (0,), "modes/eigenvalue": (0,), "surface/Phi": (2,), "stress/Psi": (2,)}
-
-
-def cut(source, target, n):
-    """Writes the body file `source` with its first n modes only."""
-    with h5py.File(source) as old, h5py.File(target, "w") as new:
-        def copy(name, item):
-            if any(name == left or name.startswith(left + "/") for left in LEFT_OUT):
-                return
-            if isinstance(item, h5py.Group):
-                made = new.require_group(name)
-            else:
-                axes = MODE_AXES.get(name, ())
-                made = new.create_dataset(name, data=item[tuple(slice(n) if i in axes else slice(None)
-                                                                for i in range(item.ndim))],
-                                            dtype=item.dtype)
-            for key, value in item.attrs.items():
-                made.attrs.create(key, value, dtype=item.attrs.get_id(key).dtype, shape=item.attrs.get_id(key).shape)
-        for key in old.attrs:
-            new.attrs.create(key, old.attrs[key], dtype=old.attrs.get_id(key).dtype, shape=old.attrs.get_id(key).shape)
-        old.visititems(copy)
 
 
 def mode_count(path):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The static turn-in state once more by CalculiX (ccx), with its own contact, on the same meshes:
 
-    scripts/calculix.py WORM_full.h5 WHEEL_full.h5 full.h5 full_stress.h5 --out FOLDER
+    studies/calculix.py WORM_full.h5 WHEEL_full.h5 full.h5 full_stress.h5 --out FOLDER
 
 The worm stands where the static analysis full.h5 ended, undeformed, on a rigid body that turns about its axis under the
 torque; the wheel's held nodes are held. Elements are C3D8I (incompatible modes) or, of bodies reduced with -element plain,
@@ -15,9 +15,9 @@ import os
 import subprocess
 import sys
 
-import h5py
 import numpy as np
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
 import results
 
 # Corners of the sides S1..S6 of an 8-node hexahedron, in the numbering of Abaqus.
