@@ -6,10 +6,11 @@
 //     =====\/\/\======  worm     4. recover   sigma = Psi q at the worm's tooth roots
 //
 // Sample run:   impact /tmp
-// Expected:     exit code 0: the wheel rebounds, the worm's root sees a peak von Mises stress of 241 MPa,
-//               and the energy balance closes to 1 %.
+// Expected:     exit code 0: the wheel rebounds, the peak von Mises stress at the worm's root is 232 MPa,
+//               within 3 % of the unreduced bodies' 235.7 MPa, and the energy balance closes to 1 %.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numbers>
@@ -29,7 +30,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int kModes = 100;
-constexpr double kOmega = 14;  // rad/s
+constexpr double kOmega = 14;           // rad/s
+constexpr double kUnreduced = 235.7e6;  // Pa, the peak with the full basis on the same mesh
 
 std::shared_ptr<const model::ElasticBody> reduced(const mesh::Mesh& mesh, const std::string& restrained,
                                                   const std::string& file) {
@@ -82,5 +84,6 @@ int main(int argc, char** argv) {
   std::printf("worm root, von Mises %8.1f MPa\n", 1e-6 * peak);
   std::printf("energy balance       %8.2g of %.3g J\n", run.largest_imbalance, run.initial_energy);
   const bool balanced = run.largest_imbalance < 0.01 * run.initial_energy;
-  return omega < 0 && peak > 100e6 && peak < 400e6 && balanced ? 0 : 1;
+  const bool right = std::abs(peak / kUnreduced - 1) < 0.03;
+  return omega < 0 && right && balanced ? 0 : 1;
 }
