@@ -98,8 +98,8 @@ void set_solvers(Problem& problem, SNES snes) {
   PC pc = nullptr;
   SNESLineSearch search = nullptr;
   check(SNESSetConvergenceTest(snes, converged, &problem, nullptr));
-  check(
-      SNESSetTolerances(snes, PETSC_DEFAULT, kResidualTolerance, PETSC_DEFAULT, kNewtonLimit, PETSC_DEFAULT));
+  // No tolerance of the update: after a refused trial PETSc compares the norms of an earlier solve with it.
+  check(SNESSetTolerances(snes, PETSC_DEFAULT, kResidualTolerance, 0, kNewtonLimit, PETSC_DEFAULT));
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
   check(SNESGetKSP(snes, &ksp));
