@@ -11,7 +11,7 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr const char* surface_name[2] = {"contact: surface a", "contact: surface b"};
+constexpr const char* kSurfaceName[2] = {"contact: surface a", "contact: surface b"};
 
 constexpr double kSkin = 0.25;  // of the face size: dozens of time steps, and few more nodes than at 0
 
@@ -54,34 +54,34 @@ void validate(const Settings& s) {
 
 void validate(const model::Surface& surface, int side) {
   const auto n_s = surface.X.cols();
-  require(surface.face.cols() > 0, surface_name[side], " has no faces");
-  require(surface.X.allFinite(), surface_name[side], " has a node at a position that is not finite");
-  require(surface.face.minCoeff() >= 0 && surface.face.maxCoeff() < n_s, surface_name[side],
+  require(surface.face.cols() > 0, kSurfaceName[side], " has no faces");
+  require(surface.X.allFinite(), kSurfaceName[side], " has a node at a position that is not finite");
+  require(surface.face.minCoeff() >= 0 && surface.face.maxCoeff() < n_s, kSurfaceName[side],
           " has a face with node ",
           surface.face.minCoeff() < 0 ? surface.face.minCoeff() : surface.face.maxCoeff(),
           ", allowed is 0 to ", n_s - 1);
 }
 
 void validate(const SurfaceState& state, const model::Surface& surface, int side) {
-  require(state.x_B.cols() == surface.X.cols(), surface_name[side], ": positions of ", state.x_B.cols(),
+  require(state.x_B.cols() == surface.X.cols(), kSurfaceName[side], ": positions of ", state.x_B.cols(),
           " nodes given, the surface has ", surface.X.cols());
-  require(state.r_WB.allFinite() && state.R_WB.allFinite(), surface_name[side],
+  require(state.r_WB.allFinite() && state.R_WB.allFinite(), kSurfaceName[side],
           ": the body's placement is not finite");
   if (state.x_B.allFinite()) return;
   for (Eigen::Index i = 0; i < state.x_B.cols(); ++i)
-    require(state.x_B.col(i).allFinite(), surface_name[side], ": position of node ", i, " is not finite");
+    require(state.x_B.col(i).allFinite(), kSurfaceName[side], ": position of node ", i, " is not finite");
 }
 
 void validate(const SurfaceMotion& motion, const model::Surface& surface, int side) {
   const Eigen::Index n_q = std::visit([](const auto& rows) { return rows.cols(); }, surface.Phi);
-  require(motion.q.size() == n_q, surface_name[side], ": ", motion.q.size(),
+  require(motion.q.size() == n_q, kSurfaceName[side], ": ", motion.q.size(),
           " elastic coordinates given, the surface has ", n_q);
-  require(motion.q_dot.size() == 0 || motion.q_dot.size() == n_q, surface_name[side], ": ",
+  require(motion.q_dot.size() == 0 || motion.q_dot.size() == n_q, kSurfaceName[side], ": ",
           motion.q_dot.size(), " elastic velocities given, the surface has ", n_q);
-  require(motion.q.allFinite() && motion.r_WB.allFinite() && motion.R_WB.allFinite(), surface_name[side],
+  require(motion.q.allFinite() && motion.r_WB.allFinite() && motion.R_WB.allFinite(), kSurfaceName[side],
           ": the body's placement or its elastic coordinates are not finite");
   require(motion.q_dot.allFinite() && motion.v_WB_B.allFinite() && motion.w_WB_B.allFinite(),
-          surface_name[side], ": the body's velocities are not finite");
+          kSurfaceName[side], ": the body's velocities are not finite");
 }
 
 Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b) {

@@ -131,7 +131,7 @@ TEST(Realignment, with_all_combinations_is_that_of_the_hull_points) {
   for (int k : sizes) {
     const Kdop dop = tight_kdop(k, random_points(random, 10, random.vector(1)));
     const Eigen::Matrix3d R = test::rotation(random.vector(3));
-    const Kdop moved = realigned(dop, realignment(k, R, Eigen::Vector3d::Zero(), all_combinations));
+    const Kdop moved = realigned(dop, realignment(k, R, Eigen::Vector3d::Zero(), kAllCombinations));
     Kdop hull = empty_kdop(k);
     for (const auto& x : polyhedron(dop).vertices) merge(hull, tight_kdop(k, R * x));
     for (int i = 0; i < k / 2; ++i) {
@@ -146,7 +146,7 @@ TEST(Realignment, of_a_box_needs_one_combination) {
   const Kdop dop = tight_kdop(6, random_points(random, 5, random.vector(1)));
   const Eigen::Matrix3d R = test::rotation(random.vector(3));
   const Realignment one = realignment(6, R, Eigen::Vector3d::Zero(), 1);
-  const Realignment all = realignment(6, R, Eigen::Vector3d::Zero(), all_combinations);
+  const Realignment all = realignment(6, R, Eigen::Vector3d::Zero(), kAllCombinations);
   EXPECT_EQ(realigned(dop, one).lo, realigned(dop, all).lo);
 }
 
@@ -158,7 +158,7 @@ TEST(Realignment, by_few_combinations_is_hardly_larger_than_by_the_hull_points) 
       const Kdop dop = tight_kdop(k, random_points(random, 4, Eigen::Vector3d::Zero()));
       const Eigen::Matrix3d R = test::rotation(random.vector(3));
       few_area += area(realigned(dop, realignment(k, R, Eigen::Vector3d::Zero())));
-      hull_area += area(realigned(dop, realignment(k, R, Eigen::Vector3d::Zero(), all_combinations)));
+      hull_area += area(realigned(dop, realignment(k, R, Eigen::Vector3d::Zero(), kAllCombinations)));
     }
     EXPECT_LT(few_area, 1.3 * hull_area) << k;
     RecordProperty("area_ratio_k" + std::to_string(k), std::to_string(few_area / hull_area));

@@ -8,13 +8,13 @@
 
 namespace elastogear::contact {
 
-inline constexpr int max_k = 26;
+inline constexpr int kMostDirections = 26;
 
 /// Components of the k/2 directions B_i: axes first, then edge and corner directions of the cube.
 /// k = 6: axes; 14: and corners; 18: and edges; 24: edges and three corners; 26: all.
 struct Directions {
   int n = 0;  ///< k/2
-  std::array<double, max_k / 2> x{}, y{}, z{}, norm{};
+  std::array<double, kMostDirections / 2> x{}, y{}, z{}, norm{};
 
   Eigen::Vector3d operator[](int i) const { return {x[i], y[i], z[i]}; }
 };
@@ -25,7 +25,7 @@ const Directions& directions(int k);
 /// lo_i <= B_i . x <= hi_i. The empty k-DOP has lo = +inf, hi = -inf.
 struct Kdop {
   int k = 0;
-  std::array<double, max_k / 2> lo, hi;
+  std::array<double, kMostDirections / 2> lo, hi;
 };
 
 Kdop empty_kdop(int k);

@@ -30,23 +30,23 @@ bool step(const Derivatives& f, Eigen::Vector2d& delta) {
   return true;
 }
 
-constexpr int n_gauss_newton = 3, n_steps = 25;
-constexpr double converged = 1e-13, converged_quadratically = 1e-9;
-constexpr double far_away = 3;  // local coordinates beyond which the foot point cannot return to the face
+constexpr int kGaussNewtonSteps = 3, kSteps = 25;
+constexpr double kConverged = 1e-13, kConvergedQuadratically = 1e-9;
+constexpr double kFarAway = 3;  // local coordinates beyond which the foot point cannot return to the face
 
 // Foot point from a start: Gauss-Newton steps first, then full Newton. Where
 // the full Hessian is indefinite, Gauss-Newton goes on: only it descends there. docs/theory.md, Eq. (6.2).
 bool foot_point(const Face& face, const Eigen::Vector3d& q, Eigen::Vector2d& at) {
-  for (int i = 0; i < n_steps; ++i) {
+  for (int i = 0; i < kSteps; ++i) {
     Eigen::Vector2d delta;
-    const bool full = i >= n_gauss_newton;
+    const bool full = i >= kGaussNewtonSteps;
     if (!step(derivatives(face, q, at, full), delta) &&
         !(full && step(derivatives(face, q, at, false), delta)))
       return false;
     delta *= std::min(1.0, 1 / delta.cwiseAbs().maxCoeff());
     at += delta;
-    if (at.cwiseAbs().maxCoeff() > far_away) return false;
-    if (delta.cwiseAbs().maxCoeff() < (full ? converged_quadratically : converged)) return true;
+    if (at.cwiseAbs().maxCoeff() > kFarAway) return false;
+    if (delta.cwiseAbs().maxCoeff() < (full ? kConvergedQuadratically : kConverged)) return true;
   }
   return false;
 }

@@ -11,7 +11,7 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr int n_bins = 16;  // at most; no more than faces
+constexpr int kBins = 16;  // at most; no more than faces
 
 struct Builder {
   const Directions& B;
@@ -24,7 +24,7 @@ struct Builder {
 
 struct Split {
   int direction = -1;
-  int bins = n_bins;
+  int bins = kBins;
   double lo = 0, scale = 0;  // bin = (centre - lo) * scale
   int bin = 0;               // bins below go left
   double cost = std::numeric_limits<double>::infinity();
@@ -38,7 +38,7 @@ struct Bin {
   Kdop dop;
   int count = 0;
 };
-using Bins = std::array<Bin, n_bins>;
+using Bins = std::array<Bin, kBins>;
 
 Bins fill_bins(const Builder& b, std::span<const int> faces, const Split& s) {
   Bins bins;
@@ -53,7 +53,7 @@ Bins fill_bins(const Builder& b, std::span<const int> faces, const Split& s) {
 
 // Best plane among the bins' borders of one direction.
 Split sweep(const Bins& bins, Split s) {
-  std::array<double, n_bins> right_cost{};
+  std::array<double, kBins> right_cost{};
   Kdop dop = bins[s.bins - 1].dop;
   int count = 0;
   for (int i = s.bins - 1; i > 0; --i) {
@@ -79,7 +79,7 @@ Split best_split(const Builder& b, std::span<const int> faces) {
     for (int f : faces) lo = std::min(lo, b.centre(f, i)), hi = std::max(hi, b.centre(f, i));
     if (!(hi > lo)) continue;
     Split s;
-    s.bins = std::min(n_bins, static_cast<int>(faces.size()));
+    s.bins = std::min(kBins, static_cast<int>(faces.size()));
     s.direction = i, s.lo = lo, s.scale = s.bins / (hi - lo);
     s = sweep(fill_bins(b, faces, s), s);
     if (s.cost < best.cost) best = s;

@@ -29,10 +29,10 @@ struct Realignment {
   std::vector<Combination> combinations;  ///< grouped by direction
 };
 
-inline constexpr int all_combinations = 1 << 20;
+inline constexpr int kAllCombinations = 1 << 20;
 
 /// `per_direction`: how many combinations to keep, those with the smallest weights first (the best for a
-/// round body); all_combinations gives the hull-point value exactly.
+/// round body); kAllCombinations gives the hull-point value exactly.
 Realignment realignment(int k, const Eigen::Matrix3d& R, const Eigen::Vector3d& r, int per_direction = 4);
 
 /// k-DOP that encloses the moved `dop`.

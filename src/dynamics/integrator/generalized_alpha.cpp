@@ -11,7 +11,7 @@ namespace {
 
 using namespace generalized_alpha;
 
-constexpr const char* type_name = "generalized_alpha";
+constexpr const char* kTypeName = "generalized_alpha";
 const char* const predictor_names[] = {"none", "constant_acceleration", "zero_acceleration"};
 
 // ---- the accepted state
@@ -266,9 +266,9 @@ PetscErrorCode set_up(TS ts) {
   const MPI_Comm comm = PetscObjectComm((PetscObject)ts);
   PetscCall(TSGetDM(ts, &dm));
   PetscCall(DMTSGetI2Function(dm, &F, nullptr));
-  PetscCheck(F, comm, PETSC_ERR_ARG_WRONGSTATE, "%s needs F(t, U, V, A): call TSSetI2Function()", type_name);
+  PetscCheck(F, comm, PETSC_ERR_ARG_WRONGSTATE, "%s needs F(t, U, V, A): call TSSetI2Function()", kTypeName);
   PetscCheck(ts->vec_dot, comm, PETSC_ERR_ARG_WRONGSTATE, "%s needs U and V: call TS2SetSolution()",
-             type_name);
+             kTypeName);
   PetscCall(TSGetAdapt(ts, &ts->adapt));
   PetscCall(TSAdaptCandidatesClear(ts->adapt));
   PetscCall(TSGetSNES(ts, &ts->snes));
@@ -333,7 +333,7 @@ PetscErrorCode create(TS ts) {
 Method& ready_method(TS ts) {
   TSType type = nullptr;
   check(TSGetType(ts, &type));
-  require(ts->ops->step == step, "TS type ", type ? type : "(none)", ": must be ", type_name, " or alpha2");
+  require(ts->ops->step == step, "TS type ", type ? type : "(none)", ": must be ", kTypeName, " or alpha2");
   check(TSSetUp(ts));
   return method(ts);
 }
@@ -341,7 +341,7 @@ Method& ready_method(TS ts) {
 }  // namespace
 
 void register_generalized_alpha() {
-  check(TSRegister(type_name, create));
+  check(TSRegister(kTypeName, create));
   check(TSRegister(TSALPHA2, create));
 }
 

@@ -4,7 +4,7 @@ namespace elastogear::dynamics::generalized_alpha {
 namespace {
 
 // Updates below this part of the state are roundoff: Newton cannot do better and has converged.
-constexpr PetscReal roundoff = 1e4 * PETSC_MACHINE_EPSILON;
+constexpr PetscReal kRoundoff = 1e4 * PETSC_MACHINE_EPSILON;
 
 PetscErrorCode duplicate(Vec like, Motion& x) {
   PetscCall(VecDuplicate(like, &x.U));
@@ -87,7 +87,7 @@ PetscErrorCode update_is_roundoff(TS ts, const Motion& x, bool* is_roundoff) {
   PetscCall(VecNorm(x.U, NORM_2, &U));
   PetscCall(VecNorm(x.V, NORM_2, &V));
   PetscCall(VecNorm(x.A, NORM_2, &A));
-  *is_roundoff = update && method(ts).stage.c_A * dt * dt * size <= roundoff * (U + dt * V + dt * dt * A);
+  *is_roundoff = update && method(ts).stage.c_A * dt * dt * size <= kRoundoff * (U + dt * V + dt * dt * A);
   return 0;
 }
 

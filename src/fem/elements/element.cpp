@@ -27,17 +27,17 @@ const ElementFunctions& element_functions(mesh::CellType type) {
     case CellType::hex8:
       return kHex8;
     case CellType::hex20:
-      return isoparametric<CellType::hex20, 20, 27>;
+      return kIsoparametric<CellType::hex20, 20, 27>;
     case CellType::tet4:
-      return isoparametric<CellType::tet4, 4, 1>;
+      return kIsoparametric<CellType::tet4, 4, 1>;
     case CellType::tet10:
-      return isoparametric<CellType::tet10, 10, 4>;
+      return kIsoparametric<CellType::tet10, 10, 4>;
     case CellType::wedge6:
-      return isoparametric<CellType::wedge6, 6, 2>;
+      return kIsoparametric<CellType::wedge6, 6, 2>;
     case CellType::wedge15:
-      return isoparametric<CellType::wedge15, 15, 9>;
+      return kIsoparametric<CellType::wedge15, 15, 9>;
     case CellType::pyramid5:
-      return isoparametric<CellType::pyramid5, 5, 8>;
+      return kIsoparametric<CellType::pyramid5, 5, 8>;
   }
   fail("no element for cell type ", static_cast<int>(type));
 }

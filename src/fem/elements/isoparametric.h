@@ -74,7 +74,7 @@ Eigen::MatrixXd stress(const ReferenceCell& cell, const Eigen::Matrix3Xd& X, con
 
 /// The table's row of a cell type with n nodes and n_points points in the stiffness rule.
 template <mesh::CellType type, int n, int n_points>
-constexpr ElementFunctions isoparametric = {
+constexpr ElementFunctions kIsoparametric = {
     n,
     [](const Eigen::Matrix3Xd& X) { return smallest_jacobian(reference_cell(type), X); },
     [](const Eigen::Matrix3Xd& X) { return volume(reference_cell(type), X); },

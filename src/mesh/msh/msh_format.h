@@ -38,12 +38,12 @@ constexpr ElementType kTypes[] = {{kPoint, 0, 1, "points"},
 /// Gmsh's position of each of our nodes; empty where the orders are the same. Gmsh sorts the edges of
 /// second-order cells by their first corner, Abaqus goes round the bottom, round the top, then up.
 inline std::span<const int> gmsh_position(CellType type) {
-  static constexpr std::array tet10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
-  static constexpr std::array hex20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
-  static constexpr std::array wedge15{0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11};
-  if (type == CellType::tet10) return tet10;
-  if (type == CellType::hex20) return hex20;
-  if (type == CellType::wedge15) return wedge15;
+  static constexpr std::array kTet10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+  static constexpr std::array kHex20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
+  static constexpr std::array kWedge15{0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11};
+  if (type == CellType::tet10) return kTet10;
+  if (type == CellType::hex20) return kHex20;
+  if (type == CellType::wedge15) return kWedge15;
   return {};
 }
 
