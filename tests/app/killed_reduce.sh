@@ -45,6 +45,7 @@ scenario() {
   for where in "1 write ${piece}_" "1 renamed ${piece}_" "2 rename ${piece}_" "1 rename ${piece}_" "2 renamed ${piece}_" \
     "1 write $mesh.h5.tmp" "1 rename $mesh.h5$"; do
     find "$mesh.h5.partial" -name "${piece}_*.h5" -printf '%p %i %T@\n' 2>/dev/null | sort >before.txt
+    # shellcheck disable=SC2086  # several words
     killed_at $where "${reduce[@]}" -output "$mesh.h5"
     [ -e "$mesh.h5" ] && fail "killed at $where, but there is a body file"
     find "$mesh.h5.partial" -name "${piece}_*.h5" -printf '%p %i %T@\n' | sort >after.txt

@@ -73,6 +73,7 @@ for ((kills = 0; kills < 20; ++kills)); do
     4) where="write state.h5.tmp" nth=$((10 * nth)) ;;
   esac
   ((kills < 19)) || where="rename /result.h5$" nth=1 # the whole run is there, its result not yet
+  # shellcheck disable=SC2086  # two words
   killed_at "$nth" $where "${simulate[@]}" -output cut.h5 -checkpoint_every 0
   [ -e cut.h5 ] && fail "a result appears although the run was killed"
   now=$(grep -Eo 'continued after +[0-9.e+-]+' run.log | grep -Eo '[0-9.e+-]+$')
