@@ -29,7 +29,10 @@ struct ShiftedFactor::Solver {
   MPI_Comm comm;
   int rank = 0;
   DMUMPS_STRUC_C id = {};
-  std::vector<int> row = {}, column = {};        // own entries of the lower triangle, from 1
+  // Own entries of the lower triangle, from 1: those of K and, where its sparsity is another, those of M
+  // again, for MUMPS adds up what comes twice.
+  std::vector<int> row = {}, column = {};
+  bool same_sparsity = true;
   std::vector<double> value = {};                // of K - sigma M there
   std::vector<int> position = {};                // of each row in the elimination, from 1; rank 0
   std::vector<int> n_rows = {}, first_row = {};  // of each rank
@@ -62,6 +65,23 @@ struct ShiftedFactor::Solver {
       check(MatRestoreRow(A, i, &n, &columns, &values));
     }
   }
+
+  void add_entries(Mat A) {
+    visit_lower(A, [&](int i, int j, double) {
+      row.push_back(i + 1);
+      column.push_back(j + 1);
+    });
+  }
+
+  bool has_entries_of(Mat A) {
+    std::size_t k = 0;
+    bool same = true;
+    visit_lower(A, [&](int i, int j, double) {
+      same = same && k < row.size() && row[k] == i + 1 && column[k] == j + 1;
+      ++k;
+    });
+    return same && k == row.size();
+  }
 };
 
 ShiftedFactor::ShiftedFactor(Mat K, Mat M, Ordering ordering) : solver_(new Solver{K, M, comm_of(K)}) {
@@ -75,10 +95,9 @@ ShiftedFactor::ShiftedFactor(Mat K, Mat M, Ordering ordering) : solver_(new Solv
     s.first_row.push_back(ranges[r]);
     s.n_rows.push_back(ranges[r + 1] - ranges[r]);
   }
-  s.visit_lower(K, [&](int i, int j, double) {
-    s.row.push_back(i + 1);
-    s.column.push_back(j + 1);
-  });
+  s.add_entries(K);
+  s.same_sparsity = !M || s.has_entries_of(M);
+  if (!s.same_sparsity) s.add_entries(M);
   s.value.resize(s.row.size());
   s.id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(s.comm));
   s.id.sym = kSymmetric;
@@ -109,10 +128,11 @@ ShiftedFactor::~ShiftedFactor() { solver_->call(end); }
 
 int ShiftedFactor::factorise(double sigma) {
   Solver& s = *solver_;
-  std::size_t k = 0, m = 0;
+  std::size_t k = 0;
   s.visit_lower(s.K, [&](int, int, double a) { s.value[k++] = a; });
-  s.visit_lower(s.M, [&](int, int, double a) { s.value[m++] -= sigma * a; });
-  require(k == m, "K and M differ in their sparsity");
+  std::size_t m = s.same_sparsity ? 0 : k;
+  if (!s.same_sparsity) std::fill(s.value.begin() + static_cast<std::ptrdiff_t>(k), s.value.end(), 0.0);
+  if (s.M) s.visit_lower(s.M, [&](int, int, double a) { s.value[m++] -= sigma * a; });
   int code = s.call(Job::factorise);
   while ((code == kWorkspaceTooSmall || code == kWorkspaceTooSmall + 1) && s.icntl(14) < kMaxWorkspace) {
     s.icntl(14) *= 2;

@@ -17,8 +17,8 @@ struct FactorSize {
 };
 
 /// The order of elimination is found once, in the constructor; every factorise() then replaces the factor.
-/// K and M are borrowed, symmetric, of equal sparsity. All members are collective. They throw Error when
-/// MUMPS fails, naming its code.
+/// K and M are borrowed and symmetric; M may be null, for zero. All members are collective. They throw Error
+/// when MUMPS fails, naming its code.
 class ShiftedFactor {
  public:
   ShiftedFactor(Mat K, Mat M, Ordering ordering = Ordering::metis);
