@@ -2,6 +2,14 @@
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET GLOBAL petsc>=3.18)
 pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET GLOBAL slepc>=3.18)
+# The types that are registered with PETSc and SLEPc (TS generalized_alpha, EPS block_lanczos, PC ldl, BV slabs) are
+# written against their private headers, which change from one minor release to the next.
+foreach(library PETSC SLEPC)
+  if(NOT ${library}_VERSION VERSION_LESS 3.19)
+    message(FATAL_ERROR "${library} ${${library}_VERSION}: must be 3.18.x, whose private headers the registered solvers "
+                        "include (petsc/private/tsimpl.h, pcimpl.h, slepc/private/epsimpl.h, bvimpl.h)")
+  endif()
+endforeach()
 find_package(MPI REQUIRED COMPONENTS C)
 set(HDF5_PREFER_PARALLEL ON)
 find_package(HDF5 REQUIRED COMPONENTS C)
