@@ -119,6 +119,7 @@ Eigen::VectorXd joined(const Eigen::VectorXd& head, const Eigen::VectorXd& tail)
 EigenOptions with_rigid_modes(const EigenOptions& options, double shift) {
   EigenOptions all = options;
   all.n_modes += kRigid;
+  if (all.interval) all.interval = Interval{.upper = options.interval->upper + shift};
   if (options.start.eigenvalue.size() > 0) {
     all.start.eigenvalue = joined(Eigen::VectorXd::Zero(kRigid), options.start.eigenvalue).array() + shift;
     all.start.residual = joined(Eigen::VectorXd::Zero(kRigid), options.start.residual);
@@ -158,8 +159,11 @@ Eigenmodes find_free_modes(Mat K, Mat M, const RigidModes& rigid, const EigenOpt
                            const ModeSink& sink, const Progress& progress) {
   PetscInt n = 0;
   check(MatGetSize(K, &n, nullptr));
-  require(options.n_modes > 0 && options.n_modes <= n - kRigid, "modes = ", options.n_modes,
-          ", must be between 1 and the number of elastic degrees of freedom, ", n - kRigid);
+  require(options.interval || (options.n_modes > 0 && options.n_modes <= n - kRigid),
+          "modes = ", options.n_modes, ", must be between 1 and the number of elastic degrees of freedom, ",
+          n - kRigid);
+  require(!options.interval || (options.interval->lower <= 0 && options.interval->upper > 0),
+          "the interval of a free body (-eps_interval) must begin at or below 0 and end above");
   const UniqueMat shifted = shifted_stiffness(K, M, rigid.shift);
   const double zero = zero_eigenvalue(K, M);
   const Residual w = make_residual(K);

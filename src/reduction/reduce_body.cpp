@@ -160,7 +160,8 @@ void number_on_root(Job& job) {
     fem::require_held(mesh, plan.held);
   plan.free_dof = fem::free_dofs(plan.held);
   require(!plan.free_dof.empty(), "all nodes are restrained, no degree of freedom is left");
-  if (job.modal()) require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
+  if (job.modal() && !job.options.interval)
+    require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
 }
 
 // Throws Error when options and the displacements of the files together do not make a held or a free body.

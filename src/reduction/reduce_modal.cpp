@@ -24,6 +24,12 @@ namespace {
 
 constexpr PetscInt kLargestCheckFactor = 500'000;  // displacements
 
+// Does this entry of the provenance change how the eigensolver works?
+bool asks_solver(const std::string& name) {
+  return (name.starts_with("option_eps_") || name.starts_with("option_st_")) &&
+         !name.starts_with("option_eps_monitor") && !name.starts_with("option_eps_view");
+}
+
 // Fingerprint of all that the modes depend on, but for what the solver adds. Rank 0.
 Fingerprint fingerprint_of(const Job& job) {
   const ReductionOptions& o = job.options;
@@ -32,6 +38,10 @@ Fingerprint fingerprint_of(const Job& job) {
   for (int option : {o.n_modes, o.window, static_cast<int>(o.store), static_cast<int>(o.precision),
                      static_cast<int>(o.invariants)})
     f.add(static_cast<double>(option));
+  for (const auto& [name, value] : o.provenance)
+    if (asks_solver(name)) f.add(name + "=" + value);
+  if (o.interval)
+    for (double end : {o.interval->lower, o.interval->upper}) f.add(end);
   f.add_all(job.plan.moments.w_0);
   f.add_all(job.plan.moments.w_1.reshaped());
   f.add_all(job.plan.body.surface.node);
@@ -44,6 +54,7 @@ Fingerprint fingerprint_of(const Job& job) {
 EigenOptions eigen_options(const ReductionOptions& o) {
   EigenOptions options;
   options.n_modes = o.n_modes;
+  options.interval = o.interval;
   options.window = o.window;
   options.prefix = o.prefix;
   options.whole_pairs = true;
@@ -122,7 +133,7 @@ Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModeCheckpoints& ch
   options.start = checkpoints.resume(static_cast<int>(n_own));
   options.commit = [&](const SearchState& state) { checkpoints.commit(state); };
   report_continued(job, static_cast<int>(options.start.eigenvalue.size()), checkpoints.discarded(),
-                   "of " + std::to_string(options.n_modes) + " modes");
+                   options.interval ? "modes" : "of " + std::to_string(options.n_modes) + " modes");
   return system.rigid ? find_free_modes(system.K, system.M, *system.rigid, options, keep, job.progress)
                       : find_eigenmodes(system.K, system.M, options, keep, job.progress);
 }

@@ -31,6 +31,7 @@ COMMANDS = {
     "steel": "-material_E 210e9 -material_nu 0.3 -material_rho 7850",
     "reduce": "{elastogear} reduce -mesh brick.inp {steel} -restrain FIX -surface TOP -stress_nodes MIDDLE -markers END "
               "-basis modal -modes 5 -output kept.h5",
+    "reduce_brick": "{elastogear} reduce -mesh brick.inp {steel} -restrain FIX -basis modal -output kept.h5",
     "orthotropic": "{elastogear} reduce -mesh brick.inp -material_E1 40e9 -material_E2 10e9 -material_E3 10e9 -material_nu12 0.3 "
                    "-material_nu13 0.3 -material_nu23 0.4 -material_G12 5e9 -material_G13 5e9 -material_G23 4e9 "
                    "-material_rho 1900 -restrain FIX -basis modal -modes 5 -output kept.h5",

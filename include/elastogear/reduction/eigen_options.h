@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "elastogear/base/petsc.h"
+#include "elastogear/reduction/interval.h"
 
 namespace elastogear::reduction {
 
@@ -28,11 +30,12 @@ struct EigenOptions {
   int n_modes = 100;
   double tolerance = 1e-10;  ///< relative residual at which a mode counts as converged
   bool verify_count = true;  ///< compare the number of modes with the inertia of K - sigma M
-  int window = 0;            ///< > 0: windows of about so many modes; kAutomaticWindow; 0: all by SLEPc
+  /// All modes in it, in place of the n_modes lowest.
+  std::optional<Interval> interval = {};
+  /// > 0: block Lanczos in windows of about so many modes; kAutomaticWindow; 0: Krylov-Schur, all at once.
+  int window = 0;
   int block = 0;             ///< right-hand sides that go through the factor together; 0: automatic
-  double first_shift = 0;    ///< rad^2/s^2, below all elastic modes (windows)
   double counted_below = 0;  ///< rad^2/s^2, known to have n_modes eigenvalues below (windows); 0: unknown
-  int n_rigid = 0;           ///< zero eigenvalues of a free body, left out (windows); needs first_shift < 0
   bool whole_pairs = false;  ///< deliver also the modes above n_modes that are as good as equal to the last
   std::string prefix = {};   ///< of the options: -<prefix>eps_type, -<prefix>st_pc_type, ...
   SearchState start = {};    ///< of a search to be continued, in windows

@@ -19,6 +19,7 @@
 #include "elastogear/model/material.h"
 #include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/imported.h"
+#include "elastogear/reduction/interval.h"
 #include "elastogear/reduction/marker.h"
 #include "elastogear/reduction/ritz_options.h"
 
@@ -49,11 +50,12 @@ struct ReductionOptions {
   std::vector<std::string> markers = {};       ///< node or face sets, see reduction/marker.h
   MarkerWeights marker_weights = MarkerWeights::equal;
   model::Basis basis = model::Basis::modal;
-  int n_modes = 100;                     ///< modal only
-  std::optional<RitzOptions> ritz = {};  ///< modal only: in place of all eigenmodes, from the whole body
-  bool flexibility = false;              ///< modal only: static responses to contact forces,
-  std::vector<std::string> loaded = {};  ///< on the nodes of these face sets; none: of the whole surface.
-                                         ///< Interface or loaded faces of `ritz` too
+  int n_modes = 100;                      ///< modal only
+  std::optional<Interval> interval = {};  ///< all eigenmodes in it, in place of the n_modes lowest
+  std::optional<RitzOptions> ritz = {};   ///< modal only: in place of all eigenmodes, from the whole body
+  bool flexibility = false;               ///< modal only: static responses to contact forces,
+  std::vector<std::string> loaded = {};   ///< on the nodes of these face sets; none: of the whole surface.
+                                          ///< Interface or loaded faces of `ritz` too
   /// Called on rank 0 before any eigenmode is looked for; may throw Error, which ends the reduction.
   std::function<void(const StaticResponseCost&)> announce = {};
   bool completeness = true;                            ///< check it: one more factorisation of K

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <string_view>
 
 #include "elastogear/base/error.h"
@@ -18,6 +19,12 @@ namespace {
 
 constexpr std::size_t kShortest = 3,
                       kLongest = 80;  // characters of a name; shorter ones are parts of messages
+
+// Types and options of this program, registered when the run begins.
+const std::map<std::string, std::string> kOwnTypes = {
+    {"ts_type", "generalized_alpha"}, {"eps_type", "block_lanczos"}, {"pc_type", "ldl"}};
+constexpr const char* kOwnOptions[] = {"eps_block_lanczos_window", "eps_block_lanczos_block",
+                                       "eps_block_lanczos_count"};
 
 // Literals of the libraries, sorted.
 struct Literals {
@@ -98,6 +105,7 @@ Literals read_literals() {
     if (const auto at = literals.prefixes[i].rfind(number); at != std::string::npos && at > 0)
       literals.prefixes.push_back(std::string(literals.prefixes[i]).erase(at, number.size()));
   literals.prefixes.push_back("elastic_");  // of this program's own solver
+  literals.names.insert(literals.names.end(), std::begin(kOwnOptions), std::end(kOwnOptions));
   sort_unique(literals.names);
   sort_unique(literals.prefixes);
   const auto found = [&](const char* name) {
@@ -159,8 +167,6 @@ struct Types {
   PetscFunctionList* list;
 };
 
-constexpr const char* kOwnType = "generalized_alpha";  // registered when the run begins
-
 std::vector<std::string> names_of(const Types& types) {
   const char** names = nullptr;
   int n = 0;
@@ -170,7 +176,7 @@ std::vector<std::string> names_of(const Types& types) {
   for (const char** name = names; name != names + n; ++name)
     if (*name) all.push_back(*name);  // the last one may be none
   check(PetscFree(names));
-  if (types.option == std::string("ts_type")) all.push_back(kOwnType);
+  if (const auto own = kOwnTypes.find(types.option); own != kOwnTypes.end()) all.push_back(own->second);
   return all;
 }
 

@@ -73,8 +73,11 @@ const Rows<ReductionOptions> kRows = {
     {"marker_weights", &ReductionOptions::marker_weights, one_of("equal", "area"),
      "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
     {"window", "-", "auto",
-     "eigenmodes found at a time, by block Lanczos in windows; 0: all at once by SLEPc; auto: windows of the "
-     "best size, or SLEPc when an -eps_* or -st_* option is given"},
+     "eigenmodes found at a time, by block Lanczos in windows (SLEPc's -eps_type block_lanczos); auto: of "
+     "the "
+     "best size; 0: all at once by -eps_type krylovschur, of the whole body. SLEPc's options work with both, "
+     "for the whole body and in every harmonic: -eps_type, -eps_tol, -eps_ncv, -eps_mpd, -eps_monitor, "
+     "-eps_view, -st_*; -eps_nev is modes, -eps_interval a,b in (rad/s)^2 takes all modes in it"},
     {"store", &ReductionOptions::store, one_of("surface", "all"),
      "modes at all nodes, or at the surface and stress nodes only (no whole fields): all or surface"},
     {"precision", &ReductionOptions::precision, one_of("float64", "float32"),
@@ -84,7 +87,7 @@ const Rows<ReductionOptions> kRows = {
      "wait on disk, beside the output)"},
     {"symmetry", &ReductionOptions::symmetry, one_of("auto", "none"),
      "auto: modes from one sector where mesh, materials and restraint repeat around an axis; none, and "
-     "when SLEPc is asked for: from the whole body"},
+     "with window 0: from the whole body"},
     {"completeness", &ReductionOptions::completeness, "-",
      "check how much of the static response to loads on the surface the modes give: one more factorisation; "
      "with "
@@ -107,15 +110,31 @@ OptionTable table() {
   return table;
 }
 
-// SLEPc's own options ask for SLEPc.
-bool asks_for_slepc(const Options& options) {
-  return !options.placeholder_values("eps_<option>").empty() ||
-         !options.placeholder_values("st_<option>").empty();
+int window(const Options& options) {
+  return options.text("window") == "auto" ? reduction::kAutomaticWindow : options.count("window");
 }
 
-int window(const Options& options) {
-  if (options.text("window") != "auto") return options.count("window");
-  return asks_for_slepc(options) ? 0 : reduction::kAutomaticWindow;
+// SLEPc's -eps_nev is the number of modes, and -eps_interval takes its place.
+void set_extent(const Options& options, reduction::ReductionOptions& o) {
+  if (options.given("eps_nev")) {
+    const std::vector<std::string> words = options.list("eps_nev");
+    const auto n_modes = words.size() == 1 ? parse<int>(words[0]) : std::nullopt;
+    require(n_modes && *n_modes >= 1, "option -eps_nev must be a whole number of at least 1");
+    require(!options.given("modes") || *n_modes == o.n_modes, "options -modes = ", o.n_modes,
+            " and -eps_nev = ", *n_modes, ": both are the number of modes, give one");
+    o.n_modes = *n_modes;
+  }
+  if (!options.given("eps_interval")) return;
+  const std::vector<std::string> ends = options.list("eps_interval");
+  require(ends.size() == 2, "option -eps_interval must be two numbers a,b in (rad/s)^2");
+  const auto lower = parse<double>(ends[0]), upper = parse<double>(ends[1]);
+  require(lower && upper && *lower < *upper, "option -eps_interval = '", ends[0], ",", ends[1],
+          "': must be two numbers a < b in (rad/s)^2");
+  require(!options.given("modes") && !options.given("eps_nev"),
+          "option -eps_interval takes all modes in it: leave -modes and -eps_nev out");
+  require(o.basis == model::Basis::modal && !o.ritz,
+          "option -eps_interval is for -basis modal_residual or modal");
+  o.interval = reduction::Interval{*lower, *upper};
 }
 
 double unit_in_m(const Options& options) { return options.choice("unit", {"m", "mm"}) == 0 ? 1 : 1e-3; }
@@ -170,8 +189,8 @@ ReductionOptions reduction_options(const Options& options) {
   read_rows(options, kRows, o);
   set_restraint(options, o);
   set_basis(options, o);
+  set_extent(options, o);
   o.window = window(options);
-  // SLEPc's solver, when it was asked for, works on the whole body.
   if (o.window == 0) o.symmetry = reduction::Symmetry::none;
   for (const std::string& set : options.placeholder_values("point_mass_<set>"))
     o.point_mass[set] = options.positive("point_mass_" + set);

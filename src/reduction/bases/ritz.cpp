@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduction/eigensolver/block_lanczos.h"
 #include "reduction/eigensolver/dense_eigenproblem.h"
+#include "reduction/eigensolver/krylov_basis.h"
 #include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {

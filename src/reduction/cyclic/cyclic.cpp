@@ -69,9 +69,9 @@ struct Search {
   std::unique_ptr<Group> group = {};
   std::vector<HarmonicModes> modes = {};  // of each harmonic; z on the first rank of its group
   std::vector<Entry> entries = {};        // wanted modes, ascending
+  int n_wanted = options.eigen.n_modes;
 
   int n_harmonics() const { return static_cast<int>(harmonics.size()); }
-  int n_modes() const { return options.eigen.n_modes; }
   int n_found() const { return static_cast<int>(entries.size()); }
   int group_of(int k) const {
     const auto at = std::find(order.begin(), order.end(), k) - order.begin();
@@ -98,7 +98,7 @@ void make_problems(Search& search) {
     search.order.push_back(k);
     n_free += search.harmonics.back().size();
   }
-  require_mode_count(search.n_modes(), n_free);
+  if (!search.options.eigen.interval) require_mode_count(search.n_wanted, n_free);
   std::stable_sort(search.order.begin(), search.order.end(),
                    [&](int a, int b) { return search.harmonics[a].size() > search.harmonics[b].size(); });
   search.group = std::make_unique<Group>(search.comm, search.n_harmonics());
@@ -149,15 +149,38 @@ struct Cutoff {
   std::vector<int> count;  // of each harmonic
 };
 
+int sum(const std::vector<int>& counts) { return std::accumulate(counts.begin(), counts.end(), 0); }
+
+// All harmonics of the interval, whose number of modes becomes that of the search.
+Cutoff cutoff_of_interval(Search& search) {
+  const auto& [lower, upper] = *search.options.eigen.interval;
+  std::vector<int> all(search.harmonics.size());
+  std::iota(all.begin(), all.end(), 0);
+  Cutoff cutoff{upper, {}};
+  if (std::isfinite(upper)) {
+    cutoff.count = count_below(search, all, upper);
+  } else {
+    for (const fem::Harmonic& harmonic : search.harmonics) cutoff.count.push_back(harmonic.size());
+  }
+  if (lower > 0) {  // the body is held: none lies below zero
+    const std::vector<int> below = count_below(search, all, lower);
+    for (std::size_t k = 0; k < all.size(); ++k) cutoff.count[k] -= below[k];
+  }
+  search.n_wanted = sum(cutoff.count);
+  require(search.n_wanted > 0, "no eigenvalue lies between ", lower, " and ", upper,
+          " rad^2/s^2 (-eps_interval)");
+  return cutoff;
+}
+
 Cutoff choose_cutoff(const Search& search) {
-  const int n = search.n_modes();
+  const int n = search.n_wanted;
   const int surplus = std::max(kLeastSurplus, static_cast<int>(kSurplus * n));
   std::vector<int> all(search.harmonics.size());
   std::iota(all.begin(), all.end(), 0);
   Cutoff cutoff{0, {}};
   const auto count = [&](double sigma) {
     cutoff.count = count_below(search, all, sigma);
-    return std::accumulate(cutoff.count.begin(), cutoff.count.end(), 0);
+    return sum(cutoff.count);
   };
   cutoff.sigma = find_cutoff(count, {n, n + surplus}, estimate_cutoff(search, n + surplus / 2));
   return cutoff;
@@ -189,6 +212,7 @@ HarmonicModes solve(const Search& search, int k, const Cutoff& cutoff, const Pro
   options.counted_below = cutoff.sigma;
   options.window = std::min(options.window > 0 ? options.window : kWindow, options.n_modes + options.block);
   options.whole_pairs = false;  // the cutoff cuts none
+  if (options.interval && options.interval->lower <= 0) options.interval.reset();
   const fem::Matrices matrices = search.assemble(k);
   const int first_orbit = fem::own_orbits(search.group->comm, search.sector).first;
   HarmonicModes modes = find_harmonic_modes(matrices, search.harmonics[k], first_orbit, options, progress);
@@ -233,7 +257,7 @@ void merge(Search& search, const Cutoff& cutoff) {
   }
   std::sort(search.entries.begin(), search.entries.end(),
             [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
-  auto n = static_cast<std::size_t>(search.n_modes());
+  auto n = static_cast<std::size_t>(search.n_wanted);
   const bool cut = n < search.entries.size() && search.entries[n].times_i;
   search.entries.resize(n + (cut && search.options.eigen.whole_pairs));
 }
@@ -299,7 +323,7 @@ Eigenmodes find_cyclic_eigenmodes(MPI_Comm comm, const CyclicBody& body, const C
                                   const FieldSink& sink, const Progress& progress) {
   Search search{comm, body, options, progress};
   make_problems(search);
-  const Cutoff cutoff = choose_cutoff(search);
+  const Cutoff cutoff = options.eigen.interval ? cutoff_of_interval(search) : choose_cutoff(search);
   solve_all(search, cutoff);
   merge(search, cutoff);
   report(progress, "eigenmodes", 1);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "elastogear/base/error.h"
 #include "reduction/eigensolver/block_product.h"
 #include "reduction/static_response/residual.h"
 
@@ -138,11 +139,15 @@ HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harm
   MatrixXd W(n_own, options.n_modes);
   const auto keep = [&](int i, Vec phi) {
     const PetscScalar* values = nullptr;
+    if (i >= W.cols()) return;  // more than were counted: an error below
     check(VecGetArrayRead(phi, &values));
     W.col(i) = Eigen::Map<const VectorXd>(values, n_own);
     check(VecRestoreArrayRead(phi, &values));
   };
   const Eigenmodes found = find_eigenmodes(K, M, options, keep, progress);
+  require(found.eigenvalue.size() == options.n_modes, "harmonic ", harmonic.k, " has ",
+          found.eigenvalue.size(), " modes in the interval, ", options.n_modes,
+          " were counted; move its ends");
   HarmonicModes modes;
   modes.k = harmonic.k;
   modes.eigenvalue = found.eigenvalue;

@@ -1,64 +1,45 @@
 #include "reduction/eigensolver/spectrum_slicing.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "elastogear/base/error.h"
-#include "reduction/eigensolver/block_lanczos.h"
+#include "reduction/eigensolver/krylov_basis.h"
+#include "reduction/eigensolver/shift_placement.h"
 #include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {
 
-constexpr double kGap = 1e-5;            // relative, of eigenvalues: room for a window's end
-constexpr int kEndChoices = 8;           // gaps of which the widest becomes the end
-constexpr double kColumnsPerMode = 1.7;  // of a Krylov basis without restarts, measured
-constexpr double kFirstBlocks = 24;      // more of them, until the first Ritz values converge
-constexpr double kFirstLook = 0.9;       // of these sizes: when Ritz values are first looked at
-constexpr double kFewestColumns = 200;   // of a basis, however small the window
-constexpr double kGrowth = 1.02;         // of the basis between two looks at its Ritz values
-constexpr double kAim = 0.45;            // of a window's modes: to lie under its shift
-constexpr double kTooMany = 0.65;        // the same: move the shift down
-constexpr double kRoom = 1.3;            // columns there is room for, over those needed
-constexpr int kShifts = 4;               // tries to place one
-constexpr int kSpare = 2;                // modes above the wanted ones that show the gap there
-constexpr double kStretch = 0.2;         // by which windows may be larger than chosen, to save the last one
-constexpr double kWeyl = 1.5;            // exponent of N(lambda) in a solid
-constexpr int kFewModes = 16;            // too few to see an exponent of their own
-
-// The cost of a flop, over that in a product of the basis with 16 vectors (benchmarks/kernels.csv): kFactor
-// in a factorisation, kSolve + kSolveOnce / block in a solve, kProduct + kProductOnce / block in such
-// products.
-constexpr double kFactor = 2, kSolve = 1.3, kSolveOnce = 20, kProduct = 0.75, kProductOnce = 5;
-constexpr double kLargestBasis = 1.5;  // entries, over those of the factor
-constexpr double kSmallBasis = 1e8;    // entries that are always allowed: 0.8 GB
-constexpr std::array kWindows{60, 100, 150, 200, 250, 300, 400, 500, 600};
-constexpr std::array kBlocks{8, 16, 24, 32};
+constexpr double kGap = 1e-5;       // relative, of eigenvalues: room for a window's end
+constexpr int kEndChoices = 8;      // gaps of which the widest becomes the end
+constexpr double kFirstLook = 0.9;  // of these sizes: when Ritz values are first looked at
+constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
+constexpr int kLargestBlock = 128;  // after modes were missed
+constexpr int kSpare = 2;           // modes above the wanted ones that show the gap there
+constexpr double kStretch = 0.2;    // by which windows may be larger than chosen, to save the last one
 
 struct Search {
   Mat K, M;
-  const EigenOptions& options;
-  const ModeSink& sink;
-  const Progress& progress;
+  SpectralTransform& transform;
+  const Slicing& slicing;
+  const SliceHooks& hooks;
   BlockProduct K_times, M_times;
-  ShiftedFactor factor;
   UniqueVec phi;
   WindowSize size;
   SearchState state;
-  KrylovBasis basis = {};  // its memory serves all windows, for new pages cost as much as filling them
+  int block = 0;  // columns at present: more from where modes were missed up to `missed_at`
+  double missed_at = -std::numeric_limits<double>::infinity();
+  TallBasis* V = nullptr;  // its memory serves all windows, for new pages cost as much as filling them
 
   int delivered() const { return static_cast<int>(state.eigenvalue.size()); }
-  int known() const { return options.n_rigid + delivered(); }
-  int wanted() const { return options.n_modes - delivered(); }
-};
-
-struct Shift {
-  double sigma = 0;
-  int below = 0;  // eigenvalues under it
+  int known() const { return slicing.n_below + delivered(); }
+  int wanted() const { return slicing.n_modes - delivered(); }
+  bool from_bottom() const { return delivered() == 0 && !std::isfinite(slicing.lower); }
 };
 
 using Found = std::vector<std::pair<double, int>>;  // eigenvalue and column, ascending
@@ -85,7 +66,7 @@ bool reaches_down(const Search& search, double sigma, const Found& found) {
   if (static_cast<int>(found.size()) == search.M_times.n()) return true;
   if (found.empty()) return false;
   const double reach = std::max(sigma - found.front().first, found.back().first - sigma);
-  return search.delivered() == 0 || sigma - search.state.lower <= reach;
+  return search.from_bottom() || sigma - search.state.lower <= reach;
 }
 
 struct End {
@@ -100,23 +81,23 @@ std::vector<End> possible_ends(const Found& modes, bool all) {
     const double below = modes[n - 1].first, above = modes[n].first, gap = (above - below) / std::abs(below);
     if (gap >= kGap) ends.push_back({n, (below + above) / 2, gap});
   }
-  if (all && !modes.empty()) ends.push_back({modes.size(), modes.back().first * (1 + kGap), kGap});
+  if (all && !modes.empty())
+    ends.push_back({modes.size(), modes.back().first + kGap * std::abs(modes.back().first), kGap});
   return ends;
 }
 
-// The modes of `found` above the last window and the rigid modes.
+// The modes of `found` above the last window.
 Found new_modes(const Search& search, const Found& found) {
   const auto above = std::find_if(found.begin(), found.end(),
                                   [&](const auto& mode) { return mode.first > search.state.lower; });
-  const std::ptrdiff_t rigid = search.delivered() == 0 ? search.options.n_rigid : 0;
-  return {above + std::min(rigid, found.end() - above), found.end()};
+  return {above, found.end()};
 }
 
 // The new modes of `found` that end in a gap: as few as are wanted in the last window, else as many as
 // possible but for a better gap. None when `found` does not reach down, or no gap shows.
 std::optional<Choice> choose(const Search& search, double sigma, const Found& found) {
   if (!reaches_down(search, sigma, found)) return {};
-  Choice choice{new_modes(search, found), 0, search.delivered() == 0 ? 0 : search.known()};
+  Choice choice{new_modes(search, found), 0, search.known()};
   const bool all = static_cast<int>(found.size()) == search.M_times.n();
   const std::vector<End> ends = possible_ends(choice.modes, all);
   if (ends.empty()) return {};
@@ -132,12 +113,8 @@ std::optional<Choice> choose(const Search& search, double sigma, const Found& fo
   return choice;
 }
 
-// Columns that a basis needs for so many modes on both sides of the shift.
-double columns(int modes, int block) { return kColumnsPerMode * modes + kFirstBlocks * block; }
-
 int room(const Search& search) {
-  const double needed = kRoom * columns(search.size.modes, search.size.block);
-  return static_cast<int>(std::min<double>(std::max(needed, kFewestColumns), search.M_times.n()));
+  return columns_with_room(search.size, search.M_times.n(), search.slicing.most_columns);
 }
 
 // Number of modes that one basis is to give: windows of equal size up to the end, for a small last one costs
@@ -149,24 +126,49 @@ int target(const Search& search) {
 }
 
 void report_search(const Search& search, const KrylovBasis& basis) {
+  if (!search.hooks.progress) return;
   const double inside = std::min(1.0, static_cast<double>(basis.size) / room(search));
   const double modes = search.delivered() + inside * std::min(search.wanted(), target(search));
-  report(search.progress, "eigenmodes", std::min(1.0, modes / search.options.n_modes));
+  search.hooks.progress(std::min(1.0, modes / search.slicing.n_modes));
 }
+
+void report_look(const Search& search, const KrylovBasis& basis, const RitzPairs& pairs, const Found& found) {
+  if (!search.hooks.look) return;
+  const Found fresh = new_modes(search, found);
+  const auto n = search.delivered() + static_cast<Eigen::Index>(fresh.size());
+  const bool more = found.size() < static_cast<std::size_t>(pairs.theta.size());
+  Look look{basis.sigma, Eigen::VectorXd::Zero(n + more), Eigen::VectorXd::Zero(n + more),
+            static_cast<int>(n)};
+  look.eigenvalue.head(search.delivered()) = search.state.eigenvalue;
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    const auto at = search.delivered() + static_cast<Eigen::Index>(i);
+    look.eigenvalue(at) = fresh[i].first;
+    look.error(at) = pairs.error(fresh[i].second);
+  }
+  if (more) {
+    const auto next = static_cast<Eigen::Index>(found.size());
+    look.eigenvalue(n) = basis.sigma + 1 / pairs.theta(next);
+    look.error(n) = pairs.error(next);
+  }
+  search.hooks.look(look, search.state.iterations);
+}
+
+bool has_blocks_left(const Search& search) { return search.state.iterations < search.slicing.most_blocks; }
 
 // Grows the basis until it holds `modes` about the shift, known ones included, and reaches down to the last
 // window, or holds all that are wanted, or is full.
 std::optional<Choice> grow(Search& search, KrylovBasis& basis, RitzPairs& pairs, int modes) {
   std::optional<Choice> choice;
-  for (double next = std::max(kFirstLook * columns(modes, search.size.block), kGrowth * basis.size);
-       has_room(basis) && !choice;) {
-    expand(basis, search.factor);
+  for (double next = std::max(kFirstLook * needed_columns(modes, search.block), kGrowth * basis.size);
+       has_room(basis) && has_blocks_left(search) && !choice;) {
+    expand(basis, search.transform);
     ++search.state.iterations;
     report_search(search, basis);
     if (basis.size < next && has_room(basis)) continue;
     next = kGrowth * basis.size;
     pairs = ritz_pairs(basis);
-    const Found found = trusted(basis, pairs, search.options.tolerance);
+    const Found found = trusted(basis, pairs, search.slicing.tolerance);
+    report_look(search, basis, pairs, found);
     choice = choose(search, basis.sigma, found);
     const bool last = modes >= search.wanted();
     const int reached = static_cast<int>(!last ? found.size() : choice ? choice->modes.size() : 0);
@@ -209,7 +211,7 @@ double overlap(const Search& search, const KrylovBasis& basis, const Eigen::Matr
 // the modes into a new state, for the edge of the old one serves all blocks.
 void deliver(Search& search, const KrylovBasis& basis, const RitzPairs& pairs, const Choice& choice) {
   const int found = static_cast<int>(choice.modes.size()), before = search.delivered();
-  const int count = search.options.whole_pairs ? found : std::min(search.wanted(), found);
+  const int count = search.slicing.whole_pairs ? found : std::min(search.wanted(), found);
   std::vector<int> columns;
   for (int i = 0; i < count; ++i) columns.push_back(choice.modes[i].second);
   const Eigen::MatrixXd s = improved_coefficients(basis, pairs, columns);
@@ -224,81 +226,55 @@ void deliver(Search& search, const KrylovBasis& basis, const RitzPairs& pairs, c
     next.orthogonality = std::max(next.orthogonality, overlap(search, basis, s, begin, M_phi));
     for (int j = 0; j < width; ++j) {
       load(search.phi, next.edge.col(j));
-      search.sink(before + begin + j, search.phi);
+      search.hooks.mode(before + begin + j, search.phi);
     }
   }
   search.state = std::move(next);
 }
 
-// The eigenvalue up to which `more` modes are expected above the known ones, by the power law N(lambda) of
-// the last of these.
-double extrapolate(const SearchState& state, double more) {
-  const auto n = state.eigenvalue.size();
-  double exponent = kWeyl;
-  if (n >= kFewModes) {
-    const auto half = std::max<Eigen::Index>(n / 2, n - static_cast<Eigen::Index>(2 * more));
-    exponent = std::log(static_cast<double>(n) / half) / std::log(state.lower / state.eigenvalue(half - 1));
-    exponent = std::clamp(exponent, kWeyl / 3, 3 * kWeyl);
-  }
-  return state.lower * std::pow(1 + more / n, 1 / exponent);
-}
-
-// A shift with nearly half of the next window's modes under it, and the factor there.
-Shift place_shift(Search& search, int modes) {
-  const SearchState& state = search.state;
-  Shift shift{search.options.first_shift, 0};
-  if (search.delivered() == 0) {
-    shift.below = search.factor.factorise(shift.sigma);
-    return shift;
-  }
-  const double half = std::max(1.0, kAim * modes);
-  shift.sigma = extrapolate(state, half);
-  for (int i = 1;; ++i) {
-    shift.below = search.factor.factorise(shift.sigma);
-    const int under = shift.below - search.known();
-    if (under <= std::max(1.0, kTooMany * modes) || i == kShifts) return shift;
-    shift.sigma = state.lower + (shift.sigma - state.lower) * half / under;
-  }
-}
-
 // The last modes wanted lie where they were counted before.
 bool is_counted(const Search& search, const Choice& choice) {
-  const EigenOptions& options = search.options;
-  return options.n_rigid == 0 && choice.modes[search.wanted() - 1].first < options.counted_below;
+  return choice.modes[search.wanted() - 1].first < search.slicing.counted_below;
 }
 
 // Returns whether the number of modes found under the shift is right: docs/theory.md, Eq. (2.5). The last
 // window is counted up to its end, too; that leaves the factor at the shift again when modes are missing.
 bool is_complete(Search& search, const Shift& shift, const Choice& choice) {
-  if (!search.options.verify_count) return true;
+  if (!search.slicing.verify_count) return true;
   if (choice.below_shift != shift.below) return false;
   const int known = search.known() + static_cast<int>(choice.modes.size());
-  const bool last = search.delivered() + static_cast<int>(choice.modes.size()) >= search.options.n_modes;
+  const bool last = search.delivered() + static_cast<int>(choice.modes.size()) >= search.slicing.n_modes;
   if (!last || choice.upper <= shift.sigma || known == search.M_times.n() || is_counted(search, choice))
     return true;
-  if (search.factor.factorise(choice.upper) == known) return true;
-  search.factor.factorise(shift.sigma);
+  if (search.transform.factorise(choice.upper) == known) return true;
+  search.transform.factorise(shift.sigma);
   return false;
 }
 
-// The modes above the last shift are not proved complete: they are looked for once more, from there.
+// The modes above the last shift are not proved complete: they are looked for once more, from there, by
+// larger blocks, for a block finds no eigenvalue more often than it has columns.
 void step_back(Search& search, const Shift& shift, const Choice& choice) {
   SearchState& state = search.state;
-  if (state.lower <= state.shift) require_complete(choice.below_shift, shift.below, shift.sigma);
-  require(state.lower > state.shift, "the eigensolver misses modes above ",
-          std::sqrt(std::max(0.0, shift.sigma)) / (2 * M_PI),
-          " Hz; use a smaller tolerance or larger windows");
+  if (2 * search.block > kLargestBlock) {
+    if (state.lower <= state.shift) require_complete(choice.below_shift, shift.below, shift.sigma);
+    require(state.lower > state.shift, "the eigensolver misses modes above ",
+            std::sqrt(std::max(0.0, shift.sigma)) / (2 * M_PI),
+            " Hz; use a smaller tolerance or larger windows");
+  }
+  search.block = std::min(kLargestBlock, 2 * search.block);
+  search.missed_at = std::max(search.missed_at, shift.sigma);
+  if (state.lower <= state.shift) return;
   state.lower = state.shift;
-  state.eigenvalue.conservativeResize(std::max(0, state.below_shift - search.options.n_rigid));
+  state.eigenvalue.conservativeResize(std::max(0, state.below_shift - search.slicing.n_below));
   state.residual.conservativeResize(state.eigenvalue.size());
   state.edge.resize(state.edge.rows(), 0);
 }
 
 // One window, or none when a basis for `modes` of them has no room for any.
 bool solve_window(Search& search, int modes) {
-  const Shift shift = place_shift(search, modes);
-  KrylovBasis& basis = search.basis;
-  basis = start_basis(search.M_times, search.factor, shift.sigma, search.size.block, std::move(basis.V));
+  const Shift shift =
+      place_shift({search.K, search.M, search.transform, search.slicing, search.state}, modes);
+  KrylovBasis basis = start_basis(search.M_times, search.transform, shift.sigma, search.block, *search.V);
   RitzPairs pairs;
   std::optional<Choice> choice;
   for (bool complete = false; !complete;) {
@@ -309,40 +285,21 @@ bool solve_window(Search& search, int modes) {
       return true;
     }
     choice = larger;
-    if (search.delivered() == 0 && search.options.n_rigid == 0)
-      require_definite(search.K, search.M, choice->modes.front().first);
+    if (search.delivered() == 0 && search.hooks.lowest) search.hooks.lowest(choice->modes.front().first);
     complete = is_complete(search, shift, *choice);
   }
   deliver(search, basis, pairs, *choice);
   search.state.lower = choice->upper;
   search.state.shift = shift.sigma;
   search.state.below_shift = shift.below;
-  if (search.options.commit) search.options.commit(search.state);
+  if (search.state.lower > search.missed_at) search.block = search.size.block;
+  // A search that is continued begins with blocks of the usual size.
+  const bool resumable = search.block == search.size.block || search.wanted() <= 0;
+  if (search.hooks.window && resumable) search.hooks.window(search.state);
   return true;
 }
 
 }  // namespace
-
-WindowSize choose_window(const FactorSize& factor, int n, WindowSize asked) {
-  const auto rows = static_cast<double>(n);
-  const auto cost_per_mode = [&](const WindowSize& size) {
-    const double c = columns(size.modes, size.block);
-    const double solves = 4 * factor.entries * c * (kSolve + kSolveOnce / size.block);
-    const double products =
-        (2 * rows * c * c + 4 * rows * c * size.modes) * (kProduct + kProductOnce / size.block);
-    return (kFactor * factor.flops + solves + products) / size.modes;
-  };
-  const double most = std::max(kLargestBasis * factor.entries, kSmallBasis) / rows;
-  WindowSize best{asked.modes > 0 ? asked.modes : kWindows.front(),
-                  asked.block > 0 ? asked.block : kBlocks.front()};
-  for (int modes : kWindows)
-    for (int block : kBlocks) {
-      const WindowSize size{asked.modes > 0 ? asked.modes : modes, asked.block > 0 ? asked.block : block};
-      const bool fits = asked.modes > 0 || kRoom * columns(size.modes, size.block) <= most;
-      if (fits && cost_per_mode(size) < cost_per_mode(best)) best = size;
-    }
-  return best;
-}
 
 void require_complete(int known, int exact, double sigma) {
   require(exact == known, "the eigensolver found ", known, " of the ", exact, " modes below ",
@@ -350,35 +307,37 @@ void require_complete(int known, int exact, double sigma) {
           " Hz; use larger blocks of vectors or a smaller tolerance");
 }
 
-Eigenmodes find_by_slices(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
-                          const Progress& progress) {
-  report(progress, "eigenmodes",  // ordering and the first factor take long in silence
-         static_cast<double>(options.start.eigenvalue.size()) / options.n_modes);
+SearchState slice_spectrum(Mat K, Mat M, SpectralTransform& transform, const Slicing& slicing,
+                           const SliceHooks& hooks, const MakeBasis& make_basis) {
   Search search{K,
                 M,
-                options,
-                sink,
-                progress,
+                transform,
+                slicing,
+                hooks,
                 BlockProduct(K),
                 BlockProduct(M, BlockProduct::Storage::without_zeros),
-                ShiftedFactor(K, M),
                 {},
                 {},
-                options.start};
+                slicing.start};
+  if (search.delivered() == 0 && std::isfinite(slicing.lower)) {
+    search.state.lower = search.state.shift = slicing.lower;
+    search.state.below_shift = slicing.n_below;
+  }
   check(MatCreateVecs(K, search.phi.out(), nullptr));
-  search.size = choose_window(search.factor.size(), search.M_times.n(), {options.window, options.block});
-  search.basis.V = TallBasis(search.M_times.n_own(), room(search) + search.size.block);
-  for (int modes = target(search); search.delivered() < options.n_modes;) {
+  search.size = choose_window(transform.size(), search.M_times.n(), slicing.window, slicing.most_columns);
+  search.block = search.size.block;
+  search.V = &make_basis(room(search) + search.size.block);
+  for (int modes = target(search); search.delivered() < slicing.n_modes && has_blocks_left(search);) {
     if (solve_window(search, modes)) {
       modes = target(search);
       continue;
     }
+    if (!has_blocks_left(search)) break;
     require(modes > 1, "no modes converged above ", std::sqrt(std::max(0.0, search.state.lower)) / (2 * M_PI),
-            " Hz; use larger windows or a larger tolerance than ", options.tolerance);
+            " Hz; use larger windows or a larger tolerance than ", slicing.tolerance);
     modes /= 2;
   }
-  const SearchState& state = search.state;
-  return {state.eigenvalue, state.residual, state.orthogonality, state.iterations};
+  return std::move(search.state);
 }
 
 }  // namespace elastogear::reduction

@@ -151,6 +151,15 @@ void TallBasis::set(int first, const Eigen::Ref<const Eigen::MatrixXd>& Q) {
   }
 }
 
+Eigen::MatrixXd TallBasis::get(int first, int n) const {
+  Eigen::MatrixXd Q(n_rows_, n);
+  for (Eigen::Index slab = 0; slab < n_slabs_; ++slab) {
+    const Eigen::Index row = slab * kSlab, rows = std::min(kSlab, n_rows_ - row);
+    Q.middleRows(row, rows) = Eigen::Map<const Eigen::MatrixXd>(at(slab, first), kSlab, n).topRows(rows);
+  }
+  return Q;
+}
+
 Eigen::MatrixXd TallBasis::dot(int n, const Eigen::Ref<const Eigen::MatrixXd>& W) const {
   const Kernels kernel = kernels(instructions_);
   const int n_vectors = padded(W.cols());

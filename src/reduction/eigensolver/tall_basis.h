@@ -22,6 +22,8 @@ class TallBasis {
   Eigen::Index n_rows() const { return n_rows_; }
   /// Columns first, first + 1, ... := Q.
   void set(int first, const Eigen::Ref<const Eigen::MatrixXd>& Q);
+  /// Columns first, first + 1, ..., n of them.
+  Eigen::MatrixXd get(int first, int n) const;
   /// V' W of the first n columns V: n x columns of W.
   Eigen::MatrixXd dot(int n, const Eigen::Ref<const Eigen::MatrixXd>& W) const;
   /// Y += V C for the C.rows() columns V from `first` on.

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "elastogear/base/error.h"
+#include "elastogear/reduction/block_lanczos.h"
 #include "reduction/eigensolver/factorisation.h"
-#include "reduction/eigensolver/spectrum_slicing.h"
 #include "reduction/modes/dense_modes.h"
 #include "reduction/static_response/residual.h"
 
@@ -42,19 +42,35 @@ int size_of(Mat K) {
 // above the wanted ones is known.
 int guarded_count(int wanted, int n) { return std::min(n, wanted + 2 + wanted / 20); }
 
-UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
-  UniqueEPS eps;
+// The type that the options database asks for, or an empty text.
+std::string asked_type(const EigenOptions& options) {
+  char type[256] = "";
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsGetString(nullptr, options.prefix.c_str(), "-eps_type", type, sizeof type, &given));
+  return type;
+}
+
+std::string solver_type(const EigenOptions& options) {
+  const std::string asked = asked_type(options);
+  return !asked.empty() ? asked : options.window == 0 ? EPSKRYLOVSCHUR : kBlockLanczos;
+}
+
+void set_block_lanczos(EPS eps, const EigenOptions& options) {
+  block_lanczos_set(eps, {.window = std::max(0, options.window),
+                          .block = options.block,
+                          .verify_count = options.verify_count,
+                          .whole_pairs = options.whole_pairs,
+                          .counted_below = options.counted_below,
+                          .start = options.start});
+}
+
+// Shift-and-invert about 0 by MUMPS' Cholesky.
+void set_other_type(EPS eps) {
   ST st = nullptr;
   KSP ksp = nullptr;
   PC pc = nullptr;
-  check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(K)), eps.out()));
-  check(EPSSetOptionsPrefix(eps, options.prefix.c_str()));
-  check(EPSSetOperators(eps, K, M));
-  check(EPSSetProblemType(eps, EPS_GHEP));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetTarget(eps, 0));
-  check(EPSSetDimensions(eps, guarded_count(options.n_modes, size_of(K)), PETSC_DEFAULT, PETSC_DEFAULT));
-  check(EPSSetTolerances(eps, options.tolerance, PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));  // M is definite: purifying costs a solve per mode for nothing
   check(EPSGetST(eps, &st));
   check(STSetType(st, STSINVERT));
@@ -63,8 +79,66 @@ UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+}
+
+// L L' of a definite K does not count eigenvalues, L D L' does.
+void allow_counting(Mat K) {
+  check(MatSetOption(K, MAT_SPD, PETSC_FALSE));
+  check(MatSetOption(K, MAT_SYMMETRIC, PETSC_TRUE));
+}
+
+bool is_block_lanczos(EPS eps) {
+  PetscBool same = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(eps), kBlockLanczos, &same));
+  return same;
+}
+
+// The numbers of modes are those of this search, whatever the database says.
+void set_extent(EPS eps, const EigenOptions& options, int count) {
+  PetscInt ncv = 0, mpd = 0;
+  check(EPSGetDimensions(eps, nullptr, &ncv, &mpd));
+  if (!options.interval) {
+    EPSWhich which = EPS_SMALLEST_REAL;
+    check(EPSSetDimensions(eps, count, ncv, mpd));
+    check(EPSGetWhichEigenpairs(eps, &which));
+    if (which == EPS_ALL)
+      check(EPSSetWhichEigenpairs(eps, is_block_lanczos(eps) ? EPS_SMALLEST_REAL : EPS_TARGET_MAGNITUDE));
+    return;
+  }
+  const auto& [lower, upper] = *options.interval;
+  check(EPSSetWhichEigenpairs(eps, EPS_ALL));
+  check(EPSSetInterval(eps, std::max(lower, PETSC_MIN_REAL), std::min(upper, PETSC_MAX_REAL)));
+}
+
+UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
+  UniqueEPS eps;
+  const std::string type = solver_type(options);
+  const bool ours = type == kBlockLanczos;
+  const int count = ours ? options.n_modes : guarded_count(options.n_modes, size_of(K));
+  check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(K)), eps.out()));
+  check(EPSSetOptionsPrefix(eps, options.prefix.c_str()));
+  check(EPSSetOperators(eps, K, M));
+  check(EPSSetProblemType(eps, EPS_GHEP));
+  check(EPSSetType(eps, type.c_str()));
+  check(EPSSetTolerances(eps, options.tolerance, PETSC_DEFAULT));
+  if (ours)
+    set_block_lanczos(eps, options);
+  else
+    set_other_type(eps);
+  if (!ours && options.interval) allow_counting(K);
   check(EPSSetFromOptions(eps));
+  set_extent(eps, options, count);
   return eps;
+}
+
+void require_converged(PetscInt converged, const EigenOptions& options) {
+  if (options.interval)
+    require(converged > 0, "no eigenvalue lies between ", options.interval->lower, " and ",
+            options.interval->upper, " rad^2/s^2 (-", options.prefix, "eps_interval)");
+  else
+    require(converged >= options.n_modes, "the eigensolver found ", converged, " of ", options.n_modes,
+            " modes; allow more iterations (-", options.prefix, "eps_max_it) or a larger basis (-",
+            options.prefix, "eps_ncv)");
 }
 
 void solve(EPS eps, const EigenOptions& options, const Progress& progress) {
@@ -78,9 +152,22 @@ void solve(EPS eps, const EigenOptions& options, const Progress& progress) {
   check(EPSMonitorCancel(eps));
   PetscInt converged = 0;
   check(EPSGetConverged(eps, &converged));
-  require(converged >= options.n_modes, "the eigensolver found ", converged, " of ", options.n_modes,
-          " modes; allow more iterations (-", options.prefix, "eps_max_it) or a larger basis (-",
-          options.prefix, "eps_ncv)");
+  require_converged(converged, options);
+}
+
+// In windows, which are delivered as they are found.
+Eigenmodes find_by_block_lanczos(EPS eps, Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
+                                 const Progress& progress) {
+  report(progress, "eigenmodes",  // ordering and the first factor take long in silence
+         static_cast<double>(options.start.eigenvalue.size()) / options.n_modes);
+  block_lanczos_set_handler(eps, {.mode = sink,
+                                  .window = options.commit,
+                                  .progress = [&](double done) { report(progress, "eigenmodes", done); },
+                                  .lowest = [&](double lowest) { require_definite(K, M, lowest); }});
+  block_lanczos_check(eps, EPSSolve(eps));
+  const SearchState& state = block_lanczos_state(eps);
+  require_converged(state.eigenvalue.size(), options);
+  return {state.eigenvalue, state.residual, state.orthogonality, state.iterations};
 }
 
 // Converged pairs in ascending order of eigenvalue.
@@ -152,14 +239,16 @@ void verify_count(Mat K, Mat M, double sigma, int known) {
           " Hz; use a larger basis (-eps_ncv) or a smaller tolerance (-eps_tol)");
 }
 
-// All modes from one shift-and-invert about 0; the count is checked afterwards.
-Eigenmodes find_by_slepc(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
-                         const Progress& progress) {
-  UniqueEPS eps = create_solver(K, M, options);
+// All modes at once by another type; their count is checked afterwards.
+Eigenmodes find_by_other_type(UniqueEPS eps, Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
+                              const Progress& progress) {
   solve(eps, options, progress);
   const auto pairs = sorted_pairs(eps);
   require_definite(K, M, pairs.front().first);
-  const int count = options.whole_pairs ? whole_group(pairs, options.n_modes) : options.n_modes;
+  const int all = static_cast<int>(pairs.size());
+  const int count = options.interval      ? all
+                    : options.whole_pairs ? whole_group(pairs, options.n_modes)
+                                          : options.n_modes;
   Eigenmodes modes{Eigen::VectorXd(count), Eigen::VectorXd(count), orthogonality(eps, pairs, count)};
   PetscInt iterations = 0;
   check(EPSGetIterationNumber(eps, &iterations));
@@ -171,7 +260,7 @@ Eigenmodes find_by_slepc(Mat K, Mat M, const EigenOptions& options, const ModeSi
     sink(i, w.phi);
   }
   eps = {};  // frees the factorisation before the next one
-  if (options.verify_count) {
+  if (options.verify_count && !options.interval) {
     const auto [sigma, known] = shift_above(pairs, options.n_modes);
     verify_count(K, M, sigma, known);
   }
@@ -190,14 +279,18 @@ void require_mode_count(int n_modes, int n_free) {
 
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress) {
-  require_mode_count(options.n_modes, size_of(K));
-  const SearchState& start = options.start;
-  if (start.eigenvalue.size() >= options.n_modes)
-    return {start.eigenvalue, start.residual, start.orthogonality, start.iterations};
-  if (options.window == 0) return find_by_slepc(K, M, options, sink, progress);
-  return options.n_rigid == 0 && suits_dense(size_of(K), options.n_modes)
-             ? find_by_lapack(K, M, options, sink, progress)
-             : find_by_slices(K, M, options, sink, progress);
+  if (!options.interval) {
+    require_mode_count(options.n_modes, size_of(K));
+    const SearchState& start = options.start;
+    if (start.eigenvalue.size() >= options.n_modes)
+      return {start.eigenvalue, start.residual, start.orthogonality, start.iterations};
+    if (options.window != 0 && asked_type(options).empty() && suits_dense(size_of(K), options.n_modes))
+      return find_by_lapack(K, M, options, sink, progress);
+  }
+  register_block_lanczos();
+  UniqueEPS eps = create_solver(K, M, options);
+  return is_block_lanczos(eps) ? find_by_block_lanczos(eps, K, M, options, sink, progress)
+                               : find_by_other_type(std::move(eps), K, M, options, sink, progress);
 }
 
 void fix_sign(Eigen::VectorXd& phi) {

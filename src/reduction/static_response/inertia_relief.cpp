@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 
 #include "elastogear/base/error.h"
-#include "reduction/eigensolver/block_lanczos.h"
 #include "reduction/eigensolver/block_product.h"
+#include "reduction/eigensolver/krylov_basis.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "reduction/eigensolver/block_product.h"
-#include "reduction/eigensolver/factorisation.h"
 #include "reduction/eigensolver/tall_basis.h"
+#include "reduction/slepc/spectral_transform.h"
 
 namespace elastogear::reduction {
 
@@ -15,7 +15,7 @@ namespace elastogear::reduction {
 struct KrylovBasis {
   const BlockProduct* M = nullptr;
   double sigma = 0;
-  TallBasis V;             ///< own rows; the first `size` columns count, then those of V_next
+  TallBasis* V = nullptr;  ///< own rows; the first `size` columns count, then those of V_next
   Eigen::MatrixXd M_next;  ///< M V_next
   Eigen::MatrixXd T;       ///< capacity x capacity, its upper triangle counts
   Eigen::MatrixXd R;       ///< columns of V_next x last block
@@ -29,12 +29,13 @@ struct RitzPairs {
   Eigen::MatrixXd s;      ///< phi = V s
 };
 
-/// A first block of random columns, the same on every call, in V, whose contents are lost. The factor is that
-/// of K - sigma M. Memory: V and 4 block own rows. Collective.
-KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, TallBasis V);
+/// A first block of random columns, the same on every call, in V, whose contents are lost. The shift of the
+/// transform is sigma. Memory: V and 4 block own rows. Collective.
+KrylovBasis start_basis(const BlockProduct& M, SpectralTransform& transform, double sigma, int block,
+                        TallBasis& V);
 
 /// Adds the next block of columns. Collective. Call while there is room and the basis is not exhausted.
-void expand(KrylovBasis& basis, ShiftedFactor& factor);
+void expand(KrylovBasis& basis, SpectralTransform& transform);
 bool has_room(const KrylovBasis& basis);
 
 RitzPairs ritz_pairs(const KrylovBasis& basis);

@@ -1,4 +1,4 @@
-#include "reduction/eigensolver/block_lanczos.h"
+#include "reduction/eigensolver/krylov_basis.h"
 
 #include <slepcblaslapack.h>
 #include <slepcsys.h>
@@ -88,9 +88,9 @@ Orthonormal orthonormalise(const KrylovBasis& basis, int n, MatrixXd& W, double 
     if (pass == 0) result.scale = std::max(scale, std::sqrt(G.diagonal().maxCoeff()));
     double correction = 0;
     if (n > 0) {
-      const MatrixXd C = sum(M.comm(), basis.V.dot(n, M_W));
+      const MatrixXd C = sum(M.comm(), basis.V->dot(n, M_W));
       result.H += C * result.R;
-      basis.V.add_product(0, -C, W);
+      basis.V->add_product(0, -C, W);
       G -= C.transpose() * C;
       correction = C.colwise().norm().maxCoeff();
     }
@@ -102,7 +102,7 @@ Orthonormal orthonormalise(const KrylovBasis& basis, int n, MatrixXd& W, double 
 }
 
 void append(KrylovBasis& basis, const MatrixXd& Q, const Orthonormal& orthonormal) {
-  basis.V.set(basis.size, Q);
+  basis.V->set(basis.size, Q);
   basis.M_next = orthonormal.M_Q;
   basis.R = orthonormal.R;
   basis.exhausted = Q.cols() == 0;
@@ -115,12 +115,12 @@ double recur(KrylovBasis& basis, MatrixXd& W) {
             begin = basis.size;
   double scale = 0;
   if (begin > 0) {
-    basis.V.add_product(begin - before, -basis.R.transpose(), W);
+    basis.V->add_product(begin - before, -basis.R.transpose(), W);
     basis.T.block(begin - before, begin, before, block) = basis.R.transpose();
     scale = basis.R.norm();
   }
   const MatrixXd A = inner(basis.M->comm(), basis.M_next, W);
-  basis.V.add_product(begin, -A, W);
+  basis.V->add_product(begin, -A, W);
   basis.T.block(begin, begin, block, block) = A;
   return scale + A.norm();
 }
@@ -141,34 +141,33 @@ MatrixXd inner(MPI_Comm comm, const ConstColumns& A, const ConstColumns& B) {
   return sum(comm, own);
 }
 
-KrylovBasis start_basis(const BlockProduct& M, ShiftedFactor& factor, double sigma, int block, TallBasis V) {
+KrylovBasis start_basis(const BlockProduct& M, SpectralTransform& transform, double sigma, int block,
+                        TallBasis& V) {
   int rank = 0;
   MPI_Comm_rank(M.comm(), &rank);
   KrylovBasis basis;
   basis.M = &M;
   basis.sigma = sigma;
-  basis.V = std::move(V);
-  basis.T.setZero(basis.V.capacity(), basis.V.capacity());
+  basis.V = &V;
+  basis.T.setZero(basis.V->capacity(), basis.V->capacity());
   std::mt19937 generator(static_cast<unsigned>(rank));
   std::uniform_real_distribution<double> uniform(-1, 1);
   MatrixXd W(M.n_own(), std::min(block, M.n()));
   for (double& w : W.reshaped()) w = uniform(generator);
-  W = M(W);
-  factor.solve(W);
+  W = transform.solve(M(W));
   const Orthonormal first = orthonormalise(basis, 0, W, 0);
   append(basis, W, first);
   return basis;
 }
 
 bool has_room(const KrylovBasis& basis) {
-  return !basis.exhausted && basis.size + 2 * basis.R.rows() <= basis.V.capacity();
+  return !basis.exhausted && basis.size + 2 * basis.R.rows() <= basis.V->capacity();
 }
 
-void expand(KrylovBasis& basis, ShiftedFactor& factor) {
+void expand(KrylovBasis& basis, SpectralTransform& transform) {
   const auto block = basis.R.rows();
   const auto begin = basis.size;
-  MatrixXd W = basis.M_next;
-  factor.solve(W);
+  MatrixXd W = transform.solve(basis.M_next);
   const double scale = recur(basis, W);
   basis.size += static_cast<int>(block);
   const Orthonormal next = orthonormalise(basis, basis.size, W, scale);
@@ -201,13 +200,13 @@ MatrixXd improved_coefficients(const KrylovBasis& basis, const RitzPairs& pairs,
 }
 
 MatrixXd combine(const KrylovBasis& basis, const MatrixXd& s) {
-  MatrixXd phi = MatrixXd::Zero(basis.V.n_rows(), s.cols());
-  basis.V.add_product(0, s, phi);
+  MatrixXd phi = MatrixXd::Zero(basis.V->n_rows(), s.cols());
+  basis.V->add_product(0, s, phi);
   return phi;
 }
 
 MatrixXd project(const KrylovBasis& basis, const MatrixXd& s, const ConstColumns& M_phi) {
-  return s.transpose() * sum(basis.M->comm(), basis.V.dot(static_cast<int>(s.rows()), M_phi));
+  return s.transpose() * sum(basis.M->comm(), basis.V->dot(static_cast<int>(s.rows()), M_phi));
 }
 
 }  // namespace elastogear::reduction
