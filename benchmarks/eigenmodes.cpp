@@ -76,7 +76,7 @@ void print_span(const std::string& what, const Time& start) {
 }
 
 // Cells at the border of two ranks are computed by both.
-void print_cells(const fem::Share& share, int n_cells) {
+void print_cells(const fem::MeshPart& share, int n_cells) {
   const int own = share.mesh.cells.size();
   int most = 0, all = 0;
   check(MPI_Allreduce(&own, &most, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD));
@@ -100,7 +100,7 @@ fem::Matrices read_and_assemble() {
     const auto is_free = fem::free_nodes(mesh, {text_option("-restrain", "seats")});
     rows = fem::number_rows(mesh, is_free, mesh::partition_cells(mesh, size).part, size);
   }
-  const fem::Share share = fem::distribute(PETSC_COMM_WORLD, mesh, region, rows);
+  const fem::MeshPart share = fem::distribute(PETSC_COMM_WORLD, mesh, region, rows);
   print_cells(share, mesh.cells.size());
   const Time start;
   fem::Matrices matrices = fem::assemble(PETSC_COMM_WORLD, share, kSteel, model::Element::incompatible);
