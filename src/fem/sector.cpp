@@ -41,10 +41,10 @@ Eigen::MatrixXcd directions_on_axis(const mesh::Turn& turn, int k) {
 Eigen::Matrix3Xd first_positions(const Sector& sector) {
   const mesh::Turn& turn = sector.turn;
   Eigen::Matrix3Xd x(3, sector.n_orbits());
-  for (std::size_t node = 0; node < sector.placement.orbit.size(); ++node) {
-    const int orbit = sector.placement.orbit[node];
+  for (std::size_t node = 0; node < sector.node_orbits.orbit.size(); ++node) {
+    const int orbit = sector.node_orbits.orbit[node];
     if (orbit < 0) continue;
-    const double angle = 2 * std::numbers::pi / turn.n_sectors * sector.placement.sector_index[node];
+    const double angle = 2 * std::numbers::pi / turn.n_sectors * sector.node_orbits.sector_index[node];
     x.col(orbit) = rotation_matrix(-angle * turn.axis) *
                    (sector.mesh.X.col(static_cast<Eigen::Index>(node)) - turn.point);
   }
@@ -66,21 +66,21 @@ Eigen::VectorXd coordinates(const Harmonic& harmonic, const Sector& sector, cons
 
 }  // namespace
 
-Placement free_placement(const mesh::Repetition& repetition, const std::vector<bool>& is_free) {
+NodeOrbits free_node_orbits(const mesh::Repetition& repetition, const std::vector<bool>& is_free) {
   std::vector<int> number(repetition.on_axis.size(), -1);
-  Placement placement{std::vector<int>(is_free.size(), -1), repetition.sector_index};
+  NodeOrbits node_orbits{std::vector<int>(is_free.size(), -1), repetition.sector_index};
   int n_free = 0;
   for (std::size_t node = 0; node < is_free.size(); ++node) {
     const int orbit = repetition.orbit[node];
     if (orbit < 0 || !is_free[node]) continue;
     if (number[orbit] < 0) number[orbit] = n_free++;
-    placement.orbit[node] = number[orbit];
+    node_orbits.orbit[node] = number[orbit];
   }
-  return placement;
+  return node_orbits;
 }
 
 Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, const std::vector<int>& region,
-                   const Placement& placement) {
+                   const NodeOrbits& node_orbits) {
   Sector sector;
   sector.turn = repetition.turn;
   std::vector<int> local(static_cast<std::size_t>(mesh.n_nodes()), -1), nodes, cell_nodes;
@@ -99,12 +99,12 @@ Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, c
     sector.weight.push_back(repetition.cell_count[i] / static_cast<double>(sector.turn.n_sectors));
   }
   sector.mesh.X = mesh.X(Eigen::all, nodes);
-  const int n_orbits = placement.orbit.empty() ? 0 : 1 + *std::ranges::max_element(placement.orbit);
+  const int n_orbits = node_orbits.orbit.empty() ? 0 : 1 + *std::ranges::max_element(node_orbits.orbit);
   sector.on_axis.resize(static_cast<std::size_t>(n_orbits));
   for (int node : nodes) {
-    const int orbit = placement.orbit[node];
-    sector.placement.orbit.push_back(orbit);
-    sector.placement.sector_index.push_back(placement.sector_index[node]);
+    const int orbit = node_orbits.orbit[node];
+    sector.node_orbits.orbit.push_back(orbit);
+    sector.node_orbits.sector_index.push_back(node_orbits.sector_index[node]);
     if (orbit >= 0) sector.on_axis[orbit] = repetition.on_axis[repetition.orbit[node]];
   }
   return sector;
@@ -120,8 +120,8 @@ void broadcast(MPI_Comm comm, Sector& sector) {
   elastogear::broadcast(comm, sector.mesh.cells.nodes);
   elastogear::broadcast(comm, sector.region);
   elastogear::broadcast(comm, sector.weight);
-  elastogear::broadcast(comm, sector.placement.orbit);
-  elastogear::broadcast(comm, sector.placement.sector_index);
+  elastogear::broadcast(comm, sector.node_orbits.orbit);
+  elastogear::broadcast(comm, sector.node_orbits.sector_index);
   elastogear::broadcast(comm, sector.on_axis);
   sector.turn = turn.front();
   sector.mesh.X = Eigen::Map<const Eigen::Matrix3Xd>(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3));
@@ -144,16 +144,16 @@ Harmonic make_harmonic(const Sector& sector, int k) {
   return harmonic;
 }
 
-Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
+Eigen::VectorXd unfold(const Harmonic& harmonic, const NodeOrbits& node_orbits,
                        const Eigen::Ref<const Eigen::VectorXd>& z) {
   const double scale = std::sqrt((harmonic.real ? 1.0 : 2.0) / harmonic.n_sectors);
   const Eigen::Index off_axis = harmonic.turned.front().cols();
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(placement.orbit.size()));
-  for (std::size_t node = 0; node < placement.orbit.size(); ++node) {
-    const int orbit = placement.orbit[node];
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(node_orbits.orbit.size()));
+  for (std::size_t node = 0; node < node_orbits.orbit.size(); ++node) {
+    const int orbit = node_orbits.orbit[node];
     if (orbit < 0) continue;
     const int first = harmonic.first[orbit], count = harmonic.first[orbit + std::size_t{1}] - first;
-    const Eigen::MatrixXd& Q = harmonic.at(count < off_axis, placement.sector_index[node]);
+    const Eigen::MatrixXd& Q = harmonic.at(count < off_axis, node_orbits.sector_index[node]);
     u.segment<3>(3 * static_cast<Eigen::Index>(node)).noalias() =
         scale * (Q.topRows<3>() * z.segment(first, count));
   }

@@ -21,10 +21,10 @@ std::vector<std::vector<int>> neighbours(const Sector& sector, int begin, int en
   std::vector<std::vector<int>> near(static_cast<std::size_t>(end - begin));
   for (int cell = 0; cell < sector.mesh.cells.size(); ++cell)
     for (int a : sector.mesh.cells[cell]) {
-      const int row = sector.placement.orbit[a];
+      const int row = sector.node_orbits.orbit[a];
       if (row < begin || row >= end) continue;
       for (int b : sector.mesh.cells[cell])
-        if (sector.placement.orbit[b] >= 0) near[row - begin].push_back(sector.placement.orbit[b]);
+        if (sector.node_orbits.orbit[b] >= 0) near[row - begin].push_back(sector.node_orbits.orbit[b]);
     }
   for (auto& orbits : near) sort_unique(orbits);
   return near;
@@ -57,11 +57,11 @@ struct CellBasis {
 CellBasis cell_basis(const Sector& sector, const Harmonic& harmonic, const Rows& rows, int cell) {
   CellBasis basis;
   for (int node : sector.mesh.cells[cell]) {
-    const int orbit = sector.placement.orbit[node];
+    const int orbit = sector.node_orbits.orbit[node];
     basis.Q.push_back(orbit < 0 ? nullptr
-                                : &harmonic.at(sector.on_axis[orbit], sector.placement.sector_index[node]));
+                                : &harmonic.at(sector.on_axis[orbit], sector.node_orbits.sector_index[node]));
     basis.sector_index.push_back(orbit >= 0 && sector.on_axis[orbit] ? -1
-                                                                     : sector.placement.sector_index[node]);
+                                                                     : sector.node_orbits.sector_index[node]);
     if (orbit < 0) continue;
     for (int i = harmonic.first[orbit]; i < harmonic.first[orbit + std::size_t{1}]; ++i) {
       basis.column.push_back(i);

@@ -112,7 +112,7 @@ std::string reading_of_result(const std::string& path) {
 }
 
 std::string reading_of_stress(const std::string& path) {
-  const StressHistory history = read_stress(path);
+  const StressFile history = read_stress(path);
   std::string all = describe(path);
   add_each(all, history.time);
   for (const StressSet& set : history.sets) {
@@ -173,7 +173,7 @@ void make_stress(const std::string& path) {
   const auto random = [](int rows, int columns) {
     return Eigen::MatrixXd(Eigen::MatrixXd::Random(rows, columns));
   };
-  StressHistory history{Eigen::Vector2d(0, 1e-6), {}, {{"elastogear", "0.1.0"}}};
+  StressFile history{Eigen::Vector2d(0, 1e-6), {}, {{"elastogear", "0.1.0"}}};
   history.sets = {{"worm",
                    "root",
                    {4, 7},

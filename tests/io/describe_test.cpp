@@ -18,8 +18,8 @@ using testing::HasSubstr;
 
 namespace {
 
-StressHistory sample_stress() {
-  StressHistory history;
+StressFile sample_stress() {
+  StressFile history;
   history.time = Eigen::Vector3d(0, 1e-6, 2e-6);
   history.provenance = {{"options", "-a b"}};
   history.sets = {{"worm",
@@ -114,7 +114,7 @@ TEST_F(Describe, stress_and_field_files) {
 }
 
 TEST_F(Describe, estimated_errors_of_stresses) {
-  StressHistory history = sample_stress();
+  StressFile history = sample_stress();
   history.sets[0].error = Eigen::MatrixXd::Constant(2, 3, 2e6);
   history.sets[0].error(0, 1) = 5e6;
   history.sets[0].peak_error = Eigen::Vector3d(1e6, 2e6, 1.23e6);
@@ -133,9 +133,9 @@ TEST_F(Describe, unknown_files_are_errors) {
 }
 
 TEST_F(Describe, stress_files_round_trip_to_the_bit) {
-  const StressHistory a = sample_stress();
+  const StressFile a = sample_stress();
   write_stress(path("stress.h5"), a);
-  const StressHistory b = read_stress(path("stress.h5"));
+  const StressFile b = read_stress(path("stress.h5"));
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.provenance, b.provenance);
   ASSERT_EQ(b.sets.size(), 2u);
@@ -148,7 +148,7 @@ TEST_F(Describe, stress_files_round_trip_to_the_bit) {
 }
 
 TEST_F(Describe, stress_files_refuse_shapes_that_disagree) {
-  StressHistory history = sample_stress();
+  StressFile history = sample_stress();
   history.sets[0].rankine.resize(2, 2);
   EXPECT_THROW(write_stress(path("stress.h5"), history), Error);
   history = sample_stress();

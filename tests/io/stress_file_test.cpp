@@ -10,11 +10,11 @@
 namespace elastogear::io {
 namespace {
 
-struct StressFile : testing::Test {
+struct StressFileTest : testing::Test {
   mesh::Folder folder{"stress_file"};
-  StressHistory history;
+  StressFile history;
 
-  StressFile() {
+  StressFileTest() {
     history.time = Eigen::Vector2d(0, 1e-6);
     history.sets = {{"worm",
                      "root",
@@ -26,9 +26,9 @@ struct StressFile : testing::Test {
   }
 };
 
-TEST_F(StressFile, gives_back_what_was_written) {
+TEST_F(StressFileTest, gives_back_what_was_written) {
   write_stress(folder / "a.h5", history);
-  const StressHistory read = read_stress(folder / "a.h5");
+  const StressFile read = read_stress(folder / "a.h5");
   ASSERT_EQ(read.sets.size(), 1u);
   EXPECT_EQ(read.time, history.time);
   EXPECT_EQ(read.sets[0].node, history.sets[0].node);
@@ -36,7 +36,7 @@ TEST_F(StressFile, gives_back_what_was_written) {
   EXPECT_EQ(read.sets[0].X, history.sets[0].X);
 }
 
-TEST_F(StressFile, may_lack_positions_but_not_those_of_some_nodes) {
+TEST_F(StressFileTest, may_lack_positions_but_not_those_of_some_nodes) {
   history.sets[0].X.resize(3, 0);
   write_stress(folder / "a.h5", history);
   EXPECT_EQ(read_stress(folder / "a.h5").sets[0].X.size(), 0);
@@ -44,7 +44,7 @@ TEST_F(StressFile, may_lack_positions_but_not_those_of_some_nodes) {
   EXPECT_THROW(write_stress(folder / "b.h5", history), Error);
 }
 
-TEST_F(StressFile, a_table_may_name_its_rows) {
+TEST_F(StressFileTest, a_table_may_name_its_rows) {
   write_csv(folder / "a.csv",
             {{"node", "1", {}, {"worm root", "wheel root"}}, {"force", "N", Eigen::Vector2d(1, 2)}});
   EXPECT_EQ(read_file(folder / "a.csv"), "node,force [N]\nworm root,1\nwheel root,2\n");

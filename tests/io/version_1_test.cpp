@@ -34,7 +34,7 @@ TEST(Version1, of_a_result_is_read) {
 }
 
 TEST(Version1, of_a_stress_file_is_read) {
-  const StressHistory history = read_stress(folder + "stress.h5");
+  const StressFile history = read_stress(folder + "stress.h5");
   EXPECT_NEAR(history.sets.at(0).von_mises.maxCoeff(), 86884.3, 0.1);
   EXPECT_THAT(describe(folder + "stress.h5"), HasSubstr("elastogear stress, version 1"));
 }

@@ -13,7 +13,7 @@
 namespace elastogear::fem {
 
 /// Orbit and sector of each node, which is the first node of its orbit, turned by 2 pi sector_index/Z.
-struct Placement {
+struct NodeOrbits {
   std::vector<int> orbit;         ///< of each node, counted over the free orbits; -1: no displacements
   std::vector<int> sector_index;  ///< of each node
 };
@@ -24,18 +24,18 @@ struct Sector {
   mesh::Mesh mesh;             ///< one cell of each orbit, in local nodes, without sets
   std::vector<int> region;     ///< of each cell
   std::vector<double> weight;  ///< of each cell: its images over Z, below 1 around the axis
-  Placement placement;         ///< of the local nodes
+  NodeOrbits node_orbits;      ///< of the local nodes
   std::vector<char> on_axis;   ///< of each free orbit
 
   int n_orbits() const { return static_cast<int>(on_axis.size()); }
 };
 
-/// Placement of all nodes of the mesh.
-Placement free_placement(const mesh::Repetition& repetition, const std::vector<bool>& is_free);
+/// Free orbits of all nodes of the mesh.
+NodeOrbits free_node_orbits(const mesh::Repetition& repetition, const std::vector<bool>& is_free);
 
 /// region: of each cell of the mesh.
 Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, const std::vector<int>& region,
-                   const Placement& placement);
+                   const NodeOrbits& node_orbits);
 
 /// Copies rank 0's sector to all ranks. Collective.
 void broadcast(MPI_Comm comm, Sector& sector);
@@ -61,7 +61,7 @@ Harmonic make_harmonic(const Sector& sector, int k);
 
 /// Displacements of the whole mesh (3 n_nodes, node-major, 0 where restrained) from coordinates z of a
 /// harmonic. z' M_k z = 1 makes them mass-normalised. Eq. (2.14).
-Eigen::VectorXd unfold(const Harmonic& harmonic, const Placement& placement,
+Eigen::VectorXd unfold(const Harmonic& harmonic, const NodeOrbits& node_orbits,
                        const Eigen::Ref<const Eigen::VectorXd>& z);
 
 /// Coordinates of i z, the second real field of a complex amplitude; the harmonic must not be real. Rows may

@@ -21,14 +21,14 @@ struct StressSet {
   Eigen::VectorXd peak_error = {};  ///< n_t, Pa, of the set's largest von Mises stress; or empty
 };
 
-struct StressHistory {
+struct StressFile {
   Eigen::VectorXd time;  ///< n_t, s
   std::vector<StressSet> sets;
   std::map<std::string, std::string> provenance;
 };
 
 /// Error when shapes disagree or numbers are not finite; the file appears only when complete.
-void write_stress(const std::string& path, const StressHistory& history);
-StressHistory read_stress(const std::string& path);
+void write_stress(const std::string& path, const StressFile& history);
+StressFile read_stress(const std::string& path);
 
 }  // namespace elastogear::io

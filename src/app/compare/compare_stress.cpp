@@ -45,8 +45,8 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& stress, const std::vector<int>& n
   return rows;
 }
 
-std::vector<Matched> matched_sets(const Options& options, const io::StressHistory& file,
-                                  const io::StressHistory& reference) {
+std::vector<Matched> matched_sets(const Options& options, const io::StressFile& file,
+                                  const io::StressFile& reference) {
   std::vector<Matched> all;
   for (const io::StressSet& wanted : reference.sets)
     for (const io::StressSet& set : file.sets) {
@@ -149,7 +149,7 @@ void add_signals(const Options& options, const Matched& set, Table& table) {
 
 std::vector<Table> compare_stresses(const Options& options, const std::string& path,
                                     const std::string& reference_path) {
-  const io::StressHistory file = io::read_stress(path), reference = io::read_stress(reference_path);
+  const io::StressFile file = io::read_stress(path), reference = io::read_stress(reference_path);
   std::vector<std::string> bodies;
   for (const io::StressSet& set : reference.sets) bodies.push_back(set.body);
   options.reject_unknown({{"body", bodies}});

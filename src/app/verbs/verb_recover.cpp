@@ -108,7 +108,7 @@ std::vector<std::string> stressed_bodies(const Options& options) {
 
 void write_stresses(const Options& options, Run& run, const Progress& progress) {
   const std::string output = options.text("output");
-  io::StressHistory file{run.time, {}, options.provenance()};
+  io::StressFile file{run.time, {}, options.provenance()};
   std::vector<const RecoveredBody*> owner;
   const bool all = options.choice("csv", {"peak", "all"}) == 1;
   const std::vector<std::string> names = stressed_bodies(options);

@@ -80,7 +80,7 @@ void describe_result(Out& out, const std::string& path) {
 }
 
 void describe_stress(Out& out, const std::string& path) {
-  const StressHistory history = read_stress(path);
+  const StressFile history = read_stress(path);
   describe_times(out, path, history.time);
   for (const StressSet& set : history.sets) {
     line(out, "stress of ", set.body, "/", set.set, ": ", counted(set.node.size(), "node"), ", body frame");

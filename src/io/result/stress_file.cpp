@@ -67,7 +67,7 @@ bool is_body(const std::string& name) { return name != "time" && name != "proven
 
 }  // namespace
 
-void write_stress(const std::string& path, const StressHistory& history) {
+void write_stress(const std::string& path, const StressFile& history) {
   PendingFile pending(path);
   h5::File file = h5::create(path, pending.temporary());
   write_format(file, kStressFormat);
@@ -82,9 +82,9 @@ void write_stress(const std::string& path, const StressHistory& history) {
   pending.commit();
 }
 
-StressHistory read_stress(const std::string& path) {
+StressFile read_stress(const std::string& path) {
   const h5::File file = open_format(path, kStressFormat);
-  StressHistory history;
+  StressFile history;
   history.time = read_time(file);
   history.provenance = h5::read_map(file, "/provenance");
   for (const std::string& body : h5::members(file, "/"))

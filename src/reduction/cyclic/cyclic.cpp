@@ -62,7 +62,7 @@ struct Search {
   const CyclicOptions& options;
   const Progress& progress;
   int rank = 0;
-  fem::Placement placement = {};  // of the whole mesh, on rank 0
+  fem::NodeOrbits node_orbits = {};  // of the whole mesh, on rank 0
   fem::Sector sector = {};
   std::vector<fem::Harmonic> harmonics = {};
   std::vector<int> order = {};  // of harmonics by work
@@ -88,8 +88,8 @@ void make_problems(Search& search) {
   MPI_Comm_rank(search.comm, &search.rank);
   collectively(search.comm, [&] {
     if (search.rank != 0) return;
-    search.placement = fem::free_placement(search.body.repetition, body.is_free);
-    search.sector = fem::make_sector(body.mesh, search.body.repetition, body.region, search.placement);
+    search.node_orbits = fem::free_node_orbits(search.body.repetition, body.is_free);
+    search.sector = fem::make_sector(body.mesh, search.body.repetition, body.region, search.node_orbits);
   });
   fem::broadcast(search.comm, search.sector);
   int n_free = 0;
@@ -273,7 +273,7 @@ VectorXd field(const Search& search, const Entry& entry) {
   z.resize(harmonic.size());
   if (from != 0) MPI_Recv(z.data(), harmonic.size(), MPI_DOUBLE, from, kTag, search.comm, MPI_STATUS_IGNORE);
   if (entry.times_i) z = fem::times_i(harmonic, 0, z).eval();
-  return fem::unfold(harmonic, search.placement, z);
+  return fem::unfold(harmonic, search.node_orbits, z);
 }
 
 void check_fields(const Search& search) {

@@ -34,7 +34,7 @@ struct Wanted {
 
 // Adds the rows of the stress operator at one node of each orbit of the nodes of G.
 void add_stress_rows(const FlexibilityTask& task, const fem::MeshedBody& body,
-                     const fem::Placement& placement, const model::Flexibility& plan, Wanted& wanted) {
+                     const fem::NodeOrbits& node_orbits, const model::Flexibility& plan, Wanted& wanted) {
   const std::vector<int> all = stress_nodes(task, plan);
   std::vector<int> first;
   for (int orbit = 0; orbit < static_cast<int>(plan.stress.node.cols()); ++orbit)
@@ -45,24 +45,24 @@ void add_stress_rows(const FlexibilityTask& task, const fem::MeshedBody& body,
   for (int row = 0; row < wanted.n_stress_rows; ++row)
     for (model::SparseRows::InnerIterator it(S, row); it; ++it) {
       const auto node = static_cast<std::size_t>(it.col() / 3);
-      if (placement.orbit[node] < 0) continue;
+      if (node_orbits.orbit[node] < 0) continue;
       wanted.row.push_back(row);
-      wanted.orbit.push_back(placement.orbit[node]);
-      wanted.sector_index.push_back(placement.sector_index[node]);
+      wanted.orbit.push_back(node_orbits.orbit[node]);
+      wanted.sector_index.push_back(node_orbits.sector_index[node]);
       wanted.direction.push_back(static_cast<int>(it.col() % 3));
       wanted.value.push_back(it.value());
     }
 }
 
 Wanted find_wanted(const FlexibilityTask& task, const fem::MeshedBody& body, const model::Flexibility& plan,
-                   const fem::Placement& placement) {
+                   const fem::NodeOrbits& node_orbits) {
   Wanted wanted;
   for (Eigen::Index orbit = 0; orbit < plan.surface.node.cols(); ++orbit) {
     const int node = task.surface.node[plan.node[plan.surface.node(0, orbit)]];
-    wanted.surface_orbit.push_back(placement.orbit[node]);
-    wanted.surface_sector_index.push_back(placement.sector_index[node]);
+    wanted.surface_orbit.push_back(node_orbits.orbit[node]);
+    wanted.surface_sector_index.push_back(node_orbits.sector_index[node]);
   }
-  add_stress_rows(task, body, placement, plan, wanted);
+  add_stress_rows(task, body, node_orbits, plan, wanted);
   return wanted;
 }
 
@@ -215,9 +215,9 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   collectively(comm, [&] {
     if (rank != 0) return;
     flexibility = plan_flexibility(task);
-    const fem::Placement placement = fem::free_placement(task.repetition, body.is_free);
-    sector = fem::make_sector(body.mesh, task.repetition, body.region, placement);
-    wanted = find_wanted(task, body, flexibility, placement);
+    const fem::NodeOrbits node_orbits = fem::free_node_orbits(task.repetition, body.is_free);
+    sector = fem::make_sector(body.mesh, task.repetition, body.region, node_orbits);
+    wanted = find_wanted(task, body, flexibility, node_orbits);
   });
   fem::broadcast(comm, sector);
   broadcast(comm, wanted);
