@@ -1,6 +1,6 @@
 #pragma once
-// What a system of elastic bodies consists of: bodies on joints, contact pairs, loads, and where everything
-// starts. It does not change during a run, but for the placements from which rotation vectors count.
+// A system of elastic bodies consists of bodies on joints, contact pairs and loads, with the motion at the
+// start. It does not change during a run, but for the placements from which rotation vectors count.
 
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What a mesh file holds beside the mesh.
+// A mesh file holds more than the mesh: materials, held nodes, and cards that are left out.
 
 #include <cstdint>
 #include <string>

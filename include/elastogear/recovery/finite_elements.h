@@ -1,6 +1,6 @@
 #pragma once
-// What recovery asks of the finite elements of a whole body. They belong to the modules that make bodies,
-// which recovery does not include: its caller hands them in, as src/app/finite_elements.cpp does.
+// Recovery needs two answers of a whole body's finite elements, which belong to the modules that make bodies
+// and which it does not include: the caller hands them in, as src/app/finite_elements.cpp does.
 
 #include <Eigen/Core>
 #include <functional>

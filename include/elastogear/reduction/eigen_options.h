@@ -1,5 +1,5 @@
 #pragma once
-// What a search for eigenmodes is asked for, where it stands, and what it gives.
+// Wishes, present state and result of a search for eigenmodes.
 
 #include <Eigen/Core>
 #include <functional>

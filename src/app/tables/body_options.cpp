@@ -20,7 +20,7 @@ namespace {
 using Setup = dynamics::BodySetup;
 using body::Joint, dynamics::Axis;
 
-// Where a body comes from: a file, or numbers.
+// A body comes from its file, or is rigid with mass and inertia from options.
 struct BodySource {
   std::string file = {};
   bool rigid = false, residual = true;

@@ -1,5 +1,5 @@
 #pragma once
-// What recover says of a recovered stress: peak, estimated error, table.
+// The verb recover prints the peak and the estimated error of each stress and writes its table.
 
 #include <string>
 

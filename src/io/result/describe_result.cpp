@@ -21,7 +21,7 @@ void describe_pair(Out& out, const std::string& path, const std::string& name, c
        ", largest penetration: ", history.penetration.maxCoeff(), " m");
 }
 
-// Of results that hold contact forces at nodes.
+// Says how many nodes of a body carry contact forces, for results of versions that hold these.
 void describe_forces(Out& out, const h5::File& file, const std::string& body) {
   const std::string group = "/bodies/" + body + kForces;
   if (version(file) < kFirstWithForces || h5::shape(file, group + "/node")[0] == 0) return;

@@ -67,7 +67,7 @@ Shift descend(const Progression& search, double most) {
   return shift;
 }
 
-// Where `more` modes are expected above the lower end of the interval.
+// The eigenvalue below which `more` modes are expected in an interval of which none is known yet.
 double first_in_interval(const Progression& search, double more) {
   const Slicing& slicing = search.slicing;
   const double width =
