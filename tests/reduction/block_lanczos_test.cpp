@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../message_of.h"
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/eigenmodes.h"
 
@@ -113,15 +114,6 @@ double largest_residual(EPS eps) {
   return largest;
 }
 
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(BlockLanczos, gives_the_eigenpairs_of_krylov_schur_with_all_multiple_ones) {
   const Pair pair = membrane();
   constexpr int kPairs = 40;
@@ -210,7 +202,7 @@ TEST(BlockLanczos, above_a_target_is_an_error_when_eigenvalues_lie_below_it) {
   check(EPSSetTarget(eps, 0.5));
   const int below = reduction::count_eigenvalues_below(pair.K, pair.M, 0.5);
   ASSERT_GT(below, 0);
-  const std::string message = message_of([&] { solve(eps); });
+  const std::string message = test::message_of([&] { solve(eps); });
   EXPECT_NE(message.find(std::to_string(below) + " eigenvalues lie below"), std::string::npos) << message;
 }
 
@@ -280,7 +272,7 @@ TEST(BlockLanczos, keeps_no_vectors_that_it_hands_out) {
   EXPECT_EQ(received, 10);
   UniqueVec phi;
   check(MatCreateVecs(pair.K, phi.out(), nullptr));
-  const std::string message = message_of([&] { check(EPSGetEigenvector(eps, 3, phi, nullptr)); });
+  const std::string message = test::message_of([&] { check(EPSGetEigenvector(eps, 3, phi, nullptr)); });
   EXPECT_NE(message.find("Vector 3 was handed out"), std::string::npos) << message;
 }
 
@@ -288,7 +280,7 @@ TEST(BlockLanczos, ends_with_what_its_handler_throws) {
   const Pair pair = membrane();
   const UniqueEPS eps = create(pair, 10);
   reduction::block_lanczos_set_handler(eps, {.mode = [](int i, Vec) { require(i < 4, "enough of them"); }});
-  EXPECT_EQ(message_of([&] { solve(eps); }), "enough of them");
+  EXPECT_EQ(test::message_of([&] { solve(eps); }), "enough of them");
 }
 
 TEST(BlockLanczos, solves_again_after_its_matrices_and_wishes_have_changed) {
@@ -338,9 +330,9 @@ TEST(BlockLanczos, needs_a_definite_pair_and_an_own_type) {
   const Pair pair = membrane();
   const UniqueEPS eps = create(pair, 5);
   check(EPSSetProblemType(eps, EPS_GNHEP));
-  EXPECT_NE(message_of([&] { solve(eps); }), "");
+  EXPECT_NE(test::message_of([&] { solve(eps); }), "no error");
   const UniqueEPS other = create(pair, 5, EPSKRYLOVSCHUR);
-  EXPECT_NE(message_of([&] { reduction::block_lanczos_set(other, {}); }).find("must be block_lanczos"),
+  EXPECT_NE(test::message_of([&] { reduction::block_lanczos_set(other, {}); }).find("must be block_lanczos"),
             std::string::npos);
 }
 

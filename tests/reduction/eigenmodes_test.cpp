@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "../fem/system.h"
-#include "elastogear/base/error.h"
+#include "../message_of.h"
 
 namespace {
 
@@ -40,15 +40,6 @@ Gathered solve(const test::System& system, const reduction::EigenOptions& option
   };
   result.modes = reduction::find_eigenmodes(system.matrices.K, system.matrices.M, options, keep);
   return result;
-}
-
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Eigenmodes, equal_a_dense_solution_with_all_multiple_eigenvalues) {
@@ -140,15 +131,15 @@ TEST(Eigenmodes, may_be_all_of_a_small_body) {
 
 TEST(Eigenmodes, more_than_the_degrees_of_freedom_are_an_error_naming_both_numbers) {
   const auto system = test::assemble(test::brick({2, 1, 1}, {1, 0.3, 0.2}), {"xmin"});
-  const std::string message = message_of([&] { solve(system, {.n_modes = 25}); });
+  const std::string message = test::message_of([&] { solve(system, {.n_modes = 25}); });
   EXPECT_NE(message.find("25"), std::string::npos) << message;
   EXPECT_NE(message.find("24"), std::string::npos) << message;
-  EXPECT_NE(message_of([&] { solve(system, {.n_modes = 0}); }), "no error");
+  EXPECT_NE(test::message_of([&] { solve(system, {.n_modes = 0}); }), "no error");
 }
 
 TEST(Eigenmodes, of_a_body_that_is_not_held_are_an_error) {
   const auto system = test::assemble(square_beam(), {});
-  const std::string message = message_of([&] { solve(system, {.n_modes = 10}); });
+  const std::string message = test::message_of([&] { solve(system, {.n_modes = 10}); });
   EXPECT_NE(message.find("singular"), std::string::npos) << message;
 }
 
@@ -160,7 +151,7 @@ TEST(Eigenmodes, of_a_mechanism_are_an_error) {
     if ((i % 3 == 0) == (i / 6 == 0) && i % 3 != 2) cells.add(mesh.cells.type[i], mesh.cells[i]);
   mesh.cells = cells;
   const auto system = test::assemble(mesh, {"xmin"});
-  const std::string message = message_of([&] { solve(system, {.n_modes = 10}); });
+  const std::string message = test::message_of([&] { solve(system, {.n_modes = 10}); });
   EXPECT_NE(message.find("singular"), std::string::npos) << message;
 }
 

@@ -9,8 +9,8 @@
 
 #include "../fem/other_cells.h"
 #include "../fem/system.h"
+#include "../message_of.h"
 #include "calculix.h"
-#include "elastogear/base/error.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 #include "reduction/modes/effective_mass.h"
@@ -154,15 +154,6 @@ TEST(FreeModes, of_a_block_equal_calculix) {
     EXPECT_NEAR(std::sqrt(lambda(i)) / (2 * M_PI) / expected[i + rigid], 1, kSameElement) << i;
 }
 
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 // Bricks of one row, kept where `keep` says.
 mesh::Mesh some_cells(const mesh::Mesh& whole, const std::vector<int>& keep) {
   mesh::Mesh mesh = whole;
@@ -174,9 +165,9 @@ mesh::Mesh some_cells(const mesh::Mesh& whole, const std::vector<int>& keep) {
 
 TEST(FreeModes, of_two_parts_are_an_error_that_counts) {
   const auto apart = some_cells(test::brick({3, 1, 1}, {3, 1, 1}), {0, 2});
-  EXPECT_THAT(message_of([&] { solve(apart, {.n_modes = 10}); }), testing::HasSubstr("more than six"));
+  EXPECT_THAT(test::message_of([&] { solve(apart, {.n_modes = 10}); }), testing::HasSubstr("more than six"));
   const auto hinged = some_cells(test::brick({2, 1, 2}, {2, 1, 2}), {0, 3});  // at an edge
-  EXPECT_THAT(message_of([&] { solve(hinged, {.n_modes = 10}); }), testing::HasSubstr("more than six"));
+  EXPECT_THAT(test::message_of([&] { solve(hinged, {.n_modes = 10}); }), testing::HasSubstr("more than six"));
 }
 
 TEST(FreeModes, of_a_held_body_are_an_error) {
@@ -188,7 +179,7 @@ TEST(FreeModes, of_a_held_body_are_an_error) {
   const auto find = [&] {
     reduction::find_rigid_modes(system.matrices.K, system.matrices.M, gather, mesh.X);
   };
-  EXPECT_THAT(message_of(find), testing::HasSubstr("something holds the body"));
+  EXPECT_THAT(test::message_of(find), testing::HasSubstr("something holds the body"));
 }
 
 reduction::ReductionOptions free_options() {
@@ -258,7 +249,7 @@ TEST(FreeBody, of_two_parts_is_an_error_before_any_work) {
   const auto mesh = some_cells(test::brick({3, 1, 1}, {3, 1, 1}), {0, 2});
   auto options = free_options();
   options.surface = {};
-  EXPECT_THAT(message_of([&] { reduced(mesh, options, "parts"); }), testing::HasSubstr("2 parts"));
+  EXPECT_THAT(test::message_of([&] { reduced(mesh, options, "parts"); }), testing::HasSubstr("2 parts"));
 }
 
 }  // namespace
