@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-namespace elastogear::app {
+namespace elastogear::app::petsc_names_test {
 namespace {
 
 std::string help;
@@ -155,4 +155,4 @@ TEST(PetscNames, MisspeltOnesAreNot) {
 }
 
 }  // namespace
-}  // namespace elastogear::app
+}  // namespace elastogear::app::petsc_names_test

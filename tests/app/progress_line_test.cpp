@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace elastogear::app {
+namespace elastogear::app::progress_line_test {
 namespace {
 
 constexpr int kColumns = 80;
@@ -57,4 +57,4 @@ TEST(LineIsDue, NotAgainAfterTheEndOfAStage) {
 }
 
 }  // namespace
-}  // namespace elastogear::app
+}  // namespace elastogear::app::progress_line_test

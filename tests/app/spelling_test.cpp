@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace elastogear::app {
+namespace elastogear::app::spelling_test {
 namespace {
 
 TEST(Spelling, CountsEdits) {
@@ -27,4 +27,4 @@ TEST(Spelling, OfEquallyManyEditsCommonLettersDecide) {
 }
 
 }  // namespace
-}  // namespace elastogear::app
+}  // namespace elastogear::app::spelling_test

@@ -5,7 +5,7 @@
 
 #include "../message_of.h"
 
-namespace elastogear::app {
+namespace elastogear::app::yaml_test {
 namespace {
 
 std::string options_of(const std::string& text) {
@@ -67,10 +67,12 @@ TEST(Yaml, EndlessMapsEnd) {
   std::string bomb = "$$0: &a0 {x: 1}\n";
   for (int i = 1; i < 30; ++i) {
     const std::string last = std::to_string(i - 1), now = std::to_string(i);
-    bomb += "$$" + now + ": &a" + now + " {p" + now + ": *a" + last + ", q" + now + ": *a" + last + "}\n";
+    bomb.append("$$").append(now).append(": &a").append(now).append(" {p").append(now).append(": *a").append(
+        last);
+    bomb.append(", q").append(now).append(": *a").append(last).append("}\n");
   }
   EXPECT_NE(error_of(bomb + "all: *a29\n").find("holds more than"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace elastogear::app
+}  // namespace elastogear::app::yaml_test

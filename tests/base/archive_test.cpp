@@ -4,6 +4,7 @@
 
 #include <limits>
 
+namespace elastogear::archive_test {
 using elastogear::Archive;
 using elastogear::Error;
 
@@ -42,8 +43,6 @@ std::vector<double> recorded(State state) {
   return archive.numbers();
 }
 
-}  // namespace
-
 TEST(Archive, gives_back_what_it_recorded_to_the_bit) {
   const State original = sample();
   State state;
@@ -68,3 +67,6 @@ TEST(Archive, refuses_a_state_of_another_shape) {
   state.visit(longer);
   EXPECT_THROW(longer.finish(), Error);
 }
+
+}  // namespace
+}  // namespace elastogear::archive_test

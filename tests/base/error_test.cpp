@@ -3,7 +3,7 @@
 #include "../message_of.h"
 #include "elastogear/base/error.h"
 
-namespace elastogear {
+namespace elastogear::error_test {
 namespace {
 
 using test::message_of;
@@ -25,4 +25,4 @@ TEST(Require, throws_only_when_the_condition_fails) {
 TEST(Error, is_caught_as_a_standard_exception) { EXPECT_THROW(fail("x"), std::runtime_error); }
 
 }  // namespace
-}  // namespace elastogear
+}  // namespace elastogear::error_test

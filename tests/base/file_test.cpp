@@ -5,8 +5,9 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 
+namespace elastogear::file_test {
+
 namespace fs = std::filesystem;
-using namespace elastogear;
 
 namespace {
 
@@ -44,3 +45,4 @@ TEST_F(File, names_the_path_that_cannot_be_used) {
 }
 
 }  // namespace
+}  // namespace elastogear::file_test

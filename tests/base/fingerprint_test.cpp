@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+namespace elastogear::fingerprint_test {
 using elastogear::Fingerprint;
 
 namespace {
@@ -14,8 +15,6 @@ std::uint64_t of_block(const std::vector<double>& numbers) {
   f.add_block(numbers.data(), numbers.size());
   return f.value();
 }
-
-}  // namespace
 
 TEST(Fingerprint, of_a_block_tells_each_number_its_place_and_the_length) {
   std::set<std::uint64_t> seen;
@@ -50,3 +49,6 @@ TEST(Fingerprint, depends_on_what_was_added_before_a_block) {
   f.add_block(&number, 1);
   EXPECT_NE(f.value(), of_block({number}));
 }
+
+}  // namespace
+}  // namespace elastogear::fingerprint_test

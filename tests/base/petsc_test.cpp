@@ -9,7 +9,7 @@
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/version.h"
 
-namespace elastogear {
+namespace elastogear::petsc_test {
 namespace {
 
 using test::message_of;
@@ -46,7 +46,7 @@ TEST_F(HandleTest, moves_ownership_and_does_not_copy) {
   {
     Counted second(std::move(first));
     EXPECT_EQ(second.get(), &object);
-    EXPECT_EQ(first.get(), nullptr);
+    EXPECT_EQ(first.get(), nullptr);  // NOLINT: a handle that was moved from is null
   }
   EXPECT_EQ(destroyed, std::vector<int*>{&object});
 }
@@ -136,4 +136,4 @@ TEST(Version, is_three_numbers) {
 }
 
 }  // namespace
-}  // namespace elastogear
+}  // namespace elastogear::petsc_test

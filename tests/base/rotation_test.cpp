@@ -5,7 +5,7 @@
 
 #include "elastogear/base/rotation.h"
 
-namespace elastogear {
+namespace elastogear::rotation_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -58,4 +58,4 @@ TEST(RotationMatrix, of_a_tiny_vector_is_first_order) {
 }
 
 }  // namespace
-}  // namespace elastogear
+}  // namespace elastogear::rotation_test

@@ -9,7 +9,7 @@
 #include "elastogear/body/deformed_inertia.h"
 #include "random_body.h"
 
-using namespace elastogear;
+namespace elastogear::affine_test {
 using body::InertiaLevel;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
@@ -63,8 +63,6 @@ std::shared_ptr<const model::ElasticBody> affine_body(int n_fields) {
   return body;
 }
 
-}  // namespace
-
 TEST(AffinePart, of_affine_fields_gives_the_inertia_of_level_full) {
   const auto body = affine_body(12);
   const body::Equations affine = equations(body, InertiaLevel::affine),
@@ -110,3 +108,6 @@ TEST(AffinePart, of_a_body_without_extension_leaves_out_what_has_no_mass) {
   EXPECT_TRUE(eq.affine.Y.allFinite());
   EXPECT_GT(least_eigenvalue(mass_matrix(eq, 0.1 * VectorXd::Random(4))), -kRoundoff);
 }
+
+}  // namespace
+}  // namespace elastogear::affine_test

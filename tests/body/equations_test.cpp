@@ -9,7 +9,7 @@
 #include "elastogear/body/tangent.h"
 #include "random_body.h"
 
-using namespace elastogear;
+namespace elastogear::equations_test {
 using body::Equations;
 using body::Force;
 using body::InertiaLevel;
@@ -66,8 +66,6 @@ auto difference(const F& f, double h) {
 struct EquationsOfMotion : testing::TestWithParam<Case> {};
 // All levels but constant, whose equations are those of a kinetic energy.
 struct DeformableInertia : testing::TestWithParam<Case> {};
-
-}  // namespace
 
 // Newton and Euler for the body as a whole: independent of how the equations are written.
 TEST_P(DeformableInertia, changes_the_momentum_by_the_forces) {
@@ -166,8 +164,6 @@ TEST_P(EquationsOfMotion, tangent_is_the_derivative_of_the_forces) {
   EXPECT_LT((J - D).norm(), 1e-8 * J.norm());
 }
 
-namespace {
-
 std::vector<Case> cases(const std::vector<InertiaLevel>& levels) {
   std::vector<Case> all;
   for (InertiaLevel level : levels)
@@ -182,8 +178,6 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
   return body::joint_names()[static_cast<std::size_t>(info.param.type)] +
          levels[static_cast<int>(info.param.level)];
 }
-
-}  // namespace
 
 using enum InertiaLevel;
 INSTANTIATE_TEST_SUITE_P(JointsAndLevels, EquationsOfMotion,
@@ -203,3 +197,6 @@ TEST(Equations, of_level_full_need_the_second_order_invariants) {
   body->inertia.S_2.clear();
   EXPECT_THROW(make_equations(body, {}, InertiaLevel::full), Error);
 }
+
+}  // namespace
+}  // namespace elastogear::equations_test

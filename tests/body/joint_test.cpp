@@ -8,7 +8,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 
-using namespace elastogear;
+namespace elastogear::joint_test {
 using body::Joint;
 using body::JointType;
 using Eigen::Vector3d;
@@ -26,8 +26,6 @@ struct Moving : testing::TestWithParam<JointType> {};
 INSTANTIATE_TEST_SUITE_P(Joints, Moving,
                          testing::Values(JointType::revolute, JointType::prismatic, JointType::cylindrical,
                                          JointType::spherical, JointType::free));
-
-}  // namespace
 
 // v, w and a from differences of the placement.
 TEST_P(Moving, velocity_and_acceleration_are_the_rates_of_the_placement) {
@@ -109,3 +107,6 @@ TEST(Joint, refuses_an_axis_without_direction_and_a_point_that_is_nowhere) {
     EXPECT_THROW(body::motion_subspace(joint), Error);
   }
 }
+
+}  // namespace
+}  // namespace elastogear::joint_test

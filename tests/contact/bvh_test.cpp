@@ -8,7 +8,7 @@
 #include "contact/search/coarse_search.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::bvh_test {
 namespace {
 
 using test::Random;
@@ -227,4 +227,4 @@ TEST(Bvh, nodes_at_any_level_hold_every_face_once) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::bvh_test

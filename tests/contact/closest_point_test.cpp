@@ -4,7 +4,7 @@
 
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::closest_point_test {
 namespace {
 
 using test::Random;
@@ -175,4 +175,4 @@ TEST(Face, natural_coordinates_of_a_triangle_are_those_of_the_collapsed_quadrila
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::closest_point_test

@@ -9,7 +9,7 @@
 #include "contact/projection/projection.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::configurations_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -146,4 +146,4 @@ TEST(RandomConfigurations, search_misses_no_contact_and_adds_none) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::configurations_test

@@ -5,7 +5,7 @@
 #include "elastogear/base/error.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::initial_overlap_test {
 namespace {
 
 using test::at;
@@ -54,4 +54,4 @@ TEST(InitialOverlap, of_open_flanks_that_cross_is_refused) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::initial_overlap_test

@@ -4,7 +4,7 @@
 #include "elastogear/base/error.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::kdop_test {
 namespace {
 
 using test::Random;
@@ -166,4 +166,4 @@ TEST(Realignment, by_few_combinations_is_hardly_larger_than_by_the_hull_points) 
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::kdop_test

@@ -9,7 +9,7 @@
 #include "contact/forces/contact_point.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::law_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -323,4 +323,4 @@ TEST(ContactForce, friction_is_at_most_mu_times_the_normal_force_and_against_the
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::law_test

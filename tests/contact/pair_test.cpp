@@ -7,7 +7,7 @@
 #include "elastogear/base/error.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::pair_test {
 namespace {
 
 using test::at;
@@ -281,4 +281,4 @@ TEST(Pair, settings_and_surfaces_out_of_range_are_refused) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::pair_test

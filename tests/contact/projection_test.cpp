@@ -6,7 +6,7 @@
 
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::projection_test {
 namespace {
 
 using test::Random;
@@ -201,4 +201,4 @@ TEST(Projection, deeper_than_the_limit_is_none) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::projection_test

@@ -8,7 +8,7 @@
 #include "elastogear/contact/pair.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::skin_test {
 namespace {
 
 using test::Random;
@@ -163,4 +163,4 @@ TEST(Skin, refuses_wrong_coordinates) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::skin_test

@@ -7,7 +7,7 @@
 #include "elastogear/contact/pair.h"
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::smooth_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -147,4 +147,4 @@ TEST(SmoothNormals, take_jumps_and_ripple_out_of_sliding_over_facets) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::smooth_test

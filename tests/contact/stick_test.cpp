@@ -3,7 +3,7 @@
 
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::stick_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -52,4 +52,4 @@ TEST(Sticking, spring_does_not_feel_the_faces_it_is_led_over) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::stick_test

@@ -4,7 +4,7 @@
 
 #include "surfaces.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::tangent_test {
 namespace {
 
 using test::Random;
@@ -138,4 +138,4 @@ TEST(Tangent, annihilates_translations) {
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::tangent_test

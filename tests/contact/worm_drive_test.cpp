@@ -9,7 +9,7 @@
 #include "surfaces.h"
 #include "worm_drive.h"
 
-namespace elastogear::contact {
+namespace elastogear::contact::worm_drive_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -251,4 +251,4 @@ TEST(WormDrive,
 }
 
 }  // namespace
-}  // namespace elastogear::contact
+}  // namespace elastogear::contact::worm_drive_test

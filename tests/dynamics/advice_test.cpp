@@ -9,8 +9,8 @@
 #include "box_body.h"
 #include "dynamics/snapshot.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::advice_test {
+using namespace dynamics;
 
 namespace {
 
@@ -35,8 +35,6 @@ model::Snapshot start(System& system, double stretch) {
   U[1] = stretch;
   return snapshot(system, {0, U, V, V});
 }
-
-}  // namespace
 
 TEST(Advice, asks_for_ten_steps_in_a_period_of_the_highest_mode) {
   const System system = turning(0);
@@ -128,3 +126,6 @@ TEST(ValidityGuard, warns_once_of_steps_longer_than_the_contact_depth) {
   EXPECT_NE(warnings[0].find("pair a:b at t = 0 s: surfaces may pass"), std::string::npos) << warnings[0];
   EXPECT_TRUE(guard.warnings(now).empty());
 }
+
+}  // namespace
+}  // namespace elastogear::advice_test

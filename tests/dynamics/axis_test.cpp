@@ -7,8 +7,8 @@
 
 #include "elastogear/base/error.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::axis_test {
+using namespace dynamics;
 
 namespace {
 
@@ -22,8 +22,6 @@ Drive sine_table() {
   }
   return table_drive(time, value);
 }
-
-}  // namespace
 
 TEST(Signal, is_linear_between_its_times_and_constant_beyond) {
   const Signal s = table_signal({1, 2, 4}, {10, 20, 0});
@@ -88,3 +86,6 @@ TEST(Axis, refuses_what_makes_no_sense) {
   EXPECT_THROW(require_covers({.drive = table_drive({0.1, 2}, {0, 1})}, 1, ""), Error);
   EXPECT_NO_THROW(require_covers({.load = ramp_signal(1, 0.1)}, 1, ""));
 }
+
+}  // namespace
+}  // namespace elastogear::axis_test

@@ -19,8 +19,8 @@
 #include "elastogear/reduction/reduce.h"
 #include "markers.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::bushing_test {
+using namespace dynamics;
 using body::JointType;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -365,3 +365,4 @@ TEST(DampingRatio, makes_every_mode_decay_by_it) {
 }
 
 }  // namespace
+}  // namespace elastogear::bushing_test

@@ -5,8 +5,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::checkpoint_test {
+using namespace dynamics;
 
 namespace {
 
@@ -85,8 +85,6 @@ void expect_every_continuation_equal(model::Basis basis, const TimeSettings& set
   EXPECT_GT(contacts, 10);
 }
 
-}  // namespace
-
 TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit) {
   expect_every_continuation_equal(model::Basis::modal);
 }
@@ -128,8 +126,6 @@ TEST(Checkpoint, stop_ends_the_run_with_a_state_to_go_on_from) {
   EXPECT_EQ(rows, record(impact(model::Basis::modal)).rows);
 }
 
-namespace {
-
 // Asked to stop at its n-th question, in a step or between two, a run ends there and loses nothing.
 void expect_given_up_steps_lose_nothing(model::Basis basis, const std::vector<int>& questions) {
   const Rows whole = record(impact(basis)).rows;
@@ -153,8 +149,6 @@ void expect_given_up_steps_lose_nothing(model::Basis basis, const std::vector<in
   EXPECT_GE(resumed, static_cast<int>(questions.size()) - 2);
 }
 
-}  // namespace
-
 TEST(Checkpoint, a_step_given_up_is_done_again_to_the_bit) {
   expect_given_up_steps_lose_nothing(model::Basis::modal,
                                      {1, 2, 6, 20, 21, 22, 23, 24, 25, 26, 27, 28, 300, 555});
@@ -171,3 +165,6 @@ TEST(Checkpoint, of_another_system_is_refused) {
   cut.pop_back();
   EXPECT_THROW(simulate(same, kSettings, {}, {}, {.state = cut}), Error);
 }
+
+}  // namespace
+}  // namespace elastogear::checkpoint_test

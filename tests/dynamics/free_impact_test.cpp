@@ -10,8 +10,8 @@
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/reduce.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::free_impact_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 
 namespace {
@@ -49,7 +49,7 @@ std::vector<model::Snapshot> impact(Kind kind, double y) {
   pair.settings.stiffness = 5e3;
   pair.settings.depth = 0.05;
   pair.settings.two_pass = true;
-  System system(std::move(setups), {pair});
+  System system(setups, {pair});
   std::vector<model::Snapshot> history;
   simulate(system, {.dt = kStep, .end_time = kEnd}, [&](const model::Snapshot& s) { history.push_back(s); });
   return history;
@@ -87,8 +87,6 @@ void print(const std::vector<model::Snapshot>& modal, const std::vector<model::S
             << deviation(modal, exact) << ", " << deviation(flexible, exact) << "\n";
 }
 
-}  // namespace
-
 // 0 m: face to face; beside the middle the blocks turn away.
 TEST(FreeImpact, with_residual_flexibility_nears_that_of_all_modes) {
   for (double y : {0., 0.3}) {
@@ -104,3 +102,6 @@ TEST(FreeImpact, with_residual_flexibility_nears_that_of_all_modes) {
     EXPECT_LT((found - spin).norm(), 0.01 * std::max(spin.norm(), 0.1));
   }
 }
+
+}  // namespace
+}  // namespace elastogear::free_impact_test

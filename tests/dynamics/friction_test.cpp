@@ -9,8 +9,8 @@
 #include "contact_bodies.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::friction_test {
+using namespace dynamics;
 using contact::FrictionLaw;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
@@ -46,8 +46,6 @@ History run(System& system, double dt, double end_time, double rho_inf = 1) {
   return history;
 }
 
-}  // namespace
-
 // ---- damping
 
 class Restitution : public testing::TestWithParam<double> {};
@@ -79,8 +77,6 @@ INSTANTIATE_TEST_SUITE_P(Factors, Restitution, testing::Values(0.0, 0.1, 0.5, 2.
 
 // ---- friction
 
-namespace {
-
 constexpr double kMu = 0.3, kSpeed = 5;  // -, m/s
 constexpr double kWay = kSpeed * kSpeed / (2 * kMu * kGravity);
 
@@ -98,8 +94,6 @@ System block_on_plate(const contact::FrictionSettings& friction, double speed, d
 }
 
 class Sliding : public testing::TestWithParam<contact::FrictionSettings> {};
-
-}  // namespace
 
 TEST_P(Sliding, stops_after_the_way_of_Coulomb_friction) {
   constexpr double kLaw = 0.005;
@@ -131,8 +125,6 @@ TEST(Sticking, stays_where_regularised_friction_creeps) {
 
 // ---- stick-slip
 
-namespace {
-
 // A surface on a spring along y: one elastic coordinate, its rigid translation.
 std::shared_ptr<const model::ElasticBody> on_spring(double m, double omega) {
   auto body = test::rigid_with(block(), m);
@@ -149,8 +141,6 @@ std::shared_ptr<const model::ElasticBody> on_spring(double m, double omega) {
   body->inertia.S_1.setZero(9, 1);
   return body;
 }
-
-}  // namespace
 
 TEST(StickSlip, of_a_block_on_a_spring_has_the_period_and_the_peak_of_the_closed_form) {
   constexpr double m = 2, omega = 20, belt = 0.1, mu_s = 0.4, mu = 0.25, N = 100, kLaw = 0.01;
@@ -184,8 +174,6 @@ TEST(StickSlip, of_a_block_on_a_spring_has_the_period_and_the_peak_of_the_closed
 
 // ---- rolling
 
-namespace {
-
 constexpr double kRadius = 0.5, kOverlap = 1e-3;  // m
 
 model::Surface roller(int n) {
@@ -201,8 +189,6 @@ model::Surface roller(int n) {
   s.c_f = VectorXd::Constant(n, 1e12);
   return s;
 }
-
-}  // namespace
 
 // One roller spins up the other; slip, and what friction takes, end when both have the same speed.
 TEST(Rolling, friction_takes_what_the_rollers_lose) {
@@ -232,3 +218,6 @@ TEST(Rolling, friction_takes_what_the_rollers_lose) {
             (h.snapshot[i].pairs[0].total.friction_power + h.snapshot[i - 1].pairs[0].total.friction_power);
   EXPECT_NEAR(work, lost, kLaw * lost);
 }
+
+}  // namespace
+}  // namespace elastogear::friction_test

@@ -4,7 +4,7 @@
 #include "elastogear/base/error.h"
 #include "second_order_problem.h"
 
-namespace elastogear::testing {
+namespace elastogear::testing::generalized_alpha_control_test {
 namespace {
 
 using dynamics::generalized_alpha_restart;
@@ -323,4 +323,4 @@ TEST(GeneralizedAlphaErrors, another_type_or_a_missing_part_is_named) {
 }
 
 }  // namespace
-}  // namespace elastogear::testing
+}  // namespace elastogear::testing::generalized_alpha_control_test

@@ -9,8 +9,8 @@
 #include "box_body.h"
 #include "contact_bodies.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::hertz_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -64,8 +64,6 @@ LineErrors line_errors(int cells) {
   return {state.total.pressure / peak - 1, 2 * std::sqrt(moment / total) / width - 1};
 }
 
-}  // namespace
-
 TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   constexpr double kDiscretisation = 0.01;  // with 4.7 cells over the half width; found: -0.4 %, -0.3 %
   LineErrors last{1, 1};
@@ -80,8 +78,6 @@ TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
 }
 
 // ---- two spheres
-
-namespace {
 
 // Two equal ones; radius and peak pressure by Hertz. By symmetry: of only one and the plane between them, for
 // surfaces so steep that Newton's method needs it.
@@ -134,8 +130,6 @@ PointErrors point_errors(const Spheres& spheres, double cells) {
 
 class TwoSpheres : public testing::TestWithParam<Spheres> {};
 
-}  // namespace
-
 TEST_P(TwoSpheres, force_radius_and_peak_pressure_converge) {
   constexpr double kDiscretisation = 2e-3;  // with 10 cells over the radius
   PointErrors last{1, 1, 1};
@@ -153,3 +147,6 @@ TEST_P(TwoSpheres, force_radius_and_peak_pressure_converge) {
 INSTANTIATE_TEST_SUITE_P(Hertz, TwoSpheres,
                          testing::Values(Spheres{1.40625e7, 0.25, 2, 0.01, 0.1, 477465, false},
                                          Spheres{20e9, 0.3, 0.05, 4e-3, 0.01, 2798.3e6, true}));
+
+}  // namespace
+}  // namespace elastogear::hertz_test

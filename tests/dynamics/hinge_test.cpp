@@ -6,8 +6,8 @@
 #include "box_body.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::hinge_test {
+using namespace dynamics;
 using body::InertiaLevel;
 using Eigen::VectorXd;
 
@@ -63,8 +63,6 @@ double state_error(const model::Snapshot& a, const model::Snapshot& b) {
   return std::abs(a.bodies[0].s[0] - b.bodies[0].s[0]) + (a.bodies[0].q - b.bodies[0].q).norm();
 }
 
-}  // namespace
-
 TEST(Hinge, turns_by_T_t2_over_2J_under_constant_torque) {
   const auto body = std::make_shared<model::ElasticBody>(test::make_rigid_box(soft_box()));
   constexpr double kTorque = 0.7, kTime = 0.5;
@@ -117,3 +115,6 @@ TEST(Hinge, damping_is_booked_as_dissipated_energy) {
   EXPECT_GT(rest.energy.dissipated, 0.5 * summary.initial_energy);
   EXPECT_LT(summary.largest_imbalance, kNewton * summary.initial_energy);  // linear: exact for rho_inf = 1
 }
+
+}  // namespace
+}  // namespace elastogear::hinge_test

@@ -6,15 +6,15 @@
 #include "box_body.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::impact_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 namespace {
 
 constexpr double kLength = 0.2, kWidth = 0.02, kSpeed = 100;              // m, m, m/s
-constexpr model::Material kSteel{2e11, 0, 8000};                          // E, nu, rho
+const model::Material kSteel{2e11, 0, 8000};                              // E, nu, rho
 constexpr double kWaveSpeed = 5000;                                       // m/s, sqrt(E / rho)
 constexpr double kContactTime = 2 * kLength / kWaveSpeed;                 // s
 constexpr double kForce = 8000. * kWaveSpeed * kSpeed * kWidth * kWidth;  // N, rho c v A
@@ -38,7 +38,7 @@ std::shared_ptr<const model::ElasticBody> wall() {
   return std::make_shared<model::ElasticBody>(test::make_rigid_box(spec));
 }
 
-BodySetup flying(const std::string& name, std::shared_ptr<const model::ElasticBody> body, double x,
+BodySetup flying(const std::string& name, const std::shared_ptr<const model::ElasticBody>& body, double x,
                  double speed) {
   BodySetup setup{.name = name, .body = body};
   setup.joint.r_WB0.x() = x;
@@ -101,8 +101,6 @@ System two_bars(model::Basis basis) {
   return System({flying("a", body, 0, kSpeed), flying("b", body, kLength + kGap, 0)}, {{"a:b", {0, 1}, {}}});
 }
 
-}  // namespace
-
 TEST(BarOnWall, rebounds_after_two_passages_of_the_wave_at_the_force_rho_c_v_A) {
   const Outcome outcome = run(bar_on_wall(model::Basis::modal));
   const double touch = kGap / kSpeed;
@@ -132,3 +130,6 @@ TEST(TwoBars, full_basis_and_all_modes_give_the_same_impact) {
     EXPECT_NEAR(modal.force[i], full.force[i], kNewtonTolerance * kForce);
   EXPECT_GT(full.summary.pair[0].peak_force, 0.5 * kForce);
 }
+
+}  // namespace
+}  // namespace elastogear::impact_test

@@ -11,8 +11,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::inertia_levels_test {
+using namespace dynamics;
 using body::InertiaLevel;
 using Eigen::Vector3d;
 using test::message_of;
@@ -100,8 +100,6 @@ double largest(const Way& a) {
   return largest;
 }
 
-}  // namespace
-
 TEST(InertiaLevels, default_follows_level_full_in_a_bar_under_pressure) {
   const Way right = way(pressed_bar(InertiaLevel::full), 1, 1e-5, 5e-3),
             found = way(pressed_bar(Environment{}.inertia), 1, 1e-5, 5e-3);
@@ -141,3 +139,6 @@ TEST(InertiaLevels, default_follows_level_full_in_a_beam_of_rubber_whatever_the_
     EXPECT_LT(found.balance, 1e-4 * found.energy) << n_modes;
   }
 }
+
+}  // namespace
+}  // namespace elastogear::inertia_levels_test

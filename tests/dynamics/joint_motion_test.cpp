@@ -8,8 +8,8 @@
 #include "elastogear/body/rigid.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::joint_motion_test {
+using namespace dynamics;
 using body::JointType;
 using Eigen::Vector3d;
 
@@ -42,8 +42,6 @@ model::Snapshot run(BodySetup setup, double dt, double end, const Vector3d& grav
 void expect_near(double found, double exact, double relative) {
   EXPECT_NEAR(found, exact, relative * std::abs(exact));
 }
-
-}  // namespace
 
 TEST(Prismatic, slides_by_F_t3_over_6_m_T_under_a_ramp) {
   const model::Snapshot x = run(sliding({.load = ramp_signal(6, 2)}), 1e-3, 2);
@@ -152,3 +150,6 @@ TEST(System, refuses_bodies_without_inertia_against_a_motion) {
 TEST(Simulate, refuses_tables_that_end_before_the_run) {
   EXPECT_THROW(run(sliding({.load = table_signal({0, 1}, {0, 1})}), 0.1, 2), Error);
 }
+
+}  // namespace
+}  // namespace elastogear::joint_motion_test

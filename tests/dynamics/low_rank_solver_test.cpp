@@ -9,8 +9,8 @@
 #include "elastogear/dynamics/low_rank_solver.h"
 #include "petsc_option.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::low_rank_solver_test {
+using namespace dynamics;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -84,8 +84,6 @@ void expect_equal_to_dense(const Bodies& bodies, const LowRankSolver& solver) {
 
 class Solver : public testing::TestWithParam<model::Basis> {};
 
-}  // namespace
-
 TEST_P(Solver, equals_a_dense_solve) {
   const Bodies pair = bodies(GetParam());
   LowRankSolver solver(pointers(pair));
@@ -143,3 +141,6 @@ TEST(SolverOfPetsc, is_exact_when_it_factorises_or_divides) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bases, Solver, testing::Values(model::Basis::modal, model::Basis::full));
+
+}  // namespace
+}  // namespace elastogear::low_rank_solver_test

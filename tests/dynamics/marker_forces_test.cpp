@@ -12,8 +12,8 @@
 #include "elastogear/dynamics/system.h"
 #include "markers.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::marker_forces_test {
+using namespace dynamics;
 using body::JointType;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -131,8 +131,6 @@ VectorXd difference(System& system, const Values& s, const VectorXd& x, const bo
 
 class Tangent : public testing::TestWithParam<Options> {};
 
-}  // namespace
-
 TEST_P(Tangent, of_all_forces_at_markers_is_the_derivative_of_the_residual) {
   System system = two_boxes(GetParam(), all_kinds());
   const body::Shifts shift{3, 20};
@@ -204,3 +202,6 @@ TEST(MarkerForces, refuse_torques_on_a_marker_without_rotation) {
   EXPECT_THROW(System(bodies, {}, {}, {.loads = {{"l", line, {1, 0, 0}, {0, 0, 0}, true}}}), Error);
   EXPECT_THROW(System(bodies, {}, {}, {.bushings = {bushing({}, line, false)}}), Error);
 }
+
+}  // namespace
+}  // namespace elastogear::marker_forces_test

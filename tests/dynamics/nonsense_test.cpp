@@ -10,8 +10,8 @@
 #include "elastogear/dynamics/static.h"
 #include "petsc_option.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::nonsense_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 using test::message_of;
 
@@ -56,8 +56,6 @@ System pushed_between_steps() {
       {{.name = "mass", .body = mass, .joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}}}}, {},
       {}, markers);
 }
-
-}  // namespace
 
 TEST(Nonsense, of_strains_ends_a_run_of_a_body_without_surface_with_its_last_sane_state) {
   System system = stretched(2e4);  // to a mean stretch of 1 at rest, of 2 in the swing
@@ -144,3 +142,6 @@ TEST(StepLimit, that_is_just_enough_completes_the_run) {
   System system = stretched(1);
   EXPECT_TRUE(simulate(system, {.dt = 1e-3, .end_time = 0.01}, {}).complete);
 }
+
+}  // namespace
+}  // namespace elastogear::nonsense_test

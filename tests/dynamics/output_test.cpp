@@ -8,8 +8,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::output_test {
+using namespace dynamics;
 
 namespace {
 
@@ -58,8 +58,6 @@ double largest_error(double dt) {
     error = std::max(error, std::abs(s.bodies[0].s[0] - pendulum.angle(s.time)));
   return error;
 }
-
-}  // namespace
 
 TEST(Output, comes_at_the_given_times_and_at_the_end) {
   const auto seen = snapshots(Pendulum().system(), {.dt = 0.01, .end_time = 1, .output_dt = 0.03});
@@ -137,3 +135,6 @@ TEST(Monitor, tells_of_every_step) {
   EXPECT_EQ(told[3].dt, 0.01);
   EXPECT_GE(told[10].newton_iterations, 10);
 }
+
+}  // namespace
+}  // namespace elastogear::output_test

@@ -5,13 +5,13 @@
 #include "box_body.h"
 #include "contact_bodies.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::patch_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 
 namespace {
 
-constexpr model::Material kSteel{2e11, 0.3, 8000};
+const model::Material kSteel{2e11, 0.3, 8000};
 constexpr double kPressed = 1e-4;  // m, the far end of the upper block
 
 // Of size 1 m, from x = x_held to the contact at x = 0; it may widen.
@@ -60,8 +60,6 @@ PatchErrors patch_errors(const Patch& patch) {
   return error;
 }
 
-}  // namespace
-
 TEST(PatchTest, is_passed_where_every_master_node_meets_a_slave_node) {
   constexpr double kNewton = 1e-8;
   for (const Patch& patch : {Patch{4, 4, false}, {4, 4, true}, {4, 8, false}}) {
@@ -90,3 +88,6 @@ TEST(PatchTest, is_missed_elsewhere_by_the_stated_errors) {
     EXPECT_NEAR(error.displacement, stated.error.displacement, kLastDigit);
   }
 }
+
+}  // namespace
+}  // namespace elastogear::patch_test

@@ -7,8 +7,8 @@
 #include "elastogear/dynamics/simulate.h"
 #include "elastogear/dynamics/static.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::residual_contact_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 
 namespace {
@@ -46,7 +46,7 @@ System blocks(Kind kind, double force, double speed, double stiffness,
   pair.settings.two_pass = true;
   pair.settings.friction = friction;
   if (force != 0) scale_by_load_factor(setups[0], std::numeric_limits<double>::infinity());
-  return System(std::move(setups), {pair});
+  return System(setups, {pair});
 }
 
 model::Snapshot equilibrium(System system) {
@@ -69,8 +69,6 @@ double peak_force(const std::vector<model::Snapshot>& history) {
   for (const model::Snapshot& s : history) peak = std::max(peak, s.pairs[0].force.norm());
   return peak;
 }
-
-}  // namespace
 
 TEST(ResidualContact, equilibrium_is_that_of_the_full_basis) {
   const model::Snapshot modal = equilibrium(Kind::modal), flexible = equilibrium(Kind::flexible),
@@ -169,3 +167,6 @@ TEST(ResidualContact, a_dashpot_that_jumps_at_touch_is_refused) {
                       {pair}),
                Error);
 }
+
+}  // namespace
+}  // namespace elastogear::residual_contact_test

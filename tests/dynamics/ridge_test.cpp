@@ -5,8 +5,8 @@
 #include "contact_bodies.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::ridge_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 
 namespace {
@@ -42,8 +42,6 @@ System dragging() {
   return System({punch, plate}, {pair});
 }
 
-}  // namespace
-
 // Where the path has a kink the punch must change its velocity by at most twice the steepest slope times the
 // speed, which costs its spring that times sqrt(m c).
 TEST(RoughPlate, gives_no_force_spike_beyond_the_kinks_of_the_path) {
@@ -62,3 +60,6 @@ TEST(RoughPlate, gives_no_force_spike_beyond_the_kinks_of_the_path) {
   EXPECT_EQ(summary.rejected_steps, 0) << "contacts flutter";
   EXPECT_LT(summary.newton_iterations, summary.steps) << "found: 0.57 a step";
 }
+
+}  // namespace
+}  // namespace elastogear::ridge_test

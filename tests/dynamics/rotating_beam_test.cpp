@@ -16,8 +16,8 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::rotating_beam_test {
+using namespace dynamics;
 using body::InertiaLevel;
 using Eigen::VectorXd;
 
@@ -275,8 +275,6 @@ Swing swing(const std::shared_ptr<const model::ElasticBody>& beam, InertiaLevel 
   return result;
 }
 
-}  // namespace
-
 constexpr double kDt = 0.01;  // s
 
 TEST_F(SpinUp, bends_and_stretches_as_beam_theory_says_at_level_linear) {
@@ -353,3 +351,6 @@ TEST_P(Pendulum, swings_as_lagranges_equations_of_the_beam_say) {
   EXPECT_LT(arc, 0.01 * largest(expected.lag));
   EXPECT_GT(largest(expected.lag), 2e-3);
 }
+
+}  // namespace
+}  // namespace elastogear::rotating_beam_test

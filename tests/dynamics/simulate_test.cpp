@@ -7,8 +7,8 @@
 #include "elastogear/dynamics/simulate.h"
 #include "petsc_option.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::simulate_test {
+using namespace dynamics;
 using test::message_of;
 
 namespace {
@@ -38,8 +38,6 @@ std::vector<double> times(System system, const TimeSettings& settings) {
   simulate(system, settings, [&](const model::Snapshot& snapshot) { times.push_back(snapshot.time); });
   return times;
 }
-
-}  // namespace
 
 TEST(Simulate, observes_every_nth_step_and_the_last) {
   const std::vector<double> seen = times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1, .output_every = 3});
@@ -110,3 +108,6 @@ TEST(Simulate, repeats_itself_bit_for_bit) {
   };
   EXPECT_EQ(end(), end());
 }
+
+}  // namespace
+}  // namespace elastogear::simulate_test

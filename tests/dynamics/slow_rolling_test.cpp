@@ -12,8 +12,8 @@
 #include "contact_bodies.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::slow_rolling_test {
+using namespace dynamics;
 using contact::test::WormDrive;
 using Eigen::VectorXd;
 
@@ -97,8 +97,6 @@ double median(VectorXd x) {
 
 double ripple(const VectorXd& x) { return (x.maxCoeff() - x.minCoeff()) / x.mean(); }
 
-}  // namespace
-
 TEST(SlowRolling, follows_its_equilibria_and_its_ripple_falls_with_face_size_and_smoothed_normals) {
   constexpr double kMedian = 0.01, kTransients = 2;  // found: 0.003 to 0.007; 1.2 to 1.4, where ends meet
   constexpr double kRate = 0.4, kSmoothing = 0.7;    // found: 0.17 and 0.27; 0.35 and 0.55
@@ -119,3 +117,6 @@ TEST(SlowRolling, follows_its_equilibria_and_its_ripple_falls_with_face_size_and
     EXPECT_LT(last[1], kSmoothing * last[0]);
   }
 }
+
+}  // namespace
+}  // namespace elastogear::slow_rolling_test

@@ -13,8 +13,8 @@
 #include "elastogear/base/rotation.h"
 #include "petsc_option.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::static_test {
+using namespace dynamics;
 using Eigen::Vector3d;
 using test::message_of;
 
@@ -46,10 +46,11 @@ PairSetup contact_with(double stiffness) {
   return pair;
 }
 
-System scaled(std::vector<BodySetup> setups, std::vector<PairSetup> pairs, Environment environment = {}) {
+System scaled(std::vector<BodySetup> setups, const std::vector<PairSetup>& pairs,
+              Environment environment = {}) {
   for (BodySetup& setup : setups) scale_by_load_factor(setup, kEnd);
   scale_by_load_factor(environment);
-  return System(std::move(setups), std::move(pairs), environment);
+  return System(setups, pairs, environment);
 }
 
 std::vector<model::Snapshot> equilibria(System system, int steps = 4) {
@@ -57,8 +58,6 @@ std::vector<model::Snapshot> equilibria(System system, int steps = 4) {
   solve_static(system, {steps}, [&](const model::Snapshot& snapshot) { found.push_back(snapshot); });
   return found;
 }
-
-}  // namespace
 
 // Three springs in series: two blocks E A / l and the penalty over the area.
 TEST(Static, pressed_blocks_move_by_the_compliances_in_series) {
@@ -116,7 +115,7 @@ TEST(Static, prescribed_motion_presses_as_far_as_it_goes) {
   std::vector<BodySetup> setups = press(0, 0);
   setups[0].translation = {.drive = speed_drive(0, 0.002)};
   for (BodySetup& setup : setups) scale_by_load_factor(setup, 5);
-  const auto found = equilibria(System(std::move(setups), {contact_with(4e4)}));
+  const auto found = equilibria(System(setups, {contact_with(4e4)}));
   const double force = 0.01 / (2 / 1e4 + 1 / 4e4);
   EXPECT_NEAR(found.back().bodies[0].s[0], 0.01, 1e-15);
   EXPECT_NEAR(found.back().pairs[0].force.x(), force, kNewton * force);
@@ -208,3 +207,6 @@ TEST(Relax, says_when_the_time_was_too_short) {
   EXPECT_FALSE(summary.at_rest);
   EXPECT_TRUE(summary.complete);
 }
+
+}  // namespace
+}  // namespace elastogear::static_test

@@ -9,8 +9,8 @@
 #include "elastogear/base/rotation.h"
 #include "elastogear/dynamics/system.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::system_test {
+using namespace dynamics;
 using body::InertiaLevel;
 using body::JointType;
 using Eigen::MatrixXd;
@@ -123,8 +123,6 @@ class Jacobian : public testing::TestWithParam<Options> {};
 BodySetup named(const std::string& name) {
   return {.name = name, .body = test::make_damped_box({0, 0, 0}, {1, 1, 1}, model::Basis::modal, 3)};
 }
-
-}  // namespace
 
 TEST_P(Jacobian, is_the_derivative_of_the_residual) {
   System system = two_boxes(GetParam());
@@ -285,3 +283,6 @@ TEST(System, refuses_what_cannot_be_simulated) {
   setup.q_dot0 = VectorXd::Zero(2);  // n_q = 3
   EXPECT_THROW(System({setup}, {}), Error);
 }
+
+}  // namespace
+}  // namespace elastogear::system_test

@@ -11,15 +11,15 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::triangle_contact_test {
+using namespace dynamics;
 using mesh::CellType;
 
 namespace {
 
 constexpr double kForce = 1000;    // N
 constexpr double kSettled = 1e-3;  // relative: what is left of the approach
-constexpr model::Material kRubber{1e6, 0.3, 1000};
+const model::Material kRubber{1e6, 0.3, 1000};
 
 std::shared_ptr<const model::ElasticBody> block(const mesh::Mesh& mesh, const std::string& held,
                                                 const std::string& surface) {
@@ -76,8 +76,6 @@ System press(const Pair& cells) {
 
 class Press : public testing::TestWithParam<Pair> {};
 
-}  // namespace
-
 TEST_P(Press, transmits_its_force_through_the_contact) {
   System system = press(GetParam());
   model::Snapshot last;
@@ -98,3 +96,6 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) {
       return std::string(mesh::name(info.param.upper)) + "_on_" + mesh::name(info.param.lower);
     });
+
+}  // namespace
+}  // namespace elastogear::triangle_contact_test

@@ -9,8 +9,8 @@
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/simulate.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::tumbling_test {
+using namespace dynamics;
 using body::InertiaLevel;
 using body::JointType;
 using Eigen::Vector3d;
@@ -203,8 +203,6 @@ Drift flight(InertiaLevel level, double dt) {
 class FlyingBox : public testing::TestWithParam<InertiaLevel> {};
 class LongFlight : public testing::TestWithParam<InertiaLevel> {};
 
-}  // namespace
-
 TEST(EulerTop, follows_jacobis_elliptic_functions_with_order_two) {
   const double coarse = euler_error(0.02), fine = euler_error(0.01);
   EXPECT_NEAR(std::log2(coarse / fine), 2, kOrder);
@@ -297,3 +295,6 @@ INSTANTIATE_TEST_SUITE_P(Levels, FlyingBox,
                          testing::Values(InertiaLevel::linear, InertiaLevel::affine, InertiaLevel::full));
 INSTANTIATE_TEST_SUITE_P(Levels, LongFlight,
                          testing::Values(InertiaLevel::linear, InertiaLevel::affine, InertiaLevel::full));
+
+}  // namespace
+}  // namespace elastogear::tumbling_test

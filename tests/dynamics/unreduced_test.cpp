@@ -18,8 +18,8 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 
-using namespace elastogear;
-using namespace elastogear::dynamics;
+namespace elastogear::unreduced_test {
+using namespace dynamics;
 using body::InertiaLevel;
 using body::JointType;
 using Eigen::MatrixXd;
@@ -231,8 +231,6 @@ Comparison compare(const CompleteBody& body, const mesh::Mesh& beam, const model
   return result;
 }
 
-}  // namespace
-
 // Deforms by kBent at a length of 2 m while it turns by 2 rad.
 TEST(FlyingBox, moves_as_its_finite_elements_do_in_absolute_coordinates) {
   const model::ElasticBody full = soft_box();
@@ -291,3 +289,6 @@ TEST(FullBasis, moves_as_the_complete_set_of_modes) {
   const double kRoundoff = 1e-9;  // over 50 steps; modes of a dense eigensolver
   EXPECT_LT((tip(model::Basis::full) - tip(model::Basis::modal)).norm(), kRoundoff);
 }
+
+}  // namespace
+}  // namespace elastogear::unreduced_test

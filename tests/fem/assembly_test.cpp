@@ -6,9 +6,8 @@
 
 #include "system.h"
 
+namespace elastogear::assembly_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-12;
 
@@ -96,3 +95,4 @@ TEST(VectorGather, returns_the_mesh_order_with_zeros_where_restrained) {
 }
 
 }  // namespace
+}  // namespace elastogear::assembly_test

@@ -5,9 +5,8 @@
 #include "brick.h"
 #include "elastogear/fem/material.h"
 
+namespace elastogear::balance_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-13;
 
@@ -31,3 +30,4 @@ TEST(Imbalance, of_constant_strain_is_roundoff_and_of_one_moved_node_is_not) {
 }
 
 }  // namespace
+}  // namespace elastogear::balance_test

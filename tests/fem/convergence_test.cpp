@@ -9,9 +9,9 @@
 #include "other_cells.h"
 #include "system.h"
 
+namespace elastogear::convergence_test {
 namespace {
 
-using namespace elastogear;
 using mesh::CellType;
 using mesh::Mesh;
 
@@ -63,7 +63,9 @@ INSTANTIATE_TEST_SUITE_P(Elements, Convergence,
                                          Case{CellType::tet10, 3}, Case{CellType::wedge15, 3}));
 
 TEST_P(Convergence, has_the_order_of_the_shape_functions_plus_one) {
-  const auto [type, order, element] = GetParam();
+  const CellType type = GetParam().type;
+  const int order = GetParam().order;
+  const model::Element element = GetParam().element;
   const auto at = [&](int n) {
     return error(test::cells_of(type, test::brick({n, n, n}, {1, 1, 1})), element);
   };
@@ -74,3 +76,4 @@ TEST_P(Convergence, has_the_order_of_the_shape_functions_plus_one) {
 }
 
 }  // namespace
+}  // namespace elastogear::convergence_test

@@ -8,9 +8,9 @@
 #include "elastogear/fem/inertia.h"
 #include "other_cells.h"
 
+namespace elastogear::elements_test {
 namespace {
 
-using namespace elastogear;
 using mesh::CellType;
 using mesh::Mesh;
 using model::Element;
@@ -240,3 +240,4 @@ TEST(Bbar, resists_a_dilatation_without_mean_only_by_its_shape_change) {
 }
 
 }  // namespace
+}  // namespace elastogear::elements_test

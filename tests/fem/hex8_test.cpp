@@ -9,9 +9,9 @@
 #include "elastogear/base/rotation.h"
 #include "elastogear/fem/element.h"
 
+namespace elastogear::hex8_test {
 namespace {
 
-using namespace elastogear;
 using fem::hex8::Coordinates;
 using model::Element;
 
@@ -123,3 +123,4 @@ TEST(Jacobian, of_an_inverted_cell_is_an_error_naming_cell_and_value) {
 }
 
 }  // namespace
+}  // namespace elastogear::hex8_test

@@ -9,9 +9,9 @@
 #include "elastogear/fem/restraint.h"
 #include "enclosed_inertia.h"
 
+namespace elastogear::mesh_rules_test {
 namespace {
 
-using namespace elastogear;
 using test::message_of;
 
 constexpr double kRoundoff = 1e-12;
@@ -200,3 +200,4 @@ TEST(Inertia, of_a_curved_body_equals_the_geometry_enclosed_by_its_faces) {
 }
 
 }  // namespace
+}  // namespace elastogear::mesh_rules_test

@@ -89,7 +89,8 @@ inline mesh::Mesh second_order(const mesh::Mesh& linear) {
   for (std::size_t i = 0; i < X.size(); ++i)
     result.X.col(linear.n_nodes() + static_cast<Eigen::Index>(i)) = X[i];
   result.node_sets = linear.node_sets;
-  for (auto& [name, nodes] : result.node_sets) {
+  for (auto& set : result.node_sets) {
+    auto& nodes = set.second;
     const auto has = [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
     std::vector<int> added;
     for (const auto& [corners, node] : midside)

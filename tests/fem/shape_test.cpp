@@ -8,9 +8,9 @@
 #include "fem/elements/quadrature.h"
 #include "other_cells.h"
 
+namespace elastogear::shape_test {
 namespace {
 
-using namespace elastogear;
 using fem::Rule;
 using mesh::CellType;
 
@@ -97,3 +97,4 @@ TEST(Quadrature, with_an_unknown_number_of_points_is_an_error) {
 }
 
 }  // namespace
+}  // namespace elastogear::shape_test

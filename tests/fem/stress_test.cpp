@@ -5,9 +5,9 @@
 #include "brick.h"
 #include "elastogear/base/error.h"
 
+namespace elastogear::stress_test {
 namespace {
 
-using namespace elastogear;
 using model::Element;
 
 constexpr double kRoundoff = 1e-12;
@@ -71,3 +71,4 @@ TEST(StressOperator, at_a_node_of_no_cell_is_an_error) {
 }
 
 }  // namespace
+}  // namespace elastogear::stress_test

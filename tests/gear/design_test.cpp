@@ -11,7 +11,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/gear/size.h"
 
-namespace elastogear::gear {
+namespace elastogear::gear::design_test {
 namespace {
 
 constexpr double kRoundoff = 1e-12;
@@ -143,4 +143,4 @@ TEST(Size, refuses_unknown_names_with_the_known_ones) {
 }
 
 }  // namespace
-}  // namespace elastogear::gear
+}  // namespace elastogear::gear::design_test

@@ -6,7 +6,7 @@
 #include "elastogear/gear/worm.h"
 #include "mesh_checks.h"
 
-namespace elastogear::gear {
+namespace elastogear::gear::gear_mesh_test {
 namespace {
 
 struct Case {
@@ -81,4 +81,4 @@ TEST(GearMeshOfOtherDesigns, is_conforming_and_well_shaped) {
 }
 
 }  // namespace
-}  // namespace elastogear::gear
+}  // namespace elastogear::gear::gear_mesh_test

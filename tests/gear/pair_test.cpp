@@ -8,7 +8,7 @@
 #include "elastogear/gear/wheel.h"
 #include "elastogear/gear/worm.h"
 
-namespace elastogear::gear {
+namespace elastogear::gear::pair_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -104,4 +104,4 @@ TEST(Pair, fillets_keep_clear_of_the_mates_tips) {
 }
 
 }  // namespace
-}  // namespace elastogear::gear
+}  // namespace elastogear::gear::pair_test

@@ -5,7 +5,7 @@
 #include "elastogear/base/error.h"
 #include "mesh_checks.h"
 
-namespace elastogear::gear {
+namespace elastogear::gear::wheel_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -133,4 +133,4 @@ TEST(WheelCounts, that_do_not_fit_are_refused) {
 }
 
 }  // namespace
-}  // namespace elastogear::gear
+}  // namespace elastogear::gear::wheel_test

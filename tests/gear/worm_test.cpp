@@ -5,7 +5,7 @@
 #include "elastogear/base/error.h"
 #include "mesh_checks.h"
 
-namespace elastogear::gear {
+namespace elastogear::gear::worm_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -139,4 +139,4 @@ TEST(WormCounts, that_do_not_fit_are_refused) {
 }
 
 }  // namespace
-}  // namespace elastogear::gear
+}  // namespace elastogear::gear::worm_test

@@ -7,8 +7,8 @@
 #include "elastogear/base/file.h"
 #include "sample_body.h"
 
-using namespace elastogear;
-using namespace elastogear::io;
+namespace elastogear::body_file_test {
+using namespace io;
 using testing::HasSubstr;
 
 namespace {
@@ -336,3 +336,4 @@ TEST_F(BodyFile, with_damaged_numbers_is_an_error) {
 }
 
 }  // namespace
+}  // namespace elastogear::body_file_test

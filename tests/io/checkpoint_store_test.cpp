@@ -6,8 +6,8 @@
 #include "elastogear/base/file.h"
 #include "sample_body.h"
 
-using namespace elastogear;
-using namespace elastogear::io;
+namespace elastogear::checkpoint_store_test {
+using namespace io;
 
 namespace {
 
@@ -90,3 +90,4 @@ TEST_F(Pieces, in_a_folder_that_cannot_be_made_are_an_error) {
 }
 
 }  // namespace
+}  // namespace elastogear::checkpoint_store_test

@@ -13,8 +13,8 @@
 #include "sample_body.h"
 #include "sample_result.h"
 
-using namespace elastogear;
-using namespace elastogear::io;
+namespace elastogear::damage_test {
+using namespace io;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -310,3 +310,4 @@ TEST_F(Damage, of_times_that_a_checksum_misses_is_found) {
 }
 
 }  // namespace
+}  // namespace elastogear::damage_test

@@ -11,8 +11,8 @@
 #include "sample_body.h"
 #include "sample_result.h"
 
-using namespace elastogear;
-using namespace elastogear::io;
+namespace elastogear::describe_test {
+using namespace io;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -158,3 +158,4 @@ TEST_F(Describe, stress_files_refuse_shapes_that_disagree) {
 }
 
 }  // namespace
+}  // namespace elastogear::describe_test

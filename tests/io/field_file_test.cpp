@@ -10,8 +10,8 @@
 #include "elastogear/io/csv.h"
 #include "elastogear/io/field_file.h"
 
-using namespace elastogear;
-using namespace elastogear::io;
+namespace elastogear::field_file_test {
+using namespace io;
 using testing::HasSubstr;
 
 namespace {
@@ -26,7 +26,7 @@ template <class T>
 std::vector<T> appended(const std::string& file, const std::string& name) {
   const std::size_t entry = file.find(name), start = file.find("offset=\"", entry) + 8;
   const char* data =
-      file.data() + file.find("_", file.find("encoding=\"raw\"")) + 1 + std::stoul(file.substr(start));
+      file.data() + file.find('_', file.find("encoding=\"raw\"")) + 1 + std::stoul(file.substr(start));
   std::uint64_t size = 0;
   std::memcpy(&size, data, sizeof size);
   std::vector<T> values(size / sizeof(T));
@@ -89,3 +89,4 @@ TEST_F(FieldFile, table_refuses_ragged_columns_and_names_with_commas) {
 }
 
 }  // namespace
+}  // namespace elastogear::field_file_test

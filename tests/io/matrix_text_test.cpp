@@ -7,9 +7,10 @@
 
 #include "elastogear/base/error.h"
 
+namespace elastogear::matrix_text_test {
 namespace {
 
-using namespace elastogear::io;
+using namespace io;
 using testing::HasSubstr;
 
 std::vector<MatrixEntry> read(const std::string& text, MatrixFormat format = MatrixFormat::automatic,
@@ -118,3 +119,4 @@ TEST(DofTable, refuses_what_is_no_displacement) {
 }
 
 }  // namespace
+}  // namespace elastogear::matrix_text_test

@@ -12,8 +12,8 @@
 #include "elastogear/io/describe.h"
 #include "sample_result.h"
 
-using namespace elastogear;
-using namespace elastogear::io;
+namespace elastogear::older_result_test {
+using namespace io;
 using Eigen::Vector3d;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -135,3 +135,4 @@ TEST_F(OlderResult, that_was_left_unfinished_cannot_go_on) {
 }
 
 }  // namespace
+}  // namespace elastogear::older_result_test

@@ -8,8 +8,8 @@
 #include "elastogear/base/file.h"
 #include "sample_result.h"
 
-using namespace elastogear;
-using namespace elastogear::io;
+namespace elastogear::result_file_test {
+using namespace io;
 using testing::HasSubstr;
 
 namespace {
@@ -305,3 +305,4 @@ TEST_F(ResultFile, is_an_error_when_truncated_anywhere) {
 }
 
 }  // namespace
+}  // namespace elastogear::result_file_test

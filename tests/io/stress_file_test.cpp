@@ -7,7 +7,7 @@
 #include "elastogear/io/csv.h"
 #include "sample_body.h"
 
-namespace elastogear::io {
+namespace elastogear::io::stress_file_test {
 namespace {
 
 struct StressFileTest : testing::Test {
@@ -52,4 +52,4 @@ TEST_F(StressFileTest, a_table_may_name_its_rows) {
 }
 
 }  // namespace
-}  // namespace elastogear::io
+}  // namespace elastogear::io::stress_file_test

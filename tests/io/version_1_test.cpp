@@ -8,13 +8,14 @@
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 
-using namespace elastogear::io;
+namespace elastogear::version_1_test {
+using namespace io;
 using testing::AllOf;
 using testing::HasSubstr;
 
 namespace {
 
-const std::string folder = VERSION_1 "/";
+const std::string folder = IO_TESTS "/version_1/";
 
 TEST(Version1, of_a_body_is_read) {
   const auto body = read_body(folder + "body.h5");
@@ -40,3 +41,4 @@ TEST(Version1, of_a_stress_file_is_read) {
 }
 
 }  // namespace
+}  // namespace elastogear::version_1_test

@@ -7,9 +7,9 @@
 #include "elastogear/base/error.h"
 #include "elastogear/mesh/partition.h"
 
+namespace elastogear::cell_type_test {
 namespace {
 
-using namespace elastogear;
 using mesh::CellType;
 using mesh::Face;
 using mesh::Mesh;
@@ -103,3 +103,4 @@ TEST(SideFaces, of_an_impossible_side_are_an_error) {
 }
 
 }  // namespace
+}  // namespace elastogear::cell_type_test

@@ -3,8 +3,8 @@
 #include "mesh/inp/inp_variant.h"
 #include "reader_test.h"
 
-using namespace elastogear;
-using namespace elastogear::mesh;
+namespace elastogear::inp_cards_test {
+using namespace mesh;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -333,3 +333,4 @@ TEST(MemberBudget, ends_files_that_would_need_far_more_memory_than_they_have_byt
 }
 
 }  // namespace
+}  // namespace elastogear::inp_cards_test

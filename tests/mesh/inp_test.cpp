@@ -1,8 +1,8 @@
 #include "mesh/inp/inp.h"
 #include "reader_test.h"
 
-using namespace elastogear;
-using namespace elastogear::mesh;
+namespace elastogear::inp_test {
+using namespace mesh;
 using testing::HasSubstr;
 
 namespace {
@@ -151,3 +151,4 @@ TEST_F(Inp, refuses_names_that_the_format_confuses) {
 }
 
 }  // namespace
+}  // namespace elastogear::inp_test

@@ -9,8 +9,8 @@
 #include "mesh/inp/inp.h"
 #include "mesh/msh/msh.h"
 
-using namespace elastogear;
-using namespace elastogear::mesh;
+namespace elastogear::mesh_file_test {
+using namespace mesh;
 
 namespace {
 
@@ -123,3 +123,4 @@ TEST(MeshFiles, name_what_is_wrong_with_the_path) {
 }
 
 }  // namespace
+}  // namespace elastogear::mesh_file_test

@@ -4,8 +4,8 @@
 #include "mesh/msh/msh_format.h"
 #include "reader_test.h"
 
-using namespace elastogear;
-using namespace elastogear::mesh;
+namespace elastogear::msh_test {
+using namespace mesh;
 using testing::HasSubstr;
 
 namespace {
@@ -205,3 +205,4 @@ TEST_F(Msh, names_line_and_value_of_hostile_input) {
 }
 
 }  // namespace
+}  // namespace elastogear::msh_test

@@ -6,9 +6,9 @@
 #include "../fem/brick.h"
 #include "../message_of.h"
 
+namespace elastogear::named_nodes_test {
 namespace {
 
-using namespace elastogear;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -40,3 +40,4 @@ TEST(NamedNodes, of_an_unknown_name_are_an_error_that_lists_the_sets) {
 }
 
 }  // namespace
+}  // namespace elastogear::named_nodes_test

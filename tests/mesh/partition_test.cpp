@@ -6,8 +6,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/mesh/partition.h"
 
-using namespace elastogear;
-using namespace elastogear::mesh;
+namespace elastogear::partition_test {
+using namespace mesh;
 
 namespace {
 
@@ -60,3 +60,4 @@ TEST(Partition, refuses_more_parts_than_cells) {
 }
 
 }  // namespace
+}  // namespace elastogear::partition_test

@@ -8,7 +8,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 
-namespace elastogear::mesh {
+namespace elastogear::mesh::quality_test {
 namespace {
 
 constexpr double kRoundoff = 1e-13;
@@ -158,4 +158,4 @@ TEST(FirstInvertedCell, counts_a_cell_without_finite_jacobian_as_inverted) {
 }
 
 }  // namespace
-}  // namespace elastogear::mesh
+}  // namespace elastogear::mesh::quality_test

@@ -8,9 +8,8 @@
 #include "elastogear/gear/wheel.h"
 #include "elastogear/gear/worm.h"
 
+namespace elastogear::repetition_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kSamePlace = 1e-12;  // m: roundoff of a turned position
 
@@ -162,3 +161,4 @@ TEST(Repetition, of_a_worm_is_its_threads) {
 }
 
 }  // namespace
+}  // namespace elastogear::repetition_test

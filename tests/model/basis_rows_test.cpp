@@ -2,14 +2,13 @@
 
 #include "elastogear/model/elastic_body.h"
 
-using namespace elastogear::model;
+namespace elastogear::basis_rows_test {
+using namespace model;
 
 namespace {
 
 constexpr double kRoundoff = 1e-15;
 constexpr int kNodes = 3;
-
-}  // namespace
 
 TEST(BasisRows, displacement_of_a_node_is_its_part_of_the_whole_product) {
   for (Eigen::Index n_q = 0; n_q < 11; ++n_q) {
@@ -24,3 +23,6 @@ TEST(BasisRows, displacement_of_a_node_is_its_part_of_the_whole_product) {
             << n_q << " coordinates, node " << node;
   }
 }
+
+}  // namespace
+}  // namespace elastogear::basis_rows_test

@@ -7,7 +7,7 @@
 
 #include "elastogear/base/error.h"
 
-namespace elastogear::recovery {
+namespace elastogear::recovery::deviation_test {
 namespace {
 
 constexpr double kRoundoff = 1e-14;
@@ -93,4 +93,4 @@ TEST(MatchPositions, finds_the_nearest_within_the_tolerance) {
 }
 
 }  // namespace
-}  // namespace elastogear::recovery
+}  // namespace elastogear::recovery::deviation_test

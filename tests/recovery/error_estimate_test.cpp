@@ -6,7 +6,7 @@
 
 #include "elastogear/recovery/stress.h"
 
-namespace elastogear::recovery {
+namespace elastogear::recovery::error_estimate_test {
 namespace {
 
 constexpr double kRoundoff = 1e-12;
@@ -73,4 +73,4 @@ TEST(ReductionError, does_not_depend_on_the_times_of_output) {
 }
 
 }  // namespace
-}  // namespace elastogear::recovery
+}  // namespace elastogear::recovery::error_estimate_test

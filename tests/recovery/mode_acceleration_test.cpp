@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace elastogear::recovery {
+namespace elastogear::recovery::mode_acceleration_test {
 namespace {
 
 constexpr double kRoundoff = 1e-14;
@@ -22,4 +22,4 @@ TEST(DynamicPart, of_a_static_answer_is_zero) {
 }
 
 }  // namespace
-}  // namespace elastogear::recovery
+}  // namespace elastogear::recovery::mode_acceleration_test

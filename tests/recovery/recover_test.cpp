@@ -18,7 +18,7 @@
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 
-namespace elastogear::recovery {
+namespace elastogear::recovery::recover_test {
 namespace {
 
 constexpr double kRoundoff = 1e-9;         // of factorisations, relative
@@ -144,4 +144,4 @@ TEST_F(Recover, refuses_the_body_of_another_run_and_sets_that_are_not_there) {
 }
 
 }  // namespace
-}  // namespace elastogear::recovery
+}  // namespace elastogear::recovery::recover_test

@@ -6,7 +6,7 @@
 
 #include "elastogear/base/rotation.h"
 
-namespace elastogear::recovery {
+namespace elastogear::recovery::stress_test {
 namespace {
 
 constexpr double kRoundoff = 1e-14;
@@ -53,4 +53,4 @@ TEST(StressHistory, is_Psi_times_q_for_dense_and_sparse_rows) {
 }
 
 }  // namespace
-}  // namespace elastogear::recovery
+}  // namespace elastogear::recovery::stress_test

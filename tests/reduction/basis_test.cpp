@@ -9,9 +9,8 @@
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
 
+namespace elastogear::basis_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-12;
 
@@ -117,3 +116,4 @@ TEST(FullBasis, is_the_modal_one_of_unit_vectors) {
 }
 
 }  // namespace
+}  // namespace elastogear::basis_test

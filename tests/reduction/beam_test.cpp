@@ -7,9 +7,9 @@
 #include "../fem/system.h"
 #include "elastogear/reduction/eigenmodes.h"
 
+namespace elastogear::beam_test {
 namespace {
 
-using namespace elastogear;
 using model::Element;
 
 constexpr double kLength = 1, kHeight = 0.1, kWidth = 0.1;
@@ -118,3 +118,4 @@ TEST(Cantilever, of_slender_shape_has_euler_bernoulli_frequencies) {
 }
 
 }  // namespace
+}  // namespace elastogear::beam_test

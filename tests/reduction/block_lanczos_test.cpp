@@ -9,9 +9,9 @@
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/eigenmodes.h"
 
+namespace elastogear::block_lanczos_test {
 namespace {
 
-using namespace elastogear;
 using UniqueEPS = Handle<EPS, EPSDestroy>;
 
 constexpr double kEigensolver = 1e-9;    // relative, of eigenvalues
@@ -337,3 +337,4 @@ TEST(BlockLanczos, needs_a_definite_pair_and_an_own_type) {
 }
 
 }  // namespace
+}  // namespace elastogear::block_lanczos_test

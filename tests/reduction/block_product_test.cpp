@@ -4,9 +4,8 @@
 
 #include "../fem/system.h"
 
+namespace elastogear::block_product_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-14;  // relative
 
@@ -42,3 +41,4 @@ TEST(BlockProduct, is_that_of_each_column) {
 }
 
 }  // namespace
+}  // namespace elastogear::block_product_test

@@ -12,9 +12,8 @@
 #include "fem/elements/quadrature.h"
 #include "fem/elements/shape.h"
 
+namespace elastogear::calculix_test {
 namespace {
-
-using namespace elastogear;
 
 using mesh::CellType;
 
@@ -151,3 +150,4 @@ TEST(Frequencies, of_a_worm_equal_calculix) {
 }
 
 }  // namespace
+}  // namespace elastogear::calculix_test

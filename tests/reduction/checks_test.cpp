@@ -11,9 +11,8 @@
 #include "reduction/modes/effective_mass.h"
 #include "reduction/surface.h"
 
+namespace elastogear::checks_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kEigensolver = 1e-8;  // relative
 constexpr double kRoundoff = 1e-10;
@@ -155,3 +154,4 @@ TEST(SurfaceLoads, take_one_of_groups_that_differ_in_digits_only) {
 }
 
 }  // namespace
+}  // namespace elastogear::checks_test

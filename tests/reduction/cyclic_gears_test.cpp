@@ -3,10 +3,10 @@
 #include "elastogear/gear/wheel.h"
 #include "elastogear/gear/worm.h"
 
+namespace elastogear::cyclic_gears_test {
 namespace {
 
-using namespace elastogear;
-using namespace elastogear::test;
+using namespace test;
 
 TEST(Cyclic, modes_of_a_wheel_are_those_of_the_whole) {
   const Body body{gear::wheel_mesh({}, gear::wheel_counts(gear::Size::tiny)),
@@ -22,3 +22,4 @@ TEST(Cyclic, modes_of_a_worm_are_those_of_the_whole) {
 }
 
 }  // namespace
+}  // namespace elastogear::cyclic_gears_test

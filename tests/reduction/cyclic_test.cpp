@@ -4,10 +4,10 @@
 #include "elastogear/base/error.h"
 #include "reduction/modes/cutoff.h"
 
+namespace elastogear::cyclic_test {
 namespace {
 
-using namespace elastogear;
-using namespace elastogear::test;
+using namespace test;
 
 Body even_disc() { return {shuffled(disc({6, 2, 3, 2})), {"bottom"}, kSteelBody, 6}; }
 
@@ -105,3 +105,4 @@ TEST(Cutoff, takes_more_where_eigenvalues_are_equal) {
 }
 
 }  // namespace
+}  // namespace elastogear::cyclic_test

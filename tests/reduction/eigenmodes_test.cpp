@@ -7,9 +7,8 @@
 #include "../fem/system.h"
 #include "../message_of.h"
 
+namespace elastogear::eigenmodes_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kEigensolver = 1e-9;  // relative, of eigenvalues
 constexpr double kOrthogonality = 1e-9;
@@ -179,3 +178,4 @@ TEST(SignRule, makes_the_first_of_the_largest_entries_positive) {
 }
 
 }  // namespace
+}  // namespace elastogear::eigenmodes_test

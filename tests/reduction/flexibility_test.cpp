@@ -13,9 +13,8 @@
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 
+namespace elastogear::flexibility_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kSinglePrecision = 1e-6;  // of stored answers, relative to the largest
 
@@ -194,3 +193,4 @@ TEST_F(Flexibility, refuses_loads_off_the_surface_and_bases_without_modes) {
 }
 
 }  // namespace
+}  // namespace elastogear::flexibility_test

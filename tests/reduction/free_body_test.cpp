@@ -15,9 +15,9 @@
 #include "elastogear/reduction/reduce.h"
 #include "reduction/modes/effective_mass.h"
 
+namespace elastogear::free_body_test {
 namespace {
 
-using namespace elastogear;
 namespace fs = std::filesystem;
 
 constexpr double kEigensolver = 1e-9;
@@ -253,3 +253,4 @@ TEST(FreeBody, of_two_parts_is_an_error_before_any_work) {
 }
 
 }  // namespace
+}  // namespace elastogear::free_body_test

@@ -9,9 +9,8 @@
 #include "elastogear/gear/wheel.h"
 #include "elastogear/gear/worm.h"
 
+namespace elastogear::gear_body_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-11;  // of sums over thousands of cells, relative
 
@@ -62,3 +61,4 @@ INSTANTIATE_TEST_SUITE_P(WormAndWheel, GearBody, testing::Values(true, false),
                          [](const auto& test) { return test.param ? "worm" : "wheel"; });
 
 }  // namespace
+}  // namespace elastogear::gear_body_test

@@ -8,9 +8,8 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 
+namespace elastogear::held_directions_calculix_test {
 namespace {
-
-using namespace elastogear;
 
 const std::vector<std::string> kHolds = {"xmin:x", "ymin:y", "zmin:z", "xmax:yz"};
 constexpr double kSameElement = 1e-4;  // of frequencies, relative: the same shape functions and quadrature
@@ -64,3 +63,4 @@ TEST_F(InCalculix, the_static_answers_to_contact_forces_are_the_same) {
 }
 
 }  // namespace
+}  // namespace elastogear::held_directions_calculix_test

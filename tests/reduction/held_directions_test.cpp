@@ -10,9 +10,8 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 
+namespace elastogear::held_directions_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kEigensolver = 1e-8;  // of frequencies, relative
 constexpr double kRoundoff = 1e-9;
@@ -114,3 +113,4 @@ TEST_F(HeldDirections, leave_no_sectors) {
 }
 
 }  // namespace
+}  // namespace elastogear::held_directions_test

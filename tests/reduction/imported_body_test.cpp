@@ -4,10 +4,10 @@
 #include "calculix.h"
 #include "imported_files.h"
 
+namespace elastogear::imported_body_test {
 namespace {
 
-using namespace elastogear;
-using namespace elastogear::test;
+using namespace test;
 
 constexpr double kRoundoff = 1e-10;   // of text with 17 digits, through the eigensolver
 constexpr double kVector = 1e-6;      // of eigenvectors: residual over distance of eigenvalues
@@ -203,3 +203,4 @@ TEST(ImportedBody, of_calculix_has_its_frequencies) {
 }
 
 }  // namespace
+}  // namespace elastogear::imported_body_test

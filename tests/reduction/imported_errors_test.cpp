@@ -5,10 +5,10 @@
 #include "elastogear/base/error.h"
 #include "imported_files.h"
 
+namespace elastogear::imported_errors_test {
 namespace {
 
-using namespace elastogear;
-using namespace elastogear::test;
+using namespace test;
 using testing::HasSubstr;
 
 // Every rank throws the same message, which names `part`.
@@ -72,3 +72,4 @@ TEST(ImportedBody, without_restraint_is_an_error_that_offers_a_free_body) {
 }
 
 }  // namespace
+}  // namespace elastogear::imported_errors_test

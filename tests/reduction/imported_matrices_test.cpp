@@ -6,10 +6,10 @@
 #include "elastogear/base/error.h"
 #include "imported_files.h"
 
+namespace elastogear::imported_matrices_test {
 namespace {
 
-using namespace elastogear;
-using namespace elastogear::test;
+using namespace test;
 
 void expect_equal(const reduction::ImportedSystem& read, const Files& files) {
   const Eigen::MatrixXd K = fem::gather_matrix(read.matrices.K, read.dof);
@@ -116,3 +116,4 @@ TEST(ImportedMass, of_nodes_without_a_common_direction_is_refused) {
 }
 
 }  // namespace
+}  // namespace elastogear::imported_matrices_test

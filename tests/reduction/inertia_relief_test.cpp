@@ -10,9 +10,8 @@
 #include "elastogear/reduction/reduce.h"
 #include "reduction/eigensolver/factorisation.h"
 
+namespace elastogear::inertia_relief_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kSinglePrecision = 1e-6;  // of stored answers
 
@@ -174,3 +173,4 @@ TEST(FreeBar, that_is_pushed_at_one_end_gives_way_without_moving_as_a_whole) {
 }
 
 }  // namespace
+}  // namespace elastogear::inertia_relief_test

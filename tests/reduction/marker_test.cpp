@@ -9,9 +9,9 @@
 #include "elastogear/fem/restraint.h"
 #include "reduction/basis.h"
 
+namespace elastogear::marker_test {
 namespace {
 
-using namespace elastogear;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -119,3 +119,4 @@ TEST(Marker, has_the_same_rows_in_the_full_basis_as_in_unit_modes) {
 }
 
 }  // namespace
+}  // namespace elastogear::marker_test

@@ -8,9 +8,9 @@
 #include "../fem/system.h"
 #include "elastogear/reduction/eigenmodes.h"
 
+namespace elastogear::plate_test {
 namespace {
 
-using namespace elastogear;
 using mesh::CellType;
 
 constexpr double kLength = 10, kThickness = 1;  // m
@@ -68,8 +68,6 @@ struct Case {
 
 class Plate : public testing::TestWithParam<Case> {};
 
-}  // namespace
-
 TEST_P(Plate, has_the_published_frequencies_of_fv52) {
   const auto& [type, n, published] = GetParam();
   const Eigen::VectorXd f = frequencies(plate(type, n), kRigid + 7);
@@ -87,3 +85,6 @@ INSTANTIATE_TEST_SUITE_P(
         Case{CellType::hex20, {4, 4, 1}, {0.9760, 1.0101, 1.0101, 1.0072, 1.0017, 1.0022, 1.0022}},
         Case{CellType::hex8, {8, 8, 3}, {0.9874, 1.0413, 1.0413, 1.0322, 1.0164, 1.0164, 1.0164}}),
     [](const auto& info) { return mesh::name(info.param.type); });
+
+}  // namespace
+}  // namespace elastogear::plate_test

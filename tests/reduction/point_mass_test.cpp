@@ -12,9 +12,8 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/reduction/reduce.h"
 
+namespace elastogear::point_mass_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-12;
 constexpr double kDenseSolver = 1e-14;  // roundoff of its eigenvalues, relative to the largest
@@ -130,3 +129,4 @@ TEST(PointMass, must_be_positive_and_on_nodes_of_the_body) {
 }
 
 }  // namespace
+}  // namespace elastogear::point_mass_test

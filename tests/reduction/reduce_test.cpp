@@ -14,9 +14,9 @@
 #include "elastogear/io/body_file.h"
 #include "full_basis.h"
 
+namespace elastogear::reduce_test {
 namespace {
 
-using namespace elastogear;
 namespace fs = std::filesystem;
 
 constexpr double kRoundoff = 1e-12;
@@ -290,3 +290,4 @@ TEST(Reduce, into_a_folder_that_does_not_exist_is_an_error) {
 }
 
 }  // namespace
+}  // namespace elastogear::reduce_test

@@ -13,9 +13,9 @@
 #include "elastogear/reduction/surface_load.h"
 #include "full_basis.h"
 
+namespace elastogear::ritz_test {
 namespace {
 
-using namespace elastogear;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using reduction::RitzKind;
@@ -272,3 +272,4 @@ TEST_F(Ritz, bases_that_cannot_be_are_refused) {
 }
 
 }  // namespace
+}  // namespace elastogear::ritz_test

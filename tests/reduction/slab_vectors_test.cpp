@@ -6,9 +6,9 @@
 
 #include "elastogear/base/petsc.h"
 
+namespace elastogear::slab_vectors_test {
 namespace {
 
-using namespace elastogear;
 using UniqueBV = Handle<BV, BVDestroy>;
 
 constexpr int kRows = 300, kColumns = 9;
@@ -118,3 +118,4 @@ TEST(Slabs, give_products_and_norms_of_vectors) {
 }
 
 }  // namespace
+}  // namespace elastogear::slab_vectors_test

@@ -11,9 +11,8 @@
 #include "reduction/eigensolver/factorisation.h"
 #include "reduction/eigensolver/ordering.h"
 
+namespace elastogear::spectrum_slicing_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kEigensolver = 1e-9;  // relative, of eigenvalues
 constexpr double kOrthogonality = 1e-8;
@@ -247,3 +246,4 @@ TEST(NestedDissection, orders_every_row_once) {
 }
 
 }  // namespace
+}  // namespace elastogear::spectrum_slicing_test

@@ -10,9 +10,8 @@
 #include "../fem/brick.h"
 #include "elastogear/reduction/reduce.h"
 
+namespace elastogear::static_response_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-10;    // of a factorisation, relative
 constexpr double kEigensolver = 1e-7;  // of mode shapes, relative
@@ -92,3 +91,4 @@ TEST_F(StaticResponse, to_a_force_on_a_restrained_node_is_nothing) {
 }
 
 }  // namespace
+}  // namespace elastogear::static_response_test

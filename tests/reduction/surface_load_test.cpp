@@ -7,9 +7,9 @@
 #include "elastogear/base/error.h"
 #include "reduction/surface.h"
 
+namespace elastogear::surface_load_test {
 namespace {
 
-using namespace elastogear;
 using Eigen::Vector3d;
 
 constexpr double kRoundoff = 1e-14;
@@ -56,3 +56,4 @@ TEST(SmoothLoads, leave_out_whole_kinds_that_find_no_room) {
 }
 
 }  // namespace
+}  // namespace elastogear::surface_load_test

@@ -7,9 +7,8 @@
 #include "../fem/other_cells.h"
 #include "elastogear/base/error.h"
 
+namespace elastogear::surface_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kRoundoff = 1e-12;
 
@@ -58,3 +57,4 @@ TEST(Surface, inside_the_body_is_an_error_and_so_is_an_unknown_set) {
 }
 
 }  // namespace
+}  // namespace elastogear::surface_test

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+namespace elastogear::tall_basis_test {
 namespace {
 
-using namespace elastogear;
-using namespace elastogear::reduction;
+using namespace reduction;
 using Eigen::MatrixXd;
 
 constexpr double kRoundoff = 1e-14;  // relative
@@ -58,3 +58,4 @@ TEST(TallBasis, of_a_rank_without_rows_gives_zeros) {
 }
 
 }  // namespace
+}  // namespace elastogear::tall_basis_test

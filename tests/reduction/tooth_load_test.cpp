@@ -11,9 +11,8 @@
 #include "elastogear/gear/worm.h"
 #include "elastogear/recovery/stress.h"
 
+namespace elastogear::tooth_load_test {
 namespace {
-
-using namespace elastogear;
 
 constexpr double kLoad = 1000;  // N
 constexpr const char* kHeld = "seats";
@@ -107,8 +106,6 @@ double largest_deviation(const mesh::Mesh& mesh, const Case& c, const std::vecto
 
 class ToothLoad : public testing::TestWithParam<Case> {};
 
-}  // namespace
-
 TEST_P(ToothLoad, stresses_the_root_as_in_calculix) {
   if (!test::calculix_is_installed()) GTEST_SKIP() << "ccx is not installed";
   const mesh::Mesh mesh = gear::worm_mesh(gear::Design{}, gear::worm_counts(gear::Size::tiny));
@@ -135,3 +132,6 @@ TEST(SkewBeam, of_incompatible_cells_is_stressed_as_in_calculix) {
   const Case incompatible{"C3D8I", model::Element::incompatible, kDigits};
   EXPECT_LT(largest_deviation(beam, incompatible, beam.node_sets.at("ymin"), forces), kDigits);
 }
+
+}  // namespace
+}  // namespace elastogear::tooth_load_test

@@ -7,11 +7,12 @@ namespace elastogear::app {
 
 /// How far a word is from another one; smaller is nearer.
 struct Misspelling {
-  int edits =
-      0;  ///< letters inserted, left out, replaced, or two neighbours swapped (optimal string alignment)
+  /// Letters inserted, left out, replaced, or two neighbours swapped (optimal string alignment).
+  int edits = 0;
   int strange = 0;  ///< letters that the two do not share
 
-  friend auto operator<=>(const Misspelling&, const Misspelling&) = default;
+  friend auto operator<=>(const Misspelling&, const Misspelling&) =
+      default;  // NOLINT(modernize-use-nullptr): a fault of clang-tidy 14
 };
 
 Misspelling misspelling(const std::string& a, const std::string& b);
