@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/console/console.h"
+#include "app/options/rows.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/fingerprint.h"
 #include "elastogear/model/fingerprint.h"
@@ -44,15 +45,19 @@ bool has_effect(const Options& options, const std::string& key) {
          !options.is_of_other_verb(key.starts_with("option_") ? key.substr(7) : key);
 }
 
+using dynamics::ResumableSettings;
+
+const Rows<ResumableSettings> kRows = {
+    {"checkpoint_every", &ResumableSettings::checkpoint_every, "s",
+     "wall-clock time between checkpoints; 0: after each step"},
+    {"resume", &ResumableSettings::resume, one_of("auto", "anyway", "discard"),
+     "an unfinished run beside the output: auto (go on if its input is the same), anyway (go on with the "
+     "present options) or discard"},
+};
+
 }  // namespace
 
-OptionTable resumable_run_table() {
-  return {
-      {"checkpoint_every", "s", "60", "wall-clock time between checkpoints; 0: after each step"},
-      {"resume", "-", "auto",
-       "an unfinished run beside the output: auto (go on if its input is the same), anyway (go on with the "
-       "present options) or discard"}};
-}
+OptionTable resumable_run_table() { return table_of(kRows); }
 
 void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance) {
@@ -69,10 +74,9 @@ void add_inputs(const Options& options, const std::map<std::string, std::string>
 
 dynamics::RunSummary keep(const Options& options, const model::ResultHeader& header,
                           const dynamics::Computation& computation) {
-  dynamics::ResumableSettings settings;
+  ResumableSettings settings;
   settings.output = options.text("output");
-  settings.checkpoint_every = options.number("checkpoint_every");
-  settings.resume = static_cast<dynamics::Resume>(options.choice("resume", {"auto", "anyway", "discard"}));
+  read_rows(options, kRows, settings);
   settings.has_effect = [&options](const std::string& key) { return has_effect(options, key); };
   settings.on_resume = [](double time, const std::string& differences) {
     if (!differences.empty()) print_item("warning", "continues a run with other input: " + differences);
