@@ -2,12 +2,34 @@
 
 #include <algorithm>
 
+#include "app/options/file_time.h"
+#include "app/options/rows.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/recovery/deviation.h"
 
 namespace elastogear::app {
 namespace {
+
+// The result file whose state bodies begin with, and the time in it.
+struct InitialState {
+  std::string file;         // empty: there is none
+  double time = kLastTime;  // s
+};
+
+const Rows<InitialState> kRows = {
+    {"initial_file", &InitialState::file, "-",
+     "result file whose joint coordinates and (dynamic analysis) rates the bodies of the same names begin "
+     "with; elastic coordinates begin with zero"},
+    {"initial_time", "s", "last", "time in that file: a number or last",
+     [](auto& o, auto& name, auto& state) { state.time = file_time(o, name); }},
+};
+
+InitialState initial_state(const Options& options) {
+  InitialState state;
+  if (options.given("initial_file")) read_rows(options, kRows, state);
+  return state;
+}
 
 // The axes of a joint in the order of its coordinates.
 std::vector<dynamics::Axis*> axes(dynamics::BodySetup& setup) {
@@ -17,28 +39,17 @@ std::vector<dynamics::Axis*> axes(dynamics::BodySetup& setup) {
   return all;
 }
 
-Eigen::VectorXd initial_time(const Options& options, const Eigen::VectorXd& time) {
-  const bool last = options.text("initial_time") == "last";
-  return Eigen::VectorXd::Constant(1, last ? time[time.size() - 1] : options.number("initial_time"));
-}
-
 }  // namespace
 
-OptionTable initial_state_table() {
-  return {
-      {"initial_file", "-", "",
-       "result file whose joint coordinates and (dynamic analysis) rates the bodies of the same names begin "
-       "with; elastic coordinates begin with zero"},
-      {"initial_time", "s", "last", "time in that file: a number or last"}};
-}
+OptionTable initial_state_table() { return table_of(kRows); }
 
 void require_state_is_used(const Options& options, const std::vector<dynamics::BodySetup>& bodies) {
-  if (!options.given("initial_file")) {
+  const std::string file = initial_state(options).file;
+  if (file.empty()) {
     require(!options.given("initial_time"),
             "option -initial_time needs -initial_file, the file of that time");
     return;
   }
-  const std::string file = options.text("initial_file");
   const auto known = io::read_result_header(file).bodies;
   const bool used = std::any_of(bodies.begin(), bodies.end(), [&](const auto& setup) {
     return setup.joint.type != body::JointType::fixed &&
@@ -49,8 +60,8 @@ void require_state_is_used(const Options& options, const std::vector<dynamics::B
 }
 
 void set_initial_state(const Options& options, dynamics::BodySetup& setup) {
-  if (!options.given("initial_file") || setup.joint.type == body::JointType::fixed) return;
-  const std::string file = options.text("initial_file");
+  const auto [file, wanted] = initial_state(options);
+  if (file.empty() || setup.joint.type == body::JointType::fixed) return;
   const auto bodies = io::read_result_header(file).bodies;
   if (std::none_of(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == setup.name; })) return;
   require(!body::has_rotation_vector(setup.joint.type), "option -initial_file: body '", setup.name,
@@ -59,7 +70,9 @@ void set_initial_state(const Options& options, dynamics::BodySetup& setup) {
   const std::vector<dynamics::Axis*> all = axes(setup);
   require(history.s.rows() == static_cast<Eigen::Index>(all.size()), file, ": body '", setup.name, "' has ",
           history.s.rows(), " joint coordinates, here it has ", all.size());
-  const Eigen::VectorXd time = io::read_times(file), at = initial_time(options, time);
+  const Eigen::VectorXd time = io::read_times(file);
+  const Eigen::VectorXd at =
+      Eigen::VectorXd::Constant(1, wanted == kLastTime ? time[time.size() - 1] : wanted);
   const bool moves = options.text("analysis") == "dynamic";
   const Eigen::VectorXd s = recovery::at_times(time, history.s, at),
                         s_dot = recovery::at_times(time, history.s_dot, at);
