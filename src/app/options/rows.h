@@ -3,6 +3,8 @@
 // the option are those of the member.
 
 #include <functional>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <type_traits>
 
@@ -18,14 +20,28 @@ enum : unsigned {
   kDependent = 4,  ///< the default depends on other options and is not in the table
 };
 
-/// The value of an option as a user would write it.
+/// An optional member is empty unless its option is given.
+template <class T>
+constexpr bool is_optional = false;
+template <class T>
+constexpr bool is_optional<std::optional<T>> = true;
+
+/// A map holds the values of all options that fit a name with a placeholder, by the word in its place.
+template <class T>
+constexpr bool is_by_word = false;
+template <class T>
+constexpr bool is_by_word<std::map<std::string, T>> = true;
+
+/// The value of an option as a user would write it; empty where there is none.
 template <class T>
 std::string default_text(const T& value) {
   std::ostringstream text;
   text.precision(10);
   if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
     text << std::boolalpha << value;
-  else
+  else if constexpr (is_optional<T>)
+    text << (value ? default_text(*value) : "");
+  else if constexpr (!is_by_word<T>)
     text << join(value, ",", [](const auto& part) { return default_text(part); });
   return text.str();
 }
@@ -33,7 +49,9 @@ std::string default_text(const T& value) {
 /// Reads an option, which is given or has a default. positive: see kPositive.
 template <class T>
 T value_of(const Options& options, const std::string& name, bool positive) {
-  if constexpr (std::is_same_v<T, bool>)
+  if constexpr (is_optional<T>)
+    return value_of<typename T::value_type>(options, name, positive);
+  else if constexpr (std::is_same_v<T, bool>)
     return options.flag(name);
   else if constexpr (std::is_same_v<T, int>)
     return options.count(name, positive);
@@ -47,6 +65,22 @@ T value_of(const Options& options, const std::string& name, bool positive) {
     return options.numbers(name);
   else
     return options.list(name);
+}
+
+/// "worm_file" of "<body>_file" and "worm".
+inline std::string with_word(std::string name, const std::string& word) {
+  const auto open = name.find('<');
+  return open == name.npos ? name : name.replace(open, name.find('>') - open + 1, word);
+}
+
+/// Reads all options that fit a pattern such as "stress_<body>", each by the word in place of its
+/// placeholder.
+template <class T>
+std::map<std::string, T> values_by_word(const Options& options, const std::string& pattern, bool positive) {
+  std::map<std::string, T> values;
+  for (const std::string& word : options.placeholder_values(pattern))
+    values[word] = value_of<T>(options, with_word(pattern, word), positive);
+  return values;
 }
 
 template <class... Words>
@@ -67,7 +101,8 @@ struct Row {
       : spec{std::move(name), std::move(unit), std::move(default_value), std::move(help)},
         read(std::move(reader)) {}
 
-  /// member: a pointer to a member, or a function from S& to a reference.
+  /// member: a pointer to a member, or a function from S& to a reference. A map from words takes all options
+  /// that fit the name with its placeholder.
   template <class Member>
   requires std::is_invocable_v<Member, S&> Row(std::string name, Member member, const char* unit,
                                                std::string help, unsigned bits = 0)
@@ -75,9 +110,14 @@ struct Row {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, S&>>;
     const bool required = bits & kRequired, positive = bits & kPositive;
     if (S s{}; !required && !(bits & kDependent)) spec.default_value = default_text(std::invoke(member, s));
-    read = [=](const Options& options, const std::string& key, S& s) {
-      if (required || options.given(key)) std::invoke(member, s) = value_of<Value>(options, key, positive);
-    };
+    if constexpr (is_by_word<Value>)
+      read = [=, pattern = spec.name](const Options& options, const std::string&, S& s) {
+        std::invoke(member, s) = values_by_word<typename Value::mapped_type>(options, pattern, positive);
+      };
+    else
+      read = [=](const Options& options, const std::string& key, S& s) {
+        if (required || options.given(key)) std::invoke(member, s) = value_of<Value>(options, key, positive);
+      };
   }
 
   /// words, see one_of: one for each value of the member, in its order: of an enumeration, an index, or false
@@ -102,12 +142,6 @@ using Rows = std::vector<Row<S>>;
 template <class Outer, class Inner>
 auto in(Outer outer, Inner inner) {
   return [=](auto& s) -> auto& { return s.*outer.*inner; };
-}
-
-/// "worm_file" of "<body>_file" and "worm".
-inline std::string with_word(std::string name, const std::string& word) {
-  const auto open = name.find('<');
-  return open == name.npos ? name : name.replace(open, name.find('>') - open + 1, word);
 }
 
 /// Sets the members whose options are given, in the order of the rows. word: stands for their placeholder.

@@ -97,7 +97,8 @@ const Rows<ReductionOptions> kRows = {
     {"damping_ratio", "-", "",
      "damping ratios of the modes besides: a number or [table, FILE.csv] (frequency in Hz, ratio)",
      [](auto& options, auto& name, auto& o) { o.ratio = damping_ratio(options, name); }},
-    {"point_mass_<set>", "kg", "", "mass spread evenly over the nodes of a node set or face set"},
+    {"point_mass_<set>", &ReductionOptions::point_mass, "kg",
+     "mass spread evenly over the nodes of a node set or face set", kPositive},
 };
 
 // The node set that restrain_nodes makes.
@@ -192,8 +193,6 @@ ReductionOptions reduction_options(const Options& options) {
   set_extent(options, o);
   o.window = window(options);
   if (o.window == 0) o.symmetry = reduction::Symmetry::none;
-  for (const std::string& set : options.placeholder_values("point_mass_<set>"))
-    o.point_mass[set] = options.positive("point_mass_" + set);
   o.announce = print_cost;
   o.provenance = options.provenance();
   return o;
