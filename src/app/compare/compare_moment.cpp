@@ -12,10 +12,9 @@ constexpr double kRoundoff = 1e-9;  // of the last time
 
 double last(const Eigen::VectorXd& time) { return time[time.size() - 1]; }
 
-// Time that an option gives as a number or as "last".
-double time_of(const Options& options, const std::string& name, const Eigen::VectorXd& time) {
-  if (options.text(name) == "last") return last(time);
-  const double t = options.number(name);
+// The time that an option of this name asks for.
+double time_of(double t, const std::string& name, const Eigen::VectorXd& time) {
+  if (t == kLastTime) return last(time);
   require(t >= time[0] && t <= last(time) * (1 + kRoundoff), "option -", name, " = ", t,
           " s: is outside of the file, ", time[0], " .. ", last(time), " s");
   return t;
@@ -23,30 +22,10 @@ double time_of(const Options& options, const std::string& name, const Eigen::Vec
 
 }  // namespace
 
-OptionTable compare_table() {
-  return {
-      {"match", "-", "number",
-       "which nodes of two stress files belong together: of the same number or position"},
-      {"match_tolerance", "m", "1e-6", "match position: how far apart two such nodes may lie"},
-      {"at", "s", "peak",
-       "time at which values are compared: a number, last, or peak: where the reference's largest von Mises "
-       "stress, or its largest contact force, is, between from and to when they are given"},
-      {"reference_at", "s", "",
-       "the same in the reference, when its times mean something else (static analysis): a number or last; "
-       "no "
-       "signals then"},
-      {"node_<body>", "-", "",
-       "nodes (numbers in the reference) in tables and signals besides those of the peak"},
-      {"from", "s", "",
-       "begin of the signals over time; without it, result files: the reference's first contact"},
-      {"to", "s", "", "end of the signals over time; without it, result files: the reference's last contact"},
-      {"output", "-", "", "first part of the names of CSV tables; without it tables are only printed"},
-  };
-}
-
-Eigen::Index peak_within(const Options& options, const Eigen::VectorXd& time, const Eigen::VectorXd& values) {
-  const double from = options.given("from") ? options.number("from") : time[0];
-  const double to = options.given("to") ? options.number("to") : last(time);
+Eigen::Index peak_within(const CompareSettings& settings, const Eigen::VectorXd& time,
+                         const Eigen::VectorXd& values) {
+  const double from = settings.from.value_or(time[0]);
+  const double to = settings.to.value_or(last(time));
   Eigen::Index peak = -1;
   for (Eigen::Index i = 0; i < time.size(); ++i)
     if (time[i] >= from && time[i] <= to && (peak < 0 || values[i] > values[peak])) peak = i;
@@ -54,23 +33,21 @@ Eigen::Index peak_within(const Options& options, const Eigen::VectorXd& time, co
   return peak;
 }
 
-Moment moment(const Options& options, const Eigen::VectorXd& time, const Eigen::VectorXd& reference_time,
-              double peak) {
-  const bool at_peak = options.text("at") == "peak";
-  const bool last_of_both = options.text("at") == "last" && !options.given("reference_at");
-  const double t = at_peak ? peak : time_of(options, "at", time);
-  if (options.given("reference_at")) return {t, time_of(options, "reference_at", reference_time)};
-  if (last_of_both) return {t, last(reference_time)};
+Moment moment(const CompareSettings& settings, const Eigen::VectorXd& time,
+              const Eigen::VectorXd& reference_time, double peak) {
+  const double t = settings.at ? time_of(*settings.at, "at", time) : peak;
+  if (settings.reference_at) return {t, time_of(*settings.reference_at, "reference_at", reference_time)};
+  if (settings.at == kLastTime) return {t, last(reference_time)};
   require(t >= time[0] && t <= last(time) * (1 + kRoundoff), "the reference's peak at ", t,
           " s is outside of the file, ", time[0], " .. ", last(time), " s: say -at TIME");
-  return {t, at_peak ? t : time_of(options, "at", reference_time)};
+  return {t, settings.at ? time_of(t, "at", reference_time) : t};
 }
 
-Eigen::VectorXd common_times(const Options& options, const Eigen::VectorXd& time,
+Eigen::VectorXd common_times(const CompareSettings& settings, const Eigen::VectorXd& time,
                              const Eigen::VectorXd& reference_time, double begin, double end) {
-  if (options.given("reference_at") || options.text("at") == "last") return {};
-  const double from = std::max(options.given("from") ? options.number("from") : begin, time[0]);
-  const double to = std::min(options.given("to") ? options.number("to") : end, last(time) * (1 + kRoundoff));
+  if (settings.reference_at || settings.at == kLastTime) return {};
+  const double from = std::max(settings.from.value_or(begin), time[0]);
+  const double to = std::min(settings.to.value_or(end), last(time) * (1 + kRoundoff));
   std::vector<double> common;
   std::copy_if(reference_time.begin(), reference_time.end(), std::back_inserter(common),
                [&](double t) { return t >= from && t <= to; });

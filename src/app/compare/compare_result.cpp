@@ -82,9 +82,9 @@ double relative(double a, double b) {
   return b == 0 ? std::numeric_limits<double>::quiet_NaN() : kPercent * std::abs(a - b) / std::abs(b);
 }
 
-Table values_table(const Options& options, const Signals& file, const Signals& reference) {
-  const double peak = reference.time[peak_within(options, reference.time, reference.force)];
-  const Moment when = moment(options, file.time, reference.time, peak);
+Table values_table(const CompareSettings& settings, const Signals& file, const Signals& reference) {
+  const double peak = reference.time[peak_within(settings, reference.time, reference.force)];
+  const Moment when = moment(settings, file.time, reference.time, peak);
   Table table{"Values", "signal", {{"value", "1"}, {"reference", "1"}, {"deviation", "%"}}, {}, {}};
   for (const auto& [name, b] : reference.by_name) {
     const auto found = file.by_name.find(name);
@@ -99,14 +99,14 @@ Table values_table(const Options& options, const Signals& file, const Signals& r
   return table;
 }
 
-Table signals_table(const Options& options, const Signals& file, const Signals& reference) {
+Table signals_table(const CompareSettings& settings, const Signals& file, const Signals& reference) {
   Table table{"Signals over time",
               "signal",
               {{"L2", "%"}, {"peak", "1"}, {"reference", "1"}, {"peak at", "s"}, {"reference at", "s"}},
               {},
               {}};
   const Eigen::VectorXd time =
-      common_times(options, file.time, reference.time, reference.first_contact, reference.last_contact);
+      common_times(settings, file.time, reference.time, reference.first_contact, reference.last_contact);
   if (time.size() == 0) return table;
   for (const auto& [name, b] : reference.by_name) {
     const auto found = file.by_name.find(name);
@@ -126,11 +126,12 @@ Table signals_table(const Options& options, const Signals& file, const Signals& 
 std::vector<Table> compare_results(const Options& options, const std::string& path,
                                    const std::string& reference_path) {
   options.reject_unknown();
+  const CompareSettings settings = compare_settings(options);
   const Signals file = read_signals(path), reference = read_signals(reference_path);
-  std::vector<Table> tables = {values_table(options, file, reference)};
+  std::vector<Table> tables = {values_table(settings, file, reference)};
   require(!tables[0].rows.empty(), path, " and ", reference_path,
           " have no pair of bodies and no moving body of the same name");
-  const Table signals = signals_table(options, file, reference);
+  const Table signals = signals_table(settings, file, reference);
   if (!signals.rows.empty()) tables.push_back(signals);
   return tables;
 }

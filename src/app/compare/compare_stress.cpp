@@ -29,13 +29,13 @@ struct Matched {
   }
 };
 
-std::vector<int> match(const Options& options, const io::StressSet& set, const io::StressSet& reference) {
-  if (options.choice("match", {"number", "position"}) == 0)
-    return recovery::match_numbers(set.node, reference.node);
+std::vector<int> match(const CompareSettings& settings, const io::StressSet& set,
+                       const io::StressSet& reference) {
+  if (!settings.by_position) return recovery::match_numbers(set.node, reference.node);
   require(
       set.X.size() > 0 && reference.X.size() > 0,
       "one of the files holds no positions (an older version wrote it): match by number, or recover it anew");
-  return recovery::match_positions(set.X, reference.X, options.positive("match_tolerance"));
+  return recovery::match_positions(set.X, reference.X, settings.match_tolerance);
 }
 
 Eigen::MatrixXd rows_of(const Eigen::MatrixXd& stress, const std::vector<int>& node) {
@@ -45,13 +45,13 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& stress, const std::vector<int>& n
   return rows;
 }
 
-std::vector<Matched> matched_sets(const Options& options, const io::StressFile& file,
+std::vector<Matched> matched_sets(const CompareSettings& settings, const io::StressFile& file,
                                   const io::StressFile& reference) {
   std::vector<Matched> all;
   for (const io::StressSet& wanted : reference.sets)
     for (const io::StressSet& set : file.sets) {
       if (set.body != wanted.body || set.set != wanted.set) continue;
-      const std::vector<int> places = match(options, set, wanted);
+      const std::vector<int> places = match(settings, set, wanted);
       all.push_back({set.body + " " + set.set, wanted.node, rows_of(set.stress, places), wanted.stress,
                      file.time, reference.time});
     }
@@ -59,21 +59,22 @@ std::vector<Matched> matched_sets(const Options& options, const io::StressFile& 
 }
 
 // Node and time of the reference's largest von Mises stress.
-std::pair<Eigen::Index, Eigen::Index> peak(const Options& options, const Matched& set) {
+std::pair<Eigen::Index, Eigen::Index> peak(const CompareSettings& settings, const Matched& set) {
   const Eigen::MatrixXd von_mises = recovery::von_mises(set.reference);
   const Eigen::Index time =
-      peak_within(options, set.reference_time, von_mises.colwise().maxCoeff().transpose());
+      peak_within(settings, set.reference_time, von_mises.colwise().maxCoeff().transpose());
   Eigen::Index node = 0;
   von_mises.col(time).maxCoeff(&node);
   return {node, time};
 }
 
 // The peak node at the time of the comparison, then those asked for.
-std::vector<Eigen::Index> shown_nodes(const Options& options, const Matched& set, Eigen::Index first) {
+std::vector<Eigen::Index> shown_nodes(const CompareSettings& settings, const Matched& set,
+                                      Eigen::Index first) {
   std::vector<Eigen::Index> nodes = {first};
-  const std::string option = "node_" + set.name.substr(0, set.name.find(' '));
-  if (!options.given(option)) return nodes;
-  for (const double number : options.numbers(option)) {
+  const auto wanted = settings.node.find(set.name.substr(0, set.name.find(' ')));
+  if (wanted == settings.node.end()) return nodes;
+  for (const double number : wanted->second) {
     const auto found = std::find(set.node.begin(), set.node.end(), static_cast<int>(number));
     if (found != set.node.end()) nodes.push_back(found - set.node.begin());
   }
@@ -106,13 +107,13 @@ std::string node_name(const Matched& set, Eigen::Index i) {
 }
 
 // Stresses of one set at one time.
-void add_set(const Options& options, const Matched& set, std::vector<Table>& tables) {
-  const auto [unused, step] = peak(options, set);
-  const Moment when = moment(options, set.time, set.reference_time, set.reference_time[step]);
+void add_set(const CompareSettings& settings, const Matched& set, std::vector<Table>& tables) {
+  const auto [unused, step] = peak(settings, set);
+  const Moment when = moment(settings, set.time, set.reference_time, set.reference_time[step]);
   const Eigen::VectorXd stress = set.at(when.time), reference = set.reference_at(when.reference_time);
   Eigen::Index first = 0;
   recovery::von_mises(Eigen::MatrixXd(reference)).col(0).maxCoeff(&first);
-  for (const Eigen::Index i : shown_nodes(options, set, first))
+  for (const Eigen::Index i : shown_nodes(settings, set, first))
     add_rows(tables, node_name(set, i), stress.segment<6>(6 * i), reference.segment<6>(6 * i));
   add_rows(tables, set.name + " all " + std::to_string(set.node.size()), stress, reference);
 }
@@ -127,11 +128,11 @@ void add_signal(Table& table, const std::string& name, const Eigen::VectorXd& ti
 }
 
 // Histories of one set's nodes over the common times.
-void add_signals(const Options& options, const Matched& set, Table& table) {
-  const Eigen::VectorXd time = common_times(options, set.time, set.reference_time, set.reference_time[0],
+void add_signals(const CompareSettings& settings, const Matched& set, Table& table) {
+  const Eigen::VectorXd time = common_times(settings, set.time, set.reference_time, set.reference_time[0],
                                             set.reference_time[set.reference_time.size() - 1]);
   if (time.size() == 0) return;
-  for (const Eigen::Index i : shown_nodes(options, set, peak(options, set).first)) {
+  for (const Eigen::Index i : shown_nodes(settings, set, peak(settings, set).first)) {
     const auto rows = [&](const Eigen::VectorXd& t, const Eigen::MatrixXd& stress) -> Eigen::MatrixXd {
       const Eigen::MatrixXd sigma = recovery::at_times(t, stress.middleRows(6 * i, 6), time);
       Eigen::MatrixXd all(8, time.size());
@@ -153,7 +154,8 @@ std::vector<Table> compare_stresses(const Options& options, const std::string& p
   std::vector<std::string> bodies;
   for (const io::StressSet& set : reference.sets) bodies.push_back(set.body);
   options.reject_unknown({{"body", bodies}});
-  const std::vector<Matched> sets = matched_sets(options, file, reference);
+  const CompareSettings settings = compare_settings(options);
+  const std::vector<Matched> sets = matched_sets(settings, file, reference);
   require(!sets.empty(), path, " and ", reference_path, " have no stresses at the same set of the same body");
   std::vector<Table> tables = {stress_table("Deviation of the stress, of each measure"),
                                stress_table("Deviation of the stress, of the reference's von Mises stress")};
@@ -163,8 +165,8 @@ std::vector<Table> compare_stresses(const Options& options, const std::string& p
                 {},
                 {}};
   for (const Matched& set : sets) {
-    add_set(options, set, tables);
-    add_signals(options, set, signals);
+    add_set(settings, set, tables);
+    add_signals(settings, set, signals);
   }
   if (!signals.rows.empty()) tables.push_back(signals);
   return tables;

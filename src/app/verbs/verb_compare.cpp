@@ -1,6 +1,6 @@
 // elastogear compare: how far a stress or result file is from a reference.
 
-#include "app/compare/compare_moment.h"
+#include "app/compare/compare_options.h"
 #include "app/compare/compare_result.h"
 #include "app/compare/compare_stress.h"
 #include "app/console/console.h"
@@ -12,26 +12,12 @@
 namespace elastogear::app {
 namespace {
 
-// "stress_1.csv", "stress_2.csv", ...
-std::string table_path(const Options& options, std::size_t i) {
-  return options.text("output") + "_" + std::to_string(i + 1) + ".csv";
-}
-
-void protect_inputs(const Options& options, const std::vector<Table>& tables,
-                    const std::vector<std::string>& files) {
-  Outputs outputs{"output", {}};
-  for (std::size_t i = 0; options.given("output") && i < tables.size(); ++i)
-    outputs.files.push_back(table_path(options, i));
-  protect_inputs(options, {outputs}, files);
-}
-
-void write_tables(const Options& options, const std::vector<Table>& tables) {
-  if (!options.given("output")) return;
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    const std::string path = table_path(options, i);
-    write_csv(path, tables[i]);
-    print_item("written", path);
-  }
+// "stress_1.csv", "stress_2.csv", ... of n tables; none where no output is asked for.
+std::vector<std::string> table_paths(const std::string& output, std::size_t n) {
+  std::vector<std::string> paths;
+  for (std::size_t i = 0; !output.empty() && i < n; ++i)
+    paths.push_back(output + "_" + std::to_string(i + 1) + ".csv");
+  return paths;
 }
 
 void run(const Options& options, const std::vector<std::string>& files) {
@@ -45,9 +31,13 @@ void run(const Options& options, const std::vector<std::string>& files) {
           "; result and stress files can be compared");
   const std::vector<Table> tables =
       stresses ? compare_stresses(options, files[0], files[1]) : compare_results(options, files[0], files[1]);
-  protect_inputs(options, tables, files);
+  const std::vector<std::string> paths = table_paths(compare_settings(options).output, tables.size());
+  protect_inputs(options, {{"output", paths}}, files);
   for (const Table& table : tables) print(table);
-  write_tables(options, tables);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    write_csv(paths[i], tables[i]);
+    print_item("written", paths[i]);
+  }
 }
 
 }  // namespace
