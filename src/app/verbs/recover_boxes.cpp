@@ -1,10 +1,6 @@
 #include "app/verbs/recover_boxes.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "app/console/console.h"
-#include "elastogear/base/error.h"
 #include "elastogear/io/polydata_file.h"
 #include "elastogear/recovery/boxes.h"
 
@@ -25,26 +21,13 @@ void write_boxes(const std::string& path, const recovery::Boxes& boxes) {
 
 }  // namespace
 
-std::vector<int> box_levels(const Options& options) {
-  std::vector<int> levels;
-  for (const std::string& level : options.list("box_levels")) {
-    const bool number =
-        !level.empty() && level.size() < 4 && std::all_of(level.begin(), level.end(), isdigit);
-    require(number || level == "leaf", "option -box_levels = '", level,
-            "': must be a level 0, 1, ... or leaf");
-    levels.push_back(number ? std::stoi(level) : std::numeric_limits<int>::max());
-  }
-  return levels;
-}
-
 std::vector<std::string> box_files(const std::string& prefix, const std::string& body) {
   return {box_path(prefix, body, kBoxes), box_path(prefix, body, kOverlaps)};
 }
 
-void write_trees(const Options& options, const std::string& prefix,
-                 const std::vector<recovery::RecoveredBody>& bodies, Eigen::Index step) {
-  const std::vector<int> levels = box_levels(options);
-  if (levels.empty()) return;
+void write_trees(const RecoverSettings& settings, const std::vector<recovery::RecoveredBody>& bodies,
+                 Eigen::Index step) {
+  if (settings.box_levels.empty()) return;
   std::vector<contact::Bvh> trees;
   for (const recovery::RecoveredBody& body : bodies) {
     const model::Surface surface = read_elastic_body(body.run).surface;
@@ -52,12 +35,13 @@ void write_trees(const Options& options, const std::string& prefix,
     Eigen::Matrix3Xd x = surface.X;
     Eigen::Map<Eigen::VectorXd>(x.data(), x.size()) += model::multiply(surface.Phi, state.q);
     x = ((state.R_WB * x).colwise() + state.r_WB).eval();
-    trees.push_back(recovery::fitted_tree(surface, x, options.count("box_kdop")));
-    write_boxes(box_path(prefix, body.run.name, kBoxes), recovery::boxes_at_levels(trees.back(), levels));
+    trees.push_back(recovery::fitted_tree(surface, x, settings.box_kdop));
+    write_boxes(box_path(settings.fields, body.run.name, kBoxes),
+                recovery::boxes_at_levels(trees.back(), settings.box_levels));
   }
   if (trees.size() != 2) return;
   for (int i : {0, 1})
-    write_boxes(box_path(prefix, bodies[i].run.name, kOverlaps),
+    write_boxes(box_path(settings.fields, bodies[i].run.name, kOverlaps),
                 recovery::overlapping_boxes(trees[i], trees[1 - i]));
 }
 
