@@ -1,4 +1,4 @@
-#include "app/tables/named_sets.h"
+#include "app/verbs/named_sets.h"
 
 #include <algorithm>
 
