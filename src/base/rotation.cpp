@@ -10,6 +10,13 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   return S;
 }
 
+Eigen::Matrix3Xd cross(const Eigen::Vector3d& a, const Eigen::Matrix3Xd& columns) {
+  return skew(a) * columns;
+}
+Eigen::Matrix3Xd cross(const Eigen::Matrix3Xd& columns, const Eigen::Vector3d& b) {
+  return -skew(b) * columns;
+}
+
 Eigen::Matrix3d rotation_matrix(const Eigen::Vector3d& psi) {
   const double angle = psi.norm();
   if (angle == 0) return Eigen::Matrix3d::Identity();

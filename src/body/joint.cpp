@@ -11,9 +11,6 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-// Every cross product a x of the columns.
-Matrix3Xd cross(const Vector3d& a, const Matrix3Xd& columns) { return skew(a) * columns; }
-
 // Turned about the joint's point, then moved.
 Placement about_point(const Joint& joint, const Eigen::Matrix3d& turn, const Vector3d& move) {
   return {joint.r_WB0 + joint.R_WB0 * (joint.point - turn * joint.point + move), joint.R_WB0 * turn};

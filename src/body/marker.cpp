@@ -34,10 +34,6 @@ InBody in_body(const model::Marker* marker, const Motion& m) {
   return e;
 }
 
-// Every cross product of the columns with b, and of a with them.
-Matrix3Xd cross(const Matrix3Xd& columns, const Vector3d& b) { return -skew(b) * columns; }
-Matrix3Xd cross(const Vector3d& a, const Matrix3Xd& columns) { return skew(a) * columns; }
-
 // Changes of the frame's v and of v + w x x_B + u' with s; the second without the turning of the frame.
 Matrix3Xd rate_of_frame(const Equations& eq, const FrameMotion& f, const FrameDerivative& d, double shift_v) {
   if (eq.joint.type != JointType::free) return shift_v * eq.H.topRows<3>();

@@ -6,7 +6,7 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr double kFieldTolerance = 1e-8;  // a preconditioner takes its coarse space from them
-constexpr double kRoundoff = 1e-12;       // of the largest mass
+constexpr double kNegligible = 1e-12;     // of the largest mass
 
 }  // namespace
 
@@ -20,7 +20,7 @@ Eigen::MatrixXd rigid_fields(const model::ElasticBody& body) {
 
 bool is_node_by_node(const model::ElasticBody& body) {
   if (body.basis != model::Basis::full || body.n_q() % 3 != 0) return false;
-  const double negligible = kRoundoff * body.inertia.C_l.cwiseAbs().maxCoeff();
+  const double negligible = kNegligible * body.inertia.C_l.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < body.n_q(); ++i)
     for (Eigen::Index direction = 0; direction < 3; ++direction)
       if (direction != i % 3 && std::abs(body.inertia.C_l(i, direction)) > negligible) return false;

@@ -20,7 +20,7 @@ constexpr double kDistancePerDepth =
 constexpr double kTurn = 0.3;  // rad, that a body may
 constexpr int kMostIterations = 300;    // contact that is far away is approached depth by depth
 constexpr double kSmallestStep = 1e-3;  // of the first one
-constexpr double kRoundoff = 1e-9;      // of a load step
+constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr double kHeldBySigma = 0.5;    // share of sigma in a coordinate's stiffness: nothing else holds it
 
 struct Equilibrium {
@@ -179,7 +179,7 @@ struct Path {
 
 // Tries one load step; returns false when it must be cut.
 bool advance(Equilibrium& at, SNES snes, Path& path, RunSummary& summary) {
-  const bool last = path.reached + (1 + kRoundoff) * path.step >= 1;
+  const bool last = path.reached + (1 + kStepRoundoff) * path.step >= 1;
   at.factor = path.reached < 0 ? 0 : last ? 1 : path.reached + path.step;
   if (!find_equilibrium(at, snes, path.U, summary)) {
     ++summary.rejected_steps;

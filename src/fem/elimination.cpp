@@ -13,7 +13,7 @@ UniqueMat part(Mat A, IS rows) {
 }  // namespace
 
 void eliminate(const std::vector<mesh::Directions>& held, Matrices& matrices, std::vector<int>& dof) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrices.K.get()));
+  const MPI_Comm comm = comm_of(matrices.K);
   PetscInt n = 0, begin = 0, end = 0;
   check(MatGetSize(matrices.K, &n, nullptr));
   check(MatGetOwnershipRange(matrices.K, &begin, &end));

@@ -17,7 +17,7 @@ std::vector<int> ranks_of(const std::vector<int>& dof) {
 
 // The matrix with every row and column on rank 0.
 UniqueMat on_root(Mat A) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(A));
+  const MPI_Comm comm = comm_of(A);
   PetscMPIInt rank = 0;
   PetscInt n = 0;
   UniqueMat root;

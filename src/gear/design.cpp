@@ -11,10 +11,10 @@
 namespace elastogear::gear {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kMaxPressureAngle = kPi / 4;
+using std::numbers::pi;
+constexpr double kMaxPressureAngle = pi / 4;
 constexpr double kMaxConeSlope = 3;
-constexpr double kDegree = kPi / 180;
+constexpr double kDegree = pi / 180;
 constexpr int kMaxTeeth = 1000;
 constexpr double kMinTipWidth = 0.1;  // of the module: thinner teeth count as pointed
 
@@ -65,8 +65,8 @@ void check_toothing(const Design& d) {
           kMaxTeeth);
   require(d.alpha_n > 0 && d.alpha_n <= kMaxPressureAngle, "pressure_angle = ", d.alpha_n / kDegree,
           " deg: must be above 0 and at most ", kMaxPressureAngle / kDegree, " deg");
-  require(d.j_n >= 0 && d.j_n < kPi * d.m_n * std::cos(d.alpha_n), "backlash = ", d.j_n,
-          " m: must be at least 0 and below the normal base pitch ", kPi * d.m_n * std::cos(d.alpha_n), " m");
+  require(d.j_n >= 0 && d.j_n < pi * d.m_n * std::cos(d.alpha_n), "backlash = ", d.j_n,
+          " m: must be at least 0 and below the normal base pitch ", pi * d.m_n * std::cos(d.alpha_n), " m");
   require(d.dedendum > d.addendum, "dedendum = ", d.dedendum, " m: must be above addendum = ", d.addendum,
           " m, else tips and roots touch");
 }
@@ -178,14 +178,14 @@ Geometry pitch_geometry(const Design& d) {
   Geometry g;
   g.gamma = lead_angle(d);
   g.j_n = d.j_n;
-  g.s_n = kPi * d.m_n / 2 - d.j_n / (2 * std::cos(d.alpha_n));
-  g.p_bn = kPi * d.m_n * std::cos(d.alpha_n);
-  g.p_x = kPi * d.m_n / std::cos(g.gamma);
+  g.s_n = pi * d.m_n / 2 - d.j_n / (2 * std::cos(d.alpha_n));
+  g.p_bn = pi * d.m_n * std::cos(d.alpha_n);
+  g.p_x = pi * d.m_n / std::cos(g.gamma);
   g.ratio = static_cast<double>(d.z2) / d.z1;
   g.worm = toothing(d, d.z1, g.gamma, g.s_n);
-  g.wheel = toothing(d, d.z2, kPi / 2 - g.gamma, g.s_n);
-  g.worm.theta_1 = kPi - kPi / d.z1;  // a space faces the wheel, at worm local -x
-  g.wheel.theta_1 = kPi / 2;
+  g.wheel = toothing(d, d.z2, pi / 2 - g.gamma, g.s_n);
+  g.worm.theta_1 = pi - pi / d.z1;  // a space faces the wheel, at worm local -x
+  g.wheel.theta_1 = pi / 2;
   return g;
 }
 
@@ -202,13 +202,13 @@ void derive_contact(const Design& d, Geometry& g) {
 
 }  // namespace
 
-double tooth_angle(const Toothing& t, int i) { return t.theta_1 + 2 * kPi * i / t.z; }
+double tooth_angle(const Toothing& t, int i) { return t.theta_1 + 2 * pi * i / t.z; }
 
 double psi(const Toothing& t, double r) { return t.psi_b - involute(std::acos(std::min(1.0, t.r_b / r))); }
 
 double flank_distance(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
   const double turned = std::atan2(x[1], x[0]) - x[2] / t.p - tooth_angle(t, tooth);
-  const double theta = std::remainder(turned, 2 * kPi);
+  const double theta = std::remainder(turned, 2 * pi);
   return t.r_b * std::cos(t.beta_b) * (side * theta - psi(t, std::hypot(x[0], x[1])));
 }
 

@@ -9,7 +9,7 @@ namespace elastogear::gear {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // Unit normal of the worm's axial flank, towards the space. The slope is d(p psi)/dr = -p tan(alpha)/r.
 Vector2d worm_normal(const Toothing& worm, double r) {
@@ -67,7 +67,7 @@ double worm_form_radius(const Design& design, const Geometry& g) {
 
 double wheel_form_radius(const Design& design, const Geometry& g) {
   const Vector2d centre = rack_tip_centre(design, g);
-  const double half_pitch = kPi * design.m_n / 2;
+  const double half_pitch = pi * design.m_n / 2;
   require(centre[0] <= half_pitch, "wheel_rack_tip = ", design.wheel_rack_tip,
           " m does not fit: the arc's centre lies ", centre[0],
           " m from the middle of the rack's space, at most half a pitch is allowed: ", half_pitch, " m");
@@ -75,7 +75,7 @@ double wheel_form_radius(const Design& design, const Geometry& g) {
   const double limit = g.wheel.r * std::pow(std::sin(g.wheel.alpha_t), 2);
   require(depth <= limit, "the wheel is undercut: the straight flank of its rack reaches ", depth,
           " m below the pitch line, at most ", limit, " m is allowed with z2 = ", design.z2,
-          " and pressure_angle = ", design.alpha_n * 180 / kPi, " deg");
+          " and pressure_angle = ", design.alpha_n * 180 / pi, " deg");
   return trochoid(design, g, design.alpha_n)[1];
 }
 
@@ -83,7 +83,7 @@ Profile worm_profile(const Design& design, const Geometry& geometry) {
   const Toothing& worm = geometry.worm;
   const Vector2d centre = worm_fillet_centre(design, worm, worm.r_form);
   const Vector2d end = -worm_normal(worm, worm.r_form);
-  const double rho = design.worm_fillet, from = -kPi / 2, sweep = std::atan2(end[1], end[0]) - from;
+  const double rho = design.worm_fillet, from = -pi / 2, sweep = std::atan2(end[1], end[0]) - from;
   return {.half_pitch = geometry.p_x / 2,
           .r_inner = design.worm_bore / 2,
           .r_f = worm.r_f,
@@ -100,7 +100,7 @@ Profile worm_profile(const Design& design, const Geometry& geometry) {
 Profile wheel_profile(const Design& design, const Geometry& geometry) {
   const Toothing& wheel = geometry.wheel;
   Profile profile{.polar = true,
-                  .half_pitch = kPi / wheel.z,
+                  .half_pitch = pi / wheel.z,
                   .r_inner = design.rim_diameter / 2,
                   .r_f = wheel.r_f,
                   .r_form = wheel.r_form,
@@ -108,7 +108,7 @@ Profile wheel_profile(const Design& design, const Geometry& geometry) {
                   .half_width = [wheel](double r) { return psi(wheel, r); },
                   .fillet = {}};
   profile.fillet = [=](double t) {
-    const Vector2d c_r = trochoid(design, geometry, kPi / 2 + t * (design.alpha_n - kPi / 2));
+    const Vector2d c_r = trochoid(design, geometry, pi / 2 + t * (design.alpha_n - pi / 2));
     return Vector2d(c_r[1] * std::sin(c_r[0]), c_r[1] * std::cos(c_r[0]));
   };
   return profile;

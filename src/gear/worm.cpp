@@ -26,7 +26,7 @@ struct Builder {
   }
 };
 
-enum Block { kCore, kTooth, kShaft };
+enum Part { kCore, kTooth, kShaft };
 
 int core_node(Builder& b, HelixNode node, int row) {
   node = canonical(b.g.helix, node);

@@ -10,7 +10,7 @@
 namespace elastogear::gear {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // The end of the helical layers, chosen for the best shape of the cells there.
 constexpr int kPlainLayers = 1;         // layers between the last thread's pitch and the steps
@@ -58,7 +58,7 @@ Polar inner_position(const WormGrid& g, HelixNode node, int row) {
   const Eigen::Vector2d plain(q * g.layer, row_radius(g, row, g.geometry.worm.r_f));
   const Eigen::Vector2d x = plain + weight * (g.tooth_grid.strip_point(q, row) - plain);
   const double section = static_cast<double>(node.j) / g.helix.m;
-  return {2 * kPi * node.j / g.n.turn,
+  return {2 * pi * node.j / g.n.turn,
           x[0] + (t * g.columns + section) * g.layer - sunk(g, node.k + section, row), x[1]};
 }
 
@@ -66,17 +66,17 @@ Polar inner_position(const WormGrid& g, HelixNode node, int row) {
 Polar rim_position(const WormGrid& g, HelixNode node, int row) {
   const int m = g.helix.m;
   const double j = node.j / m * m + 0.5 + (node.j % m - 1) * static_cast<double>(m) / (m - 1);
-  return {2 * kPi * j / g.n.turn, tread_height(g) * g.layer - sunk(g, tread_height(g), row),
+  return {2 * pi * j / g.n.turn, tread_height(g) * g.layer - sunk(g, tread_height(g), row),
           row_radius(g, row, g.geometry.worm.r_f)};
 }
 
 // The foot of a step goes to the mean of its three neighbours.
 Polar step_position(const WormGrid& g, HelixNode foot, int row) {
   Polar mean{0, 0, 0};
-  const double phi_0 = 2 * kPi * foot.j / g.n.turn;
+  const double phi_0 = 2 * pi * foot.j / g.n.turn;
   for (const HelixNode& at : {HelixNode{foot.k + 1, foot.j}, {foot.k, foot.j - 1}, {foot.k - 1, foot.j}}) {
     const Polar x = core_position(g, canonical(g.helix, at), row);
-    mean.phi += (phi_0 + std::remainder(x.phi - phi_0, 2 * kPi)) / 3;
+    mean.phi += (phi_0 + std::remainder(x.phi - phi_0, 2 * pi)) / 3;
     mean.z += x.z / 3;
     mean.r += x.r / 3;
   }
@@ -126,7 +126,7 @@ Polar core_position(const WormGrid& g, HelixNode node, int row) {
 Polar tooth_position(const WormGrid& g, int thread, int J, int q, int row) {
   const Eigen::Vector2d x = g.tooth_grid.tooth_point(q, row);
   const double section = static_cast<double>(J) / g.helix.m;
-  return {2 * kPi * (J + g.helix.m * thread * g.columns) / g.n.turn, section * g.layer + x[0], x[1]};
+  return {2 * pi * (J + g.helix.m * thread * g.columns) / g.n.turn, section * g.layer + x[0], x[1]};
 }
 
 Polar shaft_position(const WormGrid& g, int end, int ring, int column, int row) {

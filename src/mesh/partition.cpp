@@ -14,12 +14,12 @@ constexpr idx_t kSeed = 1;
 
 // The cells' corners in compressed rows. Midside nodes are left out: with them, cells that share only an edge
 // would have as many nodes in common as tetrahedra that share a face.
-struct Corners {
+struct CornerRows {
   std::vector<idx_t> offset{0}, nodes;
 };
 
-Corners corners(const Cells& cells) {
-  Corners result;
+CornerRows corners(const Cells& cells) {
+  CornerRows result;
   for (int i = 0; i < cells.size(); ++i) {
     const auto corner = cells[i].first(corner_count(cells.type[i]));
     result.nodes.insert(result.nodes.end(), corner.begin(), corner.end());
@@ -48,7 +48,7 @@ Partition partition_cells(const Mesh& mesh, int n_parts) {
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = kSeed;
   options[METIS_OPTION_PTYPE] = METIS_PTYPE_RB;  // better balanced than k-way for few parts
-  Corners corner = corners(mesh.cells);
+  CornerRows corner = corners(mesh.cells);
   std::vector<idx_t> node_part(n_nodes);
   const int status = METIS_PartMeshDual(&n_cells, &n_nodes, corner.offset.data(), corner.nodes.data(),
                                         nullptr, nullptr, &common, &parts, nullptr, options, &result.edge_cut,

@@ -5,7 +5,7 @@
 namespace elastogear::reduction {
 
 std::uint64_t fingerprint(Mat A) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(A));
+  const MPI_Comm comm = comm_of(A);
   Fingerprint own, all;
   PetscInt begin = 0, end = 0;
   check(MatGetOwnershipRange(A, &begin, &end));

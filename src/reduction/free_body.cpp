@@ -43,7 +43,7 @@ Eigen::VectorXd field_values(int index, const Eigen::Matrix3Xd& x) {
 
 UniqueBV create_basis(Mat M, Vec layout) {
   UniqueBV basis;
-  check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(M)), basis.out()));
+  check(BVCreate(comm_of(M), basis.out()));
   check(BVSetSizesFromVec(basis, layout, kFields));
   check(BVSetType(basis, BVVECS));
   check(BVSetMatrix(basis, M, PETSC_FALSE));

@@ -52,6 +52,8 @@ using UniqueTS = Handle<TS, TSDestroy>;
 using UniqueScatter = Handle<VecScatter, VecScatterDestroy>;
 using UniqueViewer = Handle<PetscViewer, PetscViewerDestroy>;
 
+inline MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
+
 /// First object in `main`: initialises MPI, PETSc and SLEPc; finalises them last. PETSc errors return codes
 /// silently (check() turns them into exceptions).
 class Session {

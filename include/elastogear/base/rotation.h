@@ -8,6 +8,10 @@ namespace elastogear {
 /// Cross-product matrix: skew(a) b = a x b.
 Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 
+/// Cross products a x of the columns, and of the columns with b: 3 x n.
+Eigen::Matrix3Xd cross(const Eigen::Vector3d& a, const Eigen::Matrix3Xd& columns);
+Eigen::Matrix3Xd cross(const Eigen::Matrix3Xd& columns, const Eigen::Vector3d& b);
+
 /// Rotation matrix exp(skew(psi)) of a rotation vector (Rodrigues), Eq. (3.12).
 Eigen::Matrix3d rotation_matrix(const Eigen::Vector3d& psi);
 

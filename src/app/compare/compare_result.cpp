@@ -12,8 +12,6 @@
 namespace elastogear::app {
 namespace {
 
-constexpr double kPercent = 100;
-
 struct Signals {
   Eigen::VectorXd time;
   std::map<std::string, std::pair<std::string, Eigen::RowVectorXd>> by_name;  // unit, n_t values

@@ -10,7 +10,7 @@
 namespace elastogear::app {
 namespace {
 
-constexpr double kPercent = 100, kPerMega = 1e-6;
+constexpr double kPerMega = 1e-6;
 const std::vector<std::string> kMeasures = {"xx", "yy", "zz", "xy", "yz", "xz", "von Mises", "Rankine"};
 constexpr int kPaperOrder[] = {0, 1, 2, 3, 5, 4, 6, 7};  // of Tab. 3
 

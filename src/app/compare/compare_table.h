@@ -7,6 +7,8 @@
 
 namespace elastogear::app {
 
+inline constexpr double kPercent = 100;  ///< of a share, in the tables
+
 struct Table {
   std::string title;
   std::string heading;  ///< of the rows' names

@@ -8,7 +8,7 @@
 
 namespace elastogear::app {
 
-CommandLine parse(int argc, char** argv) {
+CommandLine parse_command_line(int argc, char** argv) {
   CommandLine line;
   const auto asks = [](const std::string& word, const char* name) {
     return word == std::string("-") + name || word == std::string("--") + name;

@@ -12,7 +12,7 @@ struct CommandLine {
   bool help = false, version = false;
 };
 
-CommandLine parse(int argc, char** argv);
+CommandLine parse_command_line(int argc, char** argv);
 
 /// Does PETSc take this word for the name of an option, not for a value? "-1e-7" is a value.
 bool is_option(const std::string& word);

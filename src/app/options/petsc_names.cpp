@@ -136,7 +136,7 @@ void match(std::string_view pattern, std::string_view text, std::size_t at, std:
     match(pattern, text, ++at, ends);
 }
 
-bool is_option(std::string_view name) {
+bool is_library_option(std::string_view name) {
   const Literals& all = literals();
   if (std::binary_search(all.names.begin(), all.names.end(), name)) return true;
   return std::any_of(all.names.begin(), all.names.end(), [&](const std::string& pattern) {
@@ -150,7 +150,7 @@ bool is_option(std::string_view name) {
 bool is_nested(std::string_view name, int depth) {
   constexpr std::string_view kNested[] = {"bv_", "eps_", "ksp_", "lme_", "mat_", "pc_", "snes_", "st_"};
   const auto begins = [&](std::string_view object) { return name.starts_with(object); };
-  if (std::any_of(std::begin(kNested), std::end(kNested), begins) && is_option(name)) return true;
+  if (std::any_of(std::begin(kNested), std::end(kNested), begins) && is_library_option(name)) return true;
   if (depth == 0) return false;
   for (const std::string& prefix : literals().prefixes) {
     std::vector<std::size_t> ends;
@@ -203,7 +203,7 @@ const std::vector<std::string>& petsc_names() { return literals().names; }
 bool is_petsc_name(const std::string& name) {
   constexpr int kMostPrefixes = 6;
   const std::string small = folded(name);
-  return petsc_names().empty() || is_option(small) || is_nested(small, kMostPrefixes);
+  return petsc_names().empty() || is_library_option(small) || is_nested(small, kMostPrefixes);
 }
 
 }  // namespace elastogear::app

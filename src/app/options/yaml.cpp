@@ -138,7 +138,7 @@ void load(Parser& parser, Document& document, const std::string& file) {
 }
 
 // PETSc does not tell capitals from small letters in names of options.
-std::string folded(std::string name) {
+std::string in_small_letters(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   return name;
 }
@@ -148,14 +148,14 @@ std::string folded(std::string name) {
 std::vector<YamlEntry> each_once(const std::vector<YamlEntry>& all, const std::string& file) {
   std::map<std::string, const YamlEntry*> first;
   for (const YamlEntry& entry : all) {
-    const YamlEntry*& at = first[folded(entry.name)];
+    const YamlEntry*& at = first[in_small_letters(entry.name)];
     require(!at || at->merged || entry.merged, file, ", line ", entry.line, ": the key ", entry.name,
             " is given twice, first in line ", at ? at->line : 0);
     if (!at || at->merged) at = &entry;
   }
   std::vector<YamlEntry> entries;
   for (const YamlEntry& entry : all)
-    if (first.at(folded(entry.name)) == &entry) entries.push_back(entry);
+    if (first.at(in_small_letters(entry.name)) == &entry) entries.push_back(entry);
   return entries;
 }
 

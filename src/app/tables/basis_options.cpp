@@ -13,7 +13,7 @@ enum Basis { modal, modal_residual, full, first_ritz };
 const std::vector<std::string> kBases = {"modal",  "modal_residual", "full", "modal_attachment",
                                          "krylov", "craig_bampton"};
 
-const Rows<ReductionOptions> kRows = {
+const Rows<ReductionOptions> kBasisRows = {
     {"basis", "-", "modal_residual",
      "modal_residual: eigenmodes and the static response to contact forces that they leave out; full: every "
      "free degree of freedom (the finite-element reference). To compare with: modal: eigenmodes alone, which "
@@ -42,10 +42,10 @@ const Rows<RitzOptions> kRitzRows = {
 
 }  // namespace
 
-OptionTable basis_table() { return table_of(kRows, kRitzRows); }
+OptionTable basis_table() { return table_of(kBasisRows, kRitzRows); }
 
 void set_basis(const Options& options, ReductionOptions& o) {
-  read_rows(options, kRows, o);
+  read_rows(options, kBasisRows, o);
   const int basis = options.choice("basis", kBases);
   o.basis = basis == full ? model::Basis::full : model::Basis::modal;
   o.flexibility = basis == modal_residual;

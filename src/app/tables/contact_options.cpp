@@ -12,7 +12,7 @@ namespace {
 using S = contact::Settings;
 using F = contact::FrictionSettings;
 
-const Rows<S> kRows = {
+const Rows<S> kContactRows = {
     {"contact_pairs", "-", "", "pairs of bodies that may touch, a:b"},
     {"contact_slave", &S::slave, one_of("first", "second"),
      "which body of a pair gives the slave nodes: first or second"},
@@ -55,7 +55,7 @@ const Rows<S> kRows = {
 
 contact::Settings settings(const Options& options) {
   contact::Settings s;
-  read_rows(options, kRows, s);
+  read_rows(options, kContactRows, s);
   return s;
 }
 
@@ -77,7 +77,7 @@ void warn_of_facets(const dynamics::PairSetup& pair, const std::vector<std::stri
 
 }  // namespace
 
-OptionTable contact_table() { return table_of(kRows); }
+OptionTable contact_table() { return table_of(kContactRows); }
 
 std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies) {
   std::vector<dynamics::PairSetup> setups;

@@ -58,7 +58,7 @@ void set_ratio(const Options& options, const std::string& name, ElasticBody& bod
   body.zeta = model::ratios_at(damping_ratio(options, name), body.frequency);
 }
 
-const Rows<ElasticBody> kBodyRows = {
+const Rows<ElasticBody> kChangeRows = {
     {"<body>_points", "m", "", "markers fixed to the body frame: name,x,y,z for each", add_points},
     {"<body>_damping_alpha", &ElasticBody::alpha, "1/s", "Rayleigh damping in place of the body file's",
      kDependent},
@@ -104,7 +104,7 @@ const Rows<Bushing> kBushingRows = {
 }  // namespace
 
 OptionTable marker_table() {
-  OptionTable table = table_of(kBodyRows, kLoadRows, kBushingRows);
+  OptionTable table = table_of(kChangeRows, kLoadRows, kBushingRows);
   table.push_back({"sensors_<sensor>", "-", "", "BODY.MARKER whose motion is written as this sensor's"});
   return table;
 }
@@ -138,10 +138,10 @@ dynamics::MarkerSetups marker_setups(const Options& options) {
 }
 
 void change_body(const Options& options, const std::string& name, ElasticBody& body) {
-  if (std::none_of(kBodyRows.begin(), kBodyRows.end(),
+  if (std::none_of(kChangeRows.begin(), kChangeRows.end(),
                    [&](const auto& row) { return options.given(with_word(row.spec.name, name)); }))
     return;
-  read_rows(options, kBodyRows, body, name);
+  read_rows(options, kChangeRows, body, name);
   model::validate(body, "options -" + name + "_...");
 }
 

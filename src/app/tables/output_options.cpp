@@ -49,7 +49,7 @@ std::vector<double> times(const Options& options, const std::string& name) {
   return all;
 }
 
-const Rows<TimeSettings> kRows = {
+const Rows<TimeSettings> kTimeRows = {
     {"output_every", &TimeSettings::output_every, "-", "write every n-th step", kPositive},
     {"output_dt", &TimeSettings::output_dt, "s",
      "write at multiples of this time in place of every n-th step, between steps by interpolation"},
@@ -61,9 +61,9 @@ const Rows<TimeSettings> kRows = {
 
 }  // namespace
 
-OptionTable output_table() { return table_of(kRows); }
+OptionTable output_table() { return table_of(kTimeRows); }
 
-void set_output_times(const Options& options, TimeSettings& time) { read_rows(options, kRows, time); }
+void set_output_times(const Options& options, TimeSettings& time) { read_rows(options, kTimeRows, time); }
 
 std::vector<std::string> sensor_tables(const Options& options) {
   std::vector<std::string> paths;

@@ -20,7 +20,7 @@ std::vector<std::string> table_paths(const std::string& output, std::size_t n) {
   return paths;
 }
 
-void run(const Options& options, const std::vector<std::string>& files) {
+void run_compare(const Options& options, const std::vector<std::string>& files) {
   require(files.size() == 2, "compares two files, not ", files.size(),
           ": elastogear compare FILE.h5 REFERENCE.h5");
   const std::string format = io::file_format(files[0]), reference = io::file_format(files[1]);
@@ -47,7 +47,7 @@ Verb compare_verb() {
           .usage = "compare FILE.h5 REFERENCE.h5 [-option value ...]",
           .summary = "tables of deviations between two result or stress files",
           .table = compare_table(),
-          .run = run,
+          .run = run_compare,
           .configured = false};
 }
 

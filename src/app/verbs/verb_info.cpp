@@ -9,7 +9,7 @@
 namespace elastogear::app {
 namespace {
 
-void run(const Options& options, const std::vector<std::string>& files) {
+void run_info(const Options& options, const std::vector<std::string>& files) {
   options.reject_unknown();
   require(!files.empty(), "no file given: elastogear info FILE ...");
   for (const std::string& file : files) std::fputs(io::describe(file).c_str(), stdout);
@@ -22,7 +22,7 @@ Verb info_verb() {
           .usage = "info FILE ...",
           .summary = "what a mesh, body, result or stress file holds",
           .table = {},
-          .run = run,
+          .run = run_info,
           .configured = false};
 }
 

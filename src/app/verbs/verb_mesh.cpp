@@ -110,7 +110,7 @@ Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) 
   return counts;
 }
 
-void run(const Options& options, const std::vector<std::string>&) {
+void run_mesh(const Options& options, const std::vector<std::string>&) {
   options.reject_unknown();
   const bool is_worm = options.choice("part", {"worm", "wheel"}) == 0;
   const std::string path = options.text("mesh");
@@ -134,7 +134,7 @@ void run(const Options& options, const std::vector<std::string>&) {
 Verb mesh_verb() {
   return {"mesh", "mesh gear.yaml [-option value ...]",
           "gear data -> hexahedral mesh of the worm or the wheel",
-          table_of(kDesign, kWormCounts, kWheelCounts), run};
+          table_of(kDesign, kWormCounts, kWheelCounts), run_mesh};
 }
 
 }  // namespace elastogear::app

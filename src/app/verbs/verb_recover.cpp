@@ -168,7 +168,7 @@ void protect_inputs(const Options& options, const RecoverSettings& settings, con
   protect_inputs(options, {stresses, fields}, data);
 }
 
-void run(const Options& options, const std::vector<std::string>&) {
+void run_recover(const Options& options, const std::vector<std::string>&) {
   options.reject_unknown({{"body", known_bodies(options)}});
   const RecoverSettings settings = recover_settings(options);
   const OutputLock lock(settings.output);
@@ -185,7 +185,7 @@ void run(const Options& options, const std::vector<std::string>&) {
 
 Verb recover_verb() {
   return {"recover", "recover system.yaml [-option value ...]",
-          "stress histories, equivalent stresses and fields from a result file", recover_table(), run};
+          "stress histories, equivalent stresses and fields from a result file", recover_table(), run_recover};
 }
 
 }  // namespace elastogear::app

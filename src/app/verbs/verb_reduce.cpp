@@ -197,7 +197,7 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
   print_item("written", output);
 }
 
-void run(const Options& options, const std::vector<std::string>&) {
+void run_reduce(const Options& options, const std::vector<std::string>&) {
   options.reject_unknown();
   const std::string output = options.text("output");
   protect_inputs(options, {{"output", {output}}});
@@ -227,7 +227,7 @@ Verb reduce_verb() {
           "reduce body.yaml [-option value ...]",
           "finite-element mesh -> body file; run under mpirun for large meshes",
           reduce_table(),
-          run,
+          run_reduce,
           true};
 }
 

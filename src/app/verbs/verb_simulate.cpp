@@ -64,7 +64,7 @@ const Rows<TimeSettings> kTimeRows = {
      "with step_tolerance: the same for velocities; 0: without"},
 };
 
-OptionTable table() {
+OptionTable simulate_table() {
   OptionTable all = body_table();
   for (const OptionTable& part :
        {table_of(kEnvironmentRows, kAnalysisRows, kTimeRows), output_table(), contact_table(),
@@ -185,7 +185,7 @@ model::ResultHeader header(const Options& options, const dynamics::System& syste
   return header;
 }
 
-void run(const Options& options, const std::vector<std::string>&) {
+void run_simulate(const Options& options, const std::vector<std::string>&) {
   const std::vector<std::string> names = options.list("bodies");
   require(!names.empty(), "option -bodies is missing: names of the bodies");
   options.reject_unknown(simulate_names(options));
@@ -213,7 +213,7 @@ void run(const Options& options, const std::vector<std::string>&) {
 
 Verb simulate_verb() {
   return {"simulate", "simulate system.yaml [-option value ...]",
-          "bodies, joints, loads, contact -> result file", table(), run};
+          "bodies, joints, loads, contact -> result file", simulate_table(), run_simulate};
 }
 
 }  // namespace elastogear::app

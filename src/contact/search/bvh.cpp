@@ -9,8 +9,6 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr float kUlp = 0x1p-24F;  // relative error of rounding to float
-
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int __attribute__((vector_size(16)));
 

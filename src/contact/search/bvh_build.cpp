@@ -98,13 +98,13 @@ int partition(Builder& b, std::span<int> faces) {
   return left == 0 || left == static_cast<int>(faces.size()) ? half : left;
 }
 
-struct Task {
+struct Range {
   int node, begin, end;
 };
 
 void grow(Builder& b) {
   b.bvh.child.push_back(0);
-  std::vector<Task> tasks{{0, 0, static_cast<int>(b.order.size())}};
+  std::vector<Range> tasks{{0, 0, static_cast<int>(b.order.size())}};
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const auto [node, begin, end] = tasks[i];
     if (end - begin == 1) {

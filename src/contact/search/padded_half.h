@@ -1,11 +1,13 @@
 #pragma once
-// The length of a box in memory as a compile-time constant.
+// How boxes lie in memory: as floats, of a length that is a compile-time constant.
 
 #include <type_traits>
 
 #include "elastogear/contact/bvh.h"
 
 namespace elastogear::contact {
+
+constexpr float kUlp = 0x1p-24F;  ///< relative error of rounding to float
 
 /// Calls f with padded_half(k) as a std::integral_constant: loops over the intervals then have a fixed
 /// length.

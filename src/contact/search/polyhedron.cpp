@@ -11,15 +11,15 @@
 namespace elastogear::contact {
 namespace {
 
-struct Planes {
+struct HalfSpaces {
   Eigen::Matrix3Xd n;  // unit outward normals
   Eigen::VectorXd d;   // n . x <= d
   double tolerance;    // m, roundoff of an intersection point
 };
 
-Planes planes_of(const Kdop& dop) {
+HalfSpaces planes_of(const Kdop& dop) {
   const Directions& B = directions(dop.k);
-  Planes p{Eigen::Matrix3Xd(3, dop.k), Eigen::VectorXd(dop.k), 0};
+  HalfSpaces p{Eigen::Matrix3Xd(3, dop.k), Eigen::VectorXd(dop.k), 0};
   for (int i = 0; i < B.n; ++i) {
     p.n.col(2 * i) = B[i] / B.norm[i];
     p.n.col(2 * i + 1) = -p.n.col(2 * i);
@@ -30,13 +30,13 @@ Planes planes_of(const Kdop& dop) {
   return p;
 }
 
-void add_vertex(const Planes& p, const Eigen::Vector3d& x, std::vector<Eigen::Vector3d>& vertices) {
+void add_vertex(const HalfSpaces& p, const Eigen::Vector3d& x, std::vector<Eigen::Vector3d>& vertices) {
   if (((p.n.transpose() * x - p.d).array() > p.tolerance).any()) return;
   const auto same = [&](const Eigen::Vector3d& v) { return (v - x).norm() <= 8 * p.tolerance; };
   if (std::none_of(vertices.begin(), vertices.end(), same)) vertices.push_back(x);
 }
 
-std::vector<Eigen::Vector3d> vertices_of(const Planes& p) {
+std::vector<Eigen::Vector3d> vertices_of(const HalfSpaces& p) {
   std::vector<Eigen::Vector3d> vertices;
   const auto n_planes = p.d.size();
   for (Eigen::Index a = 0; a < n_planes; ++a)
@@ -52,7 +52,8 @@ std::vector<Eigen::Vector3d> vertices_of(const Planes& p) {
 }
 
 // Vertices of one plane, sorted by angle around the plane's normal.
-std::vector<int> polygon(const Planes& p, Eigen::Index plane, const std::vector<Eigen::Vector3d>& vertices) {
+std::vector<int> polygon(const HalfSpaces& p, Eigen::Index plane,
+                         const std::vector<Eigen::Vector3d>& vertices) {
   std::vector<int> on_plane;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (int v = 0; v < static_cast<int>(vertices.size()); ++v)
@@ -73,7 +74,7 @@ std::vector<int> polygon(const Planes& p, Eigen::Index plane, const std::vector<
 }  // namespace
 
 Polyhedron polyhedron(const Kdop& dop) {
-  const Planes p = planes_of(dop);
+  const HalfSpaces p = planes_of(dop);
   Polyhedron result;
   result.vertices = vertices_of(p);
   for (Eigen::Index plane = 0; plane < p.d.size(); ++plane) {

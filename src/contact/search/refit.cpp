@@ -9,8 +9,7 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr float kUlp = 0x1p-24F;  // relative error of rounding to float
-constexpr int kBlock = 256;       // nodes whose boxes fit into the first cache
+constexpr int kBlock = 256;  // nodes whose boxes fit into the first cache
 
 template <int kBytes>
 struct Register {
@@ -19,20 +18,20 @@ struct Register {
   [[gnu::always_inline]] static const Lanes& at(const float* p) { return *reinterpret_cast<const Lanes*>(p); }
 };
 
-using Float4 = Register<16>::Lanes;
+using PointLanes = Register<16>::Lanes;
 typedef double Double4 __attribute__((vector_size(32), aligned(alignof(double)), may_alias));
 
 // Stores x, y, z in float and what comes after them; their absolute values enter the largest ones.
-[[gnu::always_inline]] inline void round_point(const double* x, float* point, Float4& largest) {
-  const Float4 p = __builtin_convertvector(*reinterpret_cast<const Double4*>(x), Float4);
-  *reinterpret_cast<Float4*>(point) = p;
-  const Float4 size = p < -p ? -p : p;
+[[gnu::always_inline]] inline void round_point(const double* x, float* point, PointLanes& largest) {
+  const PointLanes p = __builtin_convertvector(*reinterpret_cast<const Double4*>(x), PointLanes);
+  *reinterpret_cast<PointLanes*>(point) = p;
+  const PointLanes size = p < -p ? -p : p;
   largest = largest < size ? size : largest;
 }
 
 // Four floats per point, of which the last means nothing. Returns a bound of |x| + |y| + |z| of all points.
 [[gnu::always_inline]] inline float round_points(const Eigen::Matrix3Xd& x, float* points) {
-  Float4 largest = {};
+  PointLanes largest = {};
   const Eigen::Index last = x.cols() - 1;
   for (Eigen::Index i = 0; i < last; ++i) round_point(x.data() + 3 * i, points + 4 * i, largest);
   const double end[4] = {x(0, last), x(1, last), x(2, last), 0};
@@ -45,10 +44,10 @@ typedef double Double4 __attribute__((vector_size(32), aligned(alignof(double)),
 // |p|_1 and one of the width, but for squares of an ulp. 5 and 4 are taken, besides 4 for the rounding of the
 // width itself, and the least normal number for denormals. Infinite in the padding.
 template <int L>
-struct Planes {
+struct LanePlanes {
   alignas(64) float x[L] = {}, y[L] = {}, z[L] = {}, width[L];
 
-  Planes(const Directions& B, double margin, float size) {
+  LanePlanes(const Directions& B, double margin, float size) {
     std::fill_n(width, L, std::numeric_limits<float>::infinity());
     for (int i = 0; i < B.n; ++i) {
       x[i] = static_cast<float>(B.x[i]);
@@ -61,7 +60,7 @@ struct Planes {
 };
 
 template <class R, int H, int L>
-[[gnu::always_inline]] inline void leaf_box(const Planes<L>& B, const float* points, const int* corner,
+[[gnu::always_inline]] inline void leaf_box(const LanePlanes<L>& B, const float* points, const int* corner,
                                             float* box) {
   using Lanes = typename R::Lanes;
   const float* p[4];
@@ -94,7 +93,7 @@ template <class R, int N>
   }
 }
 
-struct Task {
+struct RefitTask {
   Bvh& bvh;
   const Eigen::Matrix3Xd& x;
   const Eigen::Matrix4Xi& face;
@@ -105,10 +104,10 @@ struct Task {
 // Block by block, in each the leaves first: no branch has to be foreseen for a node. Registers for leaves and
 // for parents.
 template <class R_leaf, class R_parent, int H>
-[[gnu::always_inline]] inline void all_boxes(const Task& t) {
+[[gnu::always_inline]] inline void all_boxes(const RefitTask& t) {
   constexpr int N = 2 * H, L = (H + R_leaf::kLanes - 1) / R_leaf::kLanes * R_leaf::kLanes;
   const float size = round_points(t.x, t.points);
-  const Planes<L> B(directions(t.bvh.k), t.margin, size);
+  const LanePlanes<L> B(directions(t.bvh.k), t.margin, size);
   const int* child = t.bvh.child.data();
   float* box = t.bvh.box.data();
   for (int end = t.bvh.n_nodes(); end > 0; end -= kBlock) {
@@ -127,23 +126,23 @@ template <class R_leaf, class R_parent, int H>
 }
 
 template <int H>
-void boxes_portable(const Task& t) {
+void boxes_portable(const RefitTask& t) {
   all_boxes<Register<16>, Register<16>, H>(t);
 }
 
 #ifdef __x86_64__
 template <int H>
-[[gnu::target("avx2,fma")]] void boxes_avx2(const Task& t) {
+[[gnu::target("avx2,fma")]] void boxes_avx2(const RefitTask& t) {
   all_boxes<Register<32>, Register<32>, H>(t);
 }
 template <int H>
-[[gnu::target("avx512f")]] void boxes_avx512(const Task& t) {
+[[gnu::target("avx512f")]] void boxes_avx512(const RefitTask& t) {
   all_boxes<Register<64>, Register<32>, H>(t);
 }
 #endif
 
 template <int H>
-void boxes(const Task& t, [[maybe_unused]] Instructions instructions) {
+void boxes(const RefitTask& t, [[maybe_unused]] Instructions instructions) {
 #ifdef __x86_64__
   if (instructions == Instructions::avx512) return boxes_avx512<H>(t);
   if (instructions == Instructions::avx2) return boxes_avx2<H>(t);

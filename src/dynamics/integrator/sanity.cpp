@@ -10,11 +10,11 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kNothingLeft = 0.5;  // elastic rotation (rad) or strain
-constexpr double kFarBeyond = 100;    // a balance over the energy, at once
-constexpr int kMostBeyond = 10;       // successive steps with a balance beyond the energy
-constexpr double kNoEnergy = 1e-9;    // J, that may be roundoff of a system at rest
-constexpr double kRoundoff = 1e-8;    // of the inertia that elastic coordinates carry
+constexpr double kNothingLeft = 0.5;       // elastic rotation (rad) or strain
+constexpr double kFarBeyond = 100;         // a balance over the energy, at once
+constexpr int kMostBeyond = 10;            // successive steps with a balance beyond the energy
+constexpr double kNoEnergy = 1e-9;         // J, that may be roundoff of a system at rest
+constexpr double kInertiaRoundoff = 1e-8;  // of the inertia that elastic coordinates carry
 
 double stored(const model::Energies& energy) {
   return energy.kinetic + energy.elastic + energy.contact + energy.bushing;
@@ -54,8 +54,8 @@ void Sanity::require_positive_mass(std::size_t b, const model::Snapshot& now) co
   const System::Body& body = system_->bodies()[b];
   const Eigen::MatrixXd H = body.eq.H(Eigen::all, body.open);
   const Eigen::MatrixXd all = H.transpose() * frame_inertia(body, now.bodies[b]) * H;
-  const Eigen::MatrixXd left =
-      all - H.transpose() * bodies_[b].carried * H + kRoundoff * Eigen::MatrixXd(all.diagonal().asDiagonal());
+  const Eigen::MatrixXd left = all - H.transpose() * bodies_[b].carried * H +
+                               kInertiaRoundoff * Eigen::MatrixXd(all.diagonal().asDiagonal());
   require(
       Eigen::LLT<Eigen::MatrixXd>(left).info() == Eigen::Success, "body '", body.name, "' at t = ", now.time,
       " s: the mass matrix is no longer positive definite, for inertia level 'linear' leaves out what the "

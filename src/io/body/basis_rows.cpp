@@ -1,5 +1,7 @@
 #include "io/body/basis_rows.h"
 
+#include "io/hdf5/schema.h"
+
 #include <algorithm>
 
 namespace elastogear::io {
@@ -7,8 +9,6 @@ namespace {
 
 using model::DenseRows;
 using model::SparseRows;
-
-hsize_t extent(Eigen::Index n) { return static_cast<hsize_t>(n); }
 
 bool is_group(const h5::File& file, const std::string& name) { return h5::exists(file, name + "/indptr"); }
 

@@ -11,8 +11,6 @@ namespace {
 
 using model::Basis;
 
-hsize_t extent(Eigen::Index n) { return static_cast<hsize_t>(n); }
-
 Eigen::Matrix<double, Eigen::Dynamic, 3> read_coupling(const h5::File& file, const std::string& name,
                                                        Eigen::Index n_q) {
   const auto values = h5::read<double>(file, name, {extent(n_q), 3});

@@ -32,6 +32,8 @@ void require_name(const h5::File& file, const std::string& name);
 void write_mesh(const h5::File& file, const mesh::Mesh& mesh);
 mesh::Mesh read_mesh(const h5::File& file);
 
+inline hsize_t extent(Eigen::Index n) { return static_cast<hsize_t>(n); }
+
 inline h5::View<double> view(const Eigen::Matrix3Xd& X) {
   return {{static_cast<hsize_t>(X.cols()), 3}, X.data()};
 }

@@ -3,11 +3,10 @@
 #include "elastogear/io/result_file.h"
 #include "io/hdf5/schema.h"
 #include "io/result/contact_forces.h"
+#include "io/result/result_rows.h"
 
 namespace elastogear::io {
 namespace {
-
-constexpr const char* kSide[2] = {"a", "b"};
 
 // Names of the members of a group in the order of their attribute `number`.
 std::vector<std::string> in_order(const h5::File& file, const std::string& group) {

@@ -11,8 +11,6 @@ namespace {
 
 using h5::Item;
 
-constexpr const char* kSide[2] = {"a", "b"};
-
 bool finite(const model::Snapshot& snapshot) {
   bool good = std::isfinite(snapshot.time);
   for (const auto& body : snapshot.bodies)

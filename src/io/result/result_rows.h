@@ -11,6 +11,8 @@
 
 namespace elastogear::io {
 
+constexpr const char* kSide[2] = {"a", "b"};  ///< the two bodies of a pair, as groups of the file
+
 /// Rows of the histories that come before a part of them.
 struct RowCount {
   double last_time = -std::numeric_limits<double>::infinity();  ///< s

@@ -7,8 +7,6 @@
 namespace elastogear::io {
 namespace {
 
-constexpr const char* kSide[2] = {"a", "b"};
-
 // Their order in the snapshots is that of the attribute `number`.
 void write_names(const h5::File& file, const std::string& group, const std::vector<std::string>& names) {
   if (names.empty()) return;

@@ -6,8 +6,6 @@
 namespace elastogear::io {
 namespace {
 
-hsize_t extent(Eigen::Index n) { return static_cast<hsize_t>(n); }
-
 void check(const h5::File& file, const StressSet& set, Eigen::Index n_t) {
   require_name(file, set.body);
   require_name(file, set.set);

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr double kDependent = 1e-7;  // relative, energy norm: its square is 100 roundoffs of the Gram matrix
 constexpr int kPasses = 2;           // the second one repairs what dividing by 1e-7 loses
-constexpr int kBlock = 32;           // vectors that are formed together
+constexpr int kFormedTogether = 32;  // vectors that are formed together
 
 // Columns of unit energy; those without any stay.
 void scale_to_unit_energy(const RitzSpace& space, MatrixXd& W) {
@@ -48,8 +48,8 @@ MatrixXd orthonormaliser(const MatrixXd& G) {
 // Mass projected on the space, V' M V.
 MatrixXd projected_mass(const RitzSpace& space) {
   MatrixXd own(space.size, space.size);
-  for (int begin = 0; begin < space.size; begin += kBlock) {
-    const int n = std::min(kBlock, space.size - begin);
+  for (int begin = 0; begin < space.size; begin += kFormedTogether) {
+    const int n = std::min(kFormedTogether, space.size - begin);
     MatrixXd columns = MatrixXd::Zero(space.V.n_rows(), n);
     space.V.add_product(begin, MatrixXd::Identity(n, n), columns);
     own.middleCols(begin, n) = space.V.dot(space.size, (*space.M)(columns));
@@ -101,8 +101,9 @@ MatrixXd combine(const RitzSpace& space, const Eigen::Ref<const MatrixXd>& s) {
 Eigenmodes deliver(const RitzSpace& space, const RitzVectors& ritz, Mat K, Mat M, const ModeSink& sink) {
   Eigenmodes modes{VectorXd(space.size), VectorXd(space.size), ritz.orthogonality};
   const Residual w = make_residual(K);
-  for (int begin = 0; begin < space.size; begin += kBlock) {
-    const MatrixXd phi = combine(space, ritz.s.middleCols(begin, std::min(kBlock, space.size - begin)));
+  for (int begin = 0; begin < space.size; begin += kFormedTogether) {
+    const MatrixXd phi =
+        combine(space, ritz.s.middleCols(begin, std::min(kFormedTogether, space.size - begin)));
     for (int j = 0; j < phi.cols(); ++j) {
       const int k = begin + j;
       load(w.phi, phi.col(j));

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int kBlock = 96;  // right-hand sides that go through the factor together
+constexpr int kSolvedTogether = 96;  // right-hand sides that go through the factor together
 constexpr const char* kStage = "static responses";
 
 std::pair<int, int> own_rows(Mat K) {
@@ -23,8 +23,6 @@ std::pair<int, int> own_rows(Mat K) {
   check(MatGetOwnershipRange(K, &begin, &end));
   return {static_cast<int>(begin), static_cast<int>(end)};
 }
-
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
 
 void factorise_stiffness(ShiftedFactor& factor) {
   const int negative = factor.factorise(0);
@@ -38,13 +36,13 @@ void add_static_solutions(RitzSpace& space, const RitzTask& task, const Progress
   const int n = static_cast<int>(row.size());
   ShiftedFactor factor(task.K, task.M);
   factorise_stiffness(factor);
-  for (int first = 0; first < n; first += kBlock) {
-    MatrixXd U = MatrixXd::Zero(end - begin, std::min(kBlock, n - first));
+  for (int first = 0; first < n; first += kSolvedTogether) {
+    MatrixXd U = MatrixXd::Zero(end - begin, std::min(kSolvedTogether, n - first));
     for (int j = 0; j < U.cols(); ++j)
       if (row[first + j] >= begin && row[first + j] < end) U(row[first + j] - begin, j) = 1;
     factor.solve(U);
     extend(space, std::move(U), space.room());
-    report(progress, kStage, static_cast<double>(std::min(n, first + kBlock)) / n);
+    report(progress, kStage, static_cast<double>(std::min(n, first + kSolvedTogether)) / n);
   }
 }
 
@@ -64,8 +62,8 @@ MatrixXd own_modes(Mat K, Mat M, const EigenOptions& options, const Progress& pr
 }
 
 void add_in_blocks(RitzSpace& space, const MatrixXd& W) {
-  for (Index begin = 0; begin < W.cols(); begin += kBlock)
-    extend(space, W.middleCols(begin, std::min<Index>(kBlock, W.cols() - begin)), space.room());
+  for (Index begin = 0; begin < W.cols(); begin += kSolvedTogether)
+    extend(space, W.middleCols(begin, std::min<Index>(kSolvedTogether, W.cols() - begin)), space.room());
 }
 
 RitzSpace modal_attachment(const RitzTask& task, const RitzSpace& empty, const Progress& progress) {

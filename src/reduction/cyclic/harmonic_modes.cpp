@@ -20,8 +20,6 @@ using Eigen::VectorXd;
 constexpr double kSameEigenvalue = 1e-6;  // relative: vectors so close are separated anew
 constexpr double kSameModulus = 1e-6;
 
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
-
 struct Problem {
   const fem::Matrices& matrices;
   const fem::Harmonic& harmonic;

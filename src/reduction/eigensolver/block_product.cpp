@@ -54,8 +54,7 @@ bool is_serial(MPI_Comm comm) {
 
 }  // namespace
 
-BlockProduct::BlockProduct(Mat A, Storage storage)
-    : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(A))) {
+BlockProduct::BlockProduct(Mat A, Storage storage) : comm_(comm_of(A)) {
   PetscInt n_own = 0, n = 0;
   check(MatGetLocalSize(A, &n_own, nullptr));
   check(MatGetSize(A, &n, nullptr));

@@ -20,8 +20,6 @@ constexpr int kSharedFront = 9;         // KEEP: order from which a front's rows
 constexpr int kSingular = -10;          // INFOG(1)
 constexpr int kWorkspaceTooSmall = -9;  // INFOG(1), and -8 for the integers
 
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
-
 }  // namespace
 
 struct ShiftedFactor::Solver {

@@ -60,7 +60,7 @@ std::vector<int> order(const std::vector<int>& degree, std::vector<int>& neighbo
 }  // namespace
 
 std::vector<int> nested_dissection(Mat A) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(A));
+  const MPI_Comm comm = comm_of(A);
   const Graph local = local_graph(A);
   const std::vector<int> degree = concatenate(comm, local.degree);
   std::vector<int> neighbour = concatenate(comm, local.neighbour);

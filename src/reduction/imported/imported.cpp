@@ -21,8 +21,6 @@ constexpr double kHeld =
 constexpr double kRounded = 1e-8;                             // relative, of sums over rounded output
 constexpr char kHasStiffness = 1, kHasMass = 2, kIsHeld = 4;  // flags of a displacement
 
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
-
 void flag_diagonals(const std::vector<Entry>& half, char flag, double unit, std::vector<char>& flags) {
   for (const Entry& e : half)
     if (e.row == e.column && e.value > 0) flags[e.row] |= flag | (e.value >= kHeld * unit ? kIsHeld : 0);

@@ -17,11 +17,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kLargest = 5000;   // rows: some minutes, and 1 GB
-constexpr int kShare = 3;        // one in so many modes wanted
-constexpr double kEqual = 1e-5;  // relative, of eigenvalues that belong together
-
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
+constexpr int kLargest = 5000;  // rows: some minutes, and 1 GB
+constexpr int kShare = 3;       // one in so many modes wanted
 
 // K phi = lambda M phi, ascending, phi' M phi = I.
 struct Spectrum {

@@ -6,6 +6,8 @@
 
 namespace elastogear::reduction {
 
+constexpr double kEqual = 1e-5;  ///< relative difference of eigenvalues that belong together
+
 /// Returns whether so many of the n modes are wanted that a Krylov basis for them would fill the space, on a
 /// body small enough for dense matrices.
 bool suits_dense(int n, int n_modes);

@@ -14,7 +14,7 @@ constexpr double kTolerance = 1e-10;  // of the solution; the masses are as exac
 UniqueKSP mass_solver(Mat M) {
   UniqueKSP ksp;
   PC pc = nullptr;
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(M)), ksp.out()));
+  check(KSPCreate(comm_of(M), ksp.out()));
   check(KSPSetOperators(ksp, M, M));
   check(KSPSetType(ksp, KSPCG));
   check(KSPSetTolerances(ksp, kTolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));

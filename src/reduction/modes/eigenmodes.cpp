@@ -115,7 +115,7 @@ UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
   const std::string type = solver_type(options);
   const bool ours = type == kBlockLanczos;
   const int count = ours ? options.n_modes : guarded_count(options.n_modes, size_of(K));
-  check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(K)), eps.out()));
+  check(EPSCreate(comm_of(K), eps.out()));
   check(EPSSetOptionsPrefix(eps, options.prefix.c_str()));
   check(EPSSetOperators(eps, K, M));
   check(EPSSetProblemType(eps, EPS_GHEP));
@@ -197,7 +197,6 @@ std::pair<double, int> shift_above(const std::vector<std::pair<double, int>>& pa
 
 // `wanted`, and more when their eigenvalues are as good as equal to the last one's.
 int whole_group(const std::vector<std::pair<double, int>>& pairs, int wanted) {
-  constexpr double kEqual = 1e-5;
   std::size_t n = static_cast<std::size_t>(wanted);
   while (n < pairs.size() && pairs[n].first - pairs[n - 1].first < kEqual * pairs[n].first) ++n;
   return static_cast<int>(n);

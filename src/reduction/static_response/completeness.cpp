@@ -8,8 +8,6 @@
 namespace elastogear::reduction {
 namespace {
 
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
-
 // One vector and its own rows as a column.
 struct Column {
   UniqueVec vec;

@@ -207,7 +207,7 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
 
 model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSystem& system,
                                     const Progress& progress) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.K));
+  const MPI_Comm comm = comm_of(system.K);
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   model::Flexibility flexibility;

@@ -13,8 +13,6 @@ using Eigen::MatrixXd;
 
 constexpr double kDependent = 1e-12;  // of fields: smallest over largest pivot of their Gram matrix
 
-MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
-
 MatrixXd own_rows(BV R) {
   PetscInt first = 0, end = 0, n_own = 0;
   check(BVGetActiveColumns(R, &first, &end));

@@ -15,7 +15,7 @@
 namespace elastogear::reduction {
 namespace {
 
-constexpr Eigen::Index kBlock = 32;  // right-hand sides that go through the factor together
+constexpr Eigen::Index kSolvedTogether = 32;  // right-hand sides that go through the factor together
 
 struct System {
   fem::Matrices matrices;
@@ -124,8 +124,8 @@ Eigen::MatrixXd StaticResponse::stress(const std::vector<int>& loaded, const std
       data_->in_rows(fem::stress_operator(source.mesh, source.regions, source.element, evaluated));
   const auto n = 3 * static_cast<Eigen::Index>(loaded.size());
   Eigen::MatrixXd G(S.rows(), n);
-  for (Eigen::Index begin = 0; begin < n; begin += kBlock) {
-    const Eigen::Index count = std::min(kBlock, n - begin);
+  for (Eigen::Index begin = 0; begin < n; begin += kSolvedTogether) {
+    const Eigen::Index count = std::min(kSolvedTogether, n - begin);
     Eigen::MatrixXd x = Eigen::MatrixXd::Zero(data_->n_rows(), count);
     for (Eigen::Index j = 0; j < count; ++j) {
       const Eigen::Index load = begin + j;
