@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 
 namespace elastogear::mesh {
 namespace {
@@ -183,14 +184,14 @@ std::vector<model::MaterialRegion> material_regions(const InpLines& in, const In
     const std::string* set = cell_sets.spelling(section.cell_set);
     if (!set)
       in.fail_at(section.line, "*SOLID SECTION names the unknown element set '", section.cell_set, "'");
-    Material material = named(in, materials.materials, section.material, section, "material");
+    model::MaterialRegion region{*set, named(in, materials.materials, section.material, section, "material")};
     if (!section.orientation.empty()) {
       const auto& orientation =
           named(in, materials.orientations, section.orientation, section, "orientation");
-      if (material.orthotropic) material.orthotropic->orientation = orientation;
+      if (region.material.orthotropic) region.material.orthotropic->orientation = orientation;
     }
-    to_si(unit_in_m, material);
-    if (!mesh.cell_sets.at(*set).empty()) regions.push_back({*set, material});
+    to_si(unit_in_m, region.material);
+    if (!mesh.cell_sets.at(*set).empty()) regions.push_back(std::move(region));
   }
   return regions;
 }
