@@ -209,12 +209,6 @@ model::ElasticBody full_box(const BoxSpec& spec) {
   return body;
 }
 
-Sparse diagonal(const Eigen::VectorXd& d) {
-  Sparse D(d.size(), d.size());
-  for (int i = 0; i < d.size(); ++i) D.insert(i, i) = d[i];
-  return D;
-}
-
 // Columns of V as the new basis.
 void project(model::ElasticBody& body, const MatrixXd& V) {
   body.basis = model::Basis::modal;
@@ -240,8 +234,8 @@ model::ElasticBody make_box(const BoxSpec& spec, model::Basis basis, int n_modes
 model::ElasticBody in_modes(model::ElasticBody full, const MatrixXd& V, const Eigen::VectorXd& lambda) {
   project(full, V);
   full.frequency = lambda.cwiseSqrt() / (2 * std::numbers::pi);
-  full.M_r = diagonal(Eigen::VectorXd::Ones(lambda.size()));
-  full.K_r = diagonal(lambda);
+  full.M_r = Eigen::VectorXd::Ones(lambda.size()).asDiagonal();
+  full.K_r = lambda.asDiagonal();
   return full;
 }
 

@@ -40,10 +40,6 @@ MatrixXd compliances(const HalfSpace& spec, const Eigen::Matrix3Xd& X) {
   return C;
 }
 
-Eigen::SparseMatrix<double> diagonal(const Eigen::VectorXd& d) {
-  return Eigen::SparseMatrix<double>(d.asDiagonal());
-}
-
 }  // namespace
 
 void complete(model::Surface& surface) {
@@ -74,8 +70,8 @@ std::shared_ptr<const model::ElasticBody> half_space(const HalfSpace& spec, doub
   model::DenseRows Phi = model::DenseRows::Zero(3 * n_s, n_s);
   for (Eigen::Index i = 0; i < n_s; ++i) Phi.row(3 * i + 2) = V.row(i);
   surface.Phi = Phi;
-  body->M_r = diagonal(Eigen::VectorXd::Ones(n_s));
-  body->K_r = diagonal(stiffness);
+  body->M_r = Eigen::VectorXd::Ones(n_s).asDiagonal();
+  body->K_r = stiffness.asDiagonal();
   body->frequency = stiffness.cwiseSqrt() / (2 * std::numbers::pi);
   body->inertia.C_l.setZero(n_s, 3);
   body->inertia.C_r.setZero(n_s, 3);
