@@ -1,12 +1,12 @@
 #include "elastogear/reduction/free_body.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include "elastogear/base/error.h"
+#include "reduction/eigensolver/dense_eigenproblem.h"
 #include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
@@ -142,8 +142,8 @@ RigidModes find_rigid_modes(Mat K, Mat M, const fem::VectorGather& gather, const
   RigidModes rigid{polynomial_basis(M, gather, X), 0};
   const Eigen::MatrixXd K_r = project(K, rigid.R);
   const Eigen::Index n = K_r.rows() - kRigid;
-  const double estimate =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K_r.bottomRightCorner(n, n)).eigenvalues()(0);
+  Eigen::MatrixXd elastic = K_r.bottomRightCorner(n, n);
+  const double estimate = diagonalise(elastic)(0);
   if (estimate <= zero_eigenvalue(K, M)) fail_count(kRigid);
   const double energy = K_r.topLeftCorner<kRigid, kRigid>().cwiseAbs().maxCoeff();
   require(energy <= kRigidEnergy * estimate, "the stiffness resists rigid motions of the nodes (", energy,
