@@ -1,8 +1,7 @@
 #include "elastogear/fem/restraint.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <map>
 #include <numeric>
 #include <set>
@@ -32,12 +31,28 @@ std::vector<int> connected_parts(const mesh::Mesh& mesh) {
   return parent;
 }
 
-// Rigid motions t + w x (X - centre): columns [t; length w], orthonormal.
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// A space of rigid motions t + w x (X - centre), of columns [t; length w].
 struct RigidMotions {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double length = 1;  // m
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Identity(6, 6);
+  Eigen::Index dimension = 6;
+  Matrix6 projector = Matrix6::Identity();  // orthogonal, on the space
 };
+
+// Takes what the columns of A span off the motions, by the longest column that is left at a time.
+void hold(Eigen::Matrix<double, 6, Eigen::Dynamic> A, RigidMotions& left) {
+  Eigen::Index pivot = 0;
+  const double first = A.colwise().norm().maxCoeff();
+  for (; left.dimension > 0; --left.dimension) {
+    const double longest = A.colwise().norm().maxCoeff(&pivot);
+    if (longest <= kFree * first) return;
+    const Eigen::Vector<double, 6> q = (left.projector * A.col(pivot)).normalized();
+    for (auto a : A.colwise()) a -= q.dot(a) * q;
+    left.projector -= q * q.transpose();
+  }
+}
 
 // Rigid motions that move none of the held displacements. A motion displaces node X along e by [e; (X - c) x
 // e] times [t; w]: the rank of these columns, docs/theory.md, Eq. (1.6a), is found by pivots, which do not
@@ -50,7 +65,7 @@ RigidMotions free_motions(const mesh::Mesh& mesh, const std::vector<mesh::Direct
   left.centre = r.rowwise().mean();
   r.colwise() -= left.centre;
   if (const double extent = r.colwise().norm().maxCoeff(); extent > 0) left.length = extent;
-  Eigen::MatrixXd A(6, 3 * r.cols());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> A(6, 3 * r.cols());
   Eigen::Index n = 0;
   for (Eigen::Index i = 0; i < r.cols(); ++i)
     for (int d = 0; d < 3; ++d) {
@@ -58,11 +73,7 @@ RigidMotions free_motions(const mesh::Mesh& mesh, const std::vector<mesh::Direct
       const Eigen::Vector3d e = Eigen::Vector3d::Unit(d);
       A.col(n++) << e, r.col(i).cross(e) / left.length;
     }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(kFree);
-  qr.compute(A.leftCols(n));
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(6, 6);
-  left.motion = Q.rightCols(6 - qr.rank());
+  hold(A.leftCols(n), left);
   return left;
 }
 
@@ -71,11 +82,11 @@ Eigen::RowVector3d readable(const Eigen::Vector3d& v, double size) {
   return (v / (kFree * size)).array().round() * (kFree * size) + 0.0;
 }
 
-// Orthonormal directions that span what the orthonormal columns of A do: coordinate axes where they can be.
-std::vector<Eigen::Vector3d> along_axes(const Eigen::MatrixXd& A) {
-  Eigen::Matrix3d projector = A * A.transpose();
+// Orthonormal directions that span the image, of dimension n, of an orthogonal projector: coordinate axes
+// where they can be.
+std::vector<Eigen::Vector3d> along_axes(Eigen::Matrix3d projector, Eigen::Index n) {
   std::vector<Eigen::Vector3d> directions;
-  while (static_cast<Eigen::Index>(directions.size()) < A.cols()) {
+  while (static_cast<Eigen::Index>(directions.size()) < n) {
     int axis = 0;
     for (int i : {1, 2})
       if (projector(i, i) > projector(axis, axis) + kFree) axis = i;
@@ -88,22 +99,25 @@ std::vector<Eigen::Vector3d> along_axes(const Eigen::MatrixXd& A) {
 
 // "move along (1 0 0), turn about (0 0 1) through (0 0 0) m"
 std::string describe(const RigidMotions& left) {
-  const Eigen::MatrixXd T = left.motion.topRows<3>(), W = left.motion.bottomRows<3>();
-  Eigen::JacobiSVD<Eigen::MatrixXd> turning(W, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Index n_turns = (turning.singularValues().array() > kFree).count(),
-                     n_moves = W.cols() - n_turns;
-  const Eigen::MatrixXd V = turning.matrixV().leftCols(n_turns), U = turning.matrixU().leftCols(n_turns);
+  const Eigen::Matrix3d P_tt = left.projector.topLeftCorner<3, 3>(),
+                        P_tw = left.projector.topRightCorner<3, 3>(),
+                        P_ww = left.projector.bottomRightCorner<3, 3>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(P_ww);
+  const Eigen::Array3d is_turn = (eigen.eigenvalues().array() > kFree * kFree).cast<double>();
+  const auto n_turns = static_cast<Eigen::Index>(is_turn.sum()), n_moves = left.dimension - n_turns;
+  const Eigen::Vector3d inverse = (is_turn > 0).select(eigen.eigenvalues().cwiseInverse(), 0);
+  const Eigen::Matrix3d U = eigen.eigenvectors();
+  // The least motion that turns by e / length moves the centre by S e.
+  const Eigen::Matrix3d S = P_tw * U * inverse.asDiagonal() * U.transpose();
   std::ostringstream text;
   const char* comma = "";
-  for (const Eigen::Vector3d& e : along_axes(T * turning.matrixV().rightCols(n_moves))) {
+  for (const Eigen::Vector3d& e : along_axes(P_tt - S * P_tw.transpose(), n_moves)) {
     text << comma << "move along (" << readable(e, 1) << ")";
     comma = ", ";
   }
-  for (const Eigen::Vector3d& e : along_axes(U)) {
-    const Eigen::VectorXd c = V * (U.transpose() * e).cwiseQuotient(turning.singularValues().head(n_turns));
-    const Eigen::Vector3d t = T * c;  // of the turn by e / length about the centre
+  for (const Eigen::Vector3d& e : along_axes(U * is_turn.matrix().asDiagonal() * U.transpose(), n_turns)) {
     text << comma << "turn about (" << readable(e, 1) << ") through ("
-         << readable(left.centre + left.length * e.cross(t), left.length) << ") m";
+         << readable(left.centre + left.length * e.cross(S * e), left.length) << ") m";
     comma = ", ";
   }
   return text.str();
@@ -147,7 +161,7 @@ void require_held(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& h
     if (held[node] != 0 && nodes_of.contains(part[node])) nodes_of[part[node]].push_back(node);
   for (const auto& [node, nodes] : nodes_of) {
     const RigidMotions left = free_motions(mesh, held, nodes);
-    if (left.motion.cols() == 0) continue;
+    if (left.dimension == 0) continue;
     fail("the stiffness is singular: the connected part of the mesh with node ", node,
          " (counted from 0) has ", nodes.size(), " restrained nodes, which leave it free to ", describe(left),
          "; hold more nodes or directions by the option restrain");
