@@ -22,8 +22,10 @@ import misuse_case
 import misuse_cases
 import misuse_files
 
-# Open MPI runs as root, and starts no daemon for a program of one rank; such programs need a folder each for its files.
+# Open MPI runs as root, does not wait for fast networks, and starts no daemon for a program of one rank; such programs need a
+# folder each for its files.
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_ess_singleton_isolated": "1",
+       "OMPI_MCA_pml": "ob1",
        "OPENBLAS_NUM_THREADS": "1"}
 PATIENCE = 120  # s
 KILLED = 124  # exit codes from here on are signals
