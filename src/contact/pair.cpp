@@ -21,6 +21,7 @@ struct Side {
   std::vector<CornerSlopes> smoothing;  // of each face as master; empty: facets
   std::vector<int> last_face;           // master face each node touched last; -1
   std::map<int, StickPoint> stuck;      // by slave node, after the last accepted step
+  std::map<int, double> p;              // N, normal forces given, by slave node
 };
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
@@ -32,6 +33,7 @@ Side make_side(const Tracked& tracked, const Settings& settings) {
           settings.smooth ? corner_slopes(undeformed, radians(settings.feature_angle))
                           : std::vector<CornerSlopes>(),
           std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
+          {},
           {}};
 }
 
@@ -39,7 +41,7 @@ Side make_side(const Tracked& tracked, const Settings& settings) {
 void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
   contact.n = R * contact.n;
   contact.f = R * contact.f;
-  contact.F = (R * contact.F).eval();
+  for (LocalVectors* vectors : {&contact.F, &contact.F_p, &contact.g_x}) *vectors = (R * *vectors).eval();
   contact.slip = R * contact.slip;
   contact.elastic_slip = R * contact.elastic_slip;
   contact.v = (R * contact.v).eval();
@@ -48,8 +50,12 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
 }
 
 // Facets that a smooth surface lies behind are touched from outside, and so is what the offset moves out.
+// Open candidates of the unilateral law are near enough to close within an evaluation; others are found in
+// the next one.
 Limits limits_of(const Settings& settings, const Side& a, const Side& b) {
-  const double height = std::max(largest_height(a.smoothing), largest_height(b.smoothing));
+  constexpr double kReach = 0.02;  // of the depth
+  const double reach = settings.law == ContactLaw::unilateral ? kReach * settings.depth : 0,
+               height = reach + std::max(largest_height(a.smoothing), largest_height(b.smoothing));
   return {settings.depth + height + std::max(0.0, settings.offset), std::cos(radians(settings.normal_angle)),
           height + std::max(0.0, -settings.offset)};
 }
@@ -86,13 +92,15 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
                                                 const Projection& w) const {
   const Side& slaves = side[slave_side];
   const Law& law = slaves.law[node];
+  const auto given = slaves.p.find(node);
+  const double p = given == slaves.p.end() ? 0 : given->second;
   if (has_potential(settings) && !on_extension(w))
-    return potential_contact(master, w, law.c_p, settings.full_tangent);
+    return potential_contact(master, w, law, p, settings.full_tangent);
   const auto rate = [&](int i, int n) { return tracker.velocity(i == 0 ? slave_side : 1 - slave_side, n); };
   const auto stuck = slaves.stuck.find(node);
   const Eigen::Vector3d x = tracker.configuration().x[slave_side].col(node);
-  return general_contact(master, {w, node, x, rate, stuck == slaves.stuck.end() ? nullptr : &stuck->second},
-                         law);
+  return general_contact(master,
+                         {w, node, x, rate, stuck == slaves.stuck.end() ? nullptr : &stuck->second, p}, law);
 }
 
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
@@ -130,6 +138,12 @@ SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& m
 }
 
 Eigen::Vector3d Pair::position(int side, int node) const { return data_->tracker.position_B(side, node); }
+
+void Pair::set_normal_forces(const std::vector<ContactPoint>& contacts) {
+  for (Side& side : data_->side) side.p.clear();
+  for (const ContactPoint& contact : contacts)
+    if (contact.p > 0) data_->side[contact.slave_side].p[contact.slave_node] = contact.p;
+}
 
 void Pair::accept(const std::vector<ContactPoint>& contacts) {
   for (Side& side : data_->side) side.stuck.clear();

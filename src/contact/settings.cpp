@@ -48,6 +48,10 @@ void validate(const Settings& s) {
   require(s.feature_angle > 0 && s.feature_angle <= 90, "contact: feature_angle ", s.feature_angle,
           " deg, allowed is 0 to 90");
   validate(s.friction);
+  require(s.law != ContactLaw::unilateral || (s.damping == 0 && s.hysteresis == 0),
+          "contact: damping and hysteresis are those of the penalty; the unilateral law has none");
+  require(s.law != ContactLaw::unilateral || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
+          "contact: friction that sticks needs the law 'penalty'");
   require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
           ", allowed is 0 to 0.5");
 }
@@ -101,6 +105,7 @@ std::vector<Law> node_laws(const Settings& s, const model::Surface& slave) {
   const bool sticks = s.friction.law == FrictionLaw::stick;
   for (Eigen::Index i = 0; Law & law : laws) {
     law.c_p = c_p[i++];
+    law.unilateral = s.law == ContactLaw::unilateral;
     law.d_p = s.damping * law.c_p / s.stiffness;
     law.hysteresis = s.hysteresis;
     law.offset = s.offset;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <optional>
 
 #include "contact/forces/contact_point.h"
 #include "surfaces.h"
@@ -288,6 +289,52 @@ TEST(EndShare, falls_from_one_to_nothing_with_a_continuous_slope) {
               (fade_factor(face, right[0], right[1]).f - fade_factor(face, left[0], left[1]).f) / (2 * h);
           EXPECT_NEAR(fade_factor(face, p[0], p[1]).f_a[i], slope, 1e-3);
         }
+    }
+  }
+}
+
+// Without a penalty the force p is given: that at which g + c p = 0, or the stated one.
+Outcome unilateral(const Local& local, double friction, std::optional<double> p = {}) {
+  Law law = law_with(friction, 0);
+  law.hysteresis = 0;
+  law.unilateral = true;
+  Outcome o;
+  o.w = projection(local);
+  o.kinematics = projection_kinematics(local.face, o.w, local.q);
+  o.contact.v = local.v;
+  o.contact.N = o.w.point.N;
+  const Gap open = gap(o.kinematics, height_at(local, o.w), 0, fade_at(local, o.w));
+  o.contact.p = p.value_or(-open.g / unilateral_compliance(law, open.fade.f));
+  apply_law(law, o.kinematics, open, nullptr, o.contact);
+  return o;
+}
+
+TEST_P(ContactLaw, without_penalty_has_the_tangent_of_a_force_that_keeps_the_gap_closed) {
+  Random random(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Local local = place(random, GetParam(), 2 * thin);
+    const Errors e = tangent_errors(local, [](const Local& x) { return unilateral(x, 0.3); });
+    EXPECT_LT(e.by_x, truncation);
+    EXPECT_LT(e.by_v, truncation);
+  }
+}
+
+TEST_P(ContactLaw, without_penalty_states_how_force_and_gap_change_with_p) {
+  Random random(12);
+  const double h = 1e-6;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Local local = place(random, GetParam(), 100 * thin);
+    const ContactPoint c = unilateral(local, 0.3, 2).contact;
+    const LocalVectors F_p =
+        (unilateral(local, 0.3, 2 + h).contact.F - unilateral(local, 0.3, 2 - h).contact.F) / (2 * h);
+    EXPECT_LT((c.F_p - F_p).norm(), 1e-8 * F_p.norm());
+    for (int j = 0; j < 15; ++j) {
+      const auto sum = [&](double step) {
+        const ContactPoint moved_c =
+            unilateral(moved(local, step * Vector15::Unit(j), Vector15::Zero()), 0.3, 2).contact;
+        return moved_c.g_n + moved_c.c * moved_c.p;
+      };
+      EXPECT_NEAR(c.g_x.reshaped()[j], (sum(h) - sum(-h)) / (2 * h), 1e-6 * (1 + c.g_x.norm()));
     }
   }
 }

@@ -61,7 +61,7 @@ Matrix15 difference_quotient(const Local& local) {
 void expect_consistent(const Local& local, Feature feature) {
   const Projection w = projection(local);
   ASSERT_EQ(w.point.feature, feature);
-  const Tangent t = contact_tangent(local.face, w, c_p, true);
+  const Tangent t = contact_tangent(local.face, w, {-c_p * w.g_n, c_p}, true);
   EXPECT_LE(t.W.cols(), 5);
   EXPECT_EQ(Eigen::MatrixXd(t.k), Eigen::MatrixXd(t.k.transpose()));
   const Matrix15 K = -t.W * t.k * t.W.transpose();
@@ -122,7 +122,8 @@ TEST(Tangent, equals_the_difference_quotient_at_vertices) {
 TEST(Tangent, normal_part_has_rank_one_and_misses_the_geometric_part) {
   Random random(6);
   const Local local = behind(random, 4, 0.3, 0.1);
-  const Tangent t = contact_tangent(local.face, projection(local), c_p, false);
+  const Projection w = projection(local);
+  const Tangent t = contact_tangent(local.face, w, {-c_p * w.g_n, c_p}, false);
   EXPECT_EQ(t.W.cols(), 1);
   const Matrix15 K = -t.W * t.k * t.W.transpose(), exact = difference_quotient(local);
   EXPECT_GT((K - exact).norm(), 100 * truncation * K.norm());
@@ -132,7 +133,8 @@ TEST(Tangent, normal_part_has_rank_one_and_misses_the_geometric_part) {
 TEST(Tangent, annihilates_translations) {
   Random random(7);
   const Local local = behind(random, 4, 0.3, 0.1);
-  const Tangent t = contact_tangent(local.face, projection(local), c_p, true);
+  const Projection w = projection(local);
+  const Tangent t = contact_tangent(local.face, w, {-c_p * w.g_n, c_p}, true);
   const Eigen::Matrix<double, 15, 3> translations = Eigen::Matrix3d::Identity().replicate<5, 1>();
   EXPECT_LT((t.W * t.k * t.W.transpose() * translations).norm(), 1e-13);
 }

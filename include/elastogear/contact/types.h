@@ -13,6 +13,9 @@ namespace elastogear::contact {
 /// points, wider by the bound.
 enum class Update { bound, refit, realign };
 enum class Penalty { per_node, per_area };
+/// penalty: forces grow with the penetration. unilateral: there is none; gaps are closed by the residual
+/// flexibility of the bodies, which one side of the pair must have. docs/theory.md, section 6.11.
+enum class ContactLaw { penalty, unilateral };
 /// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
 /// standstill.
 enum class FrictionLaw { regularised, stick };
@@ -29,6 +32,7 @@ struct FrictionSettings {
 struct Settings {
   int k = 24;  ///< k-DOP directions: 6, 14, 18, 24, 26
   Update update = Update::bound;
+  ContactLaw law = ContactLaw::penalty;
   Penalty penalty = Penalty::per_area;
   /// per_node: N/m, per_area: Pa/m; 0 = from material and cell size (c_f of both sides in series)
   double stiffness = 0;
@@ -102,7 +106,7 @@ struct ContactPoint {
   Eigen::Vector4d N;  ///< master shape functions at the closest point
   double xi = 0, eta = 0;
   Eigen::Vector3d n;                      ///< outward master normal, world frame
-  double g_n = 0;                         ///< m, < 0
+  double g_n = 0;                         ///< m, < 0 (of an open candidate of the unilateral law: > 0)
   Eigen::Vector3d f;                      ///< N, force on the slave node, world frame
   LocalVectors F = LocalVectors::Zero();  ///< N, forces on the local nodes; they and their moments balance
   double energy = 0;                      ///< J, c_p g_n^2 / 2 and that of the tangential spring
@@ -114,8 +118,12 @@ struct ContactPoint {
   Eigen::Vector3d elastic_slip = Eigen::Vector3d::Zero();  ///< m, of the tangential spring
   StickPoint stick;                                        ///< becomes history when the step is accepted
   LocalVectors v = LocalVectors::Zero();                   ///< m/s, of the local nodes, where rates count
-  LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
-  LocalStiffness k;          ///< N/m
+  double p = 0;                                            ///< N, force along n
+  double c = 0;                             ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
+  LocalVectors F_p = LocalVectors::Zero();  ///< -, unilateral only: change of F with p
+  LocalVectors g_x = LocalVectors::Zero();  ///< -, unilateral only: gradient of g_n + c p at this p
+  LocalColumns W, V, V_dot;                 ///< V_dot has no column for forces that do not depend on v
+  LocalStiffness k;                         ///< N/m
 };
 
 }  // namespace elastogear::contact

@@ -18,6 +18,10 @@ const Rows<S> kContactRows = {
      "which body of a pair gives the slave nodes: first or second"},
     {"contact_two_pass", &S::two_pass, "-",
      "check both bodies' nodes against the other's faces, half the stiffness each"},
+    {"contact_law", &S::law, one_of("penalty", "unilateral"),
+     "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
+     "residual "
+     "flexibility that one body must have)"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",

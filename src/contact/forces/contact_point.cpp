@@ -115,13 +115,23 @@ StickPoint stick_point(const Face& face, const Projection& w, const ContactPoint
 
 bool on_extension(const Projection& w) { return w.point.N.minCoeff() < 0; }
 
-ContactPoint potential_contact(const MasterSide& master, const Projection& w, double c_p, bool full_tangent) {
+ContactPoint potential_contact(const MasterSide& master, const Projection& w, const Law& law, double p,
+                               bool full_tangent) {
   const Face face = face_of(master.surface, w.face);
   ContactPoint contact = geometry(master.surface, w);
-  contact.f = -c_p * w.g_n * w.n;
+  contact.p = law.unilateral ? p : -law.c_p * w.g_n;
+  contact.f = contact.p * w.n;
   contact.F << contact.f, -contact.f * w.point.N.transpose();
-  contact.energy = 0.5 * c_p * w.g_n * w.g_n;
-  const Tangent tangent = contact_tangent(face, w, c_p, full_tangent);
+  contact.energy = 0.5 * law.c_p * w.g_n * w.g_n;
+  double k = law.c_p;
+  if (law.unilateral) {
+    contact.c = unilateral_compliance(law, 1);
+    contact.F_p << w.n, -w.n * w.point.N.transpose();
+    contact.g_x = contact.F_p;
+    contact.energy = 0.5 * contact.c * p * p;
+    k = 1 / contact.c;
+  }
+  const Tangent tangent = contact_tangent(face, w, {contact.p, k}, full_tangent);
   contact.W = contact.V = tangent.W;
   contact.V_dot.resize(15, 0);
   contact.k = tangent.k;
@@ -134,8 +144,9 @@ std::optional<ContactPoint> general_contact(const MasterSide& master, const Slav
   const Face face = face_of(master.surface, w.face);
   const ProjectionKinematics kinematics = projection_kinematics(face, w, slave.x_slave);
   const Gap open = gap(kinematics, height_at(master, face, w), law.offset, fade_at(face, w));
-  if (!(open.g < 0)) return {};
+  if (!(open.g < 0) && !law.unilateral) return {};
   ContactPoint contact = geometry(master.surface, w);
+  contact.p = slave.p;
   contact.slave_node = slave.slave_node;
   contact.v.col(0) = slave.velocity(0, slave.slave_node);
   for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.velocity(1, contact.master_node[i]);

@@ -14,6 +14,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double kLeastFade = 1e-6;  // of a unilateral force on an extension, whose compliance must be finite
+
 // A vector with its derivatives by the local positions and velocities.
 struct Varying {
   Vector3d value = Vector3d::Zero();
@@ -40,6 +42,16 @@ Varying tangential(const Varying& y, const Gap& gap) {
   const Matrix3d T = Matrix3d::Identity() - n * n.transpose();
   const Local3 n_x = T * gap.n_x / length;
   return {T * y.value, T * y.x - n * (y.value.transpose() * n_x) - n.dot(y.value) * n_x, T * y.v};
+}
+
+// The given force p of a unilateral contact, with p + k (g + c p) in the place of a penalty: Eq. (6.24).
+NormalForce given_force(const Law& law, double p, double fade) {
+  const double c = unilateral_compliance(law, fade);
+  NormalForce f;
+  f.p = p;
+  f.p_g = -1 / c;
+  f.energy = 0.5 * c * p * p;
+  return f;
 }
 
 // Friction -limit * direction: changes by -K dz - direction dlimit.
@@ -79,17 +91,37 @@ struct Parts {
   Varying motion;      // argument of friction: velocity, or displacement of a node that sticks
   NormalForce normal;  // of the whole node
   double p = 0;        // N, what is left of it on an extension
+  LocalRow p_x, p_v;   // its derivatives
   Friction friction;
   double mu = 0;
 };
 
-Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap, const StickMotion* stick,
-            const LocalVectors& v) {
-  Parts parts;
-  const Varying rate = relative_velocity(kinematics, v);
-  parts.slip = tangential(rate, gap);
+// The force normal to the surface, with its derivatives.
+void set_normal(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
+                const ContactPoint& contact, Parts& parts) {
+  const Varying rate = relative_velocity(kinematics, contact.v);
+  if (law.unilateral) {
+    parts.normal = given_force(law, contact.p, gap.fade.f);
+    parts.p = contact.p;
+    // g + c p = 0 with c = (1 / fade + ...) / c_p
+    const double fade = std::max(gap.fade.f, kLeastFade), c_f = -1 / (law.c_p * fade * fade);
+    parts.p_x = parts.normal.p_g * (gap.g_x + parts.p * c_f * gap.fade.f_a.transpose() * kinematics.D);
+    parts.p_v.setZero();
+    return;
+  }
   parts.normal = normal_force(law, gap.g, gap.n.dot(rate.value));
   parts.p = gap.fade.f * parts.normal.p;
+  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
+  parts.p_x = gap.fade.f * (parts.normal.p_g * gap.g_x + parts.normal.p_r * rate_x) +
+              parts.normal.p * gap.fade.f_a.transpose() * kinematics.D;
+  parts.p_v = gap.fade.f * parts.normal.p_r * gap.g_x;
+}
+
+Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap, const StickMotion* stick,
+            const ContactPoint& contact) {
+  Parts parts;
+  parts.slip = tangential(relative_velocity(kinematics, contact.v), gap);
+  set_normal(law, kinematics, gap, contact, parts);
   if (law.mu == 0) return parts;
   if (law.v_0 > 0) {
     parts.mu = law.mu;
@@ -108,20 +140,13 @@ Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& g
 }
 
 // df = f_x dx + f_v dv
-Varying force(const ProjectionKinematics& kinematics, const Gap& gap, const Parts& parts,
-              const LocalVectors& v) {
-  const NormalForce& normal = parts.normal;
+Varying force(const Gap& gap, const Parts& parts) {
   const Friction& friction = parts.friction;
-  const Varying rate = relative_velocity(kinematics, v);
-  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
-  const LocalRow p_x = gap.fade.f * (normal.p_g * gap.g_x + normal.p_r * rate_x) +
-                       normal.p * gap.fade.f_a.transpose() * kinematics.D;
-  const LocalRow p_v = gap.fade.f * normal.p_r * gap.g_x;
   const Vector3d per_p = gap.n - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
   Varying f;
   f.value = parts.p * (gap.n - parts.mu * friction.direction);
-  f.x = per_p * p_x + parts.p * gap.n_x - friction.K * parts.motion.x;
-  f.v = per_p * p_v - friction.K * parts.motion.v;
+  f.x = per_p * parts.p_x + parts.p * gap.n_x - friction.K * parts.motion.x;
+  f.v = per_p * parts.p_v - friction.K * parts.motion.v;
   return f;
 }
 
@@ -155,6 +180,26 @@ void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, Conta
   contact.V_dot.rightCols(m) = (skew(kinematics.d) * f.v).transpose() * T;
 }
 
+// What the complementarity of gap and force takes: docs/theory.md, Eq. (6.24).
+void set_unilateral(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
+                    const Parts& parts, ContactPoint& contact) {
+  const Vector3d per_p = gap.n - (parts.friction.at_limit ? parts.mu : 0.0) * parts.friction.direction;
+  contact.c = unilateral_compliance(law, gap.fade.f);
+  const LocalRow g_x = -contact.c * parts.p_x, faded = g_x - gap.g_x;
+  contact.F_p = (kinematics.G.transpose() * per_p + faded.transpose()).reshaped(3, 5);
+  contact.g_x = g_x.reshaped(3, 5);
+}
+
+// The energy e of which -e d(fade) is the force on an extension. That of a unilateral contact, c p^2 / 2 at
+// g + c p = 0, has -c'(fade) p^2 / 2 in its place.
+FadingEnergy fading_energy(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
+                           const Parts& parts) {
+  if (!law.unilateral) return {parts.normal.energy, parts.normal.energy_g * gap.g_x};
+  const double fade = std::max(gap.fade.f, kLeastFade), weight = 1 / (law.c_p * fade * fade),
+               e = 0.5 * weight * parts.p * parts.p;
+  return {e, weight * parts.p * parts.p_x - 2 * e / fade * gap.fade.f_a.transpose() * kinematics.D};
+}
+
 }  // namespace
 
 NormalForce normal_force(const Law& law, double gap, double rate) {
@@ -169,6 +214,11 @@ NormalForce normal_force(const Law& law, double gap, double rate) {
   f.p_r = approach > 0 ? -damping : 0;
   f.power = damping * approach * approach;
   return f;
+}
+
+double unilateral_compliance(const Law& law, double fade) {
+  constexpr double kCompliance = 1e-4;  // of the penalty's
+  return (kCompliance + 1 / std::max(fade, kLeastFade) - 1) / law.c_p;
 }
 
 // Gap to the smooth surface; its gradient changes by dn = -d(a y) with y = A^-1 h_a.
@@ -189,18 +239,21 @@ Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, doub
 
 void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                const StickMotion* stick, ContactPoint& contact) {
-  const Parts all = parts(law, kinematics, gap, stick, contact.v);
-  const Varying f = force(kinematics, gap, all, contact.v);
+  const Parts all = parts(law, kinematics, gap, stick, contact);
+  const Varying f = force(gap, all);
+  contact.p = all.p;
   contact.g_n = gap.g;
   contact.n = gap.n.normalized();
   contact.f = f.value;
   contact.F = (kinematics.G.transpose() * f.value).reshaped(3, 5);
   contact.slip = all.slip.value;
-  contact.energy = gap.fade.f * all.normal.energy;
+  contact.energy = (law.unilateral ? 1 : gap.fade.f) * all.normal.energy;
   contact.power = gap.fade.f * all.normal.power;
   contact.friction_power = 0;
   set_tangent(kinematics, f, contact);
-  if (gap.fade.f < 1) add_boundary_force(boundary_force(kinematics, gap, all.normal), contact);
+  if (law.unilateral) set_unilateral(law, kinematics, gap, all, contact);
+  if (gap.fade.f < 1)
+    add_boundary_force(boundary_force(kinematics, gap, fading_energy(law, kinematics, gap, all)), contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   if (!stick || law.c_t == 0) return;
   const Vector3d elastic = all.mu * all.p / law.c_t * all.friction.direction;

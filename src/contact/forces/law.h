@@ -10,14 +10,15 @@ namespace elastogear::contact {
 
 /// Constants of one slave node.
 struct Law {
-  double c_p = 0;         ///< N/m
-  double d_p = 0;         ///< N s/m, while approaching
-  double hysteresis = 0;  ///< s/m, Hunt and Crossley's factor, while approaching
-  double offset = 0;      ///< m, added to the gap
-  double mu = 0;          ///< coefficient of friction
-  double mu_static = 0;   ///< of a node that sticks
-  double v_0 = 0;         ///< m/s, of regularised friction; 0: sticks with c_t
-  double c_t = 0;         ///< N/m, tangential stiffness of a node that sticks
+  double c_p = 0;           ///< N/m
+  bool unilateral = false;  ///< the normal force is given: penetration is prevented elsewhere
+  double d_p = 0;           ///< N s/m, while approaching
+  double hysteresis = 0;    ///< s/m, Hunt and Crossley's factor, while approaching
+  double offset = 0;        ///< m, added to the gap
+  double mu = 0;            ///< coefficient of friction
+  double mu_static = 0;     ///< of a node that sticks
+  double v_0 = 0;           ///< m/s, of regularised friction; 0: sticks with c_t
+  double c_t = 0;           ///< N/m, tangential stiffness of a node that sticks
 };
 
 /// Force normal to the (smoothed) surface, N, with its derivatives.
@@ -29,6 +30,10 @@ struct NormalForce {
 };
 /// Penalty and damping force while the gap closes: Eq. (6.15).
 NormalForce normal_force(const Law& law, double gap, double rate);
+
+/// m/N, of a contact without penalty: what keeps its forces determinate where the bodies do not, and what
+/// lets them fade out on an extension. Eq. (6.24).
+double unilateral_compliance(const Law& law, double fade);
 
 /// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the part of
 /// the force that is left on an extension.
@@ -50,9 +55,9 @@ struct StickMotion {
   bool slides = false;
 };
 
-/// Force, energy, power and tangent of a contact whose node velocities v and geometry are set. stick: none
-/// for a node that was not in contact after the last step, or without stick. The slid part of stick's u and
-/// the work it took go to the contact, too.
+/// Force, energy, power and tangent of a contact whose node velocities v and geometry are set, and p where
+/// the law is unilateral. stick: none for a node that was not in contact after the last step, or without
+/// stick. The slid part of stick's u and the work it took go to the contact, too.
 void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                const StickMotion* stick, ContactPoint& contact);
 

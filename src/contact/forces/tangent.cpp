@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace elastogear::contact {
 namespace {
@@ -23,15 +24,21 @@ Tangent zero_tangent(int n_columns) {
   return t;
 }
 
-Tangent normal_part(const Projection& w, double c_p) {
+// Stiffness across n of the force towards a line or point at the distance |g_n|: it has the direction of the
+// distance. A distance that cannot be told from the one that the force makes is taken for that.
+double across(const Projection& w, const NormalStiffness& normal) {
+  return normal.p > 0 ? normal.p / std::max(-w.g_n, normal.p / normal.k) : 0;
+}
+
+Tangent normal_part(const Projection& w, const NormalStiffness& normal) {
   Tangent t = zero_tangent(1);
   t.W = column(1, -w.point.N, w.n);
-  t.k(0, 0) = c_p;
+  t.k(0, 0) = normal.k;
   return t;
 }
 
 // The closest point is inside the face: W = [N, D_1, D_2, N_1, N_2]. docs/theory.md, Eq. (6.7).
-Tangent face_tangent(const Face& face, const Projection& w, double c_p) {
+Tangent face_tangent(const Face& face, const Projection& w, const NormalStiffness& normal) {
   const Shape s = shape(face.sides, w.point.u, w.point.v);
   const Eigen::Vector3d a_u = combine(face, s.N_u), a_v = combine(face, s.N_v);
   const double twist = w.n.dot(combine(face, s.N_uv));
@@ -41,22 +48,22 @@ Tangent face_tangent(const Face& face, const Projection& w, double c_p) {
   Eigen::Matrix<double, 15, 2> T, N_alpha;
   T << column(1, -s.N, a_u), column(1, -s.N, a_v);
   N_alpha << column(0, -s.N_u, w.n), column(0, -s.N_v, w.n);
-  const double g = w.g_n;
+  const double g = w.g_n, p = normal.p;
   const Eigen::Matrix2d A = m - g * b, m_inverse = m.inverse(), I = Eigen::Matrix2d::Identity();
 
   Tangent t = zero_tangent(5);
   t.W << column(1, -s.N, w.n), (T - g * N_alpha) * A.inverse(), N_alpha;
-  t.k(0, 0) = c_p;
-  t.k.block<2, 2>(1, 1) = c_p * g * (g * b * m_inverse * b - b);
-  t.k.block<2, 2>(1, 3) = c_p * g * (I - g * b * m_inverse);
+  t.k(0, 0) = normal.k;
+  t.k.block<2, 2>(1, 1) = -p * (g * b * m_inverse * b - b);
+  t.k.block<2, 2>(1, 3) = -p * (I - g * b * m_inverse);
   t.k.block<2, 2>(3, 1) = t.k.block<2, 2>(1, 3).transpose();
-  t.k.block<2, 2>(3, 3) = c_p * g * g * m_inverse;
+  t.k.block<2, 2>(3, 3) = -p * g * m_inverse;
   return t;
 }
 
 // The closest point is on a side: W = [V_n, V_p, V_e, E_n], with the side's direction e and p = n x e.
 // docs/theory.md, Eq. (6.8).
-Tangent edge_tangent(const Face& face, const Projection& w, double c_p) {
+Tangent edge_tangent(const Face& face, const Projection& w, const NormalStiffness& normal) {
   const int side = w.point.part, next = (side + 1) % face.sides;
   const Eigen::Vector3d along = face.x[next] - face.x[side];
   const double length = along.norm(), g = w.g_n;
@@ -68,32 +75,34 @@ Tangent edge_tangent(const Face& face, const Projection& w, double c_p) {
   Tangent t = zero_tangent(4);
   t.W << column(1, -w.point.N, w.n), column(1, -w.point.N, w.n.cross(e)), column(1, -w.point.N, e),
       column(0, ends, w.n);
-  t.k(0, 0) = t.k(1, 1) = c_p;
-  t.k(2, 3) = t.k(3, 2) = -c_p * g / length;
-  t.k(3, 3) = -c_p * g * g / (length * length);
+  t.k(0, 0) = normal.k;
+  t.k(1, 1) = across(w, normal);
+  t.k(2, 3) = t.k(3, 2) = normal.p / length;
+  t.k(3, 3) = normal.p * g / (length * length);
   return t;
 }
 
 // The closest point is a corner: a spring between two nodes.
-Tangent vertex_tangent(const Projection& w, double c_p) {
+Tangent vertex_tangent(const Projection& w, const NormalStiffness& normal) {
   const Eigen::Vector3d p = w.n.unitOrthogonal();
   Tangent t = zero_tangent(3);
   t.W << column(1, -w.point.N, w.n), column(1, -w.point.N, p), column(1, -w.point.N, w.n.cross(p));
-  t.k.diagonal().setConstant(c_p);
+  t.k.diagonal() << normal.k, across(w, normal), across(w, normal);
   return t;
 }
 
 }  // namespace
 
-Tangent contact_tangent(const Face& face, const Projection& projection, double c_p, bool full) {
-  if (!full) return normal_part(projection, c_p);
+Tangent contact_tangent(const Face& face, const Projection& projection, const NormalStiffness& normal,
+                        bool full) {
+  if (!full) return normal_part(projection, normal);
   switch (projection.point.feature) {
     case Feature::edge:
-      return edge_tangent(face, projection, c_p);
+      return edge_tangent(face, projection, normal);
     case Feature::vertex:
-      return vertex_tangent(projection, c_p);
+      return vertex_tangent(projection, normal);
     default:
-      return face_tangent(face, projection, c_p);
+      return face_tangent(face, projection, normal);
   }
 }
 

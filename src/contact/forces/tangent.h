@@ -9,13 +9,19 @@
 namespace elastogear::contact {
 
 /// Stiffness W k W' of the 15 coordinates (slave node, four master nodes; x y z each): the force
-/// F = -c_p g_n [n; -N_i n] changes by dF = -W k W' dx.
+/// F = p [n; -N_i n] changes by dF = -W k W' dx.
 struct Tangent {
   LocalColumns W;
   LocalStiffness k;  ///< symmetric, N/m
 };
 
-/// full: normal and geometric part; otherwise the normal part c_p [n; -N_i n] [n; -N_i n]' only.
-Tangent contact_tangent(const Face& face, const Projection& projection, double c_p, bool full);
+/// Force along n and -dp/dg_n.
+struct NormalStiffness {
+  double p, k;  // N, N/m
+};
+
+/// full: normal and geometric part; otherwise the normal part k [n; -N_i n] [n; -N_i n]' only.
+Tangent contact_tangent(const Face& face, const Projection& projection, const NormalStiffness& normal,
+                        bool full);
 
 }  // namespace elastogear::contact

@@ -23,15 +23,13 @@ Matrix15 direction_derivative(const ProjectionKinematics& kinematics, const Eige
 
 }  // namespace
 
-BoundaryForce boundary_force(const ProjectionKinematics& kinematics, const Gap& gap,
-                             const NormalForce& whole) {
+BoundaryForce boundary_force(const ProjectionKinematics& kinematics, const Gap& gap, const FadingEnergy& e) {
   if (gap.fade.f_a.isZero(0)) return {};
   const LocalRow w_x = gap.fade.f_a.transpose() * kinematics.D;
   const Eigen::Vector2d y = kinematics.A.inverse() * gap.fade.f_a;
   const Eigen::Matrix<double, 2, 15> turn = gap.fade.f_ab * kinematics.D - metric_derivative(kinematics, y);
-  return {-whole.energy * w_x.transpose(),
-          -w_x.transpose() * (whole.energy_g * gap.g_x) -
-              whole.energy * (kinematics.D.transpose() * turn + direction_derivative(kinematics, y))};
+  return {-e.e * w_x.transpose(), -w_x.transpose() * e.e_x - e.e * (kinematics.D.transpose() * turn +
+                                                                    direction_derivative(kinematics, y))};
 }
 
 // W = [B', unit vectors of the master's coordinates]: the first columns are those along which the slave node

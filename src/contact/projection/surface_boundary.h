@@ -6,14 +6,19 @@
 
 namespace elastogear::contact {
 
-/// -energy dw/dx on the local coordinates, which pushes a node off the boundary, and its derivative. Eq.
+/// J, of which the fade factor leaves a part, and its gradient by the local coordinates, N.
+struct FadingEnergy {
+  double e;
+  LocalRow e_x;
+};
+
+/// -e dw/dx on the local coordinates, which pushes a node off the boundary, and its derivative. Eq.
 /// (6.2b).
 struct BoundaryForce {
   Local F = Local::Zero();                                                    ///< N
   Eigen::Matrix<double, 15, 15> F_x = Eigen::Matrix<double, 15, 15>::Zero();  ///< N/m
 };
-BoundaryForce boundary_force(const ProjectionKinematics& kinematics, const Gap& gap,
-                             const NormalForce& whole);
+BoundaryForce boundary_force(const ProjectionKinematics& kinematics, const Gap& gap, const FadingEnergy& e);
 
 /// Adds it to a contact whose other forces are set. The tangent takes 15 columns then.
 void add_boundary_force(const BoundaryForce& boundary, ContactPoint& contact);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dynamics/contact/response_newton.h"
+#include "dynamics/contact/unilateral_forces.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -15,9 +16,11 @@ using Eigen::VectorXd;
 constexpr double kForceResidual = 1e-10;    // of contact forces against those of the static responses
 constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, where it falls no further
 constexpr double kSmallResidual = 1e-3;     // whose square is negligible
-constexpr double kJump = 0.02;    // of forces where a node passes from face to face, that has no solution
-constexpr int kMostTrials = 30;   // until they fit
-constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
+constexpr double kJump = 0.02;       // of forces where a node passes from face to face, that has no solution
+constexpr double kFirstRate = 1e-3;  // by which a first change of forces is expected to fall
+constexpr int kFullTrials = 10;      // before they go half of the way, as nodes pass to and fro between faces
+constexpr int kMostTrials = 30;      // until they fit
+constexpr int kMostHalvings = 5;     // of the way to the next trial, while it would be worse
 
 // share_a a + share_b b
 NodalForces sum(const NodalForces& a, double share_a, const NodalForces& b, double share_b) {
@@ -38,6 +41,24 @@ NodalForces sum(const NodalForces& a, double share_a, const NodalForces& b, doub
 NodalForces mean(const NodalForces& a, const NodalForces& b, double share) {
   return sum(a, share, b, 1 - share);
 }
+// Without the nodes that bear no force, unless they are among `before`: which contacts are closed changes to
+// and fro, and a new set of nodes costs more than a few zeros.
+NodalForces loaded(const NodalForces& all, const std::vector<int>& before) {
+  constexpr std::size_t kMostZeros = 3;  // nodes kept for each one loaded
+  NodalForces result;
+  std::vector<Eigen::Index> columns, kept;
+  for (std::size_t i = 0; i < all.node.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const bool has_force = !all.f_B.col(column).isZero(0);
+    if (has_force) columns.push_back(column);
+    if (has_force || std::binary_search(before.begin(), before.end(), all.node[i])) kept.push_back(column);
+  }
+  if (kept.size() <= kMostZeros * columns.size()) columns = kept;
+  for (Eigen::Index column : columns) result.node.push_back(all.node[static_cast<std::size_t>(column)]);
+  result.f_B = all.f_B(Eigen::all, columns);
+  return result;
+}
+
 NodalForces difference(const NodalForces& a, const NodalForces& b) { return sum(a, 1, b, -1); }
 
 }  // namespace
@@ -80,6 +101,14 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
   R.set_forces(forces);
 }
 
+// R f - w of the forces found and the static response in place.
+VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& found, const MatrixXd& R) {
+  VectorXd missing = R * found.f_B.reshaped();
+  for (std::size_t i = 0; i < found.node.size(); ++i)
+    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) -= displacement(b, found.node[i]);
+  return missing;
+}
+
 // With w = R (f - L k lambda), lambda = L_V' (w - w_now) of all bodies: (I + H k) lambda = L_V' (R f -
 // w_now), H = L_V' R L. docs/theory.md, Eq. (6.21).
 VectorXd ResidualContact::newton_step(const ContactState& state) {
@@ -89,10 +118,7 @@ VectorXd ResidualContact::newton_step(const ContactState& state) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = found[b].node;
     const MatrixXd& R = flexibility_[b]->among(node);
-    VectorXd missing = R * found[b].f_B.reshaped();
-    for (std::size_t i = 0; i < node.size(); ++i)
-      missing.segment<3>(static_cast<Eigen::Index>(3 * i)) -= displacement(b, node[i]);
-    newton.add({b, state.surface[b].R_WB, node, R}, missing);
+    newton.add({b, state.surface[b].R_WB, node, R}, missing_response(b, found[b], R));
   }
   const VectorXd lambda = newton.solve();
   for (std::size_t b = 0, i = 0; b < found.size(); ++b) {
@@ -161,6 +187,46 @@ void ResidualContact::solve(ContactState& state, const std::function<void()>& de
     residual = {};
   }
   state.balanced = residual.relative <= kForceResidual;
+}
+
+std::optional<double> ResidualContact::close_gaps(ContactState& state, double share) {
+  UnilateralForces unilateral(state.pair);
+  for (std::size_t b = 0; b < state.force.size(); ++b) {
+    if (!has_flexibility(b)) continue;
+    const std::vector<int>& node = state.force[b].node;
+    const MatrixXd& R = flexibility_[b]->among(node);
+    unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R));
+  }
+  if (!unilateral.solve()) return {};
+  unilateral.set_forces(state.pair);
+  double missing = 0, all = 0;
+  for (std::size_t b = 0, i = 0; b < state.force.size(); ++b) {
+    if (!has_flexibility(b)) continue;
+    NodalForces next = state.force[b];
+    next.f_B.reshaped() += unilateral.force_change(i++);
+    missing += difference(next, flexibility_[b]->forces()).f_B.squaredNorm();
+    all += next.f_B.squaredNorm();
+    const NodalForces& now = flexibility_[b]->forces();
+    respond_to(b, loaded(share < 1 ? mean(next, now, share) : next, now.node));
+  }
+  return missing > 0 ? std::sqrt(missing / std::max(all, missing)) : 0;
+}
+
+void ResidualContact::solve_unilateral(ContactState& state, const std::function<void()>& detect) {
+  std::optional<double> change;
+  double before = 0, left = 1;  // what the next change is expected to be
+  for (int trial = 0; left > kForceResidual && trial < kMostTrials; ++trial) {
+    change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);
+    if (!change) break;
+    left = *change * (trial > 0 ? std::min(1.0, *change / before) : kFirstRate);
+    before = *change;
+    if (left > kForceResidual) detect();
+  }
+  state.balanced = change && *change < kJump;
+  for (PairContacts& pair : state.pair)
+    std::erase_if(pair.points,
+                  [](const contact::ContactPoint& point) { return point.c > 0 && point.p == 0; });
+  state.force = nodal_forces(state.pair, state.surface);
 }
 
 void ResidualContact::predict(double time) {

@@ -33,6 +33,9 @@ class ResidualContact {
   /// force residual larger is halved. The state holds the contacts found with the present static responses,
   /// which `detect` finds anew. Sets state.balanced.
   void solve(ContactState& state, const std::function<void()>& detect);
+  /// The same for pairs without a penalty: solves for the forces that close the gaps, Eq. (6.24), at closest
+  /// points that each trial finds anew. Contacts that stay open are taken out of the state.
+  void solve_unilateral(ContactState& state, const std::function<void()>& detect);
   /// Puts the static responses in place to forces extrapolated from the last two accepted states to this
   /// time.
   void predict(double time);
@@ -59,7 +62,12 @@ class ResidualContact {
   bool linear_step(ContactState& state);
   // Puts the forces whose static responses are in place in the place of those found.
   void take_forces_of_response(ContactState& state) const;
+  Eigen::VectorXd missing_response(std::size_t b, const NodalForces& found, const Eigen::MatrixXd& R);
   void respond_to(std::size_t b, const NodalForces& forces);
+  // Closes the gaps at unchanged closest points: sets p of the contacts and the static responses, these by
+  // the given share of their change. Returns the change as part of the forces; nothing where there is no
+  // solution.
+  std::optional<double> close_gaps(ContactState& state, double share);
 
   struct Accepted {
     double time = 0;

@@ -103,17 +103,25 @@ Eigen::Vector3d ResidualFlexibility::displacement(int node) {
 
 // |R(a, :) f|^2 <= |R(a, a)| f'R f, because R is positive semidefinite, and |R(a, a)| <= |F(a, a)|.
 double ResidualFlexibility::bound(const NodalForces& forces) {
-  const auto f = forces.f_B.reshaped();
-  return std::sqrt(largest_ * std::max(0.0, f.dot(among(forces.node) * f)));
+  const std::vector<int>& known = among_[0].node;
+  if (!std::includes(known.begin(), known.end(), forces.node.begin(), forces.node.end())) among(forces.node);
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(among_[0].R.rows());
+  for (std::size_t i = 0; i < forces.node.size(); ++i) {
+    const auto at = std::lower_bound(known.begin(), known.end(), forces.node[i]) - known.begin();
+    f.segment<3>(3 * at) = forces.f_B.col(static_cast<Eigen::Index>(i));
+  }
+  return std::sqrt(largest_ * std::max(0.0, f.dot(among_[0].R * f)));
 }
 
 const Eigen::MatrixXd& ResidualFlexibility::among(const std::vector<int>& node) {
-  if (node == among_.node) return among_.R;
+  if (node == among_[0].node) return among_[0].R;
+  std::swap(among_[0], among_[1]);
+  if (node == among_[0].node) return among_[0].R;
   const auto n = static_cast<Eigen::Index>(node.size());
   std::vector<int> numbers;
   for (int i : node) numbers.push_back(number(i));
-  among_.node = node;
-  Eigen::MatrixXd& R = among_.R;
+  among_[0].node = node;
+  Eigen::MatrixXd& R = among_[0].R;
   R.setZero(3 * n, 3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     Row& known = row(node[i]);

@@ -3,6 +3,7 @@
 // static response to contact forces (docs/theory.md, Eq. (6.20)).
 
 #include <Eigen/Core>
+#include <array>
 #include <unordered_map>
 #include <vector>
 
@@ -59,7 +60,7 @@ class ResidualFlexibility {
     std::vector<int> node = {};
     Eigen::MatrixXd R = {};
   };
-  Among among_;  // asked for last
+  std::array<Among, 2> among_;  // asked for last, and before
 };
 
 }  // namespace elastogear::dynamics

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elastogear/base/error.h"
+
 namespace elastogear::dynamics {
 namespace {
 
@@ -22,6 +24,26 @@ SystemContact::SystemContact(const SystemModel& model)
                              &b = *model.bodies[pair.body[1]].eq.body;
     detectors_.emplace_back(a.surface, b.surface, pair.settings, std::array{&a.K_r, &b.K_r});
   }
+  unilateral_ = is_unilateral();
+}
+
+// Whether the pairs of bodies with residual flexibility, which must all have the same law, are unilateral.
+bool SystemContact::is_unilateral() const {
+  const PairSetup* first = nullptr;
+  for (const PairSetup& pair : pairs_) {
+    const bool unilateral = pair.settings.law == contact::ContactLaw::unilateral,
+               flexible = residual_contact_.has_flexibility(pair.body[0]) ||
+                          residual_contact_.has_flexibility(pair.body[1]);
+    require(!unilateral || flexible, "pair ", pair.name,
+            ": contact without a penalty (-contact_law unilateral) needs residual flexibility on one side: "
+            "reduce a "
+            "body with -basis modal_residual, or take -contact_law penalty");
+    if (!flexible) continue;
+    require(!first || first->settings.law == pair.settings.law, "pairs ", first ? first->name : "", " and ",
+            pair.name, ": one has the contact law unilateral, the other penalty; give both the same");
+    first = &pair;
+  }
+  return first && first->settings.law == contact::ContactLaw::unilateral;
 }
 
 const ContactState* SystemContact::known(double time, ConstVector U, ConstVector V) const {
@@ -34,11 +56,19 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
   detect(motion);
-  if (residual_contact_.any()) residual_contact_.solve(state_, [&] { detect(motion); });
+  if (residual_contact_.any()) solve(motion);
   U_ = U;
   V_ = V;
   time_ = time;
   return state_;
+}
+
+void SystemContact::solve(const std::vector<contact::SurfaceMotion>& motion) {
+  if (!unilateral_) return residual_contact_.solve(state_, [&] { detect(motion); });
+  residual_contact_.solve_unilateral(state_, [&] {
+    for (std::size_t p = 0; p < pairs_.size(); ++p) detectors_[p].set_normal_forces(state_.pair[p].points);
+    detect(motion);
+  });
 }
 
 // Sets the placements of the bodies; surfaces are undeformed at first.

@@ -47,14 +47,17 @@ class SystemContact {
     double loss = 0;        // J, taken since the start
   };
 
+  bool is_unilateral() const;
   void place(const std::vector<contact::SurfaceMotion>& motion);
   void place_touched(std::size_t p);
   void detect(const std::vector<contact::SurfaceMotion>& motion);
   bool sticks(std::size_t p) const;
+  void solve(const std::vector<contact::SurfaceMotion>& motion);
 
   std::vector<PairSetup> pairs_;
   std::vector<const model::Surface*> surface_;  // of each body; null where no pair names it
   std::vector<contact::Pair> detectors_;        // they keep the nodes that stick
+  bool unilateral_ = false;  // do the pairs of bodies with residual flexibility have no penalty?
   ResidualContact residual_contact_;
   History history_;
   double time_ = 0;  // s, of the last evaluation

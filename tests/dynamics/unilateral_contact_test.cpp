@@ -1,0 +1,145 @@
+// Contact without a penalty: the limit of stiff penalties on bodies of the full basis, and impact of bars.
+#include <gtest/gtest.h>
+
+#include "box_body.h"
+#include "elastogear/base/error.h"
+#include "elastogear/dynamics/simulate.h"
+#include "elastogear/dynamics/static.h"
+
+namespace elastogear::unilateral_contact_test {
+using namespace dynamics;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kPenetration = 1e-4;  // of the default penalty's, that the law still allows
+
+std::shared_ptr<model::ElasticBody> block(bool flexible, const Eigen::Vector3i& cells, double x_held) {
+  const test::BoxSpec spec{
+      .size = {1, 1, 1}, .cells = cells, .material = {1e4, 0.3, 1}, .held = [=](const Vector3d& X, int) {
+        return std::abs(X.x() - x_held) < 1e-9;
+      }};
+  return std::make_shared<model::ElasticBody>(flexible ? test::make_flexible_box(spec, 6)
+                                                       : test::make_box(spec, model::Basis::full));
+}
+
+constexpr double kDefault = 0, kUnilateral = -1;  // in the place of a stiffness
+
+// A block on a slide, pressed against another one, which it meets beside its middle.
+System press(double force, double stiffness, bool two_pass) {
+  const bool flexible = stiffness == kUnilateral;
+  std::vector<BodySetup> setups{{.name = "ram", .body = block(flexible, {2, 3, 2}, 0)},
+                                {.name = "wall", .body = block(flexible, {2, 2, 2}, 1)}};
+  setups[0].joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}};
+  setups[0].translation.load = constant_signal(force);
+  setups[1].joint.r_WB0 = {1.001, 0.25, 0.1};
+  PairSetup pair{"ram:wall", {0, 1}, {}};
+  pair.settings.law = flexible ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
+  pair.settings.stiffness = std::max(0., stiffness);
+  pair.settings.depth = 0.05;
+  pair.settings.two_pass = two_pass;
+  pair.settings.extension = 0;
+  scale_by_load_factor(setups[0], std::numeric_limits<double>::infinity());
+  return System(setups, {pair});
+}
+
+model::Snapshot equilibrium(System system) {
+  model::Snapshot last;
+  solve_static(system, {4}, [&](const model::Snapshot& snapshot) { last = snapshot; });
+  return last;
+}
+
+TEST(Unilateral, equilibrium_is_the_limit_of_stiff_penalties) {
+  const double force = 300, stiff = 1e8;
+  const model::Snapshot found = equilibrium(press(force, kUnilateral, false)),
+                        limit = equilibrium(press(force, stiff, false));
+  EXPECT_NEAR(found.bodies[0].s[0], limit.bodies[0].s[0], 3e-5 * limit.bodies[0].s[0]);
+  EXPECT_NEAR(found.pairs[0].force.x(), force, 1e-6 * force);
+  ASSERT_EQ(found.pairs[0].count, limit.pairs[0].count);
+  for (std::size_t i = 0; i < found.pairs[0].contacts.size(); ++i)
+    EXPECT_LT((found.pairs[0].contacts[i].f - limit.pairs[0].contacts[i].f).norm(), 1e-3 * force);
+  const double soft = 3 * equilibrium(press(force / 3, kDefault, false)).pairs[0].penetration;
+  EXPECT_GT(soft, 0);
+  EXPECT_LT(found.pairs[0].penetration, 2 * kPenetration * soft);
+}
+
+// Nodes of both sides are more constraints than displacements: forces at the nodes stay determinate.
+TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
+  const double force = 300;
+  const model::Snapshot found = equilibrium(press(force, kUnilateral, true));
+  EXPECT_NEAR(found.pairs[0].force.x(), force, 1e-6 * force);
+  EXPECT_LT(found.pairs[0].penetration, 1e-5);
+  for (const auto& contact : found.pairs[0].contacts) EXPECT_GT(contact.f.norm(), 0);
+}
+
+// Two elastic bars collide (St. Venant): contact lasts 2 L / c, the force is rho c v A / 2. They move along x
+// alone, with frames at their far ends.
+constexpr double kLength = 0.2, kWidth = 0.02, kSpeed = 100;  // m, m, m/s
+constexpr double kWaveSpeed = 5000;                           // m/s, of E = 200 GPa, rho = 8000 kg/m^3
+constexpr double kContactTime = 2 * kLength / kWaveSpeed;     // s
+constexpr double kForce = 4000. * kWaveSpeed * kSpeed * kWidth * kWidth;  // N
+
+BodySetup bar(const std::string& name, double x_held, double x, double speed, int n_modes) {
+  const test::BoxSpec spec{.size = {kLength, kWidth, kWidth},
+                           .cells = {100, 1, 1},
+                           .material = {2e11, 0, 8000},
+                           .held = [=](const Vector3d& X, int direction) {
+                             return direction != 0 || std::abs(X.x() - x_held) < 1e-9;
+                           }};
+  BodySetup setup{.name = name,
+                  .body = std::make_shared<model::ElasticBody>(test::make_flexible_box(spec, n_modes))};
+  setup.joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}, .r_WB0 = {x, 0, 0}};
+  setup.translation.s_dot_0 = speed;
+  return setup;
+}
+
+struct Collision {
+  double contact_time, mean_force, imbalance;  // s, N, of the energy at the start
+};
+
+// Between the times at which the force passes half of what it should be; the mean over the middle 80 %.
+Collision collide(int n_modes) {
+  PairSetup pair{"a:b", {0, 1}, {}};
+  pair.settings.law = contact::ContactLaw::unilateral;
+  System system({bar("a", 0, 0, kSpeed, n_modes), bar("b", kLength, kLength + 1e-4, 0, n_modes)}, {pair});
+  std::vector<double> time, force;
+  const RunSummary summary =
+      simulate(system, {.dt = 1e-7, .end_time = 1e-4, .rho_inf = 0.8}, [&](const model::Snapshot& snapshot) {
+        time.push_back(snapshot.time);
+        force.push_back(snapshot.pairs[0].force.x());
+      });
+  std::size_t first = 0, last = 0;
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (force[i] > 0.5 * kForce) {
+      if (first == 0) first = i;
+      last = i;
+    }
+  const double start = time[first], contact_time = time[last] - start;
+  double sum = 0;
+  int n = 0;
+  for (std::size_t i = first; i <= last; ++i)
+    if (time[i] > start + 0.1 * contact_time && time[i] < start + 0.9 * contact_time) sum += force[i], ++n;
+  return {contact_time, sum / n, summary.largest_imbalance / summary.initial_energy};
+}
+
+TEST(Unilateral, bars_part_after_two_passages_of_the_wave_with_half_of_the_modes_and_all) {
+  constexpr double kDiscretisation = 0.02;  // of 100 cells a bar, as with a penalty
+  for (int n_modes : {50, 99}) {
+    const Collision found = collide(n_modes);
+    EXPECT_NEAR(found.contact_time, kContactTime, kDiscretisation * kContactTime) << n_modes;
+    EXPECT_NEAR(found.mean_force, kForce, kDiscretisation * kForce) << n_modes;
+    EXPECT_LT(found.imbalance, 1e-4) << n_modes;
+  }
+}
+
+TEST(Unilateral, needs_residual_flexibility) {
+  PairSetup pair{"ram:wall", {0, 1}, {}};
+  pair.settings.law = contact::ContactLaw::unilateral;
+  EXPECT_THROW(System({{.name = "ram", .body = block(false, {2, 2, 2}, 0)},
+                       {.name = "wall", .body = block(false, {2, 2, 2}, 1)}},
+                      {pair}),
+               Error);
+}
+
+}  // namespace
+}  // namespace elastogear::unilateral_contact_test
