@@ -17,7 +17,7 @@ struct InitialState {
   double time = kLastTime;  // s
 };
 
-const Rows<InitialState> kRows = {
+const Rows<InitialState> kStateRows = {
     {"initial_file", &InitialState::file, "-",
      "result file whose joint coordinates and (dynamic analysis) rates the bodies of the same names begin "
      "with; elastic coordinates begin with zero"},
@@ -27,7 +27,7 @@ const Rows<InitialState> kRows = {
 
 InitialState initial_state(const Options& options) {
   InitialState state;
-  if (options.given("initial_file")) read_rows(options, kRows, state);
+  if (options.given("initial_file")) read_rows(options, kStateRows, state);
   return state;
 }
 
@@ -41,7 +41,7 @@ std::vector<dynamics::Axis*> axes(dynamics::BodySetup& setup) {
 
 }  // namespace
 
-OptionTable initial_state_table() { return table_of(kRows); }
+OptionTable initial_state_table() { return table_of(kStateRows); }
 
 void require_state_is_used(const Options& options, const std::vector<dynamics::BodySetup>& bodies) {
   const std::string file = initial_state(options).file;

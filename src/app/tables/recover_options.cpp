@@ -10,8 +10,6 @@
 namespace elastogear::app {
 namespace {
 
-using S = RecoverSettings;
-
 std::vector<int> box_levels(const Options& options, const std::string& name) {
   std::vector<int> levels;
   for (const std::string& level : options.list(name)) {
@@ -29,39 +27,42 @@ int n_directions(const Options& options, const std::string& name) {
   return options.count(name);
 }
 
-const Rows<S> kRows = {
-    {"result", &S::result, "-", "result file of simulate", kRequired},
-    {"output", &S::output, "-", "stress file to write (HDF5); CSV tables are named after it", kRequired},
-    {"stress_<body>", &S::stress, "-",
+const Rows<RecoverSettings> kRecoverRows = {
+    {"result", &RecoverSettings::result, "-", "result file of simulate", kRequired},
+    {"output", &RecoverSettings::output, "-", "stress file to write (HDF5); CSV tables are named after it",
+     kRequired},
+    {"stress_<body>", &RecoverSettings::stress, "-",
      "node sets of a body whose stress histories are wanted (of its stress_nodes)"},
-    {"csv", &S::all_nodes, one_of("peak", "all"),
+    {"csv", &RecoverSettings::all_nodes, one_of("peak", "all"),
      "nodes in the CSV tables of sets above 10 nodes: peak (largest von Mises) or all"},
-    {"field_times", &S::field_times, "s", "times at which fields of whole bodies are written for ParaView"},
-    {"fields", &S::fields, "-",
+    {"field_times", &RecoverSettings::field_times, "s",
+     "times at which fields of whole bodies are written for ParaView"},
+    {"fields", &RecoverSettings::fields, "-",
      "first part of the field files' names (default: the result file without .h5)"},
     {"box_levels", "-", "",
      "levels of the bounding-volume trees to write at the first field time: 0, 1, ... or leaf",
      [](auto& o, auto& name, auto& s) { s.box_levels = box_levels(o, name); }},
-    {"box_kdop", "-", default_text(S{}.box_kdop), "directions of those bounding volumes",
+    {"box_kdop", "-", default_text(RecoverSettings{}.box_kdop), "directions of those bounding volumes",
      [](auto& o, auto& name, auto& s) { s.box_kdop = n_directions(o, name); }},
-    {"mode_acceleration", &S::mode_acceleration, one_of("false", "auto", "true"),
+    {"mode_acceleration", &RecoverSettings::mode_acceleration, one_of("false", "auto", "true"),
      "add what the modes leave out of the response to contact forces, statically: true, false, or auto, for "
      "bodies reduced with -basis modal_residual; true takes a factor of each other body's stiffness matrix, "
      "and so do fields"},
-    {"error_estimate", &S::error_estimate, "-",
+    {"error_estimate", &RecoverSettings::error_estimate, "-",
      "estimate how far stresses are from those of the unreduced body on the same mesh; takes a factor of the "
      "stiffness matrix of bodies without static responses to the contact forces (up to 500,000 "
      "displacements)"},
-    {"<body>_file", &S::body_file, "-", "body file, when it is no longer where the result file says"},
+    {"<body>_file", &RecoverSettings::body_file, "-",
+     "body file, when it is no longer where the result file says"},
 };
 
 }  // namespace
 
-OptionTable recover_table() { return table_of(kRows); }
+OptionTable recover_table() { return table_of(kRecoverRows); }
 
 RecoverSettings recover_settings(const Options& options) {
   RecoverSettings settings;
-  read_rows(options, kRows, settings);
+  read_rows(options, kRecoverRows, settings);
   settings.stress.erase("nodes");  // stress_nodes is reduce's key in a shared file
   if (settings.fields.empty())
     settings.fields = std::filesystem::path(settings.result).replace_extension().string();

@@ -44,7 +44,7 @@ const Rows<ImportedFiles> kImportedRows = {
     {"nodes", "-", "", "table of nodes, number x y z, in place of the mesh"},
 };
 
-const Rows<ReductionOptions> kRows = {
+const Rows<ReductionOptions> kReduceRows = {
     {"frame", "m", "",
      "origin of the body frame: mesh, centre_of_mass, or x,y,z in the mesh's coordinates (default: "
      "centre_of_mass for a free body, else mesh)"},
@@ -141,7 +141,7 @@ void set_restraint(const Options& options, ReductionOptions& o) {
 }  // namespace
 
 OptionTable reduce_table() {
-  OptionTable table = table_of(kMeshRows, kImportedRows, kRows);
+  OptionTable table = table_of(kMeshRows, kImportedRows, kReduceRows);
   for (const OptionTable& more : {basis_table(), material_table()})
     table.insert(table.end(), more.begin(), more.end());
   return table;
@@ -155,7 +155,7 @@ ReductionOptions reduction_options(const Options& options) {
   o.regions = material_options(options);
   o.imported = imported_files(options);
   read_rows(options, kMeshRows, o);
-  read_rows(options, kRows, o);
+  read_rows(options, kReduceRows, o);
   set_restraint(options, o);
   set_basis(options, o);
   set_extent(options, o);

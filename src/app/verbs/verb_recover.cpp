@@ -185,7 +185,8 @@ void run_recover(const Options& options, const std::vector<std::string>&) {
 
 Verb recover_verb() {
   return {"recover", "recover system.yaml [-option value ...]",
-          "stress histories, equivalent stresses and fields from a result file", recover_table(), run_recover};
+          "stress histories, equivalent stresses and fields from a result file", recover_table(),
+          run_recover};
 }
 
 }  // namespace elastogear::app
