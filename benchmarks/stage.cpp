@@ -15,6 +15,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/contact/pair.h"
 #include "elastogear/dynamics/system.h"
 #include "elastogear/io/body_file.h"
 
