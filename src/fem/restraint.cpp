@@ -106,7 +106,7 @@ std::string describe(const RigidMotions& left) {
   const Eigen::Array3d is_turn = (eigen.eigenvalues().array() > kFree * kFree).cast<double>();
   const auto n_turns = static_cast<Eigen::Index>(is_turn.sum()), n_moves = left.dimension - n_turns;
   const Eigen::Vector3d inverse = (is_turn > 0).select(eigen.eigenvalues().cwiseInverse(), 0);
-  const Eigen::Matrix3d U = eigen.eigenvectors();
+  const Eigen::Matrix3d& U = eigen.eigenvectors();
   // The least motion that turns by e / length moves the centre by S e.
   const Eigen::Matrix3d S = P_tw * U * inverse.asDiagonal() * U.transpose();
   std::ostringstream text;

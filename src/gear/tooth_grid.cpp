@@ -173,12 +173,14 @@ Points line(const Vector2d& from, const Vector2d& to, const std::vector<double>&
 double graded(double t) { return t * (1 + kGrading * (1 - t)); }
 
 Eigen::Vector2d ToothGrid::strip_point(int q, int row) const {
-  const Vector2d x = strip[static_cast<std::size_t>(std::abs(q) * (ring + 1) + row)];
+  const Vector2d x = strip[static_cast<std::size_t>(std::abs(q)) * static_cast<std::size_t>(ring + 1) +
+                           static_cast<std::size_t>(row)];
   return q < 0 ? Vector2d(-x[0], x[1]) : x;
 }
 
 Eigen::Vector2d ToothGrid::tooth_point(int q, int row) const {
-  const Vector2d x = tooth[static_cast<std::size_t>(std::abs(q) * (rows + 1) + row)];
+  const Vector2d x = tooth[static_cast<std::size_t>(std::abs(q)) * static_cast<std::size_t>(rows + 1) +
+                           static_cast<std::size_t>(row)];
   return q < 0 ? Vector2d(-x[0], x[1]) : x;
 }
 

@@ -65,7 +65,8 @@ Polar inner_position(const WormGrid& g, HelixNode node, int row) {
 // Position of a node at the rim; the nodes are equally spaced in angle.
 Polar rim_position(const WormGrid& g, HelixNode node, int row) {
   const int m = g.helix.m;
-  const double j = node.j / m * m + 0.5 + (node.j % m - 1) * static_cast<double>(m) / (m - 1);
+  const int first = node.j / m * m;
+  const double j = first + 0.5 + (node.j % m - 1) * static_cast<double>(m) / (m - 1);
   return {2 * pi * j / g.n.turn, tread_height(g) * g.layer - sunk(g, tread_height(g), row),
           row_radius(g, row, g.geometry.worm.r_f)};
 }

@@ -22,15 +22,15 @@ enum : unsigned {
 
 /// An optional member is empty unless its option is given.
 template <class T>
-constexpr bool is_optional = false;
+constexpr bool kIsOptional = false;
 template <class T>
-constexpr bool is_optional<std::optional<T>> = true;
+constexpr bool kIsOptional<std::optional<T>> = true;
 
 /// A map holds the values of all options that fit a name with a placeholder, by the word in its place.
 template <class T>
-constexpr bool is_by_word = false;
+constexpr bool kIsByWord = false;
 template <class T>
-constexpr bool is_by_word<std::map<std::string, T>> = true;
+constexpr bool kIsByWord<std::map<std::string, T>> = true;
 
 /// The value of an option as a user would write it; empty where there is none.
 template <class T>
@@ -39,9 +39,9 @@ std::string default_text(const T& value) {
   text.precision(10);
   if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
     text << std::boolalpha << value;
-  else if constexpr (is_optional<T>)
+  else if constexpr (kIsOptional<T>)
     text << (value ? default_text(*value) : "");
-  else if constexpr (!is_by_word<T>)
+  else if constexpr (!kIsByWord<T>)
     text << join(value, ",", [](const auto& part) { return default_text(part); });
   return text.str();
 }
@@ -49,7 +49,7 @@ std::string default_text(const T& value) {
 /// Reads an option, which is given or has a default. positive: see kPositive.
 template <class T>
 T value_of(const Options& options, const std::string& name, bool positive) {
-  if constexpr (is_optional<T>)
+  if constexpr (kIsOptional<T>)
     return value_of<typename T::value_type>(options, name, positive);
   else if constexpr (std::is_same_v<T, bool>)
     return options.flag(name);
@@ -110,7 +110,7 @@ struct Row {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, S&>>;
     const bool required = bits & kRequired, positive = bits & kPositive;
     if (S s{}; !required && !(bits & kDependent)) spec.default_value = default_text(std::invoke(member, s));
-    if constexpr (is_by_word<Value>)
+    if constexpr (kIsByWord<Value>)
       read = [=, pattern = spec.name](const Options& options, const std::string&, S& s) {
         std::invoke(member, s) = values_by_word<typename Value::mapped_type>(options, pattern, positive);
       };

@@ -203,7 +203,7 @@ void run_simulate(const Options& options, const std::vector<std::string>&) {
   require_state_is_used(options, bodies);
   if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, markers, surroundings);
 
-  dynamics::System system(std::move(bodies), pairs, surroundings, markers);
+  dynamics::System system(bodies, pairs, surroundings, markers);
   const model::ResultHeader head = header(options, system, identities);
   print_summary(options, keep(options, head, computation(options, system)));
   write_sensor_tables(options, head);

@@ -12,7 +12,7 @@ namespace {
 using namespace generalized_alpha;
 
 constexpr const char* kTypeName = "generalized_alpha";
-const char* const predictor_names[] = {"none", "constant_acceleration", "zero_acceleration"};
+const char* const kPredictorNames[] = {"none", "constant_acceleration", "zero_acceleration"};
 
 // ---- the accepted state
 
@@ -251,8 +251,8 @@ PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
   PetscOptionsHeadBegin(PetscOptionsObject, "Generalised-alpha options");
   PetscCall(read_parameters(ts, PetscOptionsObject));
   PetscCall(read_velocity_tolerances(ts, PetscOptionsObject));
-  PetscCall(PetscOptionsEList("-ts_alpha_predictor", "Start of Newton's method", "", predictor_names, 3,
-                              predictor_names[predictor], &predictor, nullptr));
+  PetscCall(PetscOptionsEList("-ts_alpha_predictor", "Start of Newton's method", "", kPredictorNames, 3,
+                              kPredictorNames[predictor], &predictor, nullptr));
   PetscOptionsHeadEnd();
   m.predictor = static_cast<Predictor>(predictor);
   return 0;
@@ -307,7 +307,7 @@ PetscErrorCode view(TS ts, PetscViewer viewer) {
   if (!ascii) return 0;
   return PetscViewerASCIIPrintf(viewer, "  alpha_m=%g, alpha_f=%g, gamma=%g, beta=%g, predictor %s\n",
                                 (double)p.alpha_m, (double)p.alpha_f, (double)p.gamma, (double)p.beta,
-                                predictor_names[static_cast<int>(m.predictor)]);
+                                kPredictorNames[static_cast<int>(m.predictor)]);
 }
 
 PetscErrorCode create(TS ts) {

@@ -13,7 +13,7 @@ std::vector<std::string> in_order(const h5::File& file, const std::string& group
   const std::vector<std::string> names = h5::members(file, group);
   std::vector<std::string> ordered(names.size());
   for (const std::string& name : names) {
-    const int number = h5::int_attribute(file, group + "/" + name, "number").front();
+    const int number = h5::int_attribute(file, std::string(group).append("/").append(name), "number").front();
     require(number >= 0 && number < static_cast<int>(names.size()) && ordered[number].empty(), file.path,
             ": ", group, "/", name, " has the number ", number, ", must be one of 0..", names.size() - 1);
     ordered[number] = name;

@@ -177,7 +177,8 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   found.ignored = std::move(deck.ignored);
   for (const auto& [type, first] : deck.element_types)
     if (const std::string note = variant_note(type, first.first); !note.empty())
-      found.read_as.push_back(type + " (" + in.place(first.second) + "): " + note);
+      found.read_as.push_back(
+          std::string(type).append(" (").append(in.place(first.second)).append("): ").append(note));
   if (report) *report = std::move(found);
   return mesh;
 }
