@@ -27,10 +27,10 @@ Eigen::Matrix3Xd centred(const Eigen::Matrix3Xd& X) {
 
 // Field 0..5: unit translations and rotations; 6..11: linear ones with strain; 12..29: quadratic ones.
 Eigen::Vector3d field(int index, const Eigen::Vector3d& x) {
-  constexpr std::array<std::array<int, 2>, 6> pair = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+  constexpr std::array<std::array<int, 2>, 6> kPair = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
   if (index < 3) return Eigen::Vector3d::Unit(index);
   if (index < kRigid) return Eigen::Vector3d::Unit(index - 3).cross(x);
-  const auto [a, b] = pair[index % 6];
+  const auto [a, b] = kPair[index % 6];
   return index < 12 ? Eigen::Vector3d(x(a) * Eigen::Vector3d::Unit(b))
                     : Eigen::Vector3d(x(a) * x(b) * Eigen::Vector3d::Unit((index - 12) / 6));
 }
