@@ -58,7 +58,7 @@ System drive(const Laws& laws, const std::shared_ptr<const model::ElasticBody>& 
   turning.rotation.s_dot_0 = kSpeed;
   PairSetup pair{"worm:wheel", {0, 1}, {}};
   pair.settings.two_pass = true;
-  pair.settings.smooth = laws.smooth;
+  if (laws.smooth) pair.settings.surface = contact::ContactSurface::smooth;
   pair.settings.hysteresis = laws.hysteresis;
   pair.settings.friction = {.mu = laws.mu, .v_0 = 1e-3};
   return System({held, turning}, {pair});

@@ -219,7 +219,7 @@ dynamics::System pressed(const Flank& wheel, double approach,
       moving{.name = "wheel", .body = std::move(wheel_body)};
   moving.joint = {.type = body::JointType::prismatic, .axis = wheel.n};
   moving.translation.drive = dynamics::still_drive(0, approach);
-  contact::Settings contact{.slave = 1, .smooth = true};
+  contact::Settings contact{.slave = 1, .surface = contact::ContactSurface::smooth};
   contact.stiffness = kStiff * moving.body->surface.c_f.mean();
   return dynamics::System({fixed, moving}, {{"worm:wheel", {0, 1}, contact}});
 }

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "contact/forces/contact_point.h"
-#include "contact/projection/smoothing.h"
+#include "contact/projection/heights.h"
 #include "contact/search/tracker.h"
 #include "contact/settings.h"
 #include "elastogear/base/error.h"
@@ -17,21 +17,21 @@ namespace elastogear::contact {
 namespace {
 
 struct Side {
-  std::vector<Law> law;                 // of each node as slave
-  std::vector<CornerSlopes> smoothing;  // of each face as master; empty: facets
-  std::vector<int> last_face;           // master face each node touched last; -1
-  std::map<int, StickPoint> stuck;      // by slave node, after the last accepted step
-  std::map<int, double> p;              // N, normal forces given, by slave node
+  std::vector<Law> law;             // of each node as slave
+  Heights heights;                  // over its faces as master
+  std::vector<int> last_face;       // master face each node touched last; -1
+  std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
+  std::map<int, double> p;          // N, normal forces given, by slave node
 };
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-Side make_side(const Tracked& tracked, const Settings& settings) {
+Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurface* known) {
   const model::Surface& surface = *tracked.surface;
   const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
   return {node_laws(settings, surface),
-          settings.smooth ? corner_slopes(undeformed, radians(settings.feature_angle))
-                          : std::vector<CornerSlopes>(),
+          make_heights(undeformed, settings.surface, radians(settings.feature_angle),
+                       known ? *known : TrueSurface{}),
           std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
           {},
           {}};
@@ -49,13 +49,14 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
     for (int i = 0; i < 5; ++i) columns->middleRows<3>(3 * i) = (R * columns->middleRows<3>(3 * i)).eval();
 }
 
-// Facets that a smooth surface lies behind are touched from outside, and so is what the offset moves out.
-// Open candidates of the unilateral law are near enough to close within an evaluation; others are found in
-// the next one.
+// Facets that a surface with heights lies behind are touched from outside, and so is what the offset moves
+// out. Open candidates of the unilateral law are near enough to close within an evaluation; others are found
+// in the next one.
 Limits limits_of(const Settings& settings, const Side& a, const Side& b) {
   constexpr double kReach = 0.02;  // of the depth
   const double reach = settings.law == ContactLaw::unilateral ? kReach * settings.depth : 0,
-               height = reach + std::max(largest_height(a.smoothing), largest_height(b.smoothing));
+               height = reach + std::max(largest_height(a.heights, settings.extension),
+                                         largest_height(b.heights, settings.extension));
   return {settings.depth + height + std::max(0.0, settings.offset), std::cos(radians(settings.normal_angle)),
           height + std::max(0.0, -settings.offset)};
 }
@@ -94,7 +95,7 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
   const Law& law = slaves.law[node];
   const auto given = slaves.p.find(node);
   const double p = given == slaves.p.end() ? 0 : given->second;
-  if (has_potential(settings) && !on_extension(w))
+  if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, p, settings.full_tangent);
   const auto rate = [&](int i, int n) { return tracker.velocity(i == 0 ? slave_side : 1 - slave_side, n); };
   const auto stuck = slaves.stuck.find(node);
@@ -106,7 +107,7 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0),
                     surface = tracker.view(1 - slave_side, settings.extension);
-  const MasterSide master{surface, side[1 - slave_side].smoothing, radians(settings.feature_angle)};
+  const MasterSide master{surface, side[1 - slave_side].heights, radians(settings.feature_angle)};
   std::vector<int>& last_face = side[slave_side].last_face;
   const Neighbours& near = tracker.near(slave_side);
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
@@ -177,13 +178,14 @@ void Pair::Data::set_stuck(const std::vector<StickPoint>& points) {
 }
 
 Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
-           const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r) {
+           const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r,
+           const std::array<const TrueSurface*, 2>& known) {
   validate(given);
   validate(a, 0);
   validate(b, 1);
   const Settings settings = with_defaults(given, a, b);
   std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
-  Side side[2] = {make_side(both[0], settings), make_side(both[1], settings)};
+  Side side[2] = {make_side(both[0], settings, known[0]), make_side(both[1], settings, known[1])};
   const Limits limits = limits_of(settings, side[0], side[1]);
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},

@@ -118,7 +118,7 @@ std::vector<Law> node_laws(const Settings& s, const model::Surface& slave) {
 }
 
 bool has_potential(const Settings& s) {
-  return s.damping == 0 && s.hysteresis == 0 && s.offset == 0 && !s.smooth && s.friction.mu == 0;
+  return s.damping == 0 && s.hysteresis == 0 && s.offset == 0 && s.friction.mu == 0;
 }
 
 }  // namespace elastogear::contact

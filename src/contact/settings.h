@@ -24,7 +24,7 @@ Settings with_defaults(Settings settings, const model::Surface& a, const model::
 /// The law of each node of the slave surface, settings complete.
 std::vector<Law> node_laws(const Settings& settings, const model::Surface& slave);
 
-/// No more than the penalty on facets.
+/// No more than the penalty: on facets its forces derive from a potential.
 bool has_potential(const Settings& settings);
 
 }  // namespace elastogear::contact

@@ -19,7 +19,7 @@ for i in $(seq 0 $((angles - 1))); do
   "$elastogear" simulate -bodies worm,wheel -worm_file worm.h5 -worm_joint revolute -worm_axis 0,0,1 -worm_angle0 "$angle" \
     -worm_position 0,0.05,0 -worm_rotation 2.221441469079183,0,2.221441469079183 -worm_torque 10 \
     -wheel_file wheel.h5 -wheel_joint fixed -wheel_rotation "0,0,$turned" -contact_pairs worm:wheel -contact_two_pass true \
-    -contact_smooth true -analysis static -static_steps 4 -output "$i.h5" >log 2>&1 || { cat log; exit 1; }
+    -contact_surface smooth -analysis static -static_steps 4 -output "$i.h5" >log 2>&1 || { cat log; exit 1; }
 done
 /usr/bin/python3 - "$angles" <<'END'
 import sys

@@ -1,4 +1,4 @@
-// Contact forces with damping, friction and smoothed normals: balance, objectivity, power, tangent.
+// Contact forces with damping, friction and heights over the face: balance, objectivity, power, tangent.
 #include "contact/forces/law.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ struct Local {
   Face face;
   Vector3d q;
   Eigen::Matrix<double, 3, 5> v;
-  CornerSlopes slopes = CornerSlopes::Zero();
+  Heights heights{{HeightCoefficients::Zero()}};
 };
 
 Local behind(Random& random, int sides, double depth) {
@@ -76,7 +76,7 @@ Projection projection(const Local& local) {
 }
 
 FaceFunction height_at(const Local& local, const Projection& w) {
-  const FaceFunction full = height(local.face.sides, local.slopes, w.point.u, w.point.v);
+  const FaceFunction full = height(local.heights, local.face.sides, 0, w.point.u, w.point.v);
   return w.point.feature == Feature::face ? full : FaceFunction{};
 }
 
@@ -163,10 +163,13 @@ Law law_with(double friction, double depth) {
 enum class Where { quadrilateral, triangle, edge, end, end_of_triangle };
 
 Local place(Random& random, Where where, double depth) {
-  if (where == Where::end || where == Where::end_of_triangle)
-    return beyond_end(random, where == Where::end ? 4 : 3, depth);
-  return where == Where::edge ? at_edge(random, depth)
-                              : behind(random, where == Where::triangle ? 3 : 4, depth);
+  const bool beyond = where == Where::end || where == Where::end_of_triangle,
+             triangle = where == Where::triangle || where == Where::end_of_triangle;
+  Local local = beyond                 ? beyond_end(random, triangle ? 3 : 4, depth)
+                : where == Where::edge ? at_edge(random, depth)
+                                       : behind(random, triangle ? 3 : 4, depth);
+  for (double& h : local.heights.face[0].reshaped()) h = 0.01 * random.uniform(-depth, depth);
+  return local;
 }
 
 class ContactLaw : public testing::TestWithParam<Where> {};
@@ -199,7 +202,8 @@ TEST_P(ContactLaw, tangent_of_a_sticking_and_a_slipping_spring_equals_the_differ
 TEST_P(ContactLaw, tangent_with_damping_alone_is_exact_at_any_depth) {
   Random random(8);
   for (int trial = 0; trial < 20; ++trial) {
-    const Local local = place(random, GetParam(), 0.2);
+    Local local = place(random, GetParam(), 0.2);
+    local.heights = Local{}.heights;  // with them the force has a tangential part
     const Errors e = tangent_errors(local, [](const Local& x) { return force(x, law_with(0, 0.2)); });
     EXPECT_LT(e.by_x, truncation);
     EXPECT_LT(e.by_v, truncation);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "contact/projection/heights.h"
 #include "contact/projection/smoothing.h"
 #include "elastogear/contact/pair.h"
 #include "surfaces.h"
@@ -29,7 +30,7 @@ double radians(double degrees) { return degrees * test::pi / 180; }
 
 double height_error(const model::Surface& s, int facets) {
   const Topology map = topology(s.face, int(s.X.cols()));
-  const auto slopes = corner_slopes(view(s, map), radians(30));
+  const Heights heights = make_heights(view(s, map), ContactSurface::smooth, radians(30), {});
   double error = 0;
   for (int f = 0; f < s.face.cols(); ++f) {
     const Face face = face_of(view(s, map), f);
@@ -39,7 +40,7 @@ double height_error(const model::Surface& s, int facets) {
     for (double t : {0.2, 0.4, 0.7}) {
       const double u = face.sides == 4 ? 2 * t - 1 : t / 2, v = face.sides == 4 ? 0.3 : t / 3;
       const Vector3d x = combine(face, shape(face.sides, u, v).N);
-      const Vector3d smooth = x + height(face.sides, slopes[f], u, v).f * normal(face, u, v);
+      const Vector3d smooth = x + height(heights, face.sides, f, u, v).f * normal(face, u, v);
       error = std::max(error, std::abs(std::hypot(smooth.x(), smooth.z()) - kRadius));
     }
   }
@@ -74,24 +75,6 @@ TEST(Smoothing, keeps_creases_and_planes_as_they_are) {
   EXPECT_GT(largest, 0.1);
 }
 
-TEST(Smoothing, derivatives_of_the_height_are_its_slopes) {
-  test::Random random(1);
-  const double h = 1e-6;
-  for (int sides : {3, 4})
-    for (int trial = 0; trial < 20; ++trial) {
-      CornerSlopes slopes;
-      for (auto s : slopes.colwise()) s = random.vector(1).head<2>();
-      const double u = random.uniform(0, 0.5), v = random.uniform(0, 0.5);
-      const FaceFunction at = height(sides, slopes, u, v);
-      const FaceFunction right = height(sides, slopes, u + h, v), left = height(sides, slopes, u - h, v),
-                         up = height(sides, slopes, u, v + h), down = height(sides, slopes, u, v - h);
-      EXPECT_NEAR(at.f_a[0], (right.f - left.f) / (2 * h), 1e-8);
-      EXPECT_NEAR(at.f_a[1], (up.f - down.f) / (2 * h), 1e-8);
-      EXPECT_LT((at.f_ab.col(0) - (right.f_a - left.f_a) / (2 * h)).norm(), 1e-8);
-      EXPECT_LT((at.f_ab.col(1) - (up.f_a - down.f_a) / (2 * h)).norm(), 1e-8);
-    }
-}
-
 struct Signal {
   double ripple = 0;  // (max - min) / mean of the force
   double turn = 0;    // rad, largest between the force and the cylinder's normal
@@ -106,7 +89,7 @@ Signal slide(int facets, double side, bool smooth) {
   s.stiffness = 1;
   s.penalty = Penalty::per_node;
   s.depth = 0.05;
-  s.smooth = smooth;
+  s.surface = smooth ? ContactSurface::smooth : ContactSurface::facets;
   Pair pair(punch, master, s);
   const double theta = kSpan / facets;
   double smallest = 1e9, largest = 0, sum = 0, before = NAN;

@@ -4,8 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "contact/projection/heights.h"
 #include "contact/projection/projection.h"
-#include "contact/projection/smoothing.h"
 #include "surfaces.h"
 #include "worm_drive.h"
 
@@ -42,7 +42,7 @@ GapErrors gap_errors(const Sides& sides) {
   const Topology map_a = topology(a.face, static_cast<int>(a.X.cols())),
                  map_b = topology(b.face, static_cast<int>(b.X.cols()));
   const SurfaceView slave{a.face, map_a, a.X, 0}, master{b.face, map_b, b.X, 0};
-  const std::vector<CornerSlopes> slopes = corner_slopes(master, kFeatureAngle);
+  const Heights heights = make_heights(master, ContactSurface::smooth, kFeatureAngle, {});
   const Limits limits{kNear, std::cos(100 * kPi / 180), kNear};
   std::vector<int> all(static_cast<std::size_t>(b.face.cols()));
   std::iota(all.begin(), all.end(), 0);
@@ -58,7 +58,7 @@ GapErrors gap_errors(const Sides& sides) {
     const test::Flank flank = sides.masters.flank[w->face];
     if (!test::is_within(sides.masters, sides.master_at, flank, x, kMargin)) continue;
     const double exact = test::distance(sides.masters, sides.master_at, flank, x);
-    const double h = height(4, slopes[w->face], w->point.u, w->point.v).f;
+    const double h = height(heights, 4, w->face, w->point.u, w->point.v).f;
     error.facets = std::max(error.facets, std::abs(w->g_n - exact));
     error.smooth = std::max(error.smooth, std::abs(w->g_n - h - exact));
     ++error.nodes;
@@ -217,7 +217,7 @@ Ripple ripple(const WormDrive& drive, bool smooth) {
   Settings settings;
   settings.stiffness = kStiffness;
   settings.two_pass = true;
-  settings.smooth = smooth;
+  settings.surface = smooth ? ContactSurface::smooth : ContactSurface::facets;
   settings.depth = 0.3e-3;
   Pair pair(drive.worm.surface, drive.wheel.surface, settings);
   double sum = 0, smallest = 1e9, largest = 0;

@@ -195,7 +195,7 @@ TEST(Rolling, friction_takes_what_the_rollers_lose) {
   constexpr double kSpin = 4, kLaw = 0.01;
   PairSetup pair{"a:b", {0, 1}, {}};
   pair.settings.stiffness = 1e8;
-  pair.settings.smooth = true;
+  pair.settings.surface = contact::ContactSurface::smooth;
   pair.settings.two_pass = true;
   pair.settings.friction = {.mu = 0.2, .v_0 = 1e-2};
   const auto turning = [&](const char* name, double z, double spin) {

@@ -45,7 +45,7 @@ LineErrors line_errors(int cells) {
   const auto body = block(cells);
   PairSetup pair{"block:cylinder", {0, 1}, {}};
   pair.settings.stiffness = 20 * body->surface.c_f[0];
-  pair.settings.smooth = true;
+  pair.settings.surface = contact::ContactSurface::smooth;
   pair.settings.depth = 2 * kDepth;
   System system(
       {{.name = "block", .body = body}, {.name = "cylinder", .body = test::rigid_with(cylinder(kDepth))}},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "elastogear/base/archive.h"
+#include "elastogear/contact/true_surface.h"
 #include "elastogear/contact/types.h"
 
 namespace elastogear::contact {
@@ -15,10 +16,12 @@ namespace elastogear::contact {
 /// Two surfaces in contact, with their trees and the faces found last. The surfaces must outlive the pair.
 class Pair {
  public:
-  /// K_r of both bodies serve the bounds of the deformation and may be left out. Throws Error for settings
-  /// out of range and for surfaces that are empty, inconsistent or not finite.
+  /// K_r of both bodies serve the bounds of the deformation and may be left out; so may what is known of the
+  /// true surfaces. Throws Error for settings out of range, for surfaces that are empty, inconsistent or not
+  /// finite, and for true surfaces of other faces or nodes.
   Pair(const model::Surface& a, const model::Surface& b, const Settings& settings,
-       const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r = {});
+       const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r = {},
+       const std::array<const TrueSurface*, 2>& known = {});
   ~Pair();
   Pair(Pair&&) noexcept;
 

@@ -16,6 +16,10 @@ enum class Penalty { per_node, per_area };
 /// penalty: forces grow with the penetration. unilateral: there is none; gaps are closed by the residual
 /// flexibility of the bodies, which one side of the pair must have. docs/theory.md, section 6.11.
 enum class ContactLaw { penalty, unilateral };
+/// What gaps and normals are taken from. facets: the faces as they are. smooth: a smooth surface through
+/// their nodes. exact: the heights of a TrueSurface, and the smooth surface where none are known.
+/// docs/theory.md, section 6.8.
+enum class ContactSurface { facets, smooth, exact };
 /// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
 /// standstill.
 enum class FrictionLaw { regularised, stick };
@@ -45,7 +49,7 @@ struct Settings {
   double damping = 0;         ///< d_p while approaching; per_node: N s/m, per_area: Pa s/m
   double hysteresis = 0;      ///< s/m, Hunt and Crossley's factor of the penalty force while approaching
   double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
-  bool smooth = false;        ///< gaps and normals of the smooth surface behind the facets
+  ContactSurface surface = ContactSurface::facets;
   double feature_angle = 30;  ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
   double extension = 0.2;  ///< of the master at its surface boundary, as part of a face's length;

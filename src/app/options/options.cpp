@@ -85,7 +85,9 @@ std::map<std::string, std::string> options_in_database() {
 
 // "-modes (number of modes)"; of equally near ones the program's own comes first.
 // Options by the names of earlier versions.
-const std::map<std::string, std::string> kRenamed = {{"contact_crease", "contact_feature_angle"}};
+const std::map<std::string, std::string> kRenamed = {
+    {"contact_crease", "contact_feature_angle"},
+    {"contact_smooth", "contact_surface: facets, smooth or exact"}};
 
 std::string nearest_option(const std::string& name, const OptionTable& own) {
   const OptionSpec* best = nullptr;

@@ -35,9 +35,11 @@ const Rows<S> kContactRows = {
      "how the trees follow the motion: bound (leaf-up, deformation bounded by the elastic energy), refit "
      "(leaf-up from the deformed surface) or realign (hull points)"},
     {"contact_offset", &S::offset, "m", "added to every gap: > 0 takes initial overlap out, < 0 backlash"},
-    {"contact_smooth", &S::smooth, "-",
-     "gaps and normals of the smooth surface behind the facets (averaged normals at the nodes)"},
-    {"contact_feature_angle", &S::feature_angle, "deg", "smooth: edges that turn by more stay sharp"},
+    {"contact_surface", &S::surface, one_of("facets", "smooth", "exact"),
+     "what gaps and normals are taken from: facets (the faces as they are), smooth (a smooth surface through "
+     "their nodes) or exact (heights that a program gives, elsewhere the smooth surface)"},
+    {"contact_feature_angle", &S::feature_angle, "deg",
+     "smooth surfaces: edges that turn by more stay sharp"},
     {"contact_extension", &S::extension, "-",
      "share of a face's length by which surfaces are prolonged at open ends; forces fade out over it"},
     {"contact_damping", &S::damping, "Pa s/m or N s/m",
@@ -69,14 +71,13 @@ int body_index(const std::vector<std::string>& bodies, const std::string& name, 
   return static_cast<int>(found - bodies.begin());
 }
 
-// Warns that smoothing has no effect on the slave surface of a pair with one pass, of which only the nodes
-// are in contact.
+// Warns that the slave surface of a pair with one pass stays what it is: only its nodes are in contact.
 void warn_of_facets(const dynamics::PairSetup& pair, const std::vector<std::string>& bodies) {
-  if (!pair.settings.smooth || pair.settings.two_pass) return;
+  if (pair.settings.surface == contact::ContactSurface::facets || pair.settings.two_pass) return;
   const std::string& slave = bodies[pair.body[pair.settings.slave]];
-  print_item("warning", "contact_smooth has no effect on the surface of " + slave +
+  print_item("warning", "contact_surface has no effect on the surface of " + slave +
                             ", the slave of the pair " + pair.name +
-                            ": only its nodes are in contact; contact_two_pass smooths both");
+                            ": only its nodes are in contact; contact_two_pass takes both");
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::optional<Projection> extended(const Face& face, const Vector3d& q, Projecti
 
 Projection smooth_projection(const MasterSide& master, const Projection& w, const Vector3d& q) {
   const bool on_face = w.point.feature == Feature::face;
-  if (master.smoothing.empty() || on_face) return w;
+  if (master.heights.empty() || on_face) return w;
   const Face face = face_of(master.surface, w.face);
   if (normal(face, w.point.u, w.point.v).dot(w.n) < std::cos(master.feature_angle)) return w;
   return extended(face, q, w).value_or(w);
@@ -71,8 +71,8 @@ FaceFunction restricted(const FaceFunction& full, int sides, const Projection& w
 }
 
 FaceFunction height_at(const MasterSide& master, const Face& face, const Projection& w) {
-  if (master.smoothing.empty() || w.point.feature == Feature::vertex) return {};
-  return restricted(height(face.sides, master.smoothing[w.face], w.point.u, w.point.v), face.sides, w);
+  if (master.heights.empty()) return {};
+  return restricted(height(master.heights, face.sides, w.face, w.point.u, w.point.v), face.sides, w);
 }
 
 FaceFunction fade_at(const Face& face, const Projection& w) {

@@ -2,14 +2,15 @@
 // From a slave node's projection to its contact point: gap, force, tangent.
 
 #include "contact/forces/law.h"
+#include "contact/projection/heights.h"
 
 namespace elastogear::contact {
 
 /// The data of the master surface that a pass needs beside the projection.
 struct MasterSide {
   const SurfaceView& surface;
-  const std::vector<CornerSlopes>& smoothing;  ///< empty: facets as they are
-  double feature_angle = 0;                    ///< rad
+  const Heights& heights;
+  double feature_angle = 0;  ///< rad
 };
 
 bool on_extension(const Projection& projection);
@@ -19,10 +20,10 @@ bool on_extension(const Projection& projection);
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, const Law& law,
                                double p, bool full_tangent);
 
-/// Contact point for any law; nothing when the gap is open, unless the law is unilateral. Smooth surfaces are
-/// met on the face itself where the closest point is on an edge or vertex across which normals turn by less
-/// than the feature angle. velocity: m/s, of a node of the slave (side 0) or master (1). stuck: of this slave
-/// node after the last step, or null.
+/// Contact point for any law; nothing when the gap is open, unless the law is unilateral. Surfaces with
+/// heights are met on the face itself where the closest point is on an edge or vertex across which normals
+/// turn by less than the feature angle. velocity: m/s, of a node of the slave (side 0) or master (1). stuck:
+/// of this slave node after the last step, or null.
 struct SlaveContact {
   Projection projection;
   int slave_node;

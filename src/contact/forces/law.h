@@ -3,7 +3,6 @@
 // 6.6 and 6.7), with the derivatives that the consistent tangent takes.
 
 #include "contact/projection/projection_kinematics.h"
-#include "contact/projection/smoothing.h"
 #include "elastogear/contact/types.h"
 
 namespace elastogear::contact {

@@ -1,77 +1,44 @@
 #include "contact/projection/smoothing.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace elastogear::contact {
 namespace {
 
-// A polynomial in one coordinate with its first two derivatives.
-using Jet = Eigen::Vector3d;
-
 // On [-1, 1]: value 1 at `end`, 0 at the other, no slopes (cubic Hermite).
-Jet hermite_value(double end, double t) {
+double hermite_value(double end, double t) {
   const double s = end * t;
-  return {0.25 * (2 + 3 * s - s * s * s), 0.75 * end * (1 - s * s), -1.5 * s};
+  return 0.25 * (2 + 3 * s - s * s * s);
 }
 
 // Slope 1 at `end`, no slope at the other, values 0.
-Jet hermite_slope(double end, double t) {
+double hermite_slope(double end, double t) {
   const double s = end * t;
-  return {0.25 * end * (1 + s) * (1 + s) * (s - 1), 0.25 * (1 + s) * (3 * s - 1), 0.5 * end * (3 * s + 1)};
+  return 0.25 * end * (1 + s) * (1 + s) * (s - 1);
 }
 
-void add_product(double weight, const Jet& x, const Jet& y, FaceFunction& sum) {
-  sum.f += weight * x[0] * y[0];
-  sum.f_a += weight * Eigen::Vector2d(x[1] * y[0], x[0] * y[1]);
-  const double mixed = weight * x[1] * y[1];
-  sum.f_ab(0, 0) += weight * x[2] * y[0];
-  sum.f_ab(1, 1) += weight * x[0] * y[2];
-  sum.f_ab(0, 1) += mixed;
-  sum.f_ab(1, 0) += mixed;
-}
-
-FaceFunction on_quadrilateral(const CornerSlopes& slopes, double u, double v) {
+double on_quadrilateral(const CornerSlopes& slopes, double u, double v) {
   constexpr std::array<double, 4> at_u{-1, 1, 1, -1}, at_v{-1, -1, 1, 1};
-  FaceFunction sum;
-  for (int c = 0; c < 4; ++c) {
-    add_product(slopes(0, c), hermite_slope(at_u[c], u), hermite_value(at_v[c], v), sum);
-    add_product(slopes(1, c), hermite_value(at_u[c], u), hermite_slope(at_v[c], v), sum);
-  }
+  double sum = 0;
+  for (int c = 0; c < 4; ++c)
+    sum += slopes(0, c) * hermite_slope(at_u[c], u) * hermite_value(at_v[c], v) +
+           slopes(1, c) * hermite_value(at_u[c], u) * hermite_slope(at_v[c], v);
   return sum;
 }
 
-// Gradients of the weights of the three corners.
-constexpr double kGradient[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
-
-Eigen::Vector2d gradient(int corner) { return {kGradient[corner][0], kGradient[corner][1]}; }
-
-// weight * w_i w_j w_k of the corner weights w
-void add_monomial(double weight, const Eigen::Vector3d& w, const std::array<int, 3>& ijk, FaceFunction& sum) {
-  const auto [i, j, k] = ijk;
-  const Eigen::Vector2d gi = gradient(i), gj = gradient(j), gk = gradient(k);
-  const Eigen::Matrix2d ij = gi * gj.transpose(), jk = gj * gk.transpose(), ki = gk * gi.transpose();
-  sum.f += weight * w[i] * w[j] * w[k];
-  sum.f_a += weight * (gi * w[j] * w[k] + w[i] * gj * w[k] + w[i] * w[j] * gk);
-  sum.f_ab +=
-      weight * ((ij + ij.transpose()) * w[k] + (jk + jk.transpose()) * w[i] + (ki + ki.transpose()) * w[j]);
-}
-
 // Cubic with the corners' slopes along the sides and quadratic precision (the patch of Vlachos et al. 2001).
-FaceFunction on_triangle(const CornerSlopes& slopes, double u, double v) {
+double on_triangle(const CornerSlopes& slopes, double u, double v) {
   const Eigen::Vector3d w(1 - u - v, u, v);
-  FaceFunction sum;
-  double all = 0;
+  double sum = 0, all = 0;
   for (int i = 0; i < 3; ++i)
     for (int j : {(i + 1) % 3, (i + 2) % 3}) {
       const Eigen::Vector2d along = Eigen::Vector2d(j == 1, j == 2) - Eigen::Vector2d(i == 1, i == 2);
       const double slope = slopes.col(i).dot(along);
-      add_monomial(slope, w, {i, i, j}, sum);
+      sum += slope * w[i] * w[i] * w[j];
       all += slope;
     }
-  add_monomial(0.5 * all, w, {0, 1, 2}, sum);
-  return sum;
+  return sum + 0.5 * all * w[0] * w[1] * w[2];
 }
 
 Eigen::Vector3d corner_normal(const Face& face, int corner) {
@@ -118,15 +85,8 @@ std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double fe
   return slopes;
 }
 
-FaceFunction height(int sides, const CornerSlopes& slopes, double u, double v) {
+double smooth_height(int sides, const CornerSlopes& slopes, double u, double v) {
   return sides == 4 ? on_quadrilateral(slopes, u, v) : on_triangle(slopes, u, v);
-}
-
-double largest_height(const std::vector<CornerSlopes>& slopes) {
-  constexpr double kLargestSlope = 8.0 / 27;  // of hermite_slope; products with values are not larger
-  double largest = 0;
-  for (const CornerSlopes& s : slopes) largest = std::max(largest, s.cwiseAbs().sum());
-  return kLargestSlope * largest;
 }
 
 }  // namespace elastogear::contact

@@ -1,7 +1,6 @@
 #pragma once
 // How far the smooth surface behind a faceted one stands out of each facet: a cubic height over the face
 // whose slopes at the corners follow the averaged normals there (docs/theory.md, section 6.8).
-// From the undeformed surface; heights stay what they are when it moves and deforms a little.
 
 #include <Eigen/Core>
 #include <vector>
@@ -17,10 +16,7 @@ using CornerSlopes = Eigen::Matrix<double, 2, 4>;
 /// (rad) against the face in question, so that true edges stay sharp.
 std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double feature_angle);
 
-/// Height h(u, v) along the face normal, m.
-FaceFunction height(int sides, const CornerSlopes& slopes, double u, double v);
-
-/// Bound of |h| over all faces, m.
-double largest_height(const std::vector<CornerSlopes>& slopes);
+/// Height at (u, v) along the face normal, m.
+double smooth_height(int sides, const CornerSlopes& slopes, double u, double v);
 
 }  // namespace elastogear::contact

@@ -1,0 +1,42 @@
+#pragma once
+// How far the surface that contact takes stands out of each facet: a polynomial height over the face, Eq.
+// (6.19a). From the undeformed surface; heights stay what they are when it moves and deforms a little.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "elastogear/contact/topology.h"
+#include "elastogear/contact/true_surface.h"
+#include "elastogear/contact/types.h"
+
+namespace elastogear::contact {
+
+inline constexpr int kHeightPoints = 7;  ///< along each side of a face; degree 6
+
+/// m, of T_i(a) T_j(b) with Chebyshev polynomials T. Quadrilaterals: (a, b) = (u, v); triangles: 2 (u, v)
+/// - 1.
+using HeightCoefficients = Eigen::Matrix<double, kHeightPoints, kHeightPoints>;
+
+/// Heights of one surface.
+struct Heights {
+  std::vector<HeightCoefficients> face;  ///< by face; none at all: facets as they are
+
+  bool empty() const { return face.empty(); }
+};
+
+/// Heights of `kind` with what is known of the true surface. Faces without exact heights take smooth ones;
+/// deviations are added to any kind. feature_angle: rad, see corner_slopes. Throws Error when `known` does
+/// not fit the surface.
+Heights make_heights(const SurfaceView& undeformed, ContactSurface kind, double feature_angle,
+                     const TrueSurface& known);
+
+/// Height h(u, v) along the normal of face f, m. Beyond |a| = 1 and |b| = 1 it goes on as a parabola.
+FaceFunction height(const Heights& heights, int sides, int f, double u, double v);
+
+/// Bound of |h| over all faces with their sides moved outwards by `extension` shares of the face's length, m.
+double largest_height(const Heights& heights, double extension);
+
+/// Bound of the second derivatives of h with (u, v) over all faces, m.
+double largest_second_derivative(const Heights& heights);
+
+}  // namespace elastogear::contact
