@@ -30,11 +30,13 @@ void listen_for_stop() {
   for (int signal : {SIGTERM, SIGINT}) sigaction(signal, &action, nullptr);
 }
 
-// The file that the value of an option names, or nothing.
-std::string file_in(const std::string& key, const std::string& value) {
+// The files that the value of an option names.
+std::vector<std::string> files_in(const Options& options, const std::string& key, const std::string& value) {
   const auto table = value.find("table,");
-  if (table != std::string::npos) return value.substr(table + 6);
-  return key == "option_output_times" ? value : "";
+  if (table != std::string::npos) return {value.substr(table + 6)};
+  if (key == "option_output_times") return {value};
+  const bool names_files = key.starts_with("option_") && key.ends_with("_flanks");
+  return names_files ? options.list(key.substr(7)) : std::vector<std::string>{};
 }
 
 // Returns whether results depend on an entry of the provenance. A shared file has keys of other verbs as
@@ -63,13 +65,13 @@ void add_inputs(const Options& options, const std::map<std::string, std::string>
                 std::map<std::string, std::string>& provenance) {
   for (const auto& [body, identity] : identities)
     if (!identity.empty()) provenance[model::identity_key(body)] = identity;
-  for (const auto& [key, value] : options.provenance()) {
-    const std::string file = file_in(key, value);
-    if (file.empty() || !std::filesystem::is_regular_file(file)) continue;
-    Fingerprint f;
-    f.add(read_file(file));
-    provenance["fingerprint_" + file] = f.text();
-  }
+  for (const auto& [key, value] : options.provenance())
+    for (const std::string& file : files_in(options, key, value)) {
+      if (!std::filesystem::is_regular_file(file)) continue;
+      Fingerprint f;
+      f.add(read_file(file));
+      provenance["fingerprint_" + file] = f.text();
+    }
 }
 
 dynamics::RunSummary keep(const Options& options, const model::ResultHeader& header,

@@ -10,18 +10,26 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Face sets "<what>_<number>_left" and "..._right".
+TrueSurface exact_heights(const Flanks& flanks) {
+  TrueSurface exact;
+  for (int f = 0; f < flanks.surface.face.cols(); ++f)
+    exact.height.push_back(sampled_heights(flanks.surface, f, [&](const Vector3d& x, const Vector3d& n) {
+      return gear::flank_distance_along(flanks.toothing, flanks.flank[f], x, n);
+    }));
+  return exact;
+}
+
+// Face sets tooth_<ii>_left and their like.
 Flanks flanks_of(const mesh::Mesh& mesh, const gear::Toothing& toothing, double half_width) {
-  Flanks flanks{toothing, half_width, {}, {}};
+  Flanks flanks{toothing, half_width, {}, {}, {}};
   std::map<int, int> local;
   std::vector<mesh::Face> faces;
   for (const auto& [name, set] : mesh.face_sets) {
-    const auto first = name.find('_'), last = name.rfind('_');
-    if (first == std::string::npos || first == last) continue;
+    const auto flank = gear::flank_of(name);
+    if (!flank) continue;
     for (const mesh::Face& face : set) {
       faces.push_back(face);
-      flanks.flank.push_back(
-          {std::stoi(name.substr(first + 1, last)) - 1, name.substr(last) == "_left" ? 1 : -1});
+      flanks.flank.push_back(*flank);
       for (int node : face) local.try_emplace(node, 0);
     }
   }
@@ -33,6 +41,7 @@ Flanks flanks_of(const mesh::Mesh& mesh, const gear::Toothing& toothing, double 
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (int i = 0; i < 4; ++i) surface.face(i, static_cast<Eigen::Index>(f)) = local.at(faces[f][i]);
   surface.Phi = model::DenseRows(3 * surface.X.cols(), 0);
+  flanks.exact = exact_heights(flanks);
   return flanks;
 }
 

@@ -4,15 +4,13 @@
 #include <vector>
 
 #include "elastogear/contact/pair.h"
+#include "elastogear/gear/flank.h"
 #include "elastogear/gear/wheel.h"
 #include "elastogear/gear/worm.h"
 
 namespace elastogear::contact::test {
 
-struct Flank {
-  int tooth;  ///< 0-based
-  int side;   ///< +1 left, -1 right
-};
+using gear::Flank;
 
 /// The flanks of a toothing.
 struct Flanks {
@@ -20,6 +18,7 @@ struct Flanks {
   double half_width;  ///< m, of the flanks along z
   model::Surface surface;
   std::vector<Flank> flank;  ///< of each face
+  TrueSurface exact;         ///< heights of the involute helicoid over the faces
 };
 
 struct WormDrive {

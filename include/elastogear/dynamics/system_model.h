@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elastogear/body/equations.h"
+#include "elastogear/contact/true_surface.h"
 #include "elastogear/contact/types.h"
 #include "elastogear/dynamics/axis.h"
 #include "elastogear/dynamics/marker_forces.h"
@@ -23,6 +24,7 @@ struct BodySetup {
   Eigen::Vector3d velocity0 = Eigen::Vector3d::Zero();  ///< free: m/s, of the BRF's origin, in W
   Eigen::Vector3d omega0 = Eigen::Vector3d::Zero();     ///< free and spherical: rad/s, in the BRF
   Eigen::VectorXd q_dot0 = {};                          ///< n_q, initial elastic velocity; empty: zero
+  std::shared_ptr<const contact::TrueSurface> true_surface = nullptr;  ///< null: nothing is known of it
 };
 
 struct PairSetup {
@@ -50,6 +52,7 @@ struct SystemModel {
     bool in_contact;                 ///< named by a pair
     std::vector<int> node_group;     ///< face group of each surface node: that of its lowest face
     Eigen::VectorXd node_area;       ///< m^2, share of the surface of each of its nodes
+    std::shared_ptr<const contact::TrueSurface> true_surface;  ///< may be null
 
     Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
   };

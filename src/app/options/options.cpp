@@ -120,6 +120,21 @@ std::string text_on_all_ranks(const std::string& file) {
 Options::Options(std::string verb, OptionTable own, OptionTable known)
     : verb_(std::move(verb)), own_(std::move(own)), known_(std::move(known)) {}
 
+Options Options::of_files(std::string verb, const OptionTable& own, const std::vector<std::string>& files) {
+  Options options(std::move(verb), own, own);
+  const std::string section = options.verb_ + "_";
+  for (const bool of_section : {false, true})  // the verb's own section wins
+    for (const std::string& file : files)
+      for (const YamlEntry& entry : parse_yaml(read_file(file), file)) {
+        if (entry.name.starts_with(section) != of_section) continue;
+        const std::string name = of_section ? entry.name.substr(section.size()) : entry.name;
+        options.given_[name] = entry.value;
+        options.place_[name] = file + ", line " + std::to_string(entry.line);
+      }
+  options.files_ = files;
+  return options;
+}
+
 void Options::insert(const std::string& file) {
   const std::string text = text_on_all_ranks(file);
   for (const YamlEntry& entry : parse_yaml(text, file)) {

@@ -33,6 +33,10 @@ class Options {
   /// the command line again. Throws Error for missing or malformed files, naming the line. Collective.
   void load(const std::vector<std::string>& files, int argc, char** argv);
 
+  /// The verb's options as YAML files have them, later ones first, apart from those of the run. Throws Error
+  /// for missing or malformed files, naming the line.
+  static Options of_files(std::string verb, const OptionTable& own, const std::vector<std::string>& files);
+
   /// Throws Error for the first key that neither a table nor PETSc knows, naming where it was given and the
   /// nearest known key. `values` restrict "<body>"-like names; placeholders without an entry stand for any
   /// word.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/console/console.h"
+#include "app/gear/true_surface.h"
 #include "app/options/rows.h"
 #include "app/tables/initial_state.h"
 #include "app/tables/marker_options.h"
@@ -131,7 +132,12 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
 
 }  // namespace
 
-OptionTable body_table() { return table_of(kSourceRows, kBodyRows); }
+OptionTable body_table() {
+  OptionTable table = table_of(kSourceRows, kBodyRows);
+  const OptionTable surface = true_surface_table();
+  table.insert(table.end(), surface.begin(), surface.end());
+  return table;
+}
 
 dynamics::BodySetup body_setup(const Options& options, const std::string& name,
                                std::map<std::string, std::string>& identities) {
@@ -148,6 +154,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name,
   set_drive(options, name + "_translation_motion", setup.translation);
   model::ElasticBody body = read_or_make_body(options, name, identities[name]);
   change_body(options, name, body);
+  setup.true_surface = true_surface(options, name, body.surface);
   setup.body = std::make_shared<model::ElasticBody>(std::move(body));
   check_free_body(setup);
   return setup;

@@ -37,7 +37,7 @@ const Rows<S> kContactRows = {
     {"contact_offset", &S::offset, "m", "added to every gap: > 0 takes initial overlap out, < 0 backlash"},
     {"contact_surface", &S::surface, one_of("facets", "smooth", "exact"),
      "what gaps and normals are taken from: facets (the faces as they are), smooth (a smooth surface through "
-     "their nodes) or exact (heights that a program gives, elsewhere the smooth surface)"},
+     "their nodes) or exact (the flanks of <body>_flanks, elsewhere the smooth surface)"},
     {"contact_feature_angle", &S::feature_angle, "deg",
      "smooth surfaces: edges that turn by more stay sharp"},
     {"contact_extension", &S::extension, "-",
@@ -71,6 +71,17 @@ int body_index(const std::vector<std::string>& bodies, const std::string& name, 
   return static_cast<int>(found - bodies.begin());
 }
 
+// An exact surface must come from somewhere.
+void require_exact_surface(const Options& options, const dynamics::PairSetup& pair,
+                           const std::vector<std::string>& bodies) {
+  const std::string &a = bodies[pair.body[0]], &b = bodies[pair.body[1]];
+  require(pair.settings.surface != contact::ContactSurface::exact || options.given(a + "_flanks") ||
+              options.given(b + "_flanks"),
+          options.label("contact_surface"), " = exact: neither body of the pair ", pair.name,
+          " has exact flanks; name the gear data that they were meshed from by -", a, "_flanks and -", b,
+          "_flanks, or take smooth");
+}
+
 // Warns that the slave surface of a pair with one pass stays what it is: only its nodes are in contact.
 void warn_of_facets(const dynamics::PairSetup& pair, const std::vector<std::string>& bodies) {
   if (pair.settings.surface == contact::ContactSurface::facets || pair.settings.two_pass) return;
@@ -94,6 +105,7 @@ std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::
     const int a = body_index(bodies, pair.substr(0, colon), pair);
     const int b = body_index(bodies, pair.substr(colon + 1), pair);
     setups.push_back({pair, {a, b}, settings(options)});
+    require_exact_surface(options, setups.back(), bodies);
     warn_of_facets(setups.back(), bodies);
   }
   return setups;

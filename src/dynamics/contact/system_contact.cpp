@@ -20,9 +20,10 @@ SystemContact::SystemContact(const SystemModel& model)
   for (const SystemModel::Body& body : model.bodies)
     surface_.push_back(body.in_contact ? &body.eq.body->surface : nullptr);
   for (const PairSetup& pair : pairs_) {
-    const model::ElasticBody &a = *model.bodies[pair.body[0]].eq.body,
-                             &b = *model.bodies[pair.body[1]].eq.body;
-    detectors_.emplace_back(a.surface, b.surface, pair.settings, std::array{&a.K_r, &b.K_r});
+    const SystemModel::Body &a = model.bodies[pair.body[0]], &b = model.bodies[pair.body[1]];
+    detectors_.emplace_back(a.eq.body->surface, b.eq.body->surface, pair.settings,
+                            std::array{&a.eq.body->K_r, &b.eq.body->K_r},
+                            std::array{a.true_surface.get(), b.true_surface.get()});
   }
   unilateral_ = is_unilateral();
 }

@@ -1,0 +1,57 @@
+#include "app/gear/design_options.h"
+
+#include <numbers>
+
+namespace elastogear::app {
+namespace {
+
+using gear::Design;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+const Rows<Design> kDesignRows = {
+    {"part", "-", "", "worm or wheel"},
+    {"size", "-", "tiny", "tiny, small, medium or paper; the counts below refine it"},
+    {"mesh", "-", "", "mesh file to write, Gmsh 4.1 .msh or Abaqus .inp"},
+    {"z1", &Design::z1, "-", "starts of the worm", kPositive},
+    {"z2", &Design::z2, "-", "teeth of the wheel", kPositive},
+    {"pressure_angle", "deg", default_text(Design{}.alpha_n / kDegree), "normal pressure angle",
+     [](const Options& options, const std::string& name, Design& design) {
+       if (options.given(name)) design.alpha_n = options.number(name) * kDegree;
+     }},
+    {"module", &Design::m_n, "m", "normal module"},
+    {"centre_distance", &Design::a, "m", "centre distance; the lead angle follows from it"},
+    {"backlash", &Design::j_n, "m", "normal backlash, taken half from each body's tooth thickness"},
+    {"addendum", &Design::addendum, "m", "tip over pitch radius, both bodies"},
+    {"dedendum", &Design::dedendum, "m", "pitch over root radius, both bodies"},
+    {"worm_fillet", &Design::worm_fillet, "m", "root fillet radius of the worm, axial section"},
+    {"wheel_rack_tip", &Design::wheel_rack_tip, "m", "tip radius of the rack that generates the wheel"},
+    {"thread_length", &Design::thread_length, "m", "worm: length of the thread, centred at z = 0"},
+    {"worm_bore", &Design::worm_bore, "m", "worm: diameter of the axial bore"},
+    {"seat_1_begin", &Design::seat_1_begin, "m", "worm: bearing seat at -z, begin"},
+    {"seat_1_end", &Design::seat_1_end, "m", "worm: bearing seat at -z, end"},
+    {"seat_1_diameter", &Design::seat_1_diameter, "m", "worm: diameter of the bearing seat at -z"},
+    {"seat_2_begin", &Design::seat_2_begin, "m", "worm: bearing seat at +z, begin"},
+    {"seat_2_end", &Design::seat_2_end, "m", "worm: bearing seat at +z, end"},
+    {"seat_2_diameter", &Design::seat_2_diameter, "m", "worm: diameter of the bearing seat at +z"},
+    {"shaft_1_end", &Design::shaft_1_end, "m", "worm: end of the shaft at -z"},
+    {"shaft_1_diameter", &Design::shaft_1_diameter, "m", "worm: diameter of the stub beyond seat 1"},
+    {"shaft_2_end", &Design::shaft_2_end, "m", "worm: end of the shaft at +z"},
+    {"shaft_2_diameter", &Design::shaft_2_diameter, "m", "worm: diameter of the stub beyond seat 2"},
+    {"shoulder", &Design::shoulder, "m", "worm: length of the cone between two diameters"},
+    {"face_width", &Design::face_width, "m", "wheel: width of ring, rim and teeth"},
+    {"wheel_bore", &Design::wheel_bore, "m", "wheel: diameter of the bore"},
+    {"hub_diameter", &Design::hub_diameter, "m", "wheel: outer diameter of the hub"},
+    {"hub_width", &Design::hub_width, "m", "wheel: width of the hub"},
+    {"web_diameter", &Design::web_diameter, "m", "wheel: outer diameter of the web"},
+    {"web_width", &Design::web_width, "m", "wheel: width of the web"},
+    {"rim_diameter", &Design::rim_diameter, "m", "wheel: inner diameter of the rim (its own element set)"},
+};
+
+}  // namespace
+
+const Rows<Design>& design_rows() { return kDesignRows; }
+
+bool is_worm(const Options& options) { return options.choice("part", {"worm", "wheel"}) == 0; }
+
+}  // namespace elastogear::app

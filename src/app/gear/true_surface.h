@@ -1,0 +1,19 @@
+#pragma once
+// The true surface of a body of `simulate`: exact flanks from gear data, deviations from a table.
+
+#include <memory>
+#include <string>
+
+#include "app/options/options.h"
+#include "elastogear/contact/true_surface.h"
+
+namespace elastogear::app {
+
+OptionTable true_surface_table();
+
+/// What the options tell of the true surface of a body; null: nothing. Throws Error naming file, value and
+/// remedy when gear data or deviations do not fit the surface.
+std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options, const std::string& body,
+                                                         const model::Surface& surface);
+
+}  // namespace elastogear::app

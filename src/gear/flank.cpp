@@ -1,0 +1,54 @@
+#include "elastogear/gear/flank.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace elastogear::gear {
+namespace {
+
+constexpr double kRoundoff = 1e-14;  // of the distance from the axis
+constexpr double kLeastCosine = 0.5;
+constexpr int kNewtonSteps = 20;
+
+}  // namespace
+
+std::optional<Flank> flank_of(const std::string& face_set) {
+  const auto first = face_set.find('_'), last = face_set.rfind('_');
+  if (first == std::string::npos || first == last) return {};
+  const std::string_view all = face_set, body = all.substr(0, first), side = all.substr(last + 1),
+                         number = all.substr(first + 1, last - first - 1);
+  if ((body != "tooth" && body != "thread") || (side != "left" && side != "right")) return {};
+  int tooth = 0;
+  const auto [end, error] = std::from_chars(number.begin(), number.end(), tooth);
+  if (error != std::errc() || end != number.end() || tooth < 1) return {};
+  return Flank{tooth - 1, side == "left" ? 1 : -1};
+}
+
+// Gradient of flank_distance: dpsi/dr = -tan(alpha)/r at cos(alpha) = r_b/r; inside the base circle psi is
+// constant.
+Eigen::Vector3d flank_normal(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {
+  const double r = std::hypot(x[0], x[1]);
+  const double tan_alpha = std::sqrt(std::max(0.0, r * r - t.r_b * t.r_b)) / t.r_b;
+  const Eigen::Vector3d radial(x[0] / r, x[1] / r, 0), around(-radial[1], radial[0], 0);
+  const Eigen::Vector3d n =
+      flank.side * (around / r - Eigen::Vector3d::UnitZ() / t.p) + tan_alpha / r * radial;
+  return n.normalized();
+}
+
+double flank_distance_along(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x,
+                            const Eigen::Vector3d& n) {
+  double s = 0;
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const Eigen::Vector3d at = x + s * n;
+    const double d = flank_distance(t, flank.tooth, flank.side, at);
+    if (std::abs(d) <= kRoundoff * t.r_a) return s;
+    const double cosine = n.dot(flank_normal(t, flank, at));
+    if (!(cosine >= kLeastCosine)) break;
+    s -= d / cosine;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace elastogear::gear
