@@ -1,7 +1,8 @@
 #include "contact/projection/smoothing.h"
 
 #include <array>
-#include <cmath>
+
+#include "contact/projection/node_normals.h"
 
 namespace elastogear::contact {
 namespace {
@@ -41,38 +42,18 @@ double on_triangle(const CornerSlopes& slopes, double u, double v) {
   return sum + 0.5 * all * w[0] * w[1] * w[2];
 }
 
-Eigen::Vector3d corner_normal(const Face& face, int corner) {
-  Face plain = face;
-  plain.extension = {};
-  const Eigen::Vector2d at = extended_corner(plain, corner);
-  return normal(face, at[0], at[1]);
-}
-
-// Mean normal of the faces at the node, weighted with their angles there, without faces beyond an edge that
-// turns by more than the feature angle.
-Eigen::Vector3d averaged_normal(const SurfaceView& surface, int node, const Eigen::Vector3d& own,
-                                double feature_angle) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int entry : surface.topology.node_corners[node]) {
-    const Face face = face_of(surface, entry / 4);
-    const Eigen::Vector3d n = corner_normal(face, entry % 4);
-    if (n.dot(own) >= std::cos(feature_angle)) sum += corner_angle(face, entry % 4) * n;
-  }
-  return sum.stableNormalized();
-}
-
-CornerSlopes slopes_of(const SurfaceView& surface, int f, double feature_angle) {
+// Slopes of the height at the corners of a face with these normals there.
+CornerSlopes slopes_of(const SurfaceView& surface, int f, const CornerNormals& smooth) {
   CornerSlopes slopes = CornerSlopes::Zero();
   Face face = face_of(surface, f);
   face.extension = {};
   for (int c = 0; c < face.sides; ++c) {
     const Eigen::Vector2d at = extended_corner(face, c);
     const Shape s = shape(face.sides, at[0], at[1]);
-    const Eigen::Vector3d n = corner_normal(face, c);
-    const Eigen::Vector3d smooth = averaged_normal(surface, surface.face(c, f), n, feature_angle);
-    const double along = smooth.dot(n);
+    const double along = smooth.col(c).dot(normal(face, at[0], at[1]));
     if (along <= 0) continue;  // a degenerate corner
-    slopes.col(c) << -smooth.dot(combine(face, s.N_u)) / along, -smooth.dot(combine(face, s.N_v)) / along;
+    slopes.col(c) << -smooth.col(c).dot(combine(face, s.N_u)) / along,
+        -smooth.col(c).dot(combine(face, s.N_v)) / along;
   }
   return slopes;
 }
@@ -80,8 +61,9 @@ CornerSlopes slopes_of(const SurfaceView& surface, int f, double feature_angle) 
 }  // namespace
 
 std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double feature_angle) {
+  const std::vector<CornerNormals> normals = corner_normals(undeformed, feature_angle);
   std::vector<CornerSlopes> slopes;
-  for (int f = 0; f < undeformed.face.cols(); ++f) slopes.push_back(slopes_of(undeformed, f, feature_angle));
+  for (int f = 0; f < undeformed.face.cols(); ++f) slopes.push_back(slopes_of(undeformed, f, normals[f]));
   return slopes;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // How far the smooth surface behind a faceted one stands out of each facet: a cubic height over the face
-// whose slopes at the corners follow the averaged normals there (docs/theory.md, section 6.8).
+// whose slopes at the corners follow the normals at the nodes (docs/theory.md, section 6.8).
 
 #include <Eigen/Core>
 #include <vector>
@@ -12,8 +12,7 @@ namespace elastogear::contact {
 /// Slopes of the height with the face's (u, v) at its corners, m.
 using CornerSlopes = Eigen::Matrix<double, 2, 4>;
 
-/// One entry per face. Normals are averaged over the faces at a node that turn by less than `feature_angle`
-/// (rad) against the face in question, so that true edges stay sharp.
+/// One entry per face, from corner_normals with the same feature_angle (rad).
 std::vector<CornerSlopes> corner_slopes(const SurfaceView& undeformed, double feature_angle);
 
 /// Height at (u, v) along the face normal, m.
