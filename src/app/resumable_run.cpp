@@ -35,7 +35,8 @@ std::vector<std::string> files_in(const Options& options, const std::string& key
   const auto table = value.find("table,");
   if (table != std::string::npos) return {value.substr(table + 6)};
   if (key == "option_output_times") return {value};
-  const bool names_files = key.starts_with("option_") && key.ends_with("_flanks");
+  const bool names_files =
+      key.starts_with("option_") && (key.ends_with("_flanks") || key.ends_with("_deviation"));
   return names_files ? options.list(key.substr(7)) : std::vector<std::string>{};
 }
 

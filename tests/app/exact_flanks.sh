@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Gaps on exact flanks are distances from the involute helicoid, which is computed here once more; those on facets are not.
-# Gear data of another gear are refused.
+# A deviation of the worm's surface turns the wheel. Gear data of another gear and deviations of other nodes are refused.
 #   exact_flanks.sh PATH/TO/elastogear PATH/TO/examples/worm_gear
 set -euo pipefail
 elastogear=$(realpath "$1")
@@ -32,6 +32,20 @@ printf 'part: worm\nbacklash: 40e-6\n' >last.yaml
 grep -q "flanks of wheel .*656 faces, nodes within" log || { cat log; exit 1; }
 "$elastogear" simulate drive.yaml -contact_surface facets -output facets.h5 >log 2>&1 || { cat log; exit 1; }
 
+# Nodes of the wheel meet a worm that is 5 um thicker.
+/usr/bin/python3 - <<'END'
+import h5py
+with open("thick.csv", "w") as file:
+    print("node,deviation [m]", file=file)
+    for node in h5py.File("worm.h5")["surface/nodes"]:
+        print(f"{node},5e-6", file=file)
+END
+for deviation in thick none; do
+  echo "# nothing" >none.csv
+  "$elastogear" simulate drive.yaml -contact_two_pass false -contact_slave second -worm_deviation $deviation.csv \
+    -output $deviation.h5 >log 2>&1 || { cat log; exit 1; }
+done
+
 refused() {  # PATTERN ARGUMENTS: ends with an error that fits
   if "$elastogear" simulate drive.yaml -output no.h5 "${@:2}" >log 2>&1 || ! grep -Eq "error: .*$1" log; then
     echo "not refused as expected: ${*:2}"; cat log; exit 1
@@ -47,6 +61,16 @@ refused "no_part.yaml: names no part" -worm_flanks no_part.yaml
 refused "z1 \(word.yaml, line 2\) = 'two'" -worm_flanks word.yaml
 refused "small.yaml: there is no lead angle" -worm_flanks small.yaml
 refused "nosuch.yaml" -worm_flanks nosuch.yaml
+node=$(sed -n 2p thick.csv | cut -d, -f1)
+printf '999999,0\n' >no_node.csv
+printf '%s,1e-6\n%s,1e-6\n' "$node" "$node" >twice.csv
+printf '%s,5\n' "$node" >micrometres.csv
+printf '%s\n' "$node" >one_column.csv
+refused "no_node.csv, line 1: node 999999 is not on the surface of body 'worm'" -worm_deviation no_node.csv
+refused "twice.csv, line 2: node $node is given twice" -worm_deviation twice.csv
+refused "micrometres.csv, line 1: deviation 5 m of node $node exceeds" -worm_deviation micrometres.csv
+refused "one_column.csv, line 1: must be two numbers" -worm_deviation one_column.csv
+refused "nosuch.csv: cannot be read" -worm_deviation nosuch.csv
 sed 's/, flanks: wheel.yaml//; /flanks: worm.yaml/s/flanks: worm.yaml//' drive.yaml >plain.yaml
 if "$elastogear" simulate plain.yaml -output no.h5 >log 2>&1 || ! grep -q "neither body of the pair worm:wheel" log; then
   cat log; exit 1
@@ -102,5 +126,10 @@ for result in ("exact.h5", "facets.h5"):
     print(result, "largest error %.3g m of %d gaps" % largest_error(result))
 assert largest_error("exact.h5")[0] < 0.05e-6
 assert largest_error("facets.h5")[0] > 1e-6
+angle = {name: h5py.File(f"{name}.h5")["bodies/wheel/rigid"][-1, 0] for name in ("thick", "none")}
+turn = 5e-6 / (m_n * cos(alpha_n) * teeth[1] / 2)  # r_b cos(beta_b) = p_bn z / (2 pi), at the point of contact
+found = angle["thick"] - angle["none"]
+print("turn by the deviation", found, "expected", turn)
+assert abs(found / turn - 1) < 0.03  # the node lies beside it
 END
 echo "all good"

@@ -114,6 +114,27 @@ TEST(Heights, of_deviations_are_linear_between_nodes_on_any_surface) {
   }
 }
 
+TEST(Heights, of_deviations_count_along_the_normal_of_an_exact_surface) {
+  constexpr double kAdded = 1e-3, kTurn = 0.2;  // m, on a radius of 1 m; rad, between facets
+  const model::Surface s = test::grid(
+      4, 1, [](double u, double v) { return Vector3d(std::sin(4 * kTurn * u), v, std::cos(4 * kTurn * u)); });
+  TrueSurface known{.deviation = Eigen::VectorXd::Constant(s.X.cols(), kAdded)};
+  for (int f = 0; f < s.face.cols(); ++f)
+    known.height.push_back(sampled_heights(s, f, [](const Vector3d& x, const Vector3d& n) {
+      const double b = x.x() * n.x() + x.z() * n.z(), c = x.x() * x.x() + x.z() * x.z() - 1;
+      return std::abs(std::sqrt(b * b - c)) * (b > 0 ? 1 : -1) - b;
+    }));
+  const Heights heights = exact(s, known);
+  const Topology map = topology(s.face, static_cast<int>(s.X.cols()));
+  for (int f = 0; f < s.face.cols(); ++f)
+    for (double u : {-0.98, -0.4, 0.1, 0.7}) {
+      const Face face = face_of({s.face, map, s.X, 0}, f);
+      const Vector3d x =
+          combine(face, shape(4, u, 0.3).N) + height(heights, 4, f, u, 0.3).f * normal(face, u, 0.3);
+      EXPECT_NEAR(std::hypot(x.x(), x.z()), 1 + kAdded, 2e-5 * kAdded);  // along the face: up to 5e-3
+    }
+}
+
 TEST(Heights, of_another_surface_are_refused) {
   const model::Surface s = one_face(4);
   const auto zero = [](auto&, auto&) { return 0.0; };

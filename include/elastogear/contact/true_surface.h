@@ -15,7 +15,8 @@ struct TrueSurface {
   /// By face: m, at the height_points of the face; empty where no exact surface is known. No entries:
   /// nowhere.
   std::vector<Eigen::VectorXd> height = {};
-  /// n_s, m, of each node, linear between nodes; > 0: material added. Empty: none.
+  /// n_s, m, of each node along the outward normal of the surface, linear between nodes; > 0: material added.
+  /// Empty: none.
   Eigen::VectorXd deviation = {};
 };
 

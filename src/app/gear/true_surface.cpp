@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
+#include "elastogear/contact/topology.h"
 #include "elastogear/gear/flank.h"
+#include "elastogear/io/delimited_reader.h"
 
 namespace elastogear::app {
 namespace {
@@ -16,12 +19,17 @@ constexpr double kOnFlank = 1e-6;  // m: the meshes are exact to 1e-9, and files
 
 struct TrueSurfaceFiles {
   std::vector<std::string> flanks = {};
+  std::string deviation = {};
 };
 
 const Rows<TrueSurfaceFiles> kTrueSurfaceRows = {
     {"<body>_flanks", &TrueSurfaceFiles::flanks, "-",
      "with contact_surface exact: the gear data that the body was meshed from, the YAML files of elastogear "
      "mesh; its flanks take the place of the faces of tooth_<ii>_... and thread_<i>_..."},
+    {"<body>_deviation", &TrueSurfaceFiles::deviation, "-",
+     "CSV file of how far the surface stands out of its mesh: a line for each node, its number in "
+     "/surface/nodes of the body file and m along the outward normal (> 0: material added); linear between "
+     "nodes, 0 at others"},
 };
 
 // The toothing of the part that files of gear data describe.
@@ -94,6 +102,33 @@ void add_flanks(const std::vector<std::string>& files, const std::string& body, 
                                       with_unit(farthest.distance, "m") + " of " + file);
 }
 
+void add_deviations(const std::string& file, const std::string& body, const model::Surface& surface,
+                    contact::TrueSurface& known) {
+  std::ifstream in(file);
+  require(in.good(), file, ": cannot be read");
+  io::DelimitedReader reader(in, file);
+  const double allowed = contact::face_size(surface.X, surface.face);
+  known.deviation = Eigen::VectorXd::Zero(surface.X.cols());
+  std::vector<bool> given(surface.node.size(), false);
+  while (reader.next("#n")) {  // comments, and a heading that begins with node
+    if (reader.fields().size() != 2) reader.fail_here("must be two numbers, a node and its deviation in m");
+    const double number = reader.number(0), value = reader.number(1);
+    const auto at = std::lower_bound(surface.node.begin(), surface.node.end(), number);
+    if (at == surface.node.end() || *at != number)
+      reader.fail_here("node ", number, " is not on the surface of body '", body,
+                       "'; /surface/nodes of its body file lists the nodes");
+    const auto node = at - surface.node.begin();
+    if (given[node]) reader.fail_here("node ", number, " is given twice");
+    if (std::abs(value) > allowed)
+      reader.fail_here("deviation ", value, " m of node ", number, " exceeds the size of a face, ", allowed,
+                       " m; give it in m");
+    given[node] = true;
+    known.deviation[node] = value;
+  }
+  print_item("deviation of " + body, with_unit(known.deviation.minCoeff(), "m") + " to " +
+                                         with_unit(known.deviation.maxCoeff(), "m") + " by " + file);
+}
+
 }  // namespace
 
 OptionTable true_surface_table() { return table_of(kTrueSurfaceRows); }
@@ -103,9 +138,9 @@ std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options,
   TrueSurfaceFiles files;
   read_rows(options, kTrueSurfaceRows, files, body);
   const bool exact = options.text("contact_surface") == "exact";
-  if (files.flanks.empty() || !exact) return nullptr;
   auto known = std::make_shared<contact::TrueSurface>();
-  add_flanks(files.flanks, body, surface, *known);
+  if (exact && !files.flanks.empty()) add_flanks(files.flanks, body, surface, *known);
+  if (!files.deviation.empty()) add_deviations(files.deviation, body, surface, *known);
   return known;
 }
 

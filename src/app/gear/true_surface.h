@@ -11,7 +11,7 @@ namespace elastogear::app {
 
 OptionTable true_surface_table();
 
-/// What the options tell of the true surface of a body; null: nothing. Throws Error naming file, value and
+/// What the options tell of the true surface of a body. Throws Error naming file, value and
 /// remedy when gear data or deviations do not fit the surface.
 std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options, const std::string& body,
                                                          const model::Surface& surface);

@@ -83,12 +83,15 @@ void require_exact_surface(const Options& options, const dynamics::PairSetup& pa
 }
 
 // Warns that the slave surface of a pair with one pass stays what it is: only its nodes are in contact.
-void warn_of_facets(const dynamics::PairSetup& pair, const std::vector<std::string>& bodies) {
-  if (pair.settings.surface == contact::ContactSurface::facets || pair.settings.two_pass) return;
+void warn_of_facets(const Options& options, const dynamics::PairSetup& pair,
+                    const std::vector<std::string>& bodies) {
   const std::string& slave = bodies[pair.body[pair.settings.slave]];
-  print_item("warning", "contact_surface has no effect on the surface of " + slave +
-                            ", the slave of the pair " + pair.name +
-                            ": only its nodes are in contact; contact_two_pass takes both");
+  const bool deviates = options.given(slave + "_deviation"),
+             facets = pair.settings.surface == contact::ContactSurface::facets;
+  if (pair.settings.two_pass || (facets && !deviates)) return;
+  print_item("warning", (facets ? slave + "_deviation" : "contact_surface") +
+                            " has no effect on the surface of " + slave + ", the slave of the pair " +
+                            pair.name + ": only its nodes are in contact; contact_two_pass takes both");
 }
 
 }  // namespace
@@ -106,7 +109,7 @@ std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::
     const int b = body_index(bodies, pair.substr(colon + 1), pair);
     setups.push_back({pair, {a, b}, settings(options)});
     require_exact_surface(options, setups.back(), bodies);
-    warn_of_facets(setups.back(), bodies);
+    warn_of_facets(options, setups.back(), bodies);
   }
   return setups;
 }

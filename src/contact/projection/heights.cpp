@@ -117,12 +117,40 @@ Eigen::VectorXd smooth_samples(int sides, const CornerSlopes& slopes) {
   return h;
 }
 
+FaceFunction polynomial(const HeightCoefficients& C, int sides, double u, double v) {
+  const Chebyshev a = chebyshev(chebyshev_coordinate(sides, u)),
+                  b = chebyshev(chebyshev_coordinate(sides, v));
+  const Terms by_b = C * b.T, by_b_t = C * b.T_t, by_b_tt = C * b.T_tt;
+  const double scale = chebyshev_coordinate(sides, 1) - chebyshev_coordinate(sides, 0);
+  FaceFunction h;
+  h.f = a.T.dot(by_b);
+  h.f_a = scale * Eigen::Vector2d(a.T_t.dot(by_b), a.T.dot(by_b_t));
+  const double mixed = a.T_t.dot(by_b_t);
+  h.f_ab << a.T_tt.dot(by_b), mixed, mixed, a.T.dot(by_b_tt);
+  h.f_ab *= scale * scale;
+  return h;
+}
+
+// The length of the gradient of (6.19) on the surface itself: a height over the distance along its normal.
+double stretch(const Face& face, const FaceFunction& h, const Shape& s) {
+  Eigen::Matrix<double, 3, 2> a;
+  a << combine(face, s.N_u), combine(face, s.N_v);
+  const Eigen::Matrix2d metric = a.transpose() * a;
+  const double slope = h.f_a.dot(metric.inverse() * h.f_a);
+  return std::isfinite(slope) ? std::sqrt(1 + slope) : 1;  // 1 where the face is degenerate
+}
+
+// Adds deviations, which count along the normal of the surface, to its heights h at the height_points.
 void add_deviation(const SurfaceView& surface, int f, const Eigen::VectorXd& deviation, Eigen::VectorXd& h) {
-  const int sides = side_count(surface.face, f);
-  const auto& points = height_points(sides);
+  const Face face = face_of(surface, f);
+  const HeightCoefficients C = interpolated(face.sides, h);
+  const auto& points = height_points(face.sides);
   for (Eigen::Index p = 0; p < h.size(); ++p) {
-    const Shape s = shape(sides, points[p][0], points[p][1]);
-    for (int i = 0; i < sides; ++i) h[p] += s.N[i] * deviation[surface.face(i, f)];
+    const double u = points[p][0], v = points[p][1];
+    const Shape s = shape(face.sides, u, v);
+    double d = 0;
+    for (int i = 0; i < face.sides; ++i) d += s.N[i] * deviation[surface.face(i, f)];
+    h[p] += d * stretch(face, polynomial(C, face.sides, u, v), s);
   }
 }
 
@@ -168,18 +196,7 @@ Heights make_heights(const SurfaceView& undeformed, ContactSurface kind, double 
 }
 
 FaceFunction height(const Heights& heights, int sides, int f, double u, double v) {
-  const Chebyshev a = chebyshev(chebyshev_coordinate(sides, u)),
-                  b = chebyshev(chebyshev_coordinate(sides, v));
-  const HeightCoefficients& C = heights.face[f];
-  const Terms by_b = C * b.T, by_b_t = C * b.T_t, by_b_tt = C * b.T_tt;
-  const double scale = chebyshev_coordinate(sides, 1) - chebyshev_coordinate(sides, 0);
-  FaceFunction h;
-  h.f = a.T.dot(by_b);
-  h.f_a = scale * Eigen::Vector2d(a.T_t.dot(by_b), a.T.dot(by_b_t));
-  const double mixed = a.T_t.dot(by_b_t);
-  h.f_ab << a.T_tt.dot(by_b), mixed, mixed, a.T.dot(by_b_tt);
-  h.f_ab *= scale * scale;
-  return h;
+  return polynomial(heights.face[f], sides, u, v);
 }
 
 double largest_height(const Heights& heights, double extension) {
