@@ -74,6 +74,7 @@ InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b,
   result.face_size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
   Settings deep = settings;
   deep.two_pass = true;
+  deep.points = SlavePoints::nodes;
   deep.k = 6;  // for one search trees that are built quickly are better than tight ones
   deep.depth = std::max(settings.depth, 2 * result.face_size);
   for (const ContactPoint& contact : Pair(a, b, deep).detect(state_a, state_b)) {

@@ -7,8 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "contact/forces/contact_point.h"
+#include "contact/forces/gap_minima.h"
 #include "contact/projection/heights.h"
+#include "contact/reach.h"
 #include "contact/search/tracker.h"
 #include "contact/settings.h"
 #include "elastogear/base/error.h"
@@ -18,13 +19,29 @@ namespace {
 
 struct Side {
   std::vector<Law> law;             // of each node as slave
-  Heights heights;                  // over its faces as master
+  Heights heights;                  // over its faces
   std::vector<int> last_face;       // master face each node touched last; -1
   std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
-  std::map<int, double> p;          // N, normal forces given, by slave node
+  std::map<int, double> p;          // N, normal forces given, by slave point
+  std::vector<bool> on_boundary;    // of each node
+};
+
+struct PlacedNode {
+  int side, node;
+  Eigen::Vector3d x;  // m
 };
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+std::vector<bool> boundary_nodes(const Tracked& tracked) {
+  const Eigen::Matrix4Xi& face = tracked.surface->face;
+  std::vector<bool> on_boundary(static_cast<std::size_t>(tracked.surface->X.cols()), false);
+  for (int f : tracked.topology.open_faces)
+    for (int side = 0, sides = side_count(face, f); side < sides; ++side)
+      if (tracked.topology.is_open(f, side))
+        on_boundary[face(side, f)] = on_boundary[face((side + 1) % sides, f)] = true;
+  return on_boundary;
+}
 
 Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurface* known) {
   const model::Surface& surface = *tracked.surface;
@@ -34,7 +51,8 @@ Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurfa
                        known ? *known : TrueSurface{}),
           std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
           {},
-          {}};
+          {},
+          boundary_nodes(tracked)};
 }
 
 // From the common frame to the world.
@@ -46,19 +64,8 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
   contact.elastic_slip = R * contact.elastic_slip;
   contact.v = (R * contact.v).eval();
   for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot})
-    for (int i = 0; i < 5; ++i) columns->middleRows<3>(3 * i) = (R * columns->middleRows<3>(3 * i)).eval();
-}
-
-// Facets that a surface with heights lies behind are touched from outside, and so is what the offset moves
-// out. Open candidates of the unilateral law are near enough to close within an evaluation; others are found
-// in the next one.
-Limits limits_of(const Settings& settings, const Side& a, const Side& b) {
-  constexpr double kReach = 0.02;  // of the depth
-  const double reach = settings.law == ContactLaw::unilateral ? kReach * settings.depth : 0,
-               height = reach + std::max(largest_height(a.heights, settings.extension),
-                                         largest_height(b.heights, settings.extension));
-  return {settings.depth + height + std::max(0.0, settings.offset), std::cos(radians(settings.normal_angle)),
-          height + std::max(0.0, -settings.offset)};
+    for (int i = 0; i < contact.n_local(); ++i)
+      columns->middleRows<3>(3 * i) = (R * columns->middleRows<3>(3 * i)).eval();
 }
 
 }  // namespace
@@ -66,17 +73,24 @@ Limits limits_of(const Settings& settings, const Side& a, const Side& b) {
 struct Pair::Data {
   Settings settings;
   Side side[2];
-  Limits limits;
+  Reach reach;
   Tracker tracker;
 
   bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
+  // Whether all points of a slave are tried, or those of its boundary alone.
+  bool is_whole(int slave_side) const { return settings.two_pass || slave_side == settings.slave; }
   void keep_stuck();
   std::vector<StickPoint> stuck() const;
   void set_stuck(const std::vector<StickPoint>& points);
-  std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, int node,
-                                      const Projection& w) const;
+  double given_force(int slave_side, int point) const;
+  Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
+  std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
+                                           const Projection& w, std::map<int, NodeGap>& gaps) const;
+  ContactPoint contact(const MasterSide& master, int slave_side, const Minimum& m) const;
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
+  void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
+                  std::vector<ContactPoint>& contacts) const;
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
 };
 
@@ -89,40 +103,104 @@ void Pair::Data::keep_stuck() {
   tracker.keep(std::move(corners));
 }
 
-std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int slave_side, int node,
-                                                const Projection& w) const {
+double Pair::Data::given_force(int slave_side, int point) const {
+  const auto given = side[slave_side].p.find(point);
+  return given == side[slave_side].p.end() ? 0 : given->second;
+}
+
+// How far the slave's own surface stands out of a node: deviations, where both surfaces are met.
+Eigen::Vector3d Pair::Data::node_height(int slave_side, const SurfaceView& slave, int node) const {
+  if (settings.points == SlavePoints::nodes) return Eigen::Vector3d::Zero();
+  const int corner = slave.topology.node_corners[node][0];
+  SlavePoint point;
+  point.face = corner / 4;
+  point.at = on_side(side_count(slave.face, point.face), corner % 4, 0);
+  return slave_geometry(slave, side[slave_side].heights, point).e;
+}
+
+// Contact of a node; its gap goes to `gaps` where minima are sought.
+std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, const PlacedNode& slave,
+                                                     const Projection& w,
+                                                     std::map<int, NodeGap>& gaps) const {
+  const auto& [slave_side, node, x] = slave;
   const Side& slaves = side[slave_side];
   const Law& law = slaves.law[node];
-  const auto given = slaves.p.find(node);
-  const double p = given == slaves.p.end() ? 0 : given->second;
+  const double p = given_force(slave_side, node);
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, p, settings.full_tangent);
-  const auto rate = [&](int i, int n) { return tracker.velocity(i == 0 ? slave_side : 1 - slave_side, n); };
   const auto stuck = slaves.stuck.find(node);
-  const Eigen::Vector3d x = tracker.configuration().x[slave_side].col(node);
-  return general_contact(master,
-                         {w, node, x, rate, stuck == slaves.stuck.end() ? nullptr : &stuck->second, p}, law);
+  const OpenPoint open = open_point(master, w, x, settings.offset);
+  if (settings.points == SlavePoints::minima) {
+    gaps[node] = {open.gap.g, open.gap.n, open.projection.face};
+    if (open.gap.g > reach.gap && p == 0) return {};
+  }
+  return general_contact(
+      master, open,
+      {tracker.velocity(slave_side, node), [&](int n) { return tracker.velocity(1 - slave_side, n); },
+       stuck == slaves.stuck.end() ? nullptr : &stuck->second, p},
+      law);
+}
+
+ContactPoint Pair::Data::contact(const MasterSide& master, int slave_side, const Minimum& m) const {
+  const Eigen::Vector4i nodes = surface(slave_side).face.col(m.point.face);
+  const Eigen::Vector4d& N = m.geometry.N;
+  Law law = side[slave_side].law[nodes[0]];
+  law.c_p = 0;
+  for (int i = 0; i < 4; ++i) law.c_p += N[i] * side[slave_side].law[nodes[i]].c_p;
+  LocalVectors v(3, 8);
+  for (int i = 0; i < 4; ++i) v.col(i) = tracker.velocity(slave_side, nodes[i]);
+  ContactPoint c =
+      *general_contact(master, m.open,
+                       {v.leftCols<4>() * N, [&](int n) { return tracker.velocity(1 - slave_side, n); },
+                        nullptr, given_force(slave_side, m.point.number)},
+                       law);
+  v.rightCols<4>() = c.v.rightCols<4>();
+  spread_over_face(m.geometry, m.point.n_dir, m.open.gap, c);
+  c.v = v;
+  c.slave_nodes = nodes;
+  Eigen::Index nearest = 0;
+  N.maxCoeff(&nearest);
+  c.slave_node = nodes[nearest];
+  c.slave_point = m.point.number;
+  return c;
+}
+
+void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
+                            std::vector<ContactPoint>& contacts) const {
+  const SurfaceView slave = tracker.view(slave_side, 0);
+  for (const Minimum& m : gap_minima({master, slave, side[slave_side].heights, reach.limits, settings.offset,
+                                      reach.gap, reach.sag, is_whole(slave_side)},
+                                     gaps)) {
+    contacts.push_back(contact(master, slave_side, m));
+    contacts.back().slave_side = slave_side;
+  }
 }
 
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0),
                     surface = tracker.view(1 - slave_side, settings.extension);
-  const MasterSide master{surface, side[1 - slave_side].heights, radians(settings.feature_angle)};
+  const MasterSide master{surface, side[1 - slave_side].heights, radians(settings.feature_angle),
+                          settings.points == SlavePoints::nodes};
   std::vector<int>& last_face = side[slave_side].last_face;
   const Neighbours& near = tracker.near(slave_side);
+  std::map<int, NodeGap> gaps;
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
-    const SlaveNode q{slave.x.col(node), [&] { return node_normal(slave, node); },
+    if (!is_whole(slave_side) && !side[slave_side].on_boundary[node]) continue;
+    const Eigen::Vector3d x = slave.x.col(node) + node_height(slave_side, slave, node);
+    const SlaveNode q{x, [&] { return node_normal(slave, node); },
                       [&] { return tracker.all_faces(slave_side, node); }};
-    const auto projection = find_projection(surface, q, limits, near.faces(i), last_face[node]);
+    const auto projection = find_projection(surface, q, reach.limits, near.faces(i), last_face[node]);
     last_face[node] = projection ? projection->face : -1;
     if (!projection) continue;
-    auto found = contact(master, slave_side, node, *projection);
+    auto found = node_contact(master, {slave_side, node, x}, *projection, gaps);
     if (!found) continue;
     found->slave_side = found->stick.slave_side = slave_side;
-    found->slave_node = found->stick.slave_node = node;
+    found->slave_point = found->slave_node = found->stick.slave_node = node;
+    found->slave_nodes.setConstant(node);
     contacts.push_back(std::move(*found));
   }
+  if (settings.points == SlavePoints::minima) add_minima(master, slave_side, gaps, contacts);
 }
 
 std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R_WB) {
@@ -143,7 +221,7 @@ Eigen::Vector3d Pair::position(int side, int node) const { return data_->tracker
 void Pair::set_normal_forces(const std::vector<ContactPoint>& contacts) {
   for (Side& side : data_->side) side.p.clear();
   for (const ContactPoint& contact : contacts)
-    if (contact.p > 0) data_->side[contact.slave_side].p[contact.slave_node] = contact.p;
+    if (contact.p > 0) data_->side[contact.slave_side].p[contact.slave_point] = contact.p;
 }
 
 void Pair::accept(const std::vector<ContactPoint>& contacts) {
@@ -186,11 +264,11 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
   const Settings settings = with_defaults(given, a, b);
   std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
   Side side[2] = {make_side(both[0], settings, known[0]), make_side(both[1], settings, known[1])};
-  const Limits limits = limits_of(settings, side[0], side[1]);
+  const Reach reach = reach_of(settings, {&both[0], &both[1]}, {&side[0].heights, &side[1].heights});
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},
-                       limits,
-                       Tracker(std::move(both), settings, limits)});
+                       reach,
+                       Tracker(std::move(both), settings, reach.limits)});
 }
 
 Pair::~Pair() = default;

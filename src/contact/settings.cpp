@@ -15,6 +15,9 @@ constexpr const char* kSurfaceName[2] = {"contact: surface a", "contact: surface
 
 constexpr double kSkin = 0.25;  // of the face size: dozens of time steps, and few more nodes than at 0
 
+// Of a face's length, by which boundaries of two surfaces may miss each other where they are meant to meet.
+constexpr double kSharedBoundary = 1e-4;
+
 }  // namespace
 
 void validate(const FrictionSettings& s) {
@@ -52,6 +55,11 @@ void validate(const Settings& s) {
           "contact: damping and hysteresis are those of the penalty; the unilateral law has none");
   require(s.law != ContactLaw::unilateral || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
           "contact: friction that sticks needs the law 'penalty'");
+  require(s.points == SlavePoints::nodes ||
+              (s.law == ContactLaw::unilateral && s.surface != ContactSurface::facets),
+          "contact: points 'minima' need the law 'unilateral' and the surface 'smooth' or 'exact'");
+  require(s.points == SlavePoints::nodes || !s.two_pass,
+          "contact: points 'minima' take both surfaces in one pass; leave two_pass out");
   require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
           ", allowed is 0 to 0.5");
 }
@@ -93,6 +101,7 @@ Settings with_defaults(Settings settings, const model::Surface& a, const model::
   const double size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
   if (settings.depth == 0) settings.depth = 0.5 * size;
   if (settings.skin == 0) settings.skin = kSkin * size;
+  if (settings.points == SlavePoints::minima) settings.extension = kSharedBoundary;
   require(settings.depth > 0, "contact: the faces have no area, give the depth");
   require(std::abs(settings.offset) <= settings.depth, "contact: offset ", settings.offset,
           " m must not exceed the depth that is searched, ", settings.depth, " m");

@@ -17,8 +17,9 @@ void validate(const SurfaceState& state, const model::Surface& surface, int side
 void validate(const SurfaceMotion& motion, const model::Surface& surface, int side);
 
 /// Fills in what is 0. Stiffness: that of contact/stiffness.h, one value for the whole pair, so that forces
-/// derive from a potential. Depth: half the smaller face size, skin: a quarter of it. Throws Error when a
-/// stiffness of the surface is needed and not positive.
+/// derive from a potential. Depth: half the smaller face size, skin: a quarter of it. With slave
+/// points `minima`, boundaries are met by points of their own: extensions are no more than roundoff. Throws
+/// Error when a stiffness of the surface is needed and not positive.
 Settings with_defaults(Settings settings, const model::Surface& a, const model::Surface& b);
 
 /// The law of each node of the slave surface, settings complete.

@@ -1,5 +1,5 @@
 #pragma once
-// From contact points (15 local displacements in the world frame) to generalised coordinates (docs/theory.md,
+// From contact points (local displacements in the world frame) to generalised coordinates (docs/theory.md,
 // section 6.4): node positions x = r(s) + R(s) (X + Phi q), so that a twist i moves them by
 // R (v_i + w_i x x_B), and dx/dq = R Phi, Eq. (6.9). Forces act on the joint's virtual twists H, positions
 // change by the twists P = [r; theta] of body::FrameDerivative.
@@ -33,13 +33,12 @@ struct ContactState {
   bool balanced = true;            ///< did Newton's method for contact forces and static responses converge?
 };
 
-inline constexpr int kLocalNodes = 5;  ///< of a contact point: slave, four master nodes
-/// Body side and surface node of local node i = 0 (slave), 1..4 (master).
+/// Body side and surface node of local node i of a contact point: slave nodes first, then four of the master.
 struct LocalNode {
   int side, node;
 };
 LocalNode local_node(const contact::ContactPoint& point, int i);
-/// N, force on local node i, world frame; the five forces sum to zero.
+/// N, force on local node i, world frame; all of them sum to zero.
 Eigen::Vector3d local_force(const contact::ContactPoint& point, int i);
 
 /// One entry per body. states[b].x_B may be empty for bodies that no pair names.

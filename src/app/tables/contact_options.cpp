@@ -22,6 +22,10 @@ const Rows<S> kContactRows = {
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
      "residual "
      "flexibility that one body must have)"},
+    {"contact_points", &S::points, one_of("nodes", "minima"),
+     "of the slave that are kept from entering the master: its nodes, or also the minima of the gap along "
+     "the "
+     "sides of its faces and within them (unilateral, smooth)"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",
@@ -88,7 +92,8 @@ void warn_of_facets(const Options& options, const dynamics::PairSetup& pair,
   const std::string& slave = bodies[pair.body[pair.settings.slave]];
   const bool deviates = options.given(slave + "_deviation"),
              facets = pair.settings.surface == contact::ContactSurface::facets;
-  if (pair.settings.two_pass || (facets && !deviates)) return;
+  const bool both = pair.settings.two_pass || pair.settings.points == contact::SlavePoints::minima;
+  if (both || (facets && !deviates)) return;
   print_item("warning", (facets ? slave + "_deviation" : "contact_surface") +
                             " has no effect on the surface of " + slave + ", the slave of the pair " +
                             pair.name + ": only its nodes are in contact; contact_two_pass takes both");

@@ -75,7 +75,8 @@ FaceFunction height_at(const MasterSide& master, const Face& face, const Project
   return restricted(height(master.heights, face.sides, w.face, w.point.u, w.point.v), face.sides, w);
 }
 
-FaceFunction fade_at(const Face& face, const Projection& w) {
+FaceFunction fade_at(const MasterSide& master, const Face& face, const Projection& w) {
+  if (!master.fades) return {1};
   return restricted(fade_factor(face, w.point.u, w.point.v), face.sides, w);
 }
 
@@ -103,7 +104,6 @@ StickPoint stick_point(const Face& face, const Projection& w, const ContactPoint
   a << combine(face, s.N_u), combine(face, s.N_v);
   const Eigen::Vector2d e = (a.transpose() * a).inverse() * (a.transpose() * contact.elastic_slip);
   StickPoint point = contact.stick;
-  point.slave_node = contact.slave_node;
   point.face = w.face;
   point.u = w.point.u;
   point.v = w.point.v;
@@ -138,22 +138,29 @@ ContactPoint potential_contact(const MasterSide& master, const Projection& w, co
   return contact;
 }
 
-std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& slave,
-                                            const Law& law) {
-  const Projection w = smooth_projection(master, slave.projection, slave.x_slave);
+OpenPoint open_point(const MasterSide& master, const Projection& projection, const Vector3d& x,
+                     double offset) {
+  OpenPoint open;
+  open.projection = smooth_projection(master, projection, x);
+  const Projection& w = open.projection;
   const Face face = face_of(master.surface, w.face);
-  const ProjectionKinematics kinematics = projection_kinematics(face, w, slave.x_slave);
-  const Gap open = gap(kinematics, height_at(master, face, w), law.offset, fade_at(face, w));
-  if (!(open.g < 0) && !law.unilateral) return {};
+  open.kinematics = projection_kinematics(face, w, x);
+  open.gap = gap(open.kinematics, height_at(master, face, w), offset, fade_at(master, face, w));
+  return open;
+}
+
+std::optional<ContactPoint> general_contact(const MasterSide& master, const OpenPoint& open,
+                                            const SlaveContact& slave, const Law& law) {
+  if (!(open.gap.g < 0) && !law.unilateral) return {};
+  const Projection& w = open.projection;
   ContactPoint contact = geometry(master.surface, w);
   contact.p = slave.p;
-  contact.slave_node = slave.slave_node;
-  contact.v.col(0) = slave.velocity(0, slave.slave_node);
-  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.velocity(1, contact.master_node[i]);
+  contact.v.col(0) = slave.v;
+  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.master_velocity(contact.master_node[i]);
   std::optional<StickMotion> motion;
-  if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, kinematics);
-  apply_law(law, kinematics, open, motion ? &*motion : nullptr, contact);
-  contact.stick = stick_point(face, w, contact);
+  if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, open.kinematics);
+  apply_law(law, open.kinematics, open.gap, motion ? &*motion : nullptr, contact);
+  contact.stick = stick_point(face_of(master.surface, w.face), w, contact);
   return contact;
 }
 

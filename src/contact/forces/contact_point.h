@@ -11,6 +11,7 @@ struct MasterSide {
   const SurfaceView& surface;
   const Heights& heights;
   double feature_angle = 0;  ///< rad
+  bool fades = true;         ///< do forces fade out over the extensions?
 };
 
 bool on_extension(const Projection& projection);
@@ -20,19 +21,26 @@ bool on_extension(const Projection& projection);
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, const Law& law,
                                double p, bool full_tangent);
 
-/// Contact point for any law; nothing when the gap is open, unless the law is unilateral. Surfaces with
-/// heights are met on the face itself where the closest point is on an edge or vertex across which normals
-/// turn by less than the feature angle. velocity: m/s, of a node of the slave (side 0) or master (1). stuck:
-/// of this slave node after the last step, or null.
-struct SlaveContact {
+/// A slave point over the master, whatever its gap.
+struct OpenPoint {
   Projection projection;
-  int slave_node;
-  Eigen::Vector3d x_slave;
-  std::function<Eigen::Vector3d(int side, int node)> velocity;
-  const StickPoint* stuck;
-  double p = 0;  // N, of a unilateral law
+  ProjectionKinematics kinematics;
+  Gap gap;
 };
-std::optional<ContactPoint> general_contact(const MasterSide& master, const SlaveContact& touch,
-                                            const Law& law);
+/// Gap of a slave point at x (m). Smooth surfaces are met on the face itself where the closest point is on an
+/// edge or vertex across which normals turn by less than the feature angle.
+OpenPoint open_point(const MasterSide& master, const Projection& projection, const Eigen::Vector3d& x,
+                     double offset);
+
+/// Contact point for any law; nothing when the gap is open, unless the law is unilateral. Its slave node and
+/// numbers are left to the caller.
+struct SlaveContact {
+  Eigen::Vector3d v;                                         ///< m/s, of the slave point
+  std::function<Eigen::Vector3d(int node)> master_velocity;  ///< m/s
+  const StickPoint* stuck;  ///< of this slave point after the last step, or null
+  double p = 0;             ///< N, of a unilateral law
+};
+std::optional<ContactPoint> general_contact(const MasterSide& master, const OpenPoint& open,
+                                            const SlaveContact& slave, const Law& law);
 
 }  // namespace elastogear::contact

@@ -22,7 +22,7 @@ struct Varying {
   Local3 x = Local3::Zero(), v = Local3::Zero();
 };
 
-Local flat(const LocalVectors& v) { return v.reshaped(); }
+Local flat(const LocalVectors& v) { return v.reshaped(); }  // of a slave point and its master's nodes
 
 // Velocity of the slave node against the master, v_r of docs/theory.md, Eq. (6.13).
 Varying relative_velocity(const ProjectionKinematics& kinematics, const LocalVectors& v) {

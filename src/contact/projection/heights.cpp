@@ -154,6 +154,15 @@ void add_deviation(const SurfaceView& surface, int f, const Eigen::VectorXd& dev
   }
 }
 
+Eigen::Matrix<double, 2, 4> slopes_at_corners(const HeightCoefficients& C, int sides) {
+  Eigen::Matrix<double, 2, 4> slopes = Eigen::Matrix<double, 2, 4>::Zero();
+  for (int c = 0; c < sides; ++c) {
+    const Eigen::Vector2d at = on_side(sides, c, 0);
+    slopes.col(c) = polynomial(C, sides, at[0], at[1]).f_a;
+  }
+  return slopes;
+}
+
 }  // namespace
 
 const std::vector<Eigen::Vector2d>& height_points(int sides) {
@@ -191,6 +200,7 @@ Heights make_heights(const SurfaceView& undeformed, ContactSurface kind, double 
     Eigen::VectorXd h = exact ? known.height[f] : smooth_samples(sides, slopes[f]);
     if (known.deviation.size() > 0) add_deviation(undeformed, f, known.deviation, h);
     heights.face.push_back(interpolated(sides, h));
+    heights.slope.push_back(slopes_at_corners(heights.face.back(), sides));
   }
   return heights;
 }
@@ -214,6 +224,21 @@ double largest_second_derivative(const Heights& heights) {
     const HeightCoefficients size = C.cwiseAbs();
     for (const double bound : {c.T_tt.dot(size * c.T), c.T_t.dot(size * c.T_t), c.T.dot(size * c.T_tt)})
       largest = std::max(largest, kTriangle * bound);
+  }
+  return largest;
+}
+
+double largest_curvature(const SurfaceView& undeformed, const Heights& heights) {
+  double largest = 0;
+  for (int f = 0; f < static_cast<int>(heights.face.size()); ++f) {
+    const Face face = face_of(undeformed, f);
+    for (int i = 0; i < 9; ++i) {
+      const Eigen::Vector2d t(i % 3, i / 3), at = face.sides == 4 ? Eigen::Vector2d(t.array() - 1) : t / 4;
+      const Shape s = shape(face.sides, at[0], at[1]);
+      const Eigen::Matrix2d h = height(heights, face.sides, f, at[0], at[1]).f_ab;
+      largest = std::max({largest, std::abs(h(0, 0)) / combine(face, s.N_u).squaredNorm(),
+                          std::abs(h(1, 1)) / combine(face, s.N_v).squaredNorm()});
+    }
   }
   return largest;
 }

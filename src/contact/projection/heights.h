@@ -19,7 +19,8 @@ using HeightCoefficients = Eigen::Matrix<double, kHeightPoints, kHeightPoints>;
 
 /// Heights of one surface.
 struct Heights {
-  std::vector<HeightCoefficients> face;  ///< by face; none at all: facets as they are
+  std::vector<HeightCoefficients> face;            ///< by face; none at all: facets as they are
+  std::vector<Eigen::Matrix<double, 2, 4>> slope;  ///< by face: m, its derivatives with (u, v) at the corners
 
   bool empty() const { return face.empty(); }
 };
@@ -38,5 +39,8 @@ double largest_height(const Heights& heights, double extension);
 
 /// Bound of the second derivatives of h with (u, v) over all faces, m.
 double largest_second_derivative(const Heights& heights);
+
+/// The largest curvature along u or v at 3 x 3 points of every face, 1/m.
+double largest_curvature(const SurfaceView& undeformed, const Heights& heights);
 
 }  // namespace elastogear::contact

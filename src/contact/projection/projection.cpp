@@ -112,16 +112,40 @@ std::optional<Projection> find_projection(const SurfaceView& master, const Slave
   return make_projection(master, slave.x, best);
 }
 
-Approach approach(const SurfaceView& master, const Eigen::Vector3d& x,
-                  const std::array<double, 2>& reach_and_limit, std::span<const int> faces) {
-  const auto [reach, limit] = reach_and_limit;
+std::optional<Projection> walk_to_projection(const SurfaceView& master, const Eigen::Vector3d& x,
+                                             const Limits& limits, int start) {
+  Nearest best(std::numeric_limits<double>::infinity());
+  best.offer(start, closest_point(face_of(master, start), x));
+  const Topology& t = master.topology;
+  for (int from = -1; from != best.face;) {
+    from = best.face;
+    if (best.point.feature != Feature::edge && best.point.feature != Feature::vertex) break;
+    const int part = best.point.part;
+    if (best.point.feature == Feature::edge && t.edge(part, from) < 0) break;
+    const std::span<const int> around = best.point.feature == Feature::edge
+                                            ? t.edge_sides[t.edge(part, from)]
+                                            : t.node_corners[master.face(part, from)];
+    for (int entry : around)
+      if (entry / 4 != from) best.offer(entry / 4, closest_point(face_of(master, entry / 4), x));
+  }
+  if (best.distance2 > limits.depth * limits.depth || !is_taken(master, {x, {}}, best, limits.outside))
+    return {};
+  return make_projection(master, x, best);
+}
+
+Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Move& move,
+                  std::span<const int> faces) {
+  const auto [reach, limit, around] = move;
   const Nearest any = nearest({master, x, reach, faces, -1}, [](auto&&...) { return true; });
-  if (!any.found()) return {std::numeric_limits<double>::infinity(), {}};
+  if (!any.found()) return {std::numeric_limits<double>::infinity(), {}, {}};
   const double distance = std::sqrt(any.distance2);
-  Approach result{place(master, x, any) == Place::outside ? distance : 0, {}};
+  Approach result{place(master, x, any) == Place::outside ? distance : 0, {}, {}};
   if (result.clearance > limit) return result;
-  for (int f : faces)  // the nearest moves away and another one comes nearer, by `limit` each
-    if (distance_bound(face_of(master, f), x) <= distance + 2 * limit) result.faces.push_back(f);
+  for (int f : faces) {  // all move by `limit`
+    const double bound = distance_bound(face_of(master, f), x);
+    if (bound <= distance + 2 * limit) result.faces.push_back(f);
+    if (bound <= around + 2 * limit) result.around.push_back(f);
+  }
   return result;
 }
 

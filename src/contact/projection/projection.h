@@ -27,6 +27,7 @@ struct Limits {
   double depth = 0;         ///< m, largest distance to the surface
   double cos_angle = -0.1;  ///< n_slave . n_master must not exceed this
   double outside = 0;       ///< m, how far outside the surface a node is still taken
+  double around = 0;        ///< m, from a slave node to master faces that points beside it may touch
 };
 
 struct Projection {
@@ -44,14 +45,23 @@ std::optional<Projection> find_projection(const SurfaceView& master, const Slave
                                           const Limits& limits, std::span<const int> faces, int likely = -1);
 
 struct Approach {
-  double clearance = 0;    ///< m: before moving by as much the node cannot touch
-  std::vector<int> faces;  ///< ascending: those that can be the nearest until it has moved by the limit
+  double clearance = 0;     ///< m: before moving by as much the node cannot touch
+  std::vector<int> faces;   ///< ascending: those that can be the nearest until it has moved by the limit
+  std::vector<int> around;  ///< those within the distance `around` of Move, as long
 };
+
+/// The same for a point near one whose nearest face is known: goes from that face to its neighbours as long
+/// as they are nearer. It finds what find_projection finds where no other part of the master is as near.
+std::optional<Projection> walk_to_projection(const SurfaceView& master, const Eigen::Vector3d& x,
+                                             const Limits& limits, int start);
 
 /// For moves of node and master towards each other by up to `limit`. The clearance of a node outside is its
 /// distance, infinite when no face is within `reach` (>= depth limit + limit); otherwise 0. `faces` must hold
 /// all that are.
-Approach approach(const SurfaceView& master, const Eigen::Vector3d& x,
-                  const std::array<double, 2>& reach_and_limit, std::span<const int> faces);
+struct Move {
+  double reach = 0, limit = 0, around = 0;
+};
+Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Move& move,
+                  std::span<const int> faces);
 
 }  // namespace elastogear::contact

@@ -60,22 +60,11 @@ void set_normal(ProjectionKinematics& kinematics) {
 // and, about the normal, that of the edge or the mean of the tangents'.
 void set_spin(const Face& face, const Projection& w, ProjectionKinematics& kinematics) {
   kinematics.spin.setZero();
-  const Vector3d n = normal(face, w.point.u, w.point.v);
-  if (n.isZero(0)) return;
-  const Shape s = shape(face.sides, w.point.u, w.point.v);
-  Eigen::Matrix<double, 3, 2> a;
-  a << combine(face, s.N_u), combine(face, s.N_v);
-  const Eigen::Matrix<double, 3, 2> dual = a * (a.transpose() * a).inverse();
-  const bool edge = kinematics.n_dir == 1;
-  for (int i : {0, 1}) {
-    const Vector3d m = n.cross(dual.col(i));
-    const Local3 rate = spread(0, i == 0 ? s.N_u : s.N_v);
-    kinematics.spin -= m * (n.transpose() * rate);
-    if (!edge) kinematics.spin += 0.5 * n * (m.transpose() * rate);
-  }
-  if (edge)
-    kinematics.spin += n * (n.cross(kinematics.a.col(0)).transpose() * spread(0, kinematics.N_a.col(0))) /
-                       kinematics.a.col(0).squaredNorm();
+  kinematics.spin.rightCols<12>() = face_spin(face, w.point.u, w.point.v);
+  if (kinematics.n_dir != 1) return;
+  const Vector3d n = normal(face, w.point.u, w.point.v), a = kinematics.a.col(0);
+  kinematics.spin -= n * (n.transpose() * kinematics.spin);
+  kinematics.spin += n * (n.cross(a).transpose() * spread(0, kinematics.N_a.col(0))) / a.squaredNorm();
 }
 
 }  // namespace
@@ -85,6 +74,23 @@ Local3 spread(double slave, const Eigen::Vector4d& weight) {
   rows.leftCols<3>() = slave * Eigen::Matrix3d::Identity();
   for (int i = 0; i < 4; ++i) rows.middleCols<3>(3 + 3 * i) = weight[i] * Eigen::Matrix3d::Identity();
   return rows;
+}
+
+Eigen::Matrix<double, 3, 12> face_spin(const Face& face, double u, double v) {
+  Eigen::Matrix<double, 3, 12> spin = Eigen::Matrix<double, 3, 12>::Zero();
+  const Vector3d n = normal(face, u, v);
+  if (n.isZero(0)) return spin;
+  const Shape s = shape(face.sides, u, v);
+  Eigen::Matrix<double, 3, 2> a;
+  a << combine(face, s.N_u), combine(face, s.N_v);
+  const Eigen::Matrix<double, 3, 2> dual = a * (a.transpose() * a).inverse();
+  for (int i : {0, 1}) {
+    const Vector3d m = n.cross(dual.col(i));
+    const Eigen::Matrix3d turn = 0.5 * n * m.transpose() - m * n.transpose();
+    for (int node = 0; node < 4; ++node)
+      spin.middleCols<3>(3 * node) += (i == 0 ? s.N_u : s.N_v)[node] * turn;
+  }
+  return spin;
 }
 
 Local3 tangent_derivative(const ProjectionKinematics& kinematics, int i) {

@@ -33,6 +33,10 @@ struct ProjectionKinematics {
 ProjectionKinematics projection_kinematics(const Face& face, const Projection& projection,
                                            const Eigen::Vector3d& x_slave);
 
+/// Angular velocity of a face at (u, v) by the velocities of its four nodes, 1/m: that of its normal, and
+/// about the normal the mean of its tangents'; zero where it is degenerate.
+Eigen::Matrix<double, 3, 12> face_spin(const Face& face, double u, double v);
+
 /// Derivative da_i/dx of a tangent.
 Local3 tangent_derivative(const ProjectionKinematics& kinematics, int i);
 

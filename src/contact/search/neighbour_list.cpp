@@ -41,28 +41,36 @@ std::span<const int> Neighbours::faces(std::size_t i) const {
   return std::span(face).subspan(begin, end[i] - begin);
 }
 
+std::span<const int> Neighbours::faces_around(std::size_t i) const {
+  const int begin = i == 0 ? 0 : around_end[i - 1];
+  return std::span(around).subspan(begin, around_end[i] - begin);
+}
+
+void Neighbours::add(int node, std::span<const int> faces, std::span<const int> beside) {
+  slave.push_back(node);
+  face.insert(face.end(), faces.begin(), faces.end());
+  end.push_back(static_cast<int>(face.size()));
+  around.insert(around.end(), beside.begin(), beside.end());
+  around_end.push_back(static_cast<int>(around.size()));
+}
+
 Neighbours everything(const Candidates& candidates) {
   const int n = candidates.nodes().empty() ? 0 : candidates.nodes().back() + 1;
   return not_apart(candidates, std::vector<double>(n, 0), 0);
 }
 
-void add(Neighbours& neighbours, int node, std::span<const int> faces) {
-  neighbours.slave.push_back(node);
-  neighbours.face.insert(neighbours.face.end(), faces.begin(), faces.end());
-  neighbours.end.push_back(static_cast<int>(neighbours.face.size()));
-}
-
 Neighbours not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path) {
   Neighbours near;
   for (int node : candidates.nodes())
-    if (apart_until[node] <= path) add(near, node, candidates[node]);
+    if (apart_until[node] <= path) near.add(node, candidates[node], {});
   return near;
 }
 
 Neighbours not_apart(const Neighbours& neighbours, const std::vector<double>& apart_until, double path) {
   Neighbours near;
   for (std::size_t i = 0; i < neighbours.slave.size(); ++i)
-    if (apart_until[neighbours.slave[i]] <= path) add(near, neighbours.slave[i], neighbours.faces(i));
+    if (apart_until[neighbours.slave[i]] <= path)
+      near.add(neighbours.slave[i], neighbours.faces(i), neighbours.faces_around(i));
   return near;
 }
 

@@ -17,8 +17,12 @@ struct Neighbours {
   std::vector<int> slave;  ///< ascending
   std::vector<int> end;    ///< of each one's range of face
   std::vector<int> face;   ///< ascending within a range
+  /// The same for the faces that points beside the node may touch; none where these are not asked for.
+  std::vector<int> around_end = {}, around = {};
 
   std::span<const int> faces(std::size_t i) const;
+  std::span<const int> faces_around(std::size_t i) const;
+  void add(int node, std::span<const int> faces, std::span<const int> around);
 };
 
 struct NeighbourList {

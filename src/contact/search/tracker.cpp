@@ -61,7 +61,8 @@ Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>
 }
 
 std::vector<int> slave_sides(const Settings& settings) {
-  return settings.two_pass ? std::vector{settings.slave, 1 - settings.slave} : std::vector{settings.slave};
+  const bool both = settings.two_pass || settings.points == SlavePoints::minima;
+  return both ? std::vector{settings.slave, 1 - settings.slave} : std::vector{settings.slave};
 }
 
 Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits)
@@ -73,8 +74,9 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
     configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
     deformed_[i].stamp.assign(static_cast<std::size_t>(side_[i].surface->X.cols()), stage_);
   }
-  reach_ = limits.depth + kStretch * std::max(extension_reach(view(0, settings.extension)),
-                                              extension_reach(view(1, settings.extension)));
+  reach_ = limits.depth + limits.around +
+           kStretch * std::max(extension_reach(view(0, settings.extension)),
+                               extension_reach(view(1, settings.extension)));
 }
 
 SurfaceView Tracker::view(int i, double extension) const {
@@ -148,9 +150,15 @@ void Tracker::list_nodes() {
       const Topology& t = side_[i].topology;
       const Eigen::Matrix4Xi& face = side_[i].surface->face;
       const Neighbours& near = neighbours_->near[slave];
-      const auto nodes =
-          i == slave ? nodes_around_nodes(near.slave, t, face) : nodes_around(near.face, t, face);
-      lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
+      const auto add = [&](const std::vector<int>& nodes) {
+        lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
+      };
+      if (i == slave) {
+        add(nodes_around_nodes(near.slave, t, face));
+      } else {
+        add(nodes_around(near.face, t, face));
+        add(nodes_around(near.around, t, face));
+      }
     }
   for (auto& list : lists) sort_unique(list);
 }
@@ -188,18 +196,16 @@ void Tracker::take_near(double distance) {
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension);
-  const std::array reach_and_limit{std::max(limits_.depth, limits_.outside) + settings_.skin, clear};
+  const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around};
   const double surely_seen = settings_.skin + limits_.outside;  // whichever side of the surface it is on
   Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {
     const int node = all.slave[i];
-    const auto [clearance, faces] =
-        approach(master, configuration_.x[slave].col(node), reach_and_limit, all.faces(i));
+    const auto [clearance, faces, around] =
+        approach(master, configuration_.x[slave].col(node), move, all.faces(i));
     neighbours_->apart_until[slave][node] = neighbours_->path + std::min(clearance, surely_seen);
     if (clearance > clear) continue;
-    near.slave.push_back(node);
-    near.face.insert(near.face.end(), faces.begin(), faces.end());
-    near.end.push_back(static_cast<int>(near.face.size()));
+    near.add(node, faces, around);
   }
 }
 

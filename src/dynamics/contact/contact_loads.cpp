@@ -107,8 +107,8 @@ bool without_potential(const std::vector<PairContacts>& pairs) {
 }  // namespace
 
 LocalNode local_node(const contact::ContactPoint& point, int i) {
-  if (i == 0) return {point.slave_side, point.slave_node};
-  return {1 - point.slave_side, point.master_node[i - 1]};
+  if (i < point.n_slave) return {point.slave_side, point.slave_nodes[i]};
+  return {1 - point.slave_side, point.master_node[i - point.n_slave]};
 }
 
 Eigen::Vector3d local_force(const contact::ContactPoint& point, int i) { return point.F.col(i); }
@@ -118,7 +118,7 @@ std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
   std::vector<NodalForces> forces(states.size());
   for (const PairContacts& pair : pairs)
     for (const auto& point : pair.points)
-      for (int i = 0; i < kLocalNodes; ++i) {
+      for (int i = 0; i < point.n_local(); ++i) {
         const LocalNode local = local_node(point, i);
         forces[pair.body[local.side]].node.push_back(local.node);
       }
@@ -129,7 +129,7 @@ std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
   }
   for (const PairContacts& pair : pairs)
     for (const auto& point : pair.points)
-      for (int i = 0; i < kLocalNodes; ++i) {
+      for (int i = 0; i < point.n_local(); ++i) {
         const LocalNode local = local_node(point, i);
         const int b = pair.body[local.side];
         forces[b].f_B.col(slot(forces[b].node, local.node)) +=
@@ -186,7 +186,7 @@ void set_contact_columns(const std::vector<JointTwists>& twists, const std::vect
   Eigen::Index column = 0;
   for (const PairContacts& pair : pairs)
     for (const auto& point : pair.points) {
-      for (int i = 0; i < kLocalNodes; ++i) {
+      for (int i = 0; i < point.n_local(); ++i) {
         const int b = pair.body[local_node(point, i).side];
         const NodeColumns columns = node_columns(point, i, column, A.body[b], states[b]);
         add_columns(twists[b], columns, A.body[b], sparse[b]);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace elastogear::dynamics {
 namespace {
@@ -14,9 +16,9 @@ Eigen::Vector3d local_moment(const contact::ContactPoint& point, int i,
 }
 
 Eigen::Vector3d moment_on_b(const contact::ContactPoint& point, const contact::SurfaceState& b) {
-  if (point.slave_side == 1) return local_moment(point, 0, b);
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (int i = 1; i <= 4; ++i) moment += local_moment(point, i, b);
+  for (int i = 0; i < point.n_local(); ++i)
+    if (local_node(point, i).side == 1) moment += local_moment(point, i, b);
   return moment;
 }
 
@@ -27,22 +29,54 @@ Eigen::Vector3d velocity(const System::Body& body, const contact::SurfaceMotion&
   return m.R_WB * (m.v_WB_B + m.w_WB_B.cross(x_B) + model::displacement(surface.Phi, node, m.q_dot));
 }
 
-// Tangential velocity of the slave node on the master, m/s, for contacts whose force does not depend on it.
+// Tangential velocity of the slave point on the master, m/s, for contacts whose force does not depend on it.
 Eigen::Vector3d slip(const contact::ContactPoint& point, const System::Body* body[2],
                      const contact::SurfaceMotion motion[2]) {
   const int slave = point.slave_side, master = 1 - slave;
-  Eigen::Vector3d v = velocity(*body[slave], motion[slave], point.slave_node);
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  for (int i = 0; i < point.n_slave; ++i)
+    if (point.slave_N[i] != 0)
+      v += point.slave_N[i] * velocity(*body[slave], motion[slave], point.slave_nodes[i]);
   for (int i = 0; i < 4; ++i)
     if (point.N[i] != 0) v -= point.N[i] * velocity(*body[master], motion[master], point.master_node[i]);
   return v - point.n * point.n.dot(v);
 }
 
-model::ContactFigures figures(const contact::ContactPoint& point, double node_area, bool two_pass) {
+// Normal force at the slave nodes of each side, N, from all contacts that load them.
+using SlaveForces = std::array<std::map<int, double>, 2>;
+
+SlaveForces slave_forces(const std::vector<contact::ContactPoint>& points) {
+  SlaveForces forces;
+  for (const contact::ContactPoint& point : points)
+    for (int i = 0; i < point.n_slave; ++i)
+      if (point.slave_N[i] != 0)
+        forces[point.slave_side][point.slave_nodes[i]] += point.slave_N[i] * point.f.dot(point.n);
+  return forces;
+}
+
+// The share of its slave nodes' area that a contact has, m^2, and the pressure there, Pa.
+struct Pressed {
+  double area = 0, pressure = 0;
+};
+
+Pressed pressed(const contact::ContactPoint& point, const std::map<int, double>& force,
+                const Eigen::VectorXd& node_area) {
+  Pressed sum;
+  for (int i = 0; i < point.n_slave; ++i) {
+    const double N = point.slave_N[i], area = node_area[point.slave_nodes[i]];
+    if (N == 0 || !(area > 0)) continue;
+    const double all = force.at(point.slave_nodes[i]);
+    sum.area += all != 0 ? N * point.f.dot(point.n) / all * area : area;
+    sum.pressure += N * all / area;
+  }
+  return sum;
+}
+
+model::ContactFigures figures(const contact::ContactPoint& point, const Pressed& pressed, bool two_pass) {
   model::ContactFigures f;
   f.count = 1;
-  f.area = node_area;
-  const double share = two_pass ? 2 : 1;  // each pass carries half of the force
-  f.pressure = node_area > 0 ? share * point.f.dot(point.n) / node_area : 0;
+  f.area = pressed.area;
+  f.pressure = (two_pass ? 2 : 1) * pressed.pressure;  // each pass carries half of the force
   f.sliding_speed = point.slip.norm();
   f.friction_power = point.friction_power;
   f.damping_power = point.power;
@@ -78,12 +112,13 @@ model::PairState pair_state(System& system, const State& x, std::size_t p) {
   }
   const contact::SurfaceMotion motion[2] = {system.surface_motion(pair.body[0], x.time, x.U, x.V),
                                             system.surface_motion(pair.body[1], x.time, x.U, x.V)};
+  const SlaveForces normal_force = slave_forces(pair.points);
   for (contact::ContactPoint point : pair.points) {
     const int slave = point.slave_side, master = 1 - slave;
     const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
     if (point.V_dot.cols() == 0) point.slip = slip(point, body, motion);
-    model::ContactFigures f =
-        figures(point, body[slave]->node_area[point.slave_node], system.pairs()[p].settings.two_pass);
+    model::ContactFigures f = figures(point, pressed(point, normal_force[slave], body[slave]->node_area),
+                                      system.pairs()[p].settings.two_pass);
     f.torque = moment_on_b(point, contact.surface[pair.body[1]]);
     const int group[2] = {body[slave]->node_group[point.slave_node],
                           body[master]->eq.body->surface.group[point.face]};

@@ -146,7 +146,7 @@ bool ResidualContact::linear_step(ContactState& state) {
     for (contact::ContactPoint& point : pair.points) {
       const VectorXd change = lambda.segment(column, point.W.cols());
       point.F.reshaped() -= point.W * (point.k * change);
-      point.f = point.F.col(0);
+      point.f = contact::slave_force(point);
       point.g_n += change[0];
       point.energy = 0.5 * point.k(0, 0) * point.g_n * point.g_n;
       column += point.W.cols();
@@ -219,6 +219,8 @@ void ResidualContact::solve_unilateral(ContactState& state, const std::function<
     change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);
     if (!change) break;
     left = *change * (trial > 0 ? std::min(1.0, *change / before) : kFirstRate);
+    const bool is_roundoff = trial > 0 && *change<kRoundoffResidual&& * change> 0.1 * before;
+    if (is_roundoff) left = 0;
     before = *change;
     if (left > kForceResidual) detect();
   }

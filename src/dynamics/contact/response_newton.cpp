@@ -13,7 +13,8 @@ using Eigen::VectorXd;
 // n, or three where the force has no potential. On an extension all columns change it.
 Eigen::Index leading_columns(const contact::ContactPoint& point) {
   if (point.V_dot.cols() == 0) return 1;
-  return point.W.cols() == contact::kColumns ? contact::kColumns : 3;
+  constexpr Eigen::Index kOnExtension = 15;
+  return point.W.cols() == kOnExtension ? kOnExtension : 3;
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ ResponseNewton::ResponseNewton(const std::vector<PairContacts>& pairs) {
 void ResponseNewton::add(const Compliant& compliant, const VectorXd& missing) {
   Body body{{}, &compliant.R};
   for (const Contact& contact : contacts_)
-    for (int i = 0; i < kLocalNodes; ++i) {
+    for (int i = 0; i < contact.point->n_local(); ++i) {
       const LocalNode local = local_node(*contact.point, i);
       if (contact.pair->body[local.side] != static_cast<int>(compliant.body)) continue;
       const auto at = std::lower_bound(compliant.node.begin(), compliant.node.end(), local.node);

@@ -101,7 +101,7 @@ void SystemContact::detect(const std::vector<contact::SurfaceMotion>& motion) {
 void SystemContact::place_touched(std::size_t p) {
   const PairContacts& pair = state_.pair[p];
   for (const contact::ContactPoint& point : pair.points)
-    for (int i = 0; i < kLocalNodes; ++i) {
+    for (int i = 0; i < point.n_local(); ++i) {
       const auto [side, node] = local_node(point, i);
       state_.surface[pair.body[side]].x_B.col(node) = detectors_[p].position(side, node);
     }

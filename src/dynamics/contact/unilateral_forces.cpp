@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dynamics/contact/complementarity.h"
+#include "dynamics/contact/extrapolation.h"
 
 namespace elastogear::dynamics {
 
@@ -35,9 +36,9 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
   const MatrixXd& R = compliant.R;
   Body body{{}, &R, missing, VectorXd::Zero(R.rows()), VectorXd::Zero(R.rows())};
   const Eigen::Matrix3d R_BW = compliant.R_WB.transpose();
-  for (std::size_t c = 0; c < contacts_.size(); ++c)
-    for (int i = 0; i < kLocalNodes; ++i) {
-      const contact::ContactPoint& point = *contacts_[c];
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const contact::ContactPoint& point = *contacts_[c];
+    for (int i = 0; i < point.n_local(); ++i) {
       const LocalNode local = local_node(point, i);
       if (pair_[c]->body[local.side] != static_cast<int>(compliant.body)) continue;
       const auto at = std::lower_bound(compliant.node.begin(), compliant.node.end(), local.node);
@@ -45,6 +46,7 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
                               R_BW * point.F_p.col(i), R_BW * point.g_x.col(i),
                               R_BW * point.W.middleRows<3>(3 * i), R_BW * point.V.middleRows<3>(3 * i)});
     }
+  }
   MatrixXd response = MatrixXd::Zero(R.rows(), C_.cols());  // R L_p
   for (const Touch& t : body.touches) response.col(t.contact) += R.middleCols<3>(t.row) * t.F_p;
   for (const Touch& t : body.touches) {
@@ -74,9 +76,9 @@ void UnilateralForces::set_changes() {
   }
 }
 
-// Turns the forces to the present displacements, dF = -(W k V' - F_p g_x' / c) dx. Returns the largest
-// change, N.
-double UnilateralForces::turn_forces() {
+// The change of the forces at unchanged p by the present displacements, dF = -(W k V' - F_p g_x' / c) dx; of
+// all bodies, one after the other.
+VectorXd UnilateralForces::turned_forces() {
   for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c]->k.rows())};
   for (const Body& body : bodies_) {
     const VectorXd dx = body.missing + *body.R * body.change;
@@ -87,17 +89,34 @@ double UnilateralForces::turn_forces() {
     }
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c].k_V = (contacts_[c]->k * moved_[c].k_V).eval();
-  double largest = 0;
-  for (Body& body : bodies_) {
-    VectorXd turned = VectorXd::Zero(body.turned.size());
+  VectorXd all = VectorXd::Zero(all_turned().size());
+  Eigen::Index first = 0;
+  for (const Body& body : bodies_) {
     for (const Touch& t : body.touches) {
       const auto c = static_cast<std::size_t>(t.contact);
-      turned.segment<3>(t.row) += t.F_p * (moved_[c].closing / contacts_[c]->c) - t.W * moved_[c].k_V;
+      all.segment<3>(first + t.row) += t.F_p * (moved_[c].closing / contacts_[c]->c) - t.W * moved_[c].k_V;
     }
-    if (turned.size() > 0) largest = std::max(largest, (turned - body.turned).cwiseAbs().maxCoeff());
-    body.turned = std::move(turned);
+    first += body.turned.size();
   }
-  return largest;
+  return all;
+}
+
+VectorXd UnilateralForces::all_turned() const {
+  Eigen::Index size = 0;
+  for (const Body& body : bodies_) size += body.turned.size();
+  VectorXd all(size);
+  for (Eigen::Index first = 0; const Body& body : bodies_) {
+    all.segment(first, body.turned.size()) = body.turned;
+    first += body.turned.size();
+  }
+  return all;
+}
+
+void UnilateralForces::turn(const VectorXd& all) {
+  for (Eigen::Index first = 0; Body & body : bodies_) {
+    body.turned = all.segment(first, body.turned.size());
+    first += body.turned.size();
+  }
 }
 
 void UnilateralForces::do_not_turn() {
@@ -105,27 +124,32 @@ void UnilateralForces::do_not_turn() {
   for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c]->k.rows())};
 }
 
-// Forces turn little while gaps close: both are brought together by turns. At an edge they may turn by any
-// angle; there the directions stay those that were found.
+// Forces turn, and points move, while gaps close: both are brought together by turns, with the extrapolation
+// of D. G. Anderson (J. ACM 12, 1965, 547-560). At an edge forces may turn by any angle; there the directions
+// stay those that were found.
 bool UnilateralForces::solve() {
-  constexpr int kMostRounds = 12;
+  constexpr int kMostRounds = 25;
   constexpr double kTolerance = 1e-10;  // of the forces
   do_not_turn();
   std::vector<bool> likely;
   for (const contact::ContactPoint* point : contacts_) likely.push_back(point->p > 0 || point->g_n < 0);
-  double turn = std::numeric_limits<double>::infinity();
+  Extrapolation extrapolation;
+  bool turns = true;
   for (int round = 0; round < kMostRounds; ++round) {
     const std::optional<VectorXd> p = solve_complementarity(C_, gaps(), likely);
     if (!p) return false;
     p_ = *p;
     for (std::size_t i = 0; i < likely.size(); ++i) likely[i] = p_[static_cast<Eigen::Index>(i)] > 0;
     set_changes();
-    if (p_.size() == 0 || turn == 0) break;
-    const double before = std::exchange(turn, turn_forces());
-    if (turn <= kTolerance * p_.maxCoeff()) break;
-    if (turn < 0.5 * before) continue;
-    do_not_turn();
-    turn = 0;
+    if (p_.size() == 0 || !turns) break;
+    const VectorXd before = all_turned(), turned = turned_forces();
+    turn(turned);
+    if ((turned - before).cwiseAbs().maxCoeff() <= kTolerance * p_.maxCoeff()) break;
+    turns = round < kMostRounds - 2;
+    if (turns)
+      turn(extrapolation.next(before, turned));
+    else
+      do_not_turn();
   }
   return true;
 }
@@ -138,7 +162,7 @@ void UnilateralForces::set_forces(std::vector<PairContacts>& pairs) const {
       const double p = p_[static_cast<Eigen::Index>(c)];
       point.F += point.F_p * (p - point.p + moved_[c].closing / point.c);
       point.F.reshaped() -= point.W * moved_[c].k_V;
-      point.f = point.F.col(0);
+      point.f = contact::slave_force(point);
       point.p = p;
       ++c;
     }

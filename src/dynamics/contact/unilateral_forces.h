@@ -52,7 +52,9 @@ class UnilateralForces {
 
   Eigen::VectorXd gaps() const;
   void set_changes();
-  double turn_forces();
+  Eigen::VectorXd turned_forces();
+  Eigen::VectorXd all_turned() const;
+  void turn(const Eigen::VectorXd& all);
   void do_not_turn();
 
   std::vector<const contact::ContactPoint*> contacts_;

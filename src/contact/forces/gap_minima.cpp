@@ -1,0 +1,290 @@
+#include "contact/forces/gap_minima.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "contact/forces/hermite.h"
+#include "elastogear/base/sort_unique.h"
+
+namespace elastogear::contact {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kSteps = 20;
+constexpr double kConverged = 1e-10;  // of local coordinates
+constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+// start: a master face near the point.
+std::optional<Minimum> evaluate(const GapField& field, const SlavePoint& point, int start) {
+  Minimum m{point, slave_geometry(field.slave, field.heights, point), {}};
+  const auto w = walk_to_projection(field.master.surface, m.geometry.x, field.limits, start);
+  if (!w) return {};
+  m.open = open_point(field.master, *w, m.geometry.x, field.offset);
+  return m;
+}
+
+// One side of a slave face with the gaps at its ends; kFar where they are beyond the limits.
+struct Side {
+  SlavePoint point;
+  int side = 0, sides = 4;
+  std::array<double, 2> g{kFar, kFar}, slope{-kFar, kFar};  // m
+  double length = 0;                                        // m
+};
+
+const NodeGap* find(const std::map<int, NodeGap>& nodes, int node) {
+  const auto at = nodes.find(node);
+  return at == nodes.end() ? nullptr : &at->second;
+}
+
+Side side_of(const GapField& field, int edge, const std::map<int, NodeGap>& nodes) {
+  const int entry = field.slave.topology.edge_sides[edge][0];
+  Side side;
+  side.point.face = entry / 4;
+  side.side = entry % 4;
+  side.sides = side_count(field.slave.face, side.point.face);
+  side.point.number = static_cast<int>(field.slave.x.cols()) + edge;
+  side.point.n_dir = 1;
+  side.point.along.col(0) = on_side(side.sides, side.side, 1) - on_side(side.sides, side.side, 0);
+  for (int end : {0, 1}) {
+    const NodeGap* node = find(nodes, field.slave.face((side.side + end) % side.sides, side.point.face));
+    if (!node) continue;
+    const int corner = (side.side + end) % side.sides;
+    const Eigen::Vector3d a =
+        corner_tangents(field.slave, field.heights, side.point.face, corner) * side.point.along.col(0);
+    side.length = a.norm();
+    side.g[end] = node->g;
+    side.slope[end] = node->n.dot(a);
+  }
+  return side;
+}
+
+// Whether an estimate leaves room for a gap below the reach. highest: m, gap from which it falls.
+bool may_be_within(double estimate, double highest, double reach) {
+  constexpr double kUncertain = 0.5;  // of the fall
+  return estimate - kUncertain * (highest - estimate) < reach;
+}
+
+// Whether there is a minimum between the ends, for a gap that is convex, and it may lie below the reach.
+bool may_have_minimum(const Side& side, double reach) {
+  if (side.g[0] == kFar && side.g[1] == kFar) return false;
+  if (side.g[0] != kFar && side.slope[0] >= 0) return false;
+  if (side.g[1] != kFar && side.slope[1] <= 0) return false;
+  if (side.g[0] == kFar) return side.g[1] - side.slope[1] < reach;
+  if (side.g[1] == kFar) return side.g[0] + side.slope[0] < reach;
+  return may_be_within(least_of_cubic(side.g, side.slope).value, std::min(side.g[0], side.g[1]), reach);
+}
+
+// Newton's method for the slope of the gap, kept between places where it falls and rises.
+std::optional<Minimum> least_on_side(const GapField& field, Side side, int start) {
+  const bool known = side.g[0] != kFar && side.g[1] != kFar;
+  double low = 0, high = 1, s = known ? least_of_cubic(side.g, side.slope).s : 0.5;
+  for (int step = 0; step < kSteps; ++step) {
+    side.point.at = on_side(side.sides, side.side, s);
+    const std::optional<Minimum> m = evaluate(field, side.point, start);
+    if (!m) return {};
+    start = m->open.projection.face;
+    const double slope = m->open.gap.n.dot(m->geometry.a.col(0)),
+                 curvature = gap_curvature(m->geometry, 1, m->open.gap)(0, 0);
+    (slope > 0 ? high : low) = s;
+    double next = curvature > 0 ? s - slope / curvature : 0.5 * (low + high);
+    if (std::abs(next - s) < kConverged || high - low < kConverged || step + 1 == kSteps)
+      return m->open.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length ? m : std::nullopt;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    s = next;
+  }
+  return {};
+}
+
+bool is_inside(int sides, const Vector2d& at) {
+  if (sides == 3) return at[0] > 0 && at[1] > 0 && at[0] + at[1] < 1;
+  return at.cwiseAbs().maxCoeff() < 1;
+}
+
+Vector2d held_inside(int sides, const Vector2d& at) {
+  if (sides == 4) return at.cwiseMax(-1).cwiseMin(1);
+  const Vector2d positive = at.cwiseMax(0);
+  return positive / std::max(1.0, positive.sum());
+}
+
+// Where the gap on a face, as far as it is known, is least.
+struct Start {
+  double g = kFar;  // m
+  Vector2d at;
+  int face = -1;  // of the master
+};
+
+// Where the bicubic with gaps and slopes of the corners of a quadrilateral is least; no face where it is
+// beyond the reach, nothing when a gap is not known.
+std::optional<Start> estimate(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
+  if (side_count(field.slave.face, f) != 4) return {};
+  FaceCorners corners;
+  Start start;
+  double nearest = kFar;
+  for (int c = 0; c < 4; ++c) {
+    const NodeGap* node = find(nodes, field.slave.face(c, f));
+    if (!node) return {};
+    corners.slope.col(c) = corner_tangents(field.slave, field.heights, f, c).transpose() * node->n;
+    corners.value[c] = node->g;
+    if (node->g < nearest) nearest = node->g, start.face = node->nearest;
+  }
+  if (lower_bound(corners) > field.reach) return Start{};
+  const LeastOnFace least = least_of_bicubic(corners);
+  start.g = least.value;
+  start.at = least.at;
+  return may_be_within(start.g, nearest, field.reach) ? start : Start{};
+}
+
+// The step of Newton's method on a face, whose sides hold it: along a side that it would leave, down the
+// slope there. Nothing where the gap is not convex.
+std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector2d& slope,
+                                     const Eigen::Matrix2d& H) {
+  if (!(H(0, 0) > 0 && H.determinant() > 0)) return {};
+  const Vector2d newton = -H.inverse() * slope;
+  const Vector2d next = held_inside(sides, at + newton / std::max(1.0, newton.cwiseAbs().maxCoeff()));
+  if (sides == 3 || is_inside(sides, next)) return Vector2d(next - at);
+  for (int i : {0, 1}) {
+    if (!(std::abs(at[i]) == 1 && at[i] * slope[i] < 0)) continue;
+    Vector2d along = Vector2d::Zero();
+    along[1 - i] = -slope[1 - i] / H(1 - i, 1 - i);
+    return Vector2d(held_inside(sides, at + along) - at);
+  }
+  return Vector2d(next - at);
+}
+
+// Newton's method while it is held on the face. on_sides: m, the least gap known on the face's sides.
+std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const Start& start,
+                                    double on_sides) {
+  const int sides = side_count(field.slave.face, point.face);
+  int face = start.face;
+  point.at = start.at;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::optional<Minimum> m = evaluate(field, point, face);
+    if (!m) return {};
+    face = m->open.projection.face;
+    const Vector2d slope = m->geometry.a.transpose() * m->open.gap.n;
+    const auto way = step_on_face(sides, point.at, slope, gap_curvature(m->geometry, 2, m->open.gap));
+    if (!way) return {};
+    if (way->cwiseAbs().maxCoeff() < kConverged) {
+      const double length = m->geometry.a.colwise().norm().maxCoeff();
+      const bool is_minimum = is_inside(sides, point.at) && m->open.gap.g < on_sides - kDistinct * length;
+      return is_minimum ? m : std::nullopt;
+    }
+    point.at += *way;
+  }
+  return {};
+}
+
+// The slave faces around these nodes, ascending.
+std::vector<int> faces_around(const GapField& field, const std::map<int, NodeGap>& nodes) {
+  std::vector<int> faces;
+  for (const auto& [node, gap] : nodes)
+    for (int corner : field.slave.topology.node_corners[node]) faces.push_back(corner / 4);
+  sort_unique(faces);
+  return faces;
+}
+
+// Where to begin on a face some of whose corners are beyond the limits or the master's boundary, or on a
+// triangle: its corner with the least gap.
+Start least_corner(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
+  const int sides = side_count(field.slave.face, f);
+  Start start;
+  for (int c = 0; c < sides; ++c)
+    if (const NodeGap* node = find(nodes, field.slave.face(c, f)); node && node->g < start.g)
+      start = {node->g, on_side(sides, c, 0), node->nearest};
+  return start;
+}
+
+// Adds the gaps at the other corners of the faces, however large, where the master has a foot point for them.
+void add_corners(const GapField& field, const std::vector<int>& faces, std::map<int, NodeGap>& nodes) {
+  Limits any = field.limits;
+  any.outside = any.depth = kFar;
+  for (int f : faces) {
+    const Start start = least_corner(field, f, nodes);
+    for (int c = 0; c < side_count(field.slave.face, f) && start.face >= 0; ++c) {
+      const int node = field.slave.face(c, f);
+      if (nodes.contains(node)) continue;
+      const Eigen::Vector3d x = field.slave.x.col(node);
+      const auto w = walk_to_projection(field.master.surface, x, any, start.face);
+      if (!w) continue;
+      const OpenPoint open = open_point(field.master, *w, x, field.offset);
+      nodes[node] = {open.gap.g, open.gap.n, open.projection.face};
+    }
+  }
+}
+
+// Minima along the sides of these faces, by edge.
+std::map<int, Minimum> minima_on_sides(const GapField& field, const std::vector<int>& faces,
+                                       const std::map<int, NodeGap>& nodes) {
+  const Topology& topology = field.slave.topology;
+  std::vector<int> edges;
+  for (int f : faces)
+    for (int side = 0; side < side_count(field.slave.face, f); ++side)
+      if (topology.edge(side, f) >= 0 && (field.whole || topology.is_open(f, side)))
+        edges.push_back(topology.edge(side, f));
+  sort_unique(edges);
+  std::map<int, Minimum> found;
+  for (int edge : edges) {
+    const Side side = side_of(field, edge, nodes);
+    if (!may_have_minimum(side, field.reach)) continue;
+    const int end = side.g[0] <= side.g[1] ? 0 : 1;
+    const int start = find(nodes, field.slave.face((side.side + end) % side.sides, side.point.face))->nearest;
+    if (auto m = least_on_side(field, side, start)) found.emplace(edge, *m);
+  }
+  return found;
+}
+
+// (u, v) on a face of a point on its side that is given on the face beyond.
+Vector2d on_face(const GapField& field, int f, int side, const Minimum& m) {
+  const int first = field.slave.face(side, f);
+  const Eigen::Vector4i corners = field.slave.face.col(m.point.face);
+  double s = 0;
+  for (int c = 0; c < side_count(field.slave.face, m.point.face); ++c)
+    if (corners[c] != first) s += m.geometry.N[c];
+  return on_side(side_count(field.slave.face, f), side, s);
+}
+
+// The least of the minima on the sides of a face.
+Start least_side(const GapField& field, int f, const std::map<int, Minimum>& on_sides) {
+  Start start;
+  for (int side = 0; side < side_count(field.slave.face, f); ++side) {
+    const auto m = on_sides.find(field.slave.topology.edge(side, f));
+    if (m == on_sides.end() || m->second.open.gap.g >= start.g) continue;
+    start = {m->second.open.gap.g, on_face(field, f, side, m->second), m->second.open.projection.face};
+  }
+  return start;
+}
+
+}  // namespace
+
+std::vector<Minimum> gap_minima(const GapField& field, std::map<int, NodeGap> nodes) {
+  const std::vector<int> faces = faces_around(field, nodes);
+  if (field.whole) add_corners(field, faces, nodes);
+  const auto n_nodes = static_cast<int>(field.slave.x.cols());
+  const Topology& topology = field.slave.topology;
+  const std::map<int, Minimum> on_sides = minima_on_sides(field, faces, nodes);
+  std::vector<Minimum> minima;
+  const auto take = [&](const Minimum& m) {
+    if (m.open.gap.g < field.reach) minima.push_back(m);
+  };
+  for (const auto& [edge, m] : on_sides) take(m);
+  for (int f : field.whole ? faces : std::vector<int>()) {
+    const Start side = least_side(field, f, on_sides), corner = least_corner(field, f, nodes);
+    const Start known = side.g < corner.g ? side : corner;
+    const Start start =
+        estimate(field, f, nodes).value_or(known.g - field.sag < field.reach ? known : Start{});
+    if (start.face < 0) continue;
+    SlavePoint point;
+    point.number = n_nodes + topology.edge_sides.size() + f;
+    point.face = f;
+    point.n_dir = 2;
+    if (const auto m = least_within(field, point, start, side.g)) take(*m);
+  }
+  return minima;
+}
+
+}  // namespace elastogear::contact

@@ -1,0 +1,168 @@
+// Contact where the gap of two smooth surfaces is least, on sides and within faces.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numeric>
+
+#include "contact/forces/slave_point.h"
+#include "elastogear/contact/pair.h"
+#include "surfaces.h"
+
+namespace elastogear::contact::minima_test {
+namespace {
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+constexpr double kForce = 5;  // N
+
+// z = -(x^2 / 2 r_x + y^2 / 2 r_y) over a square of 1 m, seen from above.
+model::Surface cap(int n, double r_x, double r_y) {
+  return test::grid(n, n, [=](double u, double v) {
+    const double x = u - 0.5, y = v - 0.5;
+    return Vector3d(x, y, -0.5 * (x * x / r_x + y * y / r_y));
+  });
+}
+
+Settings minima() {
+  Settings s;
+  s.law = ContactLaw::unilateral;
+  s.points = SlavePoints::minima;
+  s.surface = ContactSurface::smooth;
+  s.slave = 0;
+  s.depth = 0.5;
+  return s;
+}
+
+// The slave upside down over the master, turned and shifted so that nothing is symmetric.
+struct Two {
+  model::Surface slave, master;
+  SurfaceState a, b;
+};
+
+Two two(double r_y, double gap) {
+  Two t{cap(5, 4, r_y), cap(7, 6, 5), {}, {}};
+  const Eigen::Matrix3d R =
+      (Eigen::AngleAxisd(0.2, Vector3d::UnitZ()) * Eigen::AngleAxisd(test::pi, Vector3d::UnitX()))
+          .toRotationMatrix();
+  t.a = {t.slave.X, Vector3d(0.03, 0.045, gap), R};
+  t.b = {t.master.X, Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+  return t;
+}
+
+std::vector<ContactPoint> found(Pair& pair, const Two& t, bool on_faces) {
+  std::vector<ContactPoint> all = pair.detect(t.a, t.b);
+  std::erase_if(all, [&](const ContactPoint& c) { return (c.n_slave == 4) != on_faces; });
+  return all;
+}
+
+Eigen::VectorXd local_positions(const Two& t, const ContactPoint& c) {
+  Matrix3Xd x(3, c.n_local());
+  for (int i = 0; i < c.n_local(); ++i)
+    x.col(i) = i < c.n_slave ? Vector3d(t.a.R_WB * t.a.x_B.col(c.slave_nodes[i]) + t.a.r_WB)
+                             : Vector3d(t.b.R_WB * t.b.x_B.col(c.master_node[i - c.n_slave]) + t.b.r_WB);
+  return x.reshaped();
+}
+
+// The state with one local coordinate moved.
+Two moved(Two t, const ContactPoint& c, int j, double step) {
+  const int i = j / 3;
+  const Vector3d dx = step * Vector3d::Unit(j % 3);
+  if (i < c.n_slave)
+    t.a.x_B.col(c.slave_nodes[i]) += t.a.R_WB.transpose() * dx;
+  else
+    t.b.x_B.col(c.master_node[i - c.n_slave]) += t.b.R_WB.transpose() * dx;
+  return t;
+}
+
+ContactPoint again(Pair& pair, const Two& t, int number) {
+  for (const ContactPoint& c : pair.detect(t.a, t.b))
+    if (c.slave_point == number) return c;
+  ADD_FAILURE() << "point " << number << " is lost";
+  return {};
+}
+
+TEST(GapMinima, gradient_and_tangent_are_those_of_the_least_gap) {
+  constexpr double kStep = 1e-6, kLeftOut = 1e-3;  // m; -, of the change of heights as faces turn
+  const Two t = two(3, 1e-4);
+  Pair pair(t.slave, t.master, minima());
+  std::vector<ContactPoint> points = found(pair, t, true);
+  ASSERT_GE(points.size(), 4u);
+  for (ContactPoint& c : points) c.p = kForce;
+  pair.set_normal_forces(points);
+  for (const ContactPoint& named : points) {
+    const ContactPoint c = again(pair, t, named.slave_point);
+    const Eigen::VectorXd g_x = c.g_x.reshaped();
+    const Eigen::MatrixXd K = -c.W * c.k * c.V.transpose() + c.F_p.reshaped() * g_x.transpose() / c.c;
+    Eigen::MatrixXd K_h(K.rows(), K.cols());
+    Eigen::VectorXd g_h(K.rows());
+    for (int j = 0; j < 3 * c.n_local(); ++j) {
+      const ContactPoint up = again(pair, moved(t, c, j, kStep), c.slave_point),
+                         down = again(pair, moved(t, c, j, -kStep), c.slave_point);
+      g_h[j] = (up.g_n - down.g_n) / (2 * kStep);
+      K_h.col(j) = (up.F - down.F).reshaped() / (2 * kStep);
+    }
+    EXPECT_LT((g_x - g_h).norm(), kLeftOut * g_h.norm()) << c.slave_point;
+    EXPECT_LT((K - K_h).norm(), kLeftOut * K_h.norm()) << c.slave_point;
+  }
+}
+
+TEST(GapMinima, forces_balance_and_so_do_their_moments) {
+  const Two t = two(3, 1e-4);
+  Pair pair(t.slave, t.master, minima());
+  for (const ContactPoint& c : found(pair, t, true)) {
+    Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
+    const Matrix3Xd x = local_positions(t, c).reshaped(3, c.n_local());
+    for (int i = 0; i < c.n_local(); ++i) {
+      force += c.F_p.col(i);
+      moment += x.col(i).cross(Vector3d(c.F_p.col(i)));
+    }
+    EXPECT_LT(force.norm(), 1e-14);
+    EXPECT_LT(moment.norm(), 1e-14);
+  }
+}
+
+// The smallest gap over points of all slave faces, each against all faces of the master.
+double smallest_gap(const Two& t, int per_side) {
+  const auto smooth = [](const model::Surface& s, const Topology& map) {
+    return make_heights({s.face, map, s.X, 0}, ContactSurface::smooth, 0.5, {});
+  };
+  const Topology map_a = topology(t.slave.face, int(t.slave.X.cols())),
+                 map_b = topology(t.master.face, int(t.master.X.cols()));
+  const Heights h_a = smooth(t.slave, map_a), h_b = smooth(t.master, map_b);
+  const Matrix3Xd x = (t.a.R_WB * t.a.x_B).colwise() + t.a.r_WB;
+  const SurfaceView slave{t.slave.face, map_a, x, 0}, surface{t.master.face, map_b, t.b.x_B, 0};
+  const MasterSide master{surface, h_b, 0.5, false};
+  std::vector<int> faces(static_cast<std::size_t>(t.master.face.cols()));
+  std::iota(faces.begin(), faces.end(), 0);
+  double least = 1;
+  for (int f = 0; f < t.slave.face.cols(); ++f)
+    for (int i = 0; i < per_side * per_side; ++i) {
+      SlavePoint point;
+      point.face = f;
+      point.at << 2.0 * (i % per_side) / (per_side - 1) - 1, 2.0 * (i / per_side) / (per_side - 1) - 1;
+      const SlaveGeometry g = slave_geometry(slave, h_a, point);
+      const auto w = find_projection(surface, {g.x, [&] { return g.n; }}, {1, -0.1, 1}, faces);
+      if (w) least = std::min(least, open_point(master, *w, g.x, 0).gap.g);
+    }
+  return least;
+}
+
+TEST(GapMinima, have_the_smallest_gap_of_all_points_of_the_slave) {
+  constexpr int kPerSide = 41;
+  constexpr double kBetween = 2e-6;  // m, by which the gap falls between these points
+  for (double r_y : {2.0, 3.0, 20.0, -6.0})
+    for (double shift : {0.0, 0.11, 0.23}) {
+      Two t = two(r_y, 1e-3);
+      t.a.r_WB.x() += shift;
+      Pair pair(t.slave, t.master, minima());
+      double least = 1;
+      for (const ContactPoint& c : pair.detect(t.a, t.b)) least = std::min(least, c.g_n);
+      const double brute = smallest_gap(t, kPerSide);
+      EXPECT_LT(least, brute + 1e-12) << r_y << " " << shift;
+      EXPECT_GT(least, brute - kBetween) << r_y << " " << shift;
+    }
+}
+
+}  // namespace
+}  // namespace elastogear::contact::minima_test
