@@ -114,7 +114,7 @@ Vector2d held_inside(int sides, const Vector2d& at) {
 // Where the gap on a face, as far as it is known, is least.
 struct Start {
   double g = kFar;  // m
-  Vector2d at;
+  Vector2d at = Vector2d::Zero();
   int face = -1;  // of the master
 };
 

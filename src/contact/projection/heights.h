@@ -19,8 +19,9 @@ using HeightCoefficients = Eigen::Matrix<double, kHeightPoints, kHeightPoints>;
 
 /// Heights of one surface.
 struct Heights {
-  std::vector<HeightCoefficients> face;            ///< by face; none at all: facets as they are
-  std::vector<Eigen::Matrix<double, 2, 4>> slope;  ///< by face: m, its derivatives with (u, v) at the corners
+  std::vector<HeightCoefficients> face = {};  ///< by face; none at all: facets as they are
+  std::vector<Eigen::Matrix<double, 2, 4>> slope =
+      {};  ///< by face: m, its derivatives with (u, v) at the corners
 
   bool empty() const { return face.empty(); }
 };

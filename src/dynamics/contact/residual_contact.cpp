@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "dynamics/contact/response_newton.h"
@@ -209,7 +210,19 @@ std::optional<double> ResidualContact::close_gaps(ContactState& state, double sh
     const NodalForces& now = flexibility_[b]->forces();
     respond_to(b, loaded(share < 1 ? mean(next, now, share) : next, now.node));
   }
-  return missing > 0 ? std::sqrt(missing / std::max(all, missing)) : 0;
+  if (missing == 0) return 0;
+  return std::sqrt(missing) / std::max(std::sqrt(std::max(all, missing)), least_force(state));
+}
+
+// Of smaller forces no more is asked for: roundoff of positions changes them by the force residual. N.
+double ResidualContact::least_force(const ContactState& state) const {
+  double least = 0;
+  for (std::size_t b = 0; b < state.force.size(); ++b) {
+    if (!has_flexibility(b) || state.force[b].node.empty()) continue;
+    const double roundoff = std::numeric_limits<double>::epsilon() * state.force[b].x_B.cwiseAbs().maxCoeff();
+    least = std::max(least, roundoff / (flexibility_[b]->largest() * kForceResidual));
+  }
+  return least;
 }
 
 void ResidualContact::solve_unilateral(ContactState& state, const std::function<void()>& detect) {

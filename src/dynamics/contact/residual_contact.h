@@ -68,6 +68,7 @@ class ResidualContact {
   // the given share of their change. Returns the change as part of the forces; nothing where there is no
   // solution.
   std::optional<double> close_gaps(ContactState& state, double share);
+  double least_force(const ContactState& state) const;
 
   struct Accepted {
     double time = 0;

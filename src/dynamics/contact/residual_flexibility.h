@@ -22,8 +22,9 @@ class ResidualFlexibility {
   /// The forces that displacement, largest and change refer to; x_B is not read.
   void set_forces(const NodalForces& forces);
   const NodalForces& forces() const { return forces_; }
-  Eigen::Vector3d displacement(int node);   ///< m, BRF: sum_b R(node, b) f_b
-  double bound(const NodalForces& forces);  ///< m, no node is displaced farther by these forces
+  Eigen::Vector3d displacement(int node);      ///< m, BRF: sum_b R(node, b) f_b
+  double largest() const { return largest_; }  ///< m/N, bound of |R(b, b)|
+  double bound(const NodalForces& forces);     ///< m, no node is displaced farther by these forces
   /// R among the given nodes: 3 n x 3 n, m/N, symmetric. The reference is valid until other nodes are asked
   /// for.
   const Eigen::MatrixXd& among(const std::vector<int>& node);
