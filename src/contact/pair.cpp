@@ -122,14 +122,14 @@ Eigen::Vector3d Pair::Data::node_height(int slave_side, const SurfaceView& slave
 std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, const PlacedNode& slave,
                                                      const Projection& w,
                                                      std::map<int, NodeGap>& gaps) const {
-  const auto& [slave_side, node, x] = slave;
+  const int slave_side = slave.side, node = slave.node;
   const Side& slaves = side[slave_side];
   const Law& law = slaves.law[node];
   const double p = given_force(slave_side, node);
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, p, settings.full_tangent);
   const auto stuck = slaves.stuck.find(node);
-  const OpenPoint open = open_point(master, w, x, settings.offset);
+  const OpenPoint open = open_point(master, w, slave.x, settings.offset);
   if (settings.points == SlavePoints::minima) {
     gaps[node] = {open.gap.g, open.gap.n, open.projection.face};
     if (open.gap.g > reach.gap && p == 0) return {};

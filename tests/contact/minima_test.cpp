@@ -140,7 +140,8 @@ double smallest_gap(const Two& t, int per_side) {
     for (int i = 0; i < per_side * per_side; ++i) {
       SlavePoint point;
       point.face = f;
-      point.at << 2.0 * (i % per_side) / (per_side - 1) - 1, 2.0 * (i / per_side) / (per_side - 1) - 1;
+      const int row = i / per_side, column = i % per_side;
+      point.at << 2.0 * column / (per_side - 1) - 1, 2.0 * row / (per_side - 1) - 1;
       const SlaveGeometry g = slave_geometry(slave, h_a, point);
       const auto w = find_projection(surface, {g.x, [&] { return g.n; }}, {1, -0.1, 1}, faces);
       if (w) least = std::min(least, open_point(master, *w, g.x, 0).gap.g);

@@ -134,7 +134,7 @@ double surface_error(const Flanks& flanks) {
 
 TEST(WormDrive, exact_surface_is_the_involute_helicoid) {
   constexpr double kCoarsest = 0.05e-6, kRate = 0.15;  // m, found: 0.021; 0.06 to 0.09
-  double last[2];
+  double last[2] = {};
   for (int n : {1, 2, 4}) {
     const WormDrive drive = test::worm_drive(n);
     for (int body : {0, 1}) {

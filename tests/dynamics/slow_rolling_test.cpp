@@ -107,7 +107,7 @@ TEST(SlowRolling, follows_its_equilibria_and_its_ripple_falls_with_face_size_and
   double last[2] = {2, 2};
   for (int n : {1, 2}) {
     const WormDrive drive = contact::test::worm_drive(n);
-    double resting[2];
+    double resting[2] = {};
     for (bool smooth : {false, true}) {
       const Torques t = torques(drive, smooth);
       const double found = ripple(t.rolling);

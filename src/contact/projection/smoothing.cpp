@@ -20,11 +20,11 @@ double hermite_slope(double end, double t) {
 }
 
 double on_quadrilateral(const CornerSlopes& slopes, double u, double v) {
-  constexpr std::array<double, 4> at_u{-1, 1, 1, -1}, at_v{-1, -1, 1, 1};
+  constexpr std::array<double, 4> kU{-1, 1, 1, -1}, kV{-1, -1, 1, 1};
   double sum = 0;
   for (int c = 0; c < 4; ++c)
-    sum += slopes(0, c) * hermite_slope(at_u[c], u) * hermite_value(at_v[c], v) +
-           slopes(1, c) * hermite_value(at_u[c], u) * hermite_slope(at_v[c], v);
+    sum += slopes(0, c) * hermite_slope(kU[c], u) * hermite_value(kV[c], v) +
+           slopes(1, c) * hermite_value(kU[c], u) * hermite_slope(kV[c], v);
   return sum;
 }
 
