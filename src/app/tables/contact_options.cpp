@@ -45,7 +45,7 @@ const Rows<S> kContactRows = {
     {"contact_feature_angle", &S::feature_angle, "deg",
      "smooth surfaces: edges that turn by more stay sharp"},
     {"contact_extension", &S::extension, "-",
-     "share of a face's length by which surfaces are prolonged at open ends; forces fade out over it"},
+     "nodes: share of a face's length by which surfaces are prolonged at open ends; forces fade out over it"},
     {"contact_damping", &S::damping, "Pa s/m or N s/m",
      "damping while bodies approach, per area or per node"},
     {"contact_hysteresis", &S::hysteresis, "s/m",

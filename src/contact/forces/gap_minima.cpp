@@ -63,13 +63,13 @@ Side side_of(const GapField& field, int edge, const std::map<int, NodeGap>& node
   return side;
 }
 
-// Whether an estimate leaves room for a gap below the reach. highest: m, gap from which it falls.
+// Returns whether a gap that is estimated to fall from `highest` to `estimate` (m) may be below the reach.
 bool may_be_within(double estimate, double highest, double reach) {
   constexpr double kUncertain = 0.5;  // of the fall
   return estimate - kUncertain * (highest - estimate) < reach;
 }
 
-// Whether there is a minimum between the ends, for a gap that is convex, and it may lie below the reach.
+// Returns whether a convex gap has a minimum between the ends of a side that may lie below the reach.
 bool may_have_minimum(const Side& side, double reach) {
   if (side.g[0] == kFar && side.g[1] == kFar) return false;
   if (side.g[0] != kFar && side.slope[0] >= 0) return false;
@@ -111,15 +111,16 @@ Vector2d held_inside(int sides, const Vector2d& at) {
   return positive / std::max(1.0, positive.sum());
 }
 
-// Where the gap on a face, as far as it is known, is least.
+// A point of a slave face from which a search for the least gap begins.
 struct Start {
   double g = kFar;  // m
   Vector2d at = Vector2d::Zero();
   int face = -1;  // of the master
 };
 
-// Where the bicubic with gaps and slopes of the corners of a quadrilateral is least; no face where it is
-// beyond the reach, nothing when a gap is not known.
+// Estimates the place of the least gap on a quadrilateral by the bicubic with the gaps and slopes of its
+// corners. The start has no master face where the gap is beyond the reach; there is none where a corner's gap
+// is not known.
 std::optional<Start> estimate(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
   if (side_count(field.slave.face, f) != 4) return {};
   FaceCorners corners;
@@ -188,8 +189,8 @@ std::vector<int> faces_around(const GapField& field, const std::map<int, NodeGap
   return faces;
 }
 
-// Where to begin on a face some of whose corners are beyond the limits or the master's boundary, or on a
-// triangle: its corner with the least gap.
+// Returns the corner of a face with the least gap among those that have one. A search begins there on
+// triangles and where a corner is beyond the limits or the master's boundary.
 Start least_corner(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
   const int sides = side_count(field.slave.face, f);
   Start start;

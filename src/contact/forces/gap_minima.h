@@ -1,6 +1,6 @@
 #pragma once
-// Where two smooth surfaces are nearest to each other: least gaps along the sides of slave faces and within
-// them (docs/theory.md, section 6.12).
+// The search for the places where the gap between two smooth surfaces is least: along the sides of slave
+// faces and within them (docs/theory.md, section 6.12).
 
 #include <map>
 #include <vector>
@@ -17,7 +17,7 @@ struct GapField {
   const Limits& limits;
   double offset = 0;  ///< m, added to every gap
   double reach = 0;   ///< m, larger gaps are of no interest
-  double sag = 0;     ///< m, bound of how far the gap within a face falls below that on its sides
+  double sag = 0;     ///< m, bound of how far the gap within a face falls below that at its nearest node
   bool whole = true;  ///< the whole surface; otherwise its boundary alone
 };
 

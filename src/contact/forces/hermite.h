@@ -1,6 +1,6 @@
 #pragma once
-// Where a function is least along a side or on a quadrilateral, as its values and slopes at the ends tell:
-// cubic Hermite polynomials.
+// Estimates of the least value of a function along a side or on a quadrilateral from its values and slopes at
+// the corners, by cubic Hermite polynomials.
 
 #include <Eigen/Core>
 #include <array>

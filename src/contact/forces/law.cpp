@@ -180,7 +180,7 @@ void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, Conta
   contact.V_dot.rightCols(m) = (skew(kinematics.d) * f.v).transpose() * T;
 }
 
-// What the complementarity of gap and force takes: docs/theory.md, Eq. (6.24).
+// Sets the compliance c and the gradients F_p, g_x of a contact without penalty: docs/theory.md, Eq. (6.24).
 void set_unilateral(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                     const Parts& parts, ContactPoint& contact) {
   const Vector3d per_p = gap.n - (parts.friction.at_limit ? parts.mu : 0.0) * parts.friction.direction;
