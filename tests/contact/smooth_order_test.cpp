@@ -1,6 +1,8 @@
 // The orders of the smooth surface on surfaces with uneven spacing and boundaries.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "contact/projection/heights.h"
 #include "contact/projection/node_normals.h"
 #include "surfaces.h"
@@ -92,8 +94,13 @@ TEST(SmoothOrder, of_heights_and_normals_holds_up_to_boundaries_and_with_uneven_
   for (const Reference& r : {cylinder(), sphere(), involute()})
     for (bool triangles : {false, true}) {
       const Errors coarse = errors(r, 8, triangles), fine = errors(r, 32, triangles);
-      EXPECT_GT(std::log2(coarse.height / fine.height) / 2, kHeight) << r.name << triangles;
-      EXPECT_GT(std::log2(coarse.normal / fine.normal) / 2, kNormal) << r.name << triangles;
+      const double height = std::log2(coarse.height / fine.height) / 2,
+                   normal = std::log2(coarse.normal / fine.normal) / 2;
+      std::printf("%s, %s: height %.2g, %.2g m, order %.1f; normal %.2g, %.2g rad, order %.1f\n", r.name,
+                  triangles ? "triangles" : "quadrilaterals", coarse.height, fine.height, height,
+                  coarse.normal, fine.normal, normal);
+      EXPECT_GT(height, kHeight) << r.name << triangles;
+      EXPECT_GT(normal, kNormal) << r.name << triangles;
       EXPECT_LT(fine.height, 2e-6) << r.name << triangles;  // averaged normals: 1.1e-4 to 2.3e-4
       EXPECT_LT(fine.normal, 2e-4) << r.name << triangles;  // averaged normals: 2e-2
     }

@@ -1,6 +1,7 @@
 // Contact search on the exact involute flanks of the worm drive, bodies rigid.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <map>
 
 #include "contact/projection/heights.h"
@@ -16,6 +17,7 @@ using test::WormDrive;
 
 constexpr double kPi = test::pi;
 constexpr std::array kSurfaces{ContactSurface::facets, ContactSurface::smooth, ContactSurface::exact};
+constexpr std::array kNames{"facets", "smooth", "exact"};
 constexpr int kFacets = 0, kSmooth = 1, kExact = 2;
 constexpr double kMargin = 0.1e-3;  // m, from the ends of a flank, where the facets end a little elsewhere
 constexpr double kFeatureAngle = 30 * kPi / 180;
@@ -97,6 +99,9 @@ TEST(WormDrive, gap_of_the_search_is_the_exact_distance_up_to_facets) {
     const GapErrors before[2] = {facets, smooth}, exact = gap_errors(drive, ContactSurface::exact);
     facets = gap_errors(drive, ContactSurface::facets);
     smooth = gap_errors(drive, ContactSurface::smooth);
+    std::printf(
+        "gap of the search, %d rows, um: facets %.3g, smooth %.3g, exact %.3g, along the normal %.3g\n",
+        2 * n, 1e6 * facets.largest, 1e6 * smooth.largest, 1e6 * exact.largest, 1e6 * exact.along);
     EXPECT_GT(facets.nodes, 50);
     if (n == 1) {
       EXPECT_LT(facets.largest, 45e-6);
@@ -139,6 +144,8 @@ TEST(WormDrive, exact_surface_is_the_involute_helicoid) {
     const WormDrive drive = test::worm_drive(n);
     for (int body : {0, 1}) {
       const double error = surface_error(body == 0 ? drive.worm : drive.wheel);
+      std::printf("exact surface of the %s, %d rows: %.2g um\n", body == 0 ? "worm" : "wheel", 2 * n,
+                  1e6 * error);
       EXPECT_LT(error, n == 1 ? kCoarsest : kRate * last[body]);
       last[body] = error;
     }
@@ -284,6 +291,8 @@ TEST(WormDrive, ripple_of_the_torque_falls_with_the_square_of_the_face_size_and_
     const WormDrive drive = test::worm_drive(n);
     for (int i = 0; i < 3; ++i) {
       const Ripple r = ripple(drive, kSurfaces[i]);
+      std::printf("%s, %d rows: ripple %.3g %%, mean off by %.2g %%\n", kNames[i], 2 * n, 100 * r.ripple,
+                  100 * std::abs(r.mean * drive.geometry.ratio / 20 - 1));
       EXPECT_NEAR(r.mean, 20 / drive.geometry.ratio, sampling[i] * r.mean);
       last[i] = r.ripple;
       if (n == 1) first[i] = r.ripple;

@@ -3,6 +3,7 @@
 // two elastic spheres: force, peak pressure and radius follow from the approach.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <numbers>
 
 #include "../contact/surfaces.h"
@@ -69,6 +70,8 @@ TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   LineErrors last{1, 1};
   for (int cells : {60, 120, 240}) {
     const LineErrors error = line_errors(cells);
+    std::printf("line contact, %d cells: peak pressure %+.2f %%, half width %+.2f %%\n", cells,
+                100 * error.peak, 100 * error.width);
     EXPECT_LT(std::abs(error.peak), std::abs(last.peak) / 2);
     EXPECT_LT(std::abs(error.width), std::abs(last.width) / 2);
     last = error;
@@ -135,6 +138,8 @@ TEST_P(TwoSpheres, force_radius_and_peak_pressure_converge) {
   PointErrors last{1, 1, 1};
   for (double cells : {2.5, 5., 10.}) {
     const PointErrors error = point_errors(GetParam(), cells);
+    std::printf("R = %g m, %g cells: radius %+.2f %%, peak pressure %+.2f %%, force %+.2f %%\n", GetParam().R,
+                cells, 100 * error.radius, 100 * error.pressure, 100 * error.force);
     EXPECT_LT(std::abs(error.radius), std::abs(last.radius) / 2);
     EXPECT_LT(std::abs(error.pressure), std::abs(last.pressure));
     last = error;

@@ -2,6 +2,8 @@
 // that do not. Exact are one pressure and one displacement all over the interface.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "box_body.h"
 #include "contact_bodies.h"
 
@@ -84,6 +86,9 @@ TEST(PatchTest, is_missed_elsewhere_by_the_stated_errors) {
                                {{8, 10, false}, {0.141, 0.021}},
                                {{8, 10, true}, {0.172, 0.004}}}) {
     const PatchErrors error = patch_errors(stated.patch);
+    std::printf("%d under %d cells, %d passes: pressure %.1f %%, displacement %.1f %%\n", stated.patch.lower,
+                stated.patch.upper, stated.patch.two_pass ? 2 : 1, 100 * error.pressure,
+                100 * error.displacement);
     EXPECT_NEAR(error.pressure, stated.error.pressure, kLastDigit);
     EXPECT_NEAR(error.displacement, stated.error.displacement, kLastDigit);
   }

@@ -1,6 +1,8 @@
 // Contact without a penalty: the limit of stiff penalties on bodies of the full basis, and impact of bars.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "box_body.h"
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/simulate.h"
@@ -53,6 +55,7 @@ TEST(Unilateral, equilibrium_is_the_limit_of_stiff_penalties) {
   const double force = 300, stiff = 1e8;
   const model::Snapshot found = equilibrium(press(force, kUnilateral, false)),
                         limit = equilibrium(press(force, stiff, false));
+  std::printf("approach %.7g m, with the stiff penalty %.7g m\n", found.bodies[0].s[0], limit.bodies[0].s[0]);
   EXPECT_NEAR(found.bodies[0].s[0], limit.bodies[0].s[0], 3e-5 * limit.bodies[0].s[0]);
   EXPECT_NEAR(found.pairs[0].force.x(), force, 1e-6 * force);
   ASSERT_EQ(found.pairs[0].count, limit.pairs[0].count);
@@ -126,6 +129,9 @@ TEST(Unilateral, bars_part_after_two_passages_of_the_wave_with_half_of_the_modes
   constexpr double kDiscretisation = 0.02;  // of 100 cells a bar, as with a penalty
   for (int n_modes : {50, 99}) {
     const Collision found = collide(n_modes);
+    std::printf("%d modes: contact time %+.2f %%, mean force %+.2f %%, energy %.1e\n", n_modes,
+                100 * (found.contact_time / kContactTime - 1), 100 * (found.mean_force / kForce - 1),
+                found.imbalance);
     EXPECT_NEAR(found.contact_time, kContactTime, kDiscretisation * kContactTime) << n_modes;
     EXPECT_NEAR(found.mean_force, kForce, kDiscretisation * kForce) << n_modes;
     EXPECT_LT(found.imbalance, 1e-4) << n_modes;
