@@ -201,7 +201,7 @@ def rolling_figures(example):
         panel.plot(t, values, color=COLOURS[0], linewidth=1)
         panel.set(ylabel=unit, xlabel="time in ms")
     yield picture(figure, f"Fig. 14: rolling contact, {label}")
-    yield transmission(example)
+    yield "<h2>Transmission (exactly 20.5)</h2>" + table(*transmission(example))
 
 
 def require_rolling(example):
@@ -214,19 +214,20 @@ def require_rolling(example):
 
 
 def transmission(example):
-    """Table of mean torque ratios and of the number of tooth pairs in contact."""
+    """Head and rows of a table: mean torque ratios, number of tooth pairs in contact, balance of energy."""
     rows = []
     for label in example.labels:
         with example.result(label) as file:
             pair, t, angle = next(iter(file["contact"].values())), file["time"][:], file["bodies/worm/rigid"][:, 0]
             on_wheel, on_worm = pair["torque"][:, 2], results.torque_on_worm(file)
             count = sum((area > 0).astype(int) for area in results.group_forces(pair).values())
+            balance, work = np.abs(file["energy/balance"]).max(), np.abs(file["energy/work"]).max()
         turn = t >= np.interp(angle[-1] - 2 * np.pi, angle, t)
         ratios = [abs(np.trapz(on_wheel[part], t[part]) / np.trapz(on_worm[part], t[part])) for part in (t > t[-1] / 2, turn)]
         shares = [f"{100 * (count[t > t[-1] / 2] == n).mean():.0f} %" for n in (1, 2, 3, 4)]
-        rows.append([label, *(f"{ratio:.4f} ({100 * (ratio / 20.5 - 1):+.3f} %)" for ratio in ratios), *shares])
-    head = ["", "torques, second half", "over the last turn", *(f"{n} pairs" for n in (1, 2, 3, 4))]
-    return "<h2>Transmission (exactly 20.5)</h2>" + table(head, rows)
+        rows.append([label, *(f"{ratio:.4f} ({100 * (ratio / 20.5 - 1):+.3f} %)" for ratio in ratios), *shares,
+                     f"{1e6 * balance:.3g} of {1e6 * work:.3g}"])
+    return ["run", "torques, second half", "over the last turn", *(f"{n} pairs" for n in (1, 2, 3, 4)), "balance of energy, uJ"], rows
 
 
 def deviation_section(example):

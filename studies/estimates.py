@@ -17,9 +17,10 @@ import report
 NEGLIGIBLE = 0.01  # of the unreduced stress: an estimate below this may be larger than three times the error
 
 
-def errors(folder):
-    """Rows (basis, estimated error, true error, both as shares of the unreduced stress)."""
+def errors(folder, wanted):
+    """Rows (basis, estimated error, true error, both as shares of the unreduced stress) of the runs BASIS_MODES that are wanted."""
     example = report.Example(os.path.basename(os.path.normpath(folder)), folder)
+    example.labels = [label for label in example.labels if label in wanted]
     return [(label.rsplit("_", 1)[0], peak.error / true.value, abs(peak.value - true.value) / true.value)
             for label, _, _, peak, true in report.peaks(example)]
 
@@ -34,10 +35,14 @@ def table_row(name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", help="out/examples/SIZE/EXAMPLE")
+    parser.add_argument("--modes", type=int, nargs="+", default=[10, 25, 50, 100, 200])
+    parser.add_argument("--bases", nargs="+", default=["modal", "modal_residual"])
+    options = parser.parse_args()
+    wanted = {f"{basis}_{modes}" for basis in options.bases for modes in options.modes}
     found = {}
-    for folder in parser.parse_args().folders:
+    for folder in options.folders:
         size, example = os.path.normpath(folder).split(os.sep)[-2:]
-        for basis, estimate, true in errors(folder):
+        for basis, estimate, true in errors(folder, wanted):
             for name in (f"{example.replace('_', '-')}, {size}, `{basis}`", f"all, `{basis}`", "all"):
                 found.setdefault(name, []).append((basis, estimate, true))
     print("| runs | cases | true error, median | estimate, median | estimate / true, median | true below twice the estimate | "
