@@ -16,6 +16,27 @@ Eigen::MatrixXd for_each_tensor(const Eigen::MatrixXd& stress, double (*scalar)(
   return result;
 }
 
+// The stresses of a reduced basis.
+void multiply_rows(const model::DenseRows& Psi, const std::vector<int>& members, const Eigen::MatrixXd& q,
+                   Eigen::MatrixXd& sigma) {
+  constexpr Eigen::Index kTogether = 256;  // nodes: fewer would pack q anew for each product
+  const auto n = static_cast<Eigen::Index>(members.size());
+  for (Eigen::Index first = 0; first < n; first += kTogether) {
+    const Eigen::Index count = std::min(kTogether, n - first);
+    Eigen::MatrixXd rows(6 * count, Psi.cols());
+    for (Eigen::Index i = 0; i < count; ++i)
+      rows.middleRows<6>(6 * i) = Psi.middleRows<6>(6 * members[first + i]);
+    sigma.middleRows(6 * first, 6 * count).noalias() = rows * q;
+  }
+}
+
+// The stresses of the full basis, whose rows touch the displacements of the cells around a node alone.
+void multiply_rows(const model::SparseRows& Psi, const std::vector<int>& members, const Eigen::MatrixXd& q,
+                   Eigen::MatrixXd& sigma) {
+  for (std::size_t i = 0; i < members.size(); ++i)
+    sigma.middleRows<6>(6 * static_cast<Eigen::Index>(i)) = Psi.middleRows(6 * members[i], 6) * q;
+}
+
 }  // namespace
 
 double von_mises(const StressVector& s) {
@@ -34,19 +55,9 @@ Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress) { return for_each_tensor(
 
 Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>& members,
                              const Eigen::MatrixXd& q) {
-  constexpr Eigen::Index kTogether = 256;  // nodes: fewer would pack q anew for each product
   const auto n = static_cast<Eigen::Index>(members.size());
   Eigen::MatrixXd sigma(6 * n, q.cols());
-  const auto product = [&](const auto& Psi) {
-    for (Eigen::Index first = 0; first < n; first += kTogether) {
-      const Eigen::Index count = std::min(kTogether, n - first);
-      Eigen::MatrixXd rows(6 * count, Psi.cols());
-      for (Eigen::Index i = 0; i < count; ++i)
-        rows.middleRows<6>(6 * i) = Eigen::MatrixXd(Psi.middleRows(6 * members[first + i], 6));
-      sigma.middleRows(6 * first, 6 * count).noalias() = rows * q;
-    }
-  };
-  std::visit(product, stress.Psi);
+  std::visit([&](const auto& Psi) { multiply_rows(Psi, members, q, sigma); }, stress.Psi);
   return sigma;
 }
 
