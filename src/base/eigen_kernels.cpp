@@ -1,0 +1,5 @@
+#include "base/eigen_kernels.h"
+
+#ifdef ELASTOGEAR_EIGEN_KERNELS
+ELASTOGEAR_EIGEN_KERNELS(template struct)
+#endif
