@@ -76,6 +76,12 @@ def evaluated_sets(reduced, force):
             **({flank: sets[flank]} if flank else {})}
 
 
+def has_stresses(folder, body, name, modes):
+    """Runs with --roots leave out the flanks."""
+    with results.open_file(os.path.join(folder, "turn_in", f"modal_{modes}_stress.h5"), "stress") as file:
+        return name in file[body]
+
+
 def own_stresses(folder, body, name, modes):
     """Stresses (n x 6, Pa) of a set in the reduced runs, one for each number of modes, and the set's nodes."""
     found = []
@@ -97,6 +103,8 @@ def body_deviations(folder, body, modes):
     with results.open_file(most_modes(folder, body), "body") as reduced:
         amplitude, nodes = coordinates(reduced, force), reduced["stress/nodes"][:]
         for name, rows in evaluated_sets(reduced, force).items():
+            if not has_stresses(folder, body, name.split()[0], modes[0]):
+                continue
             target, psi = np.array([exact[node] for node in nodes[rows]]), reduced["stress/Psi"][rows]
             equal = [deviation(measures(psi[:, :, :n] @ amplitude[:n]), target) for n in modes]
             known, own = own_stresses(folder, body, name.split()[0], modes)
