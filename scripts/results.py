@@ -82,7 +82,7 @@ def standstill(file, body="worm"):
     if made[-1] >= ROLLS * asked:
         return ""
     return (f"the {body} does not roll: it made {made[-1]:.2f} of the {asked:.2f} turns that its initial speed asks for, at most {made.max():.2f} "
-            "at one time. Facets that are too coarse stop the free motion and turn it back: use size small or a finer one")
+            "at one time. A mesh that is too coarse slows the free motion or stops it: use size small or a finer one")
 
 
 def speed_unit(body):
