@@ -4,7 +4,8 @@
 #include "elastogear/base/error.h"
 #include "second_order_problem.h"
 
-namespace elastogear::testing::generalized_alpha_control_test {
+namespace elastogear::generalized_alpha_control_test {
+using namespace test;
 namespace {
 
 using dynamics::generalized_alpha_restart;
@@ -323,4 +324,4 @@ TEST(GeneralizedAlphaErrors, another_type_or_a_missing_part_is_named) {
 }
 
 }  // namespace
-}  // namespace elastogear::testing::generalized_alpha_control_test
+}  // namespace elastogear::generalized_alpha_control_test

@@ -4,7 +4,8 @@
 
 #include "second_order_problem.h"
 
-namespace elastogear::testing::generalized_alpha_test {
+namespace elastogear::generalized_alpha_test {
+using namespace test;
 namespace {
 
 constexpr double order_tolerance = 0.1;  // of a measured order of convergence
@@ -358,4 +359,4 @@ TEST(GeneralizedAlphaOptions, wrong_values_are_refused) {
 }
 
 }  // namespace
-}  // namespace elastogear::testing::generalized_alpha_test
+}  // namespace elastogear::generalized_alpha_test

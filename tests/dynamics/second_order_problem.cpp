@@ -1,6 +1,6 @@
 #include "second_order_problem.h"
 
-namespace elastogear::testing {
+namespace elastogear::test {
 namespace {
 
 PetscErrorCode function(TS, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* context) {
@@ -44,10 +44,10 @@ Integration::Integration(Problem p, const std::string& options, Observer observe
   check(TSCreate(PETSC_COMM_SELF, ts.out()));
   check(TSSetProblemType(ts, kind));
   check(TSSetI2Function(ts, residual, function, this));
-  check(TSSetI2Jacobian(ts, jacobian, jacobian, testing::jacobian, this));
+  check(TSSetI2Jacobian(ts, jacobian, jacobian, test::jacobian, this));
   check(TS2SetSolution(ts, U, V));
   check(TSMonitorSet(ts, monitor, this, nullptr));
   check(TSSetFromOptions(ts));
 }
 
-}  // namespace elastogear::testing
+}  // namespace elastogear::test

@@ -10,7 +10,7 @@
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/generalized_alpha.h"
 
-namespace elastogear::testing {
+namespace elastogear::test {
 
 using Eigen::Matrix2d;
 using Eigen::MatrixXd;
@@ -92,4 +92,4 @@ struct Integration {
   UniqueTS ts;
 };
 
-}  // namespace elastogear::testing
+}  // namespace elastogear::test
