@@ -22,7 +22,7 @@ Matrix4d gram(const model::Inertia& inertia) {
 // T with T N T' = I, but for rows of zeros.
 Matrix4d orthonormalising(const Matrix4d& N) {
   const Eigen::Vector4d scale = N.diagonal().unaryExpr([](double n) { return n > 0 ? 1 / std::sqrt(n) : 0; });
-  const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(scale.asDiagonal() * N * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(scale.asDiagonal() * N * scale.asDiagonal()));
   const Eigen::Vector4d weight =
       eigen.eigenvalues().unaryExpr([](double n) { return n > kNoMass ? 1 / std::sqrt(n) : 0; });
   return weight.asDiagonal() * eigen.eigenvectors().transpose() * scale.asDiagonal();
