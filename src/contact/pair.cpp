@@ -131,7 +131,9 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
   const auto stuck = slaves.stuck.find(node);
   const OpenPoint open = open_point(master, w, slave.x, settings.offset);
   if (settings.points == SlavePoints::minima) {
-    gaps[node] = {open.gap.g, open.gap.n, open.projection.face};
+    if (open.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
+                                    open.projection.face))
+      gaps[node] = {open.gap.g, open.gap.n, open.projection.face};
     if (open.gap.g > reach.gap && p == 0) return {};
   }
   return general_contact(
@@ -168,8 +170,8 @@ ContactPoint Pair::Data::contact(const MasterSide& master, int slave_side, const
 void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
                             std::vector<ContactPoint>& contacts) const {
   const SurfaceView slave = tracker.view(slave_side, 0);
-  for (const Minimum& m : gap_minima({master, slave, side[slave_side].heights, reach.limits, settings.offset,
-                                      reach.gap, reach.sag, is_whole(slave_side)},
+  for (const Minimum& m : gap_minima({master, slave, side[slave_side].heights, reach, slave_side,
+                                      settings.offset, is_whole(slave_side)},
                                      gaps)) {
     contacts.push_back(contact(master, slave_side, m));
     contacts.back().slave_side = slave_side;
@@ -190,7 +192,8 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
     const Eigen::Vector3d x = slave.x.col(node) + node_height(slave_side, slave, node);
     const SlaveNode q{x, [&] { return node_normal(slave, node); },
                       [&] { return tracker.all_faces(slave_side, node); }};
-    const auto projection = find_projection(surface, q, reach.limits, near.faces(i), last_face[node]);
+    const Limits limits = limits_at(reach, slave_side, slave.topology.node_corners[node]);
+    const auto projection = find_projection(surface, q, limits, near.faces(i), last_face[node]);
     last_face[node] = projection ? projection->face : -1;
     if (!projection) continue;
     auto found = node_contact(master, {slave_side, node, x}, *projection, gaps);
@@ -265,10 +268,11 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
   std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
   Side side[2] = {make_side(both[0], settings, known[0]), make_side(both[1], settings, known[1])};
   const Reach reach = reach_of(settings, {&both[0], &both[1]}, {&side[0].heights, &side[1].heights});
+  const std::array spares{spare(reach, 0, both[0].topology), spare(reach, 1, both[1].topology)};
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},
                        reach,
-                       Tracker(std::move(both), settings, reach.limits)});
+                       Tracker(std::move(both), settings, reach.limits, spares)});
 }
 
 Pair::~Pair() = default;

@@ -7,27 +7,110 @@
 namespace elastogear::contact {
 namespace {
 
-double largest_diagonal(const model::Surface& surface) {
-  double largest = 0;
-  for (int f = 0; f < surface.face.cols(); ++f)
-    for (int i = 0; i < 2; ++i)
-      largest = std::max(largest,
-                         (surface.X.col(surface.face(i + 2, f)) - surface.X.col(surface.face(i, f))).norm());
-  return largest;
+double diagonal(const model::Surface& surface, int f) {
+  double longest = 0;
+  for (int i = 0; i < 2; ++i)
+    longest =
+        std::max(longest, (surface.X.col(surface.face(i + 2, f)) - surface.X.col(surface.face(i, f))).norm());
+  return longest;
 }
 
-// The rise of a sphere of the relative curvature over a face; never more than a side of the face.
-double sag(const std::array<const Tracked*, 2>& tracked, const std::array<const Heights*, 2>& heights) {
-  double curvature = 0, diagonal = 0;
-  for (int i : {0, 1}) {
-    const model::Surface& surface = *tracked[i]->surface;
-    curvature += largest_curvature({surface.face, tracked[i]->topology, surface.X, 0}, *heights[i]);
-    diagonal = std::max(diagonal, largest_diagonal(surface));
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
+// The largest value of the faces of which a corner is within `distance` (m) of face f, going from face to
+// face.
+double largest_around(const model::Surface& surface, const Topology& topology,
+                      const std::vector<double>& value, int f, double distance, std::vector<int>& seen) {
+  const Eigen::Vector3d centre = surface.X.col(surface.face(0, f));
+  double result = value[f];
+  std::vector<int> front{f};
+  seen[f] = f;
+  while (!front.empty()) {
+    const int from = front.back();
+    front.pop_back();
+    result = std::max(result, value[from]);
+    for (int node : surface.face.col(from)) {
+      if ((surface.X.col(node) - centre).norm() > distance) continue;
+      for (int corner : topology.node_corners[node])
+        if (const int next = corner / 4; seen[next] != f) seen[next] = f, front.push_back(next);
+    }
   }
-  return std::min(curvature * diagonal * diagonal / 8, diagonal / std::numbers::sqrt2);
+  return result;
+}
+
+// reach: m, how far a point may move as it is held against the surface.
+FaceShapes face_shapes(const Tracked& tracked, const Heights& heights, double reach) {
+  constexpr int kNear = 8;  // lengths of a face, beyond which its surroundings are the whole surface
+  const model::Surface& surface = *tracked.surface;
+  const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
+  const auto n = static_cast<int>(surface.face.cols());
+  FaceShapes shapes;
+  for (int f = 0; f < n; ++f) {
+    shapes.diagonal.push_back(diagonal(surface, f));
+    shapes.curvature.push_back(largest_curvature(undeformed, heights, f));
+  }
+  shapes.largest_curvature = largest(shapes.curvature);
+  std::vector<int> seen(static_cast<std::size_t>(n), -1);
+  for (int f = 0; f < n; ++f) {
+    const double d = shapes.diagonal[f];
+    shapes.curvature_around.push_back(
+        reach > kNear * d ? shapes.largest_curvature
+                          : largest_around(surface, tracked.topology, shapes.curvature, f, d + reach, seen));
+  }
+  return shapes;
+}
+
+double largest_sag(const Reach& reach, int slave_side, std::span<const int> corners, int master_face) {
+  double result = 0;
+  for (int corner : corners) result = std::max(result, sag(reach, slave_side, corner / 4, master_face));
+  return result;
+}
+
+double largest_sag(const Reach& reach, int slave_side) {
+  double result = 0;
+  for (int f = 0; f < static_cast<int>(reach.shapes[slave_side].diagonal.size()); ++f)
+    result = std::max(result, sag(reach, slave_side, f, -1));
+  return result;
+}
+
+double largest_diagonal(const model::Surface& surface) {
+  double result = 0;
+  for (int f = 0; f < surface.face.cols(); ++f) result = std::max(result, diagonal(surface, f));
+  return result;
 }
 
 }  // namespace
+
+double sag(const Reach& reach, int slave_side, int f, int master_face) {
+  const FaceShapes& slave = reach.shapes[slave_side];
+  const FaceShapes& master = reach.shapes[1 - slave_side];
+  const double curvature = slave.curvature[f] + (master_face < 0 ? master.largest_curvature
+                                                                 : master.curvature_around[master_face]);
+  const double d = slave.diagonal[f];
+  return std::min(curvature * d * d / 8, d / std::numbers::sqrt2);
+}
+
+Limits limits_at(const Reach& reach, int slave_side, std::span<const int> corners) {
+  Limits limits = reach.limits;
+  if (!reach.shapes[slave_side].diagonal.empty())
+    limits.outside = reach.nearest + largest_sag(reach, slave_side, corners, -1);
+  return limits;
+}
+
+std::vector<double> spare(const Reach& reach, int slave_side, const Topology& topology) {
+  std::vector<double> result;
+  if (reach.shapes[slave_side].diagonal.empty()) return result;
+  for (int node = 0; node < topology.node_corners.size(); ++node)
+    result.push_back(reach.limits.outside -
+                     limits_at(reach, slave_side, topology.node_corners[node]).outside);
+  return result;
+}
+
+double largest_gap_at(const Reach& reach, int slave_side, std::span<const int> corners, int master_face) {
+  return reach.gap + largest_sag(reach, slave_side, corners, master_face);
+}
 
 // Facets that a surface with heights lies behind are touched from outside, and so is what the offset moves
 // out. Open candidates of the unilateral law are near enough to close within an evaluation; others are found
@@ -35,18 +118,20 @@ double sag(const std::array<const Tracked*, 2>& tracked, const std::array<const 
 Reach reach_of(const Settings& settings, const std::array<const Tracked*, 2>& tracked,
                const std::array<const Heights*, 2>& heights) {
   constexpr double kReach = 0.02;  // of the depth
-  const bool minima = settings.points == SlavePoints::minima;
   Reach r;
   r.gap = settings.law == ContactLaw::unilateral ? kReach * settings.depth : 0;
   const double height = r.gap + std::max(largest_height(*heights[0], settings.extension),
                                          largest_height(*heights[1], settings.extension));
-  if (minima) r.sag = sag(tracked, heights);
   r.limits.depth = settings.depth + height + std::max(0.0, settings.offset);
   r.limits.cos_angle = std::cos(settings.normal_angle * std::numbers::pi / 180);
-  r.limits.outside = height + r.sag + std::max(0.0, -settings.offset);
-  for (int slave : minima ? slave_sides(settings) : std::vector<int>())
-    r.limits.around =
-        std::max(r.limits.around, largest_diagonal(*tracked[slave]->surface) + r.limits.outside);
+  r.nearest = r.limits.outside = height + std::max(0.0, -settings.offset);
+  if (settings.points != SlavePoints::minima) return r;
+  const std::array<double, 2> d{largest_diagonal(*tracked[0]->surface),
+                                largest_diagonal(*tracked[1]->surface)};
+  for (int i : {0, 1}) r.shapes[i] = face_shapes(*tracked[i], *heights[i], d[1 - i]);
+  r.limits.outside += std::max(largest_sag(r, 0), largest_sag(r, 1));
+  for (int slave : slave_sides(settings))
+    r.limits.around = std::max(r.limits.around, d[slave] + r.limits.outside);
   return r;
 }
 

@@ -17,12 +17,13 @@ using Eigen::Vector2d;
 constexpr int kSteps = 20;
 constexpr double kConverged = 1e-10;  // of local coordinates
 constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
+constexpr double kMisplaced = 0.5;    // of half a face, that the estimated place of a minimum may be off
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 // start: a master face near the point.
 std::optional<Minimum> evaluate(const GapField& field, const SlavePoint& point, int start) {
   Minimum m{point, slave_geometry(field.slave, field.heights, point), {}};
-  const auto w = walk_to_projection(field.master.surface, m.geometry.x, field.limits, start);
+  const auto w = walk_to_projection(field.master.surface, m.geometry.x, field.reach.limits, start);
   if (!w) return {};
   m.open = open_point(field.master, *w, m.geometry.x, field.offset);
   return m;
@@ -119,25 +120,31 @@ struct Start {
 };
 
 // Estimates the place of the least gap on a quadrilateral by the bicubic with the gaps and slopes of its
-// corners. The start has no master face where the gap is beyond the reach; there is none where a corner's gap
-// is not known.
+// corners. The start has no master face where the gap is beyond the reach, or least well beyond the sides of
+// the face; there is none where a corner's gap is not known.
 std::optional<Start> estimate(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
   if (side_count(field.slave.face, f) != 4) return {};
   FaceCorners corners;
   Start start;
   double nearest = kFar;
+  bool all_known = true;
   for (int c = 0; c < 4; ++c) {
     const NodeGap* node = find(nodes, field.slave.face(c, f));
-    if (!node) return {};
+    corners.value[c] = -kFar;
+    corners.slope.col(c).setZero();
+    all_known = all_known && node;
+    if (!node) continue;
     corners.slope.col(c) = corner_tangents(field.slave, field.heights, f, c).transpose() * node->n;
     corners.value[c] = node->g;
     if (node->g < nearest) nearest = node->g, start.face = node->nearest;
   }
-  if (lower_bound(corners) > field.reach) return Start{};
+  if (lower_bound(corners) > field.reach.gap) return Start{};
+  if (!all_known) return {};
   const LeastOnFace least = least_of_bicubic(corners);
+  if (least.beyond > kMisplaced) return Start{};
   start.g = least.value;
   start.at = least.at;
-  return may_be_within(start.g, nearest, field.reach) ? start : Start{};
+  return may_be_within(start.g, nearest, field.reach.gap) ? start : Start{};
 }
 
 // The step of Newton's method on a face, whose sides hold it: along a side that it would leave, down the
@@ -202,7 +209,7 @@ Start least_corner(const GapField& field, int f, const std::map<int, NodeGap>& n
 
 // Adds the gaps at the other corners of the faces, however large, where the master has a foot point for them.
 void add_corners(const GapField& field, const std::vector<int>& faces, std::map<int, NodeGap>& nodes) {
-  Limits any = field.limits;
+  Limits any = field.reach.limits;
   any.outside = any.depth = kFar;
   for (int f : faces) {
     const Start start = least_corner(field, f, nodes);
@@ -231,7 +238,7 @@ std::map<int, Minimum> minima_on_sides(const GapField& field, const std::vector<
   std::map<int, Minimum> found;
   for (int edge : edges) {
     const Side side = side_of(field, edge, nodes);
-    if (!may_have_minimum(side, field.reach)) continue;
+    if (!may_have_minimum(side, field.reach.gap)) continue;
     const int end = side.g[0] <= side.g[1] ? 0 : 1;
     const int start = find(nodes, field.slave.face((side.side + end) % side.sides, side.point.face))->nearest;
     if (auto m = least_on_side(field, side, start)) found.emplace(edge, *m);
@@ -270,14 +277,17 @@ std::vector<Minimum> gap_minima(const GapField& field, std::map<int, NodeGap> no
   const std::map<int, Minimum> on_sides = minima_on_sides(field, faces, nodes);
   std::vector<Minimum> minima;
   const auto take = [&](const Minimum& m) {
-    if (m.open.gap.g < field.reach) minima.push_back(m);
+    if (m.open.gap.g < field.reach.gap) minima.push_back(m);
   };
   for (const auto& [edge, m] : on_sides) take(m);
   for (int f : field.whole ? faces : std::vector<int>()) {
     const Start side = least_side(field, f, on_sides), corner = least_corner(field, f, nodes);
     const Start known = side.g < corner.g ? side : corner;
     const Start start =
-        estimate(field, f, nodes).value_or(known.g - field.sag < field.reach ? known : Start{});
+        estimate(field, f, nodes)
+            .value_or(known.g - sag(field.reach, field.slave_side, f, known.face) < field.reach.gap
+                          ? known
+                          : Start{});
     if (start.face < 0) continue;
     SlavePoint point;
     point.number = n_nodes + topology.edge_sides.size() + f;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/forces/slave_point.h"
+#include "contact/reach.h"
 
 namespace elastogear::contact {
 
@@ -14,10 +15,9 @@ struct GapField {
   const MasterSide& master;
   const SurfaceView& slave;  ///< without extensions
   const Heights& heights;    ///< of the slave's faces
-  const Limits& limits;
+  const Reach& reach;        ///< larger gaps are of no interest
+  int slave_side = 0;
   double offset = 0;  ///< m, added to every gap
-  double reach = 0;   ///< m, larger gaps are of no interest
-  double sag = 0;     ///< m, bound of how far the gap within a face falls below that at its nearest node
   bool whole = true;  ///< the whole surface; otherwise its boundary alone
 };
 

@@ -12,7 +12,8 @@ namespace {
 constexpr int kLattice = 7;
 using LatticeBasis = Eigen::Matrix<double, kLattice, 4>;
 
-double lattice(Eigen::Index i) { return 2.0 * static_cast<double>(i) / (kLattice - 1) - 1; }
+constexpr double kLatticeStep = 2.0 / (kLattice - 1);
+double lattice(Eigen::Index i) { return kLatticeStep * static_cast<double>(i) - 1; }
 
 // Cubics on [-1, 1] with the value 1, then with the slope 1, at either end.
 LatticeBasis lattice_basis() {
@@ -24,6 +25,23 @@ LatticeBasis lattice_basis() {
       basis(i, 2 + end) = 0.25 * (t * t - 1) * (t + at);
     }
   return basis;
+}
+
+// How far before the first of equidistant values the parabola through three of them goes on falling; 0 when
+// it does not fall there.
+double falls_before(double first, double second, double third) {
+  constexpr double h = kLatticeStep;
+  const double slope = (-3 * first + 4 * second - third) / (2 * h),
+               curvature = (first - 2 * second + third) / (h * h);
+  if (!(slope > 0)) return 0;
+  return curvature > 0 ? slope / curvature : std::numeric_limits<double>::infinity();
+}
+
+// The same before either end of a row or column of the lattice of which number `at` is least.
+double falls_beyond(const Eigen::Vector<double, kLattice>& values, Eigen::Index at) {
+  if (at == 0) return falls_before(values[0], values[1], values[2]);
+  if (at == kLattice - 1) return falls_before(values[at], values[at - 1], values[at - 2]);
+  return 0;
 }
 
 }  // namespace
@@ -57,7 +75,8 @@ LeastOnFace least_of_bicubic(const FaceCorners& corners) {
   const Eigen::Matrix<double, kLattice, kLattice> values = basis * C * basis.transpose();
   Eigen::Index i = 0, j = 0;
   const double least = values.minCoeff(&i, &j);
-  return {least, {lattice(i), lattice(j)}};
+  const double beyond = std::max(falls_beyond(values.col(j), i), falls_beyond(values.row(i), j));
+  return {least, {lattice(i), lattice(j)}, beyond};
 }
 
 }  // namespace elastogear::contact

@@ -20,12 +20,14 @@ struct FaceCorners {
   Eigen::Matrix<double, 2, 4> slope;
 };
 
-/// Below the values of every convex function with these corners: its tangent planes.
+/// Below the values of every convex function with these corners: its tangent planes. A corner that is not
+/// known has the value -infinity.
 double lower_bound(const FaceCorners& corners);
 
 struct LeastOnFace {
   double value;
   Eigen::Vector2d at;
+  double beyond;  ///< of (u, v), how far beyond the face the function falls on as a parabola; 0 within it
 };
 /// Of the bicubic without twists, among 7 x 7 points.
 LeastOnFace least_of_bicubic(const FaceCorners& corners);

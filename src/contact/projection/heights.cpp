@@ -228,17 +228,15 @@ double largest_second_derivative(const Heights& heights) {
   return largest;
 }
 
-double largest_curvature(const SurfaceView& undeformed, const Heights& heights) {
+double largest_curvature(const SurfaceView& undeformed, const Heights& heights, int f) {
+  const Face face = face_of(undeformed, f);
   double largest = 0;
-  for (int f = 0; f < static_cast<int>(heights.face.size()); ++f) {
-    const Face face = face_of(undeformed, f);
-    for (int i = 0; i < 9; ++i) {
-      const Eigen::Vector2d t(i % 3, i / 3), at = face.sides == 4 ? Eigen::Vector2d(t.array() - 1) : t / 4;
-      const Shape s = shape(face.sides, at[0], at[1]);
-      const Eigen::Matrix2d h = height(heights, face.sides, f, at[0], at[1]).f_ab;
-      largest = std::max({largest, std::abs(h(0, 0)) / combine(face, s.N_u).squaredNorm(),
-                          std::abs(h(1, 1)) / combine(face, s.N_v).squaredNorm()});
-    }
+  for (int i = 0; i < 9; ++i) {
+    const Eigen::Vector2d t(i % 3, i / 3), at = face.sides == 4 ? Eigen::Vector2d(t.array() - 1) : t / 4;
+    const Shape s = shape(face.sides, at[0], at[1]);
+    const Eigen::Matrix2d h = height(heights, face.sides, f, at[0], at[1]).f_ab;
+    largest = std::max({largest, std::abs(h(0, 0)) / combine(face, s.N_u).squaredNorm(),
+                        std::abs(h(1, 1)) / combine(face, s.N_v).squaredNorm()});
   }
   return largest;
 }

@@ -41,7 +41,7 @@ double largest_height(const Heights& heights, double extension);
 /// Bound of the second derivatives of h with (u, v) over all faces, m.
 double largest_second_derivative(const Heights& heights);
 
-/// The largest curvature along u or v at 3 x 3 points of every face, 1/m.
-double largest_curvature(const SurfaceView& undeformed, const Heights& heights);
+/// The largest curvature along u or v at 3 x 3 points of face f, 1/m.
+double largest_curvature(const SurfaceView& undeformed, const Heights& heights, int f);
 
 }  // namespace elastogear::contact

@@ -65,10 +65,12 @@ std::vector<int> slave_sides(const Settings& settings) {
   return both ? std::vector{settings.slave, 1 - settings.slave} : std::vector{settings.slave};
 }
 
-Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits)
+Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits,
+                 std::array<std::vector<double>, 2> spare)
     : side_(std::move(sides)),
       settings_(settings),
       limits_(limits),
+      spare_(std::move(spare)),
       search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update) {
   for (int i : {0, 1}) {
     configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
@@ -192,7 +194,7 @@ void Tracker::take_near(double distance) {
   list_nodes();
 }
 
-// Leaves out the near nodes that have more clearance than `clear`.
+// Leaves out the near nodes that have more clearance than `clear`, with what they need less than others.
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension);
@@ -203,8 +205,9 @@ void Tracker::leave_out(int slave, double clear) {
     const int node = all.slave[i];
     const auto [clearance, faces, around] =
         approach(master, configuration_.x[slave].col(node), move, all.faces(i));
-    neighbours_->apart_until[slave][node] = neighbours_->path + std::min(clearance, surely_seen);
-    if (clearance > clear) continue;
+    const double spare = spare_[slave].empty() ? 0 : spare_[slave][node];
+    neighbours_->apart_until[slave][node] = neighbours_->path + std::min(clearance, surely_seen) + spare;
+    if (clearance + spare > clear) continue;
     near.add(node, faces, around);
   }
 }

@@ -27,8 +27,10 @@ std::vector<int> slave_sides(const Settings& settings);
 /// Frame of all positions: the BRF of surface b.
 class Tracker {
  public:
-  /// settings: complete, as with_defaults returns them.
-  Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits);
+  /// settings: complete, as with_defaults returns them. spare: m, by how much less than limits.outside serves
+  /// for each node as slave; empty: none.
+  Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits,
+          std::array<std::vector<double>, 2> spare);
 
   /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.
   void find(const SurfaceState& a, const SurfaceState& b);
@@ -78,6 +80,7 @@ class Tracker {
   std::array<Tracked, 2> side_;
   Settings settings_;
   Limits limits_;
+  std::array<std::vector<double>, 2> spare_;
   CoarseSearch search_;
   double reach_;  // m, largest distance of a slave node from a master face's corners that can still matter
   Configuration configuration_;
