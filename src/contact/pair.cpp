@@ -129,13 +129,14 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, p, settings.full_tangent);
   const auto stuck = slaves.stuck.find(node);
-  const OpenPoint open = open_point(master, w, slave.x, settings.offset);
   if (settings.points == SlavePoints::minima) {
-    if (open.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
-                                    open.projection.face))
-      gaps[node] = {open.gap.g, open.gap.n, open.projection.face};
-    if (open.gap.g > reach.gap && p == 0) return {};
+    const PointGap over = point_gap(master, w, slave.x, settings.offset);
+    if (over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
+                                    over.projection.face))
+      gaps[node] = {over.gap.g, over.gap.n, over.projection.face};
+    if (over.gap.g > reach.gap && p == 0) return {};
   }
+  const OpenPoint open = open_point(master, w, slave.x, settings.offset);
   return general_contact(
       master, open,
       {tracker.velocity(slave_side, node), [&](int n) { return tracker.velocity(1 - slave_side, n); },

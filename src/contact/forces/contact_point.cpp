@@ -138,6 +138,12 @@ ContactPoint potential_contact(const MasterSide& master, const Projection& w, co
   return contact;
 }
 
+PointGap point_gap(const MasterSide& master, const Projection& projection, const Vector3d& x, double offset) {
+  const Projection w = smooth_projection(master, projection, x);
+  const Face face = face_of(master.surface, w.face);
+  return {w, gap(slave_kinematics(face, w, x), height_at(master, face, w), offset)};
+}
+
 OpenPoint open_point(const MasterSide& master, const Projection& projection, const Vector3d& x,
                      double offset) {
   OpenPoint open;

@@ -21,6 +21,15 @@ bool on_extension(const Projection& projection);
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, const Law& law,
                                double p, bool full_tangent);
 
+/// The gap of a slave point over the master, as the slave point alone moves.
+struct PointGap {
+  Projection projection;
+  GapBy<3> gap;
+};
+/// Gap of a slave point at x (m), as open_point gives it.
+PointGap point_gap(const MasterSide& master, const Projection& projection, const Eigen::Vector3d& x,
+                   double offset);
+
 /// A slave point over the master, whatever its gap.
 struct OpenPoint {
   Projection projection;

@@ -20,13 +20,26 @@ constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below 
 constexpr double kMisplaced = 0.5;    // of half a face, that the estimated place of a minimum may be off
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
+// A slave point that may be a minimum.
+struct Trial {
+  SlavePoint point;
+  SlaveGeometry geometry;
+  Projection nearest;
+  PointGap over;
+};
+
 // start: a master face near the point.
-std::optional<Minimum> evaluate(const GapField& field, const SlavePoint& point, int start) {
-  Minimum m{point, slave_geometry(field.slave, field.heights, point), {}};
-  const auto w = walk_to_projection(field.master.surface, m.geometry.x, field.reach.limits, start);
+std::optional<Trial> evaluate(const GapField& field, const SlavePoint& point, int start) {
+  Trial t{point, slave_geometry(field.slave, field.heights, point), {}, {}};
+  const auto w = walk_to_projection(field.master.surface, t.geometry.x, field.reach.limits, start);
   if (!w) return {};
-  m.open = open_point(field.master, *w, m.geometry.x, field.offset);
-  return m;
+  t.nearest = *w;
+  t.over = point_gap(field.master, *w, t.geometry.x, field.offset);
+  return t;
+}
+
+Minimum minimum(const GapField& field, const Trial& t) {
+  return {t.point, t.geometry, open_point(field.master, t.nearest, t.geometry.x, field.offset)};
 }
 
 // One side of a slave face with the gaps at its ends; kFar where they are beyond the limits.
@@ -86,15 +99,17 @@ std::optional<Minimum> least_on_side(const GapField& field, Side side, int start
   double low = 0, high = 1, s = known ? least_of_cubic(side.g, side.slope).s : 0.5;
   for (int step = 0; step < kSteps; ++step) {
     side.point.at = on_side(side.sides, side.side, s);
-    const std::optional<Minimum> m = evaluate(field, side.point, start);
-    if (!m) return {};
-    start = m->open.projection.face;
-    const double slope = m->open.gap.n.dot(m->geometry.a.col(0)),
-                 curvature = gap_curvature(m->geometry, 1, m->open.gap)(0, 0);
+    const std::optional<Trial> t = evaluate(field, side.point, start);
+    if (!t) return {};
+    start = t->over.projection.face;
+    const double slope = t->over.gap.n.dot(t->geometry.a.col(0)),
+                 curvature = gap_curvature(t->geometry, 1, t->over.gap)(0, 0);
     (slope > 0 ? high : low) = s;
     double next = curvature > 0 ? s - slope / curvature : 0.5 * (low + high);
     if (std::abs(next - s) < kConverged || high - low < kConverged || step + 1 == kSteps)
-      return m->open.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length ? m : std::nullopt;
+      return t->over.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length
+                 ? std::optional(minimum(field, *t))
+                 : std::nullopt;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     s = next;
   }
@@ -171,16 +186,16 @@ std::optional<Minimum> least_within(const GapField& field, SlavePoint point, con
   int face = start.face;
   point.at = start.at;
   for (int step = 0; step < kSteps; ++step) {
-    const std::optional<Minimum> m = evaluate(field, point, face);
-    if (!m) return {};
-    face = m->open.projection.face;
-    const Vector2d slope = m->geometry.a.transpose() * m->open.gap.n;
-    const auto way = step_on_face(sides, point.at, slope, gap_curvature(m->geometry, 2, m->open.gap));
+    const std::optional<Trial> t = evaluate(field, point, face);
+    if (!t) return {};
+    face = t->over.projection.face;
+    const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
+    const auto way = step_on_face(sides, point.at, slope, gap_curvature(t->geometry, 2, t->over.gap));
     if (!way) return {};
     if (way->cwiseAbs().maxCoeff() < kConverged) {
-      const double length = m->geometry.a.colwise().norm().maxCoeff();
-      const bool is_minimum = is_inside(sides, point.at) && m->open.gap.g < on_sides - kDistinct * length;
-      return is_minimum ? m : std::nullopt;
+      const double length = t->geometry.a.colwise().norm().maxCoeff();
+      const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;
+      return is_minimum ? std::optional(minimum(field, *t)) : std::nullopt;
     }
     point.at += *way;
   }
@@ -219,8 +234,8 @@ void add_corners(const GapField& field, const std::vector<int>& faces, std::map<
       const Eigen::Vector3d x = field.slave.x.col(node);
       const auto w = walk_to_projection(field.master.surface, x, any, start.face);
       if (!w) continue;
-      const OpenPoint open = open_point(field.master, *w, x, field.offset);
-      nodes[node] = {open.gap.g, open.gap.n, open.projection.face};
+      const PointGap over = point_gap(field.master, *w, x, field.offset);
+      nodes[node] = {over.gap.g, over.gap.n, over.projection.face};
     }
   }
 }

@@ -200,6 +200,20 @@ FadingEnergy fading_energy(const Law& law, const ProjectionKinematics& kinematic
   return {e, weight * parts.p * parts.p_x - 2 * e / fade * gap.fade.f_a.transpose() * kinematics.D};
 }
 
+// Gap to the smooth surface; its gradient changes by dn = -d(a y) with y = A^-1 h_a.
+template <int kColumns>
+GapBy<kColumns> smooth_gap(const KinematicsBy<kColumns>& kinematics, const FaceFunction& height,
+                           double offset) {
+  GapBy<kColumns> result{kinematics.g - height.f + offset, kinematics.n, kinematics.n_x};
+  if (kinematics.n_dir == 0 || height.f_a.isZero(0)) return result;
+  const Eigen::Matrix2d A_inverse = kinematics.A.inverse();
+  const Eigen::Vector2d y = A_inverse * height.f_a;
+  result.n -= kinematics.a * y;
+  result.n_x -= kinematics.a * (A_inverse * (height.f_ab * kinematics.D - metric_derivative(kinematics, y)));
+  for (int i = 0; i < kinematics.n_dir; ++i) result.n_x -= tangent_derivative(kinematics, i) * y[i];
+  return result;
+}
+
 }  // namespace
 
 NormalForce normal_force(const Law& law, double gap, double rate) {
@@ -221,20 +235,17 @@ double unilateral_compliance(const Law& law, double fade) {
   return (kCompliance + 1 / std::max(fade, kLeastFade) - 1) / law.c_p;
 }
 
-// Gap to the smooth surface; its gradient changes by dn = -d(a y) with y = A^-1 h_a.
 Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,
         const FaceFunction& fade) {
-  Gap result{kinematics.g - height.f + offset, kinematics.n, kinematics.n_x, {}, fade};
-  if (kinematics.n_dir > 0 && !height.f_a.isZero(0)) {
-    const Eigen::Matrix2d A_inverse = kinematics.A.inverse();
-    const Eigen::Vector2d y = A_inverse * height.f_a;
-    result.n -= kinematics.a * y;
-    result.n_x -=
-        kinematics.a * (A_inverse * (height.f_ab * kinematics.D - metric_derivative(kinematics, y)));
-    for (int i = 0; i < kinematics.n_dir; ++i) result.n_x -= tangent_derivative(kinematics, i) * y[i];
-  }
+  Gap result;
+  static_cast<GapBy<15>&>(result) = smooth_gap<15>(kinematics, height, offset);
+  result.fade = fade;
   result.g_x = result.n.transpose() * kinematics.G;
   return result;
+}
+
+GapBy<3> gap(const KinematicsBy<3>& kinematics, const FaceFunction& height, double offset) {
+  return smooth_gap<3>(kinematics, height, offset);
 }
 
 void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,

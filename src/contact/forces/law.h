@@ -34,18 +34,24 @@ NormalForce normal_force(const Law& law, double gap, double rate);
 /// lets them fade out on an extension. Eq. (6.24).
 double unilateral_compliance(const Law& law, double fade);
 
-/// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node; the part of
-/// the force that is left on an extension.
-struct Gap {
+/// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node. kColumns: as in
+/// KinematicsBy.
+template <int kColumns>
+struct GapBy {
   double g = 0;       ///< m
   Eigen::Vector3d n;  ///< force direction
-  Local3 n_x;
+  Eigen::Matrix<double, 3, kColumns> n_x;
+};
+
+/// With the part of the force that is left on an extension.
+struct Gap : GapBy<15> {
   LocalRow g_x;  ///< n' G
   FaceFunction fade{1};
 };
 /// Gap to the smooth surface and its gradient: Eq. (6.19).
 Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,
         const FaceFunction& fade = {1});
+GapBy<3> gap(const KinematicsBy<3>& kinematics, const FaceFunction& height, double offset);
 
 /// Tangential motion of the slave node on the master since it stuck, m.
 struct StickMotion {

@@ -99,10 +99,10 @@ Eigen::Matrix<double, 3, 2> corner_tangents(const SurfaceView& slave, const Heig
   return a;
 }
 
-Eigen::Matrix2d gap_curvature(const SlaveGeometry& s, int n_dir, const Gap& gap) {
+Eigen::Matrix2d gap_curvature(const SlaveGeometry& s, int n_dir, const GapBy<3>& gap) {
   Eigen::Matrix2d curvature = Eigen::Matrix2d::Identity();
   for (int i = 0; i < n_dir; ++i) {
-    const Eigen::Vector3d turn = gap.n_x.leftCols<3>() * s.a.col(i);
+    const Eigen::Vector3d turn = gap.n_x * s.a.col(i);
     for (int j = 0; j < n_dir; ++j) curvature(i, j) = s.a.col(j).dot(turn) + gap.n.dot(s.a_b[i][j]);
   }
   return curvature;
@@ -111,7 +111,7 @@ Eigen::Matrix2d gap_curvature(const SlaveGeometry& s, int n_dir, const Gap& gap)
 // The point follows the nodes: docs/theory.md, Eq. (6.27).
 void spread_over_face(const SlaveGeometry& s, int n_dir, const Gap& gap, ContactPoint& c) {
   const SlaveRows S = carried(s);
-  const Eigen::Matrix2d curvature = gap_curvature(s, n_dir, gap);
+  const Eigen::Matrix2d curvature = gap_curvature(s, n_dir, {gap.g, gap.n, gap.n_x.leftCols<3>()});
   const Eigen::Index n = c.W.cols(), all = n + n_dir;
   FaceColumns W(24, all), V(24, all), V_dot = FaceColumns::Zero(24, all);
   LocalStiffness k = LocalStiffness::Zero(all, all);

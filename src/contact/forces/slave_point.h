@@ -39,7 +39,7 @@ Eigen::Matrix<double, 3, 2> corner_tangents(const SurfaceView& slave, const Heig
 
 /// Second derivatives of the gap by the xi of the directions that the point has, m; 1 on the diagonal of
 /// others.
-Eigen::Matrix2d gap_curvature(const SlaveGeometry& geometry, int n_dir, const Gap& gap);
+Eigen::Matrix2d gap_curvature(const SlaveGeometry& geometry, int n_dir, const GapBy<3>& gap);
 
 /// From a contact of the point itself, with 15 local coordinates, to one of the four nodes of its face, which
 /// carry it. A point that moves with the least gap adds a column for each direction.

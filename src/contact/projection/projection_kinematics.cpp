@@ -10,7 +10,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-void set_directions(const Face& face, const Projection& w, ProjectionKinematics& kinematics) {
+// The first columns of [slave I, weight_i I].
+template <int kColumns>
+Eigen::Matrix<double, 3, kColumns> columns(double slave, const Eigen::Vector4d& weight) {
+  Eigen::Matrix<double, 3, kColumns> rows;
+  rows.template leftCols<3>() = slave * Eigen::Matrix3d::Identity();
+  for (int i = 0; 3 + 3 * i < kColumns; ++i)
+    rows.template middleCols<3>(3 + 3 * i) = weight[i] * Eigen::Matrix3d::Identity();
+  return rows;
+}
+
+template <int kColumns>
+void set_directions(const Face& face, const Projection& w, KinematicsBy<kColumns>& kinematics) {
   if (w.point.feature == Feature::vertex) return;
   if (w.point.feature == Feature::edge) {
     const int side = w.point.part, next = (side + 1) % face.sides;
@@ -29,20 +40,22 @@ void set_directions(const Face& face, const Projection& w, ProjectionKinematics&
 }
 
 // The distance stays stationary: A dxi_alpha = a_alpha.(dd at fixed xi) + d.(da_alpha at fixed xi).
-void set_motion(const Projection& w, ProjectionKinematics& kinematics) {
-  const Local3 B = spread(1, -w.point.N);
+template <int kColumns>
+void set_motion(const Projection& w, KinematicsBy<kColumns>& kinematics) {
+  const Eigen::Matrix<double, 3, kColumns> B = columns<kColumns>(1, -w.point.N);
   kinematics.A = kinematics.a.transpose() * kinematics.a;
   kinematics.A(0, 1) -= kinematics.d.dot(kinematics.x_uv);
   kinematics.A(1, 0) = kinematics.A(0, 1);
   for (int i = kinematics.n_dir; i < 2; ++i) kinematics.A(i, i) = 1;
   for (int i = 0; i < kinematics.n_dir; ++i)
-    kinematics.D.row(i) =
-        kinematics.a.col(i).transpose() * B + kinematics.d.transpose() * spread(0, kinematics.N_a.col(i));
+    kinematics.D.row(i) = kinematics.a.col(i).transpose() * B +
+                          kinematics.d.transpose() * columns<kColumns>(0, kinematics.N_a.col(i));
   kinematics.D = (kinematics.A.inverse() * kinematics.D).eval();
   kinematics.d_x = B - kinematics.a * kinematics.D;
 }
 
-void set_normal(ProjectionKinematics& kinematics) {
+template <int kColumns>
+void set_normal(KinematicsBy<kColumns>& kinematics) {
   if (kinematics.n_dir < 2) {
     kinematics.n_x =
         (kinematics.d_x - kinematics.n * (kinematics.n.transpose() * kinematics.d_x)) / kinematics.g;
@@ -52,8 +65,20 @@ void set_normal(ProjectionKinematics& kinematics) {
   const double b = kinematics.n.dot(kinematics.x_uv);
   kinematics.n_x.setZero();
   for (int i : {0, 1})
-    kinematics.n_x -= dual.col(i) * (kinematics.n.transpose() * spread(0, kinematics.N_a.col(i)) +
+    kinematics.n_x -= dual.col(i) * (kinematics.n.transpose() * columns<kColumns>(0, kinematics.N_a.col(i)) +
                                      b * kinematics.D.row(1 - i));
+}
+
+template <int kColumns>
+void set_kinematics(const Face& face, const Projection& projection, const Vector3d& x_slave,
+                    KinematicsBy<kColumns>& kinematics) {
+  kinematics.d = x_slave - projection.point.x;
+  kinematics.n = projection.n;
+  kinematics.g = projection.g_n;
+  kinematics.N = projection.point.N;
+  set_directions(face, projection, kinematics);
+  set_motion(projection, kinematics);
+  set_normal(kinematics);
 }
 
 // Angular velocity Omega of the face at the closest point (docs/theory.md, Eq. (6.13)): that of its normal
@@ -69,12 +94,7 @@ void set_spin(const Face& face, const Projection& w, ProjectionKinematics& kinem
 
 }  // namespace
 
-Local3 spread(double slave, const Eigen::Vector4d& weight) {
-  Local3 rows;
-  rows.leftCols<3>() = slave * Eigen::Matrix3d::Identity();
-  for (int i = 0; i < 4; ++i) rows.middleCols<3>(3 + 3 * i) = weight[i] * Eigen::Matrix3d::Identity();
-  return rows;
-}
+Local3 spread(double slave, const Eigen::Vector4d& weight) { return columns<15>(slave, weight); }
 
 Eigen::Matrix<double, 3, 12> face_spin(const Face& face, double u, double v) {
   Eigen::Matrix<double, 3, 12> spin = Eigen::Matrix<double, 3, 12>::Zero();
@@ -93,17 +113,20 @@ Eigen::Matrix<double, 3, 12> face_spin(const Face& face, double u, double v) {
   return spin;
 }
 
-Local3 tangent_derivative(const ProjectionKinematics& kinematics, int i) {
-  return spread(0, kinematics.N_a.col(i)) + kinematics.x_uv * kinematics.D.row(1 - i);
+template <int kColumns>
+Eigen::Matrix<double, 3, kColumns> tangent_derivative(const KinematicsBy<kColumns>& kinematics, int i) {
+  return columns<kColumns>(0, kinematics.N_a.col(i)) + kinematics.x_uv * kinematics.D.row(1 - i);
 }
 
-Eigen::Matrix<double, 2, 15> metric_derivative(const ProjectionKinematics& kinematics,
-                                               const Eigen::Vector2d& y) {
-  Local3 a_x[2];
+template <int kColumns>
+Eigen::Matrix<double, 2, kColumns> metric_derivative(const KinematicsBy<kColumns>& kinematics,
+                                                     const Eigen::Vector2d& y) {
+  Eigen::Matrix<double, 3, kColumns> a_x[2];
   for (int i = 0; i < kinematics.n_dir; ++i) a_x[i] = tangent_derivative(kinematics, i);
-  const LocalRow twist_x =
-      kinematics.x_uv.transpose() * kinematics.d_x + kinematics.d.transpose() * spread(0, kinematics.N_uv);
-  Eigen::Matrix<double, 2, 15> change = Eigen::Matrix<double, 2, 15>::Zero();
+  const Eigen::Matrix<double, 1, kColumns> twist_x =
+      kinematics.x_uv.transpose() * kinematics.d_x +
+      kinematics.d.transpose() * columns<kColumns>(0, kinematics.N_uv);
+  Eigen::Matrix<double, 2, kColumns> change = Eigen::Matrix<double, 2, kColumns>::Zero();
   for (int i = 0; i < kinematics.n_dir; ++i) {
     for (int j = 0; j < kinematics.n_dir; ++j)
       change.row(i) +=
@@ -113,16 +136,21 @@ Eigen::Matrix<double, 2, 15> metric_derivative(const ProjectionKinematics& kinem
   return change;
 }
 
+template Local3 tangent_derivative(const KinematicsBy<15>&, int);
+template Eigen::Matrix3d tangent_derivative(const KinematicsBy<3>&, int);
+template Eigen::Matrix<double, 2, 15> metric_derivative(const KinematicsBy<15>&, const Eigen::Vector2d&);
+template Eigen::Matrix<double, 2, 3> metric_derivative(const KinematicsBy<3>&, const Eigen::Vector2d&);
+
+KinematicsBy<3> slave_kinematics(const Face& face, const Projection& projection, const Vector3d& x_slave) {
+  KinematicsBy<3> kinematics;
+  set_kinematics(face, projection, x_slave, kinematics);
+  return kinematics;
+}
+
 ProjectionKinematics projection_kinematics(const Face& face, const Projection& projection,
                                            const Vector3d& x_slave) {
   ProjectionKinematics kinematics;
-  kinematics.d = x_slave - projection.point.x;
-  kinematics.n = projection.n;
-  kinematics.g = projection.g_n;
-  kinematics.N = projection.point.N;
-  set_directions(face, projection, kinematics);
-  set_motion(projection, kinematics);
-  set_normal(kinematics);
+  set_kinematics(face, projection, x_slave, static_cast<KinematicsBy<15>&>(kinematics));
   set_spin(face, projection, kinematics);
   kinematics.G = spread(1, -projection.point.N) + skew(kinematics.d) * kinematics.spin;
   return kinematics;
