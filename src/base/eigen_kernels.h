@@ -21,7 +21,8 @@ using KernelInput = const_blas_data_mapper<double, Index, kOrder>;
 
 }  // namespace Eigen::internal
 
-// prefix: `extern template` or `template`.
+// prefix: `extern template` or `template`, which parentheses would break.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define ELASTOGEAR_EIGEN_KERNELS(prefix)                                                                     \
   namespace Eigen::internal {                                                                                \
   prefix struct gebp_kernel<double, double, Index, KernelResult, KernelTraits::mr, KernelTraits::nr, false,  \
@@ -66,6 +67,8 @@ using KernelInput = const_blas_data_mapper<double, Index, kOrder>;
   prefix void tridiagonalization_inplace(MatrixXd&, VectorXd&, VectorXd&, VectorXd&, bool);                 \
   }                                                                                                         \
   }
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 ELASTOGEAR_EIGEN_KERNELS(extern template)
 ELASTOGEAR_EIGEN_DECOMPOSITIONS(extern template)

@@ -55,7 +55,7 @@ void require_positive_jacobians(const mesh::Mesh& mesh) {
         element_functions(mesh.cells.type[cell]).smallest_jacobian(cell_coordinates(mesh, cell));
     if (det > 0) continue;
     std::string nodes;
-    for (int node : mesh.cells[cell]) nodes += " " + std::to_string(node);
+    for (int node : mesh.cells[cell]) nodes.append(" ").append(std::to_string(node));
     fail("cell ", cell, " (counted from 0; nodes", nodes, ") has the Jacobian ", det,
          " m^3, must be positive: it is inverted or too distorted");
   }
