@@ -69,7 +69,8 @@ void find_enclosed(const model::Surface* surface[2], const SurfaceState* state[2
 }  // namespace
 
 InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b, const Settings& settings,
-                               const SurfaceState& state_a, const SurfaceState& state_b) {
+                               const SurfaceState& state_a, const SurfaceState& state_b,
+                               const std::array<const TrueSurface*, 2>& known) {
   InitialOverlap result;
   result.face_size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
   Settings deep = settings;
@@ -77,7 +78,7 @@ InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b,
   deep.points = SlavePoints::nodes;
   deep.k = 6;  // for one search trees that are built quickly are better than tight ones
   deep.depth = std::max(settings.depth, 2 * result.face_size);
-  for (const ContactPoint& contact : Pair(a, b, deep).detect(state_a, state_b)) {
+  for (const ContactPoint& contact : Pair(a, b, deep, {}, known).detect(state_a, state_b)) {
     if (-contact.g_n <= result.penetration) continue;
     result.penetration = -contact.g_n;
     result.slave_side = contact.slave_side;

@@ -300,8 +300,10 @@ void require_bodies_apart(System& system) {
       return contact::surface_state(
           surface(i), system.surface_motion(i, 0, system.initial_position(), system.initial_velocity()));
     };
-    contact::require_apart(
-        contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b)), pair.name);
+    const auto known = [&](int i) { return system.bodies()[i].true_surface.get(); };
+    contact::require_apart(contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b),
+                                                    {known(a), known(b)}),
+                           pair.name);
   }
 }
 

@@ -53,5 +53,15 @@ TEST(InitialOverlap, of_open_flanks_that_cross_is_refused) {
       require_apart(initial_overlap(flank, other, {}, at(flank), at(other, {0, 0, 0.01})), "a:b"));
 }
 
+TEST(InitialOverlap, counts_what_stands_out_of_the_facets) {
+  const model::Surface flank = test::plane(8, 8), other = test::flipped(flank);
+  const SurfaceState below = at(flank), above = at(other, {0, 0, 0.01});
+  EXPECT_EQ(initial_overlap(flank, other, {}, below, above).penetration, 0);
+  TrueSurface thicker;
+  thicker.deviation = Eigen::VectorXd::Constant(flank.X.cols(), 0.05);
+  const InitialOverlap overlap = initial_overlap(flank, other, {}, below, above, {&thicker, nullptr});
+  EXPECT_NEAR(overlap.penetration, 0.04, 1e-12);
+}
+
 }  // namespace
 }  // namespace elastogear::contact::initial_overlap_test

@@ -7,8 +7,10 @@
 // when that other is closed (winding number). It does not find a part wholly inside the body of an open
 // surface and further than the search depth from it.
 
+#include <array>
 #include <string>
 
+#include "elastogear/contact/true_surface.h"
 #include "elastogear/contact/types.h"
 
 namespace elastogear::contact {
@@ -22,8 +24,10 @@ struct InitialOverlap {
   bool enclosed = false;   ///< the part of surface `slave_side` with node `slave_node` lies inside the other
 };
 
+/// known: of either surface, as for Pair.
 InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b, const Settings& settings,
-                               const SurfaceState& state_a, const SurfaceState& state_b);
+                               const SurfaceState& state_a, const SurfaceState& state_b,
+                               const std::array<const TrueSurface*, 2>& known = {});
 
 /// Throws Error naming `pair` when a part is enclosed or penetrates more than `allowed` face sizes.
 void require_apart(const InitialOverlap& overlap, const std::string& pair, double allowed = 0.1);
