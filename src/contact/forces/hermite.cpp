@@ -30,9 +30,8 @@ LatticeBasis lattice_basis() {
 // How far before the first of equidistant values the parabola through three of them goes on falling; 0 when
 // it does not fall there.
 double falls_before(double first, double second, double third) {
-  constexpr double h = kLatticeStep;
-  const double slope = (-3 * first + 4 * second - third) / (2 * h),
-               curvature = (first - 2 * second + third) / (h * h);
+  const double slope = (-3 * first + 4 * second - third) / (2 * kLatticeStep),
+               curvature = (first - 2 * second + third) / (kLatticeStep * kLatticeStep);
   if (!(slope > 0)) return 0;
   return curvature > 0 ? slope / curvature : std::numeric_limits<double>::infinity();
 }
