@@ -122,6 +122,28 @@ TEST(GapMinima, forces_balance_and_so_do_their_moments) {
   }
 }
 
+// A face of the slave over the edge between two faces of the master that was flat before it was deformed.
+TEST(GapMinima, there_is_one_on_either_side_of_a_valley_of_the_deformed_master) {
+  constexpr double kSlope = 0.02, kRadius = 4, kShift = 0.02, kFit = 1e-3;  // -, m
+  Two t{cap(3, kRadius, 3),
+        test::grid(2, 1, [](double u, double v) { return Vector3d(u - 0.5, v - 0.5, 0); }),
+        {},
+        {}};
+  t.a = {t.slave.X, Vector3d(kShift, 0, 1.5e-3),
+         Eigen::AngleAxisd(test::pi, Vector3d::UnitX()).toRotationMatrix()};
+  t.b = {t.master.X, Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+  t.b.x_B.row(2) = kSlope * t.master.X.row(0).cwiseAbs();
+  Pair pair(t.slave, t.master, minima());
+  std::vector<ContactPoint> points = found(pair, t, true);
+  std::erase_if(points, [](const ContactPoint& c) { return c.slave_N.minCoeff() < kFit; });
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_NE(points[0].slave_point, points[1].slave_point);
+  for (int i : {0, 1}) {
+    const double x = -0.25 + 0.25 * points[i].xi + 0.5 * points[i].face;
+    EXPECT_NEAR(x, kShift + (i == 0 ? -1 : 1) * kSlope * kRadius, kFit);
+  }
+}
+
 // The smallest gap over points of all slave faces, each against all faces of the master.
 double smallest_gap(const Two& t, int per_side) {
   const auto smooth = [](const model::Surface& s, const Topology& map) {

@@ -1,12 +1,10 @@
 #include "contact/forces/gap_minima.h"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <optional>
 
 #include "contact/forces/hermite.h"
+#include "contact/forces/least_gap.h"
 #include "elastogear/base/sort_unique.h"
 
 namespace elastogear::contact {
@@ -14,41 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kSteps = 20;
-constexpr double kConverged = 1e-10;  // of local coordinates
-constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
-constexpr double kMisplaced = 0.5;    // of half a face, that the estimated place of a minimum may be off
-constexpr double kFar = std::numeric_limits<double>::infinity();
-
-// A slave point that may be a minimum.
-struct Trial {
-  SlavePoint point;
-  SlaveGeometry geometry;
-  Projection nearest;
-  PointGap over;
-};
-
-// start: a master face near the point.
-std::optional<Trial> evaluate(const GapField& field, const SlavePoint& point, int start) {
-  Trial t{point, slave_geometry(field.slave, field.heights, point), {}, {}};
-  const auto w = walk_to_projection(field.master.surface, t.geometry.x, field.reach.limits, start);
-  if (!w) return {};
-  t.nearest = *w;
-  t.over = point_gap(field.master, *w, t.geometry.x, field.offset);
-  return t;
-}
-
-Minimum minimum(const GapField& field, const Trial& t) {
-  return {t.point, t.geometry, open_point(field.master, t.nearest, t.geometry.x, field.offset)};
-}
-
-// One side of a slave face with the gaps at its ends; kFar where they are beyond the limits.
-struct Side {
-  SlavePoint point;
-  int side = 0, sides = 4;
-  std::array<double, 2> g{kFar, kFar}, slope{-kFar, kFar};  // m
-  double length = 0;                                        // m
-};
+constexpr double kMisplaced = 0.5;  // of half a face, that the estimated place of a minimum may be off
+constexpr double kFar = kFarGap;
 
 const NodeGap* find(const std::map<int, NodeGap>& nodes, int node) {
   const auto at = nodes.find(node);
@@ -93,47 +58,6 @@ bool may_have_minimum(const Side& side, double reach) {
   return may_be_within(least_of_cubic(side.g, side.slope).value, std::min(side.g[0], side.g[1]), reach);
 }
 
-// Newton's method for the slope of the gap, kept between places where it falls and rises.
-std::optional<Minimum> least_on_side(const GapField& field, Side side, int start) {
-  const bool known = side.g[0] != kFar && side.g[1] != kFar;
-  double low = 0, high = 1, s = known ? least_of_cubic(side.g, side.slope).s : 0.5;
-  for (int step = 0; step < kSteps; ++step) {
-    side.point.at = on_side(side.sides, side.side, s);
-    const std::optional<Trial> t = evaluate(field, side.point, start);
-    if (!t) return {};
-    start = t->over.projection.face;
-    const double slope = t->over.gap.n.dot(t->geometry.a.col(0)),
-                 curvature = gap_curvature(t->geometry, 1, t->over.gap)(0, 0);
-    (slope > 0 ? high : low) = s;
-    double next = curvature > 0 ? s - slope / curvature : 0.5 * (low + high);
-    if (std::abs(next - s) < kConverged || high - low < kConverged || step + 1 == kSteps)
-      return t->over.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length
-                 ? std::optional(minimum(field, *t))
-                 : std::nullopt;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    s = next;
-  }
-  return {};
-}
-
-bool is_inside(int sides, const Vector2d& at) {
-  if (sides == 3) return at[0] > 0 && at[1] > 0 && at[0] + at[1] < 1;
-  return at.cwiseAbs().maxCoeff() < 1;
-}
-
-Vector2d held_inside(int sides, const Vector2d& at) {
-  if (sides == 4) return at.cwiseMax(-1).cwiseMin(1);
-  const Vector2d positive = at.cwiseMax(0);
-  return positive / std::max(1.0, positive.sum());
-}
-
-// A point of a slave face from which a search for the least gap begins.
-struct Start {
-  double g = kFar;  // m
-  Vector2d at = Vector2d::Zero();
-  int face = -1;  // of the master
-};
-
 // Estimates the place of the least gap on a quadrilateral by the bicubic with the gaps and slopes of its
 // corners. The start has no master face where the gap is beyond the reach, or least well beyond the sides of
 // the face; there is none where a corner's gap is not known.
@@ -160,46 +84,6 @@ std::optional<Start> estimate(const GapField& field, int f, const std::map<int, 
   start.g = least.value;
   start.at = least.at;
   return may_be_within(start.g, nearest, field.reach.gap) ? start : Start{};
-}
-
-// The step of Newton's method on a face, whose sides hold it: along a side that it would leave, down the
-// slope there. Nothing where the gap is not convex.
-std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector2d& slope,
-                                     const Eigen::Matrix2d& H) {
-  if (!(H(0, 0) > 0 && H.determinant() > 0)) return {};
-  const Vector2d newton = -H.inverse() * slope;
-  const Vector2d next = held_inside(sides, at + newton / std::max(1.0, newton.cwiseAbs().maxCoeff()));
-  if (sides == 3 || is_inside(sides, next)) return Vector2d(next - at);
-  for (int i : {0, 1}) {
-    if (!(std::abs(at[i]) == 1 && at[i] * slope[i] < 0)) continue;
-    Vector2d along = Vector2d::Zero();
-    along[1 - i] = -slope[1 - i] / H(1 - i, 1 - i);
-    return Vector2d(held_inside(sides, at + along) - at);
-  }
-  return Vector2d(next - at);
-}
-
-// Newton's method while it is held on the face. on_sides: m, the least gap known on the face's sides.
-std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const Start& start,
-                                    double on_sides) {
-  const int sides = side_count(field.slave.face, point.face);
-  int face = start.face;
-  point.at = start.at;
-  for (int step = 0; step < kSteps; ++step) {
-    const std::optional<Trial> t = evaluate(field, point, face);
-    if (!t) return {};
-    face = t->over.projection.face;
-    const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
-    const auto way = step_on_face(sides, point.at, slope, gap_curvature(t->geometry, 2, t->over.gap));
-    if (!way) return {};
-    if (way->cwiseAbs().maxCoeff() < kConverged) {
-      const double length = t->geometry.a.colwise().norm().maxCoeff();
-      const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;
-      return is_minimum ? std::optional(minimum(field, *t)) : std::nullopt;
-    }
-    point.at += *way;
-  }
-  return {};
 }
 
 // The slave faces around these nodes, ascending.
@@ -241,8 +125,8 @@ void add_corners(const GapField& field, const std::vector<int>& faces, std::map<
 }
 
 // Minima along the sides of these faces, by edge.
-std::map<int, Minimum> minima_on_sides(const GapField& field, const std::vector<int>& faces,
-                                       const std::map<int, NodeGap>& nodes) {
+std::map<int, std::vector<Minimum>> minima_on_sides(const GapField& field, const std::vector<int>& faces,
+                                                    const std::map<int, NodeGap>& nodes) {
   const Topology& topology = field.slave.topology;
   std::vector<int> edges;
   for (int f : faces)
@@ -250,13 +134,13 @@ std::map<int, Minimum> minima_on_sides(const GapField& field, const std::vector<
       if (topology.edge(side, f) >= 0 && (field.whole || topology.is_open(f, side)))
         edges.push_back(topology.edge(side, f));
   sort_unique(edges);
-  std::map<int, Minimum> found;
+  std::map<int, std::vector<Minimum>> found;
   for (int edge : edges) {
     const Side side = side_of(field, edge, nodes);
     if (!may_have_minimum(side, field.reach.gap)) continue;
     const int end = side.g[0] <= side.g[1] ? 0 : 1;
     const int start = find(nodes, field.slave.face((side.side + end) % side.sides, side.point.face))->nearest;
-    if (auto m = least_on_side(field, side, start)) found.emplace(edge, *m);
+    if (auto minima = minima_on_side(field, side, start); !minima.empty()) found.emplace(edge, minima);
   }
   return found;
 }
@@ -272,12 +156,13 @@ Vector2d on_face(const GapField& field, int f, int side, const Minimum& m) {
 }
 
 // The least of the minima on the sides of a face.
-Start least_side(const GapField& field, int f, const std::map<int, Minimum>& on_sides) {
+Start least_side(const GapField& field, int f, const std::map<int, std::vector<Minimum>>& on_sides) {
   Start start;
   for (int side = 0; side < side_count(field.slave.face, f); ++side) {
-    const auto m = on_sides.find(field.slave.topology.edge(side, f));
-    if (m == on_sides.end() || m->second.open.gap.g >= start.g) continue;
-    start = {m->second.open.gap.g, on_face(field, f, side, m->second), m->second.open.projection.face};
+    const auto minima = on_sides.find(field.slave.topology.edge(side, f));
+    if (minima == on_sides.end()) continue;
+    for (const Minimum& m : minima->second)
+      if (m.open.gap.g < start.g) start = {m.open.gap.g, on_face(field, f, side, m), m.open.projection.face};
   }
   return start;
 }
@@ -289,12 +174,13 @@ std::vector<Minimum> gap_minima(const GapField& field, std::map<int, NodeGap> no
   if (field.whole) add_corners(field, faces, nodes);
   const auto n_nodes = static_cast<int>(field.slave.x.cols());
   const Topology& topology = field.slave.topology;
-  const std::map<int, Minimum> on_sides = minima_on_sides(field, faces, nodes);
+  const std::map<int, std::vector<Minimum>> on_sides = minima_on_sides(field, faces, nodes);
   std::vector<Minimum> minima;
   const auto take = [&](const Minimum& m) {
     if (m.open.gap.g < field.reach.gap) minima.push_back(m);
   };
-  for (const auto& [edge, m] : on_sides) take(m);
+  for (const auto& [edge, all] : on_sides)
+    for (const Minimum& m : all) take(m);
   for (int f : field.whole ? faces : std::vector<int>()) {
     const Start side = least_side(field, f, on_sides), corner = least_corner(field, f, nodes);
     const Start known = side.g < corner.g ? side : corner;
@@ -308,7 +194,7 @@ std::vector<Minimum> gap_minima(const GapField& field, std::map<int, NodeGap> no
     point.number = n_nodes + topology.edge_sides.size() + f;
     point.face = f;
     point.n_dir = 2;
-    if (const auto m = least_within(field, point, start, side.g)) take(*m);
+    for (const Minimum& m : minima_within(field, point, start, side.g)) take(m);
   }
   return minima;
 }

@@ -5,33 +5,15 @@
 #include <map>
 #include <vector>
 
-#include "contact/forces/slave_point.h"
-#include "contact/reach.h"
+#include "contact/forces/least_gap.h"
 
 namespace elastogear::contact {
-
-/// The slave surface and what its points are held against.
-struct GapField {
-  const MasterSide& master;
-  const SurfaceView& slave;  ///< without extensions
-  const Heights& heights;    ///< of the slave's faces
-  const Reach& reach;        ///< larger gaps are of no interest
-  int slave_side = 0;
-  double offset = 0;  ///< m, added to every gap
-  bool whole = true;  ///< the whole surface; otherwise its boundary alone
-};
 
 /// At a slave node within the limits.
 struct NodeGap {
   double g = 0;       ///< m
   Eigen::Vector3d n;  ///< its gradient
   int nearest = -1;   ///< face of the master
-};
-
-struct Minimum {
-  SlavePoint point;
-  SlaveGeometry geometry;
-  OpenPoint open;
 };
 
 /// Minima along sides and within faces with a gap below the reach, by number; none that differ from the ends

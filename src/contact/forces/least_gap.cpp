@@ -1,0 +1,204 @@
+#include "contact/forces/least_gap.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <optional>
+
+#include "contact/forces/hermite.h"
+
+namespace elastogear::contact {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kSteps = 20;
+constexpr double kConverged = 1e-10;  // of local coordinates
+constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
+constexpr double kApart = 1e-4;       // of a face, between minima that are not the same
+
+// A slave point that may be a minimum.
+struct Trial {
+  SlavePoint point;
+  SlaveGeometry geometry;
+  Projection nearest;
+  PointGap over;
+};
+
+// start: a master face near the point.
+std::optional<Trial> evaluate(const GapField& field, const SlavePoint& point, int start) {
+  Trial t{point, slave_geometry(field.slave, field.heights, point), {}, {}};
+  const auto w = walk_to_projection(field.master.surface, t.geometry.x, field.reach.limits, start);
+  if (!w) return {};
+  t.nearest = *w;
+  t.over = point_gap(field.master, *w, t.geometry.x, field.offset);
+  return t;
+}
+
+Minimum minimum(const GapField& field, const Trial& t) {
+  return {t.point, t.geometry, open_point(field.master, t.nearest, t.geometry.x, field.offset)};
+}
+
+// Where a search on a side begins: the share of its length, and a master face.
+struct SideStart {
+  double s;
+  int face;
+};
+
+SideStart estimate(const Side& side, int face) {
+  const bool known = side.g[0] != kFarGap && side.g[1] != kFarGap;
+  return {known ? least_of_cubic(side.g, side.slope).s : 0.5, face};
+}
+
+// Newton's method for the slope of the gap, kept between places where it falls and rises.
+std::optional<Minimum> least_on_side(const GapField& field, Side side, const SideStart& begin) {
+  double low = 0, high = 1, s = begin.s;
+  int start = begin.face;
+  for (int step = 0; step < kSteps; ++step) {
+    side.point.at = on_side(side.sides, side.side, s);
+    const std::optional<Trial> t = evaluate(field, side.point, start);
+    if (!t) return {};
+    start = t->over.projection.face;
+    const double slope = t->over.gap.n.dot(t->geometry.a.col(0)),
+                 curvature = gap_curvature(t->geometry, 1, t->over.gap)(0, 0);
+    (slope > 0 ? high : low) = s;
+    double next = curvature > 0 ? s - slope / curvature : 0.5 * (low + high);
+    if (std::abs(next - s) < kConverged || high - low < kConverged || step + 1 == kSteps)
+      return t->over.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length
+                 ? std::optional(minimum(field, *t))
+                 : std::nullopt;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    s = next;
+  }
+  return {};
+}
+
+bool is_inside(int sides, const Vector2d& at) {
+  if (sides == 3) return at[0] > 0 && at[1] > 0 && at[0] + at[1] < 1;
+  return at.cwiseAbs().maxCoeff() < 1;
+}
+
+Vector2d held_inside(int sides, const Vector2d& at) {
+  if (sides == 4) return at.cwiseMax(-1).cwiseMin(1);
+  const Vector2d positive = at.cwiseMax(0);
+  return positive / std::max(1.0, positive.sum());
+}
+
+// The step of Newton's method on a face, whose sides hold it: along a side that it would leave, down the
+// slope there. Nothing where the gap is not convex.
+std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector2d& slope,
+                                     const Eigen::Matrix2d& H) {
+  if (!(H(0, 0) > 0 && H.determinant() > 0)) return {};
+  const Vector2d newton = -H.inverse() * slope;
+  const Vector2d next = held_inside(sides, at + newton / std::max(1.0, newton.cwiseAbs().maxCoeff()));
+  if (sides == 3 || is_inside(sides, next)) return Vector2d(next - at);
+  for (int i : {0, 1}) {
+    if (!(std::abs(at[i]) == 1 && at[i] * slope[i] < 0)) continue;
+    Vector2d along = Vector2d::Zero();
+    along[1 - i] = -slope[1 - i] / H(1 - i, 1 - i);
+    return Vector2d(held_inside(sides, at + along) - at);
+  }
+  return Vector2d(next - at);
+}
+
+// Newton's method while it is held on the face. on_sides: m, the least gap known on the face's sides.
+std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const Start& start,
+                                    double on_sides) {
+  const int sides = side_count(field.slave.face, point.face);
+  int face = start.face;
+  point.at = start.at;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::optional<Trial> t = evaluate(field, point, face);
+    if (!t) return {};
+    face = t->over.projection.face;
+    const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
+    const auto way = step_on_face(sides, point.at, slope, gap_curvature(t->geometry, 2, t->over.gap));
+    if (!way) return {};
+    if (way->cwiseAbs().maxCoeff() < kConverged) {
+      const double length = t->geometry.a.colwise().norm().maxCoeff();
+      const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;
+      return is_minimum ? std::optional(minimum(field, *t)) : std::nullopt;
+    }
+    point.at += *way;
+  }
+  return {};
+}
+
+// A master face beyond a side near a foot point, and the way of the slave point over it, m.
+struct Beyond {
+  int face;
+  Eigen::Vector3d way;
+};
+
+// The deformed master has kinks between its faces, so that a gap may have a minimum over each of two faces.
+std::vector<Beyond> beyond_sides(const SurfaceView& master, const Projection& w) {
+  constexpr double kNear = 0.5, kOver = 0.25;  // of the way from the middle of a face to its sides
+  const Face face = face_of(master, w.face);
+  const Vector2d at(w.point.u, w.point.v), centre = Vector2d::Constant(face.sides == 4 ? 0 : 1.0 / 3);
+  const Shape s = shape(face.sides, at[0], at[1]);
+  Eigen::Matrix<double, 3, 2> a;
+  a << combine(face, s.N_u), combine(face, s.N_v);
+  std::vector<Beyond> result;
+  for (int side = 0; side < face.sides; ++side) {
+    const Vector2d outward = on_side(face.sides, side, 0.5) - centre;
+    const double left = 1 - (at - centre).dot(outward) / outward.squaredNorm();
+    const int edge = master.topology.edge(side, w.face);
+    if (edge < 0 || left > kNear) continue;
+    for (int entry : master.topology.edge_sides[edge])
+      if (entry / 4 != w.face) result.push_back({entry / 4, a * ((left + kOver) * outward)});
+  }
+  return result;
+}
+
+// Adds the minima over the master's faces beside that of the first; search: from a change of the point's own
+// coordinates and a master face.
+template <class Search>
+void add_beside(const GapField& field, std::vector<Minimum>& minima, const Search& search) {
+  const Minimum first = minima.front();
+  const auto n = first.point.n_dir;
+  const Eigen::MatrixXd a = first.geometry.a.leftCols(n);
+  for (const Beyond& beyond : beyond_sides(field.master.surface, first.open.projection)) {
+    const Eigen::VectorXd step = (a.transpose() * a).inverse() * (a.transpose() * beyond.way);
+    if (!step.allFinite()) continue;
+    const std::optional<Minimum> other = search(step, beyond.face);
+    const auto is_same = [&](const Minimum& m) { return (m.point.at - other->point.at).norm() < kApart; };
+    if (other && std::none_of(minima.begin(), minima.end(), is_same)) minima.push_back(*other);
+  }
+  const auto by_face = [](const Minimum& l, const Minimum& r) {
+    return l.open.projection.face < r.open.projection.face;
+  };
+  std::sort(minima.begin(), minima.end(), by_face);
+  const int stride = field.slave.topology.edge_sides.size() + static_cast<int>(field.slave.face.cols());
+  for (std::size_t i = 0; i < minima.size(); ++i)
+    minima[i].point.number = first.point.number + static_cast<int>(i) * stride;
+}
+
+}  // namespace
+
+std::vector<Minimum> minima_on_side(const GapField& field, const Side& side, int face) {
+  std::vector<Minimum> minima;
+  const auto first = least_on_side(field, side, estimate(side, face));
+  if (!first) return minima;
+  minima.push_back(*first);
+  const Vector2d along = side.point.along.col(0);
+  const double s = (first->point.at - on_side(side.sides, side.side, 0)).dot(along) / along.squaredNorm();
+  add_beside(field, minima, [&](const Eigen::VectorXd& step, int beyond) {
+    return least_on_side(field, side, {std::clamp(s + step[0], 0.0, 1.0), beyond});
+  });
+  return minima;
+}
+
+std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const Start& start,
+                                   double on_sides) {
+  std::vector<Minimum> minima;
+  const auto first = least_within(field, point, start, on_sides);
+  if (!first) return minima;
+  minima.push_back(*first);
+  const int sides = side_count(field.slave.face, point.face);
+  add_beside(field, minima, [&](const Eigen::VectorXd& step, int beyond) {
+    return least_within(field, point, {start.g, held_inside(sides, first->point.at + step), beyond},
+                        on_sides);
+  });
+  return minima;
+}
+
+}  // namespace elastogear::contact

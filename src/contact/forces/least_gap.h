@@ -1,0 +1,57 @@
+#pragma once
+// The places on one side or face of the slave where its gap is least, by Newton's method (docs/theory.md,
+// section 6.12).
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "contact/forces/slave_point.h"
+#include "contact/reach.h"
+
+namespace elastogear::contact {
+
+inline constexpr double kFarGap = std::numeric_limits<double>::infinity();
+
+/// The slave surface and what its points are held against.
+struct GapField {
+  const MasterSide& master;
+  const SurfaceView& slave;  ///< without extensions
+  const Heights& heights;    ///< of the slave's faces
+  const Reach& reach;        ///< larger gaps are of no interest
+  int slave_side = 0;
+  double offset = 0;  ///< m, added to every gap
+  bool whole = true;  ///< the whole surface; otherwise its boundary alone
+};
+
+struct Minimum {
+  SlavePoint point;
+  SlaveGeometry geometry;
+  OpenPoint open;
+};
+
+/// One side of a slave face with the gaps at its ends; kFarGap where they are beyond the limits.
+struct Side {
+  SlavePoint point;
+  int side = 0, sides = 4;
+  std::array<double, 2> g{kFarGap, kFarGap}, slope{-kFarGap, kFarGap};  ///< m
+  double length = 0;                                                    ///< m
+};
+
+/// A point of a slave face from which a search for the least gap begins.
+struct Start {
+  double g = kFarGap;  ///< m
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  int face = -1;  ///< of the master
+};
+
+/// The minimum on the side and those over the master's faces beside it; none that differ from the ends by
+/// less than a millionth of the length. face: of the master, near the side.
+std::vector<Minimum> minima_on_side(const GapField& field, const Side& side, int face);
+
+/// The minimum within the point's face and those over the master's faces beside it; none that differ by less
+/// than a millionth of the face's length from the least gap on its sides, on_sides (m).
+std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const Start& start,
+                                   double on_sides);
+
+}  // namespace elastogear::contact
