@@ -20,9 +20,9 @@ const NodeGap* find(const std::map<int, NodeGap>& nodes, int node) {
   return at == nodes.end() ? nullptr : &at->second;
 }
 
-Side side_of(const GapField& field, int edge, const std::map<int, NodeGap>& nodes) {
+SideGaps side_of(const GapField& field, int edge, const std::map<int, NodeGap>& nodes) {
   const int entry = field.slave.topology.edge_sides[edge][0];
-  Side side;
+  SideGaps side;
   side.point.face = entry / 4;
   side.side = entry % 4;
   side.sides = side_count(field.slave.face, side.point.face);
@@ -49,7 +49,7 @@ bool may_be_within(double estimate, double highest, double reach) {
 }
 
 // Returns whether a convex gap has a minimum between the ends of a side that may lie below the reach.
-bool may_have_minimum(const Side& side, double reach) {
+bool may_have_minimum(const SideGaps& side, double reach) {
   if (side.g[0] == kFar && side.g[1] == kFar) return false;
   if (side.g[0] != kFar && side.slope[0] >= 0) return false;
   if (side.g[1] != kFar && side.slope[1] <= 0) return false;
@@ -61,10 +61,10 @@ bool may_have_minimum(const Side& side, double reach) {
 // Estimates the place of the least gap on a quadrilateral by the bicubic with the gaps and slopes of its
 // corners. The start has no master face where the gap is beyond the reach, or least well beyond the sides of
 // the face; there is none where a corner's gap is not known.
-std::optional<Start> estimate(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
+std::optional<FaceStart> estimate(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
   if (side_count(field.slave.face, f) != 4) return {};
   FaceCorners corners;
-  Start start;
+  FaceStart start;
   double nearest = kFar;
   bool all_known = true;
   for (int c = 0; c < 4; ++c) {
@@ -77,13 +77,13 @@ std::optional<Start> estimate(const GapField& field, int f, const std::map<int, 
     corners.value[c] = node->g;
     if (node->g < nearest) nearest = node->g, start.face = node->nearest;
   }
-  if (lower_bound(corners) > field.reach.gap) return Start{};
+  if (lower_bound(corners) > field.reach.gap) return FaceStart{};
   if (!all_known) return {};
   const LeastOnFace least = least_of_bicubic(corners);
-  if (least.beyond > kMisplaced) return Start{};
+  if (least.beyond > kMisplaced) return FaceStart{};
   start.g = least.value;
   start.at = least.at;
-  return may_be_within(start.g, nearest, field.reach.gap) ? start : Start{};
+  return may_be_within(start.g, nearest, field.reach.gap) ? start : FaceStart{};
 }
 
 // The slave faces around these nodes, ascending.
@@ -97,9 +97,9 @@ std::vector<int> faces_around(const GapField& field, const std::map<int, NodeGap
 
 // Returns the corner of a face with the least gap among those that have one. A search begins there on
 // triangles and where a corner is beyond the limits or the master's boundary.
-Start least_corner(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
+FaceStart least_corner(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
   const int sides = side_count(field.slave.face, f);
-  Start start;
+  FaceStart start;
   for (int c = 0; c < sides; ++c)
     if (const NodeGap* node = find(nodes, field.slave.face(c, f)); node && node->g < start.g)
       start = {node->g, on_side(sides, c, 0), node->nearest};
@@ -111,7 +111,7 @@ void add_corners(const GapField& field, const std::vector<int>& faces, std::map<
   Limits any = field.reach.limits;
   any.outside = any.depth = kFar;
   for (int f : faces) {
-    const Start start = least_corner(field, f, nodes);
+    const FaceStart start = least_corner(field, f, nodes);
     for (int c = 0; c < side_count(field.slave.face, f) && start.face >= 0; ++c) {
       const int node = field.slave.face(c, f);
       if (nodes.contains(node)) continue;
@@ -136,7 +136,7 @@ std::map<int, std::vector<Minimum>> minima_on_sides(const GapField& field, const
   sort_unique(edges);
   std::map<int, std::vector<Minimum>> found;
   for (int edge : edges) {
-    const Side side = side_of(field, edge, nodes);
+    const SideGaps side = side_of(field, edge, nodes);
     if (!may_have_minimum(side, field.reach.gap)) continue;
     const int end = side.g[0] <= side.g[1] ? 0 : 1;
     const int start = find(nodes, field.slave.face((side.side + end) % side.sides, side.point.face))->nearest;
@@ -156,8 +156,8 @@ Vector2d on_face(const GapField& field, int f, int side, const Minimum& m) {
 }
 
 // The least of the minima on the sides of a face.
-Start least_side(const GapField& field, int f, const std::map<int, std::vector<Minimum>>& on_sides) {
-  Start start;
+FaceStart least_side(const GapField& field, int f, const std::map<int, std::vector<Minimum>>& on_sides) {
+  FaceStart start;
   for (int side = 0; side < side_count(field.slave.face, f); ++side) {
     const auto minima = on_sides.find(field.slave.topology.edge(side, f));
     if (minima == on_sides.end()) continue;
@@ -182,13 +182,13 @@ std::vector<Minimum> gap_minima(const GapField& field, std::map<int, NodeGap> no
   for (const auto& [edge, all] : on_sides)
     for (const Minimum& m : all) take(m);
   for (int f : field.whole ? faces : std::vector<int>()) {
-    const Start side = least_side(field, f, on_sides), corner = least_corner(field, f, nodes);
-    const Start known = side.g < corner.g ? side : corner;
-    const Start start =
+    const FaceStart side = least_side(field, f, on_sides), corner = least_corner(field, f, nodes);
+    const FaceStart known = side.g < corner.g ? side : corner;
+    const FaceStart start =
         estimate(field, f, nodes)
             .value_or(known.g - sag(field.reach, field.slave_side, f, known.face) < field.reach.gap
                           ? known
-                          : Start{});
+                          : FaceStart{});
     if (start.face < 0) continue;
     SlavePoint point;
     point.number = n_nodes + topology.edge_sides.size() + f;

@@ -44,13 +44,13 @@ struct SideStart {
   int face;
 };
 
-SideStart estimate(const Side& side, int face) {
+SideStart estimate(const SideGaps& side, int face) {
   const bool known = side.g[0] != kFarGap && side.g[1] != kFarGap;
   return {known ? least_of_cubic(side.g, side.slope).s : 0.5, face};
 }
 
 // Newton's method for the slope of the gap, kept between places where it falls and rises.
-std::optional<Minimum> least_on_side(const GapField& field, Side side, const SideStart& begin) {
+std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const SideStart& begin) {
   double low = 0, high = 1, s = begin.s;
   int start = begin.face;
   for (int step = 0; step < kSteps; ++step) {
@@ -101,7 +101,7 @@ std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector
 }
 
 // Newton's method while it is held on the face. on_sides: m, the least gap known on the face's sides.
-std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const Start& start,
+std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const FaceStart& start,
                                     double on_sides) {
   const int sides = side_count(field.slave.face, point.face);
   int face = start.face;
@@ -174,7 +174,7 @@ void add_beside(const GapField& field, std::vector<Minimum>& minima, const Searc
 
 }  // namespace
 
-std::vector<Minimum> minima_on_side(const GapField& field, const Side& side, int face) {
+std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side, int face) {
   std::vector<Minimum> minima;
   const auto first = least_on_side(field, side, estimate(side, face));
   if (!first) return minima;
@@ -187,7 +187,7 @@ std::vector<Minimum> minima_on_side(const GapField& field, const Side& side, int
   return minima;
 }
 
-std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const Start& start,
+std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const FaceStart& start,
                                    double on_sides) {
   std::vector<Minimum> minima;
   const auto first = least_within(field, point, start, on_sides);

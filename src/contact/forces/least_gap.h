@@ -31,7 +31,7 @@ struct Minimum {
 };
 
 /// One side of a slave face with the gaps at its ends; kFarGap where they are beyond the limits.
-struct Side {
+struct SideGaps {
   SlavePoint point;
   int side = 0, sides = 4;
   std::array<double, 2> g{kFarGap, kFarGap}, slope{-kFarGap, kFarGap};  ///< m
@@ -39,7 +39,7 @@ struct Side {
 };
 
 /// A point of a slave face from which a search for the least gap begins.
-struct Start {
+struct FaceStart {
   double g = kFarGap;  ///< m
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   int face = -1;  ///< of the master
@@ -47,11 +47,11 @@ struct Start {
 
 /// The minimum on the side and those over the master's faces beside it; none that differ from the ends by
 /// less than a millionth of the length. face: of the master, near the side.
-std::vector<Minimum> minima_on_side(const GapField& field, const Side& side, int face);
+std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side, int face);
 
 /// The minimum within the point's face and those over the master's faces beside it; none that differ by less
 /// than a millionth of the face's length from the least gap on its sides, on_sides (m).
-std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const Start& start,
+std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const FaceStart& start,
                                    double on_sides);
 
 }  // namespace elastogear::contact
