@@ -36,7 +36,8 @@ double falls_before(double first, double second, double third) {
   return curvature > 0 ? slope / curvature : std::numeric_limits<double>::infinity();
 }
 
-// The same before either end of a row or column of the lattice of which number `at` is least.
+// How far beyond an end of a row or column of the lattice its parabola goes on falling; 0 where the least
+// value, number `at`, is not at an end.
 double falls_beyond(const Eigen::Vector<double, kLattice>& values, Eigen::Index at) {
   if (at == 0) return falls_before(values[0], values[1], values[2]);
   if (at == kLattice - 1) return falls_before(values[at], values[at - 1], values[at - 2]);

@@ -24,7 +24,7 @@ struct Trial {
   PointGap over;
 };
 
-// start: a master face near the point.
+// Gap at a slave point; nothing without a foot point. start: a face of the master near the point.
 std::optional<Trial> evaluate(const GapField& field, const SlavePoint& point, int start) {
   Trial t{point, slave_geometry(field.slave, field.heights, point), {}, {}};
   const auto w = walk_to_projection(field.master.surface, t.geometry.x, field.reach.limits, start);
@@ -38,7 +38,8 @@ Minimum minimum(const GapField& field, const Trial& t) {
   return {t.point, t.geometry, open_point(field.master, t.nearest, t.geometry.x, field.offset)};
 }
 
-// Where a search on a side begins: the share of its length, and a master face.
+// A point of a side, by the share s of its length, from which a search for the least gap begins, and a face
+// of the master near it.
 struct SideStart {
   double s;
   int face;

@@ -194,7 +194,8 @@ void Tracker::take_near(double distance) {
   list_nodes();
 }
 
-// Leaves out the near nodes that have more clearance than `clear`, with what they need less than others.
+// Leaves out the near nodes that have more clearance than `clear`. A node for which less than limits.outside
+// serves has so much clearance more.
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension);
