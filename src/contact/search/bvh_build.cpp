@@ -51,22 +51,27 @@ Bins fill_bins(const Builder& b, std::span<const int> faces, const Split& s) {
   return bins;
 }
 
-// Best plane among the bins' borders of one direction.
+// Best plane among the bins' borders of one direction. Beside an empty bin nothing changes.
 Split sweep(const Bins& bins, Split s) {
   std::array<double, kBins> right_cost{};
   Kdop dop = bins[s.bins - 1].dop;
   int count = 0;
+  double cost = 0;
   for (int i = s.bins - 1; i > 0; --i) {
-    merge(dop, bins[i].dop);
-    count += bins[i].count;
-    right_cost[i] = area(dop) * count;
+    if (bins[i].count > 0) {
+      merge(dop, bins[i].dop);
+      count += bins[i].count;
+      cost = area(dop) * count;
+    }
+    right_cost[i] = cost;
   }
   dop = bins.front().dop;
   count = 0;
   for (int i = 1; i < s.bins; ++i) {
+    if (bins[i - 1].count == 0) continue;
     merge(dop, bins[i - 1].dop);
     count += bins[i - 1].count;
-    const double cost = area(dop) * count + right_cost[i];
+    cost = area(dop) * count + right_cost[i];
     if (cost < s.cost) s.cost = cost, s.bin = i;
   }
   return s;

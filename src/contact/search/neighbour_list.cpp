@@ -1,5 +1,7 @@
 #include "contact/search/neighbour_list.h"
 
+#include <algorithm>
+
 namespace elastogear::contact {
 namespace {
 
@@ -7,16 +9,27 @@ namespace {
 class Marks {
  public:
   explicit Marks(Eigen::Index n) : is_set_(static_cast<std::size_t>(n), 0) {}
-  void set(int i) { is_set_[static_cast<std::size_t>(i)] = 1; }
-  std::vector<int> ascending() const {
-    std::vector<int> numbers;
+  void set(int i) {
+    char& is_set = is_set_[static_cast<std::size_t>(i)];
+    if (!is_set) numbers_.push_back(i);
+    is_set = 1;
+  }
+  // A few are sorted; of many all marks are read in order.
+  std::vector<int> ascending() {
+    constexpr std::size_t kFew = 32;  // times fewer than there may be
+    if (kFew * numbers_.size() < is_set_.size()) {
+      std::sort(numbers_.begin(), numbers_.end());
+      return std::move(numbers_);
+    }
+    numbers_.clear();
     for (std::size_t i = 0; i < is_set_.size(); ++i)
-      if (is_set_[i]) numbers.push_back(static_cast<int>(i));
-    return numbers;
+      if (is_set_[i]) numbers_.push_back(static_cast<int>(i));
+    return std::move(numbers_);
   }
 
  private:
   std::vector<char> is_set_;
+  std::vector<int> numbers_;
 };
 
 }  // namespace

@@ -159,7 +159,7 @@ void Tracker::list_nodes() {
         add(nodes_around_nodes(near.slave, t, face));
       } else {
         add(nodes_around(near.face, t, face));
-        add(nodes_around(near.around, t, face));
+        if (!near.around.empty()) add(nodes_around(near.around, t, face));
       }
     }
   for (auto& list : lists) sort_unique(list);
