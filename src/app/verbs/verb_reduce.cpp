@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -137,12 +138,13 @@ std::string vector_text(const Eigen::Vector3d& v, const std::string& unit) {
   return text.str();
 }
 
+// Nothing can be captured along a direction in which all nodes are held.
 std::string percent(const Eigen::RowVectorXd& shares) {
   std::string text;
   for (double share : shares) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%s%.1f", text.empty() ? "" : "  ", 100 * share);
-    text += number;
+    char number[32] = "none";
+    if (std::isfinite(share)) std::snprintf(number, sizeof number, "%.1f", 100 * share);
+    text += (text.empty() ? "" : "  ") + std::string(number);
   }
   return text + " %";
 }
