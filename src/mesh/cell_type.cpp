@@ -53,15 +53,20 @@ int midside_node(const Topology& cell, int a, int b) {
          static_cast<int>(std::find_if(cell.edges.begin(), cell.edges.end(), joins) - cell.edges.begin());
 }
 
-std::vector<std::vector<Face>> find_sides(const Topology& cell) {
-  std::vector<std::vector<Face>> sides;
+std::vector<std::vector<int>> find_side_nodes(const Topology& cell) {
+  std::vector<std::vector<int>> sides;
   for (const Face& side : cell.sides) {
     const int n = is_triangle(side) ? 3 : 4;
-    std::vector<int> nodes(side.begin(), side.begin() + n);
+    std::vector<int>& nodes = sides.emplace_back(side.begin(), side.begin() + n);
     for (int i = 0; cell.quadratic && i < n; ++i)
       nodes.push_back(midside_node(cell, side[i], side[(i + 1) % n]));
-    sides.push_back(side_faces(nodes));
   }
+  return sides;
+}
+
+std::vector<std::vector<Face>> find_sides(const Topology& cell) {
+  std::vector<std::vector<Face>> sides;
+  for (const std::vector<int>& nodes : find_side_nodes(cell)) sides.push_back(side_faces(nodes));
   return sides;
 }
 
@@ -129,6 +134,13 @@ std::vector<Face> side_faces(std::span<const int> s) {
               {s[4], s[5], s[6], s[7]}};
   }
   fail("a side of a cell has ", s.size(), " nodes, allowed are 3, 4, 6 and 8");
+}
+
+std::vector<std::vector<int>> cell_side_nodes(CellType type, std::span<const int> nodes) {
+  std::vector<std::vector<int>> sides = find_side_nodes(topology(type));
+  for (auto& side : sides)
+    for (int& node : side) node = nodes[node];
+  return sides;
 }
 
 std::vector<std::vector<Face>> cell_sides(CellType type, std::span<const int> nodes) {

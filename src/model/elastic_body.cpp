@@ -65,6 +65,17 @@ void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::strin
             source, ": S_2 is not finite or not square of size n_q = ", n_q);
 }
 
+// Whether a side has no nodes, six or eight, and all of the face's among them.
+bool is_side_of(const Eigen::Vector4i& face, const Eigen::Matrix<int, 8, 1>& side, int n_nodes) {
+  const int* end = std::find(side.data(), side.data() + side.size(), -1);
+  const auto n = end - side.data();
+  if (n == 0) return true;
+  return (n == 6 || n == 8) &&
+         std::all_of(side.data(), end, [&](int node) { return node >= 0 && node < n_nodes; }) &&
+         std::all_of(face.begin(), face.end(),
+                     [&](int node) { return std::find(side.data(), end, node) != end; });
+}
+
 void validate_surface(const Surface& surface, Eigen::Index n_q, const std::string& source) {
   const auto n_s = static_cast<int>(surface.node.size());
   const auto n_f = surface.face.cols();
@@ -74,6 +85,11 @@ void validate_surface(const Surface& surface, Eigen::Index n_q, const std::strin
           ": surface basis does not have n_q = ", n_q, " columns");
   require(n_f == 0 || (surface.face.minCoeff() >= 0 && surface.face.maxCoeff() < n_s), source,
           ": surface face names a node outside 0..", n_s - 1);
+  require(surface.side.cols() == 0 || surface.side.cols() == n_f, source, ": surface sides do not have ", n_f,
+          " entries");
+  for (Eigen::Index f = 0; f < surface.side.cols(); ++f)
+    require(is_side_of(surface.face.col(f), surface.side.col(f), n_s), source, ": surface face ", f,
+            " is no part of its second-order side");
   require(static_cast<Eigen::Index>(surface.group.size()) == n_f && surface.c_f.size() == n_f, source,
           ": surface groups or stiffnesses do not have ", n_f, " entries");
   require(in_range(surface.group, static_cast<int>(surface.group_name.size())), source,

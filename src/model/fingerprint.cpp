@@ -34,6 +34,7 @@ void add(Fingerprint& f, const Surface& surface) {
   f.add_all(surface.c_f);
   f.add_all(surface.node);
   f.add_all(surface.face.reshaped());
+  if (surface.side.cols() > 0) f.add_all(surface.side.reshaped());
   f.add_all(surface.group);
   add(f, surface.Phi);
 }

@@ -89,6 +89,35 @@ void number_nodes(const mesh::Mesh& mesh, const std::vector<BoundaryFace>& faces
     }
 }
 
+// Nodes of the second-order side that a face is a part of; none of a linear cell.
+std::vector<int> second_order_side(const mesh::Mesh& mesh, const BoundaryFace& f) {
+  const auto type = mesh.cells.type[f.cell];
+  if (mesh::node_count(type) == mesh::corner_count(type)) return {};
+  const auto sides = mesh::cell_sides(type, mesh.cells[f.cell]);
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (std::find(sides[s].begin(), sides[s].end(), f.face) != sides[s].end())
+      return mesh::cell_side_nodes(type, mesh.cells[f.cell])[s];
+  return {};
+}
+
+// Only where a cell is of second order, and of sides all nodes of which are on the surface.
+void set_sides(const mesh::Mesh& mesh, const std::vector<BoundaryFace>& faces, model::Surface& surface) {
+  Eigen::Matrix<int, 8, Eigen::Dynamic> all(8, static_cast<Eigen::Index>(faces.size()));
+  all.setConstant(-1);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const std::vector<int> nodes = second_order_side(mesh, faces[i]);
+    Eigen::Matrix<int, 8, 1> side = Eigen::Matrix<int, 8, 1>::Constant(-1);
+    bool on_surface = true;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const auto at = std::lower_bound(surface.node.begin(), surface.node.end(), nodes[k]);
+      on_surface = on_surface && at != surface.node.end() && *at == nodes[k];
+      side[static_cast<Eigen::Index>(k)] = static_cast<int>(at - surface.node.begin());
+    }
+    if (on_surface) all.col(static_cast<Eigen::Index>(i)) = side;
+  }
+  if ((all.array() >= 0).any()) surface.side = all;
+}
+
 void number_groups(const std::vector<BoundaryFace>& faces, model::Surface& surface) {
   std::set<std::string> names;
   for (const auto& f : faces) names.insert(*f.group);
@@ -114,6 +143,7 @@ model::Surface make_surface(const mesh::Mesh& mesh, const std::vector<model::Mat
   drop_repeated(faces);
   model::Surface surface;
   number_nodes(mesh, faces, surface);
+  set_sides(mesh, faces, surface);
   number_groups(faces, surface);
   surface.c_f.resize(static_cast<Eigen::Index>(faces.size()));
   for (std::size_t i = 0; i < faces.size(); ++i) {

@@ -64,6 +64,10 @@ struct Mesh {
 /// cells cut it alike: a triangle at each corner, and the triangle or quadrilateral of the midside nodes.
 std::vector<std::vector<Face>> cell_sides(CellType type, std::span<const int> cell_nodes);
 
+/// The nodes of the sides in the same order: corners, then the midside nodes, the first between corners 0 and
+/// 1.
+std::vector<std::vector<int>> cell_side_nodes(CellType type, std::span<const int> cell_nodes);
+
 /// The faces of all sides, in order.
 std::vector<Face> cell_faces(CellType type, std::span<const int> cell_nodes);
 

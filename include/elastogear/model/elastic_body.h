@@ -51,11 +51,14 @@ struct Inertia {
 Eigen::Matrix3d J_1(const Inertia& inertia, int k);
 
 struct Surface {
-  std::vector<int> node;   ///< n_s, mesh numbers of the surface's nodes, ascending
-  Eigen::Matrix3Xd X;      ///< 3 x n_s, m
-  Eigen::Matrix4Xi face;   ///< 4 x n_f, local node numbers (0..n_s-1), counter-clockwise from outside;
-                           ///< a triangle repeats its third node
-  std::vector<int> group;  ///< n_f, index into group_name
+  std::vector<int> node;  ///< n_s, mesh numbers of the surface's nodes, ascending
+  Eigen::Matrix3Xd X;     ///< 3 x n_s, m
+  Eigen::Matrix4Xi face;  ///< 4 x n_f, local node numbers (0..n_s-1), counter-clockwise from outside;
+                          ///< a triangle repeats its third node
+  /// 8 x n_f, the nodes of the second-order side that a face is a part of: corners, then midside nodes, the
+  /// first between corners 0 and 1; -1 in what is left, and for linear cells. Without columns: all linear.
+  Eigen::Matrix<int, 8, Eigen::Dynamic> side = {};
+  std::vector<int> group;               ///< n_f, index into group_name
   std::vector<std::string> group_name;  ///< face sets ("tooth_07_left"): the "areas of contact"
   Eigen::VectorXd c_f;                  ///< n_f, Pa/m, stiffness E A / V of the cell behind each face
   BasisRows Phi;                        ///< 3 n_s x n_q

@@ -39,6 +39,11 @@ model::Surface read_surface(const h5::File& file) {
   const auto face = h5::read<int>(file, "/surface/face", {h5::kAny, 4});
   surface.face =
       Eigen::Map<const Eigen::Matrix4Xi>(face.data(), 4, static_cast<Eigen::Index>(face.size() / 4));
+  if (h5::exists(file, "/surface/side")) {
+    const auto side = h5::read<int>(file, "/surface/side", {h5::kAny, 8});
+    surface.side = Eigen::Map<const Eigen::Matrix<int, 8, Eigen::Dynamic>>(
+        side.data(), 8, static_cast<Eigen::Index>(side.size() / 8));
+  }
   surface.group = h5::read<int>(file, "/surface/group", {h5::kAny});
   surface.group_name = h5::read_strings(file, "/surface/group_name");
   surface.c_f = read_vector(file, "/surface/c_f");

@@ -37,6 +37,9 @@ void write_surface(const h5::File& file, const model::Surface& surface, const Bo
   h5::write<double>(file, "/surface/X", view(surface.X), "m");
   h5::write<int>(file, "/surface/face", {{static_cast<hsize_t>(surface.face.cols()), 4}, surface.face.data()},
                  "1");
+  if (surface.side.cols() > 0)
+    h5::write<int>(file, "/surface/side",
+                   {{static_cast<hsize_t>(surface.side.cols()), 8}, surface.side.data()}, "1");
   h5::write<int>(file, "/surface/group", view(surface.group), "1");
   h5::write_strings(file, "/surface/group_name", surface.group_name);
   h5::write<double>(file, "/surface/c_f", view(surface.c_f), "Pa/m");
