@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "contact/faces/face_contacts.h"
 #include "contact/forces/gap_minima.h"
 #include "contact/projection/heights.h"
 #include "contact/reach.h"
@@ -24,8 +25,10 @@ struct Side {
   std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
   std::map<int, double> p;          // N, normal forces given, by slave point
   std::vector<bool> on_boundary;    // of each node
+  Eigen::VectorXd area;             // m^2, of each node, undeformed; of contact integrated over faces
 };
 
+// Functions that capture it and one thing more fit into std::function, which allocates nothing for them.
 struct PlacedNode {
   int side, node;
   Eigen::Vector3d x;  // m
@@ -52,17 +55,26 @@ Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurfa
           std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
           {},
           {},
-          boundary_nodes(tracked)};
+          boundary_nodes(tracked),
+          settings.points == SlavePoints::faces ? node_areas(surface.X, surface.face) : Eigen::VectorXd()};
+}
+
+// Facets that faces are held against are as curved as the smooth surface behind them.
+Heights heights_for_reach(const Tracked& tracked, const Side& side, const Settings& settings) {
+  if (settings.points != SlavePoints::faces || !side.heights.empty()) return side.heights;
+  const model::Surface& surface = *tracked.surface;
+  return make_heights({surface.face, tracked.topology, surface.X, 0}, ContactSurface::smooth,
+                      radians(settings.feature_angle), {});
 }
 
 // From the common frame to the world.
 void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
   contact.n = R * contact.n;
   contact.f = R * contact.f;
-  for (LocalVectors* vectors : {&contact.F, &contact.F_p, &contact.g_x}) *vectors = (R * *vectors).eval();
+  for (LocalVectors* vectors : {&contact.F, &contact.F_p, &contact.g_x, &contact.v})
+    for (auto vector : vectors->colwise()) vector = (R * vector).eval();
   contact.slip = R * contact.slip;
   contact.elastic_slip = R * contact.elastic_slip;
-  contact.v = (R * contact.v).eval();
   for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot})
     for (int i = 0; i < contact.n_local(); ++i)
       columns->middleRows<3>(3 * i) = (R * columns->middleRows<3>(3 * i)).eval();
@@ -91,6 +103,9 @@ struct Pair::Data {
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
                   std::vector<ContactPoint>& contacts) const;
+  std::map<int, NodeGap> node_gaps(int slave_side, const MasterSide& master);
+  Eigen::Vector3d curved(int i, int node) const;
+  std::vector<ContactPoint> integrated_contacts();
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
 };
 
@@ -191,25 +206,76 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
     const int node = near.slave[i];
     if (!is_whole(slave_side) && !side[slave_side].on_boundary[node]) continue;
     const Eigen::Vector3d x = slave.x.col(node) + node_height(slave_side, slave, node);
-    const SlaveNode q{x, [&] { return node_normal(slave, node); },
-                      [&] { return tracker.all_faces(slave_side, node); }};
+    const PlacedNode placed{slave_side, node, x};
+    const SlaveNode q{x, [&slave, &placed] { return node_normal(slave, placed.node); },
+                      [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
     const Limits limits = limits_at(reach, slave_side, slave.topology.node_corners[node]);
     const auto projection = find_projection(surface, q, limits, near.faces(i), last_face[node]);
     last_face[node] = projection ? projection->face : -1;
     if (!projection) continue;
-    auto found = node_contact(master, {slave_side, node, x}, *projection, gaps);
+    auto found = node_contact(master, placed, *projection, gaps);
     if (!found) continue;
     found->slave_side = found->stick.slave_side = slave_side;
     found->slave_point = found->slave_node = found->stick.slave_node = node;
-    found->slave_nodes.setConstant(node);
+    found->slave_nodes[0] = node;
     contacts.push_back(std::move(*found));
   }
   if (settings.points == SlavePoints::minima) add_minima(master, slave_side, gaps, contacts);
 }
 
+// The gaps at the slave nodes beside which one may lie within the reach.
+std::map<int, NodeGap> Pair::Data::node_gaps(int slave_side, const MasterSide& master) {
+  const SurfaceView slave = tracker.view(slave_side, 0);
+  std::vector<int>& last_face = side[slave_side].last_face;
+  const Neighbours& near = tracker.near(slave_side);
+  std::map<int, NodeGap> gaps;
+  for (std::size_t i = 0; i < near.slave.size(); ++i) {
+    const int node = near.slave[i];
+    const std::span<const int> around = slave.topology.node_corners[node];
+    const Eigen::Vector3d x = slave.x.col(node) + node_height(slave_side, slave, node);
+    const PlacedNode placed{slave_side, node, x};
+    const SlaveNode q{x, [&slave, &placed] { return node_normal(slave, placed.node); },
+                      [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
+    const auto projection = find_projection(master.surface, q, limits_at(reach, slave_side, around),
+                                            near.faces(i), last_face[node]);
+    last_face[node] = projection ? projection->face : -1;
+    if (!projection) continue;
+    const PointGap over = point_gap(master, *projection, x, settings.offset);
+    if (over.gap.g < largest_gap_at(reach, slave_side, around, over.projection.face))
+      gaps[node] = {over.gap.g, over.gap.n, over.projection.face};
+  }
+  return gaps;
+}
+
+// Position of a node; where heights hold the undeformed shape, its displacement.
+Eigen::Vector3d Pair::Data::curved(int i, int node) const {
+  const Configuration& now = tracker.configuration();
+  const Eigen::Vector3d x = now.x[i].col(node);
+  if (side[i].heights.empty()) return x;
+  const Eigen::Vector3d X = surface(i).X.col(node);
+  return i == 0 ? Eigen::Vector3d(x - now.R * X - now.r) : Eigen::Vector3d(x - X);
+}
+
+std::vector<ContactPoint> Pair::Data::integrated_contacts() {
+  const int slave_side = settings.slave;
+  const Side &slaves = side[slave_side], &masters = side[1 - slave_side];
+  const SurfaceView slave = tracker.view(slave_side, 0),
+                    faces = tracker.view(1 - slave_side, settings.extension);
+  const MasterSide master{faces, masters.heights, radians(settings.feature_angle), false};
+  const SecondOrder second{surface(slave_side).side, surface(1 - slave_side).side,
+                           [&](int i, int node) { return curved(i, node); }};
+  return face_contacts(
+      {master, slave, slaves.heights, reach, slave_side, settings.offset}, second,
+      {slaves.law, slaves.area, slaves.p, [&](int i, int node) { return tracker.velocity(i, node); }},
+      node_gaps(slave_side, master));
+}
+
 std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R_WB) {
   std::vector<ContactPoint> contacts;
-  for (int slave : slave_sides(settings)) run_pass(slave, contacts);
+  if (settings.points == SlavePoints::faces)
+    contacts = integrated_contacts();
+  else
+    for (int slave : slave_sides(settings)) run_pass(slave, contacts);
   for (ContactPoint& contact : contacts) rotate(contact, R_WB);
   return contacts;
 }
@@ -268,7 +334,9 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
   const Settings settings = with_defaults(given, a, b);
   std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
   Side side[2] = {make_side(both[0], settings, known[0]), make_side(both[1], settings, known[1])};
-  const Reach reach = reach_of(settings, {&both[0], &both[1]}, {&side[0].heights, &side[1].heights});
+  std::array<Heights, 2> curved;
+  for (int i : {0, 1}) curved[i] = heights_for_reach(both[i], side[i], settings);
+  const Reach reach = reach_of(settings, {&both[0], &both[1]}, {&curved[0], &curved[1]});
   const std::array spares{spare(reach, 0, both[0].topology), spare(reach, 1, both[1].topology)};
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},

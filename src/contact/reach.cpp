@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "elastogear/base/error.h"
 
 namespace elastogear::contact {
 namespace {
@@ -40,8 +43,21 @@ double largest_around(const model::Surface& surface, const Topology& topology,
   return result;
 }
 
-// reach: m, how far a point may move as it is held against the surface.
-FaceShapes face_shapes(const Tracked& tracked, const Heights& heights, double reach) {
+// Faces at a side across which normals turn by more than the feature angle (rad).
+std::vector<int> sharp_faces(const SurfaceView& surface, double feature_angle) {
+  std::vector<Eigen::Vector3d> n;
+  for (int f = 0; f < surface.face.cols(); ++f) n.push_back(normal(face_of(surface, f), 0.25, 0.25));
+  std::vector<int> faces;
+  for (int edge = 0; edge < surface.topology.edge_sides.size(); ++edge)
+    for (int a : surface.topology.edge_sides[edge])
+      for (int b : surface.topology.edge_sides[edge])
+        if (n[a / 4].dot(n[b / 4]) < std::cos(feature_angle)) faces.push_back(a / 4);
+  return faces;
+}
+
+// reach: m, how far a point may move as it is held against the surface. feature_angle: rad, beyond which
+// edges are sharp; 0: there are none.
+FaceShapes face_shapes(const Tracked& tracked, const Heights& heights, double reach, double feature_angle) {
   constexpr int kNear = 8;  // lengths of a face, beyond which its surroundings are the whole surface
   const model::Surface& surface = *tracked.surface;
   const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
@@ -51,6 +67,9 @@ FaceShapes face_shapes(const Tracked& tracked, const Heights& heights, double re
     shapes.diagonal.push_back(diagonal(surface, f));
     shapes.curvature.push_back(largest_curvature(undeformed, heights, f));
   }
+  if (feature_angle > 0)
+    for (int f : sharp_faces(undeformed, feature_angle))
+      shapes.curvature[f] = std::numeric_limits<double>::infinity();
   shapes.largest_curvature = largest(shapes.curvature);
   std::vector<int> seen(static_cast<std::size_t>(n), -1);
   for (int f = 0; f < n; ++f) {
@@ -89,7 +108,7 @@ double sag(const Reach& reach, int slave_side, int f, int master_face) {
   const double curvature = slave.curvature[f] + (master_face < 0 ? master.largest_curvature
                                                                  : master.curvature_around[master_face]);
   const double d = slave.diagonal[f];
-  return std::min(curvature * d * d / 8, d / std::numbers::sqrt2);
+  return std::min(reach.rise * curvature * d * d, reach.most * d);
 }
 
 Limits limits_at(const Reach& reach, int slave_side, std::span<const int> corners) {
@@ -125,10 +144,22 @@ Reach reach_of(const Settings& settings, const std::array<const Tracked*, 2>& tr
   r.limits.depth = settings.depth + height + std::max(0.0, settings.offset);
   r.limits.cos_angle = std::cos(settings.normal_angle * std::numbers::pi / 180);
   r.nearest = r.limits.outside = height + std::max(0.0, -settings.offset);
-  if (settings.points != SlavePoints::minima) return r;
+  if (settings.points == SlavePoints::nodes) return r;
+  double feature_angle = 0;
+  if (settings.points == SlavePoints::faces) {
+    r.rise = 0.25;
+    r.most = 1;
+    feature_angle = settings.feature_angle * std::numbers::pi / 180;
+  }
   const std::array<double, 2> d{largest_diagonal(*tracked[0]->surface),
                                 largest_diagonal(*tracked[1]->surface)};
-  for (int i : {0, 1}) r.shapes[i] = face_shapes(*tracked[i], *heights[i], d[1 - i]);
+  const int slave_side = settings.slave;
+  const double master_size = 2 * tracked[1 - slave_side]->ball.radius;
+  require(settings.points != SlavePoints::faces || d[slave_side] < master_size,
+          "contact: points 'faces': the largest face of the slave has a diagonal of ", d[slave_side],
+          " m, the whole surface of the master ", master_size,
+          " m: a slave of faces so large misses it; exchange the two (slave)");
+  for (int i : {0, 1}) r.shapes[i] = face_shapes(*tracked[i], *heights[i], d[1 - i], feature_angle);
   r.limits.outside += std::max(largest_sag(r, 0), largest_sag(r, 1));
   for (int slave : slave_sides(settings))
     r.limits.around = std::max(r.limits.around, d[slave] + r.limits.outside);

@@ -23,15 +23,18 @@ struct Reach {
   Limits limits;
   double gap = 0;                    ///< m, of open candidates of the unilateral law
   double nearest = 0;                ///< m, how far outside the facets a point is that may be within it
-  std::array<FaceShapes, 2> shapes;  ///< of either surface; without faces unless minima are sought
+  double rise = 0.125;               ///< of curvature times the square of a face's diagonal, see sag
+  double most = 0.7072;              ///< of the diagonal, see sag
+  std::array<FaceShapes, 2> shapes;  ///< of either surface; without faces where nodes alone are held
 };
 
-/// settings: complete. heights: over the faces of each surface.
+/// settings: complete. heights: over the faces of each surface, or of the smooth surface behind its facets.
 Reach reach_of(const Settings& settings, const std::array<const Tracked*, 2>& tracked,
                const std::array<const Heights*, 2>& heights);
 
-/// Bound of how far a gap within slave face f falls below that at the nearest corner, m: the rise of a sphere
-/// of the relative curvature over the face; never more than its side. master_face: the nearest one; -1: any.
+/// Bound of how far a gap within slave face f falls below that at the nearest corner (minima) or any corner
+/// (faces), m: the rise of a sphere of the relative curvature over the face; never more than its distance.
+/// master_face: the nearest one; -1: any.
 double sag(const Reach& reach, int slave_side, int f, int master_face);
 
 /// The limits for a slave node, for whatever it may bound.

@@ -6,14 +6,21 @@
 namespace elastogear::recovery {
 namespace {
 
-// Largest speed at which each surface node slides as a slave, m/s.
-Eigen::VectorXd sliding_speed(const BodyContact& contact, Eigen::Index step, Eigen::Index n_surface) {
-  Eigen::VectorXd speed = Eigen::VectorXd::Zero(n_surface);
+// Largest pressure at each surface node as a slave, Pa, and the largest speed at which it slides, m/s.
+struct SlaveFields {
+  Eigen::VectorXd pressure, speed;
+};
+
+SlaveFields slave_fields(const BodyContact& contact, Eigen::Index step, Eigen::Index n_surface) {
+  SlaveFields fields{Eigen::VectorXd::Zero(n_surface), Eigen::VectorXd::Zero(n_surface)};
   for (const BodyContact::Pair& pair : contact.pairs)
-    for (const model::ContactRecord& record : pair.contacts[static_cast<std::size_t>(step)])
-      if (record.slave_side == pair.side)
-        speed[record.slave_node] = std::max(speed[record.slave_node], record.slip.norm());
-  return speed;
+    for (const model::ContactRecord& record : pair.contacts[static_cast<std::size_t>(step)]) {
+      if (record.slave_side != pair.side) continue;
+      double &pressure = fields.pressure[record.slave_node], &speed = fields.speed[record.slave_node];
+      pressure = std::max(pressure, record.pressure);
+      speed = std::max(speed, record.slip.norm());
+    }
+  return fields;
 }
 
 }  // namespace
@@ -33,15 +40,20 @@ std::vector<io::NodeField> contact_fields(const BodyContact& contact, Eigen::Ind
                                           const Eigen::Matrix3d& R_WB, const model::Surface& surface,
                                           Eigen::Index n_nodes) {
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3, n_nodes), traction = force,
-                  speed = Eigen::MatrixXd::Zero(1, n_nodes);
+                  pressure = Eigen::MatrixXd::Zero(1, n_nodes), speed = pressure;
   const Eigen::VectorXd area = contact::node_areas(surface.X, surface.face);
   for (std::size_t i = 0; i < contact.forces.node.size(); ++i) {
     const int local = contact.forces.node[i], node = surface.node[local];
     force.col(node) = R_WB * contact.forces.force.block<3, 1>(3 * static_cast<Eigen::Index>(i), step);
     if (area[local] > 0) traction.col(node) = force.col(node) / area[local];
   }
-  speed(0, surface.node) = sliding_speed(contact, step, surface.X.cols()).transpose();
-  return {{"contact_force [N]", force}, {"contact_traction [Pa]", traction}, {"sliding_speed [m/s]", speed}};
+  const SlaveFields slave = slave_fields(contact, step, surface.X.cols());
+  pressure(0, surface.node) = slave.pressure.transpose();
+  speed(0, surface.node) = slave.speed.transpose();
+  return {{"contact_force [N]", force},
+          {"contact_traction [Pa]", traction},
+          {"contact_pressure [Pa]", pressure},
+          {"sliding_speed [m/s]", speed}};
 }
 
 }  // namespace elastogear::recovery

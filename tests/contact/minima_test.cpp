@@ -52,15 +52,15 @@ Two two(double r_y, double gap) {
 
 std::vector<ContactPoint> found(Pair& pair, const Two& t, bool on_faces) {
   std::vector<ContactPoint> all = pair.detect(t.a, t.b);
-  std::erase_if(all, [&](const ContactPoint& c) { return (c.n_slave == 4) != on_faces; });
+  std::erase_if(all, [&](const ContactPoint& c) { return (c.n_slave() == 4) != on_faces; });
   return all;
 }
 
 Eigen::VectorXd local_positions(const Two& t, const ContactPoint& c) {
   Matrix3Xd x(3, c.n_local());
   for (int i = 0; i < c.n_local(); ++i)
-    x.col(i) = i < c.n_slave ? Vector3d(t.a.R_WB * t.a.x_B.col(c.slave_nodes[i]) + t.a.r_WB)
-                             : Vector3d(t.b.R_WB * t.b.x_B.col(c.master_node[i - c.n_slave]) + t.b.r_WB);
+    x.col(i) = i < c.n_slave() ? Vector3d(t.a.R_WB * t.a.x_B.col(c.slave_nodes[i]) + t.a.r_WB)
+                               : Vector3d(t.b.R_WB * t.b.x_B.col(c.master_nodes[i - c.n_slave()]) + t.b.r_WB);
   return x.reshaped();
 }
 
@@ -68,10 +68,10 @@ Eigen::VectorXd local_positions(const Two& t, const ContactPoint& c) {
 Two moved(Two t, const ContactPoint& c, int j, double step) {
   const int i = j / 3;
   const Vector3d dx = step * Vector3d::Unit(j % 3);
-  if (i < c.n_slave)
+  if (i < c.n_slave())
     t.a.x_B.col(c.slave_nodes[i]) += t.a.R_WB.transpose() * dx;
   else
-    t.b.x_B.col(c.master_node[i - c.n_slave]) += t.b.R_WB.transpose() * dx;
+    t.b.x_B.col(c.master_nodes[i - c.n_slave()]) += t.b.R_WB.transpose() * dx;
   return t;
 }
 

@@ -98,7 +98,7 @@ TEST(Pair, forces_and_moments_on_both_sides_balance) {
   };
   for (const ContactPoint& c : Pair(a, b, s).detect(state[0], state[1])) {
     apply(c.slave_side, c.slave_node, c.F.col(0));
-    for (int i = 0; i < 4; ++i) apply(1 - c.slave_side, c.master_node[i], c.F.col(1 + i));
+    for (int i = 0; i < 4; ++i) apply(1 - c.slave_side, c.master_nodes[i], c.F.col(1 + i));
   }
   EXPECT_GT(size, 0);
   EXPECT_LT(force.norm(), 1e-14 * size);
@@ -125,7 +125,7 @@ TEST(Pair, forces_are_the_slope_of_the_energy) {
     double slope = 0;
     for (const ContactPoint& c : pair.detect(state_a, state_b)) {
       slope -= c.F.col(0).dot(d_a.col(c.slave_node));
-      for (int i = 0; i < 4; ++i) slope -= c.F.col(1 + i).dot(d_b.col(c.master_node[i]));
+      for (int i = 0; i < 4; ++i) slope -= c.F.col(1 + i).dot(d_b.col(c.master_nodes[i]));
     }
     const double h = 1e-7;
     const auto moved = [&](double t) {

@@ -42,22 +42,25 @@ struct LineErrors {
   double peak, width;  // relative
 };
 
-LineErrors line_errors(int cells) {
+LineErrors line_errors(int cells, contact::SlavePoints points) {
   const auto body = block(cells);
   PairSetup pair{"block:cylinder", {0, 1}, {}};
   pair.settings.stiffness = 20 * body->surface.c_f[0];
   pair.settings.surface = contact::ContactSurface::smooth;
   pair.settings.depth = 2 * kDepth;
+  pair.settings.points = points;
   System system(
       {{.name = "block", .body = body}, {.name = "cylinder", .body = test::rigid_with(cylinder(kDepth))}},
       {pair});
   const model::PairState state =
       test::state_at_rest(system, test::equilibrium(system, system.initial_position())).pairs[0];
   const double thickness = 2.0 / cells, W = state.force.x() / thickness, E_star = kE / (1 - kNu * kNu);
+  // The pressure that a node has on faces falls to zero at the next nodes: it has a second moment of its own.
+  const double own = points == contact::SlavePoints::faces ? thickness * thickness / 6 : 0;
   double moment = 0, total = 0;
   for (const model::ContactRecord& c : state.contacts) {
     const double y = body->surface.X(1, c.slave_node);
-    moment += std::abs(c.f.x()) * y * y;
+    moment += std::abs(c.f.x()) * (y * y + own);
     total += std::abs(c.f.x());
   }
   const double peak = std::sqrt(W * E_star / (std::numbers::pi * kRadius)),
@@ -65,15 +68,17 @@ LineErrors line_errors(int cells) {
   return {state.total.pressure / peak - 1, 2 * std::sqrt(moment / total) / width - 1};
 }
 
-TEST(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
+class Hertz : public testing::TestWithParam<contact::SlavePoints> {};
+
+TEST_P(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   constexpr double kDiscretisation = 0.01;  // with 4.7 cells over the half width; found: -0.4 %, -0.3 %
   LineErrors last{1, 1};
   for (int cells : {60, 120, 240}) {
-    const LineErrors error = line_errors(cells);
+    const LineErrors error = line_errors(cells, GetParam());
     std::printf("line contact, %d cells: peak pressure %+.2f %%, half width %+.2f %%\n", cells,
                 100 * error.peak, 100 * error.width);
     EXPECT_LT(std::abs(error.peak), std::abs(last.peak) / 2);
-    EXPECT_LT(std::abs(error.width), std::abs(last.width) / 2);
+    EXPECT_LT(std::abs(error.width), std::max(std::abs(last.width) / 2, kDiscretisation));
     last = error;
   }
   EXPECT_LT(std::abs(last.peak), kDiscretisation);
@@ -148,6 +153,9 @@ TEST_P(TwoSpheres, force_radius_and_peak_pressure_converge) {
   EXPECT_LT(std::abs(last.radius), kDiscretisation);
   EXPECT_LT(std::abs(last.pressure), kDiscretisation);
 }
+
+INSTANTIATE_TEST_SUITE_P(Points, Hertz,
+                         testing::Values(contact::SlavePoints::nodes, contact::SlavePoints::faces));
 
 INSTANTIATE_TEST_SUITE_P(Hertz, TwoSpheres,
                          testing::Values(Spheres{1.40625e7, 0.25, 2, 0.01, 0.1, 477465, false},

@@ -21,8 +21,9 @@ enum class ContactLaw { penalty, unilateral };
 /// docs/theory.md, section 6.8.
 enum class ContactSurface { facets, smooth, exact };
 /// Points of the slave surface that contact is prevented from passing. nodes: its nodes. minima: its nodes,
-/// and the places on its faces and their sides where the gap is least. docs/theory.md, section 6.12.
-enum class SlavePoints { nodes, minima };
+/// and the places on its faces and their sides where the gap is least (docs/theory.md, section 6.12). faces:
+/// all points of its faces, in the mean over the faces around each node (section 6.13).
+enum class SlavePoints { nodes, minima, faces };
 /// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
 /// standstill.
 enum class FrictionLaw { regularised, stick };
@@ -87,10 +88,9 @@ struct ResidualDisplacement {
   double change = 0;                                 ///< m, bound of any node's change since the last call
 };
 
-inline constexpr int kMostLocalNodes = 8;  ///< four of the slave's face, four of the master's
-inline constexpr int kColumns = 17;        ///< most columns of a contact's tangent
-using LocalVectors = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMostLocalNodes>;
-using LocalColumns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * kMostLocalNodes, kColumns>;
+inline constexpr int kColumns = 17;  ///< most columns of a contact's tangent
+using LocalVectors = Eigen::Matrix3Xd;
+using LocalColumns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, kColumns>;
 using LocalStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kColumns, kColumns>;
 
 /// History of a sticking node from one step to the next: its point on the master, and the stretch of its
@@ -105,47 +105,48 @@ struct StickPoint {
 
 /// One active contact: x_slave - x_c = g_n n with the closest point x_c = sum_i N_i x_i of the master
 /// surface. On an edge or vertex n has the direction of that line, within the normals of the faces there.
-/// The slave point x_slave is a node, or lies on a face between its nodes. Local vectors are those of the
-/// slave's nodes, one or four, then of the four master nodes (x y z each, world frame). The local force F
-/// changes by dF = -W k (V' dx + V_dot' dv), v the velocities of the local nodes.
+/// The slave point x_slave is a node, or lies on a face between its nodes; of contacts that are integrated
+/// over faces all this is a mean over the faces around a slave node. Local vectors are those of the slave's
+/// nodes, then of the master's (x y z each, world frame). The local force F changes by
+/// dF = -W k (V' dx + V_dot' dv), v the velocities of the local nodes.
 struct ContactPoint {
   int slave_side = 0;
   int slave_point = 0;  ///< its number among all points of the slave that may be in contact (SlavePoint)
   int slave_node = 0;   ///< the slave point, or that nearest to it on its face
-  int n_slave = 1;      ///< number of slave nodes that F acts on
-  Eigen::Vector4i slave_nodes{0, 0, 0, 0};  ///< these; a triangle repeats its third node
-  Eigen::Vector4d slave_N{1, 0, 0, 0};      ///< interpolation functions at the slave point
-  int face = 0;
-  Eigen::Vector4i master_node;
-  Eigen::Vector4d N;  ///< master shape functions at the closest point
+  Eigen::VectorXi slave_nodes = Eigen::VectorXi::Zero(1);  ///< that F acts on; a triangle's third one twice
+  Eigen::VectorXd slave_N = Eigen::VectorXd::Ones(1);      ///< their weights in the slave point
+  int face = 0;                                            ///< of the master
+  Eigen::VectorXi master_nodes;
+  Eigen::VectorXd N;  ///< their weights in the closest point
   double xi = 0, eta = 0;
   Eigen::Vector3d n;  ///< outward master normal, world frame
   double g_n = 0;     ///< m, < 0 (of an open candidate of the unilateral law: > 0)
-  Eigen::Vector3d f;  ///< N, force on the slave point, world frame
-  LocalVectors F =
-      LocalVectors::Zero(3, 5);  ///< N, forces on the local nodes; they and their moments balance
-  double energy = 0;             ///< J, c_p g_n^2 / 2 and that of the tangential spring
-  double power = 0;              ///< W, taken by damping
-  double friction_power = 0;     ///< W, taken by friction
-  double slip_work = 0;          ///< J, taken since the last accepted step where a node sticks
+  double area = 0;  ///< m^2, share of the undeformed surface, where it is integrated over faces; otherwise 0
+  Eigen::Vector3d f;          ///< N, force on the slave point, world frame
+  LocalVectors F;             ///< N, forces on the local nodes; they and their moments balance
+  double energy = 0;          ///< J, c_p g_n^2 / 2 and that of the tangential spring
+  double power = 0;           ///< W, taken by damping
+  double friction_power = 0;  ///< W, taken by friction
+  double slip_work = 0;       ///< J, taken since the last accepted step where a node sticks
   Eigen::Vector3d slip =
       Eigen::Vector3d::Zero();  ///< m/s, tangential velocity on the master, where rates count
   Eigen::Vector3d elastic_slip = Eigen::Vector3d::Zero();  ///< m, of the tangential spring
   StickPoint stick;                                        ///< becomes history when the step is accepted
-  LocalVectors v = LocalVectors::Zero(3, 5);               ///< m/s, of the local nodes, where rates count
+  LocalVectors v;                                          ///< m/s, of the local nodes, where rates count
   double p = 0;                                            ///< N, force along n
-  double c = 0;  ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
-  LocalVectors F_p = LocalVectors::Zero(3, 5);  ///< -, unilateral only: change of F with p
-  LocalVectors g_x = LocalVectors::Zero(3, 5);  ///< -, unilateral only: gradient of g_n + c p at this p
-  LocalColumns W, V, V_dot;                     ///< V_dot has no column for forces that do not depend on v
-  LocalStiffness k;                             ///< N/m
+  double c = 0;              ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
+  LocalVectors F_p;          ///< -, unilateral only: change of F with p
+  LocalVectors g_x;          ///< -, unilateral only: gradient of g_n + c p at this p
+  LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
+  LocalStiffness k;          ///< N/m
 
-  int n_local() const { return n_slave + 4; }
+  int n_slave() const { return static_cast<int>(slave_nodes.size()); }
+  int n_local() const { return n_slave() + static_cast<int>(master_nodes.size()); }
 };
 
 /// N, F on the slave's side.
 inline Eigen::Vector3d slave_force(const ContactPoint& contact) {
-  return contact.F.leftCols(contact.n_slave).rowwise().sum();
+  return contact.F.leftCols(contact.n_slave()).rowwise().sum();
 }
 
 }  // namespace elastogear::contact

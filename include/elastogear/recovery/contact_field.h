@@ -26,8 +26,8 @@ BodyContact read_body_contact(const std::string& result, const std::string& body
                               const model::Surface& surface);
 
 /// contact_force (N, world frame), contact_traction (Pa, the same over the node's share of the undeformed
-/// surface) and sliding_speed (m/s, of slave nodes) at all n_nodes of the mesh at one output time, at which
-/// R_WB turns from the body to the world.
+/// surface), contact_pressure (Pa) and sliding_speed (m/s), both of slave nodes, at all n_nodes of the mesh
+/// at one output time, at which R_WB turns from the body to the world.
 std::vector<io::NodeField> contact_fields(const BodyContact& contact, Eigen::Index step,
                                           const Eigen::Matrix3d& R_WB, const model::Surface& surface,
                                           Eigen::Index n_nodes);

@@ -22,10 +22,10 @@ const Rows<S> kContactRows = {
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
      "residual "
      "flexibility that one body must have)"},
-    {"contact_points", &S::points, one_of("nodes", "minima"),
-     "of the slave that are kept from entering the master: its nodes, or also the minima of the gap along "
-     "the "
-     "sides of its faces and within them (unilateral, smooth)"},
+    {"contact_points", &S::points, one_of("nodes", "minima", "faces"),
+     "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
+     "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
+     "node (pressure as a field)"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",
@@ -92,7 +92,7 @@ void warn_of_facets(const Options& options, const dynamics::PairSetup& pair,
   const std::string& slave = bodies[pair.body[pair.settings.slave]];
   const bool deviates = options.given(slave + "_deviation"),
              facets = pair.settings.surface == contact::ContactSurface::facets;
-  const bool both = pair.settings.two_pass || pair.settings.points == contact::SlavePoints::minima;
+  const bool both = pair.settings.two_pass || pair.settings.points != contact::SlavePoints::nodes;
   if (both || (facets && !deviates)) return;
   print_item("warning", (facets ? slave + "_deviation" : "contact_surface") +
                             " has no effect on the surface of " + slave + ", the slave of the pair " +

@@ -20,7 +20,7 @@ ContactPoint geometry(const SurfaceView& master, const Projection& w) {
   const Eigen::Vector2d natural = natural_coordinates(sides, w.point.u, w.point.v);
   ContactPoint contact;
   contact.face = w.face;
-  contact.master_node = master.face.col(w.face);
+  contact.master_nodes = master.face.col(w.face);
   contact.N = w.point.N;
   contact.xi = natural[0];
   contact.eta = natural[1];
@@ -121,11 +121,13 @@ ContactPoint potential_contact(const MasterSide& master, const Projection& w, co
   ContactPoint contact = geometry(master.surface, w);
   contact.p = law.unilateral ? p : -law.c_p * w.g_n;
   contact.f = contact.p * w.n;
+  contact.F.resize(3, 5);
   contact.F << contact.f, -contact.f * w.point.N.transpose();
   contact.energy = 0.5 * law.c_p * w.g_n * w.g_n;
   double k = law.c_p;
   if (law.unilateral) {
     contact.c = unilateral_compliance(law, 1);
+    contact.F_p.resize(3, 5);
     contact.F_p << w.n, -w.n * w.point.N.transpose();
     contact.g_x = contact.F_p;
     contact.energy = 0.5 * contact.c * p * p;
@@ -161,8 +163,9 @@ std::optional<ContactPoint> general_contact(const MasterSide& master, const Open
   const Projection& w = open.projection;
   ContactPoint contact = geometry(master.surface, w);
   contact.p = slave.p;
+  contact.v.resize(3, 5);
   contact.v.col(0) = slave.v;
-  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.master_velocity(contact.master_node[i]);
+  for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.master_velocity(contact.master_nodes[i]);
   std::optional<StickMotion> motion;
   if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, open.kinematics);
   apply_law(law, open.kinematics, open.gap, motion ? &*motion : nullptr, contact);

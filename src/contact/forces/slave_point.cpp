@@ -99,6 +99,12 @@ Eigen::Matrix<double, 3, 2> corner_tangents(const SurfaceView& slave, const Heig
   return a;
 }
 
+Eigen::Matrix<double, 3, 24> on_nodes_of_faces(const SlaveGeometry& s, const Local3& by_point) {
+  Eigen::Matrix<double, 3, 24> rows;
+  rows << by_point.leftCols<3>() * carried(s), by_point.rightCols<12>();
+  return rows;
+}
+
 Eigen::Matrix2d gap_curvature(const SlaveGeometry& s, int n_dir, const GapBy<3>& gap) {
   Eigen::Matrix2d curvature = Eigen::Matrix2d::Identity();
   for (int i = 0; i < n_dir; ++i) {
@@ -128,7 +134,6 @@ void spread_over_face(const SlaveGeometry& s, int n_dir, const Gap& gap, Contact
   c.k = k;
   for (LocalVectors* vectors : {&c.F, &c.F_p, &c.g_x}) *vectors = vectors_on_nodes(S, *vectors);
   c.slave_N = s.N;
-  c.n_slave = 4;
 }
 
 }  // namespace elastogear::contact

@@ -41,6 +41,10 @@ Eigen::Matrix<double, 3, 2> corner_tangents(const SurfaceView& slave, const Heig
 /// others.
 Eigen::Matrix2d gap_curvature(const SlaveGeometry& geometry, int n_dir, const GapBy<3>& gap);
 
+/// From derivatives by the point and the four nodes of the master's face to those by the four nodes of its
+/// own face, which carry it, and the master's.
+Eigen::Matrix<double, 3, 24> on_nodes_of_faces(const SlaveGeometry& geometry, const Local3& by_point);
+
 /// From a contact of the point itself, with 15 local coordinates, to one of the four nodes of its face, which
 /// carry it. A point that moves with the least gap adds a column for each direction.
 void spread_over_face(const SlaveGeometry& geometry, int n_dir, const Gap& gap, ContactPoint& contact);

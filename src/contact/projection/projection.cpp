@@ -128,8 +128,9 @@ std::optional<Projection> walk_to_projection(const SurfaceView& master, const Ei
     for (int entry : around)
       if (entry / 4 != from) best.offer(entry / 4, closest_point(face_of(master, entry / 4), x));
   }
-  if (best.distance2 > limits.depth * limits.depth || !is_taken(master, {x, {}}, best, limits.outside))
-    return {};
+  if (best.distance2 > limits.depth * limits.depth) return {};
+  const bool is_on_face = best.point.feature == Feature::face && place(master, x, best) == Place::unknown;
+  if (!is_on_face && !is_taken(master, {x, {}}, best, limits.outside)) return {};
   return make_projection(master, x, best);
 }
 

@@ -69,10 +69,11 @@ NodeColumns node_columns(const contact::ContactPoint& point, int i, Eigen::Index
   const int node = local_node(point, i).node;
   const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
   const Eigen::Matrix3d R_BW = state.R_WB.transpose();
+  const bool has_rate = point.V_dot.cols() > 0;
   return {column,
           n_u + 3 * slot(terms.node, node),
           state.x_B.col(node),
-          R_BW * point.v.col(i),
+          has_rate ? Eigen::Vector3d(R_BW * point.v.col(i)) : Eigen::Vector3d(Eigen::Vector3d::Zero()),
           R_BW * point.W.middleRows(3 * i, 3),
           R_BW * point.V.middleRows(3 * i, 3),
           R_BW * point.V_dot.middleRows(3 * i, 3)};
@@ -107,8 +108,9 @@ bool without_potential(const std::vector<PairContacts>& pairs) {
 }  // namespace
 
 LocalNode local_node(const contact::ContactPoint& point, int i) {
-  if (i < point.n_slave) return {point.slave_side, point.slave_nodes[i]};
-  return {1 - point.slave_side, point.master_node[i - point.n_slave]};
+  const int n_slave = point.n_slave();
+  if (i < n_slave) return {point.slave_side, point.slave_nodes[i]};
+  return {1 - point.slave_side, point.master_nodes[i - n_slave]};
 }
 
 Eigen::Vector3d local_force(const contact::ContactPoint& point, int i) { return point.F.col(i); }

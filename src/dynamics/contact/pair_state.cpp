@@ -34,11 +34,11 @@ Eigen::Vector3d slip(const contact::ContactPoint& point, const System::Body* bod
                      const contact::SurfaceMotion motion[2]) {
   const int slave = point.slave_side, master = 1 - slave;
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
-  for (int i = 0; i < point.n_slave; ++i)
+  for (int i = 0; i < point.n_slave(); ++i)
     if (point.slave_N[i] != 0)
       v += point.slave_N[i] * velocity(*body[slave], motion[slave], point.slave_nodes[i]);
-  for (int i = 0; i < 4; ++i)
-    if (point.N[i] != 0) v -= point.N[i] * velocity(*body[master], motion[master], point.master_node[i]);
+  for (Eigen::Index i = 0; i < point.N.size(); ++i)
+    if (point.N[i] != 0) v -= point.N[i] * velocity(*body[master], motion[master], point.master_nodes[i]);
   return v - point.n * point.n.dot(v);
 }
 
@@ -48,7 +48,7 @@ using SlaveForces = std::array<std::map<int, double>, 2>;
 SlaveForces slave_forces(const std::vector<contact::ContactPoint>& points) {
   SlaveForces forces;
   for (const contact::ContactPoint& point : points)
-    for (int i = 0; i < point.n_slave; ++i)
+    for (int i = 0; i < point.n_slave(); ++i)
       if (point.slave_N[i] != 0)
         forces[point.slave_side][point.slave_nodes[i]] += point.slave_N[i] * point.f.dot(point.n);
   return forces;
@@ -61,8 +61,9 @@ struct Pressed {
 
 Pressed pressed(const contact::ContactPoint& point, const std::map<int, double>& force,
                 const Eigen::VectorXd& node_area) {
+  if (point.area > 0) return {point.area, force.at(point.slave_node) / point.area};
   Pressed sum;
-  for (int i = 0; i < point.n_slave; ++i) {
+  for (int i = 0; i < point.n_slave(); ++i) {
     const double N = point.slave_N[i], area = node_area[point.slave_nodes[i]];
     if (N == 0 || !(area > 0)) continue;
     const double all = force.at(point.slave_nodes[i]);

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 Eigen::Index leading_columns(const contact::ContactPoint& point) {
   if (point.V_dot.cols() == 0) return 1;
   constexpr Eigen::Index kOnExtension = 15;
-  return point.W.cols() == kOnExtension ? kOnExtension : 3;
+  return point.W.cols() == kOnExtension ? kOnExtension : std::min<Eigen::Index>(3, point.W.cols());
 }
 
 }  // namespace
