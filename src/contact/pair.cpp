@@ -59,9 +59,9 @@ Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurfa
           settings.points == SlavePoints::faces ? node_areas(surface.X, surface.face) : Eigen::VectorXd()};
 }
 
-// Facets that faces are held against are as curved as the smooth surface behind them.
-Heights heights_for_reach(const Tracked& tracked, const Side& side, const Settings& settings) {
-  if (settings.points != SlavePoints::faces || !side.heights.empty()) return side.heights;
+// The smooth surface behind facets, which are as curved as that where faces are held; none elsewhere.
+Heights behind_facets(const Tracked& tracked, const Side& side, const Settings& settings) {
+  if (settings.points != SlavePoints::faces || !side.heights.empty()) return {};
   const model::Surface& surface = *tracked.surface;
   return make_heights({surface.face, tracked.topology, surface.X, 0}, ContactSurface::smooth,
                       radians(settings.feature_angle), {});
@@ -100,6 +100,8 @@ struct Pair::Data {
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
                                            const Projection& w, std::map<int, NodeGap>& gaps) const;
   ContactPoint contact(const MasterSide& master, int slave_side, const Minimum& m) const;
+  std::optional<Projection> project(const SurfaceView& master, const SurfaceView& slave,
+                                    const PlacedNode& placed, std::span<const int> faces);
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
                   std::vector<ContactPoint>& contacts) const;
@@ -194,24 +196,30 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
   }
 }
 
+// faces: of the master, that can be nearest.
+std::optional<Projection> Pair::Data::project(const SurfaceView& master, const SurfaceView& slave,
+                                              const PlacedNode& placed, std::span<const int> faces) {
+  const SlaveNode q{placed.x, [&slave, &placed] { return node_normal(slave, placed.node); },
+                    [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
+  const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
+  int& last_face = side[placed.side].last_face[placed.node];
+  auto projection = find_projection(master, q, limits, faces, last_face);
+  last_face = projection ? projection->face : -1;
+  return projection;
+}
+
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0),
                     surface = tracker.view(1 - slave_side, settings.extension);
   const MasterSide master{surface, side[1 - slave_side].heights, radians(settings.feature_angle),
                           settings.points == SlavePoints::nodes};
-  std::vector<int>& last_face = side[slave_side].last_face;
   const Neighbours& near = tracker.near(slave_side);
   std::map<int, NodeGap> gaps;
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
     if (!is_whole(slave_side) && !side[slave_side].on_boundary[node]) continue;
-    const Eigen::Vector3d x = slave.x.col(node) + node_height(slave_side, slave, node);
-    const PlacedNode placed{slave_side, node, x};
-    const SlaveNode q{x, [&slave, &placed] { return node_normal(slave, placed.node); },
-                      [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
-    const Limits limits = limits_at(reach, slave_side, slave.topology.node_corners[node]);
-    const auto projection = find_projection(surface, q, limits, near.faces(i), last_face[node]);
-    last_face[node] = projection ? projection->face : -1;
+    const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
+    const auto projection = project(surface, slave, placed, near.faces(i));
     if (!projection) continue;
     auto found = node_contact(master, placed, *projection, gaps);
     if (!found) continue;
@@ -226,21 +234,15 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
 // The gaps at the slave nodes beside which one may lie within the reach.
 std::map<int, NodeGap> Pair::Data::node_gaps(int slave_side, const MasterSide& master) {
   const SurfaceView slave = tracker.view(slave_side, 0);
-  std::vector<int>& last_face = side[slave_side].last_face;
   const Neighbours& near = tracker.near(slave_side);
   std::map<int, NodeGap> gaps;
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
     const std::span<const int> around = slave.topology.node_corners[node];
-    const Eigen::Vector3d x = slave.x.col(node) + node_height(slave_side, slave, node);
-    const PlacedNode placed{slave_side, node, x};
-    const SlaveNode q{x, [&slave, &placed] { return node_normal(slave, placed.node); },
-                      [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
-    const auto projection = find_projection(master.surface, q, limits_at(reach, slave_side, around),
-                                            near.faces(i), last_face[node]);
-    last_face[node] = projection ? projection->face : -1;
+    const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
+    const auto projection = project(master.surface, slave, placed, near.faces(i));
     if (!projection) continue;
-    const PointGap over = point_gap(master, *projection, x, settings.offset);
+    const PointGap over = point_gap(master, *projection, placed.x, settings.offset);
     if (over.gap.g < largest_gap_at(reach, slave_side, around, over.projection.face))
       gaps[node] = {over.gap.g, over.gap.n, over.projection.face};
   }
@@ -335,8 +337,9 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
   std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
   Side side[2] = {make_side(both[0], settings, known[0]), make_side(both[1], settings, known[1])};
   std::array<Heights, 2> curved;
-  for (int i : {0, 1}) curved[i] = heights_for_reach(both[i], side[i], settings);
-  const Reach reach = reach_of(settings, {&both[0], &both[1]}, {&curved[0], &curved[1]});
+  for (int i : {0, 1}) curved[i] = behind_facets(both[i], side[i], settings);
+  const auto heights = [&](int i) { return curved[i].empty() ? &side[i].heights : &curved[i]; };
+  const Reach reach = reach_of(settings, {&both[0], &both[1]}, {heights(0), heights(1)});
   const std::array spares{spare(reach, 0, both[0].topology), spare(reach, 1, both[1].topology)};
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},

@@ -33,8 +33,8 @@ Reach reach_of(const Settings& settings, const std::array<const Tracked*, 2>& tr
                const std::array<const Heights*, 2>& heights);
 
 /// Bound of how far a gap within slave face f falls below that at the nearest corner (minima) or any corner
-/// (faces), m: the rise of a sphere of the relative curvature over the face; never more than its distance.
-/// master_face: the nearest one; -1: any.
+/// (faces), m: the rise of a sphere of the relative curvature over the face; never more than the farthest
+/// point of the face is away. master_face: the nearest one; -1: any.
 double sag(const Reach& reach, int slave_side, int f, int master_face);
 
 /// The limits for a slave node, for whatever it may bound.

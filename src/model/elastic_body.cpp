@@ -65,7 +65,8 @@ void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::strin
             source, ": S_2 is not finite or not square of size n_q = ", n_q);
 }
 
-// Whether a side has no nodes, six or eight, and all of the face's among them.
+// Returns whether the side of a cell is left out or has six or eight nodes, with those of the face among
+// them.
 bool is_side_of(const Eigen::Vector4i& face, const Eigen::Matrix<int, 8, 1>& side, int n_nodes) {
   const int* end = std::find(side.data(), side.data() + side.size(), -1);
   const auto n = end - side.data();

@@ -187,8 +187,9 @@ std::map<int, Weighted> sampled(const Caps& t) {
 }
 
 TEST(Faces, weighted_gaps_are_those_of_many_points_and_none_is_missed) {
-  // Of gaps, and beside the boundary, where samples are in or out: m. Areas too small to be sampled: m^2.
-  constexpr double kSampling = 4e-5, kAtBoundary = 2e-4, kSliver = 1e-4;
+  constexpr double kSampling = 4e-5;    // m, error of a gap by 400 points on each face
+  constexpr double kAtBoundary = 2e-4;  // m, the same on faces that the master covers in part
+  constexpr double kSliver = 1e-4;      // m^2, an area that 400 points are too few for
   test::Random random(7);
   int closed = 0;
   for (int trial = 0; trial < 12; ++trial) {

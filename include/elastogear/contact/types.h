@@ -135,8 +135,8 @@ struct ContactPoint {
   LocalVectors v;                                          ///< m/s, of the local nodes, where rates count
   double p = 0;                                            ///< N, force along n
   double c = 0;              ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
-  LocalVectors F_p;          ///< -, unilateral only: change of F with p
-  LocalVectors g_x;          ///< -, unilateral only: gradient of g_n + c p at this p
+  LocalVectors F_p;          ///< -, unilateral or over faces: change of F with p
+  LocalVectors g_x;          ///< -, unilateral or over faces: gradient of g_n + c p at this p
   LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
   LocalStiffness k;          ///< N/m
 

@@ -1,25 +1,23 @@
 #include "contact/faces/weighted_candidates.h"
 
-#include <algorithm>
-#include <array>
-#include <optional>
-#include <set>
-
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
 
 namespace elastogear::contact {
 namespace {
 
 using Eigen::Vector2d;
 
-// The gap over a face by its values and slopes with (u, v) at the corners that are known.
-struct Tangent2 {
+// The gap at a corner of a face, m, and its slope with (u, v).
+struct CornerGap {
   Vector2d at, slope;
   double g;
 };
 
+// The gap over a face by those of its corners that are known.
 struct FaceGaps {
-  std::vector<Tangent2> known;
+  std::vector<CornerGap> known;
   bool complete = true;
   double area = 0;   // m^2
   double slack = 0;  // m, by which a gap over facets may bend downwards
@@ -58,7 +56,7 @@ FaceGaps face_gaps(const GapField& field, int f, const std::map<int, NodeGap>& n
 // its centre; where a part of the face may lie beyond the master, the least known gap.
 double least_mean(const FaceGaps& gaps, const Vector2d& centre) {
   double planes = -kFarGap, least = kFarGap;
-  for (const Tangent2& t : gaps.known) {
+  for (const CornerGap& t : gaps.known) {
     planes = std::max(planes, t.g + t.slope.dot(centre - t.at));
     least = std::min(least, t.g);
   }
@@ -86,7 +84,8 @@ std::vector<int> weighted_candidates(const GapField& field, const std::map<int, 
       area += at->second.area;
       partial = partial || (!at->second.complete && mean <= within);
     }
-    if (partial || sum <= within * area) candidates.insert(node);
+    // In a valley of the master gaps are not convex; but where they are small at a node, it is near enough.
+    if (gap.g <= within || partial || sum <= within * area) candidates.insert(node);
   }
   for (const auto& [f, gaps] : faces)
     if (!gaps.complete && least_mean(gaps, {0, 0}) <= within)
