@@ -12,8 +12,12 @@ patch; those of the cylinder are 0.8 times as long, so that the meshes do not ma
 import argparse
 import os
 import subprocess
+import sys
 
 import numpy as np
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
+import results
 
 R, R_PIN, SIZE, THICKNESS = 50e-3, 10e-3, 200e-3, 1e-3  # m
 E_CYLINDER, E_BLOCK, NU = 210e9, 70e9, 0.3  # Pa
@@ -101,9 +105,6 @@ def run(command, folder, log):
 
 def elastogear(program, folder, parts, points, law):
     """Displacement of the pin (m) and largest pressure (Pa)."""
-    import sys
-    sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
-    import results
     for name, E in (("cylinder", E_CYLINDER), ("block", E_BLOCK)):
         with open(os.path.join(folder, name + ".inp"), "w", encoding="utf-8") as file:
             file.write(parts[name])
@@ -181,7 +182,7 @@ def main():
         parts["cylinder_after_block"] = part("cylinder", meshes["cylinder"], offset, len(meshes["block"].cells), held["cylinder"])
         rows = [(f"{points}, {law}", *elastogear(program, folder, parts, points, law))
                 for points in ("nodes", "faces") for law in ("penalty", "unilateral")]
-        rows.append(("CalculiX, faces", *calculix(options.calculix, folder, parts, held["cylinder"], offset)[::1]))
+        rows.append(("CalculiX, faces", *calculix(options.calculix, folder, parts, held["cylinder"], offset)))
         for name, pin, pressure in rows:
             print(f"{faces:5g}  {name:20s}  {pressure / 1e6:14.1f}  {100 * (pressure / P_0 - 1):+7.2f} %  {1e3 * pin:10.5f}", flush=True)
 

@@ -196,7 +196,7 @@ mesh::Mesh block(const Flank& flank, const Vector3d& along, const Grid& g) {
 
 // ---- contact
 
-// What a row of the table is computed with.
+// Basis of the two blocks and their contact, by which a row of the printed table is computed.
 struct Method {
   bool full = false;  // the full basis; otherwise ten modes with residual flexibility
   contact::ContactLaw law = contact::ContactLaw::penalty;
