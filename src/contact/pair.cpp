@@ -23,7 +23,9 @@ struct Side {
   Heights heights;                  // over its faces
   std::vector<int> last_face;       // master face each node touched last; -1
   std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
+  std::map<int, StickPoint> open;   // where the last look found the other nodes that are near
   std::map<int, double> p;          // N, normal forces given, by slave point
+  std::map<int, GivenFriction> t;   // by slave node that sticks, in the frame that contacts are found in
   std::vector<bool> on_boundary;    // of each node
   Eigen::VectorXd area;             // m^2, of each node, undeformed; of contact integrated over faces
 };
@@ -55,6 +57,8 @@ Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurfa
           std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
           {},
           {},
+          {},
+          {},
           boundary_nodes(tracked),
           settings.points == SlavePoints::faces ? node_areas(surface.X, surface.face) : Eigen::VectorXd()};
 }
@@ -75,9 +79,15 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
     for (auto vector : vectors->colwise()) vector = (R * vector).eval();
   contact.slip = R * contact.slip;
   contact.elastic_slip = R * contact.elastic_slip;
-  for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot})
+  if (contact.tangential) contact.tangential->T = R * contact.tangential->T;
+  const auto rotate_rows = [&](auto& columns) {
     for (int i = 0; i < contact.n_local(); ++i)
-      columns->middleRows<3>(3 * i) = (R * columns->middleRows<3>(3 * i)).eval();
+      columns.template middleRows<3>(3 * i) = (R * columns.template middleRows<3>(3 * i)).eval();
+  };
+  for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot}) rotate_rows(*columns);
+  if (!contact.tangential) return;
+  rotate_rows(contact.tangential->F_t);
+  rotate_rows(contact.tangential->u_x);
 }
 
 }  // namespace
@@ -87,6 +97,7 @@ struct Pair::Data {
   Side side[2];
   Reach reach;
   Tracker tracker;
+  Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  // from the frame that contacts are found in
 
   bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
@@ -108,7 +119,7 @@ struct Pair::Data {
   std::map<int, NodeGap> node_gaps(int slave_side, const MasterSide& master);
   Eigen::Vector3d curved(int i, int node) const;
   std::vector<ContactPoint> integrated_contacts();
-  std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R_WB);
+  std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R);
 };
 
 // The corners of the faces on which nodes stick must be placed as long as these nodes stick.
@@ -146,6 +157,7 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, p, settings.full_tangent);
   const auto stuck = slaves.stuck.find(node);
+  const auto given = slaves.t.find(node);
   if (settings.points == SlavePoints::minima) {
     const PointGap over = point_gap(master, w, slave.x, settings.offset);
     if (over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
@@ -157,7 +169,8 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
   return general_contact(
       master, open,
       {tracker.velocity(slave_side, node), [&](int n) { return tracker.velocity(1 - slave_side, n); },
-       stuck == slaves.stuck.end() ? nullptr : &stuck->second, p},
+       stuck == slaves.stuck.end() ? nullptr : &stuck->second, p,
+       given == slaves.t.end() ? GivenFriction{} : given->second},
       law);
 }
 
@@ -215,6 +228,7 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
                           settings.points == SlavePoints::nodes};
   const Neighbours& near = tracker.near(slave_side);
   std::map<int, NodeGap> gaps;
+  side[slave_side].open.clear();
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
     if (!is_whole(slave_side) && !side[slave_side].on_boundary[node]) continue;
@@ -226,6 +240,7 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
     found->slave_side = found->stick.slave_side = slave_side;
     found->slave_point = found->slave_node = found->stick.slave_node = node;
     found->slave_nodes[0] = node;
+    if (sticks()) side[slave_side].open[node] = found->stick;
     contacts.push_back(std::move(*found));
   }
   if (settings.points == SlavePoints::minima) add_minima(master, slave_side, gaps, contacts);
@@ -272,7 +287,8 @@ std::vector<ContactPoint> Pair::Data::integrated_contacts() {
       node_gaps(slave_side, master));
 }
 
-std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R_WB) {
+std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R) {
+  R_WB = R;
   std::vector<ContactPoint> contacts;
   if (settings.points == SlavePoints::faces)
     contacts = integrated_contacts();
@@ -290,14 +306,24 @@ SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& m
 
 Eigen::Vector3d Pair::position(int side, int node) const { return data_->tracker.position_B(side, node); }
 
-void Pair::set_normal_forces(const std::vector<ContactPoint>& contacts) {
-  for (Side& side : data_->side) side.p.clear();
-  for (const ContactPoint& contact : contacts)
-    if (contact.p > 0) data_->side[contact.slave_side].p[contact.slave_point] = contact.p;
+void Pair::set_forces(const std::vector<ContactPoint>& contacts) {
+  for (Side& side : data_->side) {
+    side.p.clear();
+    side.t.clear();
+  }
+  for (const ContactPoint& contact : contacts) {
+    if (!(contact.p > 0)) continue;
+    Side& side = data_->side[contact.slave_side];
+    side.p[contact.slave_point] = contact.p;
+    if (const auto& f = contact.tangential)
+      side.t[contact.slave_node] = {data_->R_WB.transpose() * (f->T * f->t), f->slides};
+  }
 }
 
+// Open candidates of the unilateral law have been found at the end of the step, too: those that close in the
+// next one slide from there.
 void Pair::accept(const std::vector<ContactPoint>& contacts) {
-  for (Side& side : data_->side) side.stuck.clear();
+  for (Side& side : data_->side) side.stuck = std::exchange(side.open, {});
   if (data_->sticks())
     for (const ContactPoint& contact : contacts)
       data_->side[contact.slave_side].stuck[contact.slave_node] = contact.stick;

@@ -53,15 +53,13 @@ void validate(const Settings& s) {
   validate(s.friction);
   require(s.law != ContactLaw::unilateral || (s.damping == 0 && s.hysteresis == 0),
           "contact: damping and hysteresis are those of the penalty; the unilateral law has none");
-  require(s.law != ContactLaw::unilateral || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
-          "contact: friction that sticks needs the law 'penalty'");
   require(s.points != SlavePoints::minima ||
               (s.law == ContactLaw::unilateral && s.surface != ContactSurface::facets),
           "contact: points 'minima' need the law 'unilateral' and the surface 'smooth' or 'exact'");
   require(s.points == SlavePoints::nodes || !s.two_pass, "contact: points '",
           s.points == SlavePoints::minima ? "minima" : "faces",
           "' take both surfaces in one pass; leave two_pass out");
-  require(s.points != SlavePoints::faces || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
+  require(s.points == SlavePoints::nodes || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
           "contact: friction that sticks needs the points 'nodes'");
   require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
           ", allowed is 0 to 0.5");

@@ -30,6 +30,8 @@ struct Equilibrium {
   double factor = 0;
   Eigen::VectorXd zero;
   std::vector<Eigen::VectorXd> resistance;  // sigma M of each body's joint coordinates, its diagonal
+  double least_norm = 0;                    // of F, so far
+  int n_in_vain = 0;                        // iterations since then
 
   State state(ConstVector U) const { return {factor, U, zero, zero}; }
 };
@@ -91,14 +93,34 @@ double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& 
   return most;
 }
 
+// Forces of contact have kinks, between which Newton's method may go round without an end; shorter steps end
+// on one.
+double damping(Equilibrium& at, SNESLineSearch search) {
+  constexpr int kPatience = 4;  // iterations in which the imbalance has not fallen
+  SNES snes = nullptr;
+  PetscInt iteration = 0;
+  PetscReal norm = 0;
+  check(SNESLineSearchGetSNES(search, &snes));
+  check(SNESGetIterationNumber(snes, &iteration));
+  check(SNESGetFunctionNorm(snes, &norm));
+  if (iteration == 0 || norm < at.least_norm) {
+    at.least_norm = norm;
+    at.n_in_vain = 0;
+  } else {
+    ++at.n_in_vain;
+  }
+  return at.n_in_vain < kPatience ? 1 : 0.5;
+}
+
 // Surfaces must not pass through each other unseen.
-PetscErrorCode limit(SNESLineSearch, Vec X, Vec Y, PetscBool* changed, void* ctx) {
+PetscErrorCode limit(SNESLineSearch search, Vec X, Vec Y, PetscBool* changed, void* ctx) {
   auto& at = *static_cast<Equilibrium*>(ctx);
   return guard(at.problem.pending, [&] {
     const ReadView x(X);
     Eigen::VectorXd y = *ReadView(Y);
     if (!y.allFinite()) return;
-    double share = 1;
+    double share = damping(at, search);
+    y *= share;
     while (true) {
       const double too_far = excess(at, *x, *x - y);
       if (too_far <= 1) break;

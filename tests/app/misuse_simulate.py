@@ -19,7 +19,7 @@ SIMULATE = [
     Case("a gap moved out of sight", r"offset 1 m must not exceed", "{simulate} -contact_offset 1"),
     Case("no penalty and no residual flexibility", r"reduce a body with -basis modal_residual", "{simulate} -contact_law unilateral"),
     Case("damping without a penalty", r"damping and hysteresis are those of the penalty", "{simulate} -contact_law unilateral -contact_damping 1"),
-    Case("sticking without a penalty", r"friction that sticks needs the law 'penalty'", "{simulate} -contact_law unilateral -contact_friction 0.2 -contact_friction_law stick"),
+    Case("sticking at points that move", r"friction that sticks needs the points 'nodes'", "{simulate} -contact_law unilateral -contact_points minima -contact_surface smooth -contact_friction 0.2 -contact_friction_law stick"),
     Case("negative contact damping", r"damping -1", "{simulate} -contact_damping -1"),
     Case("negative step", r"ts_dt = -1e-07", "{simulate} -ts_dt -1e-7"),
     Case("no end", r"ts_max_time = 0 s: must be positive", "{simulate} -ts_max_time 0"),

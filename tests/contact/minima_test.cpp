@@ -89,7 +89,7 @@ TEST(GapMinima, gradient_and_tangent_are_those_of_the_least_gap) {
   std::vector<ContactPoint> points = found(pair, t, true);
   ASSERT_GE(points.size(), 4u);
   for (ContactPoint& c : points) c.p = kForce;
-  pair.set_normal_forces(points);
+  pair.set_forces(points);
   for (const ContactPoint& named : points) {
     const ContactPoint c = again(pair, t, named.slave_point);
     const Eigen::VectorXd g_x = c.g_x.reshaped();

@@ -49,6 +49,7 @@ struct Options {
   double depth = 0.02;
   bool flexible = false;
   bool unilateral = false;
+  bool sticks = false;  // friction, since the state at the start
   double extension = contact::Settings{}.extension;  // 0: without forces that push nodes off open ends
 };
 
@@ -78,6 +79,7 @@ System two_boxes(const Options& options) {
   pair.settings.damping = options.flexible ? 0 : options.damping;
   pair.settings.hysteresis = options.damping;
   pair.settings.friction = {.mu = options.friction, .v_0 = 0.4};
+  if (options.sticks) pair.settings.friction.law = contact::FrictionLaw::stick;
   pair.settings.law = options.unilateral ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
   return System(bodies, {pair}, {.inertia = options.level, .gravity = {1, -2, 3}});
 }
@@ -132,7 +134,10 @@ BodySetup named(const std::string& name) {
 TEST_P(Jacobian, is_the_derivative_of_the_residual) {
   System system = two_boxes(GetParam());
   const Values s = some_state(system);
-  ASSERT_GE(system.contacts(kTime, s.U, s.V).pair[0].points.size(), 3u);
+  if (GetParam().sticks) system.accept(Values{system.initial_position(), s.V, s.A});
+  const auto& points = system.contacts(kTime, s.U, s.V).pair[0].points;
+  ASSERT_GE(points.size(), 3u);
+  ASSERT_EQ(points[0].tangential.has_value(), GetParam().sticks);
   const bool split = GetParam().unilateral && GetParam().two_pass;
   const double tolerance = split ? kSplit : GetParam().flexible ? kTrials : kDifference;
   // The forces of contacts without a penalty are larger, and so is their roundoff.
@@ -166,6 +171,9 @@ INSTANTIATE_TEST_SUITE_P(
         Options{.flexible = true, .unilateral = true},
         Options{.two_pass = true, .flexible = true, .unilateral = true},
         Options{.two_pass = true, .friction = 0.4, .depth = 0.006, .flexible = true, .unilateral = true},
+        Options{.friction = 0.01, .depth = 0.006, .flexible = true, .unilateral = true, .sticks = true},
+        Options{.friction = 10, .depth = 0.006, .flexible = true, .unilateral = true, .sticks = true},
+        Options{.two_pass = true, .friction = 0.3, .depth = 0.006, .flexible = true, .unilateral = true, .sticks = true},
         Options{.joint = JointType::free, .rotation = {}, .damping = 2, .flexible = true},
         Options{.joint = JointType::spherical, .rotation = {}},
         Options{.joint = JointType::free, .rotation = {}},

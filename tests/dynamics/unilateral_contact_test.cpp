@@ -75,6 +75,46 @@ TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
   for (const auto& contact : found.pairs[0].contacts) EXPECT_GT(contact.f.norm(), 0);
 }
 
+// A ram that is driven against a wall, which is driven aside. They touch, and stick, from the start.
+System press_and_rub(double aside, double stiffness, const contact::FrictionSettings& friction, bool two_pass) {
+  constexpr double kApproach = 2e-3, kOverlap = 1e-5;  // m
+  const bool flexible = stiffness == kUnilateral;
+  std::vector<BodySetup> setups{{.name = "ram", .body = block(flexible, {2, 3, 2}, 0)},
+                                {.name = "wall", .body = block(flexible, {2, 2, 2}, 1)}};
+  setups[0].joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}};
+  setups[0].translation.drive = speed_drive(0, kApproach);
+  setups[1].joint = {.type = body::JointType::prismatic, .axis = {0, 1, 0}, .r_WB0 = {1.0001, 0.25, 0.1}};
+  setups[1].translation.drive = speed_drive(0, aside);
+  PairSetup pair{"ram:wall", {0, 1}, {}};
+  pair.settings.law = flexible ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
+  pair.settings.stiffness = std::max(0., stiffness);
+  pair.settings.depth = 0.05;
+  pair.settings.two_pass = two_pass;
+  pair.settings.extension = 0;
+  pair.settings.offset = -1e-4 - kOverlap;
+  pair.settings.friction = friction;
+  for (BodySetup& setup : setups) scale_by_load_factor(setup, 1);
+  return System(setups, {pair});
+}
+
+// At the first, all nodes stick; at the others, some or all have slid in the end.
+TEST(Unilateral, equilibrium_with_friction_that_sticks_is_the_limit_of_stiff_springs) {
+  constexpr double kStiff = 1e7;
+  for (bool two_pass : {false, true})
+    for (double aside : {4e-4, -3e-3, 5e-3}) {
+      const contact::FrictionSettings friction{
+          .mu = 0.3, .mu_static = 0.32, .law = contact::FrictionLaw::stick};
+      const model::Snapshot found = equilibrium(press_and_rub(aside, kUnilateral, friction, two_pass)),
+                            limit = equilibrium(press_and_rub(aside, kStiff, friction, two_pass));
+      const Vector3d f = found.pairs[0].force, f_limit = limit.pairs[0].force;
+      std::printf("%g m aside, %d passes: force %.5g %.5g N, with stiff springs %.5g %.5g N, taken %.4g, %.4g J\n",
+                  aside, two_pass ? 2 : 1, f.x(), f.y(), f_limit.x(), f_limit.y(), found.energy.dissipated,
+                  limit.energy.dissipated);
+      EXPECT_LT((f - f_limit).norm(), 1e-3 * f.norm());
+      EXPECT_NEAR(found.energy.dissipated, limit.energy.dissipated, 2e-3 * limit.energy.dissipated + 1e-9);
+    }
+}
+
 // Two elastic bars collide (St. Venant): contact lasts 2 L / c, the force is rho c v A / 2. They move along x
 // alone, with frames at their far ends.
 constexpr double kLength = 0.2, kWidth = 0.02, kSpeed = 100;  // m, m, m/s

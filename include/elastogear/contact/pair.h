@@ -36,8 +36,8 @@ class Pair {
   /// m, in its BRF, of a node that a contact of the last detect (by motion) names; residual included.
   Eigen::Vector3d position(int side, int node) const;
 
-  /// Unilateral law: later calls of detect find these contacts with these forces p, all others with none.
-  void set_normal_forces(const std::vector<ContactPoint>& contacts);
+  /// Unilateral law: later calls of detect find these contacts with these forces, all others with none.
+  void set_forces(const std::vector<ContactPoint>& contacts);
 
   /// Makes the sticking of these contacts what the next step starts from.
   void accept(const std::vector<ContactPoint>& contacts);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "elastogear/model/elastic_body.h"
 
@@ -103,6 +104,20 @@ struct StickPoint {
   bool slides = false;
 };
 
+/// Tangential force of a node that sticks, unilateral only, along two directions T normal to n:
+/// u + c t = 0 as long as |t| <= mu p, otherwise t = -mu p (u + c t) / |u + c t|. docs/theory.md, Eq. (6.24a).
+struct TangentialForce {
+  Eigen::Matrix<double, 3, 2> T;  ///< world frame
+  Eigen::Vector2d t;              ///< N, on the slave point
+  Eigen::Vector2d u;              ///< m, on the master since the last step, and the stretch of then
+  double c = 0;                   ///< m/N
+  double mu_static = 0, mu = 0;   ///< -, of a node that sticks (or slides already), and once it slides
+  bool slides = false;            ///< is |t| at its limit?
+  Eigen::Matrix2d K;              ///< N/m, dt = -K du at unchanged p
+  Eigen::Matrix<double, Eigen::Dynamic, 2> F_t, u_x;  ///< -, change of F with t, gradient of u
+  Eigen::Matrix2d on_face;                            ///< 1/m, (e_u, e_v) of a stretch along T (StickPoint)
+};
+
 /// One active contact: x_slave - x_c = g_n n with the closest point x_c = sum_i N_i x_i of the master
 /// surface. On an edge or vertex n has the direction of that line, within the normals of the faces there.
 /// The slave point x_slave is a node, or lies on a face between its nodes; of contacts that are integrated
@@ -137,6 +152,7 @@ struct ContactPoint {
   double c = 0;              ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
   LocalVectors F_p;          ///< -, unilateral or over faces: change of F with p
   LocalVectors g_x;          ///< -, unilateral or over faces: gradient of g_n + c p at this p
+  std::optional<TangentialForce> tangential;
   LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
   LocalStiffness k;          ///< N/m
 

@@ -98,17 +98,22 @@ StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, con
   return motion;
 }
 
-StickPoint stick_point(const Face& face, const Projection& w, const ContactPoint& contact) {
-  const Shape s = shape(face.sides, w.point.u, w.point.v);
+// Local coordinates of a tangential vector: 2 x 3, 1/m.
+Eigen::Matrix<double, 2, 3> on_face(const Shape& s, const Face& face) {
   Eigen::Matrix<double, 3, 2> a;
   a << combine(face, s.N_u), combine(face, s.N_v);
-  const Eigen::Vector2d e = (a.transpose() * a).inverse() * (a.transpose() * contact.elastic_slip);
-  StickPoint point = contact.stick;
+  return (a.transpose() * a).inverse() * a.transpose();
+}
+
+void set_stick_point(const Face& face, const Projection& w, ContactPoint& contact) {
+  StickPoint& point = contact.stick;
   point.face = w.face;
   point.u = w.point.u;
   point.v = w.point.v;
+  const auto local = on_face(shape(face.sides, w.point.u, w.point.v), face);
+  if (contact.tangential) contact.tangential->on_face = local * contact.tangential->T;
+  const Eigen::Vector2d e = local * contact.elastic_slip;
   if (e.allFinite()) point.e_u = e[0], point.e_v = e[1];
-  return point;
 }
 
 }  // namespace
@@ -167,9 +172,12 @@ std::optional<ContactPoint> general_contact(const MasterSide& master, const Open
   contact.v.col(0) = slave.v;
   for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.master_velocity(contact.master_nodes[i]);
   std::optional<StickMotion> motion;
-  if (slave.stuck) motion = stick_motion(master.surface, *slave.stuck, w, open.kinematics);
+  if (slave.stuck) {
+    motion = stick_motion(master.surface, *slave.stuck, w, open.kinematics);
+    motion->given = slave.friction;
+  }
   apply_law(law, open.kinematics, open.gap, motion ? &*motion : nullptr, contact);
-  contact.stick = stick_point(face_of(master.surface, w.face), w, contact);
+  set_stick_point(face_of(master.surface, w.face), w, contact);
   return contact;
 }
 

@@ -48,6 +48,7 @@ struct SlaveContact {
   std::function<Eigen::Vector3d(int node)> master_velocity;  ///< m/s
   const StickPoint* stuck;  ///< of this slave point after the last step, or null
   double p = 0;             ///< N, of a unilateral law
+  GivenFriction friction = {};  ///< of a unilateral law
 };
 std::optional<ContactPoint> general_contact(const MasterSide& master, const OpenPoint& open,
                                             const SlaveContact& slave, const Law& law);

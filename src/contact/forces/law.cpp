@@ -85,6 +85,22 @@ Friction sticking(const Vector3d& z, double c_t, double limit) {
   return f;
 }
 
+// m/N, between a unilateral contact and the point it sticks to: beside that along n as c_p is beside c_t.
+double tangential_compliance(const Law& law) { return unilateral_compliance(law, 1) * law.c_p / law.c_t; }
+
+// The friction that a unilateral contact is given. Where it slides, its direction turns with the way u.
+Friction given_friction(const Vector3d& t, const Vector3d& u, double c, double limit, bool slides) {
+  Friction f;
+  f.at_limit = slides;
+  f.direction = limit > 0 ? Vector3d(-t / limit) : Vector3d(Vector3d::Zero());
+  if (slides)
+    f.K = limit / std::max(u.norm(), c * limit) *
+          (Matrix3d::Identity() - f.direction * f.direction.transpose());
+  else
+    f.K = Matrix3d::Identity() / c;
+  return f;
+}
+
 // The parts that make up a contact force.
 struct Parts {
   Varying slip;        // velocity
@@ -127,6 +143,14 @@ Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& g
     parts.mu = law.mu;
     parts.motion = parts.slip;
     parts.friction = regularised(parts.motion.value, law.v_0, law.mu * parts.p);
+  } else if (stick && law.unilateral) {
+    const GivenFriction& given = stick->given;
+    const double c = tangential_compliance(law);
+    parts.mu = stick->slides || given.slides ? law.mu : law.mu_static;
+    const bool slides = given.slides && parts.p > 0;
+    const Vector3d n = gap.n.normalized(), t = given.t - n * n.dot(given.t);
+    parts.motion = tangential({slides ? stick->u : -c * t, stick->u_x, Local3::Zero()}, gap);
+    parts.friction = given_friction(t, parts.motion.value, c, parts.mu * parts.p, slides);
   } else if (stick) {
     parts.mu = stick->slides ? law.mu : law.mu_static;
     parts.motion = tangential({stick->u, stick->u_x, Local3::Zero()}, gap);
@@ -183,11 +207,42 @@ void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, Conta
 // Sets the compliance c and the gradients F_p, g_x of a contact without penalty: docs/theory.md, Eq. (6.24).
 void set_unilateral(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                     const Parts& parts, ContactPoint& contact) {
-  const Vector3d per_p = gap.n - (parts.friction.at_limit ? parts.mu : 0.0) * parts.friction.direction;
+  const bool follows_p = law.v_0 > 0;  // what sticks has a tangential force of its own
+  const Vector3d per_p = gap.n - (follows_p ? parts.mu : 0.0) * parts.friction.direction;
   contact.c = unilateral_compliance(law, gap.fade.f);
   const LocalRow g_x = -contact.c * parts.p_x, faded = g_x - gap.g_x;
   contact.F_p = (kinematics.G.transpose() * per_p + faded.transpose()).reshaped(3, 5);
   contact.g_x = g_x.reshaped(3, 5);
+}
+
+// The force along the master of a unilateral contact that sticks: docs/theory.md, Eq. (6.24a).
+TangentialForce tangential_force(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
+                                 const Parts& parts, const StickMotion& stick) {
+  TangentialForce f;
+  const Vector3d n = gap.n.normalized();
+  f.T.col(0) = n.unitOrthogonal();
+  f.T.col(1) = n.cross(f.T.col(0));
+  f.t = -parts.mu * parts.p * f.T.transpose() * parts.friction.direction;
+  f.u = f.T.transpose() * stick.u;
+  f.c = tangential_compliance(law);
+  f.mu_static = stick.slides ? law.mu : law.mu_static;
+  f.mu = law.mu;
+  f.slides = parts.friction.at_limit;
+  f.K = f.T.transpose() * parts.friction.K * f.T;
+  f.F_t = kinematics.G.transpose() * f.T;
+  f.u_x = parts.motion.x.transpose() * f.T;
+  return f;
+}
+
+// What a node that sticks stores and takes, and what it remembers.
+void set_stick(const Law& law, const Parts& parts, ContactPoint& contact) {
+  const Vector3d elastic = parts.mu * parts.p / law.c_t * parts.friction.direction;
+  const double force_t = parts.mu * parts.p * parts.friction.direction.norm();
+  contact.stick.slides = parts.friction.at_limit;
+  contact.elastic_slip = elastic;
+  contact.energy += 0.5 * law.c_t * elastic.squaredNorm();
+  contact.slip_work = force_t * (parts.motion.value - elastic).norm();
+  if (parts.friction.at_limit) contact.friction_power = force_t * contact.slip.norm();
 }
 
 // The energy e of which -e d(fade) is the force on an extension. That of a unilateral contact, c p^2 / 2 at
@@ -267,13 +322,10 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
     add_boundary_force(boundary_force(kinematics, gap, fading_energy(law, kinematics, gap, all)), contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   if (!stick || law.c_t == 0) return;
-  const Vector3d elastic = all.mu * all.p / law.c_t * all.friction.direction;
-  const double force_t = all.mu * all.p * all.friction.direction.norm();
-  contact.stick.slides = all.friction.at_limit;
-  contact.elastic_slip = elastic;
-  contact.energy += 0.5 * law.c_t * elastic.squaredNorm();
-  contact.slip_work = force_t * (all.motion.value - elastic).norm();
-  if (all.friction.at_limit) contact.friction_power = force_t * contact.slip.norm();
+  if (law.unilateral)
+    contact.tangential = tangential_force(law, kinematics, gap, all, *stick);
+  else
+    set_stick(law, all, contact);
 }
 
 }  // namespace elastogear::contact

@@ -17,7 +17,7 @@ struct Law {
   double mu = 0;            ///< coefficient of friction
   double mu_static = 0;     ///< of a node that sticks
   double v_0 = 0;           ///< m/s, of regularised friction; 0: sticks with c_t
-  double c_t = 0;           ///< N/m, tangential stiffness of a node that sticks
+  double c_t = 0;           ///< N/m, tangential stiffness of a node that sticks, beside the penalty c_p
 };
 
 /// Force normal to the (smoothed) surface, N, with its derivatives.
@@ -53,11 +53,18 @@ Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, doub
         const FaceFunction& fade = {1});
 GapBy<3> gap(const KinematicsBy<3>& kinematics, const FaceFunction& height, double offset);
 
+/// Tangential force that a unilateral contact is given.
+struct GivenFriction {
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();  ///< N, on the slave node
+  bool slides = false;                          ///< is it at the limit?
+};
+
 /// Tangential motion of the slave node on the master since it stuck, m.
 struct StickMotion {
   Eigen::Vector3d u = Eigen::Vector3d::Zero();
   Local3 u_x = Local3::Zero();
   bool slides = false;
+  GivenFriction given = {};  ///< unilateral only
 };
 
 /// Force, energy, power and tangent of a contact whose node velocities v and geometry are set, and p where

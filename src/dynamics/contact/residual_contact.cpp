@@ -190,7 +190,7 @@ void ResidualContact::solve(ContactState& state, const std::function<void()>& de
   state.balanced = residual.relative <= kForceResidual;
 }
 
-std::optional<double> ResidualContact::close_gaps(ContactState& state, double share) {
+std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState& state, double share) {
   UnilateralForces unilateral(state.pair);
   for (std::size_t b = 0; b < state.force.size(); ++b) {
     if (!has_flexibility(b)) continue;
@@ -199,6 +199,7 @@ std::optional<double> ResidualContact::close_gaps(ContactState& state, double sh
     unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R));
   }
   if (!unilateral.solve()) return {};
+  const bool slides_anew = unilateral.slides_anew();
   unilateral.set_forces(state.pair);
   double missing = 0, all = 0;
   for (std::size_t b = 0, i = 0; b < state.force.size(); ++b) {
@@ -210,8 +211,9 @@ std::optional<double> ResidualContact::close_gaps(ContactState& state, double sh
     const NodalForces& now = flexibility_[b]->forces();
     respond_to(b, loaded(share < 1 ? mean(next, now, share) : next, now.node));
   }
-  if (missing == 0) return 0;
-  return std::sqrt(missing) / std::max(std::sqrt(std::max(all, missing)), least_force(state));
+  if (missing == 0) return Change{0, slides_anew};
+  return Change{std::sqrt(missing) / std::max(std::sqrt(std::max(all, missing)), least_force(state)),
+                slides_anew};
 }
 
 // Of smaller forces no more is asked for: roundoff of positions changes them by the force residual. N.
@@ -226,18 +228,21 @@ double ResidualContact::least_force(const ContactState& state) const {
 }
 
 void ResidualContact::solve_unilateral(ContactState& state, const std::function<void()>& detect) {
-  std::optional<double> change;
-  double before = 0, left = 1;  // what the next change is expected to be
-  for (int trial = 0; left > kForceResidual && trial < kMostTrials; ++trial) {
+  std::optional<Change> change;
+  double before = 0;
+  bool settled = false;
+  for (int trial = 0; !settled && trial < kMostTrials; ++trial) {
     change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);
     if (!change) break;
-    left = *change * (trial > 0 ? std::min(1.0, *change / before) : kFirstRate);
-    const bool is_roundoff = trial > 0 && *change<kRoundoffResidual&& * change> 0.1 * before;
-    if (is_roundoff) left = 0;
-    before = *change;
-    if (left > kForceResidual) detect();
+    const double now = change->forces;
+    // What the next change is expected to be.
+    const double left = now * (trial > 0 ? std::min(1.0, now / before) : kFirstRate);
+    const bool is_roundoff = trial > 0 && now < kRoundoffResidual && now > 0.1 * before;
+    settled = (left <= kForceResidual || is_roundoff) && !change->slides_anew;
+    before = now;
+    if (!settled) detect();
   }
-  state.balanced = change && *change < kJump;
+  state.balanced = change && change->forces < kJump;
   for (PairContacts& pair : state.pair)
     std::erase_if(pair.points,
                   [](const contact::ContactPoint& point) { return point.c > 0 && point.p == 0; });

@@ -64,10 +64,13 @@ class ResidualContact {
   void take_forces_of_response(ContactState& state) const;
   Eigen::VectorXd missing_response(std::size_t b, const NodalForces& found, const Eigen::MatrixXd& R);
   void respond_to(std::size_t b, const NodalForces& forces);
-  // Closes the gaps at unchanged closest points: sets p of the contacts and the static responses, these by
-  // the given share of their change. Returns the change as part of the forces; nothing where there is no
-  // solution.
-  std::optional<double> close_gaps(ContactState& state, double share);
+  struct Change {
+    double forces;  // as part of them
+    bool slides_anew;  // does a node slide that stuck before, or stick that slid?
+  };
+  // Closes the gaps at unchanged closest points: sets the forces of the contacts and the static responses,
+  // these by the given share of their change. Returns nothing where there is no solution.
+  std::optional<Change> close_gaps(ContactState& state, double share);
   double least_force(const ContactState& state) const;
 
   struct Accepted {

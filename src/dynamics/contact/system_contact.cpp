@@ -28,23 +28,25 @@ SystemContact::SystemContact(const SystemModel& model)
   unilateral_ = is_unilateral();
 }
 
-// Whether the pairs of bodies with residual flexibility, which must all have the same law, are unilateral.
+// Whether a pair is unilateral. The static responses of bodies are found for one law.
 bool SystemContact::is_unilateral() const {
-  const PairSetup* first = nullptr;
+  const PairSetup *unilateral = nullptr, *penalty = nullptr;
   for (const PairSetup& pair : pairs_) {
-    const bool unilateral = pair.settings.law == contact::ContactLaw::unilateral,
-               flexible = residual_contact_.has_flexibility(pair.body[0]) ||
+    const bool flexible = residual_contact_.has_flexibility(pair.body[0]) ||
                           residual_contact_.has_flexibility(pair.body[1]);
-    require(!unilateral || flexible, "pair ", pair.name,
+    const bool is_unilateral = pair.settings.law == contact::ContactLaw::unilateral;
+    require(!is_unilateral || flexible, "pair ", pair.name,
             ": contact without a penalty (-contact_law unilateral) needs residual flexibility on one side: "
-            "reduce a "
-            "body with -basis modal_residual, or take -contact_law penalty");
-    if (!flexible) continue;
-    require(!first || first->settings.law == pair.settings.law, "pairs ", first ? first->name : "", " and ",
-            pair.name, ": one has the contact law unilateral, the other penalty; give both the same");
-    first = &pair;
+            "reduce a body with -basis modal_residual, or take -contact_law penalty");
+    if (is_unilateral)
+      unilateral = &pair;
+    else if (flexible)
+      penalty = &pair;
   }
-  return first && first->settings.law == contact::ContactLaw::unilateral;
+  require(!unilateral || !penalty, "pairs ", unilateral ? unilateral->name : "", " and ",
+          penalty ? penalty->name : "",
+          ": one has the contact law unilateral, the other penalty; give both the same");
+  return unilateral != nullptr;
 }
 
 const ContactState* SystemContact::known(double time, ConstVector U, ConstVector V) const {
@@ -57,7 +59,7 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
   detect(motion);
-  if (residual_contact_.any()) solve(motion);
+  if (unilateral_ || residual_contact_.any()) solve(motion);
   U_ = U;
   V_ = V;
   time_ = time;
@@ -67,7 +69,7 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
 void SystemContact::solve(const std::vector<contact::SurfaceMotion>& motion) {
   if (!unilateral_) return residual_contact_.solve(state_, [&] { detect(motion); });
   residual_contact_.solve_unilateral(state_, [&] {
-    for (std::size_t p = 0; p < pairs_.size(); ++p) detectors_[p].set_normal_forces(state_.pair[p].points);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) detectors_[p].set_forces(state_.pair[p].points);
     detect(motion);
   });
 }

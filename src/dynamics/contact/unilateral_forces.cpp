@@ -9,26 +9,36 @@
 
 namespace elastogear::dynamics {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 UnilateralForces::UnilateralForces(const std::vector<PairContacts>& pairs) {
+  Index n = 0;
   for (const PairContacts& pair : pairs)
     for (const contact::ContactPoint& point : pair.points) {
       if (!(point.c > 0)) continue;
-      contacts_.push_back(&point);
-      pair_.push_back(&pair);
+      contacts_.push_back({&point, &pair, n, point.tangential ? 3 : 1});
+      laws_.push_back({n, point.tangential.has_value(), 0});
+      any_sticks_ |= point.tangential.has_value();
+      n += contacts_.back().n;
     }
-  const auto n = static_cast<Eigen::Index>(contacts_.size());
   C_.setZero(n, n);
   q_.resize(n);
-  p_found_.resize(n);
-  for (Eigen::Index i = 0; const contact::ContactPoint* point : contacts_) {
-    q_[i] = point->g_n;
-    p_found_[i] = point->p;
-    C_(i, i) = point->c;
-    ++i;
+  z_found_.resize(n);
+  for (const Contact& contact : contacts_) {
+    const contact::ContactPoint& point = *contact.point;
+    const Index i = contact.first;
+    q_[i] = point.g_n;
+    z_found_[i] = point.p;
+    C_(i, i) = point.c;
+    if (!point.tangential) continue;
+    q_.segment<2>(i + 1) = point.tangential->u;
+    z_found_.segment<2>(i + 1) = point.tangential->t;
+    C_.diagonal().segment<2>(i + 1).setConstant(point.tangential->c);
   }
+  z_ = z_found_;
   moved_.resize(contacts_.size());
 }
 
@@ -37,64 +47,120 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
   Body body{{}, &R, missing, VectorXd::Zero(R.rows()), VectorXd::Zero(R.rows())};
   const Eigen::Matrix3d R_BW = compliant.R_WB.transpose();
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const contact::ContactPoint& point = *contacts_[c];
+    const contact::ContactPoint& point = *contacts_[c].point;
     for (int i = 0; i < point.n_local(); ++i) {
       const LocalNode local = local_node(point, i);
-      if (pair_[c]->body[local.side] != static_cast<int>(compliant.body)) continue;
+      if (contacts_[c].pair->body[local.side] != static_cast<int>(compliant.body)) continue;
       const auto at = std::lower_bound(compliant.node.begin(), compliant.node.end(), local.node);
-      body.touches.push_back({static_cast<Eigen::Index>(c), 3 * (at - compliant.node.begin()),
-                              R_BW * point.F_p.col(i), R_BW * point.g_x.col(i),
-                              R_BW * point.W.middleRows<3>(3 * i), R_BW * point.V.middleRows<3>(3 * i)});
+      Touch touch{c, 3 * (at - compliant.node.begin()), R_BW * point.F_p.col(i), R_BW * point.g_x.col(i),
+                  R_BW * point.W.middleRows<3>(3 * i), R_BW * point.V.middleRows<3>(3 * i)};
+      if (point.tangential) {
+        touch.F_z.conservativeResize(3, 3);
+        touch.y_x.conservativeResize(3, 3);
+        touch.F_z.rightCols<2>() = R_BW * point.tangential->F_t.middleRows<3>(3 * i);
+        touch.y_x.rightCols<2>() = R_BW * point.tangential->u_x.middleRows<3>(3 * i);
+      }
+      body.touches.push_back(std::move(touch));
     }
   }
   MatrixXd response = MatrixXd::Zero(R.rows(), C_.cols());  // R L_p
-  for (const Touch& t : body.touches) response.col(t.contact) += R.middleCols<3>(t.row) * t.F_p;
+  for (const Touch& t : body.touches)
+    response.middleCols(contacts_[t.contact].first, t.F_z.cols()) += R.middleCols<3>(t.row) * t.F_z;
   for (const Touch& t : body.touches) {
-    const Eigen::RowVectorXd row = t.g_x.transpose() * response.middleRows<3>(t.row);
-    C_.row(t.contact) += row;
-    q_[t.contact] += t.g_x.dot(missing.segment<3>(t.row)) - row.dot(p_found_);
+    const Contact& contact = contacts_[t.contact];
+    const MatrixXd rows = t.y_x.transpose() * response.middleRows<3>(t.row);
+    C_.middleRows(contact.first, contact.n) += rows;
+    q_.segment(contact.first, contact.n) +=
+        t.y_x.transpose() * missing.segment<3>(t.row) - rows * z_found_;
   }
   bodies_.push_back(std::move(body));
 }
 
-// The gaps that are left without forces p.
+// The gaps, and displacements along the master, that are left without forces.
 VectorXd UnilateralForces::gaps() const {
   VectorXd q = q_;
   for (const Body& body : bodies_) {
     if (body.turned.isZero(0)) continue;
     const VectorXd w = *body.R * body.turned;
-    for (const Touch& t : body.touches) q[t.contact] += t.g_x.dot(w.segment<3>(t.row));
+    for (const Touch& t : body.touches)
+      q.segment(contacts_[t.contact].first, t.y_x.cols()) += t.y_x.transpose() * w.segment<3>(t.row);
   }
   return q;
+}
+
+// Which contacts are likely to be closed: those that bear a force, at first those that are entered, too.
+std::vector<bool> UnilateralForces::likely() const {
+  const bool first = z_ == z_found_;
+  std::vector<bool> closed;
+  for (const Contact& contact : contacts_)
+    closed.push_back(z_[contact.first] > 0 || (first && contact.point->g_n < 0));
+  return closed;
+}
+
+// The forces that close the present gaps. A node that comes to slide has the coefficient of that, and may
+// make others slide.
+std::optional<VectorXd> UnilateralForces::forces() {
+  const VectorXd q = gaps();
+  if (!any_sticks_) return solve_complementarity(C_, q, likely());
+  for (std::size_t c = 0; c < laws_.size(); ++c)
+    if (laws_[c].sticks) laws_[c].mu = contacts_[c].point->tangential->mu_static;
+  std::optional<VectorXd> z = z_;
+  for (bool changed = true; changed && z;) {
+    z = solve_coulomb(C_, q, laws_, *z);
+    changed = false;
+    for (std::size_t c = 0; z && c < laws_.size(); ++c) {
+      if (!slides(laws_[c], *z)) continue;
+      const double mu = contacts_[c].point->tangential->mu;
+      changed |= laws_[c].mu != mu;
+      laws_[c].mu = mu;
+    }
+  }
+  return z;
 }
 
 void UnilateralForces::set_changes() {
   for (Body& body : bodies_) {
     body.change = body.turned;
     for (const Touch& t : body.touches)
-      body.change.segment<3>(t.row) += t.F_p * (p_[t.contact] - p_found_[t.contact]);
+      body.change.segment<3>(t.row) +=
+          t.F_z * (forces_of(contacts_[t.contact], z_) - forces_of(contacts_[t.contact], z_found_));
   }
 }
 
-// The change of the forces at unchanged p by the present displacements, dF = -(W k V' - F_p g_x' / c) dx; of
-// all bodies, one after the other.
-VectorXd UnilateralForces::turned_forces() {
-  for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c]->k.rows())};
+// The present displacements of the contacts, of all bodies.
+void UnilateralForces::set_moved() {
+  for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c].point->k.rows())};
   for (const Body& body : bodies_) {
     const VectorXd dx = body.missing + *body.R * body.change;
     for (const Touch& t : body.touches) {
-      Displacement& moved = moved_[static_cast<std::size_t>(t.contact)];
+      Displacement& moved = moved_[t.contact];
       moved.k_V += t.V.transpose() * dx.segment<3>(t.row);
-      moved.closing += t.g_x.dot(dx.segment<3>(t.row));
+      moved.way.head(t.y_x.cols()) += t.y_x.transpose() * dx.segment<3>(t.row);
     }
   }
-  for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c].k_V = (contacts_[c]->k * moved_[c].k_V).eval();
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const contact::ContactPoint& point = *contacts_[c].point;
+    Displacement& moved = moved_[c];
+    moved.k_V = (point.k * moved.k_V).eval();
+    moved.answered[0] = moved.way[0] / point.c;
+    if (!point.tangential) continue;
+    const contact::TangentialForce& f = *point.tangential;
+    moved.answered.tail<2>() = f.K * moved.way.tail<2>();
+    if (f.slides) moved.answered.tail<2>() += f.t / point.p * moved.answered[0];
+  }
+}
+
+// The change of the forces at unchanged p and t by the present displacements; of all bodies, one after the
+// other. W k V' takes p and t for those of a penalty 1 / c, K, which is added again:
+// dF = -(W k V' - F_z [1 / c; K] [g_x; u_x]') dx.
+VectorXd UnilateralForces::turned_forces() {
+  set_moved();
   VectorXd all = VectorXd::Zero(all_turned().size());
-  Eigen::Index first = 0;
+  Index first = 0;
   for (const Body& body : bodies_) {
     for (const Touch& t : body.touches) {
-      const auto c = static_cast<std::size_t>(t.contact);
-      all.segment<3>(first + t.row) += t.F_p * (moved_[c].closing / contacts_[c]->c) - t.W * moved_[c].k_V;
+      const Displacement& moved = moved_[t.contact];
+      all.segment<3>(first + t.row) += t.F_z * moved.answered.head(t.F_z.cols()) - t.W * moved.k_V;
     }
     first += body.turned.size();
   }
@@ -102,10 +168,10 @@ VectorXd UnilateralForces::turned_forces() {
 }
 
 VectorXd UnilateralForces::all_turned() const {
-  Eigen::Index size = 0;
+  Index size = 0;
   for (const Body& body : bodies_) size += body.turned.size();
   VectorXd all(size);
-  for (Eigen::Index first = 0; const Body& body : bodies_) {
+  for (Index first = 0; const Body& body : bodies_) {
     all.segment(first, body.turned.size()) = body.turned;
     first += body.turned.size();
   }
@@ -113,7 +179,7 @@ VectorXd UnilateralForces::all_turned() const {
 }
 
 void UnilateralForces::turn(const VectorXd& all) {
-  for (Eigen::Index first = 0; Body & body : bodies_) {
+  for (Index first = 0; Body & body : bodies_) {
     body.turned = all.segment(first, body.turned.size());
     first += body.turned.size();
   }
@@ -121,7 +187,7 @@ void UnilateralForces::turn(const VectorXd& all) {
 
 void UnilateralForces::do_not_turn() {
   for (Body& body : bodies_) body.turned.setZero();
-  for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c]->k.rows())};
+  for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c].point->k.rows())};
 }
 
 // Forces turn, and points move, while gaps close: both are brought together by turns, with the extrapolation
@@ -131,20 +197,17 @@ bool UnilateralForces::solve() {
   constexpr int kMostRounds = 25;
   constexpr double kTolerance = 1e-10;  // of the forces
   do_not_turn();
-  std::vector<bool> likely;
-  for (const contact::ContactPoint* point : contacts_) likely.push_back(point->p > 0 || point->g_n < 0);
   Extrapolation extrapolation;
   bool turns = true;
   for (int round = 0; round < kMostRounds; ++round) {
-    const std::optional<VectorXd> p = solve_complementarity(C_, gaps(), likely);
-    if (!p) return false;
-    p_ = *p;
-    for (std::size_t i = 0; i < likely.size(); ++i) likely[i] = p_[static_cast<Eigen::Index>(i)] > 0;
+    const std::optional<VectorXd> z = forces();
+    if (!z) return false;
+    z_ = *z;
     set_changes();
-    if (p_.size() == 0 || !turns) break;
+    if (z_.size() == 0 || bodies_.empty() || !turns) break;
     const VectorXd before = all_turned(), turned = turned_forces();
     turn(turned);
-    if ((turned - before).cwiseAbs().maxCoeff() <= kTolerance * p_.maxCoeff()) break;
+    if ((turned - before).cwiseAbs().maxCoeff() <= kTolerance * z_.cwiseAbs().maxCoeff()) break;
     turns = round < kMostRounds - 2;
     if (turns)
       turn(extrapolation.next(before, turned));
@@ -154,16 +217,50 @@ bool UnilateralForces::solve() {
   return true;
 }
 
+bool UnilateralForces::slides_anew() const {
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    if (const auto& f = contacts_[c].point->tangential; f && f->slides != slides(laws_[c], z_)) return true;
+  return false;
+}
+
+namespace {
+
+// Friction, and what the node remembers, at new forces, after the contact has moved by `way` along the master.
+void set_friction(const CoulombContact& law, const VectorXd& z, const Eigen::Vector2d& way,
+                  contact::ContactPoint& point) {
+  contact::TangentialForce& f = *point.tangential;
+  f.t = z.segment<2>(law.first + 1);
+  f.u += way;
+  f.slides = slides(law, z);
+  const Eigen::Vector2d stretch = -f.c * f.t;
+  point.elastic_slip = f.T * stretch;
+  point.energy = 0.5 * point.c * point.p * point.p + 0.5 * f.c * f.t.squaredNorm();
+  point.slip_work = f.slides ? f.t.norm() * (f.u - stretch).norm() : 0;
+  point.friction_power = f.slides ? f.t.norm() * point.slip.norm() : 0;
+  point.stick.slides = f.slides;
+  const Eigen::Vector2d e = f.on_face * (stretch - way);  // from where the node was found
+  if (e.allFinite()) point.stick.e_u = e[0], point.stick.e_v = e[1];
+}
+
+}  // namespace
+
 void UnilateralForces::set_forces(std::vector<PairContacts>& pairs) const {
   std::size_t c = 0;
   for (PairContacts& pair : pairs)
     for (contact::ContactPoint& point : pair.points) {
       if (!(point.c > 0)) continue;
-      const double p = p_[static_cast<Eigen::Index>(c)];
-      point.F += point.F_p * (p - point.p + moved_[c].closing / point.c);
-      point.F.reshaped() -= point.W * moved_[c].k_V;
+      const Contact& contact = contacts_[c];
+      const Displacement& moved = moved_[c];
+      const Vector3d change = moved.answered;
+      point.F += point.F_p * (z_[contact.first] - point.p + change[0]);
+      point.F.reshaped() -= point.W * moved.k_V;
+      point.p = z_[contact.first];
+      if (point.tangential) {
+        point.F.reshaped() += point.tangential->F_t *
+                              (z_.segment<2>(contact.first + 1) - point.tangential->t + change.tail<2>());
+        set_friction(laws_[c], z_, moved.way.tail<2>(), point);
+      }
       point.f = contact::slave_force(point);
-      point.p = p;
       ++c;
     }
 }

@@ -6,13 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/contact/coulomb.h"
 #include "dynamics/contact/response_newton.h"
 #include "elastogear/dynamics/contact_loads.h"
 
 namespace elastogear::dynamics {
 
-/// 0 <= p, 0 <= g + c p, one of them 0, for the contacts of unilateral pairs (c > 0), with the gaps and the
-/// directions of forces linear in the displacements since the contacts were found.
+/// 0 <= p, 0 <= g + c p, one of them 0, for the contacts of unilateral pairs (c > 0), and the tangential forces
+/// t of those that stick, with the gaps, the displacements along the master and the directions of forces linear
+/// in the displacements since the contacts were found.
 class UnilateralForces {
  public:
   /// Contacts and the members of Compliant are borrowed.
@@ -22,8 +24,8 @@ class UnilateralForces {
 
   /// Returns whether there is a solution; the following are that.
   bool solve();
-  /// N, in the order of the unilateral contacts.
-  const Eigen::VectorXd& p() const { return p_; }
+  /// Does a contact slide that stuck in the forces found, or stick that slid?
+  bool slides_anew() const;
   /// Gives the contacts, which are those of the constructor, their new forces.
   void set_forces(std::vector<PairContacts>& pairs) const;
   /// 3 n, N, BRF: change of the forces found on the i-th body added.
@@ -31,38 +33,53 @@ class UnilateralForces {
 
  private:
   using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, contact::kColumns>;
+  using Vectors = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;  // by p, and t where it sticks
+  struct Contact {
+    const contact::ContactPoint* point;
+    const PairContacts* pair;
+    Eigen::Index first, n;  // of its forces p, t
+  };
   struct Touch {  // of a contact and a node, in the frame of the node's body
-    Eigen::Index contact, row;
-    Eigen::Vector3d F_p, g_x;
+    std::size_t contact;
+    Eigen::Index row;
+    Vectors F_z, y_x;  // change of the force with p and t, gradients of the gap and of u
     Rows W, V;
   };
   struct Body {
     std::vector<Touch> touches;
     const Eigen::MatrixXd* R;
     Eigen::VectorXd missing;
-    Eigen::VectorXd turned = {};  // N, change of the forces at unchanged p: their directions turn
+    Eigen::VectorXd turned = {};  // N, change of the forces at unchanged p and t: their directions turn
     Eigen::VectorXd change = {};
   };
 
   using Along = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, contact::kColumns, 1>;
-  struct Displacement {  // since a contact was found
-    Along k_V;           // k V' dx
-    double closing = 0;  // m, g_x' dx
+  struct Displacement {                                  // since a contact was found
+    Along k_V;                                           // k V' dx
+    Eigen::Vector3d way = Eigen::Vector3d::Zero();       // m, change of gap and u
+    Eigen::Vector3d answered = Eigen::Vector3d::Zero();  // N, part of k V' dx that p and t make up for
   };
 
+  auto forces_of(const Contact& contact, const Eigen::VectorXd& z) const {
+    return z.segment(contact.first, contact.n);
+  }
+  std::vector<bool> likely() const;
+  std::optional<Eigen::VectorXd> forces();
   Eigen::VectorXd gaps() const;
   void set_changes();
+  void set_moved();
   Eigen::VectorXd turned_forces();
   Eigen::VectorXd all_turned() const;
   void turn(const Eigen::VectorXd& all);
   void do_not_turn();
 
-  std::vector<const contact::ContactPoint*> contacts_;
-  std::vector<const PairContacts*> pair_;  // of each contact
+  std::vector<Contact> contacts_;
+  std::vector<CoulombContact> laws_;  // of each contact
+  bool any_sticks_ = false;
   std::vector<Body> bodies_;
   std::vector<Displacement> moved_;  // of each contact, as far as forces are turned
   Eigen::MatrixXd C_;
-  Eigen::VectorXd p_found_, p_, q_;
+  Eigen::VectorXd z_found_, z_, q_;  // p and t of each contact
 };
 
 }  // namespace elastogear::dynamics
