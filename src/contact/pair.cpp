@@ -27,6 +27,7 @@ struct Side {
   std::map<int, double> p;          // N, normal forces given, by slave point
   std::map<int, GivenFriction> t;   // by slave node that sticks, in the frame that contacts are found in
   std::vector<bool> on_boundary;    // of each node
+  std::vector<bool> responds;       // of each node: has it a static response? Empty: all have
   Eigen::VectorXd area;             // m^2, of each node, undeformed; of contact integrated over faces
 };
 
@@ -48,7 +49,8 @@ std::vector<bool> boundary_nodes(const Tracked& tracked) {
   return on_boundary;
 }
 
-Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurface* known) {
+Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurface* known,
+               std::vector<bool> responds) {
   const model::Surface& surface = *tracked.surface;
   const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
   return {node_laws(settings, surface),
@@ -60,7 +62,17 @@ Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurfa
           {},
           {},
           boundary_nodes(tracked),
+          std::move(responds),
           settings.points == SlavePoints::faces ? node_areas(surface.X, surface.face) : Eigen::VectorXd()};
+}
+
+// Contact that is integrated over faces knows the law of its slave nodes alone: without any static response
+// of the master, those that have none either keep the compliance of the penalty.
+void soften_without_response(Side& slave, const Side& master) {
+  const auto any = [](const std::vector<bool>& r) { return std::find(r.begin(), r.end(), true) != r.end(); };
+  if (slave.responds.empty() || master.responds.empty() || any(master.responds)) return;
+  for (std::size_t node = 0; node < slave.law.size(); ++node)
+    if (!slave.responds[node]) slave.law[node].compliance = 1;
 }
 
 // The smooth surface behind facets, which are as curved as that where faces are held; none elsewhere.
@@ -107,6 +119,7 @@ struct Pair::Data {
   std::vector<StickPoint> stuck() const;
   void set_stuck(const std::vector<StickPoint>& points);
   double given_force(int slave_side, int point) const;
+  Law law(int slave_side, const Eigen::Vector4i& nodes, const Eigen::Vector4d& N, int master_face) const;
   Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
                                            const Projection& w, std::map<int, NodeGap>& gaps) const;
@@ -136,6 +149,22 @@ double Pair::Data::given_force(int slave_side, int point) const {
   return given == side[slave_side].p.end() ? 0 : given->second;
 }
 
+// The law of a point between slave nodes, or at one. Where no body has a static response that could close the
+// gap the compliance of the penalty stands in for it.
+Law Pair::Data::law(int slave_side, const Eigen::Vector4i& nodes, const Eigen::Vector4d& N,
+                    int master_face) const {
+  const Side &slaves = side[slave_side], &masters = side[1 - slave_side];
+  Law law = slaves.law[nodes[0]];
+  law.c_p = 0;
+  for (int i = 0; i < 4; ++i) law.c_p += N[i] * slaves.law[nodes[i]].c_p;
+  const auto any = [](const std::vector<bool>& responds, const Eigen::Vector4i& of) {
+    return responds.empty() || std::any_of(of.begin(), of.end(), [&](int node) { return responds[node]; });
+  };
+  if (!any(slaves.responds, nodes) && !any(masters.responds, surface(1 - slave_side).face.col(master_face)))
+    law.compliance = 1;
+  return law;
+}
+
 // How far the slave's own surface stands out of a node: deviations, where both surfaces are met.
 Eigen::Vector3d Pair::Data::node_height(int slave_side, const SurfaceView& slave, int node) const {
   if (settings.points == SlavePoints::nodes) return Eigen::Vector3d::Zero();
@@ -152,7 +181,7 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
                                                      std::map<int, NodeGap>& gaps) const {
   const int slave_side = slave.side, node = slave.node;
   const Side& slaves = side[slave_side];
-  const Law& law = slaves.law[node];
+  const Law law = this->law(slave_side, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0), w.face);
   const double p = given_force(slave_side, node);
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, p, settings.full_tangent);
@@ -177,9 +206,7 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
 ContactPoint Pair::Data::contact(const MasterSide& master, int slave_side, const Minimum& m) const {
   const Eigen::Vector4i nodes = surface(slave_side).face.col(m.point.face);
   const Eigen::Vector4d& N = m.geometry.N;
-  Law law = side[slave_side].law[nodes[0]];
-  law.c_p = 0;
-  for (int i = 0; i < 4; ++i) law.c_p += N[i] * side[slave_side].law[nodes[i]].c_p;
+  const Law law = this->law(slave_side, nodes, N, m.open.projection.face);
   LocalVectors v(3, 8);
   for (int i = 0; i < 4; ++i) v.col(i) = tracker.velocity(slave_side, nodes[i]);
   ContactPoint c =
@@ -355,13 +382,17 @@ void Pair::Data::set_stuck(const std::vector<StickPoint>& points) {
 
 Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
            const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r,
-           const std::array<const TrueSurface*, 2>& known) {
-  validate(given);
+           const std::array<const TrueSurface*, 2>& known, const std::array<std::vector<bool>, 2>& responds) {
+  Settings settings = given;
+  settings.law = chosen_law(given, false);
+  validate(settings);
   validate(a, 0);
   validate(b, 1);
-  const Settings settings = with_defaults(given, a, b);
+  settings = with_defaults(settings, a, b);
   std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
-  Side side[2] = {make_side(both[0], settings, known[0]), make_side(both[1], settings, known[1])};
+  Side side[2] = {make_side(both[0], settings, known[0], responds[0]),
+                  make_side(both[1], settings, known[1], responds[1])};
+  for (int i : {0, 1}) soften_without_response(side[i], side[1 - i]);
   std::array<Heights, 2> curved;
   for (int i : {0, 1}) curved[i] = behind_facets(both[i], side[i], settings);
   const auto heights = [&](int i) { return curved[i].empty() ? &side[i].heights : &curved[i]; };
@@ -380,6 +411,27 @@ const Settings& Pair::settings() const { return data_->settings; }
 int Pair::n_searches() const { return data_->tracker.n_searches(); }
 int Pair::n_displaced() const { return data_->tracker.n_displaced(); }
 
+namespace {
+
+// The forces that the next look takes for those of its contacts.
+void serialize_given(Archive& archive, Side& side) {
+  std::vector<std::pair<int, double>> p(side.p.begin(), side.p.end());
+  archive.each(p, [&](auto& entry) {
+    archive(entry.first);
+    archive(entry.second);
+  });
+  std::vector<std::pair<int, GivenFriction>> t(side.t.begin(), side.t.end());
+  archive.each(t, [&](auto& entry) {
+    archive(entry.first);
+    archive(entry.second.t);
+    archive(entry.second.slides);
+  });
+  side.p = {p.begin(), p.end()};
+  side.t = {t.begin(), t.end()};
+}
+
+}  // namespace
+
 void Pair::serialize(Archive& archive) {
   std::vector<StickPoint> stuck = data_->stuck();
   archive.each(stuck, [&](StickPoint& point) {
@@ -390,6 +442,7 @@ void Pair::serialize(Archive& archive) {
   if (archive.is_loading()) data_->set_stuck(stuck);  // before the tracker, which it makes forget
   data_->tracker.serialize(archive);
   for (Side& side : data_->side) {
+    serialize_given(archive, side);
     const std::size_t n_nodes = side.last_face.size();
     archive(side.last_face);
     require(side.last_face.size() == n_nodes, "the stored contacts are of other surfaces");

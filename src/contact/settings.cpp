@@ -15,10 +15,18 @@ constexpr const char* kSurfaceName[2] = {"contact: surface a", "contact: surface
 
 constexpr double kSkin = 0.25;  // of the face size: dozens of time steps, and few more nodes than at 0
 
+constexpr double kCompliance = 1e-4;  // of the penalty's, that is left without one: Eq. (6.24)
+
 // Of a face's length, by which boundaries of two surfaces may miss each other where they are meant to meet.
 constexpr double kSharedBoundary = 1e-4;
 
 }  // namespace
+
+ContactLaw chosen_law(const Settings& s, bool has_residual_flexibility) {
+  if (s.law != ContactLaw::automatic) return s.law;
+  const bool has_penalty = s.stiffness > 0 || s.damping > 0 || s.hysteresis > 0;
+  return has_residual_flexibility && !has_penalty ? ContactLaw::unilateral : ContactLaw::penalty;
+}
 
 void validate(const FrictionSettings& s) {
   require(std::isfinite(s.mu) && s.mu >= 0, "contact: friction ", s.mu, " must not be negative");
@@ -116,6 +124,7 @@ std::vector<Law> node_laws(const Settings& s, const model::Surface& slave) {
   for (Eigen::Index i = 0; Law & law : laws) {
     law.c_p = c_p[i++];
     law.unilateral = s.law == ContactLaw::unilateral;
+    law.compliance = kCompliance;
     law.d_p = s.damping * law.c_p / s.stiffness;
     law.hysteresis = s.hysteresis;
     law.offset = s.offset;

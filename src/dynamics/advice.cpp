@@ -38,6 +38,7 @@ double largest_rate(const model::ElasticBody& body, const Eigen::VectorXd& stiff
 
 double contact_frequency(const System& system, std::size_t p) {
   const contact::Settings& settings = system.contact_settings(p);
+  if (settings.law == contact::ContactLaw::unilateral) return 0;  // nothing vibrates on its stiffness
   double rate = 0;
   for (int b : system.pairs()[p].body) {
     const model::ElasticBody& body = *system.bodies()[b].eq.body;

@@ -149,7 +149,10 @@ void add_pair(const PairSetup& setup, SystemModel& model) {
             setup.name, "': damping = ", setup.settings.damping,
             " jumps at touch, which the residual flexibility of body '", model.bodies[b].name,
             "' cannot follow: use hysteresis instead, or leave the residual flexibility out");
+  const bool flexible = std::any_of(std::begin(setup.body), std::end(setup.body),
+                                    [&](int b) { return !model.bodies[b].eq.body->flexibility.empty(); });
   model.pairs.push_back(setup);
+  model.pairs.back().settings.law = contact::chosen_law(setup.settings, flexible);
 }
 
 void add_marker_forces(const MarkerSetups& setups, SystemModel& model) {
@@ -214,7 +217,9 @@ model::ResultHeader result_header(const SystemModel& model) {
     header.bodies.push_back(
         {body.name, "", body::joint_names()[static_cast<std::size_t>(body.eq.joint.type)]});
   for (const PairSetup& pair : model.pairs) {
-    model::ResultHeader::Pair entry{pair.name, {pair.body[0], pair.body[1]}, {}};
+    const bool unilateral = pair.settings.law == contact::ContactLaw::unilateral;
+    model::ResultHeader::Pair entry{
+        pair.name, {pair.body[0], pair.body[1]}, {}, unilateral ? "unilateral" : "penalty"};
     for (int side : {0, 1})
       entry.group_name[side] = model.bodies[pair.body[side]].eq.body->surface.group_name;
     header.pairs.push_back(entry);

@@ -302,6 +302,7 @@ Outcome unilateral(const Local& local, double friction, std::optional<double> p 
   Law law = law_with(friction, 0);
   law.hysteresis = 0;
   law.unilateral = true;
+  law.compliance = 1e-4;
   Outcome o;
   o.w = projection(local);
   o.kinematics = projection_kinematics(local.face, o.w, local.q);

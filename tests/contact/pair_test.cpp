@@ -46,6 +46,41 @@ void expect_equal(const std::vector<ContactPoint>& a, const std::vector<ContactP
   }
 }
 
+// Nodes touch only on the left half of the master, whose body has static responses there, or on the right.
+TEST(Pair, without_a_static_response_the_compliance_of_the_penalty_is_left) {
+  const model::Surface master = test::plane(4, 1), punch = test::flipped(test::plane(1, 1, 0.2, 0.2));
+  Settings s = settings(1e3, 0.1);
+  s.law = ContactLaw::unilateral;
+  std::vector<bool> master_responds(10);
+  for (int node : {0, 1, 5, 6}) master_responds[node] = true;
+  const std::vector<bool> none(4, false), all(4, true);
+  const auto compliances = [&](double x, const std::vector<bool>& punch_responds) {
+    Pair pair(punch, master, s, {}, {}, {punch_responds, master_responds});
+    std::vector<double> c;
+    for (const ContactPoint& point : pair.detect(at(punch, {x, 0.4, -1e-6}, {}), at(master, {}, {})))
+      c.push_back(point.c);
+    EXPECT_EQ(c.size(), 4u);
+    return c;
+  };
+  const double soft = 1 / (1e3 * 0.01);  // of 0.01 m^2 a node
+  for (double c : compliances(0.02, none)) EXPECT_NEAR(c, 1e-4 * soft, roundoff);
+  for (double c : compliances(0.72, none)) EXPECT_NEAR(c, soft, roundoff);
+  for (double c : compliances(0.72, all)) EXPECT_NEAR(c, 1e-4 * soft, roundoff);
+}
+
+TEST(Pair, law_by_default_is_unilateral_unless_something_asks_for_a_penalty) {
+  const Settings none;
+  EXPECT_EQ(chosen_law(none, true), ContactLaw::unilateral);
+  EXPECT_EQ(chosen_law(none, false), ContactLaw::penalty);
+  for (double Settings::*given : {&Settings::stiffness, &Settings::damping, &Settings::hysteresis}) {
+    Settings s;
+    s.*given = 1;
+    EXPECT_EQ(chosen_law(s, true), ContactLaw::penalty);
+    s.law = ContactLaw::unilateral;
+    EXPECT_EQ(chosen_law(s, true), ContactLaw::unilateral);
+  }
+}
+
 TEST(Pair, contacts_are_identical_for_refit_and_realign_and_all_k) {
   Random random(1);
   const model::Surface a = test::flipped(wavy(17, 0.02, 1)), b = wavy(14, 0.02, 0);

@@ -49,7 +49,7 @@ struct Options {
   double depth = 0.02;
   bool flexible = false;
   bool unilateral = false;
-  bool sticks = false;  // friction, since the state at the start
+  bool sticks = false;                               // friction, since the state at the start
   double extension = contact::Settings{}.extension;  // 0: without forces that push nodes off open ends
 };
 
@@ -173,7 +173,12 @@ INSTANTIATE_TEST_SUITE_P(
         Options{.two_pass = true, .friction = 0.4, .depth = 0.006, .flexible = true, .unilateral = true},
         Options{.friction = 0.01, .depth = 0.006, .flexible = true, .unilateral = true, .sticks = true},
         Options{.friction = 10, .depth = 0.006, .flexible = true, .unilateral = true, .sticks = true},
-        Options{.two_pass = true, .friction = 0.3, .depth = 0.006, .flexible = true, .unilateral = true, .sticks = true},
+        Options{.two_pass = true,
+                .friction = 0.3,
+                .depth = 0.006,
+                .flexible = true,
+                .unilateral = true,
+                .sticks = true},
         Options{.joint = JointType::free, .rotation = {}, .damping = 2, .flexible = true},
         Options{.joint = JointType::spherical, .rotation = {}},
         Options{.joint = JointType::free, .rotation = {}},

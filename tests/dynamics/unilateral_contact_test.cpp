@@ -76,7 +76,8 @@ TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
 }
 
 // A ram that is driven against a wall, which is driven aside. They touch, and stick, from the start.
-System press_and_rub(double aside, double stiffness, const contact::FrictionSettings& friction, bool two_pass) {
+System press_and_rub(double aside, double stiffness, const contact::FrictionSettings& friction,
+                     bool two_pass) {
   constexpr double kApproach = 2e-3, kOverlap = 1e-5;  // m
   const bool flexible = stiffness == kUnilateral;
   std::vector<BodySetup> setups{{.name = "ram", .body = block(flexible, {2, 3, 2}, 0)},
@@ -107,9 +108,10 @@ TEST(Unilateral, equilibrium_with_friction_that_sticks_is_the_limit_of_stiff_spr
       const model::Snapshot found = equilibrium(press_and_rub(aside, kUnilateral, friction, two_pass)),
                             limit = equilibrium(press_and_rub(aside, kStiff, friction, two_pass));
       const Vector3d f = found.pairs[0].force, f_limit = limit.pairs[0].force;
-      std::printf("%g m aside, %d passes: force %.5g %.5g N, with stiff springs %.5g %.5g N, taken %.4g, %.4g J\n",
-                  aside, two_pass ? 2 : 1, f.x(), f.y(), f_limit.x(), f_limit.y(), found.energy.dissipated,
-                  limit.energy.dissipated);
+      std::printf(
+          "%g m aside, %d passes: force %.5g %.5g N, with stiff springs %.5g %.5g N, taken %.4g, %.4g J\n",
+          aside, two_pass ? 2 : 1, f.x(), f.y(), f_limit.x(), f_limit.y(), found.energy.dissipated,
+          limit.energy.dissipated);
       EXPECT_LT((f - f_limit).norm(), 1e-3 * f.norm());
       EXPECT_NEAR(found.energy.dissipated, limit.energy.dissipated, 2e-3 * limit.energy.dissipated + 1e-9);
     }

@@ -17,11 +17,13 @@ namespace elastogear::contact {
 class Pair {
  public:
   /// K_r of both bodies serve the bounds of the deformation and may be left out; so may what is known of the
-  /// true surfaces. Throws Error for settings out of range, for surfaces that are empty, inconsistent or not
-  /// finite, and for true surfaces of other faces or nodes.
+  /// true surfaces. responds: of each node, whether its body has a static response to forces there; empty:
+  /// none is known to be without. Throws Error for settings out of range, for surfaces that are empty,
+  /// inconsistent or not finite, and for true surfaces of other faces or nodes.
   Pair(const model::Surface& a, const model::Surface& b, const Settings& settings,
        const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r = {},
-       const std::array<const TrueSurface*, 2>& known = {});
+       const std::array<const TrueSurface*, 2>& known = {},
+       const std::array<std::vector<bool>, 2>& responds = {});
   ~Pair();
   Pair(Pair&&) noexcept;
 

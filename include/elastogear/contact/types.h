@@ -15,8 +15,9 @@ namespace elastogear::contact {
 enum class Update { bound, refit, realign };
 enum class Penalty { per_node, per_area };
 /// penalty: forces grow with the penetration. unilateral: there is none; gaps are closed by the residual
-/// flexibility of the bodies, which one side of the pair must have. docs/theory.md, section 6.11.
-enum class ContactLaw { penalty, unilateral };
+/// flexibility of the bodies, which one side of the pair must have. docs/theory.md, section 6.11. automatic:
+/// see chosen_law.
+enum class ContactLaw { automatic, penalty, unilateral };
 /// What gaps and normals are taken from. facets: the faces as they are. smooth: a smooth surface through
 /// their nodes. exact: the heights of a TrueSurface, and the smooth surface where none are known.
 /// docs/theory.md, section 6.8.
@@ -41,7 +42,7 @@ struct FrictionSettings {
 struct Settings {
   int k = 24;  ///< k-DOP directions: 6, 14, 18, 24, 26
   Update update = Update::bound;
-  ContactLaw law = ContactLaw::penalty;
+  ContactLaw law = ContactLaw::automatic;
   SlavePoints points = SlavePoints::nodes;
   Penalty penalty = Penalty::per_area;
   /// per_node: N/m, per_area: Pa/m; 0 = from material and cell size (c_f of both sides in series)
@@ -61,6 +62,10 @@ struct Settings {
   double extension = 0.2;  ///< of the master at its surface boundary, as part of a face's length;
                            ///< forces fade out over it
 };
+
+/// The law that `automatic` stands for: unilateral where a body of the pair has residual flexibility and no
+/// stiffness, damping or hysteresis is given, all of which are those of a penalty; penalty elsewhere.
+ContactLaw chosen_law(const Settings& settings, bool has_residual_flexibility);
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.
 struct SurfaceState {
@@ -105,7 +110,8 @@ struct StickPoint {
 };
 
 /// Tangential force of a node that sticks, unilateral only, along two directions T normal to n:
-/// u + c t = 0 as long as |t| <= mu p, otherwise t = -mu p (u + c t) / |u + c t|. docs/theory.md, Eq. (6.24a).
+/// u + c t = 0 as long as |t| <= mu p, otherwise t = -mu p (u + c t) / |u + c t|. docs/theory.md, Eq.
+/// (6.24a).
 struct TangentialForce {
   Eigen::Matrix<double, 3, 2> T;  ///< world frame
   Eigen::Vector2d t;              ///< N, on the slave point
@@ -149,9 +155,9 @@ struct ContactPoint {
   StickPoint stick;                                        ///< becomes history when the step is accepted
   LocalVectors v;                                          ///< m/s, of the local nodes, where rates count
   double p = 0;                                            ///< N, force along n
-  double c = 0;              ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
-  LocalVectors F_p;          ///< -, unilateral or over faces: change of F with p
-  LocalVectors g_x;          ///< -, unilateral or over faces: gradient of g_n + c p at this p
+  double c = 0;      ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
+  LocalVectors F_p;  ///< -, unilateral or over faces: change of F with p
+  LocalVectors g_x;  ///< -, unilateral or over faces: gradient of g_n + c p at this p
   std::optional<TangentialForce> tangential;
   LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
   LocalStiffness k;          ///< N/m

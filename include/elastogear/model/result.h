@@ -113,6 +113,7 @@ struct ResultHeader {
     std::string name;                        ///< "worm:wheel"
     int body[2] = {0, 1};                    ///< indices into bodies
     std::vector<std::string> group_name[2];  ///< face groups of both surfaces
+    std::string law = {};                    ///< of contact: penalty or unilateral; empty: not known
   };
   std::vector<Body> bodies;
   std::vector<Pair> pairs;

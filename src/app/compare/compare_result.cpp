@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/compare/compare_moment.h"
+#include "app/console/console.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/recovery/deviation.h"
@@ -58,8 +59,18 @@ void add_body(Signals& signals, const std::string& name, const std::string& join
   }
 }
 
-Signals read_signals(const std::string& path) {
-  const model::ResultHeader header = io::read_result_header(path);
+// Forces under two laws of contact differ for more reasons than the bodies.
+void warn_of_laws(const model::ResultHeader& file, const model::ResultHeader& reference) {
+  for (const auto& a : file.pairs)
+    for (const auto& b : reference.pairs)
+      if (a.name == b.name && !a.law.empty() && !b.law.empty() && a.law != b.law)
+        print_item("warning",
+                   "contact " + a.name + ": the law of contact is " + a.law + ", that of the reference " +
+                       b.law +
+                       "; for a difference of the bodies alone run both with one, -contact_law penalty");
+}
+
+Signals read_signals(const std::string& path, const model::ResultHeader& header) {
   Signals signals;
   signals.time = io::read_times(path);
   Eigen::VectorXi count = Eigen::VectorXi::Zero(signals.time.size());
@@ -125,7 +136,10 @@ std::vector<Table> compare_results(const Options& options, const std::string& pa
                                    const std::string& reference_path) {
   options.reject_unknown();
   const CompareSettings settings = compare_settings(options);
-  const Signals file = read_signals(path), reference = read_signals(reference_path);
+  const model::ResultHeader header = io::read_result_header(path),
+                            reference_header = io::read_result_header(reference_path);
+  warn_of_laws(header, reference_header);
+  const Signals file = read_signals(path, header), reference = read_signals(reference_path, reference_header);
   std::vector<Table> tables = {values_table(settings, file, reference)};
   require(!tables[0].rows.empty(), path, " and ", reference_path,
           " have no pair of bodies and no moving body of the same name");

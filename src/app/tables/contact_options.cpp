@@ -18,10 +18,11 @@ const Rows<S> kContactRows = {
      "which body of a pair gives the slave nodes: first or second"},
     {"contact_two_pass", &S::two_pass, "-",
      "check both bodies' nodes against the other's faces, half the stiffness each"},
-    {"contact_law", &S::law, one_of("penalty", "unilateral"),
+    {"contact_law", &S::law, one_of("auto", "penalty", "unilateral"),
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
-     "residual "
-     "flexibility that one body must have)"},
+     "residual flexibility that one body must have); auto: unilateral where a body has that and no "
+     "stiffness, "
+     "damping or hysteresis is given"},
     {"contact_points", &S::points, one_of("nodes", "minima", "faces"),
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
@@ -29,7 +30,8 @@ const Rows<S> kContactRows = {
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",
-     "penalty stiffness; 0: from material and size of the cells, both sides in series"},
+     "penalty stiffness; 0: from material and size of the cells, both sides in series, where there is a "
+     "penalty"},
     {"contact_depth", &S::depth, "m",
      "deepest penetration still taken for contact; 0: from the size of the faces"},
     {"contact_kdop", &S::k, "-", "directions of the bounding volumes: 6, 14, 18, 24 or 26"},

@@ -46,8 +46,8 @@ OpenPoint open_point(const MasterSide& master, const Projection& projection, con
 struct SlaveContact {
   Eigen::Vector3d v;                                         ///< m/s, of the slave point
   std::function<Eigen::Vector3d(int node)> master_velocity;  ///< m/s
-  const StickPoint* stuck;  ///< of this slave point after the last step, or null
-  double p = 0;             ///< N, of a unilateral law
+  const StickPoint* stuck;      ///< of this slave point after the last step, or null
+  double p = 0;                 ///< N, of a unilateral law
   GivenFriction friction = {};  ///< of a unilateral law
 };
 std::optional<ContactPoint> general_contact(const MasterSide& master, const OpenPoint& open,

@@ -286,8 +286,7 @@ NormalForce normal_force(const Law& law, double gap, double rate) {
 }
 
 double unilateral_compliance(const Law& law, double fade) {
-  constexpr double kCompliance = 1e-4;  // of the penalty's
-  return (kCompliance + 1 / std::max(fade, kLeastFade) - 1) / law.c_p;
+  return (law.compliance + 1 / std::max(fade, kLeastFade) - 1) / law.c_p;
 }
 
 Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,

@@ -11,6 +11,7 @@ namespace elastogear::contact {
 struct Law {
   double c_p = 0;           ///< N/m
   bool unilateral = false;  ///< the normal force is given: penetration is prevented elsewhere
+  double compliance = 1;    ///< -, unilateral: what is left of that of the penalty
   double d_p = 0;           ///< N s/m, while approaching
   double hysteresis = 0;    ///< s/m, Hunt and Crossley's factor, while approaching
   double offset = 0;        ///< m, added to the gap

@@ -38,7 +38,8 @@ class Problem {
   VectorXd residual(const VectorXd& z) const;
   // Its derivative.
   MatrixXd derivative(const VectorXd& z) const;
-  // Projects the forces of one contact after the other, each with those before it. Returns the largest change.
+  // Projects the forces of one contact after the other, each with those before it. Returns the largest
+  // change.
   double sweep(VectorXd& z) const;
 
  private:
@@ -159,7 +160,8 @@ bool newton(const Problem& problem, double force, VectorXd& z) {
 bool slides(const CoulombContact& contact, const VectorXd& z) {
   constexpr double kRoundoff = 1e-9;
   const double p = z[contact.first];
-  return contact.sticks && p > 0 && z.segment<2>(contact.first + 1).norm() >= (1 - kRoundoff) * contact.mu * p;
+  return contact.sticks && p > 0 &&
+         z.segment<2>(contact.first + 1).norm() >= (1 - kRoundoff) * contact.mu * p;
 }
 
 std::optional<VectorXd> solve_coulomb(const MatrixXd& C, const VectorXd& q,

@@ -16,9 +16,9 @@ struct CoulombContact {
 };
 
 /// z with y = q + C z and, for each contact, 0 <= p, 0 <= y_n, p y_n = 0 and |t| <= mu p, where y_t = 0 or
-/// t = -mu p y_t / |y_t|: by a semismooth Newton method on the projections of P. Alart and A. Curnier (Comput.
-/// Methods Appl. Mech. Engrg. 92, 1991, 353-375), or where it does not converge by relaxation, contact by
-/// contact. z: a first guess. Nothing where neither ends.
+/// t = -mu p y_t / |y_t|: by a semismooth Newton method on the projections of P. Alart and A. Curnier
+/// (Comput. Methods Appl. Mech. Engrg. 92, 1991, 353-375), or where it does not converge by relaxation,
+/// contact by contact. z: a first guess. Nothing where neither ends.
 std::optional<Eigen::VectorXd> solve_coulomb(const Eigen::MatrixXd& C, const Eigen::VectorXd& q,
                                              const std::vector<CoulombContact>& contacts, Eigen::VectorXd z);
 

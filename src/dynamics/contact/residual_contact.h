@@ -65,7 +65,7 @@ class ResidualContact {
   Eigen::VectorXd missing_response(std::size_t b, const NodalForces& found, const Eigen::MatrixXd& R);
   void respond_to(std::size_t b, const NodalForces& forces);
   struct Change {
-    double forces;  // as part of them
+    double forces;     // as part of them
     bool slides_anew;  // does a node slide that stuck before, or stick that slid?
   };
   // Closes the gaps at unchanged closest points: sets the forces of the contacts and the static responses,

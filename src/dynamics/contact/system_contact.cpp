@@ -13,6 +13,14 @@ std::vector<const model::ElasticBody*> elastic_bodies(const SystemModel& model) 
   return bodies;
 }
 
+// Of each surface node, whether the body has a static response to forces there.
+std::vector<bool> responds(const model::ElasticBody& body) {
+  std::vector<bool> result(static_cast<std::size_t>(body.surface.X.cols()));
+  for (std::size_t node = 0; node < result.size(); ++node)
+    result[node] = model::find_loaded(body.flexibility, static_cast<int>(node)) >= 0;
+  return result;
+}
+
 }  // namespace
 
 SystemContact::SystemContact(const SystemModel& model)
@@ -23,7 +31,8 @@ SystemContact::SystemContact(const SystemModel& model)
     const SystemModel::Body &a = model.bodies[pair.body[0]], &b = model.bodies[pair.body[1]];
     detectors_.emplace_back(a.eq.body->surface, b.eq.body->surface, pair.settings,
                             std::array{&a.eq.body->K_r, &b.eq.body->K_r},
-                            std::array{a.true_surface.get(), b.true_surface.get()});
+                            std::array{a.true_surface.get(), b.true_surface.get()},
+                            std::array{responds(*a.eq.body), responds(*b.eq.body)});
   }
   unilateral_ = is_unilateral();
 }
@@ -32,8 +41,8 @@ SystemContact::SystemContact(const SystemModel& model)
 bool SystemContact::is_unilateral() const {
   const PairSetup *unilateral = nullptr, *penalty = nullptr;
   for (const PairSetup& pair : pairs_) {
-    const bool flexible = residual_contact_.has_flexibility(pair.body[0]) ||
-                          residual_contact_.has_flexibility(pair.body[1]);
+    const bool flexible =
+        residual_contact_.has_flexibility(pair.body[0]) || residual_contact_.has_flexibility(pair.body[1]);
     const bool is_unilateral = pair.settings.law == contact::ContactLaw::unilateral;
     require(!is_unilateral || flexible, "pair ", pair.name,
             ": contact without a penalty (-contact_law unilateral) needs residual flexibility on one side: "

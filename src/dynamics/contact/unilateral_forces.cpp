@@ -52,8 +52,12 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
       const LocalNode local = local_node(point, i);
       if (contacts_[c].pair->body[local.side] != static_cast<int>(compliant.body)) continue;
       const auto at = std::lower_bound(compliant.node.begin(), compliant.node.end(), local.node);
-      Touch touch{c, 3 * (at - compliant.node.begin()), R_BW * point.F_p.col(i), R_BW * point.g_x.col(i),
-                  R_BW * point.W.middleRows<3>(3 * i), R_BW * point.V.middleRows<3>(3 * i)};
+      Touch touch{c,
+                  3 * (at - compliant.node.begin()),
+                  R_BW * point.F_p.col(i),
+                  R_BW * point.g_x.col(i),
+                  R_BW * point.W.middleRows<3>(3 * i),
+                  R_BW * point.V.middleRows<3>(3 * i)};
       if (point.tangential) {
         touch.F_z.conservativeResize(3, 3);
         touch.y_x.conservativeResize(3, 3);
@@ -70,8 +74,7 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
     const Contact& contact = contacts_[t.contact];
     const MatrixXd rows = t.y_x.transpose() * response.middleRows<3>(t.row);
     C_.middleRows(contact.first, contact.n) += rows;
-    q_.segment(contact.first, contact.n) +=
-        t.y_x.transpose() * missing.segment<3>(t.row) - rows * z_found_;
+    q_.segment(contact.first, contact.n) += t.y_x.transpose() * missing.segment<3>(t.row) - rows * z_found_;
   }
   bodies_.push_back(std::move(body));
 }
@@ -225,7 +228,8 @@ bool UnilateralForces::slides_anew() const {
 
 namespace {
 
-// Friction, and what the node remembers, at new forces, after the contact has moved by `way` along the master.
+// Friction, and what the node remembers, at new forces, after the contact has moved by `way` along the
+// master.
 void set_friction(const CoulombContact& law, const VectorXd& z, const Eigen::Vector2d& way,
                   contact::ContactPoint& point) {
   contact::TangentialForce& f = *point.tangential;

@@ -12,9 +12,9 @@
 
 namespace elastogear::dynamics {
 
-/// 0 <= p, 0 <= g + c p, one of them 0, for the contacts of unilateral pairs (c > 0), and the tangential forces
-/// t of those that stick, with the gaps, the displacements along the master and the directions of forces linear
-/// in the displacements since the contacts were found.
+/// 0 <= p, 0 <= g + c p, one of them 0, for the contacts of unilateral pairs (c > 0), and the tangential
+/// forces t of those that stick, with the gaps, the displacements along the master and the directions of
+/// forces linear in the displacements since the contacts were found.
 class UnilateralForces {
  public:
   /// Contacts and the members of Compliant are borrowed.

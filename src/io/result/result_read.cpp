@@ -81,6 +81,7 @@ model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& nam
   pair.name = name;
   const std::vector<int> body = h5::int_attribute(file, group, "body");
   require(body.size() == 2, file.path, ": ", group, ": attribute body must be two numbers");
+  if (h5::has_attribute(file, group, "law")) pair.law = h5::string_attribute(file, group, "law");
   for (int side : {0, 1}) {
     require(body[side] >= 0 && body[side] < static_cast<int>(n_bodies), file.path, ": ", group,
             " names body ", body[side], " of ", n_bodies);
