@@ -7,7 +7,8 @@ and CalculiX on the same mesh:
 Plane strain, half of it by symmetry, one layer of hexahedra: a cylinder of R = 50 mm, E = 210 GPa, presses with 35 kN/mm on a
 block of 200 mm x 200 mm, E = 70 GPa, nu = 0.3. Hertz: p_0 = 3585.37 MPa, half width a = 6.21 mm. The cylinder hangs on a
 rigid pin of R_PIN about its centre, which slides down under the load, in both programs. --faces: of the block across the
-patch; those of the cylinder are 0.8 times as long, so that the meshes do not match.
+patch; those of the cylinder are 0.8 times as long, so that the meshes do not match. --friction: its coefficient; nodes stick
+up to it, the load comes in LOAD_STEPS steps, and contact is at nodes.
 """
 import argparse
 import os
@@ -28,6 +29,7 @@ HALF_WIDTH = 4 * LOAD / THICKNESS / (np.pi * P_0)
 FINE = 1.6  # half widths, along which faces are of equal length
 GROWTH = 1.25
 PUSHED = 0.6e-3  # m, before the load acts in CalculiX
+LOAD_STEPS = 40  # with friction
 
 
 def graded(h, length, fine):
@@ -103,7 +105,7 @@ def run(command, folder, log):
         subprocess.run(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT, check=True)
 
 
-def elastogear(program, folder, parts, points, law):
+def elastogear(program, folder, parts, points, law, mu):
     """Displacement of the pin (m) and largest pressure (Pa)."""
     for name, E in (("cylinder", E_CYLINDER), ("block", E_BLOCK)):
         with open(os.path.join(folder, name + ".inp"), "w", encoding="utf-8") as file:
@@ -113,17 +115,19 @@ def elastogear(program, folder, parts, points, law):
                        f"restrain: [BASE{name}, 'SIDE{name}:x', 'SLICE{name}:z']\nsurface: [TOUCH{name}]\nmodes: 10\noutput: {name}.h5\n")
         if not os.path.exists(os.path.join(folder, name + ".h5")):
             run([program, "reduce", name + ".yaml"], folder, f"reduce_{name}.log")
+    friction = f", friction: {mu:g}, friction_law: stick" if mu else ""
     with open(os.path.join(folder, "press.yaml"), "w", encoding="utf-8") as file:
         file.write("bodies: [cylinder, block]\nblock: {file: block.h5, joint: fixed}\n"
                    "cylinder: {file: cylinder.h5, joint: prismatic, axis: [0, -1, 0], force: %.15g}\n"
-                   "contact: {pairs: [cylinder:block], law: %s, points: %s, surface: smooth, two_pass: false}\n"
-                   "analysis: static\nsimulate: {output: press.h5}\n" % (LOAD, law, points))
+                   "contact: {pairs: [cylinder:block], law: %s, points: %s, surface: smooth, two_pass: false%s}\n"
+                   "analysis: static\nstatic_steps: %d\nsimulate: {output: press.h5}\n"
+                   % (LOAD, law, points, friction, LOAD_STEPS if mu else 10))
     run([program, "simulate", "press.yaml"], folder, f"press_{points}_{law}.log")
     with results.open_file(os.path.join(folder, "press.h5"), "result") as file:
         return float(file["bodies/cylinder/rigid"][-1, 0]), float(file["contact/cylinder:block/pressure"][-1])
 
 
-def calculix(program, folder, parts, held, offset):
+def calculix(program, folder, parts, held, offset, mu):
     """Displacement of the pin, m, and largest contact pressure, Pa; face-to-face contact with a stiff penalty."""
     stiffness = 50 * E_BLOCK / HALF_WIDTH  # Pa/m
     with open(os.path.join(folder, "cb1.inp"), "w", encoding="utf-8") as file:
@@ -131,8 +135,10 @@ def calculix(program, folder, parts, held, offset):
         for name, E in (("cylinder", E_CYLINDER), ("block", E_BLOCK)):
             file.write(f"*MATERIAL, NAME=M{name}\n*ELASTIC\n{E:.15g}, {NU}\n*SOLID SECTION, ELSET=E{name}, MATERIAL=M{name}\n")
         pin = held["BASE"] + offset
+        friction = f"*FRICTION\n{mu:g}, {stiffness:.9g}\n" if mu else ""
         file.write("*SURFACE INTERACTION, NAME=CONTACT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
-                   f"{stiffness:.9g}\n*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\nTOUCHcylinder, TOUCHblock\n")
+                   f"{stiffness:.9g}\n{friction}*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\n"
+                   "TOUCHcylinder, TOUCHblock\n")
         file.write("*EQUATION\n" + "".join(f"2\n{n}, 2, 1., {pin[0]}, 2, -1.\n" for n in pin[1:]))
         held_nodes = "BASEblock, 1, 3\nBASEcylinder, 1, 1\nBASEcylinder, 3, 3\n" + "".join(
             f"SIDE{name}, 1, 1\nSLICE{name}, 3, 3\n" for name in ("cylinder", "block"))
@@ -166,6 +172,7 @@ def main():
     parser.add_argument("--elastogear", required=True)
     parser.add_argument("--calculix", default="ccx")
     parser.add_argument("--out", required=True)
+    parser.add_argument("--friction", type=float, default=0)
     parser.add_argument("--faces", type=float, nargs="+", default=[4, 8, 16])
     options = parser.parse_args()
     program = os.path.abspath(options.elastogear)
@@ -180,9 +187,9 @@ def main():
         parts = {name: part(name, mesh, 0, 0, held[name]) for name, mesh in meshes.items()}
         offset = len(meshes["block"].X)
         parts["cylinder_after_block"] = part("cylinder", meshes["cylinder"], offset, len(meshes["block"].cells), held["cylinder"])
-        rows = [(f"{points}, {law}", *elastogear(program, folder, parts, points, law))
-                for points in ("nodes", "faces") for law in ("penalty", "unilateral")]
-        rows.append(("CalculiX, faces", *calculix(options.calculix, folder, parts, held["cylinder"], offset)))
+        rows = [(f"{points}, {law}", *elastogear(program, folder, parts, points, law, options.friction))
+                for points in (("nodes",) if options.friction else ("nodes", "faces")) for law in ("penalty", "unilateral")]
+        rows.append(("CalculiX, faces", *calculix(options.calculix, folder, parts, held["cylinder"], offset, options.friction)))
         for name, pin, pressure in rows:
             print(f"{faces:5g}  {name:20s}  {pressure / 1e6:14.1f}  {100 * (pressure / P_0 - 1):+7.2f} %  {1e3 * pin:10.5f}", flush=True)
 

@@ -29,8 +29,8 @@ awk -v whole="$(figure whole.h5 'peak force:')" -v half="$(figure half.h5 'peak 
   exit !(whole > 0 && half > 0 && apart < 0.02 && apart > -0.02 && start > 0 && off < 0.01 * start)
 }'
 
-"$elastogear" simulate "$example/impact.yaml" -ts_max_time 2e-5 -contact_law penalty -output penalty.h5 >penalty.log 2>&1
-"$elastogear" compare penalty.h5 whole.h5 -at 1e-5 >laws
+"$elastogear" simulate "$example/impact.yaml" -contact_law penalty -output penalty.h5 >penalty.log 2>&1
+"$elastogear" compare penalty.h5 whole.h5 >laws
 grep -q 'law of contact is penalty, that of the reference unilateral' laws || { echo "FAIL: no word of laws"; cat laws; exit 1; }
 "$elastogear" compare half.h5 whole.h5 >laws
 ! grep -q 'law of contact' laws || { echo "FAIL: one law is taken for two"; cat laws; exit 1; }
