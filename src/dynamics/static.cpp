@@ -148,7 +148,7 @@ UniqueSNES make_snes(Equilibrium& at, UniqueMat& J) {
 }
 
 std::string coordinate_name(body::JointType type, Eigen::Index i) {
-  static const char* const kFree[] = {
+  constexpr const char* kFree[] = {
       "x", "y", "z", "the rotation about x", "the rotation about y", "the rotation about z"};
   if (body::has_rotation_vector(type)) return kFree[type == body::JointType::free ? i : i + 3];
   return body::has_rotation_axis(type) && i == 0 ? "the rotation about its axis"

@@ -48,14 +48,17 @@ void expect_solved(const Example& e, const VectorXd& z) {
     const double p = z[c.first], gap = y[c.first];
     EXPECT_GE(p, 0);
     EXPECT_GE(gap, -length);
-    if (p > 0) EXPECT_LE(gap, length);
+    if (p > 0) {
+      EXPECT_LE(gap, length);
+    }
     if (!c.sticks) continue;
     const Vector2d t = z.segment<2>(c.first + 1), u = y.segment<2>(c.first + 1);
     EXPECT_LE(t.norm(), c.mu * p + force);
-    if (slides(c, z))
+    if (slides(c, z)) {
       EXPECT_LE((t.norm() * u + u.norm() * t).norm(), (length + kRoundoff * u.norm()) * (t.norm() + force));
-    else if (p > 0)
+    } else if (p > 0) {
       EXPECT_LE(u.norm(), length);
+    }
   }
 }
 
