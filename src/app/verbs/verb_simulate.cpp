@@ -205,6 +205,7 @@ void run_simulate(const Options& options, const std::vector<std::string>&) {
 
   dynamics::System system(bodies, pairs, surroundings, markers);
   const model::ResultHeader head = header(options, system, identities);
+  for (const auto& pair : head.pairs) print_item("law of contact", pair.law + " (" + pair.name + ")");
   print_summary(options, keep(options, head, computation(options, system)));
   write_sensor_tables(options, head);
 }
