@@ -27,22 +27,33 @@ std::shared_ptr<model::ElasticBody> block(bool flexible, const Eigen::Vector3i& 
 
 constexpr double kDefault = 0, kUnilateral = -1;  // in the place of a stiffness
 
-// A block on a slide, pressed against another one, which it meets beside its middle.
-System press(double force, double stiffness, bool two_pass) {
-  const bool flexible = stiffness == kUnilateral;
-  std::vector<BodySetup> setups{{.name = "ram", .body = block(flexible, {2, 3, 2}, 0)},
-                                {.name = "wall", .body = block(flexible, {2, 2, 2}, 1)}};
-  setups[0].joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}};
-  setups[0].translation.load = constant_signal(force);
-  setups[1].joint.r_WB0 = {1.001, 0.25, 0.1};
+// A block on a slide along x, the ram, before another one, the wall, which it meets beside its middle.
+struct Blocks {
+  std::vector<BodySetup> setups;
   PairSetup pair{"ram:wall", {0, 1}, {}};
-  pair.settings.law = flexible ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
-  pair.settings.stiffness = std::max(0., stiffness);
-  pair.settings.depth = 0.05;
-  pair.settings.two_pass = two_pass;
-  pair.settings.extension = 0;
-  scale_by_load_factor(setups[0], std::numeric_limits<double>::infinity());
-  return System(setups, {pair});
+};
+
+Blocks blocks(double stiffness, bool two_pass, double gap) {
+  const bool flexible = stiffness == kUnilateral;
+  Blocks b{{{.name = "ram", .body = block(flexible, {2, 3, 2}, 0)},
+            {.name = "wall", .body = block(flexible, {2, 2, 2}, 1)}}};
+  b.setups[0].joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}};
+  b.setups[1].joint.r_WB0 = {1 + gap, 0.25, 0.1};
+  contact::Settings& settings = b.pair.settings;
+  settings.law = flexible ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
+  settings.stiffness = std::max(0., stiffness);
+  settings.depth = 0.05;
+  settings.two_pass = two_pass;
+  settings.extension = 0;
+  return b;
+}
+
+// The ram is pressed against the wall.
+System press(double force, double stiffness, bool two_pass) {
+  Blocks b = blocks(stiffness, two_pass, 1e-3);
+  b.setups[0].translation.load = constant_signal(force);
+  scale_by_load_factor(b.setups[0], std::numeric_limits<double>::infinity());
+  return System(b.setups, {b.pair});
 }
 
 model::Snapshot equilibrium(System system) {
@@ -75,27 +86,19 @@ TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
   for (const auto& contact : found.pairs[0].contacts) EXPECT_GT(contact.f.norm(), 0);
 }
 
-// A ram that is driven against a wall, which is driven aside. They touch, and stick, from the start.
+// The ram is driven against the wall, which is driven aside. They touch, and stick, from the start.
 System press_and_rub(double aside, double stiffness, const contact::FrictionSettings& friction,
                      bool two_pass) {
-  constexpr double kApproach = 2e-3, kOverlap = 1e-5;  // m
-  const bool flexible = stiffness == kUnilateral;
-  std::vector<BodySetup> setups{{.name = "ram", .body = block(flexible, {2, 3, 2}, 0)},
-                                {.name = "wall", .body = block(flexible, {2, 2, 2}, 1)}};
-  setups[0].joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}};
-  setups[0].translation.drive = speed_drive(0, kApproach);
-  setups[1].joint = {.type = body::JointType::prismatic, .axis = {0, 1, 0}, .r_WB0 = {1.0001, 0.25, 0.1}};
-  setups[1].translation.drive = speed_drive(0, aside);
-  PairSetup pair{"ram:wall", {0, 1}, {}};
-  pair.settings.law = flexible ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
-  pair.settings.stiffness = std::max(0., stiffness);
-  pair.settings.depth = 0.05;
-  pair.settings.two_pass = two_pass;
-  pair.settings.extension = 0;
-  pair.settings.offset = -1e-4 - kOverlap;
-  pair.settings.friction = friction;
-  for (BodySetup& setup : setups) scale_by_load_factor(setup, 1);
-  return System(setups, {pair});
+  constexpr double kApproach = 2e-3, kGap = 1e-4, kOverlap = 1e-5;  // m
+  Blocks b = blocks(stiffness, two_pass, kGap);
+  b.setups[0].translation.drive = speed_drive(0, kApproach);
+  b.setups[1].joint.type = body::JointType::prismatic;
+  b.setups[1].joint.axis = {0, 1, 0};
+  b.setups[1].translation.drive = speed_drive(0, aside);
+  b.pair.settings.offset = -kGap - kOverlap;
+  b.pair.settings.friction = friction;
+  for (BodySetup& setup : b.setups) scale_by_load_factor(setup, 1);
+  return System(b.setups, {b.pair});
 }
 
 // At the first, all nodes stick; at the others, some or all have slid in the end.

@@ -234,7 +234,8 @@ TangentialForce tangential_force(const Law& law, const ProjectionKinematics& kin
   return f;
 }
 
-// What a node that sticks stores and takes, and what it remembers.
+// Sets the energy and the losses of the tangential spring (6.18), and the stretch that the next step starts
+// from.
 void set_stick(const Law& law, const Parts& parts, ContactPoint& contact) {
   const Vector3d elastic = parts.mu * parts.p / law.c_t * parts.friction.direction;
   const double force_t = parts.mu * parts.p * parts.friction.direction.norm();

@@ -235,7 +235,7 @@ void ResidualContact::solve_unilateral(ContactState& state, const std::function<
     change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);
     if (!change) break;
     const double now = change->forces;
-    // What the next change is expected to be.
+    // The next change of the forces is expected to fall as this one did.
     const double left = now * (trial > 0 ? std::min(1.0, now / before) : kFirstRate);
     const bool is_roundoff = trial > 0 && now < kRoundoffResidual && now > 0.1 * before;
     settled = (left <= kForceResidual || is_roundoff) && !change->slides_anew;

@@ -13,7 +13,7 @@ std::vector<const model::ElasticBody*> elastic_bodies(const SystemModel& model) 
   return bodies;
 }
 
-// Of each surface node, whether the body has a static response to forces there.
+// Marks the surface nodes at which forces have a static response in the file of the body.
 std::vector<bool> responds(const model::ElasticBody& body) {
   std::vector<bool> result(static_cast<std::size_t>(body.surface.X.cols()));
   for (std::size_t node = 0; node < result.size(); ++node)
@@ -37,7 +37,8 @@ SystemContact::SystemContact(const SystemModel& model)
   unilateral_ = is_unilateral();
 }
 
-// Whether a pair is unilateral. The static responses of bodies are found for one law.
+// Tells whether contact has no penalty. All pairs of bodies with residual flexibility must have the same law,
+// for which the static responses are found.
 bool SystemContact::is_unilateral() const {
   const PairSetup *unilateral = nullptr, *penalty = nullptr;
   for (const PairSetup& pair : pairs_) {

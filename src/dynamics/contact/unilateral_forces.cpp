@@ -91,7 +91,8 @@ VectorXd UnilateralForces::gaps() const {
   return q;
 }
 
-// Which contacts are likely to be closed: those that bear a force, at first those that are entered, too.
+// Contacts that bear a force are likely to stay closed; before the first solution those that have been
+// entered are, too.
 std::vector<bool> UnilateralForces::likely() const {
   const bool first = z_ == z_found_;
   std::vector<bool> closed;
