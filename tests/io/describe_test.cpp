@@ -30,6 +30,7 @@ StressFile sample_stress() {
                    Eigen::MatrixXd::Random(2, 3)},
                   {"worm", "empty", {}, Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 3)}};
   history.sets[0].von_mises(1, 2) = 123e6;
+  history.sets[0].rankine(0, 1) = 98e6;
   return history;
 }
 
@@ -108,6 +109,7 @@ TEST_F(Describe, stress_and_field_files) {
   EXPECT_THAT(
       describe(path("stress.h5")),
       AllOf(HasSubstr("worm/root: 2 nodes"), HasSubstr("peak von Mises: 1.23e+08 Pa at node 7, t = 2e-06 s"),
+            HasSubstr("peak Rankine: 9.8e+07 Pa at node 4, t = 1e-06 s"),
             HasSubstr("estimated error of the reduction: none in the file")));
   write_vtu(path("a.vtu"), mesh::box_mesh({1, 1, 1}), {});
   EXPECT_THAT(describe(path("a.vtu")), HasSubstr("VTK unstructured grid"));

@@ -34,7 +34,8 @@ const Rows<RecoverSettings> kRecoverRows = {
     {"stress_<body>", &RecoverSettings::stress, "-",
      "node sets of a body whose stress histories are wanted (of its stress_nodes)"},
     {"csv", &RecoverSettings::all_nodes, one_of("peak", "all"),
-     "nodes in the CSV tables of sets above 10 nodes: peak (largest von Mises) or all"},
+     "nodes in the CSV tables of sets above 10 nodes: peak (those of the largest von Mises and of the "
+     "largest principal stress) or all"},
     {"field_times", &RecoverSettings::field_times, "s",
      "times at which fields of whole bodies are written for ParaView"},
     {"fields", &RecoverSettings::fields, "-",

@@ -9,13 +9,16 @@
 namespace elastogear::app {
 namespace {
 
-constexpr int kSmallSet = 10;  // nodes; larger sets go to CSV with their peak node only
+constexpr int kSmallSet = 10;  // nodes; of larger sets only the nodes of the largest stresses go to CSV
 
-// Position (node, time) of the largest von Mises stress.
-std::pair<Eigen::Index, Eigen::Index> peak(const io::StressSet& set) {
+struct Position {
   Eigen::Index node = 0, time = 0;
-  if (set.von_mises.size() > 0) set.von_mises.maxCoeff(&node, &time);
-  return {node, time};
+};
+
+Position peak(const Eigen::MatrixXd& history) {
+  Position at;
+  if (history.size() > 0) history.maxCoeff(&at.node, &at.time);
+  return at;
 }
 
 constexpr double kTrusted = 0.05;  // of the peak
@@ -37,7 +40,7 @@ std::string percent(double share) {
 }
 
 void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) {
-  const auto [node, step] = peak(set);
+  const auto [node, step] = peak(set.von_mises);
   if (set.error.size() == 0)
     return print_item("", "error of the reduction not estimated: not to be trusted; " + remedy(body));
   const double share = set.peak_error[step] / std::max(set.von_mises(node, step), 1e-300);
@@ -47,11 +50,10 @@ void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) 
     print_item("warning", set.body + " " + set.set + ": not to be trusted; " + remedy(body));
 }
 
-void print_peak(const io::StressSet& set, const Eigen::VectorXd& time) {
-  const auto [node, step] = peak(set);
-  print_item(set.body + " " + set.set,
-             "peak von Mises " + with_unit(1e-6 * set.von_mises(node, step), "MPa") + " at node " +
-                 std::to_string(set.node[node]) + ", " + with_unit(time[step], "s"));
+std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const Eigen::VectorXd& time) {
+  const auto [node, step] = peak(history);
+  return with_unit(1e-6 * history(node, step), "MPa") + " at node " + std::to_string(set.node[node]) + ", " +
+         with_unit(time[step], "s");
 }
 
 void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, Eigen::Index node) {
@@ -67,16 +69,20 @@ void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, 
 
 void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
                   const Eigen::VectorXd& time) {
-  print_peak(set, time);
+  print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, time));
   print_error(body, set);
+  print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, time));
 }
 
 void write_table(const std::string& path, const io::StressSet& set, const Eigen::VectorXd& time, bool all) {
   std::vector<io::CsvColumn> columns = {{"time", "s", time}};
-  if (all || set.node.size() <= kSmallSet)
+  if (all || set.node.size() <= kSmallSet) {
     for (std::size_t node = 0; node < set.node.size(); ++node) add_columns(columns, set, node);
-  else
-    add_columns(columns, set, peak(set).first);
+  } else {
+    const Eigen::Index node = peak(set.von_mises).node, stretched = peak(set.rankine).node;
+    add_columns(columns, set, node);
+    if (stretched != node) add_columns(columns, set, stretched);
+  }
   io::write_csv(path, columns);
 }
 

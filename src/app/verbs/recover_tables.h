@@ -7,10 +7,11 @@
 
 namespace elastogear::app {
 
-/// Peak and estimated error of the reduction, with a warning where the stress is not to be trusted.
+/// Largest stresses and estimated error of the reduction, with a warning where they are not to be trusted.
 void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set, const Eigen::VectorXd& time);
 
-/// CSV table of the nodes of a small set; of a larger one the node of the peak, unless `all` are wanted.
+/// CSV table of the nodes of a small set; of a larger one those of the largest von Mises and the largest
+/// principal stress, unless `all` are wanted.
 void write_table(const std::string& path, const io::StressSet& set, const Eigen::VectorXd& time, bool all);
 
 }  // namespace elastogear::app

@@ -88,8 +88,10 @@ void describe_stress(Out& out, const std::string& path) {
     Eigen::Index node = 0, step = 0;
     const double peak = set.von_mises.maxCoeff(&node, &step);
     line(out, "  peak von Mises: ", peak, " Pa at node ", set.node[node], ", t = ", history.time[step], " s");
-    line(out, "  peak Rankine: ", set.rankine.maxCoeff(), " Pa");
     describe_error(out, set, peak, step);
+    const double tension = set.rankine.maxCoeff(&node, &step);
+    line(out, "  peak Rankine: ", tension, " Pa at node ", set.node[node], ", t = ", history.time[step],
+         " s");
   }
   describe_map(out, history.provenance);
 }
