@@ -14,6 +14,7 @@ namespace {
 constexpr double kStepsPerPeriod = 10;
 constexpr double kLargestGradient = 0.05;  // elastic rotation (rad) and strain: second-order terms reach 5 %
 constexpr double kLargestSpeed = 0.1;      // of the lowest mode: centrifugal softening of its stiffness, 1 %
+constexpr double kLargestShare = 0.05;     // of the contact forces, on nodes without a static response
 
 void raise(Vibration& to, const std::string& name, double frequency) {
   if (frequency > to.frequency) to = {name, frequency};
@@ -45,6 +46,18 @@ double contact_frequency(const System& system, std::size_t p) {
     rate = std::max(rate, largest_rate(body, contact::node_stiffness(settings, body.surface)));
   }
   return std::sqrt(rate) / (2 * std::numbers::pi);
+}
+
+// Share of the contact forces that acts on nodes without a static response, of a body that has some; -.
+double share_without_response(const model::ElasticBody& body, const model::ContactForces& contact) {
+  if (body.flexibility.empty()) return 0;
+  double without = 0, all = 0;
+  for (std::size_t i = 0; i < contact.node.size(); ++i) {
+    const double f = contact.f_B.col(static_cast<Eigen::Index>(i)).norm();
+    all += f;
+    if (model::find_loaded(body.flexibility, contact.node[i]) < 0) without += f;
+  }
+  return without > 0 ? without / all : 0;
 }
 
 std::string sentence(const std::string& who, double time, double value, const char* meaning) {
@@ -110,6 +123,14 @@ void ValidityGuard::watch_body(std::size_t b, const model::Snapshot& snapshot, W
         sentence(who, snapshot.time, speed / watch.lowest_mode,
                  "turns too fast to leave out how rotation changes the stiffness; speed over that of the "
                  "lowest mode:"));
+  }
+  const double share = watch.beside_loaded ? 0 : share_without_response(*body.eq.body, state.contact);
+  if (share > kLargestShare) {
+    watch.beside_loaded = true;
+    said.push_back(sentence(who, snapshot.time, share,
+                            "contact acts on nodes that have no static response, which is stiff there and "
+                            "wrong for stresses: reduce the body again with them among -loaded; share of "
+                            "the contact forces:"));
   }
 }
 

@@ -109,6 +109,29 @@ TEST(ValidityGuard, warns_once_of_a_fast_rotation) {
   EXPECT_TRUE(guard.warnings(start(system, 0)).empty());
 }
 
+TEST(ValidityGuard, warns_once_of_contact_beside_the_nodes_with_static_responses) {
+  test::BoxSpec spec{.size = {1, 1, 1}, .cells = {2, 1, 1}, .material = {1e4, 0.3, 1}};
+  spec.held = [](const auto& X, int) { return X.x() == 0; };
+  const auto body = std::make_shared<model::ElasticBody>(test::make_flexible_box(spec, 1));
+  const int beside = body->flexibility.node.back(), loaded = body->flexibility.node.front();
+  body->flexibility.node.pop_back();
+  System system({{.name = "block", .body = body}}, {});
+  ValidityGuard guard(system);
+  const Eigen::VectorXd U = system.initial_position();
+  model::Snapshot now = snapshot(system, {0, U, U, U});
+  now.bodies[0].contact = {{loaded, beside}, Eigen::Matrix3Xd::Zero(3, 2)};
+  EXPECT_TRUE(guard.warnings(now).empty());
+  now.bodies[0].contact.f_B << 0.96, 0, 0, 0.04, 0, 0;
+  EXPECT_TRUE(guard.warnings(now).empty());
+  now.bodies[0].contact.f_B << 3, 0, 0, 1, 0, 0;
+  const auto warnings = guard.warnings(now);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("body 'block' at t = 0 s: contact acts on nodes"), std::string::npos)
+      << warnings[0];
+  EXPECT_NE(warnings[0].find("forces: 0.25"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(guard.warnings(now).empty());
+}
+
 TEST(ValidityGuard, warns_once_of_steps_longer_than_the_contact_depth) {
   PairSetup pair{"a:b", {0, 1}, {.depth = 0.01, .friction = {}}};
   const auto rigid = std::make_shared<model::ElasticBody>(test::make_rigid_box({.material = {1, 0, 1}}));

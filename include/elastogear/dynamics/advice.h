@@ -25,7 +25,8 @@ struct Advice {
 Advice advise(const System& system);
 
 /// Watches whether elastic rotations and strains stay small, bodies turn slowly against their lowest mode,
-/// and surfaces of a pair go by less than the contact depth in a step.
+/// contact stays where bodies with residual flexibility have static responses, and surfaces of a pair go by
+/// less than the contact depth in a step.
 class ValidityGuard {
  public:
   /// dt: s, of a step; 0: there are no steps in time.
@@ -36,9 +37,9 @@ class ValidityGuard {
  private:
   struct Watch {
     DeformationWatch deformation;
-    double lowest_mode = 0;               // rad/s; 0: none
-    double radius = 0;                    // m, of the surface around the body frame's origin
-    bool deformed = false, fast = false;  // said
+    double lowest_mode = 0;  // rad/s; 0: none
+    double radius = 0;       // m, of the surface around the body frame's origin
+    bool deformed = false, fast = false, beside_loaded = false;  // said
   };
   using Warnings = std::vector<std::string>;
   double surface_speed(std::size_t b, const model::BodyState& state) const;
