@@ -120,6 +120,25 @@ TEST(Unilateral, equilibrium_with_friction_that_sticks_is_the_limit_of_stiff_spr
     }
 }
 
+// The ram is pressed against the wall while that is driven aside: what friction takes through the static
+// responses is not in the slip.
+TEST(Unilateral, energy_of_rubbing_is_kept_account_of) {
+  constexpr double kForce = 30, kSpeed = 0.1, kRise = 0.05, kEnd = 0.12;  // N, m/s, s, s
+  Blocks b = blocks(kUnilateral, false, 1e-4);
+  b.setups[0].translation.load = ramp_signal(kForce, kRise);
+  b.setups[1].joint.type = body::JointType::prismatic;
+  b.setups[1].joint.axis = {0, 1, 0};
+  b.setups[1].translation.drive = speed_drive(0, kSpeed);
+  b.pair.settings.friction = {.mu = 0.3, .v_0 = 1e-3};
+  System system(b.setups, {b.pair});
+  double dissipated = 0;
+  const RunSummary summary =
+      simulate(system, {.dt = 2e-4, .end_time = kEnd, .rho_inf = 1},
+               [&](const model::Snapshot& snapshot) { dissipated = snapshot.energy.dissipated; });
+  std::printf("taken %.4g J, balance %.3g J off\n", dissipated, summary.largest_imbalance);
+  EXPECT_LT(summary.largest_imbalance, 1e-3 * dissipated);
+}
+
 // An elastic bar hits another one at rest, or a wall (St. Venant): contact lasts 2 L / c of the shorter bar,
 // the force is rho c v A / 2, or rho c v A. They move along x alone, with frames at their far ends.
 constexpr double kLength = 0.2, kWidth = 0.02, kSpeed = 100;  // m, m, m/s

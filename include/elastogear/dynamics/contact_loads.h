@@ -44,6 +44,9 @@ Eigen::Vector3d local_force(const contact::ContactPoint& point, int i);
 /// One entry per body. states[b].x_B may be empty for bodies that no pair names.
 std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
                                       const std::vector<contact::SurfaceState>& states);
+/// The same of the parts of contact forces that lie along the master.
+std::vector<NodalForces> friction_forces(const std::vector<PairContacts>& pairs,
+                                         const std::vector<contact::SurfaceState>& states);
 
 /// Generalised contact force: s: H' [sum f; sum x x f], q: Phi' f. Eqs. (3.7) and (6.10).
 body::Force contact_force(const body::Equations& eq, const NodalForces& forces);

@@ -105,18 +105,17 @@ bool without_potential(const std::vector<PairContacts>& pairs) {
   return false;
 }
 
-}  // namespace
-
-LocalNode local_node(const contact::ContactPoint& point, int i) {
+// The part of the force on a local node that lies along the master.
+Eigen::Vector3d local_friction(const contact::ContactPoint& point, int i) {
   const int n_slave = point.n_slave();
-  if (i < n_slave) return {point.slave_side, point.slave_nodes[i]};
-  return {1 - point.slave_side, point.master_nodes[i - n_slave]};
+  const double weight = i < n_slave ? point.slave_N[i] : -point.N[i - n_slave];
+  return weight * (point.f - point.n * point.n.dot(point.f));
 }
 
-Eigen::Vector3d local_force(const contact::ContactPoint& point, int i) { return point.F.col(i); }
-
-std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
-                                      const std::vector<contact::SurfaceState>& states) {
+// Sums of a force on each local node of each contact.
+template <class Force>
+std::vector<NodalForces> gather(const std::vector<PairContacts>& pairs,
+                                const std::vector<contact::SurfaceState>& states, const Force& force) {
   std::vector<NodalForces> forces(states.size());
   for (const PairContacts& pair : pairs)
     for (const auto& point : pair.points)
@@ -134,10 +133,29 @@ std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
       for (int i = 0; i < point.n_local(); ++i) {
         const LocalNode local = local_node(point, i);
         const int b = pair.body[local.side];
-        forces[b].f_B.col(slot(forces[b].node, local.node)) +=
-            states[b].R_WB.transpose() * local_force(point, i);
+        forces[b].f_B.col(slot(forces[b].node, local.node)) += states[b].R_WB.transpose() * force(point, i);
       }
   return forces;
+}
+
+}  // namespace
+
+LocalNode local_node(const contact::ContactPoint& point, int i) {
+  const int n_slave = point.n_slave();
+  if (i < n_slave) return {point.slave_side, point.slave_nodes[i]};
+  return {1 - point.slave_side, point.master_nodes[i - n_slave]};
+}
+
+Eigen::Vector3d local_force(const contact::ContactPoint& point, int i) { return point.F.col(i); }
+
+std::vector<NodalForces> nodal_forces(const std::vector<PairContacts>& pairs,
+                                      const std::vector<contact::SurfaceState>& states) {
+  return gather(pairs, states, local_force);
+}
+
+std::vector<NodalForces> friction_forces(const std::vector<PairContacts>& pairs,
+                                         const std::vector<contact::SurfaceState>& states) {
+  return gather(pairs, states, local_friction);
 }
 
 body::Force contact_force(const body::Equations& eq, const NodalForces& forces) {

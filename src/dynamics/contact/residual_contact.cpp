@@ -273,6 +273,18 @@ double ResidualContact::energy(std::size_t b) {
   return energy;
 }
 
+double ResidualContact::work(const std::vector<NodalForces>& then, const std::vector<NodalForces>& now) {
+  double work = 0;
+  for (std::size_t b = 0; b < flexibility_.size() && !last_.forces.empty(); ++b) {
+    if (!has_flexibility(b)) continue;
+    const NodalForces change = difference(flexibility_[b]->forces(), last_.forces[b]);
+    const NodalForces force = mean(then[b], now[b], 0.5), all = sum(change, 1, force, 0);
+    const VectorXd dw = flexibility_[b]->among(all.node) * all.f_B.reshaped();
+    work += dw.dot(sum(change, 0, force, 1).f_B.reshaped());
+  }
+  return work;
+}
+
 void ResidualContact::serialize(Archive& archive) {
   const auto visit = [&](NodalForces& forces) {
     archive(forces.node);

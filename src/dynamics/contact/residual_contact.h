@@ -43,6 +43,9 @@ class ResidualContact {
   void accept(double time);
 
   double energy(std::size_t b);  ///< J, f'R f / 2
+  /// J, work of forces on the contact nodes through the change of the static responses since the last
+  /// accepted state: the mean of the forces then and now, of each body, times that change.
+  double work(const std::vector<NodalForces>& then, const std::vector<NodalForces>& now);
   /// Stores or restores the forces that the next solution starts from.
   void serialize(Archive& archive);
 

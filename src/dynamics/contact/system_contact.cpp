@@ -1,6 +1,7 @@
 #include "dynamics/contact/system_contact.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "elastogear/base/error.h"
 
@@ -127,22 +128,37 @@ double SystemContact::depth_share() const {
   return share;
 }
 
-bool SystemContact::sticks(std::size_t p) const {
+bool SystemContact::has_friction(std::size_t p, contact::FrictionLaw law) const {
   const contact::FrictionSettings& friction = pairs_[p].settings.friction;
-  return friction.mu > 0 && friction.law == contact::FrictionLaw::stick;
+  return friction.mu > 0 && friction.law == law;
+}
+
+// What regularised friction takes through the change of the static responses, which the slip leaves out: they
+// have no rate. docs/theory.md, Eq. (7.2a).
+double SystemContact::friction_loss_of_responses() {
+  if (!residual_contact_.any()) return 0;
+  std::vector<PairContacts> rubbing;
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (has_friction(p, contact::FrictionLaw::regularised)) rubbing.push_back(state_.pair[p]);
+  if (rubbing.empty()) return 0;
+  const std::vector<NodalForces> then =
+      std::exchange(history_.friction, friction_forces(rubbing, state_.surface));
+  return then.empty() ? 0 : -residual_contact_.work(then, history_.friction);
 }
 
 void SystemContact::accept() {
   double power = 0;
   bool any_sticks = false;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    any_sticks |= sticks(p);
+    const bool sticks = has_friction(p, contact::FrictionLaw::stick);
+    any_sticks |= sticks;
     for (const contact::ContactPoint& point : state_.pair[p].points) {
       history_.loss += point.slip_work;
-      power += point.power + (sticks(p) ? 0 : point.friction_power);
+      power += point.power + (sticks ? 0 : point.friction_power);
     }
     detectors_[p].accept(state_.pair[p].points);
   }
+  history_.loss += friction_loss_of_responses();
   if (history_.accepted) history_.loss += 0.5 * (time_ - history_.time) * (power + history_.power);
   history_.accepted = true;
   history_.time = time_;
@@ -154,6 +170,10 @@ void SystemContact::accept() {
 void SystemContact::serialize(Archive& archive) {
   archive(history_.accepted);
   for (double* x : {&history_.time, &history_.power, &history_.loss}) archive(*x);
+  archive.each(history_.friction, [&](NodalForces& forces) {
+    archive(forces.node);
+    archive(forces.f_B);
+  });
   for (contact::Pair& pair : detectors_) pair.serialize(archive);
   residual_contact_.serialize(archive);
   if (archive.is_loading()) forget();

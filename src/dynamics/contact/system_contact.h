@@ -41,17 +41,19 @@ class SystemContact {
 
  private:
   struct History {
-    bool accepted = false;  // is there an accepted state?
-    double time = 0;        // s, of the last one
-    double power = 0;       // W, taken by damping and regularised friction then
-    double loss = 0;        // J, taken since the start
+    bool accepted = false;                   // is there an accepted state?
+    double time = 0;                         // s, of the last one
+    double power = 0;                        // W, taken by damping and regularised friction then
+    double loss = 0;                         // J, taken since the start
+    std::vector<NodalForces> friction = {};  // of each body, regularised, of the last one
   };
 
   bool is_unilateral() const;
   void place(const std::vector<contact::SurfaceMotion>& motion);
   void place_touched(std::size_t p);
   void detect(const std::vector<contact::SurfaceMotion>& motion);
-  bool sticks(std::size_t p) const;
+  bool has_friction(std::size_t p, contact::FrictionLaw law) const;
+  double friction_loss_of_responses();
   void solve(const std::vector<contact::SurfaceMotion>& motion);
 
   std::vector<PairSetup> pairs_;
