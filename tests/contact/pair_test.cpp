@@ -57,7 +57,7 @@ TEST(Pair, without_a_static_response_the_compliance_of_the_penalty_is_left) {
   const auto compliances = [&](double x, const std::vector<bool>& punch_responds) {
     Pair pair(punch, master, s, {}, {}, {punch_responds, master_responds});
     std::vector<double> c;
-    for (const ContactPoint& point : pair.detect(at(punch, {x, 0.4, -1e-6}, {}), at(master, {}, {})))
+    for (const ContactPoint& point : pair.detect(at(punch, {x, 0.4, -1e-6}), at(master)))
       c.push_back(point.c);
     EXPECT_EQ(c.size(), 4u);
     return c;
