@@ -124,7 +124,7 @@ struct Pair::Data {
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
                                            const Projection& w, std::map<int, NodeGap>& gaps) const;
   ContactPoint contact(const MasterSide& master, int slave_side, const Minimum& m) const;
-  std::optional<Projection> project(const SurfaceView& master, const SurfaceView& slave,
+  std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
@@ -237,13 +237,14 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
 }
 
 // faces: of the master, that can be nearest.
-std::optional<Projection> Pair::Data::project(const SurfaceView& master, const SurfaceView& slave,
+std::optional<Projection> Pair::Data::project(const MasterSide& master, const SurfaceView& slave,
                                               const PlacedNode& placed, std::span<const int> faces) {
   const SlaveNode q{placed.x, [&slave, &placed] { return node_normal(slave, placed.node); },
                     [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
   int& last_face = side[placed.side].last_face[placed.node];
-  auto projection = find_projection(master, q, limits, faces, last_face);
+  auto projection = find_projection(master.surface, q, limits, faces, last_face);
+  if (projection) projection = kept_projection(master, *projection, placed.x, last_face);
   last_face = projection ? projection->face : -1;
   return projection;
 }
@@ -260,7 +261,7 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
     const int node = near.slave[i];
     if (!is_whole(slave_side) && !side[slave_side].on_boundary[node]) continue;
     const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
-    const auto projection = project(surface, slave, placed, near.faces(i));
+    const auto projection = project(master, slave, placed, near.faces(i));
     if (!projection) continue;
     auto found = node_contact(master, placed, *projection, gaps);
     if (!found) continue;
@@ -282,7 +283,7 @@ std::map<int, NodeGap> Pair::Data::node_gaps(int slave_side, const MasterSide& m
     const int node = near.slave[i];
     const std::span<const int> around = slave.topology.node_corners[node];
     const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
-    const auto projection = project(master.surface, slave, placed, near.faces(i));
+    const auto projection = project(master, slave, placed, near.faces(i));
     if (!projection) continue;
     const PointGap over = point_gap(master, *projection, placed.x, settings.offset);
     if (over.gap.g < largest_gap_at(reach, slave_side, around, over.projection.face))

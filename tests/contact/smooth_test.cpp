@@ -82,25 +82,39 @@ struct Signal {
   double jump = 0;    // rad, largest change of that between two positions 1/200 of a facet apart
 };
 
-// A punch of one face is led along the cylinder at constant depth.
-Signal slide(int facets, double side, bool smooth) {
-  const model::Surface master = cylinder(facets, side);
-  const model::Surface punch = test::flipped(test::plane(1, 1, 1e-5, 1e-5));
+const model::Surface& punch() {
+  static const model::Surface surface = test::flipped(test::plane(1, 1, 1e-5, 1e-5));
+  return surface;
+}
+
+Settings on_cylinder(bool smooth) {
   Settings s;
   s.stiffness = 1;
   s.penalty = Penalty::per_node;
   s.depth = 0.05;
   s.surface = smooth ? ContactSurface::smooth : ContactSurface::facets;
-  Pair pair(punch, master, s);
+  return s;
+}
+
+// The punch of one face beside the cylinder's edge at phi = 0.
+SurfaceState punch_at(double phi, double side) {
+  const Vector3d radial(std::sin(phi), 0, std::cos(phi));
+  SurfaceState state = test::at(punch(), (kRadius - side * kDepth) * radial, {0, phi, 0});
+  if (side < 0) state.R_WB = state.R_WB * test::rotation({test::pi, 0, 0});
+  return state;
+}
+
+// The punch is led along the cylinder at constant depth.
+Signal slide(int facets, double side, bool smooth) {
+  const model::Surface master = cylinder(facets, side);
+  Pair pair(punch(), master, on_cylinder(smooth));
   const double theta = kSpan / facets;
   double smallest = 1e9, largest = 0, sum = 0, before = NAN;
   int n = 0;
   Signal signal;
   for (double phi = -1.5 * theta; phi < 1.5 * theta; phi += theta / 200, ++n) {
     const Vector3d radial(std::sin(phi), 0, std::cos(phi)), normal = side * radial;
-    SurfaceState state = test::at(punch, (kRadius - side * kDepth) * radial, {0, phi, 0});
-    if (side < 0) state.R_WB = state.R_WB * test::rotation({test::pi, 0, 0});
-    const auto contacts = pair.detect(state, test::at(master));
+    const auto contacts = pair.detect(punch_at(phi, side), test::at(master));
     double force = 0;
     Vector3d direction = Vector3d::Zero();
     for (const ContactPoint& c : contacts) force += c.f.norm(), direction += c.f;
@@ -130,6 +144,28 @@ TEST(SmoothNormals, take_jumps_and_ripple_out_of_sliding_over_facets) {
     if (side < 0) {
       EXPECT_GT(plain.turn, 0.45 * theta) << "inside, where facets stand before the cylinder";
     }
+  }
+}
+
+// Otherwise a node whose residual displacement pushes it from each face to the other has no solution.
+TEST(SmoothNormals, a_node_hardly_past_an_edge_stays_on_its_face) {
+  constexpr int facets = 24;
+  const double theta = kSpan / facets, hardly = 1e-4 * theta, far = 1e-2 * theta;
+  for (double side : {1.0, -1.0}) {
+    const model::Surface master = cylinder(facets, side);
+    Pair smooth(punch(), master, on_cylinder(true));
+    const auto found = [&](Pair& pair, double phi) {
+      return pair.detect(punch_at(phi, side), test::at(master)).front();
+    };
+    const ContactPoint a = found(smooth, -far), kept = found(smooth, hardly), b = found(smooth, far);
+    EXPECT_EQ(kept.face, a.face);
+    EXPECT_NE(b.face, a.face);
+    EXPECT_EQ(found(smooth, -hardly).face, b.face);
+    Pair fresh(punch(), master, on_cylinder(true));
+    const ContactPoint anew = found(fresh, hardly);
+    EXPECT_EQ(anew.face, b.face);
+    EXPECT_NEAR(kept.g_n, anew.g_n, 1e-6 * kDepth);
+    EXPECT_LT((kept.n - anew.n).norm(), 1e-3 * theta);
   }
 }
 

@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 
 constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be extended over a smooth edge
 constexpr int kNewtonSteps = 8;
+constexpr double kKept =
+    5e-4;  // of weights of corners, by which a point may lie beside the face that keeps it
 
 ContactPoint geometry(const SurfaceView& master, const Projection& w) {
   const int sides = side_count(master.face, w.face);
@@ -117,6 +119,16 @@ void set_stick_point(const Face& face, const Projection& w, ContactPoint& contac
 }
 
 }  // namespace
+
+Projection kept_projection(const MasterSide& master, const Projection& now, const Vector3d& x, int before) {
+  if (master.heights.empty() || before < 0 || before == now.face) return now;
+  const Face face = face_of(master.surface, before);
+  const ClosestPoint nearest = closest_point(face, x);
+  if (nearest.feature != Feature::edge && nearest.feature != Feature::vertex) return now;
+  if (normal(face, nearest.u, nearest.v).dot(now.n) < std::cos(master.feature_angle)) return now;
+  const auto kept = extended(face, x, {before, nearest, {}, 0});
+  return kept && kept->point.N.minCoeff() > -kKept ? *kept : now;
+}
 
 bool on_extension(const Projection& w) { return w.point.N.minCoeff() < 0; }
 

@@ -16,6 +16,12 @@ struct MasterSide {
 
 bool on_extension(const Projection& projection);
 
+/// The projection of a slave point at x (m) on the face `before` that it was on, where a smooth surface goes
+/// on beside `now` and the point is hardly past that face; otherwise `now`. Points at an edge then do not
+/// pass to and fro.
+Projection kept_projection(const MasterSide& master, const Projection& now, const Eigen::Vector3d& x,
+                           int before);
+
 /// Contact point of the frictionless, undamped penalty on facets, whose F derives from a potential, W = V:
 /// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on an extended side. p: N, of a unilateral law.
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, const Law& law,
