@@ -46,6 +46,7 @@ void detect(benchmark::State& state) {
   const Flanks f = flanks(state.range(1));
   Settings settings;
   settings.update = state.range(0) == 0 ? Update::refit : Update::realign;
+  settings.surface = ContactSurface::facets;
   Pair pair(f.a, f.b, settings);
   std::size_t contacts = 0;
   for (auto _ : state) contacts = pair.detect(f.state_a, f.state_b).size();

@@ -60,7 +60,9 @@ dynamics::System worm_drive(const gear::Design& design, const std::string& folde
   wheel.joint.type = body::JointType::revolute;
   wheel.rotation.s_0 = std::numbers::pi / design.z2;
   wheel.rotation.s_dot_0 = kOmega;
-  return dynamics::System({worm, wheel}, {{"worm:wheel", {0, 1}, contact::Settings{.two_pass = true}}});
+  contact::Settings contact{.two_pass = true};
+  contact.surface = contact::ContactSurface::facets;  // as in the run of the unreduced bodies
+  return dynamics::System({worm, wheel}, {{"worm:wheel", {0, 1}, contact}});
 }
 
 }  // namespace

@@ -119,6 +119,7 @@ TEST(RandomConfigurations, search_misses_no_contact_and_adds_none) {
   constexpr double kRoundoff = 1e-12;
   Random random(2);
   Settings settings;
+  settings.surface = ContactSurface::facets;
   settings.stiffness = 1;
   settings.depth = 0.1;
   const Limits limits{settings.depth, std::cos(settings.normal_angle * test::pi / 180)};

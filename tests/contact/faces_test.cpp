@@ -23,6 +23,7 @@ Settings faces(ContactLaw law) {
   Settings s;
   s.law = law;
   s.points = SlavePoints::faces;
+  s.surface = ContactSurface::facets;
   s.stiffness = kStiffness;
   s.depth = 0.5;
   return s;

@@ -151,6 +151,7 @@ TEST(Heights, of_another_surface_are_refused) {
 TEST(Heights, of_a_deviation_are_felt_on_facets) {
   const model::Surface master = test::plane(2, 2), punch = test::flipped(test::plane(1, 1, 1e-3, 1e-3));
   Settings settings;
+  settings.surface = ContactSurface::facets;
   settings.stiffness = 3;
   settings.penalty = Penalty::per_node;
   settings.depth = 0.1;

@@ -17,6 +17,7 @@ constexpr double roundoff = 1e-12;
 
 Settings settings(double stiffness, double depth) {
   Settings s;
+  s.surface = ContactSurface::facets;
   s.stiffness = stiffness;
   s.depth = depth;
   return s;

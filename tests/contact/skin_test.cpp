@@ -49,6 +49,7 @@ Eigen::VectorXd amplitudes(Random& random, double size) {
 
 Settings settings(Update update) {
   Settings s;
+  s.surface = ContactSurface::facets;
   s.stiffness = 1;
   s.penalty = Penalty::per_node;
   s.depth = 0.03;

@@ -12,6 +12,7 @@ constexpr double kStiffness = 1e3, kDepth = 0.01;  // N/m, m
 
 Settings sticking(double mu) {
   Settings s;
+  s.surface = ContactSurface::facets;
   s.stiffness = kStiffness;
   s.penalty = Penalty::per_node;
   s.depth = 0.1;

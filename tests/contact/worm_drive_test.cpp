@@ -192,6 +192,7 @@ Census census(const WormDrive& drive, double facets) {
   Settings settings;
   settings.stiffness = 1;
   settings.two_pass = true;
+  settings.surface = ContactSurface::facets;
   settings.depth = 0.3e-3;
   Pair pair(drive.worm.surface, drive.wheel.surface, settings);
   Census census;

@@ -44,7 +44,7 @@ System rolling(const WormDrive& drive, bool smooth, const Drive& worm_motion, do
   PairSetup pair{"worm:wheel", {0, 1}, {}};
   pair.settings.stiffness = kStiffness;
   pair.settings.two_pass = true;
-  if (smooth) pair.settings.surface = contact::ContactSurface::smooth;
+  pair.settings.surface = smooth ? contact::ContactSurface::smooth : contact::ContactSurface::facets;
   pair.settings.depth = 0.3e-3;
   return System({worm, wheel}, {pair});
 }

@@ -19,8 +19,8 @@ enum class Penalty { per_node, per_area };
 /// see chosen_law.
 enum class ContactLaw { automatic, penalty, unilateral };
 /// What gaps and normals are taken from. facets: the faces as they are. smooth: a smooth surface through
-/// their nodes. exact: the heights of a TrueSurface, and the smooth surface where none are known.
-/// docs/theory.md, section 6.8.
+/// their nodes. exact, the default: the heights of a TrueSurface, and the smooth surface where none are
+/// known. docs/theory.md, section 6.8.
 enum class ContactSurface { facets, smooth, exact };
 /// Points of the slave surface that contact is prevented from passing. nodes: its nodes. minima: its nodes,
 /// and the places on its faces and their sides where the gap is least (docs/theory.md, section 6.12). faces:
@@ -56,7 +56,7 @@ struct Settings {
   double damping = 0;         ///< d_p while approaching; per_node: N s/m, per_area: Pa s/m
   double hysteresis = 0;      ///< s/m, Hunt and Crossley's factor of the penalty force while approaching
   double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
-  ContactSurface surface = ContactSurface::facets;
+  ContactSurface surface = ContactSurface::exact;
   double feature_angle = 30;  ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
   double extension = 0.2;  ///< of the master at its surface boundary, as part of a face's length;

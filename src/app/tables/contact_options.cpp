@@ -43,7 +43,7 @@ const Rows<S> kContactRows = {
     {"contact_offset", &S::offset, "m", "added to every gap: > 0 takes initial overlap out, < 0 backlash"},
     {"contact_surface", &S::surface, one_of("facets", "smooth", "exact"),
      "what gaps and normals are taken from: facets (the faces as they are), smooth (a smooth surface through "
-     "their nodes) or exact (the flanks of <body>_flanks, elsewhere the smooth surface)"},
+     "their nodes) or exact (the flanks of <body>_flanks, and the smooth surface where none are given)"},
     {"contact_feature_angle", &S::feature_angle, "deg",
      "smooth surfaces: edges that turn by more stay sharp"},
     {"contact_extension", &S::extension, "-",
@@ -77,12 +77,13 @@ int body_index(const std::vector<std::string>& bodies, const std::string& name, 
   return static_cast<int>(found - bodies.begin());
 }
 
-// An exact surface must come from somewhere.
+// An exact surface that is asked for must come from somewhere; by default the smooth one does where none is
+// known.
 void require_exact_surface(const Options& options, const dynamics::PairSetup& pair,
                            const std::vector<std::string>& bodies) {
   const std::string &a = bodies[pair.body[0]], &b = bodies[pair.body[1]];
-  require(pair.settings.surface != contact::ContactSurface::exact || options.given(a + "_flanks") ||
-              options.given(b + "_flanks"),
+  require(!options.given("contact_surface") || pair.settings.surface != contact::ContactSurface::exact ||
+              options.given(a + "_flanks") || options.given(b + "_flanks"),
           options.label("contact_surface"), " = exact: neither body of the pair ", pair.name,
           " has exact flanks; name the gear data that they were meshed from by -", a, "_flanks and -", b,
           "_flanks, or take smooth");
@@ -92,12 +93,13 @@ void require_exact_surface(const Options& options, const dynamics::PairSetup& pa
 void warn_of_facets(const Options& options, const dynamics::PairSetup& pair,
                     const std::vector<std::string>& bodies) {
   const std::string& slave = bodies[pair.body[pair.settings.slave]];
-  const bool deviates = options.given(slave + "_deviation"),
-             facets = pair.settings.surface == contact::ContactSurface::facets;
-  const bool both = pair.settings.two_pass || pair.settings.points != contact::SlavePoints::nodes;
-  if (both || (facets && !deviates)) return;
-  print_item("warning", (facets ? slave + "_deviation" : "contact_surface") +
-                            " has no effect on the surface of " + slave + ", the slave of the pair " +
+  const bool facets = pair.settings.surface == contact::ContactSurface::facets;
+  std::string idle;
+  if (options.given(slave + "_deviation")) idle = slave + "_deviation";
+  for (const std::string& option : {slave + "_flanks", std::string("contact_surface")})
+    if (options.given(option) && !facets) idle = option;
+  if (idle.empty() || pair.settings.two_pass || pair.settings.points != contact::SlavePoints::nodes) return;
+  print_item("warning", idle + " has no effect on the surface of " + slave + ", the slave of the pair " +
                             pair.name + ": only its nodes are in contact; contact_two_pass takes both");
 }
 
