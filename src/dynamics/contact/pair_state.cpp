@@ -73,11 +73,23 @@ Pressed pressed(const contact::ContactPoint& point, const std::map<int, double>&
   return sum;
 }
 
-model::ContactFigures figures(const contact::ContactPoint& point, const Pressed& pressed, bool two_pass) {
+// The pressure that the nodes of the master bear as slaves, at the closest point.
+double pressure_of_master(const contact::ContactPoint& point, const std::map<int, double>& force,
+                          const Eigen::VectorXd& node_area) {
+  double pressure = 0;
+  for (Eigen::Index i = 0; i < point.N.size(); ++i) {
+    const auto at = force.find(point.master_nodes[i]);
+    if (at != force.end() && node_area[at->first] > 0)
+      pressure += point.N[i] * at->second / node_area[at->first];
+  }
+  return pressure;
+}
+
+model::ContactFigures figures(const contact::ContactPoint& point, const Pressed& pressed) {
   model::ContactFigures f;
   f.count = 1;
   f.area = pressed.area;
-  f.pressure = (two_pass ? 2 : 1) * pressed.pressure;  // each pass carries half of the force
+  f.pressure = pressed.pressure;
   f.sliding_speed = point.slip.norm();
   f.friction_power = point.friction_power;
   f.damping_power = point.power;
@@ -118,8 +130,11 @@ model::PairState pair_state(System& system, const State& x, std::size_t p) {
     const int slave = point.slave_side, master = 1 - slave;
     const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
     if (point.V_dot.cols() == 0) point.slip = slip(point, body, motion);
-    model::ContactFigures f = figures(point, pressed(point, normal_force[slave], body[slave]->node_area),
-                                      system.pairs()[p].settings.two_pass);
+    model::ContactFigures f = figures(point, pressed(point, normal_force[slave], body[slave]->node_area));
+    // Of a penalty each pass carries half of the force; without one each carries some part.
+    if (system.pairs()[p].settings.two_pass)
+      f.pressure +=
+          point.c > 0 ? pressure_of_master(point, normal_force[master], body[master]->node_area) : f.pressure;
     f.torque = moment_on_b(point, contact.surface[pair.body[1]]);
     const int group[2] = {body[slave]->node_group[point.slave_node],
                           body[master]->eq.body->surface.group[point.face]};
