@@ -244,7 +244,8 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
   int& last_face = side[placed.side].last_face[placed.node];
   auto projection = find_projection(master.surface, q, limits, faces, last_face);
-  if (projection) projection = kept_projection(master, *projection, placed.x, last_face);
+  if (projection && std::binary_search(faces.begin(), faces.end(), last_face))
+    projection = kept_projection(master, *projection, placed.x, last_face);
   last_face = projection ? projection->face : -1;
   return projection;
 }

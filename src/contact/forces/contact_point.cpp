@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "contact/forces/tangent.h"
@@ -118,10 +119,17 @@ void set_stick_point(const Face& face, const Projection& w, ContactPoint& contac
   if (e.allFinite()) point.e_u = e[0], point.e_v = e[1];
 }
 
+bool share_a_node(const SurfaceView& surface, int a, int b) {
+  const Eigen::Vector4i other = surface.face.col(b);
+  const auto nodes = surface.face.col(a);
+  return std::any_of(nodes.begin(), nodes.end(), [&](int node) { return (other.array() == node).any(); });
+}
+
 }  // namespace
 
 Projection kept_projection(const MasterSide& master, const Projection& now, const Vector3d& x, int before) {
-  if (master.heights.empty() || before < 0 || before == now.face) return now;
+  if (master.heights.empty() || before == now.face || !share_a_node(master.surface, before, now.face))
+    return now;
   const Face face = face_of(master.surface, before);
   const ClosestPoint nearest = closest_point(face, x);
   if (nearest.feature != Feature::edge && nearest.feature != Feature::vertex) return now;

@@ -17,8 +17,8 @@ struct MasterSide {
 bool on_extension(const Projection& projection);
 
 /// The projection of a slave point at x (m) on the face `before` that it was on, where a smooth surface goes
-/// on beside `now` and the point is hardly past that face; otherwise `now`. Points at an edge then do not
-/// pass to and fro.
+/// on from there to `now` and the point is hardly past that face; otherwise `now`. Points at an edge then do
+/// not pass to and fro. The nodes of that face must be placed.
 Projection kept_projection(const MasterSide& master, const Projection& now, const Eigen::Vector3d& x,
                            int before);
 
