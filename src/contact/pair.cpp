@@ -187,9 +187,10 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
     return potential_contact(master, w, law, p, settings.full_tangent);
   const auto stuck = slaves.stuck.find(node);
   const auto given = slaves.t.find(node);
-  if (settings.points == SlavePoints::minima) {
+  if (law.unilateral && (settings.points == SlavePoints::minima || !master.heights.empty())) {
     const PointGap over = point_gap(master, w, slave.x, settings.offset);
-    if (over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
+    if (settings.points == SlavePoints::minima &&
+        over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
                                     over.projection.face))
       gaps[node] = {over.gap.g, over.gap.n, over.projection.face};
     if (over.gap.g > reach.gap && p == 0) return {};

@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 
 constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be extended over a smooth edge
 constexpr int kNewtonSteps = 8;
-constexpr double kKept =
-    5e-4;  // of weights of corners, by which a point may lie beside the face that keeps it
+// Of weights of corners, by which a point may lie beside the face that keeps it.
+constexpr double kKept = 5e-5;
 
 ContactPoint geometry(const SurfaceView& master, const Projection& w) {
   const int sides = side_count(master.face, w.face);
