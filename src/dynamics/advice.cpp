@@ -127,10 +127,11 @@ void ValidityGuard::watch_body(std::size_t b, const model::Snapshot& snapshot, W
   const double share = watch.beside_loaded ? 0 : share_without_response(*body.eq.body, state.contact);
   if (share > kLargestShare) {
     watch.beside_loaded = true;
-    said.push_back(sentence(who, snapshot.time, share,
-                            "contact acts on nodes that have no static response, which is stiff there and "
-                            "wrong for stresses: reduce the body again with them among -loaded; share of "
-                            "the contact forces:"));
+    said.push_back(
+        sentence(who, snapshot.time, share,
+                 "contact acts on nodes without a static response, where the body is too stiff and "
+                 "its stresses are wrong: reduce it again with them among -loaded; share of the "
+                 "contact forces:"));
   }
 }
 
