@@ -132,8 +132,10 @@ Projection kept_projection(const MasterSide& master, const Projection& now, cons
     return now;
   const Face face = face_of(master.surface, before);
   const ClosestPoint nearest = closest_point(face, x);
-  if (nearest.feature != Feature::edge && nearest.feature != Feature::vertex) return now;
-  if (normal(face, nearest.u, nearest.v).dot(now.n) < std::cos(master.feature_angle)) return now;
+  const Vector3d n = normal(face, nearest.u, nearest.v);
+  if (nearest.feature == Feature::outside || n.dot(now.n) < std::cos(master.feature_angle)) return now;
+  if (nearest.feature == Feature::face)  // of both, as above a concave edge
+    return now.point.N.minCoeff() < kKept ? Projection{before, nearest, n, n.dot(x - nearest.x)} : now;
   const auto kept = extended(face, x, {before, nearest, {}, 0});
   return kept && kept->point.N.minCoeff() > -kKept ? *kept : now;
 }
