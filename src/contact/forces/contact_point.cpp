@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be extended over a smooth edge
 constexpr int kNewtonSteps = 8;
-// Of weights of corners, by which a point may lie beside the face that keeps it.
+// A point may lie beside the face that it was on by this share of the face until it leaves it.
 constexpr double kKept = 5e-5;
 
 ContactPoint geometry(const SurfaceView& master, const Projection& w) {

@@ -131,7 +131,7 @@ model::PairState pair_state(System& system, const State& x, std::size_t p) {
     const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
     if (point.V_dot.cols() == 0) point.slip = slip(point, body, motion);
     model::ContactFigures f = figures(point, pressed(point, normal_force[slave], body[slave]->node_area));
-    // Of a penalty each pass carries half of the force; without one each carries some part.
+    // With a penalty each of two passes carries half of the pressure; without one each carries some part.
     if (system.pairs()[p].settings.two_pass)
       f.pressure +=
           point.c > 0 ? pressure_of_master(point, normal_force[master], body[master]->node_area) : f.pressure;

@@ -133,8 +133,8 @@ bool SystemContact::has_friction(std::size_t p, contact::FrictionLaw law) const 
   return friction.mu > 0 && friction.law == law;
 }
 
-// What regularised friction takes through the change of the static responses, which the slip leaves out: they
-// have no rate. docs/theory.md, Eq. (7.2a).
+// Energy that regularised friction takes as static responses change, in J since the last accepted state. The
+// slip velocity does not contain that change. docs/theory.md, Eq. (7.2a).
 double SystemContact::friction_loss_of_responses() {
   if (!residual_contact_.any()) return 0;
   std::vector<PairContacts> rubbing;
