@@ -31,6 +31,13 @@ struct Side {
   Eigen::VectorXd area;             // m^2, of each node, undeformed; of contact integrated over faces
 };
 
+// A point of the slave: its number, and its place between nodes, or at one.
+struct OnSlave {
+  int side, point;
+  const Eigen::Vector4i& nodes;
+  const Eigen::Vector4d& N;
+};
+
 // Functions that capture it and one thing more fit into std::function, which allocates nothing for them.
 struct PlacedNode {
   int side, node;
@@ -119,7 +126,7 @@ struct Pair::Data {
   std::vector<StickPoint> stuck() const;
   void set_stuck(const std::vector<StickPoint>& points);
   double given_force(int slave_side, int point) const;
-  Law law(int slave_side, const Eigen::Vector4i& nodes, const Eigen::Vector4d& N, int master_face) const;
+  Law law(const OnSlave& at, int master_face) const;
   Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
                                            const Projection& w, std::map<int, NodeGap>& gaps) const;
@@ -149,18 +156,18 @@ double Pair::Data::given_force(int slave_side, int point) const {
   return given == side[slave_side].p.end() ? 0 : given->second;
 }
 
-// The law of a point between slave nodes, or at one. Where no body has a static response that could close the
-// gap the compliance of the penalty stands in for it.
-Law Pair::Data::law(int slave_side, const Eigen::Vector4i& nodes, const Eigen::Vector4d& N,
-                    int master_face) const {
-  const Side &slaves = side[slave_side], &masters = side[1 - slave_side];
-  Law law = slaves.law[nodes[0]];
+// The law of a slave point with the force that it is given. Where no body has a static response that could
+// close the gap the compliance of the penalty stands in for it.
+Law Pair::Data::law(const OnSlave& at, int master_face) const {
+  const Side &slaves = side[at.side], &masters = side[1 - at.side];
+  Law law = slaves.law[at.nodes[0]];
   law.c_p = 0;
-  for (int i = 0; i < 4; ++i) law.c_p += N[i] * slaves.law[nodes[i]].c_p;
+  for (int i = 0; i < 4; ++i) law.c_p += at.N[i] * slaves.law[at.nodes[i]].c_p;
+  law.p_given = given_force(at.side, at.point);
   const auto any = [](const std::vector<bool>& responds, const Eigen::Vector4i& of) {
     return responds.empty() || std::any_of(of.begin(), of.end(), [&](int node) { return responds[node]; });
   };
-  if (!any(slaves.responds, nodes) && !any(masters.responds, surface(1 - slave_side).face.col(master_face)))
+  if (!any(slaves.responds, at.nodes) && !any(masters.responds, surface(1 - at.side).face.col(master_face)))
     law.compliance = 1;
   return law;
 }
@@ -181,10 +188,10 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
                                                      std::map<int, NodeGap>& gaps) const {
   const int slave_side = slave.side, node = slave.node;
   const Side& slaves = side[slave_side];
-  const Law law = this->law(slave_side, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0), w.face);
-  const double p = given_force(slave_side, node);
+  const Law law =
+      this->law({slave_side, node, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)}, w.face);
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
-    return potential_contact(master, w, law, p, settings.full_tangent);
+    return potential_contact(master, w, law, settings.full_tangent);
   const auto stuck = slaves.stuck.find(node);
   const auto given = slaves.t.find(node);
   if (law.unilateral && (settings.points == SlavePoints::minima || !master.heights.empty())) {
@@ -193,13 +200,13 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
         over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
                                     over.projection.face))
       gaps[node] = {over.gap.g, over.gap.n, over.projection.face};
-    if (over.gap.g > reach.gap && p == 0) return {};
+    if (over.gap.g > reach.gap && law.p_given == 0) return {};
   }
   const OpenPoint open = open_point(master, w, slave.x, settings.offset);
   return general_contact(
       master, open,
       {tracker.velocity(slave_side, node), [&](int n) { return tracker.velocity(1 - slave_side, n); },
-       stuck == slaves.stuck.end() ? nullptr : &stuck->second, p,
+       stuck == slaves.stuck.end() ? nullptr : &stuck->second,
        given == slaves.t.end() ? GivenFriction{} : given->second},
       law);
 }
@@ -207,14 +214,12 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
 ContactPoint Pair::Data::contact(const MasterSide& master, int slave_side, const Minimum& m) const {
   const Eigen::Vector4i nodes = surface(slave_side).face.col(m.point.face);
   const Eigen::Vector4d& N = m.geometry.N;
-  const Law law = this->law(slave_side, nodes, N, m.open.projection.face);
+  const Law law = this->law({slave_side, m.point.number, nodes, N}, m.open.projection.face);
   LocalVectors v(3, 8);
   for (int i = 0; i < 4; ++i) v.col(i) = tracker.velocity(slave_side, nodes[i]);
-  ContactPoint c =
-      *general_contact(master, m.open,
-                       {v.leftCols<4>() * N, [&](int n) { return tracker.velocity(1 - slave_side, n); },
-                        nullptr, given_force(slave_side, m.point.number)},
-                       law);
+  ContactPoint c = *general_contact(
+      master, m.open,
+      {v.leftCols<4>() * N, [&](int n) { return tracker.velocity(1 - slave_side, n); }, nullptr}, law);
   v.rightCols<4>() = c.v.rightCols<4>();
   spread_over_face(m.geometry, m.point.n_dir, m.open.gap, c);
   c.v = v;
@@ -350,6 +355,29 @@ void Pair::set_forces(const std::vector<ContactPoint>& contacts) {
   }
 }
 
+double Pair::unclosed(const std::vector<ContactPoint>& contacts) const {
+  std::map<int, double> before[2] = {data_->side[0].p, data_->side[1].p};
+  double most = 0;
+  const auto enter = [&](int i, int node, double change) {
+    most = std::max(most, std::abs(change) / data_->side[i].law[node].c_p);
+  };
+  for (const ContactPoint& contact : contacts) {
+    const int i = contact.slave_side;
+    enter(i, contact.slave_node, contact.p - std::exchange(before[i][contact.slave_point], 0));
+  }
+  for (int i : {0, 1})
+    for (const auto& [node, p] : before[i]) enter(i, node, p);
+  return most;
+}
+
+void Pair::stiffen(double factor) {
+  for (Side& side : data_->side)
+    for (Law& law : side.law) {
+      law.c_p *= factor;
+      law.c_t *= factor;
+    }
+}
+
 // Open candidates of the unilateral law have been found at the end of the step, too: those that close in the
 // next one slide from there.
 void Pair::accept(const std::vector<ContactPoint>& contacts) {
@@ -387,7 +415,8 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
            const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r,
            const std::array<const TrueSurface*, 2>& known, const std::array<std::vector<bool>, 2>& responds) {
   Settings settings = given;
-  settings.law = chosen_law(given, false);
+  if (settings.law == ContactLaw::automatic) settings.law = chosen_law(given, false);
+  settings.points = chosen_points(given, given.slave == 0 ? a : b);
   validate(settings);
   validate(a, 0);
   validate(b, 1);

@@ -131,14 +131,18 @@ double largest_gap_at(const Reach& reach, int slave_side, std::span<const int> c
   return reach.gap + largest_sag(reach, slave_side, corners, master_face);
 }
 
+// Open candidates of a law without a penalty are near enough to close within an evaluation, or to be left
+// open on the way to an equilibrium; others are found in the next one. -, of the depth.
+double share_of_depth(ContactLaw law) {
+  return law == ContactLaw::unilateral ? 0.02 : law == ContactLaw::augmented ? 0.25 : 0;
+}
+
 // Facets that a surface with heights lies behind are touched from outside, and so is what the offset moves
-// out. Open candidates of the unilateral law are near enough to close within an evaluation; others are found
-// in the next one.
+// out.
 Reach reach_of(const Settings& settings, const std::array<const Tracked*, 2>& tracked,
                const std::array<const Heights*, 2>& heights) {
-  constexpr double kReach = 0.02;  // of the depth
   Reach r;
-  r.gap = settings.law == ContactLaw::unilateral ? kReach * settings.depth : 0;
+  r.gap = share_of_depth(settings.law) * settings.depth;
   const double height = r.gap + std::max(largest_height(*heights[0], settings.extension),
                                          largest_height(*heights[1], settings.extension));
   r.limits.depth = settings.depth + height + std::max(0.0, settings.offset);

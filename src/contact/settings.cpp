@@ -23,9 +23,16 @@ constexpr double kSharedBoundary = 1e-4;
 }  // namespace
 
 ContactLaw chosen_law(const Settings& s, bool has_residual_flexibility) {
+  if (s.law == ContactLaw::unilateral && !has_residual_flexibility) return ContactLaw::augmented;
   if (s.law != ContactLaw::automatic) return s.law;
   const bool has_penalty = s.stiffness > 0 || s.damping > 0 || s.hysteresis > 0;
   return has_residual_flexibility && !has_penalty ? ContactLaw::unilateral : ContactLaw::penalty;
+}
+
+SlavePoints chosen_points(const Settings& s, const model::Surface& slave) {
+  if (s.points != SlavePoints::automatic) return s.points;
+  const bool sticks = s.friction.mu > 0 && s.friction.law == FrictionLaw::stick;
+  return slave.side.cols() > 0 && !s.two_pass && !sticks ? SlavePoints::faces : SlavePoints::nodes;
 }
 
 void validate(const FrictionSettings& s) {
@@ -59,16 +66,18 @@ void validate(const Settings& s) {
   require(s.feature_angle > 0 && s.feature_angle <= 90, "contact: feature_angle ", s.feature_angle,
           " deg, allowed is 0 to 90");
   validate(s.friction);
-  require(s.law != ContactLaw::unilateral || (s.damping == 0 && s.hysteresis == 0),
+  require(s.law == ContactLaw::penalty || (s.damping == 0 && s.hysteresis == 0),
           "contact: damping and hysteresis are those of the penalty; the unilateral law has none");
-  require(s.points != SlavePoints::minima ||
-              (s.law == ContactLaw::unilateral && s.surface != ContactSurface::facets),
-          "contact: points 'minima' need the law 'unilateral' and the surface 'smooth' or 'exact'");
   require(s.points == SlavePoints::nodes || !s.two_pass, "contact: points '",
           s.points == SlavePoints::minima ? "minima" : "faces",
           "' take both surfaces in one pass; leave two_pass out");
   require(s.points == SlavePoints::nodes || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
           "contact: friction that sticks needs the points 'nodes'");
+  require(
+      s.points != SlavePoints::minima ||
+          (s.law == ContactLaw::unilateral && s.surface != ContactSurface::facets),
+      "contact: points 'minima' need the law 'unilateral', a body with residual flexibility and the surface "
+      "'smooth' or 'exact'");
   require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
           ", allowed is 0 to 0.5");
 }
@@ -137,7 +146,8 @@ std::vector<Law> node_laws(const Settings& s, const model::Surface& slave) {
 }
 
 bool has_potential(const Settings& s) {
-  return s.damping == 0 && s.hysteresis == 0 && s.offset == 0 && s.friction.mu == 0;
+  return s.law != ContactLaw::augmented && s.damping == 0 && s.hysteresis == 0 && s.offset == 0 &&
+         s.friction.mu == 0;
 }
 
 }  // namespace elastogear::contact

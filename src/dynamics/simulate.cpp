@@ -307,6 +307,19 @@ void require_bodies_apart(System& system) {
   }
 }
 
+namespace {
+
+// Without a penalty bodies in motion need residual flexibility.
+void require_law_of_motion(const System& system) {
+  for (const PairSetup& pair : system.pairs())
+    require(
+        pair.settings.law != contact::ContactLaw::augmented, "pair ", pair.name,
+        ": contact without a penalty (-contact_law unilateral) of bodies in motion needs residual "
+        "flexibility on one side: reduce a body with -basis modal_residual, or take -contact_law penalty");
+}
+
+}  // namespace
+
 RunSummary new_summary(const System& system) {
   RunSummary summary;
   for (const PairSetup& pair : system.pairs()) summary.pair.push_back({pair.name});
@@ -317,6 +330,7 @@ RunSummary simulate(System& system, const TimeSettings& settings, const Observer
                     const Progress& progress, const Checkpoints& checkpoints) {
   validate(settings);
   validate(checkpoints);
+  require_law_of_motion(system);
   require_tables_cover(system, settings.end_time);
   if (checkpoints.state.empty()) require_bodies_apart(system);
   Run run(system, settings, observer, progress, checkpoints);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/integrator/sanity.h"
 #include "dynamics/run.h"
@@ -15,13 +16,19 @@ namespace {
 // The relative imbalance scales it down, so that Newton's method converges superlinearly in the end.
 // docs/theory.md, Eq. (8.19).
 constexpr double kResistance = 1;  // 1/s^2, sigma at full imbalance
+constexpr double kFreely = 1e-6;   // 1/s^2, while no bodies touch: they go as far as they may
 constexpr double kDistancePerDepth =
     0.5;                       // that a surface may go in one iteration, as a share of the contact depth
 constexpr double kTurn = 0.3;  // rad, that a body may
 constexpr int kMostIterations = 300;    // contact that is far away is approached depth by depth
 constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
-constexpr double kHeldBySigma = 0.5;    // share of sigma in a coordinate's stiffness: nothing else holds it
+constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
+constexpr double kClosed = 1e-6;        // of the contact depth, that they may be open
+constexpr double kFall = 0.3;           // by which a round should lessen that
+constexpr double kStiffer = 4;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kHeldBySigma = 0.5;  // share of sigma in a coordinate's stiffness: nothing else holds it
 
 struct Equilibrium {
   explicit Equilibrium(System& system) : problem(system) {}
@@ -35,6 +42,12 @@ struct Equilibrium {
 
   State state(ConstVector U) const { return {factor, U, zero, zero}; }
 };
+
+bool touch(Equilibrium& at, ConstVector U) {
+  const std::vector<PairContacts>& pairs = at.problem.system.contacts(at.factor, U, at.zero).pair;
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [](const PairContacts& pair) { return !pair.points.empty(); });
+}
 
 PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
   auto& at = *static_cast<Equilibrium*>(ctx);
@@ -53,7 +66,7 @@ PetscErrorCode jacobian(SNES, Vec U, Mat J, Mat P, void* ctx) {
   return guard(at.problem.pending, [&] {
     at.problem.pulse();
     const ReadView u(U);
-    const double sigma = kResistance * imbalance(at.problem.residual);
+    const double sigma = (touch(at, *u) ? kResistance : kFreely) * imbalance(at.problem.residual);
     EffectiveMatrix A = at.problem.system.effective_matrix(at.state(*u), {0, 0});
     EffectiveMatrix resisting = at.problem.system.effective_matrix(at.state(*u), {0, sigma});
     at.resistance.clear();
@@ -181,7 +194,7 @@ std::string free_coordinates(const Equilibrium& at) {
        ". Try more load steps, a softer contact, or a dynamic relaxing in place of the static analysis");
 }
 
-bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
+bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   at.problem.trouble.clear();
@@ -192,9 +205,30 @@ bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   return reason > 0;
 }
 
+// Equilibria from which to which the gaps of the augmented law close, faster where they hardly do: Eq.
+// (6.31).
+bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
+  System& system = at.problem.system;
+  if (!solve(at, snes, U, summary)) return false;
+  double before = kFar;
+  for (int round = 0; system.any_augmented(); ++round) {
+    const ReadView u(U);
+    system.contacts(at.factor, *u, at.zero);
+    const double left = system.unclosed();
+    if (left <= kClosed) return true;
+    if (round == kMostRounds) break;
+    system.augment();
+    if (left > kFall * before) system.stiffen(kStiffer);
+    before = left;
+    if (!solve(at, snes, U, summary)) return false;
+  }
+  return !system.any_augmented();
+}
+
 struct Path {
   UniqueVec U;
-  Eigen::VectorXd good;  // the last equilibrium
+  Eigen::VectorXd good;               // the last equilibrium
+  std::vector<PairContacts> pairs{};  // its contacts
   double first_step, step;
   double reached = -1;  // load factor; negative: not even the unloaded state
 };
@@ -208,12 +242,14 @@ bool advance(Equilibrium& at, SNES snes, Path& path, RunSummary& summary) {
     path.step /= 2;
     if (path.reached < 0 || path.step < kSmallestStep * path.first_step) fail_without_equilibrium(at);
     assign(path.U, path.good);
+    if (!path.pairs.empty()) at.problem.system.set_forces(path.pairs);
     return false;
   }
   ++summary.steps;
   path.reached = at.factor;
   path.step = std::min(2 * path.step, path.first_step);
   path.good = *ReadView(path.U);
+  path.pairs = at.problem.system.contacts(at.factor, path.good, at.zero).pair;
   return true;
 }
 

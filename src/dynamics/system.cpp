@@ -131,6 +131,11 @@ double System::depth_share(double time, ConstVector U, ConstVector V) {
 }
 
 const contact::Settings& System::contact_settings(std::size_t pair) const { return contact_->settings(pair); }
+bool System::any_augmented() const { return contact_->any_augmented(); }
+double System::unclosed() const { return contact_->unclosed(); }
+void System::augment() { contact_->augment(); }
+void System::stiffen(double factor) { contact_->stiffen(factor); }
+void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_forces(pairs); }
 double System::contact_loss() const { return contact_->loss(); }
 double System::residual_energy(std::size_t b) { return contact_->residual_energy(b); }
 

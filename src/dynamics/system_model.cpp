@@ -152,7 +152,10 @@ void add_pair(const PairSetup& setup, SystemModel& model) {
   const bool flexible = std::any_of(std::begin(setup.body), std::end(setup.body),
                                     [&](int b) { return !model.bodies[b].eq.body->flexibility.empty(); });
   model.pairs.push_back(setup);
-  model.pairs.back().settings.law = contact::chosen_law(setup.settings, flexible);
+  contact::Settings& settings = model.pairs.back().settings;
+  settings.law = contact::chosen_law(settings, flexible);
+  settings.points =
+      contact::chosen_points(settings, model.bodies[setup.body[settings.slave]].eq.body->surface);
 }
 
 void add_marker_forces(const MarkerSetups& setups, SystemModel& model) {
@@ -217,7 +220,7 @@ model::ResultHeader result_header(const SystemModel& model) {
     header.bodies.push_back(
         {body.name, "", body::joint_names()[static_cast<std::size_t>(body.eq.joint.type)]});
   for (const PairSetup& pair : model.pairs) {
-    const bool unilateral = pair.settings.law == contact::ContactLaw::unilateral;
+    const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     model::ResultHeader::Pair entry{
         pair.name, {pair.body[0], pair.body[1]}, {}, unilateral ? "unilateral" : "penalty"};
     for (int side : {0, 1})

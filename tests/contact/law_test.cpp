@@ -309,7 +309,7 @@ Outcome unilateral(const Local& local, double friction, std::optional<double> p 
   o.contact.v = local.v;
   o.contact.N = o.w.point.N;
   const Gap open = gap(o.kinematics, height_at(local, o.w), 0, fade_at(local, o.w));
-  o.contact.p = p.value_or(-open.g / unilateral_compliance(law, open.fade.f));
+  law.p_given = p.value_or(-open.g / unilateral_compliance(law, open.fade.f));
   apply_law(law, o.kinematics, open, nullptr, o.contact);
   return o;
 }

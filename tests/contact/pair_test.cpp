@@ -73,6 +73,9 @@ TEST(Pair, law_by_default_is_unilateral_unless_something_asks_for_a_penalty) {
   const Settings none;
   EXPECT_EQ(chosen_law(none, true), ContactLaw::unilateral);
   EXPECT_EQ(chosen_law(none, false), ContactLaw::penalty);
+  Settings asked;
+  asked.law = ContactLaw::unilateral;
+  EXPECT_EQ(chosen_law(asked, false), ContactLaw::augmented);
   for (double Settings::*given : {&Settings::stiffness, &Settings::damping, &Settings::hysteresis}) {
     Settings s;
     s.*given = 1;
@@ -80,6 +83,24 @@ TEST(Pair, law_by_default_is_unilateral_unless_something_asks_for_a_penalty) {
     s.law = ContactLaw::unilateral;
     EXPECT_EQ(chosen_law(s, true), ContactLaw::unilateral);
   }
+}
+
+TEST(Pair, points_by_default_are_faces_where_the_slave_is_of_second_order) {
+  model::Surface linear, second;
+  second.side.setZero(8, 1);
+  const Settings none;
+  EXPECT_EQ(chosen_points(none, linear), SlavePoints::nodes);
+  EXPECT_EQ(chosen_points(none, second), SlavePoints::faces);
+  Settings s;
+  s.two_pass = true;
+  EXPECT_EQ(chosen_points(s, second), SlavePoints::nodes);
+  s = {};
+  s.friction = {.mu = 0.1, .law = FrictionLaw::stick};
+  EXPECT_EQ(chosen_points(s, second), SlavePoints::nodes);
+  s.friction.law = FrictionLaw::regularised;
+  EXPECT_EQ(chosen_points(s, second), SlavePoints::faces);
+  s.points = SlavePoints::nodes;
+  EXPECT_EQ(chosen_points(s, second), SlavePoints::nodes);
 }
 
 TEST(Pair, contacts_are_identical_for_refit_and_realign_and_all_k) {

@@ -9,6 +9,7 @@
 
 #include "../message_of.h"
 #include "box_body.h"
+#include "contact_bodies.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "petsc_option.h"
@@ -69,6 +70,33 @@ TEST(Static, pressed_blocks_move_by_the_compliances_in_series) {
   EXPECT_NEAR(found.back().bodies[0].s[0], expected, kNewton * expected);
   EXPECT_NEAR(found.back().pairs[0].force.x(), kForce, kNewton * kForce);
   EXPECT_EQ(found.back().bodies[0].s_dot[0], 0);
+}
+
+// Without a penalty, whatever the stiffness by which the gap is closed.
+TEST(Static, augmented_lagrangian_closes_the_gap_of_pressed_blocks) {
+  constexpr double kGap = 0.2, kForce = 20, expected = kGap + kForce * 2 / 1e4;
+  for (double stiffness : {4e2, 4e4, 4e6}) {
+    PairSetup pair = contact_with(stiffness);
+    pair.settings.law = contact::ContactLaw::unilateral;
+    const auto found = equilibria(scaled(press(kGap, kForce), {pair}));
+    EXPECT_NEAR(found.back().bodies[0].s[0], expected, kNewton * expected);
+    EXPECT_NEAR(found.back().pairs[0].force.x(), kForce, kNewton * kForce);
+    EXPECT_LT(found.back().pairs[0].penetration, 1e-6 * pair.settings.depth);
+  }
+}
+
+// Rigid bodies meet where their gap is zero, under any load.
+TEST(Static, augmented_lagrangian_finds_the_position_of_rigid_bodies) {
+  constexpr double kGap = 0.2;
+  for (double force : {1e-3, 20., 1e3}) {
+    std::vector<BodySetup> setups = press(kGap, force);
+    for (BodySetup& setup : setups) setup.body = test::rigid_with(setup.body->surface);
+    PairSetup pair = contact_with(4e4);
+    pair.settings.law = contact::ContactLaw::unilateral;
+    const auto found = equilibria(scaled(setups, {pair}));
+    EXPECT_NEAR(found.back().bodies[0].s[0], kGap, 1e-6 * pair.settings.depth);
+    EXPECT_NEAR(found.back().pairs[0].force.x(), force, kNewton * force);
+  }
 }
 
 TEST(Static, asked_to_stop_ends_with_the_last_equilibrium) {

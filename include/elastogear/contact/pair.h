@@ -41,6 +41,12 @@ class Pair {
   /// Unilateral law: later calls of detect find these contacts with these forces, all others with none.
   void set_forces(const std::vector<ContactPoint>& contacts);
 
+  /// Augmented law: by how much gaps change, at most, when these contacts are given their forces by
+  /// set_forces; m, change of forces over the penalty stiffness.
+  double unclosed(const std::vector<ContactPoint>& contacts) const;
+  /// Multiplies the penalty stiffness of all nodes.
+  void stiffen(double factor);
+
   /// Makes the sticking of these contacts what the next step starts from.
   void accept(const std::vector<ContactPoint>& contacts);
 

@@ -15,17 +15,19 @@ namespace elastogear::contact {
 enum class Update { bound, refit, realign };
 enum class Penalty { per_node, per_area };
 /// penalty: forces grow with the penetration. unilateral: there is none; gaps are closed by the residual
-/// flexibility of the bodies, which one side of the pair must have. docs/theory.md, section 6.11. automatic:
-/// see chosen_law.
-enum class ContactLaw { automatic, penalty, unilateral };
+/// flexibility of the bodies, which one side of the pair must have (docs/theory.md, section 6.11). augmented:
+/// there is none either, between bodies at rest without residual flexibility; gaps close from equilibrium to
+/// equilibrium (section 6.14). automatic: see chosen_law.
+enum class ContactLaw { automatic, penalty, unilateral, augmented };
 /// What gaps and normals are taken from. facets: the faces as they are. smooth: a smooth surface through
 /// their nodes. exact, the default: the heights of a TrueSurface, and the smooth surface where none are
 /// known. docs/theory.md, section 6.8.
 enum class ContactSurface { facets, smooth, exact };
 /// Points of the slave surface that contact is prevented from passing. nodes: its nodes. minima: its nodes,
 /// and the places on its faces and their sides where the gap is least (docs/theory.md, section 6.12). faces:
-/// all points of its faces, in the mean over the faces around each node (section 6.13).
-enum class SlavePoints { nodes, minima, faces };
+/// all points of its faces, in the mean over the faces around each node (section 6.13). automatic: see
+/// chosen_points.
+enum class SlavePoints { automatic, nodes, minima, faces };
 /// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
 /// standstill.
 enum class FrictionLaw { regularised, stick };
@@ -43,7 +45,7 @@ struct Settings {
   int k = 24;  ///< k-DOP directions: 6, 14, 18, 24, 26
   Update update = Update::bound;
   ContactLaw law = ContactLaw::automatic;
-  SlavePoints points = SlavePoints::nodes;
+  SlavePoints points = SlavePoints::automatic;
   Penalty penalty = Penalty::per_area;
   /// per_node: N/m, per_area: Pa/m; 0 = from material and cell size (c_f of both sides in series)
   double stiffness = 0;
@@ -64,8 +66,13 @@ struct Settings {
 };
 
 /// The law that `automatic` stands for: unilateral where a body of the pair has residual flexibility and no
-/// stiffness, damping or hysteresis is given, all of which are those of a penalty; penalty elsewhere.
+/// stiffness, damping or hysteresis is given, all of which are those of a penalty; penalty elsewhere. The
+/// unilateral law of a pair without residual flexibility is the augmented one.
 ContactLaw chosen_law(const Settings& settings, bool has_residual_flexibility);
+
+/// The points that `automatic` stands for: faces where those of the slave are parts of second-order sides,
+/// whose nodes alone cannot bear an even pressure; nodes elsewhere, in two passes, and where they stick.
+SlavePoints chosen_points(const Settings& settings, const model::Surface& slave);
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.
 struct SurfaceState {

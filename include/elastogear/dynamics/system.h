@@ -55,6 +55,17 @@ class System {
   double depth_share(double time, ConstVector U, ConstVector V);
   /// Settings of a pair in force, with stiffness, depth and skin filled in.
   const contact::Settings& contact_settings(std::size_t pair) const;
+  /// Has a pair the augmented law?
+  bool any_augmented() const;
+  /// How far the gaps of the last evaluation are from closed, at most, over the depth of their pair; -.
+  /// Augmented law; docs/theory.md, Eq. (6.31).
+  double unclosed() const;
+  /// Gives its contacts the forces found there, with which gaps close further in the next equilibrium.
+  void augment();
+  /// Multiplies the penalty stiffness by which gaps close.
+  void stiffen(double factor);
+  /// Gives the contacts these forces back.
+  void set_forces(const std::vector<PairContacts>& pairs);
   /// To be called once for the initial state and after every accepted step: what sticks now does so from
   /// here, and the energy that contact has taken is added up.
   void accept(const State& x);

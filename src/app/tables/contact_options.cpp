@@ -20,13 +20,13 @@ const Rows<S> kContactRows = {
      "check both bodies' nodes against the other's faces, half the stiffness each"},
     {"contact_law", &S::law, one_of("auto", "penalty", "unilateral"),
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
-     "residual flexibility that one body must have); auto: unilateral where a body has that and no "
-     "stiffness, "
-     "damping or hysteresis is given"},
-    {"contact_points", &S::points, one_of("nodes", "minima", "faces"),
+     "residual flexibility that one body must have, unless the analysis is static); auto: unilateral where a "
+     "body has that and no stiffness, damping or hysteresis is given"},
+    {"contact_points", &S::points, one_of("auto", "nodes", "minima", "faces"),
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
-     "node (pressure as a field)"},
+     "node (pressure as a field); auto: faces where the slave's cells are of second order, whose nodes alone "
+     "cannot bear an even pressure, unless it has two passes or sticks; nodes elsewhere"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",
@@ -89,7 +89,10 @@ void require_exact_surface(const Options& options, const dynamics::PairSetup& pa
           "_flanks, or take smooth");
 }
 
-// Warns that the slave surface of a pair with one pass stays what it is: only its nodes are in contact.
+}  // namespace
+
+OptionTable contact_table() { return table_of(kContactRows); }
+
 void warn_of_facets(const Options& options, const dynamics::PairSetup& pair,
                     const std::vector<std::string>& bodies) {
   const std::string& slave = bodies[pair.body[pair.settings.slave]];
@@ -103,10 +106,6 @@ void warn_of_facets(const Options& options, const dynamics::PairSetup& pair,
                             pair.name + ": only its nodes are in contact; contact_two_pass takes both");
 }
 
-}  // namespace
-
-OptionTable contact_table() { return table_of(kContactRows); }
-
 std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::vector<std::string>& bodies) {
   std::vector<dynamics::PairSetup> setups;
   for (const std::string& pair : options.list("contact_pairs")) {
@@ -118,7 +117,6 @@ std::vector<dynamics::PairSetup> pair_setups(const Options& options, const std::
     const int b = body_index(bodies, pair.substr(colon + 1), pair);
     setups.push_back({pair, {a, b}, settings(options)});
     require_exact_surface(options, setups.back(), bodies);
-    warn_of_facets(options, setups.back(), bodies);
   }
   return setups;
 }

@@ -173,6 +173,12 @@ dynamics::Computation computation(const Options& options, dynamics::System& syst
   };
 }
 
+std::string points_text(const contact::Settings& settings) {
+  if (settings.points == contact::SlavePoints::faces) return "over faces";
+  const std::string where = settings.points == contact::SlavePoints::minima ? "at least gaps" : "at nodes";
+  return where + (settings.two_pass ? " of both bodies" : "");
+}
+
 model::ResultHeader header(const Options& options, const dynamics::System& system,
                            const std::map<std::string, std::string>& identities) {
   model::ResultHeader header = result_header(system.model());
@@ -205,7 +211,12 @@ void run_simulate(const Options& options, const std::vector<std::string>&) {
 
   dynamics::System system(bodies, pairs, surroundings, markers);
   const model::ResultHeader head = header(options, system, identities);
-  for (const auto& pair : head.pairs) print_item("law of contact", pair.law + " (" + pair.name + ")");
+  for (std::size_t p = 0; p < head.pairs.size(); ++p) {
+    const dynamics::PairSetup& pair = system.pairs()[p];
+    print_item("law of contact",
+               head.pairs[p].law + ", " + points_text(pair.settings) + " (" + pair.name + ")");
+    warn_of_facets(options, pair, names);
+  }
   print_summary(options, keep(options, head, computation(options, system)));
   write_sensor_tables(options, head);
 }

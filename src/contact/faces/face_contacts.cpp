@@ -177,9 +177,9 @@ std::vector<ContactPoint> face_contacts(const GapField& field, const SecondOrder
   for (const SlaveFace& face : faces) add_points(field, face, gaps);
   std::vector<ContactPoint> contacts;
   for (const auto& [node, gap] : gaps) {
-    const auto given = laws.given.find(node);
-    auto contact = gap.contact(laws.law[node], laws.area[node], given == laws.given.end() ? 0 : given->second,
-                               laws.velocity);
+    Law law = laws.law[node];
+    if (const auto given = laws.given.find(node); given != laws.given.end()) law.p_given = given->second;
+    auto contact = gap.contact(law, laws.area[node], laws.velocity);
     if (contact) contacts.push_back(std::move(*contact));
   }
   return contacts;

@@ -20,9 +20,9 @@ struct SecondOrder {
 
 /// The forces of the faces of a slave.
 struct FaceLaws {
-  const std::vector<Law>& law;         ///< of each slave node
-  const Eigen::VectorXd& area;         ///< m^2, of each slave node, undeformed
-  const std::map<int, double>& given;  ///< N, forces of the unilateral law, by slave node
+  const std::vector<Law>& law;                                  ///< of each slave node
+  const Eigen::VectorXd& area;                                  ///< m^2, of each slave node, undeformed
+  const std::map<int, double>& given;                           ///< N, by slave node (Law)
   std::function<Eigen::Vector3d(int side, int node)> velocity;  ///< m/s
 };
 

@@ -29,9 +29,9 @@ struct NormalLaw {
   double p, k, damping, energy, power;  // N, N/m, s, J, W
 };
 
-NormalLaw normal_law(const Law& law, double p, double gap, double rate) {
+NormalLaw normal_law(const Law& law, double gap, double rate) {
   if (law.unilateral) {
-    const double c = unilateral_compliance(law, 1);
+    const double c = unilateral_compliance(law, 1), p = law.p_given;
     return {p, 1 / c, 0, 0.5 * c * p * p, 0};
   }
   const NormalForce f = normal_force(law, gap, rate);
@@ -115,7 +115,7 @@ void WeightedGap::set_nodes(ContactPoint& c) const {
   c.g_n = gap_ / area_;
 }
 
-std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area, double p,
+std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area,
                                                  const NodeVelocity& velocity) const {
   ContactPoint c;
   set_nodes(c);
@@ -132,8 +132,8 @@ std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area, doub
       c.g_x.col(i) = node.g_x / area_;
       c.v.col(i++) = velocity(nodes == &slave_ ? slave_side_ : 1 - slave_side_, node.node);
     }
-  if (!law.unilateral && c.g_n >= 0) return {};
-  const NormalLaw normal = normal_law(law, p, c.g_n, c.g_x.reshaped().dot(c.v.reshaped()));
+  if (!law.unilateral && is_open(law, c.g_n)) return {};
+  const NormalLaw normal = normal_law(law, c.g_n, c.g_x.reshaped().dot(c.v.reshaped()));
   const NodeFriction friction = node_friction(law, c.n, T.transpose() * c.v.reshaped());
   c.F_p = c.g_x;
   if (law.mu > 0) c.F_p.reshaped() -= law.mu * T * friction.d;

@@ -29,9 +29,8 @@ class WeightedGap {
   /// weight: m^2, area times interpolation function.
   void add(const HeldPoint& point, double weight);
   /// The contact of the points that were added. law: of the whole node, whose undeformed area is given (m^2).
-  /// p: N, of a unilateral law; penalties have theirs. Nothing where the gap of a penalty is open.
-  std::optional<ContactPoint> contact(Law law, double node_area, double p,
-                                      const NodeVelocity& velocity) const;
+  /// Nothing where the gap of a penalty is open.
+  std::optional<ContactPoint> contact(Law law, double node_area, const NodeVelocity& velocity) const;
 
  private:
   struct Node {

@@ -142,11 +142,11 @@ Projection kept_projection(const MasterSide& master, const Projection& now, cons
 
 bool on_extension(const Projection& w) { return w.point.N.minCoeff() < 0; }
 
-ContactPoint potential_contact(const MasterSide& master, const Projection& w, const Law& law, double p,
+ContactPoint potential_contact(const MasterSide& master, const Projection& w, const Law& law,
                                bool full_tangent) {
   const Face face = face_of(master.surface, w.face);
   ContactPoint contact = geometry(master.surface, w);
-  contact.p = law.unilateral ? p : -law.c_p * w.g_n;
+  contact.p = law.unilateral ? law.p_given : -law.c_p * w.g_n;
   contact.f = contact.p * w.n;
   contact.F.resize(3, 5);
   contact.F << contact.f, -contact.f * w.point.N.transpose();
@@ -157,7 +157,7 @@ ContactPoint potential_contact(const MasterSide& master, const Projection& w, co
     contact.F_p.resize(3, 5);
     contact.F_p << w.n, -w.n * w.point.N.transpose();
     contact.g_x = contact.F_p;
-    contact.energy = 0.5 * contact.c * p * p;
+    contact.energy = 0.5 * contact.c * law.p_given * law.p_given;
     k = 1 / contact.c;
   }
   const Tangent tangent = contact_tangent(face, w, {contact.p, k}, full_tangent);
@@ -186,10 +186,9 @@ OpenPoint open_point(const MasterSide& master, const Projection& projection, con
 
 std::optional<ContactPoint> general_contact(const MasterSide& master, const OpenPoint& open,
                                             const SlaveContact& slave, const Law& law) {
-  if (!(open.gap.g < 0) && !law.unilateral) return {};
+  if (!law.unilateral && is_open(law, open.gap.g)) return {};
   const Projection& w = open.projection;
   ContactPoint contact = geometry(master.surface, w);
-  contact.p = slave.p;
   contact.v.resize(3, 5);
   contact.v.col(0) = slave.v;
   for (int i = 0; i < 4; ++i) contact.v.col(1 + i) = slave.master_velocity(contact.master_nodes[i]);

@@ -23,9 +23,9 @@ Projection kept_projection(const MasterSide& master, const Projection& now, cons
                            int before);
 
 /// Contact point of the frictionless, undamped penalty on facets, whose F derives from a potential, W = V:
-/// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on an extended side. p: N, of a unilateral law.
+/// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on an extended side.
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, const Law& law,
-                               double p, bool full_tangent);
+                               bool full_tangent);
 
 /// The gap of a slave point over the master, as the slave point alone moves.
 struct PointGap {
@@ -53,7 +53,6 @@ struct SlaveContact {
   Eigen::Vector3d v;                                         ///< m/s, of the slave point
   std::function<Eigen::Vector3d(int node)> master_velocity;  ///< m/s
   const StickPoint* stuck;      ///< of this slave point after the last step, or null
-  double p = 0;                 ///< N, of a unilateral law
   GivenFriction friction = {};  ///< of a unilateral law
 };
 std::optional<ContactPoint> general_contact(const MasterSide& master, const OpenPoint& open,

@@ -45,8 +45,8 @@ Varying tangential(const Varying& y, const Gap& gap) {
 }
 
 // The given force p of a unilateral contact, with p + k (g + c p) in the place of a penalty: Eq. (6.24).
-NormalForce given_force(const Law& law, double p, double fade) {
-  const double c = unilateral_compliance(law, fade);
+NormalForce given_force(const Law& law, double fade) {
+  const double c = unilateral_compliance(law, fade), p = law.p_given;
   NormalForce f;
   f.p = p;
   f.p_g = -1 / c;
@@ -117,8 +117,8 @@ void set_normal(const Law& law, const ProjectionKinematics& kinematics, const Ga
                 const ContactPoint& contact, Parts& parts) {
   const Varying rate = relative_velocity(kinematics, contact.v);
   if (law.unilateral) {
-    parts.normal = given_force(law, contact.p, gap.fade.f);
-    parts.p = contact.p;
+    parts.normal = given_force(law, gap.fade.f);
+    parts.p = law.p_given;
     // g + c p = 0 with c = (1 / fade + ...) / c_p
     const double fade = std::max(gap.fade.f, kLeastFade), c_f = -1 / (law.c_p * fade * fade);
     parts.p_x = parts.normal.p_g * (gap.g_x + parts.p * c_f * gap.fade.f_a.transpose() * kinematics.D);
@@ -273,10 +273,10 @@ GapBy<kColumns> smooth_gap(const KinematicsBy<kColumns>& kinematics, const FaceF
 }  // namespace
 
 NormalForce normal_force(const Law& law, double gap, double rate) {
-  if (gap >= 0) return {};
-  const double depth = -gap, approach = std::max(0.0, -rate);
+  if (is_open(law, gap)) return {};
+  const double depth = law.p_given / law.c_p - gap, approach = std::max(0.0, -rate);
   NormalForce f;
-  f.energy = 0.5 * law.c_p * depth * depth;
+  f.energy = 0.5 * (law.c_p * depth * depth - law.p_given * law.p_given / law.c_p);
   const double damping = law.d_p + law.hysteresis * law.c_p * depth;
   f.p = law.c_p * depth + damping * approach;
   f.energy_g = -law.c_p * depth;

@@ -12,6 +12,7 @@ struct Law {
   double c_p = 0;           ///< N/m
   bool unilateral = false;  ///< the normal force is given: penetration is prevented elsewhere
   double compliance = 1;    ///< -, unilateral: what is left of that of the penalty
+  double p_given = 0;       ///< N, unilateral: the normal force; augmented: that of a closed gap
   double d_p = 0;           ///< N s/m, while approaching
   double hysteresis = 0;    ///< s/m, Hunt and Crossley's factor, while approaching
   double offset = 0;        ///< m, added to the gap
@@ -28,7 +29,9 @@ struct NormalForce {
   double energy_g = 0;             ///< N, its derivative by the gap
   double power = 0;                ///< W, dissipated
 };
-/// Penalty and damping force while the gap closes: Eq. (6.15).
+/// Does a gap bear no force, of a law whose force is not given?
+inline bool is_open(const Law& law, double gap) { return !(law.c_p * gap < law.p_given); }
+/// Penalty and damping force while the gap closes, Eq. (6.15), and that of an augmented Lagrangian, (6.31).
 NormalForce normal_force(const Law& law, double gap, double rate);
 
 /// m/N, of a contact without penalty: what keeps its forces determinate where the bodies do not, and what
@@ -68,9 +71,9 @@ struct StickMotion {
   GivenFriction given = {};  ///< unilateral only
 };
 
-/// Force, energy, power and tangent of a contact whose node velocities v and geometry are set, and p where
-/// the law is unilateral. stick: none for a node that was not in contact after the last step, or without
-/// stick. The slid part of stick's u and the work it took go to the contact, too.
+/// Force, energy, power and tangent of a contact whose node velocities v and geometry are set. stick: none
+/// for a node that was not in contact after the last step, or without stick. The slid part of stick's u and
+/// the work it took go to the contact, too.
 void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                const StickMotion* stick, ContactPoint& contact);
 

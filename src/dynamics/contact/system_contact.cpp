@@ -38,18 +38,14 @@ SystemContact::SystemContact(const SystemModel& model)
   unilateral_ = is_unilateral();
 }
 
-// Tells whether contact has no penalty. All pairs of bodies with residual flexibility must have the same law,
-// for which the static responses are found.
+// Tells whether forces are solved for together with static responses. All pairs of bodies with residual
+// flexibility must have the same law, for which the static responses are found.
 bool SystemContact::is_unilateral() const {
   const PairSetup *unilateral = nullptr, *penalty = nullptr;
   for (const PairSetup& pair : pairs_) {
     const bool flexible =
         residual_contact_.has_flexibility(pair.body[0]) || residual_contact_.has_flexibility(pair.body[1]);
-    const bool is_unilateral = pair.settings.law == contact::ContactLaw::unilateral;
-    require(!is_unilateral || flexible, "pair ", pair.name,
-            ": contact without a penalty (-contact_law unilateral) needs residual flexibility on one side: "
-            "reduce a body with -basis modal_residual, or take -contact_law penalty");
-    if (is_unilateral)
+    if (pair.settings.law == contact::ContactLaw::unilateral)
       unilateral = &pair;
     else if (flexible)
       penalty = &pair;
@@ -118,6 +114,34 @@ void SystemContact::place_touched(std::size_t p) {
       const auto [side, node] = local_node(point, i);
       state_.surface[pair.body[side]].x_B.col(node) = detectors_[p].position(side, node);
     }
+}
+
+bool SystemContact::any_augmented() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const PairSetup& pair) {
+    return pair.settings.law == contact::ContactLaw::augmented;
+  });
+}
+
+double SystemContact::unclosed() const {
+  double most = 0;
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (is_augmented(p))
+      most = std::max(most, detectors_[p].unclosed(state_.pair[p].points) / settings(p).depth);
+  return most;
+}
+
+void SystemContact::augment() { set_forces(std::exchange(state_.pair, {})); }
+
+void SystemContact::stiffen(double factor) {
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (is_augmented(p)) detectors_[p].stiffen(factor);
+  forget();
+}
+
+void SystemContact::set_forces(const std::vector<PairContacts>& pairs) {
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (is_augmented(p)) detectors_[p].set_forces(pairs[p].points);
+  forget();
 }
 
 double SystemContact::depth_share() const {

@@ -32,6 +32,13 @@ class SystemContact {
     return residual_contact_.among(b, node);
   }
 
+  /// Pairs with the augmented law; System has the docstring of the others.
+  bool any_augmented() const;
+  double unclosed() const;
+  void augment();
+  void stiffen(double factor);
+  void set_forces(const std::vector<PairContacts>& pairs);
+
   /// Accepts the last evaluation as the end of a step.
   void accept();
   /// J, taken by damping and friction up to the last accepted state.
@@ -48,6 +55,7 @@ class SystemContact {
     std::vector<NodalForces> friction = {};  // of each body, regularised, of the last one
   };
 
+  bool is_augmented(std::size_t p) const { return pairs_[p].settings.law == contact::ContactLaw::augmented; }
   bool is_unilateral() const;
   void place(const std::vector<contact::SurfaceMotion>& motion);
   void place_touched(std::size_t p);
