@@ -9,6 +9,7 @@
 
 #include "contact/faces/face_contacts.h"
 #include "contact/forces/gap_minima.h"
+#include "contact/projection/edges.h"
 #include "contact/projection/heights.h"
 #include "contact/reach.h"
 #include "contact/search/tracker.h"
@@ -26,7 +27,6 @@ struct Side {
   std::map<int, StickPoint> open;   // where the last look found the other nodes that are near
   std::map<int, double> p;          // N, normal forces given, by slave point
   std::map<int, GivenFriction> t;   // by slave node that sticks, in the frame that contacts are found in
-  std::vector<bool> on_boundary;    // of each node
   std::vector<bool> responds;       // of each node: has it a static response? Empty: all have
   Eigen::VectorXd area;             // m^2, of each node, undeformed; of contact integrated over faces
 };
@@ -44,16 +44,20 @@ struct PlacedNode {
   Eigen::Vector3d x;  // m
 };
 
+// Whether all points of a slave are tried, or those of its edges alone.
+bool is_whole(const Settings& settings, int slave_side) {
+  return settings.two_pass || slave_side == settings.slave;
+}
+
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-std::vector<bool> boundary_nodes(const Tracked& tracked) {
-  const Eigen::Matrix4Xi& face = tracked.surface->face;
-  std::vector<bool> on_boundary(static_cast<std::size_t>(tracked.surface->X.cols()), false);
-  for (int f : tracked.topology.open_faces)
-    for (int side = 0, sides = side_count(face, f); side < sides; ++side)
-      if (tracked.topology.is_open(f, side))
-        on_boundary[face(side, f)] = on_boundary[face((side + 1) % sides, f)] = true;
-  return on_boundary;
+// The nodes of a surface that are tried as slaves; empty: all, which those are that its pass is for. A
+// surface of which they are not may meet the slave's faces with its edges alone, between the nodes of these.
+std::vector<bool> tried_nodes(const Tracked& tracked, const Settings& settings, bool is_whole) {
+  if (is_whole) return {};
+  const SurfaceView undeformed{tracked.surface->face, tracked.topology, tracked.surface->X, 0};
+  return settings.points == SlavePoints::minima ? boundary_nodes(undeformed)
+                                                : edge_nodes(undeformed, radians(settings.feature_angle));
 }
 
 Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurface* known,
@@ -68,7 +72,6 @@ Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurfa
           {},
           {},
           {},
-          boundary_nodes(tracked),
           std::move(responds),
           settings.points == SlavePoints::faces ? node_areas(surface.X, surface.face) : Eigen::VectorXd()};
 }
@@ -120,8 +123,7 @@ struct Pair::Data {
 
   bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
-  // Whether all points of a slave are tried, or those of its boundary alone.
-  bool is_whole(int slave_side) const { return settings.two_pass || slave_side == settings.slave; }
+  bool is_whole(int slave_side) const { return contact::is_whole(settings, slave_side); }
   void keep_stuck();
   std::vector<StickPoint> stuck() const;
   void set_stuck(const std::vector<StickPoint>& points);
@@ -133,6 +135,7 @@ struct Pair::Data {
   ContactPoint contact(const MasterSide& master, int slave_side, const Minimum& m) const;
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);
+  bool is_left_to_slave(int side, const SurfaceView& other, const Projection& w) const;
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
                   std::vector<ContactPoint>& contacts) const;
@@ -256,6 +259,12 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
   return projection;
 }
 
+// Where both surfaces end, the slave's own nodes keep their ends apart.
+bool Pair::Data::is_left_to_slave(int side, const SurfaceView& other, const Projection& w) const {
+  return !is_whole(side) && settings.points == SlavePoints::nodes &&
+         is_at_open_side(other, w.face, w.point.N);
+}
+
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0),
                     surface = tracker.view(1 - slave_side, settings.extension);
@@ -266,10 +275,9 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   side[slave_side].open.clear();
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
-    if (!is_whole(slave_side) && !side[slave_side].on_boundary[node]) continue;
     const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
     const auto projection = project(master, slave, placed, near.faces(i));
-    if (!projection) continue;
+    if (!projection || is_left_to_slave(slave_side, surface, *projection)) continue;
     auto found = node_contact(master, placed, *projection, gaps);
     if (!found) continue;
     found->slave_side = found->stick.slave_side = slave_side;
@@ -429,11 +437,13 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
   for (int i : {0, 1}) curved[i] = behind_facets(both[i], side[i], settings);
   const auto heights = [&](int i) { return curved[i].empty() ? &side[i].heights : &curved[i]; };
   const Reach reach = reach_of(settings, {&both[0], &both[1]}, {heights(0), heights(1)});
-  const std::array spares{spare(reach, 0, both[0].topology), spare(reach, 1, both[1].topology)};
+  std::array<SlaveNodes, 2> slaves;
+  for (int i : {0, 1})
+    slaves[i] = {tried_nodes(both[i], settings, is_whole(settings, i)), spare(reach, i, both[i].topology)};
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},
                        reach,
-                       Tracker(std::move(both), settings, reach.limits, spares)});
+                       Tracker(std::move(both), settings, reach.limits, std::move(slaves))});
 }
 
 Pair::~Pair() = default;

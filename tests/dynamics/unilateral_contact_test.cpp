@@ -63,22 +63,23 @@ model::Snapshot equilibrium(System system) {
   return last;
 }
 
+// With a penalty nodes of both sides, without one the edges of the master, keep a body from being entered
+// between the nodes of the other.
 TEST(Unilateral, equilibrium_is_the_limit_of_stiff_penalties) {
   const double force = 300, stiff = 1e8;
-  const model::Snapshot found = equilibrium(press(force, kUnilateral, false)),
-                        limit = equilibrium(press(force, stiff, false));
-  std::printf("approach %.7g m, with the stiff penalty %.7g m\n", found.bodies[0].s[0], limit.bodies[0].s[0]);
-  EXPECT_NEAR(found.bodies[0].s[0], limit.bodies[0].s[0], 3e-5 * limit.bodies[0].s[0]);
-  EXPECT_NEAR(found.pairs[0].force.x(), force, 1e-6 * force);
-  ASSERT_EQ(found.pairs[0].count, limit.pairs[0].count);
-  for (std::size_t i = 0; i < found.pairs[0].contacts.size(); ++i)
-    EXPECT_LT((found.pairs[0].contacts[i].f - limit.pairs[0].contacts[i].f).norm(), 1e-3 * force);
-  const double soft = 3 * equilibrium(press(force / 3, kDefault, false)).pairs[0].penetration;
-  EXPECT_GT(soft, 0);
-  EXPECT_LT(found.pairs[0].penetration, 2 * kPenetration * soft);
+  const model::Snapshot limit = equilibrium(press(force, stiff, true));
+  for (bool two_pass : {false, true}) {
+    const model::Snapshot found = equilibrium(press(force, kUnilateral, two_pass));
+    std::printf("approach %.7g m, with the stiff penalty %.7g m\n", found.bodies[0].s[0],
+                limit.bodies[0].s[0]);
+    EXPECT_NEAR(found.bodies[0].s[0], limit.bodies[0].s[0], (two_pass ? 1e-4 : 5e-3) * limit.bodies[0].s[0]);
+    EXPECT_NEAR(found.pairs[0].force.x(), force, 1e-6 * force);
+    const double soft = 3 * equilibrium(press(force / 3, kDefault, two_pass)).pairs[0].penetration;
+    EXPECT_GT(soft, 0);
+    EXPECT_LT(found.pairs[0].penetration, 2 * kPenetration * soft);
+  }
 }
 
-// Nodes of both sides are more constraints than displacements: forces at the nodes stay determinate.
 // The augmented Lagrangian closes gaps altogether.
 TEST(Unilateral, equilibrium_is_that_of_the_full_basis_by_an_augmented_lagrangian) {
   const double force = 300, few = 1e-3;
@@ -95,6 +96,7 @@ TEST(Unilateral, equilibrium_is_that_of_the_full_basis_by_an_augmented_lagrangia
   }
 }
 
+// Nodes of both sides are more constraints than displacements: forces at the nodes stay determinate.
 TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
   const double force = 300;
   const model::Snapshot found = equilibrium(press(force, kUnilateral, true));
@@ -109,10 +111,9 @@ TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
 }
 
 // The ram is driven against the wall, which is driven aside. They touch, and stick, from the start.
-System press_and_rub(double aside, double stiffness, const contact::FrictionSettings& friction,
-                     bool two_pass) {
+System press_and_rub(double aside, double stiffness, const contact::FrictionSettings& friction) {
   constexpr double kApproach = 2e-3, kGap = 1e-4, kOverlap = 1e-5;  // m
-  Blocks b = blocks(stiffness, two_pass, kGap);
+  Blocks b = blocks(stiffness, true, kGap);
   b.setups[0].translation.drive = speed_drive(0, kApproach);
   b.setups[1].joint.type = body::JointType::prismatic;
   b.setups[1].joint.axis = {0, 1, 0};
@@ -126,20 +127,17 @@ System press_and_rub(double aside, double stiffness, const contact::FrictionSett
 // At the first, all nodes stick; at the others, some or all have slid in the end.
 TEST(Unilateral, equilibrium_with_friction_that_sticks_is_the_limit_of_stiff_springs) {
   constexpr double kStiff = 1e7;
-  for (bool two_pass : {false, true})
-    for (double aside : {4e-4, -3e-3, 5e-3}) {
-      const contact::FrictionSettings friction{
-          .mu = 0.3, .mu_static = 0.32, .law = contact::FrictionLaw::stick};
-      const model::Snapshot found = equilibrium(press_and_rub(aside, kUnilateral, friction, two_pass)),
-                            limit = equilibrium(press_and_rub(aside, kStiff, friction, two_pass));
-      const Vector3d f = found.pairs[0].force, f_limit = limit.pairs[0].force;
-      std::printf(
-          "%g m aside, %d passes: force %.5g %.5g N, with stiff springs %.5g %.5g N, taken %.4g, %.4g J\n",
-          aside, two_pass ? 2 : 1, f.x(), f.y(), f_limit.x(), f_limit.y(), found.energy.dissipated,
-          limit.energy.dissipated);
-      EXPECT_LT((f - f_limit).norm(), 1e-3 * f.norm());
-      EXPECT_NEAR(found.energy.dissipated, limit.energy.dissipated, 2e-3 * limit.energy.dissipated + 1e-9);
-    }
+  for (double aside : {4e-4, -3e-3, 5e-3}) {
+    const contact::FrictionSettings friction{
+        .mu = 0.3, .mu_static = 0.32, .law = contact::FrictionLaw::stick};
+    const model::Snapshot found = equilibrium(press_and_rub(aside, kUnilateral, friction)),
+                          limit = equilibrium(press_and_rub(aside, kStiff, friction));
+    const Vector3d f = found.pairs[0].force, f_limit = limit.pairs[0].force;
+    std::printf("%g m aside: force %.5g %.5g N, with stiff springs %.5g %.5g N, taken %.4g, %.4g J\n", aside,
+                f.x(), f.y(), f_limit.x(), f_limit.y(), found.energy.dissipated, limit.energy.dissipated);
+    EXPECT_LT((f - f_limit).norm(), 1e-3 * f.norm());
+    EXPECT_NEAR(found.energy.dissipated, limit.energy.dissipated, 2e-3 * limit.energy.dissipated + 1e-9);
+  }
 }
 
 // The ram is pressed against the wall while that is driven aside: what friction takes through the static

@@ -17,7 +17,9 @@ const Rows<S> kContactRows = {
     {"contact_slave", &S::slave, one_of("first", "second"),
      "which body of a pair gives the slave nodes: first or second"},
     {"contact_two_pass", &S::two_pass, "-",
-     "check both bodies' nodes against the other's faces, half the stiffness each"},
+     "check both bodies' nodes against the other's faces, half the stiffness each; in one pass the nodes of "
+     "the "
+     "slave and, without a penalty, those on sharp and open edges of the other"},
     {"contact_law", &S::law, one_of("auto", "penalty", "unilateral"),
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
      "residual flexibility that one body must have, unless the analysis is static); auto: unilateral where a "

@@ -4,16 +4,17 @@
 
 namespace elastogear::contact {
 
-void Candidates::collect(const std::vector<NodePair>& face_pairs, int slave_side, const SurfaceView& slave,
-                         const SurfaceView& master, double margin) {
+void Candidates::collect(const SlaveFaces& faces, const SurfaceView& slave, const SurfaceView& master,
+                         double margin) {
   near_.clear();
-  for (const NodePair& pair : face_pairs) {
-    const int f = pair[1 - slave_side];
+  for (const NodePair& pair : faces.pairs) {
+    const int f = pair[1 - faces.entry], slave_face = pair[faces.entry];
     const Eigen::Matrix<double, 3, 4> corners = master.x(Eigen::all, master.face.col(f));
     const Eigen::Vector3d lo = corners.rowwise().minCoeff().array() - margin;
     const Eigen::Vector3d hi = corners.rowwise().maxCoeff().array() + margin;
-    for (int i = 0; i < side_count(slave.face, pair[slave_side]); ++i) {
-      const int node = slave.face(i, pair[slave_side]);
+    for (int i = 0; i < side_count(slave.face, slave_face); ++i) {
+      const int node = slave.face(i, slave_face);
+      if (!faces.tried.empty() && !faces.tried[node]) continue;
       const auto q = slave.x.col(node).array();
       if ((q >= lo.array()).all() && (q <= hi.array()).all()) near_.push_back({node, f});
     }

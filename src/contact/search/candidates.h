@@ -9,13 +9,18 @@
 
 namespace elastogear::contact {
 
+/// The slave faces of pairs of faces.
+struct SlaveFaces {
+  const std::vector<NodePair>& pairs;
+  int entry;                       ///< of each pair that is the slave's
+  const std::vector<bool>& tried;  ///< nodes that count; empty: all
+};
+
 /// Memory is kept between calls.
 class Candidates {
  public:
   /// Nodes of slave faces whose distance to the box around a paired master face is at most `margin` (m).
-  /// slave_side: which entry of each pair is the slave face.
-  void collect(const std::vector<NodePair>& face_pairs, int slave_side, const SurfaceView& slave,
-               const SurfaceView& master, double margin);
+  void collect(const SlaveFaces& faces, const SurfaceView& slave, const SurfaceView& master, double margin);
 
   /// Ascending, without duplicates; empty for nodes that are near no face.
   std::span<const int> operator[](int slave_node) const;

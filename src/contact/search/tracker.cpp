@@ -61,16 +61,17 @@ Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>
 }
 
 std::vector<int> slave_sides(const Settings& settings) {
-  const bool both = settings.two_pass || settings.points == SlavePoints::minima;
+  const bool with_edges = settings.law != ContactLaw::penalty && settings.points != SlavePoints::faces;
+  const bool both = settings.two_pass || with_edges;
   return both ? std::vector{settings.slave, 1 - settings.slave} : std::vector{settings.slave};
 }
 
 Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits,
-                 std::array<std::vector<double>, 2> spare)
+                 std::array<SlaveNodes, 2> slaves)
     : side_(std::move(sides)),
       settings_(settings),
       limits_(limits),
-      spare_(std::move(spare)),
+      slaves_(std::move(slaves)),
       search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update) {
   for (int i : {0, 1}) {
     configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
@@ -206,7 +207,7 @@ void Tracker::leave_out(int slave, double clear) {
     const int node = all.slave[i];
     const auto [clearance, faces, around] =
         approach(master, configuration_.x[slave].col(node), move, all.faces(i));
-    const double spare = spare_[slave].empty() ? 0 : spare_[slave][node];
+    const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
     neighbours_->apart_until[slave][node] = neighbours_->path + std::min(clearance, surely_seen) + spare;
     if (clearance + spare > clear) continue;
     near.add(node, faces, around);
@@ -239,7 +240,8 @@ void Tracker::find_candidates(double margin) {
   neighbours_->path = 0;
   for (int slave : slave_sides(settings_)) {
     Candidates& candidates = neighbours_->candidates[slave];
-    candidates.collect(face_pairs, slave, view(slave, 0), view(1 - slave, settings_.extension), margin);
+    candidates.collect({face_pairs, slave, slaves_[slave].tried}, view(slave, 0),
+                       view(1 - slave, settings_.extension), margin);
     neighbours_->near[slave] = everything(candidates);
     neighbours_->apart_until[slave].assign(static_cast<std::size_t>(configuration_.x[slave].cols()), 0);
   }

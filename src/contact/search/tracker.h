@@ -21,16 +21,22 @@ struct Tracked {
 };
 Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>* K_r);
 
-/// The surfaces that give slave nodes, in the order of the passes.
+/// What is known of the nodes of a surface as slaves, by node.
+struct SlaveNodes {
+  std::vector<bool> tried;    ///< empty: all
+  std::vector<double> spare;  ///< m, by how much less than limits.outside serves; empty: none
+};
+
+/// The surfaces that give slave nodes, in the order of the passes. Without a penalty the edges of the master
+/// do, too.
 std::vector<int> slave_sides(const Settings& settings);
 
 /// Frame of all positions: the BRF of surface b.
 class Tracker {
  public:
-  /// settings: complete, as with_defaults returns them. spare: m, by how much less than limits.outside serves
-  /// for each node as slave; empty: none.
+  /// settings: complete, as with_defaults returns them.
   Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits,
-          std::array<std::vector<double>, 2> spare);
+          std::array<SlaveNodes, 2> slaves);
 
   /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.
   void find(const SurfaceState& a, const SurfaceState& b);
@@ -80,7 +86,7 @@ class Tracker {
   std::array<Tracked, 2> side_;
   Settings settings_;
   Limits limits_;
-  std::array<std::vector<double>, 2> spare_;
+  std::array<SlaveNodes, 2> slaves_;
   CoarseSearch search_;
   double reach_;  // m, largest distance of a slave node from a master face's corners that can still matter
   Configuration configuration_;

@@ -111,6 +111,14 @@ model::ContactRecord record(const contact::ContactPoint& point, double pressure)
           point.g_n,        point.f,          pressure,   point.slip};
 }
 
+// With a penalty each of two passes carries half of the pressure; without one each carries some part, as
+// edges of the master do in one pass.
+template <class OfMaster>
+double pressure_of_other_pass(const contact::Settings& settings, double own, const OfMaster& of_master) {
+  if (settings.law == contact::ContactLaw::penalty) return settings.two_pass ? own : 0;
+  return settings.points == contact::SlavePoints::nodes ? of_master() : 0;
+}
+
 }  // namespace
 
 model::PairState pair_state(System& system, const State& x, std::size_t p) {
@@ -131,10 +139,9 @@ model::PairState pair_state(System& system, const State& x, std::size_t p) {
     const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
     if (point.V_dot.cols() == 0) point.slip = slip(point, body, motion);
     model::ContactFigures f = figures(point, pressed(point, normal_force[slave], body[slave]->node_area));
-    // With a penalty each of two passes carries half of the pressure; without one each carries some part.
-    if (system.pairs()[p].settings.two_pass)
-      f.pressure +=
-          point.c > 0 ? pressure_of_master(point, normal_force[master], body[master]->node_area) : f.pressure;
+    f.pressure += pressure_of_other_pass(system.pairs()[p].settings, f.pressure, [&] {
+      return pressure_of_master(point, normal_force[master], body[master]->node_area);
+    });
     f.torque = moment_on_b(point, contact.surface[pair.body[1]]);
     const int group[2] = {body[slave]->node_group[point.slave_node],
                           body[master]->eq.body->surface.group[point.face]};

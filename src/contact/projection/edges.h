@@ -1,0 +1,20 @@
+#pragma once
+// Nodes on the edges of a surface: at its boundary, and where it is sharp.
+
+#include <vector>
+
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::contact {
+
+/// Marks the nodes on open sides.
+std::vector<bool> boundary_nodes(const SurfaceView& surface);
+
+/// Marks them and the nodes on convex edges that turn by more than the feature angle (rad).
+std::vector<bool> edge_nodes(const SurfaceView& surface, double feature_angle);
+
+/// Does a point of a face, with these weights of its corners, lie on an open side, or within a few hundredths
+/// of the face beside it?
+bool is_at_open_side(const SurfaceView& surface, int face, const Eigen::Vector4d& N);
+
+}  // namespace elastogear::contact
