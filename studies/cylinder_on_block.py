@@ -8,7 +8,7 @@ Plane strain, half of it by symmetry, one layer of hexahedra: a cylinder of R = 
 block of 200 mm x 200 mm, E = 70 GPa, nu = 0.3. Hertz: p_0 = 3585.37 MPa, half width a = 6.21 mm. The cylinder hangs on a
 rigid pin of R_PIN about its centre, which slides down under the load, in both programs. --faces: of the block across the
 patch; those of the cylinder are 0.8 times as long, so that the meshes do not match. --friction: its coefficient; nodes stick
-up to it, the load comes in LOAD_STEPS steps, and contact is at nodes.
+up to it, and the load comes in LOAD_STEPS steps.
 """
 import argparse
 import os
@@ -188,7 +188,7 @@ def main():
         offset = len(meshes["block"].X)
         parts["cylinder_after_block"] = part("cylinder", meshes["cylinder"], offset, len(meshes["block"].cells), held["cylinder"])
         rows = [(f"{points}, {law}", *elastogear(program, folder, parts, points, law, options.friction))
-                for points in (("nodes",) if options.friction else ("nodes", "faces")) for law in ("penalty", "unilateral")]
+                for points in ("nodes", "faces") for law in ("penalty", "unilateral")]
         rows.append(("CalculiX, faces", *calculix(options.calculix, folder, parts, held["cylinder"], offset, options.friction)))
         for name, pin, pressure in rows:
             print(f"{faces:5g}  {name:20s}  {pressure / 1e6:14.1f}  {100 * (pressure / P_0 - 1):+7.2f} %  {1e3 * pin:10.5f}", flush=True)

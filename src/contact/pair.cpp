@@ -324,10 +324,16 @@ std::vector<ContactPoint> Pair::Data::integrated_contacts() {
   const MasterSide master{faces, masters.heights, radians(settings.feature_angle), false};
   const SecondOrder second{surface(slave_side).side, surface(1 - slave_side).side,
                            [&](int i, int node) { return curved(i, node); }};
-  return face_contacts(
-      {master, slave, slaves.heights, reach, slave_side, settings.offset}, second,
-      {slaves.law, slaves.area, slaves.p, [&](int i, int node) { return tracker.velocity(i, node); }},
-      node_gaps(slave_side, master));
+  std::vector<ContactPoint> found =
+      face_contacts({master, slave, slaves.heights, reach, slave_side, settings.offset}, second,
+                    {slaves.law, slaves.area, slaves.p, slaves.stuck, slaves.t,
+                     [&](int i, int node) { return tracker.velocity(i, node); },
+                     [&](int i, int node) { return tracker.moved(i, node); }},
+                    node_gaps(slave_side, master));
+  side[slave_side].open.clear();
+  if (sticks())
+    for (const ContactPoint& contact : found) side[slave_side].open[contact.slave_node] = contact.stick;
+  return found;
 }
 
 std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R) {
@@ -394,6 +400,7 @@ void Pair::accept(const std::vector<ContactPoint>& contacts) {
     for (const ContactPoint& contact : contacts)
       data_->side[contact.slave_side].stuck[contact.slave_node] = contact.stick;
   data_->keep_stuck();
+  if (data_->sticks() && data_->settings.points == SlavePoints::faces) data_->tracker.remember();
 }
 
 std::vector<StickPoint> Pair::Data::stuck() const {

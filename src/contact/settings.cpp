@@ -31,8 +31,7 @@ ContactLaw chosen_law(const Settings& s, bool has_residual_flexibility) {
 
 SlavePoints chosen_points(const Settings& s, const model::Surface& slave) {
   if (s.points != SlavePoints::automatic) return s.points;
-  const bool sticks = s.friction.mu > 0 && s.friction.law == FrictionLaw::stick;
-  return slave.side.cols() > 0 && !s.two_pass && !sticks ? SlavePoints::faces : SlavePoints::nodes;
+  return slave.side.cols() > 0 && !s.two_pass ? SlavePoints::faces : SlavePoints::nodes;
 }
 
 void validate(const FrictionSettings& s) {
@@ -71,8 +70,8 @@ void validate(const Settings& s) {
   require(s.points == SlavePoints::nodes || !s.two_pass, "contact: points '",
           s.points == SlavePoints::minima ? "minima" : "faces",
           "' take both surfaces in one pass; leave two_pass out");
-  require(s.points == SlavePoints::nodes || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
-          "contact: friction that sticks needs the points 'nodes'");
+  require(s.points != SlavePoints::minima || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
+          "contact: friction that sticks needs the points 'nodes' or 'faces'");
   require(
       s.points != SlavePoints::minima ||
           (s.law == ContactLaw::unilateral && s.surface != ContactSurface::facets),

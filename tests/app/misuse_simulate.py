@@ -97,7 +97,6 @@ SIMULATE = [
     Case("minima of the gap with a penalty", r"points 'minima' need the law 'unilateral'", "{simulate} -contact_points minima -contact_surface smooth"),
     Case("minima of the gap in two passes", r"points 'minima' take both surfaces in one pass", "{simulate} -contact_points minima -contact_surface smooth -contact_law unilateral -contact_two_pass true"),
     Case("faces in two passes", r"points 'faces' take both surfaces in one pass", "{simulate} -contact_points faces -contact_two_pass true"),
-    Case("faces that stick", r"friction that sticks needs the points 'nodes'", "{simulate} -contact_points faces -contact_friction 0.1 -contact_friction_law stick"),
     Case("smoothing a slave", r"contact_surface", "{simulate} -contact_surface smooth -b_position 0,0,1", kind="warning", leaves=r"kept_run\.h5"),
     Case("steps of output that are none", r"output_every.*0", "{single} -output_every 0"),
     Case("damping radius above one", r"(alpha_radius|rho)", "{single} -ts_alpha_radius 1.5"),

@@ -95,10 +95,6 @@ TEST(Pair, points_by_default_are_faces_where_the_slave_is_of_second_order) {
   s.two_pass = true;
   EXPECT_EQ(chosen_points(s, second), SlavePoints::nodes);
   s = {};
-  s.friction = {.mu = 0.1, .law = FrictionLaw::stick};
-  EXPECT_EQ(chosen_points(s, second), SlavePoints::nodes);
-  s.friction.law = FrictionLaw::regularised;
-  EXPECT_EQ(chosen_points(s, second), SlavePoints::faces);
   s.points = SlavePoints::nodes;
   EXPECT_EQ(chosen_points(s, second), SlavePoints::nodes);
 }

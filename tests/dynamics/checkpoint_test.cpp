@@ -10,8 +10,8 @@ using namespace dynamics;
 
 namespace {
 
-// Residual flexibility of the box, with one law of contact or the other.
-enum class Residual { none, penalty, unilateral };
+// Residual flexibility of the box, with one law of contact or the other, without a penalty also over faces.
+enum class Residual { none, penalty, unilateral, faces };
 
 // flexible: with residual flexibility, of few modes.
 std::shared_ptr<const model::ElasticBody> soft_box(model::Basis basis, bool flexible) {
@@ -26,9 +26,11 @@ System impact(model::Basis basis, Residual residual = Residual::none) {
   const auto wall = std::make_shared<model::ElasticBody>(
       test::make_rigid_box({.corner = {0, -1, -1}, .size = {1, 3, 3}, .material = {100, 0.3, 1}}));
   PairSetup pair{"box:wall", {0, 1}, {}};
-  pair.settings.two_pass = true;
+  pair.settings.two_pass = residual != Residual::faces;
+  if (residual == Residual::faces) pair.settings.points = contact::SlavePoints::faces;
   pair.settings.skin = 0.01;
-  if (residual != Residual::unilateral) pair.settings.hysteresis = 0.1;  // which is a penalty's
+  if (residual == Residual::none || residual == Residual::penalty)
+    pair.settings.hysteresis = 0.1;  // which is a penalty's
   pair.settings.friction = {.mu = 0.3, .law = contact::FrictionLaw::stick};
   const body::JointType joint =
       basis == model::Basis::full ? body::JointType::spherical : body::JointType::free;
@@ -104,6 +106,10 @@ TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_with_residual_flex
 
 TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_without_a_penalty) {
   expect_every_continuation_equal(model::Basis::modal, kSettings, Residual::unilateral);
+}
+
+TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_over_faces_that_stick) {
+  expect_every_continuation_equal(model::Basis::modal, kSettings, Residual::faces);
 }
 
 TEST(Checkpoint, continuation_of_a_settling_run_equals_the_whole_one_to_the_bit) {

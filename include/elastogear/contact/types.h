@@ -71,7 +71,7 @@ struct Settings {
 ContactLaw chosen_law(const Settings& settings, bool has_residual_flexibility);
 
 /// The points that `automatic` stands for: faces where those of the slave are parts of second-order sides,
-/// whose nodes alone cannot bear an even pressure; nodes elsewhere, in two passes, and where they stick.
+/// whose nodes alone cannot bear an even pressure; nodes elsewhere and in two passes.
 SlavePoints chosen_points(const Settings& settings, const model::Surface& slave);
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.

@@ -28,7 +28,7 @@ const Rows<S> kContactRows = {
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
      "node (pressure as a field); auto: faces where the slave's cells are of second order, whose nodes alone "
-     "cannot bear an even pressure, unless it has two passes or sticks; nodes elsewhere"},
+     "cannot bear an even pressure, unless there are two passes; nodes elsewhere"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",

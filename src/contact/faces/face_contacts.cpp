@@ -179,7 +179,12 @@ std::vector<ContactPoint> face_contacts(const GapField& field, const SecondOrder
   for (const auto& [node, gap] : gaps) {
     Law law = laws.law[node];
     if (const auto given = laws.given.find(node); given != laws.given.end()) law.p_given = given->second;
-    auto contact = gap.contact(law, laws.area[node], laws.velocity);
+    const auto stuck = laws.stuck.find(node);
+    const auto friction = laws.friction.find(node);
+    auto contact = gap.contact(law, laws.area[node],
+                               {field.master.surface, laws.velocity, laws.moved,
+                                stuck == laws.stuck.end() ? nullptr : &stuck->second,
+                                friction == laws.friction.end() ? GivenFriction{} : friction->second});
     if (contact) contacts.push_back(std::move(*contact));
   }
   return contacts;

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "contact/faces/weighted_gap.h"
 #include "contact/forces/gap_minima.h"
 
 namespace elastogear::contact {
@@ -20,10 +21,13 @@ struct SecondOrder {
 
 /// The forces of the faces of a slave.
 struct FaceLaws {
-  const std::vector<Law>& law;                                  ///< of each slave node
-  const Eigen::VectorXd& area;                                  ///< m^2, of each slave node, undeformed
-  const std::map<int, double>& given;                           ///< N, by slave node (Law)
-  std::function<Eigen::Vector3d(int side, int node)> velocity;  ///< m/s
+  const std::vector<Law>& law;                   ///< of each slave node
+  const Eigen::VectorXd& area;                   ///< m^2, of each slave node, undeformed
+  const std::map<int, double>& given;            ///< N, by slave node (Law)
+  const std::map<int, StickPoint>& stuck;        ///< by slave node, after the last step
+  const std::map<int, GivenFriction>& friction;  ///< of a unilateral law, by slave node that sticks
+  NodeVelocity velocity;
+  NodeMotion moved;
 };
 
 /// Contacts whose weighted gap is closed or, with the unilateral law, within the reach; by slave node.

@@ -2,27 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+
+#include "contact/forces/contact_point.h"
+#include "contact/forces/friction.h"
 
 namespace elastogear::contact {
 namespace {
 
-using Eigen::Matrix3d, Eigen::Vector3d;
+using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 using NodalColumns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
-// Friction -mu p d of a node against the mean sliding of its part of the faces, Eq. (6.17).
-struct NodeFriction {
-  Vector3d slip, d;  // m/s, -
-  Matrix3d d_v;      // s/m, derivative of d by the velocity
-};
-
-NodeFriction node_friction(const Law& law, const Vector3d& n, const Vector3d& v) {
-  const Matrix3d along = Matrix3d::Identity() - n * n.transpose();
-  const Vector3d slip = along * v;
-  const double s = std::sqrt(slip.squaredNorm() + law.v_0 * law.v_0);
-  const Vector3d d = slip / s;
-  return {slip, d, (along - d * d.transpose()) / s};
-}
 
 // Normal force p with dp = -k (dg + damping dg_t).
 struct NormalLaw {
@@ -38,23 +26,89 @@ NormalLaw normal_law(const Law& law, double gap, double rate) {
   return {f.p, -f.p_g, f.p_r / f.p_g, f.energy, f.power};
 }
 
+// Friction of a node against the mean motion z of its part of the faces.
+struct NodeFriction {
+  Friction friction;
+  double mu = 0;
+  Vector3d z = Vector3d::Zero();  // m/s, or m where it sticks
+  bool sticks = false, slid = false;
+};
+
+// Stretch of the tangential spring after the last step, m.
+Vector3d stretch(const SurfaceView& master, const StickPoint& stuck) {
+  const Face face = face_of(master, stuck.face);
+  const Shape s = shape(face.sides, stuck.u, stuck.v);
+  return stuck.e_u * combine(face, s.N_u) + stuck.e_v * combine(face, s.N_v);
+}
+
+NodeFriction node_friction(const Law& law, double p, const Sliding& sliding, const Matrix3d& along,
+                           const Vector3d& slip, const std::optional<Vector3d>& moved) {
+  if (law.v_0 > 0) return {regularised(slip, law.v_0, law.mu * p), law.mu, slip};
+  if (law.mu == 0 || !sliding.stuck || !moved) return {};
+  NodeFriction f;
+  f.sticks = true;
+  f.slid = sliding.stuck->slides;
+  f.z = along * (*moved + stretch(sliding.master, *sliding.stuck));
+  if (law.unilateral) {
+    const GivenFriction& given = sliding.friction;
+    f.mu = f.slid || given.slides ? law.mu : law.mu_static;
+    f.friction =
+        given_friction(along * given.t, f.z, tangential_compliance(law), f.mu * p, given.slides && p > 0);
+  } else {
+    const Stuck stuck = stuck_on_spring(law, f.z, p, f.slid);
+    f.friction = stuck.friction;
+    f.mu = stuck.mu;
+  }
+  return f;
+}
+
 // Columns: the normal force, then the three of friction where there is any. Directions and shares of the
 // nodes are those of this moment.
-void set_tangent(const NormalLaw& normal, const NodalColumns& T, double mu, const NodeFriction& friction,
+void set_tangent(const NormalLaw& normal, const NodalColumns& T, const NodeFriction& friction,
                  ContactPoint& c) {
-  const bool slides = mu > 0, damped = normal.damping != 0;
-  const Eigen::Index n = slides ? 4 : 1;
+  const bool rubs = friction.mu > 0, damped = normal.damping != 0;
+  const Eigen::Index n = rubs ? 4 : 1;
   c.W.setZero(T.rows(), n);
   c.V.setZero(T.rows(), n);
   c.k.setIdentity(n, n);
-  c.W.col(0) = c.F_p.reshaped();
+  c.W.col(0) = c.g_x.reshaped();
   c.V.col(0) = c.g_x.reshaped();
   c.k(0, 0) = normal.k;
-  c.V_dot.setZero(T.rows(), slides || damped ? n : 0);
+  c.V_dot.setZero(T.rows(), rubs || damped ? n : 0);
   if (damped) c.V_dot.col(0) = normal.damping * c.g_x.reshaped();
-  if (!slides) return;
+  if (!rubs) return;
+  if (friction.friction.at_limit) c.W.col(0) -= friction.mu * T * friction.friction.direction;
   c.W.rightCols<3>() = T;
-  c.V_dot.rightCols<3>() = mu * normal.p * T * friction.d_v;
+  const Matrix3d along = Matrix3d::Identity() - c.n * c.n.transpose();
+  (friction.sticks ? c.V : c.V_dot).rightCols<3>() = T * along * friction.friction.K;
+}
+
+// The force along the master of a unilateral contact that sticks: docs/theory.md, Eq. (6.24a).
+TangentialForce tangential_force(const Law& law, double p, const NodalColumns& T, const NodeFriction& node,
+                                 const Vector3d& n) {
+  TangentialForce f;
+  f.T.col(0) = n.unitOrthogonal();
+  f.T.col(1) = n.cross(f.T.col(0));
+  f.t = -node.mu * p * f.T.transpose() * node.friction.direction;
+  f.u = f.T.transpose() * node.z;
+  f.c = tangential_compliance(law);
+  f.mu_static = node.slid ? law.mu : law.mu_static;
+  f.mu = law.mu;
+  f.slides = node.friction.at_limit;
+  f.K = f.T.transpose() * node.friction.K * f.T;
+  f.F_t = f.u_x = T * f.T;
+  return f;
+}
+
+// Energy, losses and history of the tangential spring, Eq. (6.18).
+void set_spring(const Law& law, double p, const NodeFriction& node, ContactPoint& c) {
+  const Vector3d elastic = node.mu * p / law.c_t * node.friction.direction;
+  const double force = node.mu * p * node.friction.direction.norm();
+  c.stick.slides = node.friction.at_limit;
+  c.elastic_slip = elastic;
+  c.energy += 0.5 * law.c_t * elastic.squaredNorm();
+  c.slip_work = force * (node.z - elastic).norm();
+  c.friction_power = node.friction.at_limit ? force * c.slip.norm() : 0;
 }
 
 }  // namespace
@@ -91,7 +145,7 @@ void WeightedGap::add(const HeldPoint& p, double weight) {
   if (weight <= most_) return;
   most_ = weight;
   face_ = p.open.projection.face;
-  natural_ = natural_coordinates(sides, closest.u, closest.v);
+  at_ = {closest.u, closest.v};
 }
 
 void WeightedGap::set_nodes(ContactPoint& c) const {
@@ -109,18 +163,34 @@ void WeightedGap::set_nodes(ContactPoint& c) const {
   set(slave_, c.slave_nodes, c.slave_N);
   set(master_, c.master_nodes, c.N);
   c.face = face_;
-  c.xi = natural_[0];
-  c.eta = natural_[1];
   c.n = n_.normalized();
   c.g_n = gap_ / area_;
 }
 
-std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area,
-                                                 const NodeVelocity& velocity) const {
+// Mean motion of the slave over the master since the last step.
+std::optional<Vector3d> WeightedGap::moved(const Sliding& sliding) const {
+  if (!sliding.stuck) return {};
+  Vector3d sum = Vector3d::Zero();
+  for (const auto* nodes : {&slave_, &master_})
+    for (const Node& node : *nodes) {
+      const auto x = sliding.moved(nodes == &slave_ ? slave_side_ : 1 - slave_side_, node.node);
+      if (!x) return {};
+      sum += node.T * *x;
+    }
+  return Vector3d(sum / area_);
+}
+
+std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area, const Sliding& sliding) const {
   ContactPoint c;
   set_nodes(c);
+  const Face face = face_of(sliding.master, face_);
+  const Vector2d natural = natural_coordinates(face.sides, at_[0], at_[1]);
+  c.xi = natural[0];
+  c.eta = natural[1];
   c.area = std::min(area_, node_area);
   law.c_p *= c.area / node_area;
+  law.c_t *= c.area / node_area;
+  if (!law.unilateral && is_open(law, c.g_n)) return {};
   const Eigen::Index n = c.n_local();
   NodalColumns T(3 * n, 3);
   c.g_x.resize(3, n);
@@ -130,22 +200,27 @@ std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area,
     for (const Node& node : *nodes) {
       T.middleRows<3>(3 * i) = node.T.transpose() / area_;
       c.g_x.col(i) = node.g_x / area_;
-      c.v.col(i++) = velocity(nodes == &slave_ ? slave_side_ : 1 - slave_side_, node.node);
+      c.v.col(i++) = sliding.velocity(nodes == &slave_ ? slave_side_ : 1 - slave_side_, node.node);
     }
-  if (!law.unilateral && is_open(law, c.g_n)) return {};
+  const Matrix3d along = Matrix3d::Identity() - c.n * c.n.transpose();
   const NormalLaw normal = normal_law(law, c.g_n, c.g_x.reshaped().dot(c.v.reshaped()));
-  const NodeFriction friction = node_friction(law, c.n, T.transpose() * c.v.reshaped());
+  c.slip = along * (T.transpose() * c.v.reshaped());
+  const NodeFriction friction = node_friction(law, normal.p, sliding, along, c.slip, moved(sliding));
+  const Eigen::VectorXd rubbing = friction.mu * T * friction.friction.direction;
   c.F_p = c.g_x;
-  if (law.mu > 0) c.F_p.reshaped() -= law.mu * T * friction.d;
-  c.F = normal.p * c.F_p;
+  if (!friction.sticks) c.F_p.reshaped() -= rubbing;
+  c.F = normal.p * c.g_x;
+  c.F.reshaped() -= normal.p * rubbing;
   c.f = slave_force(c);
   c.p = normal.p;
-  c.slip = friction.slip;
   c.energy = normal.energy;
   c.power = normal.power;
-  c.friction_power = law.mu * normal.p * friction.d.dot(friction.slip);
+  if (!friction.sticks) c.friction_power = normal.p * friction.mu * friction.friction.direction.dot(c.slip);
   if (law.unilateral) c.c = 1 / normal.k;
-  set_tangent(normal, T, law.mu, friction, c);
+  set_tangent(normal, T, friction, c);
+  if (friction.sticks && law.unilateral) c.tangential = tangential_force(law, normal.p, T, friction, c.n);
+  if (friction.sticks && !law.unilateral) set_spring(law, normal.p, friction, c);
+  set_stick_point(face, face_, at_, c);
   return c;
 }
 

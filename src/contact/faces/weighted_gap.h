@@ -21,6 +21,17 @@ struct HeldPoint {
 };
 
 using NodeVelocity = std::function<Eigen::Vector3d(int side, int node)>;  ///< m/s
+/// m, since the last step; nothing where it is not known
+using NodeMotion = std::function<std::optional<Eigen::Vector3d>(int side, int node)>;
+
+/// Motion of both surfaces, and what is known of a slave node that sticks.
+struct Sliding {
+  const SurfaceView& master;
+  const NodeVelocity& velocity;
+  const NodeMotion& moved;
+  const StickPoint* stuck;  ///< after the last step, or null
+  GivenFriction friction;   ///< of a unilateral law
+};
 
 /// Sums over points of the faces around one slave node.
 class WeightedGap {
@@ -30,7 +41,7 @@ class WeightedGap {
   void add(const HeldPoint& point, double weight);
   /// The contact of the points that were added. law: of the whole node, whose undeformed area is given (m^2).
   /// Nothing where the gap of a penalty is open.
-  std::optional<ContactPoint> contact(Law law, double node_area, const NodeVelocity& velocity) const;
+  std::optional<ContactPoint> contact(Law law, double node_area, const Sliding& sliding) const;
 
  private:
   struct Node {
@@ -41,6 +52,7 @@ class WeightedGap {
   };
   static Node& at(std::vector<Node>& nodes, int node);
   void set_nodes(ContactPoint& contact) const;
+  std::optional<Eigen::Vector3d> moved(const Sliding& sliding) const;
 
   int slave_side_, node_;
   double area_ = 0, gap_ = 0;  // m^2, m^3
@@ -48,7 +60,7 @@ class WeightedGap {
   std::vector<Node> slave_, master_;
   double most_ = 0;  // m^2, weight of the point that the next two are of
   int face_ = 0;
-  Eigen::Vector2d natural_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d at_ = Eigen::Vector2d::Zero();  // (u, v)
 };
 
 }  // namespace elastogear::contact

@@ -108,17 +108,6 @@ Eigen::Matrix<double, 2, 3> on_face(const Shape& s, const Face& face) {
   return (a.transpose() * a).inverse() * a.transpose();
 }
 
-void set_stick_point(const Face& face, const Projection& w, ContactPoint& contact) {
-  StickPoint& point = contact.stick;
-  point.face = w.face;
-  point.u = w.point.u;
-  point.v = w.point.v;
-  const auto local = on_face(shape(face.sides, w.point.u, w.point.v), face);
-  if (contact.tangential) contact.tangential->on_face = local * contact.tangential->T;
-  const Eigen::Vector2d e = local * contact.elastic_slip;
-  if (e.allFinite()) point.e_u = e[0], point.e_v = e[1];
-}
-
 bool share_a_node(const SurfaceView& surface, int a, int b) {
   const Eigen::Vector4i other = surface.face.col(b);
   const auto nodes = surface.face.col(a);
@@ -126,6 +115,17 @@ bool share_a_node(const SurfaceView& surface, int a, int b) {
 }
 
 }  // namespace
+
+void set_stick_point(const Face& face, int number, const Eigen::Vector2d& at, ContactPoint& contact) {
+  StickPoint& point = contact.stick;
+  point.face = number;
+  point.u = at[0];
+  point.v = at[1];
+  const auto local = on_face(shape(face.sides, at[0], at[1]), face);
+  if (contact.tangential) contact.tangential->on_face = local * contact.tangential->T;
+  const Eigen::Vector2d e = local * contact.elastic_slip;
+  if (e.allFinite()) point.e_u = e[0], point.e_v = e[1];
+}
 
 Projection kept_projection(const MasterSide& master, const Projection& now, const Vector3d& x, int before) {
   if (master.heights.empty() || before == now.face || !share_a_node(master.surface, before, now.face))
@@ -198,7 +198,7 @@ std::optional<ContactPoint> general_contact(const MasterSide& master, const Open
     motion->given = slave.friction;
   }
   apply_law(law, open.kinematics, open.gap, motion ? &*motion : nullptr, contact);
-  set_stick_point(face_of(master.surface, w.face), w, contact);
+  set_stick_point(face_of(master.surface, w.face), w.face, {w.point.u, w.point.v}, contact);
   return contact;
 }
 

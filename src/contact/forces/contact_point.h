@@ -47,6 +47,9 @@ struct OpenPoint {
 OpenPoint open_point(const MasterSide& master, const Projection& projection, const Eigen::Vector3d& x,
                      double offset);
 
+/// Sets where on the master a contact sticks from now on: face and (u, v), with the stretch of its spring.
+void set_stick_point(const Face& face, int number, const Eigen::Vector2d& at, ContactPoint& contact);
+
 /// Contact point for any law; nothing when the gap is open, unless the law is unilateral. Its slave node and
 /// numbers are left to the caller.
 struct SlaveContact {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/forces/friction.h"
 #include "contact/projection/surface_boundary.h"
 #include "elastogear/base/rotation.h"
 
@@ -51,53 +52,6 @@ NormalForce given_force(const Law& law, double fade) {
   f.p = p;
   f.p_g = -1 / c;
   f.energy = 0.5 * c * p * p;
-  return f;
-}
-
-// Friction -limit * direction: changes by -K dz - direction dlimit.
-struct Friction {
-  Vector3d direction = Vector3d::Zero();
-  Matrix3d K = Matrix3d::Zero();
-  bool at_limit = true;
-};
-
-// Regularised friction, -limit z / sqrt(z^2 + v_0^2): docs/theory.md, Eq. (6.17).
-Friction regularised(const Vector3d& z, double v_0, double limit) {
-  Friction f;
-  const double s = std::sqrt(z.squaredNorm() + v_0 * v_0);
-  f.direction = z / s;
-  f.K = limit / s * (Matrix3d::Identity() - f.direction * f.direction.transpose());
-  return f;
-}
-
-// Friction of a node that sticks, a spring up to the limit: docs/theory.md, Eq. (6.18).
-Friction sticking(const Vector3d& z, double c_t, double limit) {
-  Friction f;
-  const double length = z.norm();
-  f.at_limit = c_t * length > limit;
-  if (f.at_limit) {
-    f.direction = z / length;
-    f.K = limit / length * (Matrix3d::Identity() - f.direction * f.direction.transpose());
-  } else {
-    f.direction = limit > 0 ? Vector3d(c_t / limit * z) : Vector3d(Vector3d::Zero());
-    f.K = c_t * Matrix3d::Identity();
-  }
-  return f;
-}
-
-// m/N, between a unilateral contact and the point it sticks to: beside that along n as c_p is beside c_t.
-double tangential_compliance(const Law& law) { return unilateral_compliance(law, 1) * law.c_p / law.c_t; }
-
-// The friction that a unilateral contact is given. Where it slides, its direction turns with the way u.
-Friction given_friction(const Vector3d& t, const Vector3d& u, double c, double limit, bool slides) {
-  Friction f;
-  f.at_limit = slides;
-  f.direction = limit > 0 ? Vector3d(-t / limit) : Vector3d(Vector3d::Zero());
-  if (slides)
-    f.K = limit / std::max(u.norm(), c * limit) *
-          (Matrix3d::Identity() - f.direction * f.direction.transpose());
-  else
-    f.K = Matrix3d::Identity() / c;
   return f;
 }
 
@@ -152,13 +106,10 @@ Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& g
     parts.motion = tangential({slides ? stick->u : -c * t, stick->u_x, Local3::Zero()}, gap);
     parts.friction = given_friction(t, parts.motion.value, c, parts.mu * parts.p, slides);
   } else if (stick) {
-    parts.mu = stick->slides ? law.mu : law.mu_static;
     parts.motion = tangential({stick->u, stick->u_x, Local3::Zero()}, gap);
-    parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.p);
-    if (parts.friction.at_limit && !stick->slides) {
-      parts.mu = law.mu;
-      parts.friction = sticking(parts.motion.value, law.c_t, parts.mu * parts.p);
-    }
+    const Stuck stuck = stuck_on_spring(law, parts.motion.value, parts.p, stick->slides);
+    parts.mu = stuck.mu;
+    parts.friction = stuck.friction;
   }
   return parts;
 }

@@ -313,9 +313,27 @@ Eigen::Vector3d Tracker::velocity(int i, int node) const {
   return i == 0 ? Eigen::Vector3d(R * v) : v;
 }
 
+void Tracker::remember() {
+  for (int i : {0, 1}) {
+    remembered_[i].node = neighbours_ ? neighbours_->node[i] : std::vector<int>();
+    remembered_[i].x = configuration_.x[i](Eigen::all, remembered_[i].node);
+  }
+}
+
+std::optional<Eigen::Vector3d> Tracker::moved(int i, int node) const {
+  const auto& [nodes, x] = remembered_[i];
+  const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
+  if (at == nodes.end() || *at != node) return {};
+  return Eigen::Vector3d(configuration_.x[i].col(node) - x.col(at - nodes.begin()));
+}
+
 // Stores the motions at which candidates were found and measured; on loading, candidates and clearances are
 // found anew from these.
 void Tracker::serialize(Archive& archive) {
+  for (Placed& placed : remembered_) {
+    archive(placed.node);
+    archive(placed.x);
+  }
   bool found = neighbours_.has_value();
   archive(found);
   if (!found) return neighbours_.reset();

@@ -62,6 +62,11 @@ class Tracker {
   /// knows no motion.
   Eigen::Vector3d velocity(int i, int node) const;
 
+  /// Keeps the positions of the nodes placed by follow, for moved.
+  void remember();
+  /// How far a node has moved since then, m, in the frame of all positions; nothing where it was not placed.
+  std::optional<Eigen::Vector3d> moved(int i, int node) const;
+
   int n_searches() const { return n_searches_; }
   int n_displaced() const { return n_displaced_; }  ///< in the last call of follow
 
@@ -103,6 +108,11 @@ class Tracker {
     std::vector<long> stamp;
   };
   std::array<Deformed, 2> deformed_;
+  struct Placed {
+    std::vector<int> node;  // ascending
+    Eigen::Matrix3Xd x;
+  };
+  std::array<Placed, 2> remembered_;
   long stage_ = 0;
   int n_searches_ = 0, n_displaced_ = 0;
 };
