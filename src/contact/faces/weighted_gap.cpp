@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "contact/forces/contact_point.h"
-#include "contact/forces/friction.h"
 
 namespace elastogear::contact {
 namespace {

@@ -4,12 +4,9 @@
 #include <cmath>
 
 namespace elastogear::contact {
-namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-}  // namespace
 
 Friction regularised(const Vector3d& z, double v_0, double limit) {
   Friction f;
@@ -43,17 +40,6 @@ Friction given_friction(const Vector3d& t, const Vector3d& u, double c, double l
   else
     f.K = Matrix3d::Identity() / c;
   return f;
-}
-
-double tangential_compliance(const Law& law) { return unilateral_compliance(law, 1) * law.c_p / law.c_t; }
-
-Stuck stuck_on_spring(const Law& law, const Vector3d& z, double p, bool slid) {
-  Stuck stuck{{}, slid ? law.mu : law.mu_static};
-  stuck.friction = sticking(z, law.c_t, stuck.mu * p);
-  if (!stuck.friction.at_limit || slid) return stuck;
-  stuck.mu = law.mu;
-  stuck.friction = sticking(z, law.c_t, stuck.mu * p);
-  return stuck;
 }
 
 }  // namespace elastogear::contact

@@ -2,7 +2,7 @@
 // Coulomb friction of a slave point: regularised, by a spring up to its limit, or given (docs/theory.md,
 // section 6.7, Eq. (6.24a)).
 
-#include "contact/forces/law.h"
+#include <Eigen/Core>
 
 namespace elastogear::contact {
 
@@ -23,16 +23,5 @@ Friction sticking(const Eigen::Vector3d& z, double c_t, double limit);
 /// its direction turns with u.
 Friction given_friction(const Eigen::Vector3d& t, const Eigen::Vector3d& u, double c, double limit,
                         bool slides);
-
-/// m/N, between a unilateral contact and the point it sticks to: beside that along n as c_p is beside c_t.
-double tangential_compliance(const Law& law);
-
-/// Friction of a point that stuck, or slid (`slid`), after the last step.
-struct Stuck {
-  Friction friction;
-  double mu = 0;  ///< -, static or sliding
-};
-/// By a spring, with the normal force p.
-Stuck stuck_on_spring(const Law& law, const Eigen::Vector3d& z, double p, bool slid);
 
 }  // namespace elastogear::contact

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/forces/friction.h"
 #include "contact/projection/surface_boundary.h"
 #include "elastogear/base/rotation.h"
 
@@ -239,6 +238,17 @@ NormalForce normal_force(const Law& law, double gap, double rate) {
 
 double unilateral_compliance(const Law& law, double fade) {
   return (law.compliance + 1 / std::max(fade, kLeastFade) - 1) / law.c_p;
+}
+
+double tangential_compliance(const Law& law) { return unilateral_compliance(law, 1) * law.c_p / law.c_t; }
+
+Stuck stuck_on_spring(const Law& law, const Vector3d& z, double p, bool slid) {
+  Stuck stuck{{}, slid ? law.mu : law.mu_static};
+  stuck.friction = sticking(z, law.c_t, stuck.mu * p);
+  if (!stuck.friction.at_limit || slid) return stuck;
+  stuck.mu = law.mu;
+  stuck.friction = sticking(z, law.c_t, stuck.mu * p);
+  return stuck;
 }
 
 Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,

@@ -2,6 +2,7 @@
 // Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory.md, sections
 // 6.6 and 6.7), with the derivatives that the consistent tangent takes.
 
+#include "contact/forces/friction.h"
 #include "contact/projection/projection_kinematics.h"
 #include "elastogear/contact/types.h"
 
@@ -37,6 +38,17 @@ NormalForce normal_force(const Law& law, double gap, double rate);
 /// m/N, of a contact without penalty: what keeps its forces determinate where the bodies do not, and what
 /// lets them fade out on an extension. Eq. (6.24).
 double unilateral_compliance(const Law& law, double fade);
+
+/// m/N, between a unilateral contact and the point it sticks to: beside that along n as c_p is beside c_t.
+double tangential_compliance(const Law& law);
+
+/// Friction of a point that stuck, or slid (`slid`), after the last step.
+struct Stuck {
+  Friction friction;
+  double mu = 0;  ///< -, static or sliding
+};
+/// By the tangential spring, stretched by z (m), with the normal force p (N): Eq. (6.18).
+Stuck stuck_on_spring(const Law& law, const Eigen::Vector3d& z, double p, bool slid);
 
 /// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node. kColumns: as in
 /// KinematicsBy.
