@@ -9,6 +9,8 @@
 #include "../contact/surfaces.h"
 #include "box_body.h"
 #include "contact_bodies.h"
+#include "elastogear/contact/face.h"
+#include "elastogear/dynamics/static.h"
 
 namespace elastogear::hertz_test {
 using namespace dynamics;
@@ -83,6 +85,50 @@ TEST_P(Hertz, peak_pressure_and_half_width_of_a_line_contact_converge) {
   }
   EXPECT_LT(std::abs(last.peak), kDiscretisation);
   EXPECT_LT(std::abs(last.width), kDiscretisation);
+}
+
+// m, by which the cylinder enters the block without a penalty, at nodes and at 10 x 10 samples of each face.
+struct Entered {
+  double nodes = 0, samples = 0;
+};
+
+Entered entered(int cells) {
+  const auto body = block(cells);
+  PairSetup pair{"block:cylinder", {0, 1}, {}};
+  pair.settings.law = contact::ContactLaw::unilateral;
+  std::vector<BodySetup> setups{{.name = "block", .body = body},
+                                {.name = "cylinder", .body = test::rigid_with(cylinder(0))}};
+  setups[1].joint = {.type = body::JointType::prismatic, .axis = {-1, 0, 0}};
+  setups[1].translation.drive = still_drive(0, kDepth);
+  System system(setups, {pair});
+  contact::SurfaceState state;
+  solve_static(system, {4}, [&](const model::Snapshot& snapshot) {
+    state = contact::surface_state(body->surface, {snapshot.bodies[0].q, Vector3d::Zero(), {}});
+  });
+  const auto depth = [](const Vector3d& x) {
+    return kRadius - std::hypot(x.x() - (kRadius - kDepth), x.y());
+  };
+  Entered result;
+  for (const auto& x : state.x_B.colwise()) result.nodes = std::max(result.nodes, depth(x));
+  for (const auto& face : body->surface.face.colwise())
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Vector4d N = contact::shape(4, -0.9 + 0.2 * (i % 10), -0.9 + 0.2 * (i / 10)).N;
+      result.samples = std::max(result.samples, depth(state.x_B(Eigen::all, face) * N));
+    }
+  return result;
+}
+
+TEST(LineContact, lets_nothing_in_between_nodes_but_with_the_square_of_their_distance) {
+  Entered last;
+  for (int cells : {30, 60, 120}) {
+    const Entered now = entered(cells);
+    std::printf("%d cells: %.2g m at nodes, %.3g m at samples between them\n", cells, now.nodes, now.samples);
+    EXPECT_LT(now.nodes, 1e-7);
+    if (last.samples > 0) {
+      EXPECT_NEAR(std::log2(last.samples / now.samples), 2, 0.1);
+    }
+    last = now;
+  }
 }
 
 // ---- two spheres
