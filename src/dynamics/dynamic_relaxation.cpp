@@ -14,6 +14,14 @@ double kinetic_energy(const System& system, const State& x) {
   return energy;
 }
 
+// Goes on with the forces found where their gaps are not yet closed.
+bool augmented(Run& run) {
+  System& system = run.problem.system;
+  if (!system.any_augmented() || system.unclosed() <= System::kClosed) return false;
+  system.augment();
+  return true;
+}
+
 }  // namespace
 
 void relax(Run& run, TS ts) {
@@ -25,10 +33,11 @@ void relax(Run& run, TS ts) {
   const double energy = kinetic_energy(run.problem.system, {time, u, v, zero});
   run.unbalanced = imbalance(run.problem.system.residual({time, u, zero, zero}));
   run.least_unbalanced = std::min(run.least_unbalanced, run.unbalanced);
-  const bool rests = run.unbalanced <= run.settings.rest_tolerance;
+  const bool in_balance = run.unbalanced <= run.settings.rest_tolerance,
+             rests = in_balance && !augmented(run);
   const bool past_peak = energy < run.kinetic_energy;
   run.kinetic_energy = past_peak ? 0 : energy;
-  if (rests || past_peak) check(VecZeroEntries(V));  // A follows from F = 0
+  if (in_balance || past_peak) check(VecZeroEntries(V));  // A follows from F = 0
   if (!rests) return;
   run.summary.at_rest = true;
   check(TSSetConvergedReason(ts, TS_CONVERGED_EVENT));

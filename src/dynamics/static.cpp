@@ -24,7 +24,6 @@ constexpr int kMostIterations = 300;    // contact that is far away is approache
 constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
-constexpr double kClosed = 1e-6;        // of the contact depth, that they may be open
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -215,7 +214,7 @@ bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
     const ReadView u(U);
     system.contacts(at.factor, *u, at.zero);
     const double left = system.unclosed();
-    if (left <= kClosed) return true;
+    if (left <= System::kClosed) return true;
     if (round == kMostRounds) break;
     system.augment();
     if (left > kFall * before) system.stiffen(kStiffer);

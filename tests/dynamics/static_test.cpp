@@ -229,6 +229,19 @@ TEST(Relax, comes_to_rest_where_the_static_analysis_ends) {
   EXPECT_EQ(last.bodies[0].s_dot[0], 0);
 }
 
+TEST(Relax, closes_gaps_by_an_augmented_lagrangian) {
+  constexpr double kGap = 0.02, kForce = 20, expected = kGap + kForce * 2 / 1e4;
+  PairSetup pair = contact_with(4e4);
+  pair.settings.law = contact::ContactLaw::unilateral;
+  System system(press(kGap, kForce), {pair});
+  model::Snapshot last;
+  const RunSummary run = simulate(system, {.dt = 2e-3, .end_time = 20, .rho_inf = 0, .relax = true},
+                                  [&](const model::Snapshot& snapshot) { last = snapshot; });
+  EXPECT_TRUE(run.at_rest);
+  EXPECT_NEAR(last.bodies[0].s[0], expected, 1e-5 * expected);
+  EXPECT_LT(last.pairs[0].penetration, 2e-6 * pair.settings.depth);
+}
+
 TEST(Relax, says_when_the_time_was_too_short) {
   System system(press(0.02, 20), {contact_with(4e4)});
   const RunSummary summary = simulate(system, {.dt = 0.002, .end_time = 0.02, .relax = true}, {});

@@ -22,7 +22,8 @@ const Rows<S> kContactRows = {
      "slave and, without a penalty, those on sharp and open edges of the other"},
     {"contact_law", &S::law, one_of("auto", "penalty", "unilateral"),
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
-     "residual flexibility that one body must have, unless the analysis is static); auto: unilateral where a "
+     "residual flexibility that one body must have, unless the analysis is static or relax); auto: "
+     "unilateral where a "
      "body has that and no stiffness, damping or hysteresis is given"},
     {"contact_points", &S::points, one_of("auto", "nodes", "minima", "faces"),
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
