@@ -387,6 +387,7 @@ double Pair::unclosed(const std::vector<ContactPoint>& contacts) const {
 void Pair::stiffen(double factor) {
   for (Side& side : data_->side)
     for (Law& law : side.law) {
+      law.stiffened *= factor;
       law.c_p *= factor;
       law.c_t *= factor;
     }

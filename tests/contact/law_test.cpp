@@ -210,6 +210,40 @@ TEST_P(ContactLaw, tangent_with_damping_alone_is_exact_at_any_depth) {
   }
 }
 
+// With the force of a closed gap, beside a penalty that is stiffened.
+Law augmented(double stiffened, double p_given) {
+  Law law;
+  law.c_p = stiffened * c_p;
+  law.stiffened = stiffened;
+  law.p_given = p_given;
+  return law;
+}
+
+TEST_P(ContactLaw, tangent_of_an_augmented_force_equals_the_difference_quotient) {
+  Random random(9);
+  for (double stiffened : {1., 16.})
+    for (int trial = 0; trial < 20; ++trial) {
+      const Local local = place(random, GetParam(), 2 * thin);
+      const Law law = augmented(stiffened, 0.5 * c_p * thin);
+      EXPECT_LT(tangent_errors(local, [&](const Local& x) { return force(x, law); }).by_x, truncation);
+    }
+}
+
+// Where g + (1 / w - 1) p / c_p = 0 the force is the one that was given, however stiff the penalty is now.
+TEST_P(ContactLaw, augmented_force_of_a_closed_gap_is_the_one_given) {
+  Random random(10);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Local local = place(random, GetParam(), 2 * thin);
+    const Outcome soft = force(local, augmented(1, 0));  // p = -w c_p g
+    for (double stiffened : {1., 4., 64.}) {
+      const double p = soft.contact.p, g = soft.contact.g_n, w = -p / (c_p * g);
+      if (w > 0.999) continue;
+      const double closed = -g / (1 / w - 1) * c_p;
+      EXPECT_NEAR(force(local, augmented(stiffened, closed)).contact.p, closed, 1e-9 * closed);
+    }
+  }
+}
+
 // What the tangent of friction leaves out is of the order of (penetration / face size)^2.
 TEST(ContactForce, error_of_the_tangent_falls_with_the_square_of_the_penetration) {
   Random random(3);

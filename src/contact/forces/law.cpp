@@ -200,10 +200,19 @@ void set_stick(const Law& law, const Parts& parts, ContactPoint& contact) {
 // g + c p = 0, has -c'(fade) p^2 / 2 in its place.
 FadingEnergy fading_energy(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                            const Parts& parts) {
-  if (!law.unilateral) return {parts.normal.energy, parts.normal.energy_g * gap.g_x};
+  if (!law.unilateral) return {parts.normal.spring, parts.normal.energy_g * gap.g_x};
   const double fade = std::max(gap.fade.f, kLeastFade), weight = 1 / (law.c_p * fade * fade),
                e = 0.5 * weight * parts.p * parts.p;
   return {e, weight * parts.p * parts.p_x - 2 * e / fade * gap.fade.f_a.transpose() * kinematics.D};
+}
+
+// w / (w + s (1 - w)) of the share w that is left over an open end: with it the stiffness s c_p closes gaps
+// up to the compliance (1 / w - 1) / c_p.
+FaceFunction fade_of(const Law& law, const FaceFunction& w) {
+  const double s = law.stiffened, sum = w.f + s * (1 - w.f);
+  if (s == 1 || w.f == 1) return w;
+  const double slope = s / (sum * sum), bend = -2 * s * (1 - s) / (sum * sum * sum);
+  return {w.f / sum, slope * w.f_a, slope * w.f_ab + bend * w.f_a * w.f_a.transpose()};
 }
 
 // Gap to the smooth surface; its gradient changes by dn = -d(a y) with y = A^-1 h_a.
@@ -226,7 +235,8 @@ NormalForce normal_force(const Law& law, double gap, double rate) {
   if (is_open(law, gap)) return {};
   const double depth = law.p_given / law.c_p - gap, approach = std::max(0.0, -rate);
   NormalForce f;
-  f.energy = 0.5 * (law.c_p * depth * depth - law.p_given * law.p_given / law.c_p);
+  f.spring = 0.5 * law.c_p * depth * depth;
+  f.energy = f.spring - 0.5 * law.p_given * law.p_given / law.c_p;
   const double damping = law.d_p + law.hysteresis * law.c_p * depth;
   f.p = law.c_p * depth + damping * approach;
   f.energy_g = -law.c_p * depth;
@@ -264,8 +274,10 @@ GapBy<3> gap(const KinematicsBy<3>& kinematics, const FaceFunction& height, doub
   return smooth_gap<3>(kinematics, height, offset);
 }
 
-void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
+void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap& given,
                const StickMotion* stick, ContactPoint& contact) {
+  Gap gap = given;
+  gap.fade = fade_of(law, given.fade);
   const Parts all = parts(law, kinematics, gap, stick, contact);
   const Varying f = force(gap, all);
   contact.p = all.p;

@@ -14,6 +14,7 @@ struct Law {
   bool unilateral = false;  ///< the normal force is given: penetration is prevented elsewhere
   double compliance = 1;    ///< -, unilateral: what is left of that of the penalty
   double p_given = 0;       ///< N, unilateral: the normal force; augmented: that of a closed gap
+  double stiffened = 1;     ///< -, augmented: factor of c_p, which forces that fade out do not depend on
   double d_p = 0;           ///< N s/m, while approaching
   double hysteresis = 0;    ///< s/m, Hunt and Crossley's factor, while approaching
   double offset = 0;        ///< m, added to the gap
@@ -26,6 +27,7 @@ struct Law {
 /// Force normal to the (smoothed) surface, N, with its derivatives.
 struct NormalForce {
   double p = 0, p_g = 0, p_r = 0;  ///< N, N/m by the gap, N s/m by its rate
+  double spring = 0;               ///< J, stored in the penalty alone
   double energy = 0;               ///< J, stored
   double energy_g = 0;             ///< N, its derivative by the gap
   double power = 0;                ///< W, dissipated
