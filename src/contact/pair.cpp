@@ -132,7 +132,8 @@ struct Pair::Data {
   Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
                                            const Projection& w, std::map<int, NodeGap>& gaps) const;
-  ContactPoint contact(const MasterSide& master, int slave_side, const Minimum& m) const;
+  std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, const Minimum& m) const;
+  double stiffness(int slave_side, int point) const;
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);
   bool is_left_to_slave(int side, const SurfaceView& other, const Projection& w) const;
@@ -197,7 +198,7 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
     return potential_contact(master, w, law, settings.full_tangent);
   const auto stuck = slaves.stuck.find(node);
   const auto given = slaves.t.find(node);
-  if (law.unilateral && (settings.points == SlavePoints::minima || !master.heights.empty())) {
+  if (settings.points == SlavePoints::minima || (law.unilateral && !master.heights.empty())) {
     const PointGap over = point_gap(master, w, slave.x, settings.offset);
     if (settings.points == SlavePoints::minima &&
         over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
@@ -214,15 +215,18 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
       law);
 }
 
-ContactPoint Pair::Data::contact(const MasterSide& master, int slave_side, const Minimum& m) const {
+std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int slave_side,
+                                                const Minimum& m) const {
   const Eigen::Vector4i nodes = surface(slave_side).face.col(m.point.face);
   const Eigen::Vector4d& N = m.geometry.N;
   const Law law = this->law({slave_side, m.point.number, nodes, N}, m.open.projection.face);
   LocalVectors v(3, 8);
   for (int i = 0; i < 4; ++i) v.col(i) = tracker.velocity(slave_side, nodes[i]);
-  ContactPoint c = *general_contact(
+  std::optional<ContactPoint> found = general_contact(
       master, m.open,
       {v.leftCols<4>() * N, [&](int n) { return tracker.velocity(1 - slave_side, n); }, nullptr}, law);
+  if (!found) return {};
+  ContactPoint& c = *found;
   v.rightCols<4>() = c.v.rightCols<4>();
   spread_over_face(m.geometry, m.point.n_dir, m.open.gap, c);
   c.v = v;
@@ -231,7 +235,7 @@ ContactPoint Pair::Data::contact(const MasterSide& master, int slave_side, const
   N.maxCoeff(&nearest);
   c.slave_node = nodes[nearest];
   c.slave_point = m.point.number;
-  return c;
+  return found;
 }
 
 void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
@@ -240,8 +244,10 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
   for (const Minimum& m : gap_minima({master, slave, side[slave_side].heights, reach, slave_side,
                                       settings.offset, is_whole(slave_side)},
                                      gaps)) {
-    contacts.push_back(contact(master, slave_side, m));
-    contacts.back().slave_side = slave_side;
+    auto found = contact(master, slave_side, m);
+    if (!found) continue;
+    found->slave_side = slave_side;
+    contacts.push_back(std::move(*found));
   }
 }
 
@@ -369,18 +375,27 @@ void Pair::set_forces(const std::vector<ContactPoint>& contacts) {
   }
 }
 
+// N/m, of a node, or for points between nodes the mean of all.
+double Pair::Data::stiffness(int slave_side, int point) const {
+  const std::vector<Law>& law = side[slave_side].law;
+  if (static_cast<std::size_t>(point) < law.size()) return law[point].c_p;
+  double sum = 0;
+  for (const Law& one : law) sum += one.c_p;
+  return sum / static_cast<double>(law.size());
+}
+
 double Pair::unclosed(const std::vector<ContactPoint>& contacts) const {
   std::map<int, double> before[2] = {data_->side[0].p, data_->side[1].p};
   double most = 0;
-  const auto enter = [&](int i, int node, double change) {
-    most = std::max(most, std::abs(change) / data_->side[i].law[node].c_p);
+  const auto enter = [&](int i, int point, double change) {
+    most = std::max(most, std::abs(change) / data_->stiffness(i, point));
   };
   for (const ContactPoint& contact : contacts) {
     const int i = contact.slave_side;
-    enter(i, contact.slave_node, contact.p - std::exchange(before[i][contact.slave_point], 0));
+    enter(i, contact.slave_point, contact.p - std::exchange(before[i][contact.slave_point], 0));
   }
   for (int i : {0, 1})
-    for (const auto& [node, p] : before[i]) enter(i, node, p);
+    for (const auto& [point, p] : before[i]) enter(i, point, p);
   return most;
 }
 

@@ -72,11 +72,9 @@ void validate(const Settings& s) {
           "' take both surfaces in one pass; leave two_pass out");
   require(s.points != SlavePoints::minima || s.friction.mu == 0 || s.friction.law == FrictionLaw::regularised,
           "contact: friction that sticks needs the points 'nodes' or 'faces'");
-  require(
-      s.points != SlavePoints::minima ||
-          (s.law == ContactLaw::unilateral && s.surface != ContactSurface::facets),
-      "contact: points 'minima' need the law 'unilateral', a body with residual flexibility and the surface "
-      "'smooth' or 'exact'");
+  require(s.points != SlavePoints::minima ||
+              (s.law != ContactLaw::penalty && s.surface != ContactSurface::facets),
+          "contact: points 'minima' need the law 'unilateral' and the surface 'smooth' or 'exact'");
   require(s.extension >= 0 && s.extension <= 0.5, "contact: extension ", s.extension,
           ", allowed is 0 to 0.5");
 }

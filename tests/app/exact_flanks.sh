@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Gaps on exact flanks are distances from the involute helicoid, which is computed here once more; those on facets are not.
-# A deviation of the worm's surface turns the wheel. Gear data of another gear and deviations of other nodes are refused.
+# A deviation of the worm's surface turns the wheel. Rigid flanks that meet without a penalty where their gap is least
+# transmit without an error. Gear data of another gear and deviations of other nodes are refused.
 #   exact_flanks.sh PATH/TO/elastogear PATH/TO/examples/worm_gear
 set -euo pipefail
 elastogear=$(realpath "$1")
@@ -44,6 +45,25 @@ for deviation in thick none; do
   echo "# nothing" >none.csv
   "$elastogear" simulate drive.yaml -contact_two_pass false -contact_slave second -worm_deviation $deviation.csv \
     -output $deviation.h5 >log 2>&1 || { cat log; exit 1; }
+done
+
+# The worm turned by two angles, and the wheel by theirs over 20.5.
+i=0
+for turned in 0.3 0.9; do
+  i=$((i + 1))
+  read -r rotation angle < <(/usr/bin/python3 - $turned <<'END'
+import sys
+from math import acos, cos, pi, sin
+turned = float(sys.argv[1])
+# Half a turn about (1, 0, 1) / sqrt(2), as in drive.yaml, after `turned` about z: the product of two quaternions.
+c, s, h = cos(turned / 2), sin(turned / 2), 0.5 ** 0.5
+w, x, y, z = -h * s, h * c, -h * s, h * c
+angle = 2 * acos(w)
+print(",".join(repr(angle * q / sin(angle / 2)) for q in (x, y, z)), repr(0.0766242 + turned * 2 / 41))
+END
+)
+  "$elastogear" simulate drive.yaml -contact_law unilateral -contact_points minima -contact_two_pass false \
+    -worm_rotation "$rotation" -wheel_angle0 "$angle" -output turned_$i.h5 >log 2>&1 || { cat log; exit 1; }
 done
 
 refused() {  # PATTERN ARGUMENTS: ends with an error that fits
@@ -131,5 +151,13 @@ turn = 5e-6 / (m_n * cos(alpha_n) * teeth[1] / 2)  # r_b cos(beta_b) = p_bn z / 
 found = angle["thick"] - angle["none"]
 print("turn by the deviation", found, "expected", turn)
 assert abs(found / turn - 1) < 0.03  # the node lies beside it
+ahead = []
+for i, turned in ((1, 0.3), (2, 0.9)):
+    file = h5py.File(f"turned_{i}.h5")
+    ahead.append(file["bodies/wheel/rigid"][-1, 0] - 0.0766242 - turned * teeth[0] / teeth[1])
+    assert file["contact/worm:wheel/penetration"][-1] < 1e-9
+error = abs(ahead[1] - ahead[0]) * m_n * teeth[1] / (2 * cos(gamma))
+print("transmission error", error, "m")
+assert error < 0.1e-6
 END
 echo "all good"

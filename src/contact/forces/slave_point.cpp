@@ -132,7 +132,8 @@ void spread_over_face(const SlaveGeometry& s, int n_dir, const Gap& gap, Contact
   c.V = V;
   c.V_dot = V_dot;
   c.k = k;
-  for (LocalVectors* vectors : {&c.F, &c.F_p, &c.g_x}) *vectors = vectors_on_nodes(S, *vectors);
+  for (LocalVectors* vectors : {&c.F, &c.F_p, &c.g_x})
+    if (vectors->cols() > 0) *vectors = vectors_on_nodes(S, *vectors);
   c.slave_N = s.N;
 }
 
