@@ -9,6 +9,7 @@
 
 #include "contact/faces/face_contacts.h"
 #include "contact/forces/gap_minima.h"
+#include "contact/history.h"
 #include "contact/projection/edges.h"
 #include "contact/projection/heights.h"
 #include "contact/reach.h"
@@ -20,15 +21,10 @@ namespace elastogear::contact {
 namespace {
 
 struct Side {
-  std::vector<Law> law;             // of each node as slave
-  Heights heights;                  // over its faces
-  std::vector<int> last_face;       // master face each node touched last; -1
-  std::map<int, StickPoint> stuck;  // by slave node, after the last accepted step
-  std::map<int, StickPoint> open;   // where the last look found the other nodes that are near
-  std::map<int, double> p;          // N, normal forces given, by slave point
-  std::map<int, GivenFriction> t;   // by slave node that sticks, in the frame that contacts are found in
-  std::vector<bool> responds;       // of each node: has it a static response? Empty: all have
-  Eigen::VectorXd area;             // m^2, of each node, undeformed; of contact integrated over faces
+  std::vector<Law> law;        // of each node as slave
+  Heights heights;             // over its faces
+  std::vector<bool> responds;  // of each node: has it a static response? Empty: all have
+  Eigen::VectorXd area;        // m^2, of each node, undeformed; of contact integrated over faces
 };
 
 // A point of the slave: its number, and its place between nodes, or at one.
@@ -37,6 +33,10 @@ struct OnSlave {
   const Eigen::Vector4i& nodes;
   const Eigen::Vector4d& N;
 };
+
+std::vector<int> untouched(const model::Surface& surface) {
+  return std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1);
+}
 
 // Functions that capture it and one thing more fit into std::function, which allocates nothing for them.
 struct PlacedNode {
@@ -67,11 +67,6 @@ Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurfa
   return {node_laws(settings, surface),
           make_heights(undeformed, settings.surface, radians(settings.feature_angle),
                        known ? *known : TrueSurface{}),
-          std::vector<int>(static_cast<std::size_t>(surface.X.cols()), -1),
-          {},
-          {},
-          {},
-          {},
           std::move(responds),
           settings.points == SlavePoints::faces ? node_areas(surface.X, surface.face) : Eigen::VectorXd()};
 }
@@ -117,6 +112,7 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
 struct Pair::Data {
   Settings settings;
   Side side[2];
+  Histories history;
   Reach reach;
   Tracker tracker;
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  // from the frame that contacts are found in
@@ -125,9 +121,6 @@ struct Pair::Data {
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
   bool is_whole(int slave_side) const { return contact::is_whole(settings, slave_side); }
   void keep_stuck();
-  std::vector<StickPoint> stuck() const;
-  void set_stuck(const std::vector<StickPoint>& points);
-  double given_force(int slave_side, int point) const;
   Law law(const OnSlave& at, int master_face) const;
   Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
@@ -136,7 +129,7 @@ struct Pair::Data {
   double stiffness(int slave_side, int point) const;
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);
-  bool is_left_to_slave(int side, const SurfaceView& other, const Projection& w) const;
+  bool is_left_to_slave(int tried, const SurfaceView& other, const Projection& w) const;
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
                   std::vector<ContactPoint>& contacts) const;
@@ -150,14 +143,9 @@ struct Pair::Data {
 void Pair::Data::keep_stuck() {
   std::array<std::vector<int>, 2> corners;
   for (int slave : slave_sides(settings))
-    for (const auto& [node, point] : side[slave].stuck)
+    for (const auto& [node, point] : history[slave].stuck)
       for (int corner : surface(1 - slave).face.col(point.face)) corners[1 - slave].push_back(corner);
   tracker.keep(std::move(corners));
-}
-
-double Pair::Data::given_force(int slave_side, int point) const {
-  const auto given = side[slave_side].p.find(point);
-  return given == side[slave_side].p.end() ? 0 : given->second;
 }
 
 // The law of a slave point with the force that it is given. Where no body has a static response that could
@@ -167,7 +155,7 @@ Law Pair::Data::law(const OnSlave& at, int master_face) const {
   Law law = slaves.law[at.nodes[0]];
   law.c_p = 0;
   for (int i = 0; i < 4; ++i) law.c_p += at.N[i] * slaves.law[at.nodes[i]].c_p;
-  law.p_given = given_force(at.side, at.point);
+  law.p_given = given_force(history[at.side], at.point);
   const auto any = [](const std::vector<bool>& responds, const Eigen::Vector4i& of) {
     return responds.empty() || std::any_of(of.begin(), of.end(), [&](int node) { return responds[node]; });
   };
@@ -191,13 +179,10 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
                                                      const Projection& w,
                                                      std::map<int, NodeGap>& gaps) const {
   const int slave_side = slave.side, node = slave.node;
-  const Side& slaves = side[slave_side];
   const Law law =
       this->law({slave_side, node, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)}, w.face);
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, settings.full_tangent);
-  const auto stuck = slaves.stuck.find(node);
-  const auto given = slaves.t.find(node);
   if (settings.points == SlavePoints::minima || (law.unilateral && !master.heights.empty())) {
     const PointGap over = point_gap(master, w, slave.x, settings.offset);
     if (settings.points == SlavePoints::minima &&
@@ -210,8 +195,7 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
   return general_contact(
       master, open,
       {tracker.velocity(slave_side, node), [&](int n) { return tracker.velocity(1 - slave_side, n); },
-       stuck == slaves.stuck.end() ? nullptr : &stuck->second,
-       given == slaves.t.end() ? GivenFriction{} : given->second},
+       stuck_at(history[slave_side], node), friction_at(history[slave_side], node)},
       law);
 }
 
@@ -257,7 +241,7 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
   const SlaveNode q{placed.x, [&slave, &placed] { return node_normal(slave, placed.node); },
                     [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
-  int& last_face = side[placed.side].last_face[placed.node];
+  int& last_face = history[placed.side].last_face[placed.node];
   auto projection = find_projection(master.surface, q, limits, faces, last_face);
   if (projection && std::binary_search(faces.begin(), faces.end(), last_face))
     projection = kept_projection(master, *projection, placed.x, last_face);
@@ -266,8 +250,8 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
 }
 
 // Where both surfaces end, the slave's own nodes keep their ends apart.
-bool Pair::Data::is_left_to_slave(int side, const SurfaceView& other, const Projection& w) const {
-  return !is_whole(side) && settings.points == SlavePoints::nodes &&
+bool Pair::Data::is_left_to_slave(int tried, const SurfaceView& other, const Projection& w) const {
+  return !is_whole(tried) && settings.points == SlavePoints::nodes &&
          is_at_open_side(other, w.face, w.point.N);
 }
 
@@ -278,7 +262,7 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
                           settings.points == SlavePoints::nodes};
   const Neighbours& near = tracker.near(slave_side);
   std::map<int, NodeGap> gaps;
-  side[slave_side].open.clear();
+  history[slave_side].open.clear();
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
     const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
@@ -289,7 +273,7 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
     found->slave_side = found->stick.slave_side = slave_side;
     found->slave_point = found->slave_node = found->stick.slave_node = node;
     found->slave_nodes[0] = node;
-    if (sticks()) side[slave_side].open[node] = found->stick;
+    if (sticks()) history[slave_side].open[node] = found->stick;
     contacts.push_back(std::move(*found));
   }
   if (settings.points == SlavePoints::minima) add_minima(master, slave_side, gaps, contacts);
@@ -332,13 +316,13 @@ std::vector<ContactPoint> Pair::Data::integrated_contacts() {
                            [&](int i, int node) { return curved(i, node); }};
   std::vector<ContactPoint> found =
       face_contacts({master, slave, slaves.heights, reach, slave_side, settings.offset}, second,
-                    {slaves.law, slaves.area, slaves.p, slaves.stuck, slaves.t,
+                    {slaves.law, slaves.area, history[slave_side],
                      [&](int i, int node) { return tracker.velocity(i, node); },
                      [&](int i, int node) { return tracker.moved(i, node); }},
                     node_gaps(slave_side, master));
-  side[slave_side].open.clear();
+  history[slave_side].open.clear();
   if (sticks())
-    for (const ContactPoint& contact : found) side[slave_side].open[contact.slave_node] = contact.stick;
+    for (const ContactPoint& contact : found) history[slave_side].open[contact.slave_node] = contact.stick;
   return found;
 }
 
@@ -362,17 +346,7 @@ SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& m
 Eigen::Vector3d Pair::position(int side, int node) const { return data_->tracker.position_B(side, node); }
 
 void Pair::set_forces(const std::vector<ContactPoint>& contacts) {
-  for (Side& side : data_->side) {
-    side.p.clear();
-    side.t.clear();
-  }
-  for (const ContactPoint& contact : contacts) {
-    if (!(contact.p > 0)) continue;
-    Side& side = data_->side[contact.slave_side];
-    side.p[contact.slave_point] = contact.p;
-    if (const auto& f = contact.tangential)
-      side.t[contact.slave_node] = {data_->R_WB.transpose() * (f->T * f->t), f->slides};
-  }
+  contact::set_forces(data_->history, contacts, data_->R_WB.transpose());
 }
 
 // N/m, of a node, or for points between nodes the mean of all.
@@ -385,18 +359,8 @@ double Pair::Data::stiffness(int slave_side, int point) const {
 }
 
 double Pair::unclosed(const std::vector<ContactPoint>& contacts) const {
-  std::map<int, double> before[2] = {data_->side[0].p, data_->side[1].p};
-  double most = 0;
-  const auto enter = [&](int i, int point, double change) {
-    most = std::max(most, std::abs(change) / data_->stiffness(i, point));
-  };
-  for (const ContactPoint& contact : contacts) {
-    const int i = contact.slave_side;
-    enter(i, contact.slave_point, contact.p - std::exchange(before[i][contact.slave_point], 0));
-  }
-  for (int i : {0, 1})
-    for (const auto& [point, p] : before[i]) enter(i, point, p);
-  return most;
+  return contact::unclosed(data_->history, contacts,
+                           [this](int side, int point) { return data_->stiffness(side, point); });
 }
 
 void Pair::stiffen(double factor) {
@@ -408,38 +372,10 @@ void Pair::stiffen(double factor) {
     }
 }
 
-// Open candidates of the unilateral law have been found at the end of the step, too: those that close in the
-// next one slide from there.
 void Pair::accept(const std::vector<ContactPoint>& contacts) {
-  for (Side& side : data_->side) side.stuck = std::exchange(side.open, {});
-  if (data_->sticks())
-    for (const ContactPoint& contact : contacts)
-      data_->side[contact.slave_side].stuck[contact.slave_node] = contact.stick;
+  contact::accept(data_->history, contacts, data_->sticks());
   data_->keep_stuck();
   if (data_->sticks() && data_->settings.points == SlavePoints::faces) data_->tracker.remember();
-}
-
-std::vector<StickPoint> Pair::Data::stuck() const {
-  std::vector<StickPoint> all;
-  for (const Side& one : side)
-    for (const auto& [node, point] : one.stuck) all.push_back(point);
-  return all;
-}
-
-void Pair::Data::set_stuck(const std::vector<StickPoint>& points) {
-  for (Side& one : side) one.stuck.clear();
-  for (const StickPoint& point : points) {
-    require(point.slave_side == 0 || point.slave_side == 1, "contact history: slave side ", point.slave_side,
-            ", allowed are 0 and 1");
-    const auto n_nodes = surface(point.slave_side).X.cols(),
-               n_faces = surface(1 - point.slave_side).face.cols();
-    require(point.slave_node >= 0 && point.slave_node < n_nodes && point.face >= 0 && point.face < n_faces,
-            "contact history: node ", point.slave_node, " on face ", point.face, ", there are ", n_nodes,
-            " nodes and ", n_faces, " faces");
-    side[point.slave_side].stuck[point.slave_node] = point;
-  }
-  keep_stuck();
-  tracker.forget();  // the nodes kept are placed from the next search on
 }
 
 Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
@@ -465,6 +401,7 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
     slaves[i] = {tried_nodes(both[i], settings, is_whole(settings, i)), spare(reach, i, both[i].topology)};
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},
+                       {History{untouched(a)}, History{untouched(b)}},
                        reach,
                        Tracker(std::move(both), settings, reach.limits, std::move(slaves))});
 }
@@ -476,42 +413,14 @@ const Settings& Pair::settings() const { return data_->settings; }
 int Pair::n_searches() const { return data_->tracker.n_searches(); }
 int Pair::n_displaced() const { return data_->tracker.n_displaced(); }
 
-namespace {
-
-// The forces that the next look takes for those of its contacts.
-void serialize_given(Archive& archive, Side& side) {
-  std::vector<std::pair<int, double>> p(side.p.begin(), side.p.end());
-  archive.each(p, [&](auto& entry) {
-    archive(entry.first);
-    archive(entry.second);
-  });
-  std::vector<std::pair<int, GivenFriction>> t(side.t.begin(), side.t.end());
-  archive.each(t, [&](auto& entry) {
-    archive(entry.first);
-    archive(entry.second.t);
-    archive(entry.second.slides);
-  });
-  side.p = {p.begin(), p.end()};
-  side.t = {t.begin(), t.end()};
-}
-
-}  // namespace
-
 void Pair::serialize(Archive& archive) {
-  std::vector<StickPoint> stuck = data_->stuck();
-  archive.each(stuck, [&](StickPoint& point) {
-    for (int* n : {&point.slave_side, &point.slave_node, &point.face}) archive(*n);
-    for (double* x : {&point.u, &point.v, &point.e_u, &point.e_v}) archive(*x);
-    archive(point.slides);
-  });
-  if (archive.is_loading()) data_->set_stuck(stuck);  // before the tracker, which it makes forget
-  data_->tracker.serialize(archive);
-  for (Side& side : data_->side) {
-    serialize_given(archive, side);
-    const std::size_t n_nodes = side.last_face.size();
-    archive(side.last_face);
-    require(side.last_face.size() == n_nodes, "the stored contacts are of other surfaces");
+  for (int i : {0, 1})
+    contact::serialize(data_->history[i], data_->surface(i), data_->surface(1 - i), archive);
+  if (archive.is_loading()) {
+    data_->keep_stuck();
+    data_->tracker.forget();  // the nodes kept are placed from the next search on
   }
+  data_->tracker.serialize(archive);
 }
 
 std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState& b) {

@@ -171,20 +171,17 @@ void add_points(const GapField& field, const SlaveFace& face, std::map<int, Weig
 
 std::vector<ContactPoint> face_contacts(const GapField& field, const SecondOrder& second,
                                         const FaceLaws& laws, const std::map<int, NodeGap>& nodes) {
-  const std::vector<int> near = weighted_candidates(field, nodes, laws.given);
+  const std::vector<int> near = weighted_candidates(field, nodes, laws.history.p);
   const std::vector<SlaveFace> faces = slave_faces(field, second, nodes, faces_around(field, near));
-  std::map<int, WeightedGap> gaps = weighted_gaps(field, near, faces, laws.given);
+  std::map<int, WeightedGap> gaps = weighted_gaps(field, near, faces, laws.history.p);
   for (const SlaveFace& face : faces) add_points(field, face, gaps);
   std::vector<ContactPoint> contacts;
   for (const auto& [node, gap] : gaps) {
     Law law = laws.law[node];
-    if (const auto given = laws.given.find(node); given != laws.given.end()) law.p_given = given->second;
-    const auto stuck = laws.stuck.find(node);
-    const auto friction = laws.friction.find(node);
+    law.p_given = given_force(laws.history, node);
     auto contact = gap.contact(law, laws.area[node],
-                               {field.master.surface, laws.velocity, laws.moved,
-                                stuck == laws.stuck.end() ? nullptr : &stuck->second,
-                                friction == laws.friction.end() ? GivenFriction{} : friction->second});
+                               {field.master.surface, laws.velocity, laws.moved, stuck_at(laws.history, node),
+                                friction_at(laws.history, node)});
     if (contact) contacts.push_back(std::move(*contact));
   }
   return contacts;

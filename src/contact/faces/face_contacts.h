@@ -8,6 +8,7 @@
 
 #include "contact/faces/weighted_gap.h"
 #include "contact/forces/gap_minima.h"
+#include "contact/history.h"
 
 namespace elastogear::contact {
 
@@ -21,11 +22,9 @@ struct SecondOrder {
 
 /// The forces of the faces of a slave.
 struct FaceLaws {
-  const std::vector<Law>& law;                   ///< of each slave node
-  const Eigen::VectorXd& area;                   ///< m^2, of each slave node, undeformed
-  const std::map<int, double>& given;            ///< N, by slave node (Law)
-  const std::map<int, StickPoint>& stuck;        ///< by slave node, after the last step
-  const std::map<int, GivenFriction>& friction;  ///< of a unilateral law, by slave node that sticks
+  const std::vector<Law>& law;  ///< of each slave node
+  const Eigen::VectorXd& area;  ///< m^2, of each slave node, undeformed
+  const History& history;       ///< of the slave
   NodeVelocity velocity;
   NodeMotion moved;
 };

@@ -1,0 +1,44 @@
+#pragma once
+// What the contacts of one slave surface take from the looks and steps before.
+
+#include <array>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "contact/forces/law.h"
+#include "elastogear/base/archive.h"
+
+namespace elastogear::contact {
+
+/// By slave node, forces by slave point.
+struct History {
+  std::vector<int> last_face;            ///< master face each node touched last; -1
+  std::map<int, StickPoint> stuck = {};  ///< after the last accepted step
+  std::map<int, StickPoint> open = {};   ///< where the last look found the other nodes that are near
+  std::map<int, double> p = {};          ///< N, normal forces given
+  std::map<int, GivenFriction> t = {};   ///< of nodes that stick, in the frame that contacts are found in
+};
+using Histories = std::array<History, 2>;  ///< of both surfaces
+
+/// N; 0 where none is given.
+double given_force(const History& history, int point);
+/// Null where the node did not stick after the last step.
+const StickPoint* stuck_at(const History& history, int node);
+GivenFriction friction_at(const History& history, int node);
+
+/// Gives the points of these contacts their forces, all others none. R: from the frame of the contacts to
+/// that in which contacts are found.
+void set_forces(Histories& histories, const std::vector<ContactPoint>& contacts, const Eigen::Matrix3d& R);
+/// Largest change, m, that set_forces would make in forces over the stiffness (N/m) of a side and point.
+double unclosed(const Histories& histories, const std::vector<ContactPoint>& contacts,
+                const std::function<double(int side, int point)>& stiffness);
+
+/// At the end of a step: open candidates of the unilateral law have been found there, too; those that close
+/// in the next step slide from there.
+void accept(Histories& histories, const std::vector<ContactPoint>& contacts, bool sticks);
+
+/// surface: of the slave, and its master. Throws Error for nodes or faces that these do not have.
+void serialize(History& history, const model::Surface& slave, const model::Surface& master, Archive& archive);
+
+}  // namespace elastogear::contact
