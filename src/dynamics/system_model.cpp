@@ -154,8 +154,8 @@ void add_pair(const PairSetup& setup, SystemModel& model) {
   model.pairs.push_back(setup);
   contact::Settings& settings = model.pairs.back().settings;
   settings.law = contact::chosen_law(settings, flexible);
-  settings.points =
-      contact::chosen_points(settings, model.bodies[setup.body[settings.slave]].eq.body->surface);
+  settings.points = contact::chosen_points(
+      settings, model.bodies[setup.body[settings.slave == 0 ? 0 : 1]].eq.body->surface);
 }
 
 void add_marker_forces(const MarkerSetups& setups, SystemModel& model) {

@@ -17,14 +17,12 @@ const Rows<S> kContactRows = {
     {"contact_slave", &S::slave, one_of("first", "second"),
      "which body of a pair gives the slave nodes: first or second"},
     {"contact_two_pass", &S::two_pass, "-",
-     "check both bodies' nodes against the other's faces, half the stiffness each; in one pass the nodes of "
-     "the "
+     "check both bodies' nodes against the other's faces, half the stiffness each; in one pass those of the "
      "slave and, without a penalty, those on sharp and open edges of the other"},
     {"contact_law", &S::law, one_of("auto", "penalty", "unilateral"),
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
      "residual flexibility that one body must have, unless the analysis is static or relax); auto: "
-     "unilateral where a "
-     "body has that and no stiffness, damping or hysteresis is given"},
+     "unilateral where a body has that and no stiffness, damping or hysteresis is given"},
     {"contact_points", &S::points, one_of("auto", "nodes", "minima", "faces"),
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "

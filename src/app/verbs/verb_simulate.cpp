@@ -175,8 +175,8 @@ dynamics::Computation computation(const Options& options, dynamics::System& syst
 
 std::string points_text(const contact::Settings& settings) {
   if (settings.points == contact::SlavePoints::faces) return "over faces";
-  const std::string where = settings.points == contact::SlavePoints::minima ? "at least gaps" : "at nodes";
-  return where + (settings.two_pass ? " of both bodies" : "");
+  if (settings.points == contact::SlavePoints::minima) return "where gaps are least";
+  return settings.two_pass ? "at nodes of both bodies" : "at nodes";
 }
 
 model::ResultHeader header(const Options& options, const dynamics::System& system,
