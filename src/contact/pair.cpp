@@ -44,7 +44,7 @@ struct PlacedNode {
   Eigen::Vector3d x;  // m
 };
 
-// Whether all points of a slave are tried, or those of its edges alone.
+// Tells whether all points of a surface are tried as slaves, and not those of its edges alone.
 bool is_whole(const Settings& settings, int slave_side) {
   return settings.two_pass || slave_side == settings.slave;
 }
@@ -249,7 +249,8 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
   return projection;
 }
 
-// Where both surfaces end, the slave's own nodes keep their ends apart.
+// Tells whether a node of the master's edges lies over an open side of the slave: where both surfaces end,
+// the nodes of the slave keep them apart.
 bool Pair::Data::is_left_to_slave(int tried, const SurfaceView& other, const Projection& w) const {
   return !is_whole(tried) && settings.points == SlavePoints::nodes &&
          is_at_open_side(other, w.face, w.point.N);

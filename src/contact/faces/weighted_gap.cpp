@@ -25,12 +25,10 @@ NormalLaw normal_law(const Law& law, double gap, double rate) {
   return {f.p, -f.p_g, f.p_r / f.p_g, f.energy, f.power};
 }
 
-// Friction of a node against the mean motion z of its part of the faces.
+// Friction of a node against the mean motion of its part of the faces.
 struct NodeFriction {
-  Friction friction;
-  double mu = 0;
-  Vector3d z = Vector3d::Zero();  // m/s, or m where it sticks
-  bool sticks = false, slid = false;
+  Stuck stuck;  // z in m/s where it does not stick
+  bool sticks = false;
 };
 
 // Stretch of the tangential spring after the last step, m.
@@ -42,30 +40,22 @@ Vector3d stretch(const SurfaceView& master, const StickPoint& stuck) {
 
 NodeFriction node_friction(const Law& law, double p, const Sliding& sliding, const Matrix3d& along,
                            const Vector3d& slip, const std::optional<Vector3d>& moved) {
-  if (law.v_0 > 0) return {regularised(slip, law.v_0, law.mu * p), law.mu, slip};
+  if (law.v_0 > 0) return {{regularised(slip, law.v_0, law.mu * p), law.mu, p, false, slip}};
   if (law.mu == 0 || !sliding.stuck || !moved) return {};
-  NodeFriction f;
-  f.sticks = true;
-  f.slid = sliding.stuck->slides;
-  f.z = along * (*moved + stretch(sliding.master, *sliding.stuck));
-  if (law.unilateral) {
-    const GivenFriction& given = sliding.friction;
-    f.mu = f.slid || given.slides ? law.mu : law.mu_static;
-    f.friction =
-        given_friction(along * given.t, f.z, tangential_compliance(law), f.mu * p, given.slides && p > 0);
-  } else {
-    const Stuck stuck = stuck_on_spring(law, f.z, p, f.slid);
-    f.friction = stuck.friction;
-    f.mu = stuck.mu;
-  }
-  return f;
+  const bool slid = sliding.stuck->slides;
+  const Vector3d z = along * (*moved + stretch(sliding.master, *sliding.stuck));
+  if (!law.unilateral) return {stuck_on_spring(law, z, p, slid), true};
+  const GivenFriction& given = sliding.friction;
+  const double mu = slid || given.slides ? law.mu : law.mu_static;
+  return {{given_friction(along * given.t, z, tangential_compliance(law), mu * p, given.slides && p > 0), mu,
+           p, slid, z},
+          true};
 }
 
 // Columns: the normal force, then the three of friction where there is any. Directions and shares of the
 // nodes are those of this moment.
-void set_tangent(const NormalLaw& normal, const NodalColumns& T, const NodeFriction& friction,
-                 ContactPoint& c) {
-  const bool rubs = friction.mu > 0, damped = normal.damping != 0;
+void set_tangent(const NormalLaw& normal, const NodalColumns& T, const NodeFriction& node, ContactPoint& c) {
+  const bool rubs = node.stuck.mu > 0, damped = normal.damping != 0;
   const Eigen::Index n = rubs ? 4 : 1;
   c.W.setZero(T.rows(), n);
   c.V.setZero(T.rows(), n);
@@ -76,38 +66,10 @@ void set_tangent(const NormalLaw& normal, const NodalColumns& T, const NodeFrict
   c.V_dot.setZero(T.rows(), rubs || damped ? n : 0);
   if (damped) c.V_dot.col(0) = normal.damping * c.g_x.reshaped();
   if (!rubs) return;
-  if (friction.friction.at_limit) c.W.col(0) -= friction.mu * T * friction.friction.direction;
+  if (node.stuck.friction.at_limit) c.W.col(0) -= node.stuck.mu * T * node.stuck.friction.direction;
   c.W.rightCols<3>() = T;
   const Matrix3d along = Matrix3d::Identity() - c.n * c.n.transpose();
-  (friction.sticks ? c.V : c.V_dot).rightCols<3>() = T * along * friction.friction.K;
-}
-
-// The force along the master of a unilateral contact that sticks: docs/theory.md, Eq. (6.24a).
-TangentialForce tangential_force(const Law& law, double p, const NodalColumns& T, const NodeFriction& node,
-                                 const Vector3d& n) {
-  TangentialForce f;
-  f.T.col(0) = n.unitOrthogonal();
-  f.T.col(1) = n.cross(f.T.col(0));
-  f.t = -node.mu * p * f.T.transpose() * node.friction.direction;
-  f.u = f.T.transpose() * node.z;
-  f.c = tangential_compliance(law);
-  f.mu_static = node.slid ? law.mu : law.mu_static;
-  f.mu = law.mu;
-  f.slides = node.friction.at_limit;
-  f.K = f.T.transpose() * node.friction.K * f.T;
-  f.F_t = f.u_x = T * f.T;
-  return f;
-}
-
-// Energy, losses and history of the tangential spring, Eq. (6.18).
-void set_spring(const Law& law, double p, const NodeFriction& node, ContactPoint& c) {
-  const Vector3d elastic = node.mu * p / law.c_t * node.friction.direction;
-  const double force = node.mu * p * node.friction.direction.norm();
-  c.stick.slides = node.friction.at_limit;
-  c.elastic_slip = elastic;
-  c.energy += 0.5 * law.c_t * elastic.squaredNorm();
-  c.slip_work = force * (node.z - elastic).norm();
-  c.friction_power = node.friction.at_limit ? force * c.slip.norm() : 0;
+  (node.sticks ? c.V : c.V_dot).rightCols<3>() = T * along * node.stuck.friction.K;
 }
 
 }  // namespace
@@ -204,21 +166,25 @@ std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area, cons
   const Matrix3d along = Matrix3d::Identity() - c.n * c.n.transpose();
   const NormalLaw normal = normal_law(law, c.g_n, c.g_x.reshaped().dot(c.v.reshaped()));
   c.slip = along * (T.transpose() * c.v.reshaped());
-  const NodeFriction friction = node_friction(law, normal.p, sliding, along, c.slip, moved(sliding));
-  const Eigen::VectorXd rubbing = friction.mu * T * friction.friction.direction;
+  const NodeFriction node = node_friction(law, normal.p, sliding, along, c.slip, moved(sliding));
+  const Eigen::VectorXd rubbing = node.stuck.mu * T * node.stuck.friction.direction;
   c.F_p = c.g_x;
-  if (!friction.sticks) c.F_p.reshaped() -= rubbing;
+  if (!node.sticks) c.F_p.reshaped() -= rubbing;
   c.F = normal.p * c.g_x;
   c.F.reshaped() -= normal.p * rubbing;
   c.f = slave_force(c);
   c.p = normal.p;
   c.energy = normal.energy;
   c.power = normal.power;
-  if (!friction.sticks) c.friction_power = normal.p * friction.mu * friction.friction.direction.dot(c.slip);
+  if (!node.sticks) c.friction_power = normal.p * node.stuck.mu * node.stuck.friction.direction.dot(c.slip);
   if (law.unilateral) c.c = 1 / normal.k;
-  set_tangent(normal, T, friction, c);
-  if (friction.sticks && law.unilateral) c.tangential = tangential_force(law, normal.p, T, friction, c.n);
-  if (friction.sticks && !law.unilateral) set_spring(law, normal.p, friction, c);
+  set_tangent(normal, T, node, c);
+  if (node.sticks && law.unilateral) {
+    c.tangential = tangential_force(law, node.stuck, c.n);
+    c.tangential->F_t = c.tangential->u_x = T * c.tangential->T;
+  } else if (node.sticks) {
+    set_spring(law, node.stuck, c);
+  }
   set_stick_point(face, face_, at_, c);
   return c;
 }

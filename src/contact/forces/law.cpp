@@ -165,37 +165,6 @@ void set_unilateral(const Law& law, const ProjectionKinematics& kinematics, cons
   contact.g_x = g_x.reshaped(3, 5);
 }
 
-// The force along the master of a unilateral contact that sticks: docs/theory.md, Eq. (6.24a).
-TangentialForce tangential_force(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
-                                 const Parts& parts, const StickMotion& stick) {
-  TangentialForce f;
-  const Vector3d n = gap.n.normalized();
-  f.T.col(0) = n.unitOrthogonal();
-  f.T.col(1) = n.cross(f.T.col(0));
-  f.t = -parts.mu * parts.p * f.T.transpose() * parts.friction.direction;
-  f.u = f.T.transpose() * stick.u;
-  f.c = tangential_compliance(law);
-  f.mu_static = stick.slides ? law.mu : law.mu_static;
-  f.mu = law.mu;
-  f.slides = parts.friction.at_limit;
-  f.K = f.T.transpose() * parts.friction.K * f.T;
-  f.F_t = kinematics.G.transpose() * f.T;
-  f.u_x = parts.motion.x.transpose() * f.T;
-  return f;
-}
-
-// Sets the energy and the losses of the tangential spring (6.18), and the stretch that the next step starts
-// from.
-void set_stick(const Law& law, const Parts& parts, ContactPoint& contact) {
-  const Vector3d elastic = parts.mu * parts.p / law.c_t * parts.friction.direction;
-  const double force_t = parts.mu * parts.p * parts.friction.direction.norm();
-  contact.stick.slides = parts.friction.at_limit;
-  contact.elastic_slip = elastic;
-  contact.energy += 0.5 * law.c_t * elastic.squaredNorm();
-  contact.slip_work = force_t * (parts.motion.value - elastic).norm();
-  if (parts.friction.at_limit) contact.friction_power = force_t * contact.slip.norm();
-}
-
 // The energy e of which -e d(fade) is the force on an extension. That of a unilateral contact, c p^2 / 2 at
 // g + c p = 0, has -c'(fade) p^2 / 2 in its place.
 FadingEnergy fading_energy(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
@@ -253,12 +222,36 @@ double unilateral_compliance(const Law& law, double fade) {
 double tangential_compliance(const Law& law) { return unilateral_compliance(law, 1) * law.c_p / law.c_t; }
 
 Stuck stuck_on_spring(const Law& law, const Vector3d& z, double p, bool slid) {
-  Stuck stuck{{}, slid ? law.mu : law.mu_static};
+  Stuck stuck{{}, slid ? law.mu : law.mu_static, p, slid, z};
   stuck.friction = sticking(z, law.c_t, stuck.mu * p);
   if (!stuck.friction.at_limit || slid) return stuck;
   stuck.mu = law.mu;
   stuck.friction = sticking(z, law.c_t, stuck.mu * p);
   return stuck;
+}
+
+TangentialForce tangential_force(const Law& law, const Stuck& stuck, const Vector3d& n) {
+  TangentialForce f;
+  f.T.col(0) = n.unitOrthogonal();
+  f.T.col(1) = n.cross(f.T.col(0));
+  f.t = -stuck.mu * stuck.p * f.T.transpose() * stuck.friction.direction;
+  f.u = f.T.transpose() * stuck.z;
+  f.c = tangential_compliance(law);
+  f.mu_static = stuck.slid ? law.mu : law.mu_static;
+  f.mu = law.mu;
+  f.slides = stuck.friction.at_limit;
+  f.K = f.T.transpose() * stuck.friction.K * f.T;
+  return f;
+}
+
+void set_spring(const Law& law, const Stuck& stuck, ContactPoint& contact) {
+  const Vector3d elastic = stuck.mu * stuck.p / law.c_t * stuck.friction.direction;
+  const double force_t = stuck.mu * stuck.p * stuck.friction.direction.norm();
+  contact.stick.slides = stuck.friction.at_limit;
+  contact.elastic_slip = elastic;
+  contact.energy += 0.5 * law.c_t * elastic.squaredNorm();
+  contact.slip_work = force_t * (stuck.z - elastic).norm();
+  if (stuck.friction.at_limit) contact.friction_power = force_t * contact.slip.norm();
 }
 
 Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,
@@ -295,10 +288,12 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
     add_boundary_force(boundary_force(kinematics, gap, fading_energy(law, kinematics, gap, all)), contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   if (!stick || law.c_t == 0) return;
-  if (law.unilateral)
-    contact.tangential = tangential_force(law, kinematics, gap, all, *stick);
-  else
-    set_stick(law, all, contact);
+  if (!law.unilateral)
+    return set_spring(law, {all.friction, all.mu, all.p, stick->slides, all.motion.value}, contact);
+  contact.tangential =
+      tangential_force(law, {all.friction, all.mu, all.p, stick->slides, stick->u}, gap.n.normalized());
+  contact.tangential->F_t = kinematics.G.transpose() * contact.tangential->T;
+  contact.tangential->u_x = all.motion.x.transpose() * contact.tangential->T;
 }
 
 }  // namespace elastogear::contact

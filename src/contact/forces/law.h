@@ -44,13 +44,22 @@ double unilateral_compliance(const Law& law, double fade);
 /// m/N, between a unilateral contact and the point it sticks to: beside that along n as c_p is beside c_t.
 double tangential_compliance(const Law& law);
 
-/// Friction of a point that stuck, or slid (`slid`), after the last step.
+/// Friction of a point that stuck, or slid, after the last step.
 struct Stuck {
   Friction friction;
-  double mu = 0;  ///< -, static or sliding
+  double mu = 0;                                ///< -, static or sliding
+  double p = 0;                                 ///< N, the normal force
+  bool slid = false;                            ///< after the last step
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();  ///< m, way since then with the stretch of then
 };
-/// By the tangential spring, stretched by z (m), with the normal force p (N): Eq. (6.18).
+/// By the tangential spring, stretched by z: Eq. (6.18).
 Stuck stuck_on_spring(const Law& law, const Eigen::Vector3d& z, double p, bool slid);
+/// The force along the master of a unilateral contact that sticks, Eq. (6.24a), but for how forces and way of
+/// the local nodes follow from it.
+TangentialForce tangential_force(const Law& law, const Stuck& stuck, const Eigen::Vector3d& n);
+/// Sets the energy and the losses of the tangential spring (6.18), and the stretch that the next step starts
+/// from.
+void set_spring(const Law& law, const Stuck& stuck, ContactPoint& contact);
 
 /// The gap to the smoothed surface and its gradient n (not of unit length) on the slave node. kColumns: as in
 /// KinematicsBy.
