@@ -119,6 +119,7 @@ struct Pair::Data {
 
   bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
+  bool is_between_steps() const { return history[0].step && !history[0].in_step; }
   bool is_whole(int slave_side) const { return contact::is_whole(settings, slave_side); }
   void keep_stuck();
   Law law(const OnSlave& at, int master_face) const;
@@ -154,8 +155,12 @@ Law Pair::Data::law(const OnSlave& at, int master_face) const {
   const Side &slaves = side[at.side], &masters = side[1 - at.side];
   Law law = slaves.law[at.nodes[0]];
   law.c_p = 0;
-  for (int i = 0; i < 4; ++i) law.c_p += at.N[i] * slaves.law[at.nodes[i]].c_p;
-  law.p_given = given_force(history[at.side], at.point);
+  law.mass = 0;
+  for (int i = 0; i < 4; ++i) {
+    law.c_p += at.N[i] * slaves.law[at.nodes[i]].c_p;
+    law.mass += at.N[i] * slaves.law[at.nodes[i]].mass;
+  }
+  set_given(history[at.side], at.point, law);
   const auto any = [](const std::vector<bool>& responds, const Eigen::Vector4i& of) {
     return responds.empty() || std::any_of(of.begin(), of.end(), [&](int node) { return responds[node]; });
   };
@@ -183,7 +188,7 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
       this->law({slave_side, node, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)}, w.face);
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, settings.full_tangent);
-  if (settings.points == SlavePoints::minima || (law.unilateral && !master.heights.empty())) {
+  if (settings.points == SlavePoints::minima || law.impact || (law.unilateral && !master.heights.empty())) {
     const PointGap over = point_gap(master, w, slave.x, settings.offset);
     if (settings.points == SlavePoints::minima &&
         over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
@@ -334,6 +339,7 @@ std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R) {
     contacts = integrated_contacts();
   else
     for (int slave : slave_sides(settings)) run_pass(slave, contacts);
+  if (is_between_steps()) keep_gaps(history, contacts);
   for (ContactPoint& contact : contacts) rotate(contact, R_WB);
   return contacts;
 }
@@ -371,6 +377,25 @@ void Pair::stiffen(double factor) {
       law.c_p *= factor;
       law.c_t *= factor;
     }
+}
+
+void Pair::set_masses(int side, const Eigen::VectorXd& mass) {
+  for (Eigen::Index i = 0; Law & law : data_->side[side].law) law.mass = mass[i++];
+}
+
+void Pair::begin_step(const ImpactStep& step) {
+  for (History& history : data_->history) contact::begin_step(history, step);
+}
+
+bool Pair::change_closed(const std::vector<ContactPoint>& contacts) {
+  return contact::change_closed(data_->history, contacts);
+}
+
+bool Pair::end_step(const std::vector<ContactPoint>* contacts, double delivered) {
+  for (History& history : data_->history) history.in_step = false;
+  if (!contacts) return false;
+  set_forces(*contacts);
+  return take_impulse(data_->history, delivered);
 }
 
 void Pair::accept(const std::vector<ContactPoint>& contacts) {

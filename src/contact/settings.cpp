@@ -67,6 +67,12 @@ void validate(const Settings& s) {
   validate(s.friction);
   require(s.law == ContactLaw::penalty || (s.damping == 0 && s.hysteresis == 0),
           "contact: damping and hysteresis are those of the penalty; the unilateral law has none");
+  require(s.restitution >= 0 && s.restitution <= 1, "contact: restitution ", s.restitution,
+          ", allowed is 0 to 1");
+  require(
+      s.restitution == 0 || s.law == ContactLaw::augmented, "contact: restitution ", s.restitution,
+      " is that of impacts between bodies without residual flexibility; with it, or with a penalty, leave "
+      "it out");
   require(s.points == SlavePoints::nodes || !s.two_pass, "contact: points '",
           s.points == SlavePoints::minima ? "minima" : "faces",
           "' take both surfaces in one pass; leave two_pass out");
@@ -138,6 +144,7 @@ std::vector<Law> node_laws(const Settings& s, const model::Surface& slave) {
     law.mu_static = std::max(s.friction.mu, s.friction.mu_static);
     law.v_0 = sticks ? 0 : s.friction.v_0;
     law.c_t = sticks ? s.friction.stiffness * law.c_p : 0;
+    law.restitution = s.restitution;
   }
   return laws;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "dynamics/node_mobility.h"
 #include "elastogear/contact/stiffness.h"
 
 namespace elastogear::dynamics {
@@ -20,30 +21,15 @@ void raise(Vibration& to, const std::string& name, double frequency) {
   if (frequency > to.frequency) to = {name, frequency};
 }
 
-// Inverse of the mass that a unit force on a surface node meets in the elastic coordinates, largest over the
-// nodes, 1/kg, times the stiffness there. docs/theory.md, Eq. (8.18).
-double largest_rate(const model::ElasticBody& body, const Eigen::VectorXd& stiffness) {
-  const Eigen::VectorXd flexibility = Eigen::VectorXd(body.M_r.diagonal()).cwiseInverse();
-  double largest = 0;
-  for (Eigen::Index node = 0; node < stiffness.size(); ++node) {
-    Eigen::Vector3d mobility;
-    for (int d : {0, 1, 2}) {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(body.n_q());
-      model::add_force(body.surface.Phi, static_cast<int>(node), Eigen::Vector3d::Unit(d), row);
-      mobility[d] = row.cwiseAbs2().dot(flexibility);
-    }
-    largest = std::max(largest, stiffness[node] * mobility.maxCoeff());
-  }
-  return largest;
-}
-
 double contact_frequency(const System& system, std::size_t p) {
   const contact::Settings& settings = system.contact_settings(p);
-  if (settings.law == contact::ContactLaw::unilateral) return 0;  // nothing vibrates on its stiffness
+  if (settings.law != contact::ContactLaw::penalty) return 0;  // nothing vibrates on its stiffness
   double rate = 0;
   for (int b : system.pairs()[p].body) {
     const model::ElasticBody& body = *system.bodies()[b].eq.body;
-    rate = std::max(rate, largest_rate(body, contact::node_stiffness(settings, body.surface)));
+    rate = std::max(
+        rate,
+        contact::node_stiffness(settings, body.surface).cwiseProduct(elastic_mobility(body)).maxCoeff());
   }
   return std::sqrt(rate) / (2 * std::numbers::pi);
 }

@@ -166,6 +166,14 @@ void accept(System& system, TS ts) {
   system.accept({time, *ReadView(U), *ReadView(V), *ReadView(A)});
 }
 
+// An impulse is no part of the acceleration with which the next step begins.
+void leave_out_impulse(const System& system, TS ts) {
+  if (system.had_impulse())
+    generalized_alpha_set_acceleration(ts, StepAcceleration::at_start);
+  else if (system.had_impulse_before())
+    generalized_alpha_set_acceleration(ts, StepAcceleration::mean);
+}
+
 // Rotation vectors of free bodies begin at zero in every step.
 void rebase(System& system, TS ts) {
   Vec U = nullptr, V = nullptr, A = nullptr;
@@ -182,12 +190,47 @@ PetscErrorCode post_step(TS ts) {
   PetscCall(guard(run->problem.pending, [&] {
     observe_since_last_step(*run, ts);
     accept(run->problem.system, ts);
+    leave_out_impulse(run->problem.system, ts);
     rebase(run->problem.system, ts);
     if (run->settings.relax) relax(*run, ts);
     require_long_steps(*run, ts);
     stop_if_asked(*run, ts);
   }));
   return recover_dt(ts);
+}
+
+// Forces of impacts are found step by step.
+PetscErrorCode pre_stage(TS ts, PetscReal) {
+  Run* run = nullptr;
+  PetscReal dt = 0, alpha_f = 0;
+  PetscCall(TSGetApplicationContext(ts, &run));
+  PetscCall(TSGetTimeStep(ts, &dt));
+  PetscCall(TSAlpha2GetParams(ts, nullptr, &alpha_f, nullptr, nullptr));
+  return guard(run->problem.pending, [&] { run->problem.system.begin_step(dt, alpha_f); });
+}
+
+PetscErrorCode check_stage(TS ts, bool* changed) {
+  Run* run = nullptr;
+  PetscCall(TSGetApplicationContext(ts, &run));
+  return guard(run->problem.pending, [&] { *changed = run->problem.system.change_closed(); });
+}
+
+PetscErrorCode post_stage(TS ts, PetscReal, PetscInt, Vec*) {
+  Run* run = nullptr;
+  SNES snes = nullptr;
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  PetscReal alpha_m = 0, gamma = 0;
+  PetscCall(TSGetApplicationContext(ts, &run));
+  PetscCall(TSAlpha2GetParams(ts, &alpha_m, nullptr, &gamma, nullptr));
+  PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESGetConvergedReason(snes, &reason));
+  return guard(run->problem.pending, [&] { run->problem.system.end_step(reason > 0, gamma / alpha_m); });
+}
+
+void find_impacts(TS ts) {
+  check(TSSetPreStage(ts, pre_stage));
+  check(TSSetPostStage(ts, post_stage));
+  generalized_alpha_set_check(ts, [ts](bool* changed) { return check_stage(ts, changed); });
 }
 
 void set_time(TS ts, const TimeSettings& settings) {
@@ -220,6 +263,7 @@ UniqueTS make_ts(Run& run, const Start& motion, UniqueMat& J) {
   check(TS2SetSolution(ts, motion.U, motion.V));
   control_steps(run, ts);
   check(TSSetFromOptions(ts));
+  if (!run.settings.relax && run.problem.system.any_augmented()) find_impacts(ts);
   check(TSGetTimeStep(ts, &run.nominal_dt));
   require(run.nominal_dt > 0, "time step dt = ", run.nominal_dt, " s must be positive");
   return ts;
@@ -307,19 +351,6 @@ void require_bodies_apart(System& system) {
   }
 }
 
-namespace {
-
-// Without a penalty bodies in motion need residual flexibility.
-void require_law_of_motion(const System& system) {
-  for (const PairSetup& pair : system.pairs())
-    require(
-        pair.settings.law != contact::ContactLaw::augmented, "pair ", pair.name,
-        ": contact without a penalty (-contact_law unilateral) of bodies in motion needs residual "
-        "flexibility on one side: reduce a body with -basis modal_residual, or take -contact_law penalty");
-}
-
-}  // namespace
-
 RunSummary new_summary(const System& system) {
   RunSummary summary;
   for (const PairSetup& pair : system.pairs()) summary.pair.push_back({pair.name});
@@ -330,7 +361,7 @@ RunSummary simulate(System& system, const TimeSettings& settings, const Observer
                     const Progress& progress, const Checkpoints& checkpoints) {
   validate(settings);
   validate(checkpoints);
-  if (!settings.relax) require_law_of_motion(system);
+  if (!settings.relax && system.any_augmented()) system.begin_step(0, 1);
   require_tables_cover(system, settings.end_time);
   if (checkpoints.state.empty()) require_bodies_apart(system);
   Run run(system, settings, observer, progress, checkpoints);

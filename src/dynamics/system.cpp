@@ -136,6 +136,11 @@ double System::unclosed() const { return contact_->unclosed(); }
 void System::augment() { contact_->augment(); }
 void System::stiffen(double factor) { contact_->stiffen(factor); }
 void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_forces(pairs); }
+void System::begin_step(double dt, double alpha_f) { contact_->begin_step(dt, alpha_f); }
+bool System::change_closed() { return contact_->change_closed(); }
+void System::end_step(bool solved, double delivered) { contact_->end_step(solved, delivered); }
+bool System::had_impulse() const { return contact_->had_impulse(); }
+bool System::had_impulse_before() const { return contact_->had_impulse_before(); }
 double System::contact_loss() const { return contact_->loss(); }
 double System::residual_energy(std::size_t b) { return contact_->residual_energy(b); }
 

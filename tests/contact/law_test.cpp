@@ -229,6 +229,40 @@ TEST_P(ContactLaw, tangent_of_an_augmented_force_equals_the_difference_quotient)
     }
 }
 
+// In a step that ends with a rate that is too low.
+Law in_impact(double friction) {
+  Law law = law_with(friction, 0);
+  law.hysteresis = 0;
+  law.impact =
+      Impact{.in_step = true, .may_close = true, .closed = true, .d = 200, .d_fade = 5, .alpha_f = 0.6};
+  law.impact->rate = 0.3;
+  law.impact->least_rate = 5;
+  return law;
+}
+
+TEST_P(ContactLaw, tangent_of_an_impact_equals_the_difference_quotient) {
+  Random random(11);
+  for (double friction : {0., 0.4})
+    for (int trial = 0; trial < 20; ++trial) {
+      const Local local = place(random, GetParam(), 2 * thin);
+      const Errors e = tangent_errors(local, [&](const Local& x) { return force(x, in_impact(friction)); });
+      EXPECT_LT(e.by_x, friction > 0 ? thin : truncation);
+      EXPECT_LT(e.by_v, truncation);
+    }
+}
+
+TEST_P(ContactLaw, impact_holds_the_rate_at_the_end_of_the_step) {
+  Random random(12);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Local local = place(random, GetParam(), 2 * thin);
+    const ContactPoint c = force(local, in_impact(0)).contact;
+    const double rate = c.g_x.reshaped().dot(local.v.reshaped()), end = (rate - 0.4 * 0.3) / 0.6;
+    EXPECT_NEAR(c.excess_rate, end - 5, roundoff);
+    EXPECT_LE(c.p, 200 * (5 - end) * (1 + roundoff));
+    EXPECT_GT(c.p, 0);
+  }
+}
+
 // Where g + (1 / w - 1) p / c_p = 0 the force is the one that was given, however stiff the penalty is now.
 TEST_P(ContactLaw, augmented_force_of_a_closed_gap_is_the_one_given) {
   Random random(10);

@@ -10,8 +10,9 @@ using namespace dynamics;
 
 namespace {
 
-// Residual flexibility of the box, with one law of contact or the other, without a penalty also over faces.
-enum class Residual { none, penalty, unilateral, faces };
+// Residual flexibility of the box, with one law of contact or the other, without a penalty also over faces;
+// or impacts without both.
+enum class Residual { none, penalty, unilateral, faces, impacts };
 
 // flexible: with residual flexibility, of few modes.
 std::shared_ptr<const model::ElasticBody> soft_box(model::Basis basis, bool flexible) {
@@ -28,6 +29,7 @@ System impact(model::Basis basis, Residual residual = Residual::none) {
   PairSetup pair{"box:wall", {0, 1}, {}};
   pair.settings.two_pass = residual != Residual::faces;
   if (residual == Residual::faces) pair.settings.points = contact::SlavePoints::faces;
+  if (residual == Residual::impacts) pair.settings.law = contact::ContactLaw::unilateral;
   pair.settings.skin = 0.01;
   if (residual == Residual::none || residual == Residual::penalty)
     pair.settings.hysteresis = 0.1;  // which is a penalty's
@@ -35,7 +37,7 @@ System impact(model::Basis basis, Residual residual = Residual::none) {
   const body::JointType joint =
       basis == model::Basis::full ? body::JointType::spherical : body::JointType::free;
   BodySetup box{.name = "box",
-                .body = soft_box(basis, residual != Residual::none),
+                .body = soft_box(basis, residual != Residual::none && residual != Residual::impacts),
                 .joint = {.type = joint},
                 .omega0 = {0, 0.3, 0.2}};
   if (joint == body::JointType::free) box.velocity0 = {0.3, 0.1, 0};
@@ -110,6 +112,10 @@ TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_without_a_penalty)
 
 TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_over_faces_that_stick) {
   expect_every_continuation_equal(model::Basis::modal, kSettings, Residual::faces);
+}
+
+TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_with_impacts) {
+  expect_every_continuation_equal(model::Basis::modal, kSettings, Residual::impacts);
 }
 
 TEST(Checkpoint, continuation_of_a_settling_run_equals_the_whole_one_to_the_bit) {

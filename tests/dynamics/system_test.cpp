@@ -24,6 +24,7 @@ constexpr double kDifference = 1e-7;  // relative: roundoff / kStep, and kStep^2
 constexpr double kThinLayer = 2e-3;   // relative: what the tangent of friction leaves out, (0.01 / 0.25)^2
 constexpr double kTrials = 1e-4;      // relative: contact forces fit the answers to them to 1e-10 / kStep
 constexpr double kSplit = 1e-3;  // relative: two passes share a force among more contacts than it determines
+constexpr double kImpulse = 3e-7;  // relative: roundoff of forces that are far above the others
 constexpr double kRoundoff = 1e-12;
 constexpr double kTime = 0.3;
 
@@ -49,6 +50,7 @@ struct Options {
   double depth = 0.02;
   bool flexible = false;
   bool unilateral = false;
+  bool impact = false;                               // in a step of bodies without residual flexibility
   bool sticks = false;                               // friction, since the state at the start
   double extension = contact::Settings{}.extension;  // 0: without forces that push nodes off open ends
 };
@@ -80,7 +82,9 @@ System two_boxes(const Options& options) {
   pair.settings.hysteresis = options.damping;
   pair.settings.friction = {.mu = options.friction, .v_0 = 0.4};
   if (options.sticks) pair.settings.friction.law = contact::FrictionLaw::stick;
-  pair.settings.law = options.unilateral ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
+  if (options.impact) pair.settings.damping = pair.settings.hysteresis = 0;
+  pair.settings.law =
+      options.unilateral || options.impact ? contact::ContactLaw::unilateral : contact::ContactLaw::penalty;
   return System(bodies, {pair}, {.inertia = options.level, .gravity = {1, -2, 3}});
 }
 
@@ -135,14 +139,22 @@ TEST_P(Jacobian, is_the_derivative_of_the_residual) {
   System system = two_boxes(GetParam());
   const Values s = some_state(system);
   if (GetParam().sticks) system.accept(Values{system.initial_position(), s.V, s.A});
+  if (GetParam().impact) {
+    system.begin_step(0, 1);
+    system.accept(Values{s.U, -s.V, s.A});
+    system.begin_step(0.1, 0.7);
+  }
   const auto& points = system.contacts(kTime, s.U, s.V).pair[0].points;
-  ASSERT_GE(points.size(), 3u);
-  ASSERT_EQ(points[0].tangential.has_value(), GetParam().sticks);
+  ASSERT_GE(points.size(), GetParam().impact ? 1u : 3u);
+  ASSERT_EQ(points[0].tangential.has_value(), GetParam().sticks && !GetParam().impact);
   const bool split = GetParam().unilateral && GetParam().two_pass;
-  const double tolerance = split ? kSplit : GetParam().flexible ? kTrials : kDifference;
+  const double tolerance = GetParam().impact     ? kImpulse
+                           : split               ? kSplit
+                           : GetParam().flexible ? kTrials
+                                                 : kDifference;
   // The forces of contacts without a penalty are larger, and so is their roundoff.
   expect_jacobian_is_derivative(system, GetParam().friction > 0 ? kThinLayer : tolerance,
-                                GetParam().unilateral ? 10 * kStep : kStep);
+                                GetParam().unilateral || GetParam().impact ? 10 * kStep : kStep);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -179,6 +191,9 @@ INSTANTIATE_TEST_SUITE_P(
                 .flexible = true,
                 .unilateral = true,
                 .sticks = true},
+        Options{.impact = true}, Options{.two_pass = true, .impact = true},
+        Options{.basis = model::Basis::full, .impact = true},
+        Options{.joint = JointType::free, .rotation = {}, .impact = true},
         Options{.joint = JointType::free, .rotation = {}, .damping = 2, .flexible = true},
         Options{.joint = JointType::spherical, .rotation = {}},
         Options{.joint = JointType::free, .rotation = {}},

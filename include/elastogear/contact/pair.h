@@ -47,6 +47,18 @@ class Pair {
   /// Multiplies the penalty stiffness of all nodes.
   void stiffen(double factor);
 
+  /// Augmented law, of bodies in motion: mass, in kg, that an impulse at each node of a surface moves, or
+  /// less.
+  void set_masses(int side, const Eigen::VectorXd& mass);
+  /// Augmented law, of bodies in motion: detect finds the forces of this step from now on.
+  void begin_step(const ImpactStep& step);
+  /// Lets contacts go that pull, and holds those that would be entered, at the end of the step. contacts:
+  /// that solve it with those held so far. Returns whether anything has changed.
+  bool change_closed(const std::vector<ContactPoint>& contacts);
+  /// The contacts that solve the step; null where it is not solved. From now on detect finds them with their
+  /// forces, and with the gaps that the next step starts from. delivered: share of an impulse that changes
+  /// the velocities at the end of the step. Returns whether there has been one.
+  bool end_step(const std::vector<ContactPoint>* contacts, double delivered);
   /// Makes the sticking of these contacts what the next step starts from.
   void accept(const std::vector<ContactPoint>& contacts);
 

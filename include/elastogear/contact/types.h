@@ -57,6 +57,7 @@ struct Settings {
   bool full_tangent = true;   ///< with the geometric part; false: normal part only
   double damping = 0;         ///< d_p while approaching; per_node: N s/m, per_area: Pa s/m
   double hysteresis = 0;      ///< s/m, Hunt and Crossley's factor of the penalty force while approaching
+  double restitution = 0;     ///< -, 0..1, of impacts of bodies in motion without a penalty
   double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
   ContactSurface surface = ContactSurface::exact;
   double feature_angle = 30;  ///< deg, edges that turn by more stay sharp
@@ -73,6 +74,12 @@ ContactLaw chosen_law(const Settings& settings, bool has_residual_flexibility);
 /// The points that `automatic` stands for: faces where those of the slave are parts of second-order sides,
 /// whose nodes alone cannot bear an even pressure; nodes elsewhere and in two passes.
 SlavePoints chosen_points(const Settings& settings, const model::Surface& slave);
+
+/// A step of bodies in motion without a penalty: docs/theory.md, Eq. (6.32).
+struct ImpactStep {
+  double dt = 0;       ///< s
+  double alpha_f = 1;  ///< -, weight of its end in the velocities with which forces are found
+};
 
 /// Deformed surface of one body: node positions in the BRF and the BRF's placement.
 struct SurfaceState {
@@ -155,7 +162,8 @@ struct ContactPoint {
   double energy = 0;          ///< J, c_p g_n^2 / 2 and that of the tangential spring
   double power = 0;           ///< W, taken by damping
   double friction_power = 0;  ///< W, taken by friction
-  double slip_work = 0;       ///< J, taken since the last accepted step where a node sticks
+  double excess_rate = 0;     ///< m/s, of an impact: of the gap at the end of the step, beyond the least
+  double work = 0;  ///< J, taken since the last accepted step by friction that sticks, and by impacts
   Eigen::Vector3d slip =
       Eigen::Vector3d::Zero();  ///< m/s, tangential velocity on the master, where rates count
   Eigen::Vector3d elastic_slip = Eigen::Vector3d::Zero();  ///< m, of the tangential spring

@@ -17,6 +17,8 @@
 
 #include <petscts.h>
 
+#include <functional>
+
 namespace elastogear::dynamics {
 
 /// Registers the TS type "generalized_alpha", and replaces PETSc's "alpha2" by it: the one in PETSc 3.18
@@ -43,6 +45,15 @@ void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x);
 
 /// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
+
+/// `check` is called with every solution of F = 0 at the stage of a step and tells whether F has become
+/// another function, whose zero is to be found from there.
+void generalized_alpha_set_check(TS ts, const std::function<PetscErrorCode(bool* changed)>& check);
+
+/// After an impulse in the last step, which is no part of the acceleration that the next one begins with:
+/// that becomes the one at the start of the last step, or the mean one of it.
+enum class StepAcceleration { at_start, mean };
+void generalized_alpha_set_acceleration(TS ts, StepAcceleration acceleration);
 
 /// After a discontinuity of F: the next step starts from the acceleration that solves F(t, U, V, A) = 0.
 /// Changing U or V without set_state does the same.

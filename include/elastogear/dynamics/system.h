@@ -67,6 +67,17 @@ class System {
   void stiffen(double factor);
   /// Gives the contacts these forces back.
   void set_forces(const std::vector<PairContacts>& pairs);
+  /// Augmented law, of bodies in motion: begins the search for the forces of a step of dt (s), in which
+  /// velocities are alpha_f times those at its end; looks, once F = 0 is solved, which contacts close and
+  /// open (true: another set of them does); and ends it: the forces of the last evaluation, if they solved
+  /// the step, are those of all states until the next one begins; of an impulse the share `delivered` changes
+  /// the velocities at its end. dt = 0: at the start of a motion.
+  void begin_step(double dt, double alpha_f);
+  bool change_closed();
+  void end_step(bool solved, double delivered);
+  /// Was there an impulse in the last step, or the one before it? It lasts for a step only.
+  bool had_impulse() const;
+  bool had_impulse_before() const;
   /// To be called once for the initial state and after every accepted step: what sticks now does so from
   /// here, and the energy that contact has taken is added up.
   void accept(const State& x);

@@ -21,8 +21,11 @@ const Rows<S> kContactRows = {
      "slave and, without a penalty, those on sharp and open edges of the other"},
     {"contact_law", &S::law, one_of("auto", "penalty", "unilateral"),
      "penalty (forces grow with the penetration) or unilateral (there is none: gaps are closed by the "
-     "residual flexibility that one body must have, unless the analysis is static or relax); auto: "
-     "unilateral where a body has that and no stiffness, damping or hysteresis is given"},
+     "residual flexibility of a body; without it from equilibrium to equilibrium at rest, and by impacts in "
+     "motion); auto: unilateral where a body has that and no stiffness, damping or hysteresis is given"},
+    {"contact_restitution", &S::restitution, "-",
+     "unilateral, bodies in motion without residual flexibility: rate of a gap after over that before an "
+     "impact, 0 to 1; elastic bodies rebound by themselves and take 0"},
     {"contact_points", &S::points, one_of("auto", "nodes", "minima", "faces"),
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "

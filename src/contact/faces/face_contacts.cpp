@@ -178,7 +178,7 @@ std::vector<ContactPoint> face_contacts(const GapField& field, const SecondOrder
   std::vector<ContactPoint> contacts;
   for (const auto& [node, gap] : gaps) {
     Law law = laws.law[node];
-    law.p_given = given_force(laws.history, node);
+    set_given(laws.history, node, law);
     auto contact = gap.contact(law, laws.area[node],
                                {field.master.surface, laws.velocity, laws.moved, stuck_at(laws.history, node),
                                 friction_at(laws.history, node)});

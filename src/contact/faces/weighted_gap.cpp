@@ -11,18 +11,21 @@ namespace {
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 using NodalColumns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-// Normal force p with dp = -k (dg + damping dg_t).
+// Normal force p with dp = -k (by_gap dg + by_rate dg_t).
 struct NormalLaw {
-  double p, k, damping, energy, power;  // N, N/m, s, J, W
+  double p, k, by_gap, by_rate;  // N; N/m, -, s, or of an impact N s/m, 0, 1
+  double energy, power, work;    // J, W, J
+  double excess_rate;            // m/s
 };
 
 NormalLaw normal_law(const Law& law, double gap, double rate) {
   if (law.unilateral) {
     const double c = unilateral_compliance(law, 1), p = law.p_given;
-    return {p, 1 / c, 0, 0.5 * c * p * p, 0};
+    return {p, 1 / c, 1, 0, 0.5 * c * p * p, 0, 0, 0};
   }
   const NormalForce f = normal_force(law, gap, rate);
-  return {f.p, -f.p_g, f.p_r / f.p_g, f.energy, f.power};
+  if (law.impact) return {f.p, -f.p_r, 0, 1, 0, 0, f.work, f.excess_rate};
+  return {f.p, -f.p_g, 1, f.p_r / f.p_g, f.energy, f.power, 0, 0};
 }
 
 // Friction of a node against the mean motion of its part of the faces.
@@ -55,16 +58,16 @@ NodeFriction node_friction(const Law& law, double p, const Sliding& sliding, con
 // Columns: the normal force, then the three of friction where there is any. Directions and shares of the
 // nodes are those of this moment.
 void set_tangent(const NormalLaw& normal, const NodalColumns& T, const NodeFriction& node, ContactPoint& c) {
-  const bool rubs = node.stuck.mu > 0, damped = normal.damping != 0;
+  const bool rubs = node.stuck.mu > 0, damped = normal.by_rate != 0;
   const Eigen::Index n = rubs ? 4 : 1;
   c.W.setZero(T.rows(), n);
   c.V.setZero(T.rows(), n);
   c.k.setIdentity(n, n);
   c.W.col(0) = c.g_x.reshaped();
-  c.V.col(0) = c.g_x.reshaped();
+  c.V.col(0) = normal.by_gap * c.g_x.reshaped();
   c.k(0, 0) = normal.k;
   c.V_dot.setZero(T.rows(), rubs || damped ? n : 0);
-  if (damped) c.V_dot.col(0) = normal.damping * c.g_x.reshaped();
+  if (damped) c.V_dot.col(0) = normal.by_rate * c.g_x.reshaped();
   if (!rubs) return;
   if (node.stuck.friction.at_limit) c.W.col(0) -= node.stuck.mu * T * node.stuck.friction.direction;
   c.W.rightCols<3>() = T;
@@ -151,7 +154,8 @@ std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area, cons
   c.area = std::min(area_, node_area);
   law.c_p *= c.area / node_area;
   law.c_t *= c.area / node_area;
-  if (!law.unilateral && is_open(law, c.g_n)) return {};
+  if (law.impact) law.impact->d *= c.area / node_area;
+  if (is_open(law, c.g_n)) return {};
   const Eigen::Index n = c.n_local();
   NodalColumns T(3 * n, 3);
   c.g_x.resize(3, n);
@@ -176,6 +180,8 @@ std::optional<ContactPoint> WeightedGap::contact(Law law, double node_area, cons
   c.p = normal.p;
   c.energy = normal.energy;
   c.power = normal.power;
+  c.work = normal.work;
+  c.excess_rate = normal.excess_rate;
   if (!node.sticks) c.friction_power = normal.p * node.stuck.mu * node.stuck.friction.direction.dot(c.slip);
   if (law.unilateral) c.c = 1 / normal.k;
   set_tangent(normal, T, node, c);

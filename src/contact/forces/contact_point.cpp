@@ -186,7 +186,7 @@ OpenPoint open_point(const MasterSide& master, const Projection& projection, con
 
 std::optional<ContactPoint> general_contact(const MasterSide& master, const OpenPoint& open,
                                             const SlaveContact& slave, const Law& law) {
-  if (!law.unilateral && is_open(law, open.gap.g)) return {};
+  if (is_open(law, open.gap.g)) return {};
   const Projection& w = open.projection;
   ContactPoint contact = geometry(master.surface, w);
   contact.v.resize(3, 5);

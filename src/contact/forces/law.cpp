@@ -54,6 +54,26 @@ NormalForce given_force(const Law& law, double fade) {
   return f;
 }
 
+NormalForce impact_force(const Impact& impact, double p_given, double rate) {
+  NormalForce f;
+  if (!impact.in_step) {
+    f.p = p_given;
+    f.work = -0.5 * p_given * impact.dt * (impact.rate + rate);
+    return f;
+  }
+  const double end_rate = (rate - (1 - impact.alpha_f) * impact.rate) / impact.alpha_f;
+  f.excess_rate = end_rate - impact.least_rate;
+  if (!impact.closed) return f;
+  f.p = p_given - impact.d * f.excess_rate;
+  f.p_r = -impact.d / impact.alpha_f;
+  return f;
+}
+
+// On an extension the rate is held the less strongly the less of the force is left.
+double faded(const Impact& impact, double fade) {
+  return 1 / (1 / impact.d + (1 / fade - 1) / impact.d_fade);
+}
+
 // The parts that make up a contact force.
 struct Parts {
   Varying slip;        // velocity
@@ -78,9 +98,21 @@ void set_normal(const Law& law, const ProjectionKinematics& kinematics, const Ga
     parts.p_v.setZero();
     return;
   }
+  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
+  if (law.impact) {
+    const double fade = std::max(gap.fade.f, kLeastFade);
+    Law here = law;
+    here.impact->d = faded(*law.impact, fade);
+    const double d_fade = here.impact->d / (law.impact->d_fade * fade * fade);  // of d with the fade
+    parts.normal = normal_force(here, gap.g, gap.n.dot(rate.value));
+    parts.p = parts.normal.p;
+    parts.p_x = parts.normal.p_r * rate_x;
+    if (law.impact->in_step) parts.p_x += parts.p * d_fade * gap.fade.f_a.transpose() * kinematics.D;
+    parts.p_v = parts.normal.p_r * gap.g_x;
+    return;
+  }
   parts.normal = normal_force(law, gap.g, gap.n.dot(rate.value));
   parts.p = gap.fade.f * parts.normal.p;
-  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
   parts.p_x = gap.fade.f * (parts.normal.p_g * gap.g_x + parts.normal.p_r * rate_x) +
               parts.normal.p * gap.fade.f_a.transpose() * kinematics.D;
   parts.p_v = gap.fade.f * parts.normal.p_r * gap.g_x;
@@ -200,8 +232,15 @@ GapBy<kColumns> smooth_gap(const KinematicsBy<kColumns>& kinematics, const FaceF
 
 }  // namespace
 
+bool is_open(const Law& law, double gap) {
+  if (law.unilateral) return false;
+  if (law.impact) return law.impact->in_step && !law.impact->may_close;
+  return !(law.c_p * gap < law.p_given);
+}
+
 NormalForce normal_force(const Law& law, double gap, double rate) {
   if (is_open(law, gap)) return {};
+  if (law.impact) return impact_force(*law.impact, law.p_given, rate);
   const double depth = law.p_given / law.c_p - gap, approach = std::max(0.0, -rate);
   NormalForce f;
   f.spring = 0.5 * law.c_p * depth * depth;
@@ -250,7 +289,7 @@ void set_spring(const Law& law, const Stuck& stuck, ContactPoint& contact) {
   contact.stick.slides = stuck.friction.at_limit;
   contact.elastic_slip = elastic;
   contact.energy += 0.5 * law.c_t * elastic.squaredNorm();
-  contact.slip_work = force_t * (stuck.z - elastic).norm();
+  contact.work += force_t * (stuck.z - elastic).norm();
   if (stuck.friction.at_limit) contact.friction_power = force_t * contact.slip.norm();
 }
 
@@ -284,9 +323,12 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
   contact.friction_power = 0;
   set_tangent(kinematics, f, contact);
   if (law.unilateral) set_unilateral(law, kinematics, gap, all, contact);
+  if (law.impact) contact.g_x = gap.g_x.reshaped(3, 5);
   if (gap.fade.f < 1)
     add_boundary_force(boundary_force(kinematics, gap, fading_energy(law, kinematics, gap, all)), contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
+  contact.work = all.normal.work;
+  contact.excess_rate = all.normal.excess_rate;
   if (!stick || law.c_t == 0) return;
   if (!law.unilateral)
     return set_spring(law, {all.friction, all.mu, all.p, stick->slides, all.motion.value}, contact);

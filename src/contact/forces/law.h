@@ -2,11 +2,29 @@
 // Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory.md, sections
 // 6.6 and 6.7), with the derivatives that the consistent tangent takes.
 
+#include <optional>
+
 #include "contact/forces/friction.h"
 #include "contact/projection/projection_kinematics.h"
 #include "elastogear/contact/types.h"
 
 namespace elastogear::contact {
+
+/// A point without a penalty between bodies in motion: the force p of a step with 0 <= p, 0 <= g_t -
+/// least_rate, one of them 0, for the rate g_t of the gap at its end (docs/theory.md, Eq. (6.32)). Which one
+/// is not 0 is given. Between two steps the force is.
+struct Impact {
+  bool in_step = false;    ///< is the force of a step looked for?
+  bool may_close = false;  ///< of an open gap: is it looked at?
+  bool closed = false;     ///< is the rate held?
+  double d = 0;            ///< N s/m, p = d (least_rate - g_t): Eq. (6.33)
+  double d_fade = 0;       ///< N s/m, at half the force on an extension
+  double alpha_f = 1;      ///< -, weight of the end of the step in the velocities given
+  double dt = 0;           ///< s
+  double gap = 0;          ///< m, at the start of the step
+  double rate = 0;         ///< m/s, at the start of the step
+  double least_rate = 0;   ///< m/s
+};
 
 /// Constants of one slave node.
 struct Law {
@@ -22,6 +40,9 @@ struct Law {
   double mu_static = 0;     ///< of a node that sticks
   double v_0 = 0;           ///< m/s, of regularised friction; 0: sticks with c_t
   double c_t = 0;           ///< N/m, tangential stiffness of a node that sticks, beside the penalty c_p
+  double mass = 0;          ///< kg, augmented: that an impulse at the node moves, or less
+  double restitution = 0;   ///< -, rate of a gap after over that before an impact
+  std::optional<Impact> impact = {};  ///< augmented, in motion
 };
 
 /// Force normal to the (smoothed) surface, N, with its derivatives.
@@ -31,10 +52,13 @@ struct NormalForce {
   double energy = 0;               ///< J, stored
   double energy_g = 0;             ///< N, its derivative by the gap
   double power = 0;                ///< W, dissipated
+  double work = 0;                 ///< J, taken since the start of the step by an impact
+  double excess_rate = 0;          ///< m/s, of an impact: of the gap at the end of the step, beyond the least
 };
-/// Does a gap bear no force, of a law whose force is not given?
-inline bool is_open(const Law& law, double gap) { return !(law.c_p * gap < law.p_given); }
-/// Penalty and damping force while the gap closes, Eq. (6.15), and that of an augmented Lagrangian, (6.31).
+/// Can nothing come of a point with this gap? Points whose force is given may serve while they are open.
+bool is_open(const Law& law, double gap);
+/// Penalty and damping force while the gap closes, Eq. (6.15), that of an augmented Lagrangian, (6.31), and
+/// that of an impact, (6.32).
 NormalForce normal_force(const Law& law, double gap, double rate);
 
 /// m/N, of a contact without penalty: what keeps its forces determinate where the bodies do not, and what

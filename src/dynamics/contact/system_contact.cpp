@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "dynamics/node_mobility.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {
@@ -34,6 +35,8 @@ SystemContact::SystemContact(const SystemModel& model)
                             std::array{&a.eq.body->K_r, &b.eq.body->K_r},
                             std::array{a.true_surface.get(), b.true_surface.get()},
                             std::array{responds(*a.eq.body), responds(*b.eq.body)});
+    if (pair.settings.law != contact::ContactLaw::augmented) continue;
+    for (int side : {0, 1}) detectors_.back().set_masses(side, node_masses(*(side == 0 ? a : b).eq.body));
   }
   unilateral_ = is_unilateral();
 }
@@ -144,6 +147,29 @@ void SystemContact::set_forces(const std::vector<PairContacts>& pairs) {
   forget();
 }
 
+void SystemContact::begin_step(double dt, double alpha_f) {
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (is_augmented(p)) detectors_[p].begin_step({dt, alpha_f});
+  forget();
+}
+
+bool SystemContact::change_closed() {
+  bool changed = false;
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    changed |= is_augmented(p) && detectors_[p].change_closed(state_.pair[p].points);
+  if (changed) forget();
+  return changed;
+}
+
+void SystemContact::end_step(bool solved, double delivered) {
+  bool impulse = false;
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (is_augmented(p))
+      impulse |= detectors_[p].end_step(solved ? &state_.pair[p].points : nullptr, delivered);
+  if (solved) history_.impulse_before = std::exchange(history_.impulse, impulse);
+  forget();
+}
+
 double SystemContact::depth_share() const {
   double share = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -177,7 +203,7 @@ void SystemContact::accept() {
     const bool sticks = has_friction(p, contact::FrictionLaw::stick);
     any_sticks |= sticks;
     for (const contact::ContactPoint& point : state_.pair[p].points) {
-      history_.loss += point.slip_work;
+      history_.loss += point.work;
       power += point.power + (sticks ? 0 : point.friction_power);
     }
     detectors_[p].accept(state_.pair[p].points);
@@ -193,6 +219,8 @@ void SystemContact::accept() {
 
 void SystemContact::serialize(Archive& archive) {
   archive(history_.accepted);
+  archive(history_.impulse);
+  archive(history_.impulse_before);
   for (double* x : {&history_.time, &history_.power, &history_.loss}) archive(*x);
   archive.each(history_.friction, [&](NodalForces& forces) {
     archive(forces.node);

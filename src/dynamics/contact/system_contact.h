@@ -38,6 +38,11 @@ class SystemContact {
   void augment();
   void stiffen(double factor);
   void set_forces(const std::vector<PairContacts>& pairs);
+  void begin_step(double dt, double alpha_f);
+  bool change_closed();
+  void end_step(bool solved, double delivered);
+  bool had_impulse() const { return history_.impulse; }
+  bool had_impulse_before() const { return history_.impulse_before; }
 
   /// Accepts the last evaluation as the end of a step.
   void accept();
@@ -48,11 +53,12 @@ class SystemContact {
 
  private:
   struct History {
-    bool accepted = false;                   // is there an accepted state?
-    double time = 0;                         // s, of the last one
-    double power = 0;                        // W, taken by damping and regularised friction then
-    double loss = 0;                         // J, taken since the start
-    std::vector<NodalForces> friction = {};  // of each body, regularised, of the last one
+    bool accepted = false;                         // is there an accepted state?
+    double time = 0;                               // s, of the last one
+    double power = 0;                              // W, taken by damping and regularised friction then
+    double loss = 0;                               // J, taken since the start
+    bool impulse = false, impulse_before = false;  // in the last step, in the one before
+    std::vector<NodalForces> friction = {};        // of each body, regularised, of the last one
   };
 
   bool is_augmented(std::size_t p) const { return pairs_[p].settings.law == contact::ContactLaw::augmented; }

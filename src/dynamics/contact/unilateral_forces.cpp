@@ -240,7 +240,7 @@ void set_friction(const CoulombContact& law, const VectorXd& z, const Eigen::Vec
   const Eigen::Vector2d stretch = -f.c * f.t;
   point.elastic_slip = f.T * stretch;
   point.energy = 0.5 * point.c * point.p * point.p + 0.5 * f.c * f.t.squaredNorm();
-  point.slip_work = f.slides ? f.t.norm() * (f.u - stretch).norm() : 0;
+  point.work = f.slides ? f.t.norm() * (f.u - stretch).norm() : 0;
   point.friction_power = f.slides ? f.t.norm() * point.slip.norm() : 0;
   point.stick.slides = f.slides;
   const Eigen::Vector2d e = f.on_face * (stretch - way);  // from where the node was found

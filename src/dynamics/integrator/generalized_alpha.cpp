@@ -382,6 +382,17 @@ void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double 
   check(VecScale(m.velocity_vatol, velocity));
 }
 
+void generalized_alpha_set_check(TS ts, const std::function<PetscErrorCode(bool*)>& check) {
+  ready_method(ts).check = check;
+}
+
+void generalized_alpha_set_acceleration(TS ts, StepAcceleration acceleration) {
+  const Method& m = ready_method(ts);
+  if (acceleration == StepAcceleration::at_start) return check(VecCopy(m.start.A, m.current.A));
+  check(VecWAXPY(m.current.A, -1, m.start.V, m.current.V));
+  check(VecScale(m.current.A, 1 / m.step_size));
+}
+
 void generalized_alpha_restart(TS ts) { ready_method(ts).acceleration_known = false; }
 
 }  // namespace elastogear::dynamics

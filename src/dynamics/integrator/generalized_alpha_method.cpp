@@ -149,6 +149,20 @@ PetscErrorCode solve_for_delta(TS ts) {
   return 0;
 }
 
+// Solves again while F changes with its solution. One that changes to and fro is not solved.
+PetscErrorCode solve_while_F_changes(TS ts) {
+  constexpr int kMostRounds = 30;
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  for (int round = 0; round < kMostRounds; ++round) {
+    bool changed = false;
+    PetscCall(SNESGetConvergedReason(ts->snes, &reason));
+    if (reason > 0) PetscCall(method(ts).check(&changed));
+    if (!changed) return 0;
+    PetscCall(solve_for_delta(ts));
+  }
+  return SNESSetConvergedReason(ts->snes, SNES_DIVERGED_MAX_IT);
+}
+
 // Delta := solution at the current stage; x: the state it changes, for its size.
 template <class Apply>
 PetscErrorCode solve(TS ts, const Motion& x, const Apply& apply) {
@@ -162,6 +176,7 @@ PetscErrorCode solve(TS ts, const Motion& x, const Apply& apply) {
     PetscCall(SNESSetInitialFunction(ts->snes, m.residual));
   }
   PetscCall(solve_for_delta(ts));
+  if (m.check && m.stage.c_U != 0) PetscCall(solve_while_F_changes(ts));
   PetscCall(move_to_stage(m, m.Delta));
   PetscCall(apply());
   PetscCall(accept_roundoff(ts, x));

@@ -4,6 +4,8 @@
 
 #include <petsc/private/tsimpl.h>
 
+#include <functional>
+
 namespace elastogear::dynamics::generalized_alpha {
 
 struct Parameters {
@@ -41,6 +43,7 @@ struct Method {
   Stage stage;
   Motion base, at_stage;
   Vec Delta, residual;
+  std::function<PetscErrorCode(bool*)> check;  ///< has F changed with the solution? May be empty
 };
 
 inline Method& method(TS ts) { return *static_cast<Method*>(ts->data); }

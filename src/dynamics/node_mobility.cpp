@@ -1,0 +1,16 @@
+#include "dynamics/node_mobility.h"
+
+namespace elastogear::dynamics {
+
+Eigen::VectorXd elastic_mobility(const model::ElasticBody& body) {
+  const Eigen::VectorXd flexibility = Eigen::VectorXd(body.M_r.diagonal()).cwiseInverse();
+  const Eigen::VectorXd rows = std::visit(
+      [&](const auto& Phi) { return Eigen::VectorXd(Phi.cwiseAbs2() * flexibility); }, body.surface.Phi);
+  return rows.reshaped(3, rows.size() / 3).colwise().maxCoeff().transpose();
+}
+
+Eigen::VectorXd node_masses(const model::ElasticBody& body) {
+  return (elastic_mobility(body).array() + 1 / body.inertia.m).inverse();
+}
+
+}  // namespace elastogear::dynamics

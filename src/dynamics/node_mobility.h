@@ -1,0 +1,16 @@
+#pragma once
+// How easily impulses move the surface nodes of a body.
+
+#include "elastogear/model/elastic_body.h"
+
+namespace elastogear::dynamics {
+
+/// 1/kg, of each surface node, in the direction of x, y or z in which it is largest: change of its velocity
+/// in the elastic coordinates by an impulse of 1 N s, with the diagonal of M_r. docs/theory.md, Eq. (8.18).
+Eigen::VectorXd elastic_mobility(const model::ElasticBody& body);
+
+/// kg, of each surface node: that an impulse moves, the motion of the whole body included as if it did not
+/// turn.
+Eigen::VectorXd node_masses(const model::ElasticBody& body);
+
+}  // namespace elastogear::dynamics
