@@ -36,15 +36,6 @@ using Histories = std::array<History, 2>;  ///< of both surfaces
 
 /// N; 0 where none is given.
 double given_force(const History& history, int point);
-/// Gives the law of a point, complete but for these, its force or what it takes from the start of the step.
-void set_given(const History& history, int point, Law& law);
-/// Holds the points that bear a force, and those that come to be entered.
-void begin_step(History& history, const ImpactStep& step);
-/// Lets points go that pull, and holds those that would be entered, at the end of a step. contacts: that
-/// solve it with the points held so far. Returns whether anything has changed.
-bool change_closed(Histories& histories, const std::vector<ContactPoint>& contacts);
-/// Between two steps of an impact law: keeps gaps and rates, and takes the points without a force out.
-void keep_gaps(Histories& histories, std::vector<ContactPoint>& contacts);
 /// Null where the node did not stick after the last step.
 const StickPoint* stuck_at(const History& history, int node);
 GivenFriction friction_at(const History& history, int node);
@@ -52,9 +43,6 @@ GivenFriction friction_at(const History& history, int node);
 /// Gives the points of these contacts their forces, all others none. R: from the frame of the contacts to
 /// that in which contacts are found.
 void set_forces(Histories& histories, const std::vector<ContactPoint>& contacts, const Eigen::Matrix3d& R);
-/// Has there been an impulse in the step: do points that bore no force before have a share in the forces
-/// given last that counts? Then `delivered` of it is left.
-bool take_impulse(Histories& histories, double delivered);
 /// Largest change, m, that set_forces would make in forces over the stiffness (N/m) of a side and point.
 double unclosed(const Histories& histories, const std::vector<ContactPoint>& contacts,
                 const std::function<double(int side, int point)>& stiffness);

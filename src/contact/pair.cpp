@@ -10,6 +10,7 @@
 #include "contact/faces/face_contacts.h"
 #include "contact/forces/gap_minima.h"
 #include "contact/history.h"
+#include "contact/impacts.h"
 #include "contact/projection/edges.h"
 #include "contact/projection/heights.h"
 #include "contact/reach.h"

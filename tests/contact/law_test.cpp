@@ -234,7 +234,8 @@ Law in_impact(double friction) {
   Law law = law_with(friction, 0);
   law.hysteresis = 0;
   law.impact =
-      Impact{.in_step = true, .may_close = true, .closed = true, .d = 200, .d_fade = 5, .alpha_f = 0.6};
+      Impact{.in_step = true, .may_close = true, .closed = true, .d = 200, .stiffened = 40, .alpha_f = 0.6};
+  law.p_given = 20;
   law.impact->rate = 0.3;
   law.impact->least_rate = 5;
   return law;
@@ -258,7 +259,7 @@ TEST_P(ContactLaw, impact_holds_the_rate_at_the_end_of_the_step) {
     const ContactPoint c = force(local, in_impact(0)).contact;
     const double rate = c.g_x.reshaped().dot(local.v.reshaped()), end = (rate - 0.4 * 0.3) / 0.6;
     EXPECT_NEAR(c.excess_rate, end - 5, roundoff);
-    EXPECT_LE(c.p, 200 * (5 - end) * (1 + roundoff));
+    EXPECT_LE(c.p, (20 + 200 * (5 - end)) * (1 + roundoff));
     EXPECT_GT(c.p, 0);
   }
 }

@@ -16,8 +16,8 @@ enum class Update { bound, refit, realign };
 enum class Penalty { per_node, per_area };
 /// penalty: forces grow with the penetration. unilateral: there is none; gaps are closed by the residual
 /// flexibility of the bodies, which one side of the pair must have (docs/theory.md, section 6.11). augmented:
-/// there is none either, between bodies at rest without residual flexibility; gaps close from equilibrium to
-/// equilibrium (section 6.14). automatic: see chosen_law.
+/// there is none either, between bodies without residual flexibility; gaps close from equilibrium to
+/// equilibrium (section 6.14), or no longer close at the end of a step of a motion (section 6.15). automatic: see chosen_law.
 enum class ContactLaw { automatic, penalty, unilateral, augmented };
 /// What gaps and normals are taken from. facets: the faces as they are. smooth: a smooth surface through
 /// their nodes. exact, the default: the heights of a TrueSurface, and the smooth surface where none are

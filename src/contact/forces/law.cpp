@@ -69,11 +69,6 @@ NormalForce impact_force(const Impact& impact, double p_given, double rate) {
   return f;
 }
 
-// On an extension the rate is held the less strongly the less of the force is left.
-double faded(const Impact& impact, double fade) {
-  return 1 / (1 / impact.d + (1 / fade - 1) / impact.d_fade);
-}
-
 // The parts that make up a contact force.
 struct Parts {
   Varying slip;        // velocity
@@ -98,21 +93,9 @@ void set_normal(const Law& law, const ProjectionKinematics& kinematics, const Ga
     parts.p_v.setZero();
     return;
   }
-  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
-  if (law.impact) {
-    const double fade = std::max(gap.fade.f, kLeastFade);
-    Law here = law;
-    here.impact->d = faded(*law.impact, fade);
-    const double d_fade = here.impact->d / (law.impact->d_fade * fade * fade);  // of d with the fade
-    parts.normal = normal_force(here, gap.g, gap.n.dot(rate.value));
-    parts.p = parts.normal.p;
-    parts.p_x = parts.normal.p_r * rate_x;
-    if (law.impact->in_step) parts.p_x += parts.p * d_fade * gap.fade.f_a.transpose() * kinematics.D;
-    parts.p_v = parts.normal.p_r * gap.g_x;
-    return;
-  }
   parts.normal = normal_force(law, gap.g, gap.n.dot(rate.value));
   parts.p = gap.fade.f * parts.normal.p;
+  const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
   parts.p_x = gap.fade.f * (parts.normal.p_g * gap.g_x + parts.normal.p_r * rate_x) +
               parts.normal.p * gap.fade.f_a.transpose() * kinematics.D;
   parts.p_v = gap.fade.f * parts.normal.p_r * gap.g_x;
@@ -208,9 +191,10 @@ FadingEnergy fading_energy(const Law& law, const ProjectionKinematics& kinematic
 }
 
 // w / (w + s (1 - w)) of the share w that is left over an open end: with it the stiffness s c_p closes gaps
-// up to the compliance (1 / w - 1) / c_p.
+// up to the compliance (1 / w - 1) / c_p, and d of an impact holds rates up to (1 / w - 1) / (d / s).
 FaceFunction fade_of(const Law& law, const FaceFunction& w) {
-  const double s = law.stiffened, sum = w.f + s * (1 - w.f);
+  if (law.impact && !law.impact->in_step) return {1};  // the whole force is given
+  const double s = law.impact ? law.impact->stiffened : law.stiffened, sum = w.f + s * (1 - w.f);
   if (s == 1 || w.f == 1) return w;
   const double slope = s / (sum * sum), bend = -2 * s * (1 - s) / (sum * sum * sum);
   return {w.f / sum, slope * w.f_a, slope * w.f_ab + bend * w.f_a * w.f_a.transpose()};
