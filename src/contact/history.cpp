@@ -44,12 +44,14 @@ GivenFriction friction_at(const History& history, int node) {
 void set_forces(Histories& histories, const std::vector<ContactPoint>& contacts, const Eigen::Matrix3d& R) {
   for (History& history : histories) {
     history.p_before = std::exchange(history.p, {});
+    history.fade.clear();
     history.t.clear();
   }
   for (const ContactPoint& contact : contacts) {
     if (!(contact.p > 0)) continue;
     History& history = histories[contact.slave_side];
     history.p[contact.slave_point] = contact.p;
+    if (contact.fade < 1) history.fade[contact.slave_point] = contact.fade;
     if (const auto& f = contact.tangential) history.t[contact.slave_node] = {R * (f->T * f->t), f->slides};
   }
 }
@@ -88,7 +90,7 @@ void serialize(History& history, const model::Surface& slave, const model::Surfa
     archive(point.slides);
   });
   for (const auto& [node, point] : history.stuck) require_on(point, node, slave, master);
-  for (std::map<int, double>* p : {&history.p, &history.p_before})
+  for (std::map<int, double>* p : {&history.p, &history.p_before, &history.fade})
     serialize_map(archive, *p, [&](double& force) { archive(force); });
   serialize_map(archive, history.t, [&](GivenFriction& given) {
     archive(given.t);

@@ -25,6 +25,7 @@ struct History {
   std::map<int, StickPoint> open = {};   ///< where the last look found the other nodes that are near
   std::map<int, double> p = {};          ///< N, normal forces given
   std::map<int, double> p_before = {};   ///< N, of the step before
+  std::map<int, double> fade = {};       ///< -, shares left of the forces given, where they are not 1
   std::map<int, GivenFriction> t = {};   ///< of nodes that stick, in the frame that contacts are found in
   std::optional<ImpactStep> step = {};   ///< the last one; nothing at rest, and with other laws
   bool in_step = false;                  ///< is that step being made, or has it been?

@@ -13,7 +13,6 @@ Impact impact_of(const History& history, int point, const Law& law) {
   constexpr double kReturn = 1e-3;   // of its way to the surface, in each step, of a point that is pressed
   constexpr double kBound = 1e4;     // change of a rate over what is left of it
   constexpr double kPressed = 1e-3;  // of the force of the step before: what is left of an impulse is less
-  constexpr double kFadeSteps = 10;  // in which forces fall by half at half the force on an extension
   const ImpactStep& step = *history.step;
   const auto start = history.start.find(point);
   Impact impact;
@@ -25,7 +24,10 @@ Impact impact_of(const History& history, int point, const Law& law) {
   impact.may_close =
       impact.closed || law.p_given > 0 || (start != history.start.end() && may_close(start->second, step.dt));
   impact.d = kBound * law.mass / step.dt;
-  impact.stiffened = impact.d / (kFadeSteps * step.dt * law.c_p);
+  impact.stiffened = impact.d / (step.dt * law.c_p);
+  const auto fade = history.fade.find(point);
+  impact.p_held =
+      law.p_given * (fade == history.fade.end() ? 1 : 1 + impact.stiffened * (1 / fade->second - 1));
   impact.alpha_f = step.alpha_f;
   const auto before = history.p_before.find(point);
   const bool pressed = start != history.start.end() && before != history.p_before.end() &&

@@ -10,7 +10,8 @@ Eigen::VectorXd elastic_mobility(const model::ElasticBody& body) {
 }
 
 Eigen::VectorXd node_masses(const model::ElasticBody& body) {
-  return (elastic_mobility(body).array() + 1 / body.inertia.m).inverse();
+  constexpr double kLeast = 0.01;  // of the body, which stiff surroundings of a small node are part of
+  return (elastic_mobility(body).array() + 1 / body.inertia.m).inverse().cwiseMax(kLeast * body.inertia.m);
 }
 
 }  // namespace elastogear::dynamics

@@ -10,7 +10,7 @@ namespace elastogear::dynamics {
 Eigen::VectorXd elastic_mobility(const model::ElasticBody& body);
 
 /// kg, of each surface node: that an impulse moves, the motion of the whole body included as if it did not
-/// turn.
+/// turn; no less than a hundredth of the body.
 Eigen::VectorXd node_masses(const model::ElasticBody& body);
 
 }  // namespace elastogear::dynamics

@@ -235,7 +235,7 @@ Law in_impact(double friction) {
   law.hysteresis = 0;
   law.impact =
       Impact{.in_step = true, .may_close = true, .closed = true, .d = 200, .stiffened = 40, .alpha_f = 0.6};
-  law.p_given = 20;
+  law.impact->p_held = 20;
   law.impact->rate = 0.3;
   law.impact->least_rate = 5;
   return law;

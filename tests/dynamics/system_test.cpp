@@ -24,7 +24,7 @@ constexpr double kDifference = 1e-7;  // relative: roundoff / kStep, and kStep^2
 constexpr double kThinLayer = 2e-3;   // relative: what the tangent of friction leaves out, (0.01 / 0.25)^2
 constexpr double kTrials = 1e-4;      // relative: contact forces fit the answers to them to 1e-10 / kStep
 constexpr double kSplit = 1e-3;  // relative: two passes share a force among more contacts than it determines
-constexpr double kImpulse = 3e-7;  // relative: roundoff of forces that are far above the others
+constexpr double kImpulse = 1e-6;  // relative: roundoff and curvature of forces far above the others
 constexpr double kRoundoff = 1e-12;
 constexpr double kTime = 0.3;
 

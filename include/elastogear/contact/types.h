@@ -17,7 +17,8 @@ enum class Penalty { per_node, per_area };
 /// penalty: forces grow with the penetration. unilateral: there is none; gaps are closed by the residual
 /// flexibility of the bodies, which one side of the pair must have (docs/theory.md, section 6.11). augmented:
 /// there is none either, between bodies without residual flexibility; gaps close from equilibrium to
-/// equilibrium (section 6.14), or no longer close at the end of a step of a motion (section 6.15). automatic: see chosen_law.
+/// equilibrium (section 6.14), or no longer close at the end of a step of a motion (section 6.15). automatic:
+/// see chosen_law.
 enum class ContactLaw { automatic, penalty, unilateral, augmented };
 /// What gaps and normals are taken from. facets: the faces as they are. smooth: a smooth surface through
 /// their nodes. exact, the default: the heights of a TrueSurface, and the smooth surface where none are
@@ -162,6 +163,7 @@ struct ContactPoint {
   double energy = 0;          ///< J, c_p g_n^2 / 2 and that of the tangential spring
   double power = 0;           ///< W, taken by damping
   double friction_power = 0;  ///< W, taken by friction
+  double fade = 1;            ///< -, share of the force that is left over an open end
   double excess_rate = 0;     ///< m/s, of an impact: of the gap at the end of the step, beyond the least
   double work = 0;  ///< J, taken since the last accepted step by friction that sticks, and by impacts
   Eigen::Vector3d slip =

@@ -64,7 +64,7 @@ NormalForce impact_force(const Impact& impact, double p_given, double rate) {
   const double end_rate = (rate - (1 - impact.alpha_f) * impact.rate) / impact.alpha_f;
   f.excess_rate = end_rate - impact.least_rate;
   if (!impact.closed) return f;
-  f.p = p_given - impact.d * f.excess_rate;
+  f.p = impact.p_held - impact.d * f.excess_rate;
   f.p_r = -impact.d / impact.alpha_f;
   return f;
 }
@@ -181,17 +181,19 @@ void set_unilateral(const Law& law, const ProjectionKinematics& kinematics, cons
 }
 
 // The energy e of which -e d(fade) is the force on an extension. That of a unilateral contact, c p^2 / 2 at
-// g + c p = 0, has -c'(fade) p^2 / 2 in its place.
+// g + c p = 0, and of an impact, has -c'(fade) p^2 / 2 in its place.
 FadingEnergy fading_energy(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                            const Parts& parts) {
-  if (!law.unilateral) return {parts.normal.spring, parts.normal.energy_g * gap.g_x};
+  if (!law.unilateral && !law.impact)
+    return {parts.normal.spring, parts.normal.energy_g * gap.g_x, LocalRow::Zero()};
   const double fade = std::max(gap.fade.f, kLeastFade), weight = 1 / (law.c_p * fade * fade),
                e = 0.5 * weight * parts.p * parts.p;
-  return {e, weight * parts.p * parts.p_x - 2 * e / fade * gap.fade.f_a.transpose() * kinematics.D};
+  return {e, weight * parts.p * parts.p_x - 2 * e / fade * gap.fade.f_a.transpose() * kinematics.D,
+          weight * parts.p * parts.p_v};
 }
 
 // w / (w + s (1 - w)) of the share w that is left over an open end: with it the stiffness s c_p closes gaps
-// up to the compliance (1 / w - 1) / c_p, and d of an impact holds rates up to (1 / w - 1) / (d / s).
+// up to the compliance (1 / w - 1) / c_p, as d of an impact does where s = d / (c_p dt).
 FaceFunction fade_of(const Law& law, const FaceFunction& w) {
   if (law.impact && !law.impact->in_step) return {1};  // the whole force is given
   const double s = law.impact ? law.impact->stiffened : law.stiffened, sum = w.f + s * (1 - w.f);
@@ -308,8 +310,11 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
   set_tangent(kinematics, f, contact);
   if (law.unilateral) set_unilateral(law, kinematics, gap, all, contact);
   if (law.impact) contact.g_x = gap.g_x.reshaped(3, 5);
-  if (gap.fade.f < 1)
-    add_boundary_force(boundary_force(kinematics, gap, fading_energy(law, kinematics, gap, all)), contact);
+  contact.fade = given.fade.f;
+  const Gap& fading = law.impact ? given : gap;
+  if (fading.fade.f < 1)
+    add_boundary_force(boundary_force(kinematics, fading, fading_energy(law, kinematics, fading, all)),
+                       contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   contact.work = all.normal.work;
   contact.excess_rate = all.normal.excess_rate;

@@ -18,7 +18,8 @@ struct Impact {
   bool may_close = false;  ///< of an open gap: is it looked at?
   bool closed = false;     ///< is the rate held?
   double d = 0;            ///< N s/m, p = d (least_rate - g_t): Eq. (6.33)
-  double stiffened = 1;       ///< -, d over that of which half the share on an extension leaves half
+  double p_held = 0;       ///< N, at least_rate, where nothing fades
+  double stiffened = 1;    ///< -, d over c_p dt
   double alpha_f = 1;      ///< -, weight of the end of the step in the velocities given
   double dt = 0;           ///< s
   double rate = 0;         ///< m/s, at the start of the step

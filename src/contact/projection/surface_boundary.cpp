@@ -28,8 +28,10 @@ BoundaryForce boundary_force(const ProjectionKinematics& kinematics, const Gap& 
   const LocalRow w_x = gap.fade.f_a.transpose() * kinematics.D;
   const Eigen::Vector2d y = kinematics.A.inverse() * gap.fade.f_a;
   const Eigen::Matrix<double, 2, 15> turn = gap.fade.f_ab * kinematics.D - metric_derivative(kinematics, y);
-  return {-e.e * w_x.transpose(), -w_x.transpose() * e.e_x - e.e * (kinematics.D.transpose() * turn +
-                                                                    direction_derivative(kinematics, y))};
+  return {-e.e * w_x.transpose(),
+          -w_x.transpose() * e.e_x -
+              e.e * (kinematics.D.transpose() * turn + direction_derivative(kinematics, y)),
+          -w_x.transpose() * e.e_v};
 }
 
 // W = [B', unit vectors of the master's coordinates]: the first columns are those along which the slave node
@@ -43,7 +45,7 @@ void add_boundary_force(const BoundaryForce& boundary, ContactPoint& contact) {
     return V;
   };
   const Matrix15 K_x = boundary.F_x - contact.W * contact.k * contact.V.transpose(),
-                 K_v = -contact.W * contact.k * contact.V_dot.transpose();
+                 K_v = boundary.F_v - contact.W * contact.k * contact.V_dot.transpose();
   contact.V = packed(K_x);
   contact.V_dot = packed(K_v);
   contact.k.setIdentity(15, 15);

@@ -6,17 +6,19 @@
 
 namespace elastogear::contact {
 
-/// J, of which the fade factor leaves a part, and its gradient by the local coordinates, N.
+/// J, of which the fade factor leaves a part, and its gradients by the local coordinates, N, and velocities,
+/// N s.
 struct FadingEnergy {
   double e;
-  LocalRow e_x;
+  LocalRow e_x, e_v;
 };
 
-/// -e dw/dx on the local coordinates, which pushes a node off the boundary, and its derivative. Eq.
+/// -e dw/dx on the local coordinates, which pushes a node off the boundary, and its derivatives. Eq.
 /// (6.2b).
 struct BoundaryForce {
   Local F = Local::Zero();                                                    ///< N
   Eigen::Matrix<double, 15, 15> F_x = Eigen::Matrix<double, 15, 15>::Zero();  ///< N/m
+  Eigen::Matrix<double, 15, 15> F_v = Eigen::Matrix<double, 15, 15>::Zero();  ///< N s/m
 };
 BoundaryForce boundary_force(const ProjectionKinematics& kinematics, const Gap& gap, const FadingEnergy& e);
 
