@@ -44,14 +44,12 @@ GivenFriction friction_at(const History& history, int node) {
 void set_forces(Histories& histories, const std::vector<ContactPoint>& contacts, const Eigen::Matrix3d& R) {
   for (History& history : histories) {
     history.p_before = std::exchange(history.p, {});
-    history.fade.clear();
     history.t.clear();
   }
   for (const ContactPoint& contact : contacts) {
     if (!(contact.p > 0)) continue;
     History& history = histories[contact.slave_side];
     history.p[contact.slave_point] = contact.p;
-    if (contact.fade < 1) history.fade[contact.slave_point] = contact.fade;
     if (const auto& f = contact.tangential) history.t[contact.slave_node] = {R * (f->T * f->t), f->slides};
   }
 }
@@ -90,15 +88,14 @@ void serialize(History& history, const model::Surface& slave, const model::Surfa
     archive(point.slides);
   });
   for (const auto& [node, point] : history.stuck) require_on(point, node, slave, master);
-  for (std::map<int, double>* p : {&history.p, &history.p_before, &history.fade})
+  for (std::map<int, double>* p : {&history.p, &history.p_before})
     serialize_map(archive, *p, [&](double& force) { archive(force); });
   serialize_map(archive, history.t, [&](GivenFriction& given) {
     archive(given.t);
     archive(given.slides);
   });
   serialize_map(archive, history.start, [&](GapRate& at) {
-    archive(at.gap);
-    archive(at.rate);
+    for (double* x : {&at.gap, &at.rate, &at.fade}) archive(*x);
   });
   const std::size_t n_nodes = history.last_face.size();
   archive(history.last_face);

@@ -13,9 +13,9 @@
 
 namespace elastogear::contact {
 
-/// Where and how fast a gap was.
+/// Where and how fast a gap was, and the share of forces that was left there over an open end.
 struct GapRate {
-  double gap, rate;  ///< m, m/s
+  double gap, rate, fade;  ///< m, m/s, -
 };
 
 /// By slave node, forces and gaps by slave point.
@@ -25,7 +25,6 @@ struct History {
   std::map<int, StickPoint> open = {};   ///< where the last look found the other nodes that are near
   std::map<int, double> p = {};          ///< N, normal forces given
   std::map<int, double> p_before = {};   ///< N, of the step before
-  std::map<int, double> fade = {};       ///< -, shares left of the forces given, where they are not 1
   std::map<int, GivenFriction> t = {};   ///< of nodes that stick, in the frame that contacts are found in
   std::optional<ImpactStep> step = {};   ///< the last one; nothing at rest, and with other laws
   bool in_step = false;                  ///< is that step being made, or has it been?

@@ -25,9 +25,10 @@ Impact impact_of(const History& history, int point, const Law& law) {
       impact.closed || law.p_given > 0 || (start != history.start.end() && may_close(start->second, step.dt));
   impact.d = kBound * law.mass / step.dt;
   impact.stiffened = impact.d / (step.dt * law.c_p);
-  const auto fade = history.fade.find(point);
-  impact.p_held =
-      law.p_given * (fade == history.fade.end() ? 1 : 1 + impact.stiffened * (1 / fade->second - 1));
+  impact.p_held = law.p_given;
+  if (start != history.start.end())  // over an open end points may come from the side, with an entered gap
+    impact.p_held +=
+        impact.stiffened * (1 - start->second.fade) * (law.p_given - law.c_p * start->second.gap);
   impact.alpha_f = step.alpha_f;
   const auto before = history.p_before.find(point);
   const bool pressed = start != history.start.end() && before != history.p_before.end() &&
@@ -78,7 +79,8 @@ bool change_closed(Histories& histories, const std::vector<ContactPoint>& contac
 
 void keep_gaps(Histories& histories, std::vector<ContactPoint>& contacts) {
   for (History& history : histories) history.near.clear();
-  for (const ContactPoint& c : contacts) histories[c.slave_side].near[c.slave_point] = {c.g_n, rate(c)};
+  for (const ContactPoint& c : contacts)
+    histories[c.slave_side].near[c.slave_point] = {c.g_n, rate(c), c.fade};
   std::erase_if(contacts, [](const ContactPoint& c) { return !(c.p > 0); });
 }
 

@@ -317,6 +317,10 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
                        contact);
   if (law.v_0 > 0) contact.friction_power = all.mu * all.p * all.friction.direction.dot(contact.slip);
   contact.work = all.normal.work;
+  if (law.impact && given.fade.f < 1) {  // its compliance there stores what it takes
+    contact.energy = 0.5 * (1 / std::max(given.fade.f, kLeastFade) - 1) / law.c_p * all.p * all.p;
+    contact.work = 0;
+  }
   contact.excess_rate = all.normal.excess_rate;
   if (!stick || law.c_t == 0) return;
   if (!law.unilateral)
