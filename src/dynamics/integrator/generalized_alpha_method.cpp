@@ -150,7 +150,7 @@ PetscErrorCode solve_for_delta(TS ts) {
 }
 
 // Solves again while F changes with its solution. One that changes to and fro is not solved.
-PetscErrorCode solve_while_F_changes(TS ts) {
+PetscErrorCode solve_until_settled(TS ts) {
   constexpr int kMostRounds = 30;
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -176,7 +176,7 @@ PetscErrorCode solve(TS ts, const Motion& x, const Apply& apply) {
     PetscCall(SNESSetInitialFunction(ts->snes, m.residual));
   }
   PetscCall(solve_for_delta(ts));
-  if (m.check && m.stage.c_U != 0) PetscCall(solve_while_F_changes(ts));
+  if (m.check && m.stage.c_U != 0) PetscCall(solve_until_settled(ts));
   PetscCall(move_to_stage(m, m.Delta));
   PetscCall(apply());
   PetscCall(accept_roundoff(ts, x));
