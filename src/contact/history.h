@@ -1,5 +1,5 @@
 #pragma once
-// What the contacts of one slave surface take from the looks and steps before.
+// History of contact: what is kept of one slave surface from one evaluation, and one step, to the next.
 
 #include <array>
 #include <functional>

@@ -66,6 +66,12 @@ END
     -worm_rotation "$rotation" -wheel_angle0 "$angle" -output turned_$i.h5 >log 2>&1 || { cat log; exit 1; }
 done
 
+# In motion the force of a blow between rigid bodies is that of a time step, which is said; at rest there is none.
+if grep -q "rigid bodies without a penalty" log; then cat log; exit 1; fi
+"$elastogear" simulate drive.yaml -analysis dynamic -contact_law unilateral -ts_dt 1e-6 -ts_max_time 5e-6 \
+  -output blow.h5 >log 2>&1 || { cat log; exit 1; }
+grep -q "warning .*worm:wheel: rigid bodies without a penalty" log || { cat log; exit 1; }
+
 refused() {  # PATTERN ARGUMENTS: ends with an error that fits
   if "$elastogear" simulate drive.yaml -output no.h5 "${@:2}" >log 2>&1 || ! grep -Eq "error: .*$1" log; then
     echo "not refused as expected: ${*:2}"; cat log; exit 1

@@ -279,7 +279,7 @@ TEST_P(Bars, touch_for_two_passages_of_the_wave_with_the_force_of_its_impedance)
   EXPECT_NEAR(time, kContactTime, c.tolerance * kContactTime);
   EXPECT_NEAR(sum / n, expected, c.tolerance * expected);
   EXPECT_LT(h.imbalance, c.full ? 3e-4 : 1e-4);
-  // What nodes of unreduced bars lose as they are stopped, each with about a third of a cell's mass.
+  // An impact takes the kinetic energy of each node that it stops: that of about a third of a cell.
   const double lost = c.full ? (c.other_length > 0 ? 0.5 : 1) / (3. * c.cells) : 0;
   EXPECT_NEAR(h.taken, lost, 0.1 * lost + 1e-12);
 }

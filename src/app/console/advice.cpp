@@ -17,6 +17,17 @@ void print(const char* name, const char* whose, const dynamics::Vibration& vibra
                          ") asks for a step of " + with_unit(vibration.step(), "s"));
 }
 
+// Rigid bodies have no give: only the impulse of a blow is determinate, not its force.
+void warn_of_rigid_blows(const dynamics::System& system) {
+  const auto is_rigid = [&](int b) { return system.bodies()[static_cast<std::size_t>(b)].eq.n_q() == 0; };
+  for (const dynamics::PairSetup& pair : system.pairs())
+    if (pair.settings.law == contact::ContactLaw::augmented && is_rigid(pair.body[0]) &&
+        is_rigid(pair.body[1]))
+      print_item("warning", "contact " + pair.name +
+                                ": rigid bodies without a penalty stop each other within one time step; the "
+                                "force of such a blow is its impulse over the step, and not to be trusted");
+}
+
 }  // namespace
 
 void print_advice(const dynamics::System& system, double dt) {
@@ -31,6 +42,7 @@ void print_advice(const dynamics::System& system, double dt) {
   if (share > 0 && share < kFarTooShort)
     print_item("warning", "the step is " + with_unit(share, "times") +
                               " what the fastest vibration asks for: a longer one would do");
+  warn_of_rigid_blows(system);
 }
 
 dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer, double dt) {
