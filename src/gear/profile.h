@@ -1,5 +1,5 @@
 #pragma once
-// Plane tooth outlines: the worm in its axial section, the wheel in its transverse section.
+// Plane tooth outlines: of the worm in its axial section, of gears in the transverse one.
 
 #include <Eigen/Core>
 #include <functional>
@@ -23,12 +23,10 @@ struct Profile {
   double lateral(const Eigen::Vector2d& x) const;  ///< c of a plane point
 };
 
-/// Profiles of a design whose form radii are known (Geometry of derive()).
+/// Profile of the worm of a design whose form radii are known (Geometry of derive()).
 Profile worm_profile(const Design& design, const Geometry& geometry);
-Profile wheel_profile(const Design& design, const Geometry& geometry);
 
-/// Radii where the flanks end and the fillets begin; throw Error when the fillet does not exist.
+/// Radius where the worm's flank ends and its fillet begins; throws Error when the fillet does not exist.
 double worm_form_radius(const Design& design, const Geometry& geometry);
-double wheel_form_radius(const Design& design, const Geometry& geometry);
 
 }  // namespace elastogear::gear

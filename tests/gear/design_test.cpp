@@ -19,7 +19,7 @@ constexpr double kPrinted = 5e-7;  // half of the last digit of the reference de
 constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(Design, defaults_give_the_reference_design) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   EXPECT_NEAR(g.gamma / kDegree, 15.620493, 5e-7);
   EXPECT_NEAR(2 * g.worm.r, 14.855e-3, kPrinted);
   EXPECT_NEAR(2 * g.worm.r_a, 18.855e-3, kPrinted);
@@ -43,7 +43,7 @@ TEST(Geometry, closes_the_centre_distance_and_shares_the_normal_base_pitch) {
 TEST(Geometry, takes_half_the_backlash_from_each_body) {
   Design tight;
   tight.j_n = 0;
-  const Geometry with = derive({}), without = derive(tight);
+  const Geometry with = derive(Design{}), without = derive(tight);
   const double loss_1 = (psi(without.worm, with.worm.r) - psi(with.worm, with.worm.r)) * with.worm.r_b *
                         std::cos(with.worm.beta_b);
   const double loss_2 = (psi(without.wheel, with.wheel.r) - psi(with.wheel, with.wheel.r)) * with.wheel.r_b *
@@ -52,7 +52,7 @@ TEST(Geometry, takes_half_the_backlash_from_each_body) {
 }
 
 TEST(FlankDistance, is_0_on_the_flank_and_grows_by_the_step_along_its_normal) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   for (const Toothing& t : {g.worm, g.wheel})
     for (int side : {-1, 1}) {
       const auto point = [&](double r, double z) {
@@ -70,7 +70,7 @@ TEST(FlankDistance, is_0_on_the_flank_and_grows_by_the_step_along_its_normal) {
 }
 
 TEST(FlankDistance, is_negative_inside_the_tooth_on_both_sides) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   for (const Toothing& t : {g.worm, g.wheel})
     for (int side : {-1, 1}) {
       const double theta = tooth_angle(t, 0);

@@ -29,7 +29,7 @@ TEST(Flank, is_read_from_the_names_of_the_meshers_face_sets) {
 }
 
 TEST(Flank, normal_is_the_gradient_of_the_distance) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   const double h = 1e-7;
   for (const Toothing& t : {g.worm, g.wheel})
     for (int side : {-1, 1}) {
@@ -44,7 +44,7 @@ TEST(Flank, normal_is_the_gradient_of_the_distance) {
 }
 
 TEST(Flank, is_met_along_any_line_that_leaves_it_steeply) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   for (const Toothing& t : {g.worm, g.wheel})
     for (int side : {-1, 1})
       for (double r : {t.r_form, t.r, t.r_a}) {

@@ -13,7 +13,7 @@ constexpr double kPi = std::numbers::pi;
 std::string two_digits(int i) { return (i < 9 ? "0" : "") + std::to_string(i + 1); }
 
 TEST(Wheel, flank_nodes_lie_on_the_exact_flanks_from_fillet_to_tip) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   for (Size size : {Size::tiny, Size::small, Size::paper}) {
     const mesh::Mesh mesh = wheel_mesh({}, wheel_counts(size));
     for (int i : {0, 17, 40}) {
@@ -64,7 +64,7 @@ TEST(Wheel, rim_begins_at_the_rim_radius_and_body_is_the_rest) {
 }
 
 TEST(Wheel, root_sets_lie_between_root_and_form_radius_on_their_own_tooth) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   const mesh::Mesh mesh = wheel_mesh({}, wheel_counts(Size::small));
   std::size_t sum = 0;
   for (int tooth = 0; tooth < 41; ++tooth) {

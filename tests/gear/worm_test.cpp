@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 TEST(Worm, flank_nodes_lie_on_the_exact_flanks_from_fillet_to_tip) {
-  const Geometry g = derive({});
+  const Geometry g = derive(Design{});
   for (Size size : {Size::tiny, Size::small, Size::paper}) {
     const mesh::Mesh mesh = worm_mesh({}, worm_counts(size));
     for (int i : {0, 1}) {

@@ -8,7 +8,8 @@
 // on +Y, in the middle of a worm space, so that both flanks have the gap jn/2. The pair runs with phi_2 =
 // phi_1 z1/z2.
 
-#include <Eigen/Core>
+#include "elastogear/gear/blank.h"
+#include "elastogear/gear/toothing.h"
 
 namespace elastogear::gear {
 
@@ -46,23 +47,6 @@ struct Design {
   double rim_diameter = 70.0e-3;  ///< m, inner diameter of the rim
 };
 
-/// One body's toothing. Flanks: theta = z/p + s psi(r) + theta_tooth, s = +1: `left`, counter-clockwise seen
-/// from +z (on the worm the side of smaller z); s = -1: `right`.
-struct Toothing {
-  int z = 0;           ///< -, teeth or starts
-  double r = 0;        ///< m, pitch radius
-  double r_a = 0;      ///< m, tip radius
-  double r_f = 0;      ///< m, root radius
-  double r_b = 0;      ///< m, base radius
-  double r_form = 0;   ///< m, radius where the flank ends and the fillet begins
-  double r_start = 0;  ///< m, smallest radius on the path of contact
-  double alpha_t = 0;  ///< rad, transverse pressure angle
-  double beta_b = 0;   ///< rad, base helix angle
-  double p = 0;        ///< m/rad, axial advance per radian: lead / (2 pi)
-  double psi_b = 0;    ///< rad, half the tooth thickness as an angle, at the base circle
-  double theta_1 = 0;  ///< rad, angle of tooth 1's centre at z = 0
-};
-
 /// Radii, angles and lengths that follow from a Design.
 struct Geometry {
   double gamma = 0;    ///< rad, lead angle of the worm = helix angle of the wheel
@@ -81,16 +65,7 @@ struct Geometry {
 /// shafts and rings out of order.
 Geometry derive(const Design& design);
 
-/// Angle of tooth i (0-based) at z = 0, rad.
-double tooth_angle(const Toothing& toothing, int i);
-
-/// Half the tooth thickness as an angle at radius r >= r_b (the base circle's value inside it), rad.
-double psi(const Toothing& toothing, double r);
-
-/// Exact signed normal distance of point x (body frame, m) to the flank of a tooth on side s = +1 (left) or
-/// -1 (right): d = r_b cos(beta_b) (s (theta - z/p - theta_tooth) - psi(r)); > 0 outside the tooth. The angle
-/// is taken nearest to the tooth's centre. Inside the base cylinder, where the flank has no points, psi(r_b)
-/// is used.
-double flank_distance(const Toothing& toothing, int tooth, int side, const Eigen::Vector3d& x);
+/// The wheel's body.
+Blank wheel_blank(const Design& design);
 
 }  // namespace elastogear::gear

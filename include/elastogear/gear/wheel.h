@@ -18,7 +18,7 @@ struct WheelCounts {
   int ring = 1;         ///< rows across the ring
   int web = 1;          ///< rows across the web
   int hub = 1;          ///< rows across the hub
-  int web_layers = 2;   ///< axial layers across the web's width
+  int web_layers = 2;   ///< axial layers across the web's width, or the face where there is no web
   int face_layers = 1;  ///< axial layers of the face on each side of the web
   int hub_layers = 1;   ///< axial layers of the hub on each side beyond the face
 };

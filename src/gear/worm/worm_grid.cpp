@@ -1,4 +1,4 @@
-#include "gear/worm_grid.h"
+#include "gear/worm/worm_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gear/helix.h"
+#include "gear/worm/helix.h"
 
 #include "gear/assembly.h"
 

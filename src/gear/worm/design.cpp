@@ -7,6 +7,7 @@
 
 #include "elastogear/base/error.h"
 #include "gear/profile.h"
+#include "gear/rack.h"
 
 namespace elastogear::gear {
 namespace {
@@ -17,8 +18,6 @@ constexpr double kMaxConeSlope = 3;
 constexpr double kDegree = pi / 180;
 constexpr int kMaxTeeth = 1000;
 constexpr double kMinTipWidth = 0.1;  // of the module: thinner teeth count as pointed
-
-double involute(double alpha) { return std::tan(alpha) - alpha; }
 
 // A named number of the design, for messages.
 struct Value {
@@ -189,6 +188,15 @@ Geometry pitch_geometry(const Design& d) {
   return g;
 }
 
+double wheel_form_radius(const Design& d, const Geometry& g) {
+  const RackTip rack = wheel_rack(d, g);
+  const Form f = form(rack, g.wheel);
+  require(!f.undercut, "the wheel is undercut: the straight flank of its rack reaches ", straight_depth(rack),
+          " m below the pitch line, at most ", undercut_depth(g.wheel), " m is allowed with z2 = ", d.z2,
+          " and pressure_angle = ", d.alpha_n / kDegree, " deg");
+  return f.r_form;
+}
+
 void derive_contact(const Design& d, Geometry& g) {
   const double L_1 = path_length(g.worm), L_2 = path_length(g.wheel);
   g.epsilon = (L_1 + L_2) / g.p_bn;
@@ -201,16 +209,6 @@ void derive_contact(const Design& d, Geometry& g) {
 }
 
 }  // namespace
-
-double tooth_angle(const Toothing& t, int i) { return t.theta_1 + 2 * pi * i / t.z; }
-
-double psi(const Toothing& t, double r) { return t.psi_b - involute(std::acos(std::min(1.0, t.r_b / r))); }
-
-double flank_distance(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
-  const double turned = std::atan2(x[1], x[0]) - x[2] / t.p - tooth_angle(t, tooth);
-  const double theta = std::remainder(turned, 2 * pi);
-  return t.r_b * std::cos(t.beta_b) * (side * theta - psi(t, std::hypot(x[0], x[1])));
-}
 
 Geometry derive(const Design& d) {
   check_positive(d);
@@ -227,6 +225,25 @@ Geometry derive(const Design& d) {
   check_fillet(g.worm, "worm_fillet", d.worm_fillet);
   check_fillet(g.wheel, "wheel_rack_tip", d.wheel_rack_tip);
   return g;
+}
+
+RackTip wheel_rack(const Design& d, const Geometry& g) {
+  const RackTip rack = rack_tip(d.alpha_n, g.gamma, g.wheel.r, g.s_n, d.dedendum, d.wheel_rack_tip);
+  const double half_pitch = pi * d.m_n / 2;
+  require(rack.centre[0] <= half_pitch, "wheel_rack_tip = ", d.wheel_rack_tip,
+          " m does not fit: the arc's centre lies ", rack.centre[0],
+          " m from the middle of the rack's space, at most half a pitch is allowed: ", half_pitch, " m");
+  return rack;
+}
+
+Blank wheel_blank(const Design& d) {
+  return {.face_width = d.face_width,
+          .bore = d.wheel_bore,
+          .rim_diameter = d.rim_diameter,
+          .hub_diameter = d.hub_diameter,
+          .hub_width = d.hub_width,
+          .web_diameter = d.web_diameter,
+          .web_width = d.web_width};
 }
 
 }  // namespace elastogear::gear

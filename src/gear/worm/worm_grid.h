@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "elastogear/gear/worm.h"
-#include "gear/helix.h"
 #include "gear/tooth_grid.h"
+#include "gear/worm/helix.h"
 
 namespace elastogear::gear {
 

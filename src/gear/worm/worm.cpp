@@ -6,7 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "gear/assembly.h"
-#include "gear/worm_grid.h"
+#include "gear/worm/worm_grid.h"
 
 namespace elastogear::gear {
 namespace {

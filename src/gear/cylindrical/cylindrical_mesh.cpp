@@ -1,0 +1,46 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gear/cylindrical/generating_rack.h"
+#include "gear/gear_mesh.h"
+
+namespace elastogear::gear {
+
+RackTip generating_rack(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
+  const Toothing& t = g.gear[i];
+  const double beta = std::acos(d.m_n * t.z / (2 * t.r));
+  return rack_tip(d.rack.alpha_n, beta, t.r, g.s_n[i], t.r - t.r_f, d.rack.rho_fP * d.m_n);
+}
+
+WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeometry& g, int i, Size size) {
+  constexpr double kWidth = 8;  // modules, which the layers of a size are for
+  WheelCounts n = wheel_counts(size);
+  const Blank& b = g.blank[i];
+  const double total = (n.web_layers + 2 * n.face_layers) * b.face_width / (kWidth * d.m_n);
+  const int layers = std::max(2, static_cast<int>(std::lround(total)));
+  const double column = std::numbers::pi * g.gear[i].r / (g.gear[i].z * (n.space + 0.5 * n.tooth));
+  const auto rows = [&](double outer, double inner) {
+    constexpr double kSlender = 3;  // columns that a row may be high
+    return std::max(1, static_cast<int>(std::lround((outer - inner) / 2 / (kSlender * column))));
+  };
+  if (!b.has_web()) {
+    n.web_layers = layers;
+    n.ring = b.rim_diameter > b.bore ? rows(b.rim_diameter, b.bore) : 1;
+    return n;
+  }
+  n.web_layers = std::max(1, static_cast<int>(std::lround(layers * b.web_width / b.face_width)));
+  n.face_layers = std::max(1, (layers - n.web_layers) / 2);
+  n.ring = rows(b.rim_diameter, b.web_diameter);
+  n.web = rows(b.web_diameter, b.hub_diameter);
+  n.hub = rows(b.hub_diameter, b.bore);
+  return n;
+}
+
+mesh::Mesh cylindrical_mesh(const CylindricalDrive& d, const CylindricalGeometry& g, int i,
+                            const WheelCounts& counts) {
+  const Profile profile = generated_profile(generating_rack(d, g, i), g.gear[i], g.blank[i].rim_diameter / 2);
+  return gear_mesh(d.gears[i].name, g.gear[i], profile, g.blank[i], counts);
+}
+
+}  // namespace elastogear::gear

@@ -1,0 +1,23 @@
+#pragma once
+// The way of a tip's corner through the mate's space, which finds out whether tips cut into roots.
+
+#include "gear/profile.h"
+
+namespace elastogear::gear {
+
+/// Two gears in the transverse plane, flanks in contact.
+struct TipPath {
+  Profile root;         ///< of `own`
+  Toothing own, mate;   ///< the mate's tip moves in a space of `own`
+  double a = 0;         ///< m, centre distance
+  double alpha_wt = 0;  ///< rad, working pressure angle
+};
+
+/// m, distance along the line of action from where it touches the base circle to where it has the radius r.
+double along_action(const Toothing& toothing, double r);
+
+/// m, the least distance around the axis of the corner at the mate's tip radius r_a from fillet and flank; on
+/// an involute flank it is 0, < 0 where it cuts.
+double tip_gap(const TipPath& path, double r_a);
+
+}  // namespace elastogear::gear

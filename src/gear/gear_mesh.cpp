@@ -1,0 +1,203 @@
+#include "gear/gear_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "elastogear/base/error.h"
+#include "gear/assembly.h"
+
+namespace elastogear::gear {
+namespace {
+
+// One sector: columns q = -half_pitch .. half_pitch (the last is the next sector's first), rows outwards from
+// the bore (hub, web, ring, rim, tooth), planes along z. A row of cells fills the planes within its half
+// width.
+struct Sector {
+  ToothGrid tooth_grid;
+  double half_pitch = 0;           // rad
+  std::vector<double> radius;      // m, rows 0 .. below the rim
+  std::vector<double> half_width;  // m, of each row of cells
+  std::vector<double> z;           // m, planes
+  int rim = 0, tooth = 0;          // rows of nodes where rim and tooth begin
+
+  int rows() const { return static_cast<int>(half_width.size()); }
+  int planes() const { return static_cast<int>(z.size()); }
+};
+
+constexpr double kSamePlane = 1e-9;  // m, far below any layer
+
+void check(const std::string& name, const WheelCounts& n, int z) {
+  const double layers = n.web_layers + 2.0 * (n.face_layers + n.hub_layers);
+  const double section = (2.0 * n.space + n.tooth) * (n.rim + n.ring + n.web + n.hub) +
+                         static_cast<double>(n.tooth) * (n.fillet + n.flank);
+  check_counts(name,
+               {n.tooth, n.space, n.flank, n.fillet, n.rim, n.ring, n.web, n.hub, n.web_layers, n.face_layers,
+                n.hub_layers},
+               z * layers * section);
+  require(n.tooth % 2 == 0, "the ", name, "'s count tooth = ", n.tooth, " must be even");
+}
+
+void add_rows(Sector& sector, int n, double r_outer, double width) {
+  const double r_inner = sector.radius.back();
+  for (int i = 1; i <= n; ++i) {
+    sector.radius.push_back(std::lerp(r_inner, r_outer, static_cast<double>(i) / n));
+    sector.half_width.push_back(width / 2);
+  }
+}
+
+// Planes on the positive side, from the web outwards; the negative side mirrors them.
+std::vector<double> plane_positions(const Blank& blank, const WheelCounts& n) {
+  const double middle = blank.has_web() ? blank.web_width : blank.face_width;
+  std::vector<double> upper{middle / 2};
+  std::pair<double, int> steps[] = {{blank.face_width / 2, n.face_layers},
+                                    {blank.hub_width / 2, n.hub_layers}};
+  std::sort(std::begin(steps), std::end(steps));
+  for (const auto& [z, layers] : steps) {
+    const double from = upper.back();
+    for (int i = 1; i <= layers && z - from > kSamePlane; ++i)
+      upper.push_back(std::lerp(from, z, static_cast<double>(i) / layers));
+  }
+  std::vector<double> all;
+  for (auto z = upper.rbegin(); z != upper.rend(); ++z) all.push_back(-*z);
+  for (int i = 1; i < n.web_layers; ++i)
+    all.push_back(middle * (static_cast<double>(i) / n.web_layers - 0.5));
+  all.insert(all.end(), upper.begin(), upper.end());
+  return all;
+}
+
+Sector sector(const Toothing& toothing, const Profile& profile, const Blank& blank, const WheelCounts& n) {
+  Sector s{
+      .tooth_grid = tooth_grid(
+          profile, {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim}),
+      .radius = {blank.bore / 2},
+      .half_width = {},
+      .z = plane_positions(blank, n)};
+  s.half_pitch = std::numbers::pi / toothing.z;
+  if (blank.has_web()) {
+    add_rows(s, n.hub, blank.hub_diameter / 2, blank.hub_width);
+    add_rows(s, n.web, blank.web_diameter / 2, blank.web_width);
+  }
+  if (blank.rim_diameter > 2 * s.radius.back()) add_rows(s, n.ring, blank.rim_diameter / 2, blank.face_width);
+  s.rim = static_cast<int>(s.half_width.size());
+  s.tooth = s.rim + n.rim;
+  s.half_width.resize(static_cast<std::size_t>(s.tooth + s.tooth_grid.rows), blank.face_width / 2);
+  return s;
+}
+
+bool has_cell(const Sector& s, int q, int row, int plane) {
+  const bool within = row < s.tooth || (q >= -s.tooth_grid.half_tooth && q < s.tooth_grid.half_tooth);
+  return within && std::max(std::abs(s.z[plane]), std::abs(s.z[plane + 1])) < s.half_width[row] + kSamePlane;
+}
+
+// (angle from the tooth's axis, radius) of a node of the section.
+Eigen::Vector2d polar_point(const Sector& s, int q, int row) {
+  if (row < s.rim) return {s.half_pitch * q / s.tooth_grid.half_pitch, s.radius[row]};
+  const Eigen::Vector2d x =
+      row <= s.tooth ? s.tooth_grid.strip_point(q, row - s.rim) : s.tooth_grid.tooth_point(q, row - s.tooth);
+  return {std::atan2(x[0], x[1]), x.norm()};
+}
+
+bool has_node(const Sector& s, int q, int row, int plane) {
+  const double below = row > 0 ? s.half_width[row - 1] : 0, above = row < s.rows() ? s.half_width[row] : 0;
+  return (row <= s.tooth || std::abs(q) <= s.tooth_grid.half_tooth) &&
+         std::abs(s.z[plane]) < std::max(below, above) + kSamePlane;
+}
+
+// Node numbers of one sector. Its last column is the first of the next sector, whose numbers lie `count`
+// further on.
+struct Numbering {
+  int half_pitch, rows, count = 0;
+  std::vector<int> number;
+
+  std::size_t index(int q, int row, int plane) const {
+    return (static_cast<std::size_t>(plane) * 2 * half_pitch + q + half_pitch) * (rows + 1) + row;
+  }
+  int at(int q, int row, int plane) const {
+    return q == half_pitch ? count + number[index(-half_pitch, row, plane)] : number[index(q, row, plane)];
+  }
+};
+
+Numbering number_nodes(const Sector& s) {
+  Numbering n{.half_pitch = s.tooth_grid.half_pitch, .rows = s.rows(), .number = {}};
+  for (int plane = 0; plane < s.planes(); ++plane)
+    for (int q = -n.half_pitch; q < n.half_pitch; ++q)
+      for (int row = 0; row <= n.rows; ++row) n.number.push_back(has_node(s, q, row, plane) ? n.count++ : -1);
+  return n;
+}
+
+template <class Visit>
+void for_nodes(const Sector& s, const Numbering& n, Visit visit) {
+  for (int plane = 0; plane < s.planes(); ++plane)
+    for (int q = -n.half_pitch; q < n.half_pitch; ++q)
+      for (int row = 0; row <= n.rows; ++row)
+        if (n.at(q, row, plane) >= 0) visit(q, row, plane);
+}
+
+Eigen::Matrix3Xd positions(const Sector& s, const Numbering& n, const Toothing& toothing) {
+  Eigen::Matrix3Xd X(3, n.count * toothing.z);
+  for_nodes(s, n, [&](int q, int row, int plane) {
+    const Eigen::Vector2d x = polar_point(s, q, row);
+    for (int tooth = 0; tooth < toothing.z; ++tooth) {
+      const double theta = tooth_angle(toothing, tooth) + x[0] + s.z[plane] / toothing.p;
+      X.col(tooth * n.count + n.at(q, row, plane)) << x[1] * std::cos(theta), x[1] * std::sin(theta),
+          s.z[plane];
+    }
+  });
+  return X;
+}
+
+// Nodes of the fillet's surface: beside the tooth up to the flank, and on the strip's top down to the root
+// land.
+bool on_fillet(const Sector& s, int q, int row) {
+  const int column = std::abs(q);
+  if (row == s.tooth) return column >= s.tooth_grid.half_tooth && column <= s.tooth_grid.fillet_end;
+  return row > s.tooth && row <= s.tooth + s.tooth_grid.fillet && column == s.tooth_grid.half_tooth;
+}
+
+void add_node_sets(mesh::Mesh& mesh, const Sector& s, const Numbering& n, int teeth) {
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    for_nodes(s, n, [&](int q, int row, int plane) {
+      const int node = tooth * n.count + n.at(q, row, plane);
+      if (row == 0) mesh.node_sets["bore"].push_back(node);
+      if (!on_fillet(s, q, row)) return;
+      mesh.node_sets["root"].push_back(node);
+      mesh.node_sets[numbered("root", tooth, teeth)].push_back(node);
+    });
+}
+
+void add_cell(mesh::Mesh& mesh, const Sector& s, const Numbering& n, std::array<int, 4> cell) {
+  const auto [tooth, q, row, plane] = cell;
+  const int n_nodes = static_cast<int>(mesh.X.cols()), teeth = n_nodes / n.count;
+  const auto node = [&](int dq, int drow, int dplane) {
+    return (tooth * n.count + n.at(q + dq, row + drow, plane + dplane)) % n_nodes;
+  };
+  mesh.cell_sets[row < s.rim ? "body" : "rim"].push_back(mesh.cells.size());
+  const auto faces = add_hex(mesh, {node(0, 0, 0), node(0, 1, 0), node(1, 1, 0), node(1, 0, 0), node(0, 0, 1),
+                                    node(0, 1, 1), node(1, 1, 1), node(1, 0, 1)});
+  if (row < s.tooth + s.tooth_grid.fillet) return;
+  if (q == -s.tooth_grid.half_tooth) add_flank(mesh, faces[2], numbered("tooth", tooth, teeth), "right");
+  if (q == s.tooth_grid.half_tooth - 1) add_flank(mesh, faces[4], numbered("tooth", tooth, teeth), "left");
+}
+
+}  // namespace
+
+mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing, const Profile& profile,
+                     const Blank& blank, const WheelCounts& counts) {
+  check(name, counts, toothing.z);
+  const Sector s = sector(toothing, profile, blank, counts);
+  const Numbering n = number_nodes(s);
+  mesh::Mesh mesh;
+  mesh.X = positions(s, n, toothing);
+  for (int tooth = 0; tooth < toothing.z; ++tooth)
+    for (int plane = 0; plane + 1 < s.planes(); ++plane)
+      for (int q = -n.half_pitch; q < n.half_pitch; ++q)
+        for (int row = 0; row < n.rows; ++row)
+          if (has_cell(s, q, row, plane)) add_cell(mesh, s, n, {tooth, q, row, plane});
+  add_node_sets(mesh, s, n, toothing.z);
+  sort_node_sets(mesh);
+  check_cells(mesh, name);
+  return mesh;
+}
+
+}  // namespace elastogear::gear
