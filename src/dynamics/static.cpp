@@ -24,6 +24,7 @@ constexpr int kMostIterations = 300;    // contact that is far away is approache
 constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
+constexpr double kJump = 1e-5;          // share of the forces by which contact may jump
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -36,16 +37,31 @@ struct Equilibrium {
   double factor = 0;
   Eigen::VectorXd zero;
   std::vector<Eigen::VectorXd> resistance;  // sigma M of each body's joint coordinates, its diagonal
+  Eigen::VectorXd unloaded_scale;           // of forces without load, the largest so far
   double least_norm = 0;                    // of F, so far
   int n_in_vain = 0;                        // iterations since then
 
   State state(ConstVector U) const { return {factor, U, zero, zero}; }
 };
 
-bool touch(Equilibrium& at, ConstVector U) {
-  const std::vector<PairContacts>& pairs = at.problem.system.contacts(at.factor, U, at.zero).pair;
-  return std::any_of(pairs.begin(), pairs.end(),
-                     [](const PairContacts& pair) { return !pair.points.empty(); });
+// Which pairs touch.
+std::vector<bool> touching(Equilibrium& at, ConstVector U) {
+  std::vector<bool> touch;
+  for (const PairContacts& pair : at.problem.system.contacts(at.factor, U, at.zero).pair)
+    touch.push_back(!pair.points.empty());
+  return touch;
+}
+
+bool any_touch(Equilibrium& at, ConstVector U) {
+  const std::vector<bool> touch = touching(at, U);
+  return std::find(touch.begin(), touch.end(), true) != touch.end();
+}
+
+// Without load an overlap's forces vanish as it goes: what is left of them is small against what they were.
+void remember_scale(Equilibrium& at) {
+  Eigen::VectorXd& scale = at.problem.residual.scale;
+  if (at.unloaded_scale.size() == scale.size()) scale = scale.cwiseMax(at.unloaded_scale);
+  at.unloaded_scale = scale;
 }
 
 PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
@@ -56,6 +72,7 @@ PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
     if (!is_admissible(at.problem, at.factor, *u, Eigen::VectorXd::Zero((*u).size())))
       return check(SNESSetFunctionDomainError(snes));
     at.problem.residual = at.problem.system.residual(at.state(*u));
+    if (at.factor == 0) remember_scale(at);
     assign(F, at.problem.residual.F);
   });
 }
@@ -65,7 +82,7 @@ PetscErrorCode jacobian(SNES, Vec U, Mat J, Mat P, void* ctx) {
   return guard(at.problem.pending, [&] {
     at.problem.pulse();
     const ReadView u(U);
-    const double sigma = (touch(at, *u) ? kResistance : kFreely) * imbalance(at.problem.residual);
+    const double sigma = (any_touch(at, *u) ? kResistance : kFreely) * imbalance(at.problem.residual);
     EffectiveMatrix A = at.problem.system.effective_matrix(at.state(*u), {0, 0});
     EffectiveMatrix resisting = at.problem.system.effective_matrix(at.state(*u), {0, sigma});
     at.resistance.clear();
@@ -106,25 +123,51 @@ double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& 
 }
 
 // Forces of contact have kinks, between which Newton's method may go round without an end; shorter steps end
-// on one.
+// on one. They have small jumps, too, where points of contact come and go: on one of them no state is in
+// balance, and the one beside it is taken.
 double damping(Equilibrium& at, SNESLineSearch search) {
-  constexpr int kPatience = 4;  // iterations in which the imbalance has not fallen
+  constexpr int kPatience = 4, kInVain = 12;  // iterations in which the imbalance has hardly fallen
+  constexpr double kHardly = 0.9;
   SNES snes = nullptr;
   PetscInt iteration = 0;
   PetscReal norm = 0;
   check(SNESLineSearchGetSNES(search, &snes));
   check(SNESGetIterationNumber(snes, &iteration));
   check(SNESGetFunctionNorm(snes, &norm));
-  if (iteration == 0 || norm < at.least_norm) {
+  if (iteration == 0 || norm < kHardly * at.least_norm) {
     at.least_norm = norm;
     at.n_in_vain = 0;
   } else {
     ++at.n_in_vain;
+    if (at.n_in_vain >= kInVain) at.problem.slack = kJump;
   }
   return at.n_in_vain < kPatience ? 1 : 0.5;
 }
 
-// Surfaces must not pass through each other unseen.
+// Share of a change of U until pairs that are apart touch; 1 when they stay apart.
+double until_touch(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& change) {
+  constexpr int kBisections = 25;
+  const Eigen::VectorXd V = Eigen::VectorXd::Zero(U.size());
+  const std::vector<bool> before = touching(at, U);
+  if (std::find(before.begin(), before.end(), false) == before.end()) return 1;
+  const auto meets = [&](double share) {
+    const Eigen::VectorXd to = U - share * change;
+    if (!is_admissible(at.problem, at.factor, to, V)) return true;
+    const std::vector<bool> after = touching(at, to);
+    for (std::size_t p = 0; p < after.size(); ++p)
+      if (after[p] && !before[p]) return true;
+    return false;
+  };
+  if (!meets(1)) return 1;
+  double apart = 0, met = 1;
+  for (int i = 0; i < kBisections; ++i) {
+    const double share = (apart + met) / 2;
+    (meets(share) ? met : apart) = share;
+  }
+  return met;
+}
+
+// Surfaces must not pass through each other unseen, and bodies that are apart not go deep into each other.
 PetscErrorCode limit(SNESLineSearch search, Vec X, Vec Y, PetscBool* changed, void* ctx) {
   auto& at = *static_cast<Equilibrium*>(ctx);
   return guard(at.problem.pending, [&] {
@@ -139,8 +182,10 @@ PetscErrorCode limit(SNESLineSearch search, Vec X, Vec Y, PetscBool* changed, vo
       share = std::min(0.5, 1 / too_far);  // rotations are not linear in y: look again
       y *= share;
     }
-    *changed = share < 1 ? PETSC_TRUE : PETSC_FALSE;
-    if (share < 1) assign(Y, y);
+    const double met = until_touch(at, *x, y);
+    y *= met;
+    *changed = share * met < 1 ? PETSC_TRUE : PETSC_FALSE;
+    if (*changed) assign(Y, y);
   });
 }
 
@@ -197,10 +242,13 @@ bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   at.problem.trouble.clear();
+  at.problem.slack = 0;
   check(SNESSolve(snes, nullptr, U), at.problem.pending);
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
   summary.newton_iterations += iterations;
+  if (reason > 0 && at.problem.slack > 0)
+    summary.unbalanced = std::max(summary.unbalanced, imbalance(at.problem.residual));
   return reason > 0;
 }
 

@@ -59,11 +59,12 @@ struct RunSummary {
   double initial_energy = 0;     ///< J, stored at the start
   double work = 0;               ///< J, of the loads up to the last state
   double largest_imbalance = 0;  ///< J, largest |balance| of the energy ledger
-  double wall_time = 0;          ///< s
-  bool complete = false;         ///< reached the end time, or rest; else stopped before
-  bool out_of_steps = false;     ///< stopped by -ts_max_steps
-  double time = 0;               ///< s, reached
-  bool at_rest = false;          ///< of a relaxing run: came to rest before its end time
+  double unbalanced = 0;      ///< largest share of the forces that an equilibrium leaves where contact jumps
+  double wall_time = 0;       ///< s
+  bool complete = false;      ///< reached the end time, or rest; else stopped before
+  bool out_of_steps = false;  ///< stopped by -ts_max_steps
+  double time = 0;            ///< s, reached
+  bool at_rest = false;       ///< of a relaxing run: came to rest before its end time
 };
 
 using Observer = std::function<void(const model::Snapshot&)>;

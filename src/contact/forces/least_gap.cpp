@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 constexpr int kSteps = 20;
 constexpr double kConverged = 1e-10;  // of local coordinates
 constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
+constexpr double kLine = 1e-3;        // ratio of curvatures below which surfaces meet along a line
 constexpr double kApart = 1e-4;       // of a face, between minima that are not the same
 
 // A slave point that may be a minimum.
@@ -101,6 +102,15 @@ std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector
   return Vector2d(next - at);
 }
 
+// Whether the gap hardly grows along one direction: its curvatures, of H in the metric of the face's tangents
+// a. Where it is least along such a line is a matter of roundoff, and of the sides that the line crosses.
+bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H) {
+  const Eigen::Matrix2d C = (a.transpose() * a).inverse() * H;
+  const double mean = 0.5 * C.trace(), product = C.determinant();
+  const double most = mean + std::sqrt(std::max(0.0, mean * mean - product));
+  return product < kLine * most * most;
+}
+
 // Newton's method while it is held on the face. on_sides: m, the least gap known on the face's sides.
 std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const FaceStart& start,
                                     double on_sides) {
@@ -112,8 +122,9 @@ std::optional<Minimum> least_within(const GapField& field, SlavePoint point, con
     if (!t) return {};
     face = t->over.projection.face;
     const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
-    const auto way = step_on_face(sides, point.at, slope, gap_curvature(t->geometry, 2, t->over.gap));
-    if (!way) return {};
+    const Eigen::Matrix2d H = gap_curvature(t->geometry, 2, t->over.gap);
+    const auto way = step_on_face(sides, point.at, slope, H);
+    if (!way || is_flat(t->geometry.a.leftCols<2>(), H)) return {};
     if (way->cwiseAbs().maxCoeff() < kConverged) {
       const double length = t->geometry.a.colwise().norm().maxCoeff();
       const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;

@@ -79,7 +79,7 @@ PetscErrorCode converged(SNES snes, PetscInt, PetscReal, PetscReal, PetscReal no
     *reason = SNES_DIVERGED_FNORM_NAN;
   else if (norm <= atol)
     *reason = SNES_CONVERGED_FNORM_ABS;
-  else if ((r.norm.array() <= rtol * r.scale.array()).all())
+  else if ((r.norm.array() <= std::max<double>(rtol, problem.slack) * r.scale.array()).all())
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
   return 0;
 }

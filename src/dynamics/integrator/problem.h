@@ -14,9 +14,10 @@ struct Problem {
 
   System& system;
   LowRankSolver solver;
-  Residual residual;                    ///< of the last evaluation
-  std::string trouble;                  ///< why a state was last called inadmissible; empty: it was not
-  std::exception_ptr pending;           ///< what a callback threw
+  Residual residual;           ///< of the last evaluation
+  double slack = 0;            ///< share of the forces that may be unbalanced, where it is above -snes_rtol
+  std::string trouble;         ///< why a state was last called inadmissible; empty: it was not
+  std::exception_ptr pending;  ///< what a callback threw
   std::function<void()> pulse = [] {};  ///< called at every evaluation, product and solve; may throw
 };
 
