@@ -46,14 +46,18 @@ void warn_of_unused_options() {
   check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
 }
 
-// The options of all verbs, bare and under the verb's own section ("recover_output").
+// The options of all verbs, bare, under the verb's own section ("recover_output"), and those of reduce under
+// the name of a drive's gear ("pinion_modes").
 OptionTable all_options(const std::vector<Verb>& verbs) {
   OptionTable all;
   for (const Verb& verb : verbs)
-    for (OptionSpec spec : verb.table) {
+    for (const OptionSpec& spec : verb.table) {
       all.push_back(spec);
-      spec.name = verb.name + "_" + spec.name;
       all.push_back(spec);
+      all.back().name = verb.name + "_" + spec.name;
+      if (verb.name != "reduce" || spec.name.starts_with("<gear>")) continue;
+      all.push_back(spec);
+      all.back().name = "<gear>_" + spec.name;
     }
   return all;
 }

@@ -4,8 +4,6 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "elastogear/gear/design.h"
-
 namespace elastogear::gear {
 
 /// The half of one tooth on the positive side of its axis. A point is given by its radius and a lateral
@@ -22,11 +20,5 @@ struct Profile {
   Eigen::Vector2d point(double c, double r) const;
   double lateral(const Eigen::Vector2d& x) const;  ///< c of a plane point
 };
-
-/// Profile of the worm of a design whose form radii are known (Geometry of derive()).
-Profile worm_profile(const Design& design, const Geometry& geometry);
-
-/// Radius where the worm's flank ends and its fillet begins; throws Error when the fillet does not exist.
-double worm_form_radius(const Design& design, const Geometry& geometry);
 
 }  // namespace elastogear::gear

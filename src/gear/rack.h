@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "elastogear/gear/design.h"
+#include "elastogear/gear/toothing.h"
 #include "gear/profile.h"
 
 namespace elastogear::gear {
@@ -21,9 +21,6 @@ struct RackTip {
 
 /// s_n: normal thickness of the gear's teeth at the pitch circle; depth: from there to the root circle; m.
 RackTip rack_tip(double alpha_n, double beta, double r, double s_n, double depth, double rho);
-
-/// Of the wheel of a worm drive; throws Error when the tip is too round for it.
-RackTip wheel_rack(const Design& design, const Geometry& geometry);
 
 /// (angle from the tooth's axis, radius) of the point that the tip's arc cuts where its normal has the angle
 /// b in [alpha_n, pi/2] (docs/theory.md, section 9).

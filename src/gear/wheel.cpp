@@ -2,7 +2,7 @@
 
 #include "elastogear/base/error.h"
 #include "gear/gear_mesh.h"
-#include "gear/rack.h"
+#include "gear/worm/profiles.h"
 
 namespace elastogear::gear {
 

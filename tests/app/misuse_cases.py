@@ -70,7 +70,7 @@ OPTIONS = [
     Case("a body file in place of YAML", r"body.h5", "{elastogear} simulate body.h5"),
     Case("option without its value", r"modes.*(missing|whole number)", "{reduce} -modes"),
     Case("flag that is neither", r"completeness.*(true|false)", "{reduce} -completeness perhaps"),
-    Case("number with a unit", r"ts_dt.*1e-7s", "{single} -ts_dt 1e-7s"),
+    Case("number with the unit of something else", r"ts_dt.*1e-7 mm.*no unit of it, write ns, us, ms, s", "{single} -ts_dt 1e-7\\ mm"),
     Case("number with a comma", r"ts_dt.*1,0e-7", "{single} -ts_dt 1,0e-7"),
     Case("verb of one rank on two", r"one rank", "mpirun --oversubscribe -n 2 {single}"),
 

@@ -6,6 +6,7 @@
 
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
+#include "app/gear/drive.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"
@@ -31,6 +32,14 @@ const Rows<TrueSurfaceFiles> kTrueSurfaceRows = {
      "/surface/nodes of the body file and m along the outward normal (> 0: material added); linear between "
      "nodes, 0 at others"},
 };
+
+// Of a drive's member; nothing when the body is none.
+std::optional<gear::Toothing> toothing_of_drive(const Options& options, const std::string& body) {
+  if (!is_drive(options)) return {};
+  for (const DriveMember& member : read_drive(options).members)
+    if (member.name == body) return member.toothing;
+  return {};
+}
 
 // The toothing of the part that files of gear data describe.
 gear::Toothing read_toothing(const std::vector<std::string>& files) {
@@ -84,10 +93,9 @@ int add_heights(const model::Surface& surface, const gear::Toothing& toothing, c
   return n_faces;
 }
 
-void add_flanks(const std::vector<std::string>& files, const std::string& body, const model::Surface& surface,
-                contact::TrueSurface& known) {
-  const gear::Toothing toothing = read_toothing(files);
-  const std::string file = join(files);
+// file: where the gear data come from.
+void add_flanks(const gear::Toothing& toothing, const std::string& file, const std::string& body,
+                const model::Surface& surface, contact::TrueSurface& known) {
   const OffNode farthest = farthest_node(surface, toothing);
   require(farthest.node >= 0, file, ": body '", body, "' has no faces of sets tooth_<ii>_left, ..._right or ",
           "thread_<i>_left, ..._right: reduce it with -surface flanks, from a mesh of elastogear mesh, or "
@@ -139,7 +147,10 @@ std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options,
   read_rows(options, kTrueSurfaceRows, files, body);
   const bool exact = options.text("contact_surface") == "exact";
   auto known = std::make_shared<contact::TrueSurface>();
-  if (exact && !files.flanks.empty()) add_flanks(files.flanks, body, surface, *known);
+  if (exact && !files.flanks.empty())
+    add_flanks(read_toothing(files.flanks), join(files.flanks), body, surface, *known);
+  else if (const auto toothing = toothing_of_drive(options, body); exact && toothing)
+    add_flanks(*toothing, join(options.files()), body, surface, *known);
   if (!files.deviation.empty()) add_deviations(files.deviation, body, surface, *known);
   return known;
 }

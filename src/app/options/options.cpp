@@ -10,6 +10,7 @@
 #include "app/options/options_file.h"
 #include "app/options/petsc_names.h"
 #include "app/options/spelling.h"
+#include "app/options/units.h"
 #include "app/options/yaml.h"
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/collectively.h"
@@ -32,10 +33,14 @@ std::optional<std::string> placeholder(const std::string& pattern, const std::st
   return name.substr(head.size(), name.size() - head.size() - tail.size());
 }
 
-bool has(const OptionTable& table, const std::string& name) {
-  return std::any_of(table.begin(), table.end(),
-                     [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); });
+// Null where the table has none of this name.
+const OptionSpec* find_spec(const OptionTable& table, const std::string& name) {
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); });
+  return found == table.end() ? nullptr : &*found;
 }
+
+bool has(const OptionTable& table, const std::string& name) { return find_spec(table, name); }
 
 // Tables with "<body>_x" written out for each value of "body".
 OptionTable expand(const OptionTable& table, const PlaceholderValues& values) {
@@ -132,6 +137,7 @@ Options Options::of_files(std::string verb, const OptionTable& own, const std::v
         options.place_[name] = file + ", line " + std::to_string(entry.line);
       }
   options.files_ = files;
+  options.convert_units();
   return options;
 }
 
@@ -155,6 +161,15 @@ void Options::note_options_files(int argc, char** argv) {
     }
 }
 
+void Options::convert_units() {
+  for (auto& [name, value] : given_) {
+    const OptionSpec* known = find_spec(own_, name);
+    if (!known) known = find_spec(known_, name);
+    if (!known) continue;
+    value = in_unit(label(name), value, known->unit);
+  }
+}
+
 void Options::load(const std::vector<std::string>& files, int argc, char** argv) {
   for (const std::string& file : files) insert(file);
   const std::string section = verb_ + "_";
@@ -173,7 +188,11 @@ void Options::load(const std::vector<std::string>& files, int argc, char** argv)
     return now == given_.end() || then == given_in_files_.end() || now->second != then->second;
   });
   note_options_files(argc, argv);
+  const std::map<std::string, std::string> as_written = given_;
+  convert_units();
   for (auto& [name, value] : given_) {
+    if (value != as_written.at(name))  // PETSc reads some of them itself
+      check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value.c_str()));
     const auto equals = name.find('=');
     require(equals == name.npos, label(name), ": write the name and its value as two words, -",
             name.substr(0, equals), " ", equals == name.npos ? "" : name.substr(equals + 1));
@@ -182,7 +201,9 @@ void Options::load(const std::vector<std::string>& files, int argc, char** argv)
   }
 }
 
-void Options::reject_unknown(const PlaceholderValues& values) const {
+void Options::reject_unknown(const PlaceholderValues& given_values) const {
+  PlaceholderValues values = given_values;
+  values.try_emplace("gear", given("drive") ? list_with_files("gears") : std::vector<std::string>{});
   const OptionTable known = expand(known_, values);
   for (const auto& [name, value] : given_) {
     if (has(known, name)) continue;
@@ -210,9 +231,8 @@ std::map<std::string, std::string> Options::given_to_verb() const {
 }
 
 const OptionSpec& Options::spec(const std::string& name) const {
-  const auto found = std::find_if(own_.begin(), own_.end(),
-                                  [&](const auto& s) { return placeholder(s.name, name).has_value(); });
-  require(found != own_.end(), "internal: option -", name, " is in no table of verb ", verb_);
+  const OptionSpec* found = find_spec(own_, name);
+  require(found, "internal: option -", name, " is in no table of verb ", verb_);
   return *found;
 }
 
@@ -280,6 +300,23 @@ std::vector<std::string> Options::list_with_files(const std::string& name) const
 
 bool Options::is_of_other_verb(const std::string& name) const {
   return !has(own_, name) && has(known_, name);
+}
+
+Options Options::of_section(const std::string& section, const std::vector<std::string>& excluded) const {
+  Options options = *this;
+  for (const auto& [name, value] : given_) {
+    if (!name.starts_with(section + "_")) continue;
+    const std::string own = name.substr(section.size() + 1);
+    if (!has(own_, own) || std::find(excluded.begin(), excluded.end(), own) != excluded.end()) continue;
+    options.given_[own] = value;
+    options.place_.erase(own);
+    if (const auto place = place_.find(name); place != place_.end()) options.place_[own] = place->second;
+  }
+  return options;
+}
+
+void Options::set_default(const std::string& name, const std::string& value) {
+  given_.try_emplace(name, value);
 }
 
 int Options::choice(const std::string& name, const std::vector<std::string>& allowed) const {

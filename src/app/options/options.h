@@ -39,7 +39,7 @@ class Options {
 
   /// Throws Error for the first key that neither a table nor PETSc knows, naming where it was given and the
   /// nearest known key. `values` restrict "<body>"-like names; placeholders without an entry stand for any
-  /// word.
+  /// word, "<gear>" for those of option gears, where there is a drive.
   void reject_unknown(const PlaceholderValues& values = {}) const;
 
   bool given(const std::string& name) const;
@@ -60,6 +60,12 @@ class Options {
   /// Names given by the user that fit a pattern "material_<set>_E", with what the placeholder stands for.
   std::vector<std::string> placeholder_values(const std::string& pattern) const;
 
+  /// The same with the keys of a section, "pinion_modes", in place of the verb's own ones, "modes", but for
+  /// `excluded` ones.
+  Options of_section(const std::string& section, const std::vector<std::string>& excluded) const;
+  /// Takes this value where none is given.
+  void set_default(const std::string& name, const std::string& value);
+
   /// Everything in force, defaults included, and the versions of the program and its libraries.
   std::map<std::string, std::string> provenance() const;
   /// Is this key, `given` or not, one of another verb alone?
@@ -76,6 +82,7 @@ class Options {
   const OptionSpec& spec(const std::string& name) const;
   void insert(const std::string& file);
   void note_options_files(int argc, char** argv);
+  void convert_units();
 
   std::string verb_;
   OptionTable own_, known_;

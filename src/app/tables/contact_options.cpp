@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/console/console.h"
+#include "app/gear/drive.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 
@@ -87,7 +88,7 @@ void require_exact_surface(const Options& options, const dynamics::PairSetup& pa
                            const std::vector<std::string>& bodies) {
   const std::string &a = bodies[pair.body[0]], &b = bodies[pair.body[1]];
   require(!options.given("contact_surface") || pair.settings.surface != contact::ContactSurface::exact ||
-              options.given(a + "_flanks") || options.given(b + "_flanks"),
+              is_drive(options) || options.given(a + "_flanks") || options.given(b + "_flanks"),
           options.label("contact_surface"), " = exact: neither body of the pair ", pair.name,
           " has exact flanks; name the gear data that they were meshed from by -", a, "_flanks and -", b,
           "_flanks, or take smooth");

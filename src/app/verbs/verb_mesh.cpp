@@ -5,6 +5,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/gear/design_options.h"
+#include "app/gear/drive.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/gear/wheel.h"
@@ -72,8 +73,31 @@ Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) 
   return counts;
 }
 
-void run_mesh(const Options& options, const std::vector<std::string>&) {
+// All members of a drive file.
+void mesh_drive(const Options& options) {
+  const Drive drive = read_drive(options);
+  const gear::Size size = gear::size(options.text("size"));
+  std::vector<std::string> paths;
+  for (const DriveMember& member : drive.members) {
+    const std::string option = member.name + "_mesh";
+    paths.push_back(options.given(option) ? options.text(option) : member.name + ".msh");
+    protect_inputs(options, {{option, {paths.back()}}});
+  }
+  print_drive(drive);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const OutputLock lock(paths[i]);
+    const mesh::Mesh mesh = drive.members[i].mesh(size);
+    print_item("mesh of " + drive.members[i].name, "");
+    print_mesh(mesh);
+    mesh::write_mesh(paths[i], mesh);
+    print_item("written", paths[i]);
+  }
+}
+
+void run_mesh(const Options& given, const std::vector<std::string>&) {
+  const Options options = with_gears(given);
   options.reject_unknown();
+  if (is_drive(options)) return mesh_drive(options);
   const bool worm = is_worm(options);
   const std::string path = options.text("mesh");
   protect_inputs(options, {{"mesh", {path}}});
@@ -94,9 +118,11 @@ void run_mesh(const Options& options, const std::vector<std::string>&) {
 }  // namespace
 
 Verb mesh_verb() {
-  return {"mesh", "mesh gear.yaml [-option value ...]",
-          "gear data -> hexahedral mesh of the worm or the wheel",
-          table_of(design_rows(), kWormCounts, kWheelCounts), run_mesh};
+  OptionTable table = table_of(design_rows(), kWormCounts, kWheelCounts);
+  const OptionTable of_drives = drive_table();
+  table.insert(table.end(), of_drives.begin(), of_drives.end());
+  return {"mesh", "mesh drive.yaml [-option value ...]",
+          "gear data -> hexahedral meshes of a drive, or of a worm or its wheel", table, run_mesh};
 }
 
 }  // namespace elastogear::app

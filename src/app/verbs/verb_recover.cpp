@@ -168,7 +168,20 @@ void protect_inputs(const Options& options, const RecoverSettings& settings, con
   protect_inputs(options, {stresses, fields}, data);
 }
 
-void run_recover(const Options& options, const std::vector<std::string>&) {
+Options of_run(const Options& given) {
+  const Options options = with_gears(given);
+  return is_drive(options) ? with_recovery(options, read_drive(options)) : options;
+}
+
+OptionTable all_recover_options() {
+  OptionTable table = recover_table();
+  const OptionTable of_drives = whole_drive_table();
+  table.insert(table.end(), of_drives.begin(), of_drives.end());
+  return table;
+}
+
+void run_recover(const Options& given, const std::vector<std::string>&) {
+  const Options options = of_run(given);
   options.reject_unknown({{"body", known_bodies(options)}});
   const RecoverSettings settings = recover_settings(options);
   const OutputLock lock(settings.output);
@@ -185,7 +198,7 @@ void run_recover(const Options& options, const std::vector<std::string>&) {
 
 Verb recover_verb() {
   return {"recover", "recover system.yaml [-option value ...]",
-          "stress histories, equivalent stresses and fields from a result file", recover_table(),
+          "stress histories, equivalent stresses and fields from a result file", all_recover_options(),
           run_recover};
 }
 

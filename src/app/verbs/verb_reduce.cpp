@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <numeric>
 #include <sstream>
 
 #include "app/console/blas_advice.h"
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
+#include "app/gear/drive.h"
 #include "app/tables/material_options.h"
 #include "app/tables/reduce_options.h"
 #include "app/verbs/named_sets.h"
@@ -93,13 +96,15 @@ void add_numbers(const Options& options, Nodes& nodes) {
                      restrained_sets(nodes.mesh, options.list("restrain")));
 }
 
-Nodes read_on_rank_0(const Options& options) {
+using NodeSource = std::function<Nodes()>;
+
+Nodes read_on_rank_0(const Options& options, const NodeSource& read) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   Nodes nodes;
   collectively(PETSC_COMM_WORLD, [&] {
     if (rank != 0) return;
-    nodes = read_nodes(options);
+    nodes = read();
     const auto listed = listed_nodes(options, nodes.report.node_number);
     if (!listed.empty()) nodes.mesh.node_sets[kListedNodes] = listed;
     add_numbers(options, nodes);
@@ -199,14 +204,13 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
   print_item("written", output);
 }
 
-void run_reduce(const Options& options, const std::vector<std::string>&) {
-  options.reject_unknown();
+void reduce_body(const Options& options, const NodeSource& read) {
   const std::string output = options.text("output");
   protect_inputs(options, {{"output", {output}}});
   ReductionOptions reduction = reduction_options(options);
   reduction.announce = print_cost;
   const OutputLock lock(output);
-  const Nodes nodes = read_on_rank_0(options);
+  const Nodes nodes = read_on_rank_0(options, read);
   if (reduction.imported) reduction.imported->node_number = nodes.report.node_number;
   drop_static_responses(reduction);
   take_materials(options, nodes.report, reduction);
@@ -222,13 +226,43 @@ void run_reduce(const Options& options, const std::vector<std::string>&) {
   print_summary(report, output);
 }
 
+// All members of a drive file, each meshed here, so that bodies and drive belong together.
+void reduce_drive(const Options& options) {
+  const Drive drive = read_drive(options);
+  const gear::Size size = gear::size(options.text("size"));
+  print_drive(drive);
+  for (const DriveMember& member : drive.members) {
+    print_item("body " + member.name, "");
+    reduce_body(member_options(options, member), [&] {
+      Nodes nodes{.mesh = member.mesh(size), .report = {}};
+      nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));
+      std::iota(nodes.report.node_number.begin(), nodes.report.node_number.end(), 1);
+      return nodes;
+    });
+  }
+}
+
+void run_reduce(const Options& given, const std::vector<std::string>&) {
+  const Options options = with_gears(given);
+  options.reject_unknown();
+  if (is_drive(options)) return reduce_drive(options);
+  reduce_body(options, [&] { return read_nodes(options); });
+}
+
+OptionTable all_reduce_options() {
+  OptionTable table = reduce_table();
+  const OptionTable of_drives = whole_drive_table();
+  table.insert(table.end(), of_drives.begin(), of_drives.end());
+  return table;
+}
+
 }  // namespace
 
 Verb reduce_verb() {
   return {"reduce",
           "reduce body.yaml [-option value ...]",
-          "finite-element mesh -> body file; run under mpirun for large meshes",
-          reduce_table(),
+          "finite-element mesh -> body file, or drive file -> all its bodies; under mpirun for large meshes",
+          all_reduce_options(),
           run_reduce,
           true};
 }

@@ -7,6 +7,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
+#include "app/gear/drive.h"
 #include "app/options/rows.h"
 #include "app/resumable_run.h"
 #include "app/tables/body_options.h"
@@ -68,7 +69,7 @@ OptionTable simulate_table() {
   OptionTable all = body_table();
   for (const OptionTable& part :
        {table_of(kEnvironmentRows, kAnalysisRows, kTimeRows), output_table(), contact_table(),
-        initial_state_table(), resumable_run_table(), marker_table()})
+        initial_state_table(), resumable_run_table(), marker_table(), whole_drive_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -126,6 +127,9 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
   if (analysis(options) == Analysis::dynamic)
     print_item("energy at the start", with_unit(run.initial_energy, "J"));
   if (analysis(options) == Analysis::equilibrium) print_item("work of the loads", with_unit(run.work, "J"));
+  if (run.unbalanced > 0)
+    print_item("unbalanced", with_unit(100 * run.unbalanced, "%") +
+                                 " of the forces at most, where points of contact come and go");
   if (analysis(options) != Analysis::relax)
     print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
   print_item("time", duration(run.wall_time));
@@ -191,7 +195,17 @@ model::ResultHeader header(const Options& options, const dynamics::System& syste
   return header;
 }
 
-void run_simulate(const Options& options, const std::vector<std::string>&) {
+// A drive file says what bodies there are and where.
+Options of_system(const Options& given) {
+  const Options options = with_gears(given);
+  if (!is_drive(options)) return options;
+  const Drive drive = read_drive(options);
+  print_drive(drive);
+  return with_system(options, drive);
+}
+
+void run_simulate(const Options& given, const std::vector<std::string>&) {
+  const Options options = of_system(given);
   const std::vector<std::string> names = options.list("bodies");
   require(!names.empty(), "option -bodies is missing: names of the bodies");
   options.reject_unknown(simulate_names(options));

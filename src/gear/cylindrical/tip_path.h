@@ -1,6 +1,7 @@
 #pragma once
 // The way of a tip's corner through the mate's space, which finds out whether tips cut into roots.
 
+#include "elastogear/gear/toothing.h"
 #include "gear/profile.h"
 
 namespace elastogear::gear {

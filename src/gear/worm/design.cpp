@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
-#include "gear/profile.h"
-#include "gear/rack.h"
+#include "gear/worm/profiles.h"
 
 namespace elastogear::gear {
 namespace {
@@ -225,15 +224,6 @@ Geometry derive(const Design& d) {
   check_fillet(g.worm, "worm_fillet", d.worm_fillet);
   check_fillet(g.wheel, "wheel_rack_tip", d.wheel_rack_tip);
   return g;
-}
-
-RackTip wheel_rack(const Design& d, const Geometry& g) {
-  const RackTip rack = rack_tip(d.alpha_n, g.gamma, g.wheel.r, g.s_n, d.dedendum, d.wheel_rack_tip);
-  const double half_pitch = pi * d.m_n / 2;
-  require(rack.centre[0] <= half_pitch, "wheel_rack_tip = ", d.wheel_rack_tip,
-          " m does not fit: the arc's centre lies ", rack.centre[0],
-          " m from the middle of the rack's space, at most half a pitch is allowed: ", half_pitch, " m");
-  return rack;
 }
 
 Blank wheel_blank(const Design& d) {

@@ -6,6 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "gear/assembly.h"
+#include "gear/worm/profiles.h"
 
 namespace elastogear::gear {
 namespace {

@@ -1,0 +1,207 @@
+#include "app/gear/cylindrical_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/console/console.h"
+#include "app/options/rows.h"
+#include "elastogear/base/error.h"
+#include "elastogear/gear/cylindrical.h"
+
+namespace elastogear::app {
+namespace {
+
+using gear::CylindricalDrive, gear::CylindricalGear, gear::CylindricalGeometry;
+
+constexpr double kRadPerDegree = std::numbers::pi / 180;
+
+struct Choices {
+  std::string rack = "A";
+  double helix_angle = 0, transverse_module = 0, axial_module = 0;
+  double addendum = 0, dedendum = 0, fillet = 0;
+};
+
+const Rows<Choices> kRackRows = {
+    {"helix_angle", &Choices::helix_angle, "deg",
+     "cylindrical: helix angle of the first gear at its pitch cylinder, > 0 right-handed; mates alternate"},
+    {"transverse_module", &Choices::transverse_module, "m", "cylindrical: in place of module", kDependent},
+    {"axial_module", &Choices::axial_module, "m", "cylindrical: in place of module", kDependent},
+    {"rack", &Choices::rack, "-", "cylindrical: basic rack of ISO 53: A, B, C or D"},
+    {"rack_addendum", &Choices::addendum, "-",
+     "cylindrical: addendum of the basic rack, in modules (default: its own)", kDependent | kPositive},
+    {"rack_dedendum", &Choices::dedendum, "-",
+     "cylindrical: dedendum of the basic rack, in modules (default: its own)", kDependent | kPositive},
+    {"rack_fillet", &Choices::fillet, "-",
+     "cylindrical: root fillet radius of the basic rack, in modules (default: its own)",
+     kDependent | kPositive},
+};
+
+// Lengths of the gear's body; a diameter that is not given is chosen.
+struct GearChoices {
+  CylindricalGear gear;
+  std::string mate;
+  double tip_diameter = 0, centre_distance = 0, direction = 0;
+};
+
+template <class Member>
+auto of_blank(Member member) {
+  return [=](auto& s) -> auto& { return s.gear.blank.*member; };
+}
+
+const Rows<GearChoices> kGearRows = {
+    {"<gear>_teeth", in(&GearChoices::gear, &CylindricalGear::z), "-", "number of teeth", kDependent},
+    {"<gear>_profile_shift", in(&GearChoices::gear, &CylindricalGear::x), "-",
+     "cylindrical: profile shift coefficient x, in modules"},
+    {"<gear>_tip_diameter", &GearChoices::tip_diameter, "m",
+     "cylindrical: (default: the basic rack's, less what keeps 0.2 modules to the mates' roots)", kDependent},
+    {"<gear>_face_width", of_blank(&gear::Blank::face_width), "m",
+     "cylindrical: (default: option face_width)", kDependent},
+    {"<gear>_bore", of_blank(&gear::Blank::bore), "m",
+     "cylindrical: diameter of the bore, which is held (default: 0.4 root diameters)", kDependent},
+    {"<gear>_rim_diameter", of_blank(&gear::Blank::rim_diameter), "m",
+     "cylindrical: inner diameter of the rim, a cell set of its own (default: 2.5 modules below the root)",
+     kDependent},
+    {"<gear>_hub_diameter", of_blank(&gear::Blank::hub_diameter), "m",
+     "cylindrical: of a gear with a web: outer diameter of the hub", kDependent},
+    {"<gear>_hub_width", of_blank(&gear::Blank::hub_width), "m", "cylindrical: (default: the face width)",
+     kDependent},
+    {"<gear>_web_diameter", of_blank(&gear::Blank::web_diameter), "m",
+     "cylindrical: outer diameter of the web, inner of the ring", kDependent},
+    {"<gear>_web_width", of_blank(&gear::Blank::web_width), "m", "cylindrical: width of the web", kDependent},
+    {"<gear>_mate", &GearChoices::mate, "-",
+     "cylindrical: an earlier gear that this one is in mesh with (default: the one before)", kDependent},
+    {"<gear>_centre_distance", &GearChoices::centre_distance, "m",
+     "cylindrical: to its mate (default: option centre_distance, or what the profile shifts give)",
+     kDependent},
+    {"<gear>_direction", &GearChoices::direction, "deg",
+     "cylindrical: of the line from its mate's axis to its own, from world +X"},
+};
+
+gear::BasicRack basic_rack(const Options& options, const Choices& c) {
+  gear::BasicRack rack = gear::basic_rack(c.rack);
+  if (options.given("pressure_angle")) rack.alpha_n = options.number("pressure_angle") * kRadPerDegree;
+  if (c.addendum > 0) rack.h_aP = c.addendum;
+  if (c.dedendum > 0) rack.h_fP = c.dedendum;
+  if (c.fillet > 0) rack.rho_fP = c.fillet;
+  return rack;
+}
+
+double normal_module(const Options& options, const Choices& c) {
+  const int n = options.given("module") + options.given("transverse_module") + options.given("axial_module");
+  require(n == 1, n == 0 ? "option -module is missing: normal module, as in 'module: 3 mm'"
+                         : "options -module, -transverse_module and -axial_module: give one of them");
+  if (options.given("module")) return options.positive("module");
+  const double beta = c.helix_angle * kRadPerDegree;
+  if (options.given("transverse_module")) return c.transverse_module * std::cos(beta);
+  require(beta != 0, "option -axial_module: spur gears have none, give -module");
+  return c.axial_module * std::abs(std::sin(beta));
+}
+
+CylindricalDrive design(const Options& options) {
+  Choices c;
+  read_rows(options, kRackRows, c);
+  CylindricalDrive d;
+  d.m_n = normal_module(options, c);
+  d.beta = c.helix_angle * kRadPerDegree;
+  d.rack = basic_rack(options, c);
+  if (options.given("backlash")) {
+    d.j_n = options.number("backlash");
+    require(d.j_n >= 0, options.label("backlash"), " = ", d.j_n, " m: must be at least 0");
+  }
+  const std::vector<std::string> names = options.list("gears");
+  for (const std::string& name : names) {
+    GearChoices g;
+    if (options.given("face_width")) g.gear.blank.face_width = options.positive("face_width");
+    read_rows(options, kGearRows, g, name);
+    require(g.gear.z > 0, "option -", name, "_teeth is missing: number of teeth, as in '", name,
+            ": {teeth: 17}'");
+    require(g.gear.blank.face_width > 0,
+            "option -face_width is missing: width of the teeth, as in 'face_width: 25 mm'");
+    g.gear.name = name;
+    g.gear.r_a = g.tip_diameter / 2;
+    d.gears.push_back(g.gear);
+    if (d.gears.size() == 1) continue;
+    const std::string mate = g.mate.empty() ? names[d.gears.size() - 2] : g.mate;
+    const auto first = std::find(names.begin(), names.end(), mate) - names.begin();
+    require(first + 1 < static_cast<std::ptrdiff_t>(d.gears.size()), options.label(name + "_mate"), " = '",
+            mate, "': must be a gear named before in option -gears");
+    if (options.given("centre_distance") && d.gears.size() == 2 && g.centre_distance == 0)
+      g.centre_distance = options.positive("centre_distance");
+    d.pairs.push_back({.first = static_cast<int>(first),
+                       .second = static_cast<int>(d.gears.size()) - 1,
+                       .a = g.centre_distance,
+                       .direction = g.direction * kRadPerDegree});
+  }
+  return d;
+}
+
+std::string mm(double length) { return with_unit(1e3 * length, "mm"); }
+
+std::vector<std::pair<std::string, std::string>> member_facts(const CylindricalDrive& d,
+                                                              const CylindricalGeometry& g, int i) {
+  const gear::Toothing& t = g.gear[i];
+  const double cos_beta = d.m_n * t.z / (2 * t.r);
+  return {{"teeth", std::to_string(t.z) + (g.undercut[i] ? ", undercut" : "")},
+          {"profile shift", with_unit(d.gears[i].x, "")},
+          {"pitch / tip / root diameter", mm(2 * t.r) + " / " + mm(2 * t.r_a) + " / " + mm(2 * t.r_f)},
+          {"base / form diameter", mm(2 * t.r_b) + " / " + mm(2 * t.r_form)},
+          {"tip thickness", mm(2 * t.r_a * gear::psi(t, t.r_a) * cos_beta)},
+          {"face width / bore", mm(g.blank[i].face_width) + " / " + mm(g.blank[i].bore)}};
+}
+
+// The largest sliding is where contact begins or ends, over the speed of the pitch circle.
+std::vector<std::pair<std::string, std::string>> pair_facts(const CylindricalDrive& d,
+                                                            const CylindricalGeometry& g, std::size_t i) {
+  const gear::PairGeometry& p = g.pair[i];
+  const gear::Toothing &t_1 = g.gear[d.pairs[i].first], &t_2 = g.gear[d.pairs[i].second];
+  const double pitch_point = t_1.r_b * std::tan(p.alpha_wt);
+  const double from = std::sqrt(t_1.r_start * t_1.r_start - t_1.r_b * t_1.r_b);
+  const double to = p.a * std::sin(p.alpha_wt) - std::sqrt(t_2.r_start * t_2.r_start - t_2.r_b * t_2.r_b);
+  const double sliding = std::max(pitch_point - from, to - pitch_point) * (1 / t_1.r_b + 1 / t_2.r_b) *
+                         t_1.r_b / (t_1.r_b / std::cos(p.alpha_wt));
+  return {{"centre distance", mm(p.a)},
+          {"ratio", with_unit(static_cast<double>(t_2.z) / t_1.z, "")},
+          {"working pressure angle", with_unit(p.alpha_wt / kRadPerDegree, "deg, transverse")},
+          {"normal base pitch", mm(g.p_bn)},
+          {"contact ratio",
+           with_unit(p.epsilon_alpha, "") + "transverse, " + with_unit(p.epsilon_beta, "") + "overlap"},
+          {"normal backlash", mm(p.j_n)},
+          {"tip clearances", mm(p.c[0]) + " / " + mm(p.c[1])},
+          {"largest sliding", with_unit(sliding, "of the pitch-line speed")}};
+}
+
+}  // namespace
+
+OptionTable cylindrical_table() { return table_of(kRackRows, kGearRows); }
+
+Drive cylindrical_drive(const Options& options) {
+  const CylindricalDrive d = design(options);
+  const CylindricalGeometry g = gear::derive(d);
+  const auto angle =
+      gear::angles(d, g, options.number("roll"), options.choice("side", {"drive", "coast"}) == 0);
+  Drive drive;
+  for (std::size_t i = 0; i < d.gears.size(); ++i) {
+    const int k = static_cast<int>(i);
+    DriveMember member{.name = d.gears[i].name,
+                       .toothing = g.gear[i],
+                       .mesh =
+                           [=](gear::Size size) {
+                             return gear::cylindrical_mesh(d, g, k, gear::cylindrical_counts(d, g, k, size));
+                           },
+                       .held = "bore"};
+    member.position.head<2>() = g.axis[i];
+    member.angle = angle[i];
+    drive.members.push_back(member);
+    drive.facts.push_back(member_facts(d, g, k));
+  }
+  for (std::size_t i = 0; i < d.pairs.size(); ++i) {
+    const gear::GearPair& pair = d.pairs[i];
+    drive.pairs.push_back({pair.first, pair.second, pair_facts(d, g, i)});
+    drive.members[pair.second].ratio =
+        -drive.members[pair.first].ratio * d.gears[pair.first].z / d.gears[pair.second].z;
+  }
+  return drive;
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,11 @@
+#pragma once
+// Options of spur and helical gears, "drive: cylindrical".
+
+#include "app/gear/drive.h"
+
+namespace elastogear::app {
+
+OptionTable cylindrical_table();
+Drive cylindrical_drive(const Options& options);
+
+}  // namespace elastogear::app

@@ -1,0 +1,192 @@
+#include "app/gear/drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/console/console.h"
+#include "app/gear/cylindrical_options.h"
+#include "app/gear/design_options.h"
+#include "elastogear/base/error.h"
+
+namespace elastogear::app {
+namespace {
+
+struct DriveChoices {
+  std::string gears = "pinion,wheel";
+  double roll = 0, torque = 0, speed = 0;
+};
+
+const Rows<DriveChoices> kDriveRows = {
+    {"drive", "-", "",
+     "a drive file: cylindrical (spur and helical gears); its numbers serve mesh, reduce, simulate and "
+     "recover"},
+    {"gears", &DriveChoices::gears, "-",
+     "drive: names of the gears, the driving one first; each has its own section"},
+    {"roll", &DriveChoices::roll, "-",
+     "drive: pitches by which the first gear is turned from where one of its teeth points to its mate"},
+    {"side", "-", "drive",
+     "drive: flanks in touch: drive (the first gear drives counter-clockwise, seen against its z axis), or "
+     "coast"},
+    {"torque", &DriveChoices::torque, "N m",
+     "drive: on the first gear, in the sense that presses the flanks of side together; the last one is held "
+     "in static "
+     "and relax analyses and carries the rest in motion"},
+    {"<gear>_mesh", "-", "", "drive: mesh file that mesh writes, .msh or .inp (default: <gear>.msh)"},
+    {"<gear>_file", "-", "", "drive: body file that reduce writes and simulate reads (default: <gear>.h5)"},
+    {"speed", &DriveChoices::speed, "rad/s",
+     "drive: of the first gear at the start of a motion, in that sense"},
+};
+
+// Gear data that drives share with single gears.
+constexpr const char* kShared[] = {"size",     "module",    "pressure_angle", "centre_distance",
+                                   "backlash", "face_width"};
+
+// Of reduce, which the drive says for its members.
+const std::vector<std::string> kOfDrive = {"mesh", "unit",          "output", "stiffness",
+                                           "mass", "matrix_format", "dofs",   "nodes"};
+
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string triple(const Eigen::Vector3d& v) {
+  return digits(v[0]) + "," + digits(v[1]) + "," + digits(v[2]);
+}
+
+// The file's name without its end.
+std::string stem(const Options& options) {
+  return options.files().empty() ? "drive" : std::filesystem::path(options.files()[0]).stem().string();
+}
+
+std::string body_file(const Options& options, const DriveMember& member) {
+  const std::string option = member.name + "_file";
+  return options.given(option) ? options.text(option) : member.name + ".h5";
+}
+
+bool any_material(const Options& options) {
+  const auto all = options.given_to_verb();
+  return std::any_of(all.begin(), all.end(),
+                     [](const auto& option) { return option.first.starts_with("material_"); });
+}
+
+void set_loads(Options& options, const Drive& drive, double sense) {
+  const bool moves = options.text("analysis") == "dynamic";
+  const double torque = sense * options.number("torque"), speed = sense * options.number("speed");
+  for (const DriveMember& member : drive.members) {
+    const bool first = &member == &drive.members.front(), last = &member == &drive.members.back();
+    const bool held = last && !first && !moves;
+    options.set_default(member.name + "_joint", held ? "fixed" : "revolute");
+    if (held)
+      options.set_default(member.name + "_rotation", triple({0, 0, member.angle}));
+    else
+      options.set_default(member.name + "_angle0", digits(member.angle));
+    if (!held) options.set_default(member.name + "_axis", "0,0,1");
+    if (first) options.set_default(member.name + "_torque", digits(torque));
+    if (last && !first && moves) options.set_default(member.name + "_torque", digits(-torque / member.ratio));
+    if (moves && speed != 0) options.set_default(member.name + "_omega0", digits(speed * member.ratio));
+  }
+}
+
+// At rest exact flanks meet where their gap is least, between the nodes of the coarsest mesh. In motion such
+// points come and go too often along the lines on which flanks of cylindrical gears meet.
+void set_contact_points(Options& options) {
+  if (options.given("contact_points") || options.given("contact_two_pass")) return;
+  if (options.text("analysis") == "static")
+    options.set_default("contact_points", "minima");
+  else
+    options.set_default("contact_two_pass", "true");
+}
+
+}  // namespace
+
+OptionTable drive_table() {
+  OptionTable table = table_of(kDriveRows);
+  const OptionTable more = cylindrical_table();
+  table.insert(table.end(), more.begin(), more.end());
+  return table;
+}
+
+OptionTable whole_drive_table() {
+  OptionTable table = drive_table();
+  for (OptionSpec spec : table_of(design_rows())) {
+    if (std::find(std::begin(kShared), std::end(kShared), spec.name) == std::end(kShared)) continue;
+    spec.help = "drive: " + spec.help;
+    if (spec.name != "size") spec.default_value.clear();
+    table.push_back(spec);
+  }
+  return table;
+}
+
+bool is_drive(const Options& options) { return options.given("drive"); }
+
+Options with_gears(Options options) {
+  if (is_drive(options)) options.set_default("gears", DriveChoices{}.gears);
+  return options;
+}
+
+Drive read_drive(const Options& options) {
+  options.choice("drive", {"cylindrical"});
+  const std::vector<std::string> names = options.list("gears");
+  for (const std::string& name : names)
+    require(std::count(names.begin(), names.end(), name) == 1, options.label("gears"), ": '", name,
+            "' is there twice");
+  return cylindrical_drive(options);
+}
+
+Options member_options(const Options& options, const DriveMember& member) {
+  Options own = options.of_section(member.name, kOfDrive);
+  own.set_default("output", body_file(options, member));
+  own.set_default("surface", "flanks");
+  own.set_default("stress_nodes", "root");
+  own.set_default("restrain", member.held);
+  if (any_material(own)) return own;
+  own.set_default("material_E", "210e9");
+  own.set_default("material_nu", "0.3");
+  own.set_default("material_rho", "7850");
+  return own;
+}
+
+Options with_system(Options options, const Drive& drive) {
+  std::string bodies, pairs;
+  for (const DriveMember& member : drive.members) {
+    bodies += (bodies.empty() ? "" : ",") + member.name;
+    options.set_default(member.name + "_file", body_file(options, member));
+    options.set_default(member.name + "_position", triple(member.position));
+  }
+  for (const DrivePair& pair : drive.pairs)
+    pairs +=
+        (pairs.empty() ? "" : ",") + drive.members[pair.first].name + ":" + drive.members[pair.second].name;
+  options.set_default("bodies", bodies);
+  options.set_default("contact_pairs", pairs);
+  options.set_default("contact_surface", "exact");
+  options.set_default("analysis", "static");
+  set_contact_points(options);
+  options.set_default("output", stem(options) + "_result.h5");
+  set_loads(options, drive, options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1);
+  return options;
+}
+
+Options with_recovery(Options options, const Drive& drive) {
+  options.set_default("result", stem(options) + "_result.h5");
+  options.set_default("output", stem(options) + "_stress.h5");
+  const bool chosen = !options.placeholder_values("stress_<body>").empty();
+  for (const DriveMember& member : drive.members)
+    if (!chosen) options.set_default("stress_" + member.name, "root");
+  return options;
+}
+
+void print_drive(const Drive& drive) {
+  for (std::size_t i = 0; i < drive.members.size(); ++i) {
+    print_item(drive.members[i].name, "");
+    for (const auto& [name, value] : drive.facts[i]) print_item("  " + name, value);
+  }
+  for (const DrivePair& pair : drive.pairs) {
+    print_item(drive.members[pair.first].name + ":" + drive.members[pair.second].name, "");
+    for (const auto& [name, value] : pair.facts) print_item("  " + name, value);
+  }
+}
+
+}  // namespace elastogear::app

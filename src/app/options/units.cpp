@@ -1,0 +1,118 @@
+#include "app/options/units.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <sstream>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::app {
+namespace {
+
+enum class Quantity { length, angle, time, mass, force, torque, pressure, speed, density, stiffness };
+
+struct Unit {
+  const char* name;
+  Quantity quantity;
+  double si;  // this many SI units
+};
+
+using enum Quantity;
+constexpr Unit kUnits[] = {{"nm", length, 1e-9},
+                           {"um", length, 1e-6},
+                           {"µm", length, 1e-6},
+                           {"mm", length, 1e-3},
+                           {"cm", length, 1e-2},
+                           {"m", length, 1},
+                           {"in", length, 25.4e-3},
+                           {"deg", angle, std::numbers::pi / 180},
+                           {"rad", angle, 1},
+                           {"ns", time, 1e-9},
+                           {"us", time, 1e-6},
+                           {"µs", time, 1e-6},
+                           {"ms", time, 1e-3},
+                           {"s", time, 1},
+                           {"min", time, 60},
+                           {"h", time, 3600},
+                           {"g", mass, 1e-3},
+                           {"kg", mass, 1},
+                           {"t", mass, 1e3},
+                           {"N", force, 1},
+                           {"kN", force, 1e3},
+                           {"MN", force, 1e6},
+                           {"N mm", torque, 1e-3},
+                           {"N m", torque, 1},
+                           {"Nm", torque, 1},
+                           {"kN m", torque, 1e3},
+                           {"kNm", torque, 1e3},
+                           {"Pa", pressure, 1},
+                           {"kPa", pressure, 1e3},
+                           {"MPa", pressure, 1e6},
+                           {"N/mm^2", pressure, 1e6},
+                           {"GPa", pressure, 1e9},
+                           {"rad/s", speed, 1},
+                           {"rpm", speed, std::numbers::pi / 30},
+                           {"1/min", speed, std::numbers::pi / 30},
+                           {"kg/m^3", density, 1},
+                           {"g/cm^3", density, 1e3},
+                           {"N/m", stiffness, 1},
+                           {"N/mm", stiffness, 1e3},
+                           {"N/um", stiffness, 1e6},
+                           {"N/µm", stiffness, 1e6}};
+
+const Unit* find(const std::string& name) {
+  const auto* unit =
+      std::find_if(std::begin(kUnits), std::end(kUnits), [&](const Unit& u) { return name == u.name; });
+  return unit == std::end(kUnits) ? nullptr : unit;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" []"), last = text.find_last_not_of(" []");
+  return first == text.npos ? "" : text.substr(first, last - first + 1);
+}
+
+// A single number; the text itself where there is none, or no unit behind it. wanted: null: SI units.
+std::string converted(const std::string& label, const std::string& text, const Unit* wanted) {
+  const std::string word = trimmed(text);
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  const std::string name = trimmed(end);
+  if (end == word.c_str() || name.empty()) return text;
+  const bool file = end[-1] == '.' || name.find_first_of("./\\") != name.npos;
+  if (file && !find(name)) return text;
+  const Unit* unit = find(name);
+  require(unit && (!wanted || unit->quantity == wanted->quantity), label, " = '", word, "': '", name,
+          "' is no unit of it", wanted ? ", write " + units_like(wanted->name) : "");
+  char number[32];
+  std::snprintf(number, sizeof number, "%.17g", value * unit->si / (wanted ? wanted->si : 1));
+  return number;
+}
+
+}  // namespace
+
+std::string units_like(const std::string& unit) {
+  const Unit* wanted = find(unit);
+  std::string all;
+  for (const Unit& other : kUnits)
+    if (wanted && other.quantity == wanted->quantity &&
+        std::isprint(static_cast<unsigned char>(other.name[0])))
+      all += (all.empty() ? "" : ", ") + std::string(other.name);
+  return all;
+}
+
+std::string in_unit(const std::string& label, const std::string& text, const std::string& unit) {
+  const Unit* wanted = find(unit);
+  if (!wanted) return text;
+  const std::string first = trimmed(text.substr(0, text.find(',')));
+  const bool led = !first.empty() && std::isalpha(static_cast<unsigned char>(first[0]));
+  std::string all;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');)
+    all += (all.empty() ? "" : ",") + converted(label, part, led ? nullptr : wanted);
+  return all;
+}
+
+}  // namespace elastogear::app

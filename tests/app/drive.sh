@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# A drive file serves every verb: mesh and reduce make all gears, simulate places them with flanks in touch at a roll angle,
+# recover finds the stresses of their roots. Rigid perfect gears transmit without error; without friction the sum of the
+# normal forces is the torque over the base radius, at any angle, on the drive and the coast side; so it is with a helix.
+#   drive.sh PATH/TO/elastogear
+set -euo pipefail
+elastogear=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+cat >spur.yaml <<'END'
+drive: cylindrical
+module: 3 mm
+face_width: 25 mm
+pinion: {teeth: 17, profile_shift: 0.3}
+wheel: {teeth: 43, profile_shift: 0.1}
+torque: 300 N m
+modes: 10
+END
+run() { "$elastogear" "$@" >log 2>&1 || { cat log; exit 1; }; }
+run mesh spur.yaml
+grep -q "contact ratio  *1.516" log || { cat log; exit 1; }
+run reduce spur.yaml
+
+run simulate spur.yaml -roll 0.125
+run recover spur.yaml
+grep -q "pinion root  *peak von Mises [1-9]" log || { cat log; exit 1; }
+run simulate spur.yaml -roll 0.125 -side coast -output coast.h5
+for roll in 0 0.3 0.6 0.9; do
+  run simulate spur.yaml -roll $roll -torque "20 N m" -pinion_rigid true -wheel_rigid true -contact_law unilateral \
+    -static_steps 1 -output rigid_$roll.h5
+done
+
+cat >helical.yaml <<'END'
+drive: cylindrical
+module: 2 mm
+helix_angle: 20 deg
+face_width: 16 mm
+pinion: {teeth: 19, profile_shift: 0.2, file: helical_1.h5}
+wheel: {teeth: 52, file: helical_2.h5}
+torque: 40 N m
+modes: 10
+END
+run reduce helical.yaml
+run simulate helical.yaml -roll 0.2
+
+/usr/bin/python3 - <<'END'
+import h5py
+import numpy as np
+
+
+def sum_of_normal_forces(path):
+    with h5py.File(path) as file:
+        points = file["contact/pinion:wheel/points"]
+        return np.linalg.norm(points["force"][points["offset"][-2]:], axis=1).sum()
+
+
+def error_of_sum(path, m_n, z, T, beta):
+    alpha = np.radians(20)
+    alpha_t = np.arctan(np.tan(alpha) / np.cos(beta))
+    beta_b = np.arcsin(np.sin(beta) * np.cos(alpha))
+    r_b = m_n * z / (2 * np.cos(beta)) * np.cos(alpha_t)
+    return sum_of_normal_forces(path) / (T / r_b / np.cos(beta_b)) - 1
+
+
+for path, *gear in (("spur_result.h5", 3e-3, 17, 300, 0), ("coast.h5", 3e-3, 17, 300, 0),
+                    ("helical_result.h5", 2e-3, 19, 40, np.radians(20))):
+    error = error_of_sum(path, *gear)
+    assert abs(error) < 2e-3, f"{path}: sum of normal forces {100 * error:.3f} % off"
+
+errors = []  # m along the line of action
+for roll in (0, 0.3, 0.6, 0.9):
+    with h5py.File(f"rigid_{roll}.h5") as file:
+        errors.append((file["bodies/pinion/rigid"][-1, 0] - 2 * np.pi * roll / 17 + np.pi / 2) * 25.5e-3 * np.cos(np.radians(20)))
+assert np.ptp(errors) < 0.2e-6, f"transmission error of rigid gears {errors} m"
+END
+
+# Bodies of another drive, gears that are not there and drives that do not exist are refused.
+refused() {
+  if "$elastogear" "${@:2}" >log 2>&1; then echo "accepted: ${*:2}"; exit 1; fi
+  grep -q "$1" log || { echo "no '$1' in:"; cat log; exit 1; }
+}
+refused "off the flank of this gear data" simulate spur.yaml -pinion_profile_shift 0.31
+refused "unknown option -pinoin_teeth" simulate spur.yaml -pinoin_teeth 18
+refused "module = 3 m: .*module: 3 mm" mesh spur.yaml -module 3
+refused "tip_diameter of at most" mesh spur.yaml -wheel_tip_diameter "136.9 mm"
+refused "'deg' is no unit of it" mesh spur.yaml -face_width "25 deg"
+refused "must be a gear named before" mesh spur.yaml -wheel_mate idler

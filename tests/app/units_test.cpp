@@ -1,0 +1,49 @@
+#include "app/options/units.h"
+
+#include <gtest/gtest.h>
+
+#include "../message_of.h"
+
+namespace elastogear::app::units_test {
+namespace {
+
+using test::message_of;
+
+double converted(const std::string& text, const std::string& unit) {
+  return std::stod(in_unit("option -x", text, unit));
+}
+
+TEST(Units, convert_numbers_to_the_unit_of_an_option) {
+  EXPECT_DOUBLE_EQ(converted("3 mm", "m"), 3e-3);
+  EXPECT_DOUBLE_EQ(converted("3mm", "m"), 3e-3);
+  EXPECT_DOUBLE_EQ(converted("1e-3 in", "m"), 25.4e-6);
+  EXPECT_DOUBLE_EQ(converted("20 deg", "deg"), 20);
+  EXPECT_DOUBLE_EQ(converted("3.14159265358979312 rad", "deg"), 180);
+  EXPECT_DOUBLE_EQ(converted("210 GPa", "Pa"), 210e9);
+  EXPECT_DOUBLE_EQ(converted("-4000 N mm", "N m"), -4);
+  EXPECT_DOUBLE_EQ(converted("30 rpm", "rad/s"), 3.14159265358979312);
+}
+
+TEST(Units, leave_plain_numbers_words_and_files_as_they_are) {
+  for (const char* text : {"0.003", "[ramp, 4, 1e-3]", "table,torque.csv", "5.csv", "-inf", "auto"})
+    EXPECT_EQ(in_unit("option -x", text, "N m"), text);
+  EXPECT_EQ(in_unit("option -x", "3 mm", "-"), "3 mm");
+}
+
+TEST(Units, convert_each_number_of_a_list) {
+  EXPECT_EQ(in_unit("option -x", "[1 m, 2,500 mm]", "m"), "1, 2,0.5");
+  EXPECT_EQ(in_unit("option -x", "ramp, 4 kN m, 2 ms", "N m"), "ramp,4000,0.002");
+}
+
+TEST(Units, refuse_what_measures_something_else) {
+  const auto message = [](const char* text) {
+    return message_of([&] { in_unit("option -module", text, "m"); });
+  };
+  EXPECT_EQ(message("3 deg"),
+            "option -module = '3 deg': 'deg' is no unit of it, write nm, um, mm, cm, m, in");
+  EXPECT_EQ(message("3 m m"),
+            "option -module = '3 m m': 'm m' is no unit of it, write nm, um, mm, cm, m, in");
+}
+
+}  // namespace
+}  // namespace elastogear::app::units_test
