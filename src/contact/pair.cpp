@@ -117,6 +117,8 @@ struct Pair::Data {
   Reach reach;
   Tracker tracker;
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  // from the frame that contacts are found in
+  std::vector<Minimum> minima[2] = {};                 // of the last look
+  std::map<int, Minimum> held[2] = {};                 // by number, those that are kept where they were
 
   bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
@@ -128,13 +130,14 @@ struct Pair::Data {
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
                                            const Projection& w, std::map<int, NodeGap>& gaps) const;
   std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, const Minimum& m) const;
+  void add_held(const GapField& field, std::vector<Minimum>& found) const;
   double stiffness(int slave_side, int point) const;
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);
   bool is_left_to_slave(int tried, const SurfaceView& other, const Projection& w) const;
   void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
   void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
-                  std::vector<ContactPoint>& contacts) const;
+                  std::vector<ContactPoint>& contacts);
   std::map<int, NodeGap> node_gaps(int slave_side, const MasterSide& master);
   Eigen::Vector3d curved(int i, int node) const;
   std::vector<ContactPoint> integrated_contacts();
@@ -228,12 +231,33 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
   return found;
 }
 
+// Adds the points held that are no minima now, at their last places.
+void Pair::Data::add_held(const GapField& field, std::vector<Minimum>& found) const {
+  const auto is_found = [&](int number) {
+    return std::any_of(found.begin(), found.end(),
+                       [&](const Minimum& m) { return m.point.number == number; });
+  };
+  for (const auto& [number, last] : held[field.slave_side]) {
+    if (is_found(number)) continue;
+    Minimum m{last.point, {}, {}};
+    m.point.n_dir = 0;
+    m.geometry = slave_geometry(field.slave, field.heights, m.point);
+    const auto w =
+        walk_to_projection(field.master.surface, m.geometry.x, reach.limits, last.open.projection.face);
+    if (!w) continue;
+    m.open = open_point(field.master, *w, m.geometry.x, field.offset);
+    found.push_back(m);
+  }
+}
+
 void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
-                            std::vector<ContactPoint>& contacts) const {
+                            std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0);
-  for (const Minimum& m : gap_minima({master, slave, side[slave_side].heights, reach, slave_side,
-                                      settings.offset, is_whole(slave_side)},
-                                     gaps)) {
+  const GapField field{master,     slave,           side[slave_side].heights, reach,
+                       slave_side, settings.offset, is_whole(slave_side)};
+  minima[slave_side] = gap_minima(field, gaps);
+  if (!held[slave_side].empty()) add_held(field, minima[slave_side]);
+  for (const Minimum& m : minima[slave_side]) {
     auto found = contact(master, slave_side, m);
     if (!found) continue;
     found->slave_side = slave_side;
@@ -355,6 +379,17 @@ Eigen::Vector3d Pair::position(int side, int node) const { return data_->tracker
 
 void Pair::set_forces(const std::vector<ContactPoint>& contacts) {
   contact::set_forces(data_->history, contacts, data_->R_WB.transpose());
+}
+
+void Pair::hold_minima(const std::vector<ContactPoint>& contacts) {
+  for (const ContactPoint& c : contacts)
+    for (const Minimum& m : data_->minima[c.slave_side])
+      if (c.p > 0 && m.point.number == c.slave_point)
+        data_->held[c.slave_side].insert_or_assign(c.slave_point, m);
+}
+
+void Pair::release_minima() {
+  for (auto& held : data_->held) held.clear();
 }
 
 // N/m, of a node, or for points between nodes the mean of all.

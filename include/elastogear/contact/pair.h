@@ -38,6 +38,11 @@ class Pair {
   /// m, in its BRF, of a node that a contact of the last detect (by motion) names; residual included.
   Eigen::Vector3d position(int side, int node) const;
 
+  /// Points of least gap that bear a force here are also found where they are no minima any more, at their
+  /// last places, until they are released: they are kept from entering like all points of the slave.
+  void hold_minima(const std::vector<ContactPoint>& contacts);
+  void release_minima();
+
   /// Unilateral law: later calls of detect find these contacts with these forces, all others with none.
   void set_forces(const std::vector<ContactPoint>& contacts);
 

@@ -90,16 +90,6 @@ void set_loads(Options& options, const Drive& drive, double sense) {
   }
 }
 
-// At rest exact flanks meet where their gap is least, between the nodes of the coarsest mesh. In motion such
-// points come and go too often along the lines on which flanks of cylindrical gears meet.
-void set_contact_points(Options& options) {
-  if (options.given("contact_points") || options.given("contact_two_pass")) return;
-  if (options.text("analysis") == "static")
-    options.set_default("contact_points", "minima");
-  else
-    options.set_default("contact_two_pass", "true");
-}
-
 }  // namespace
 
 OptionTable drive_table() {
@@ -162,8 +152,9 @@ Options with_system(Options options, const Drive& drive) {
   options.set_default("bodies", bodies);
   options.set_default("contact_pairs", pairs);
   options.set_default("contact_surface", "exact");
+  // Exact flanks meet where their gap is least, between the nodes of the coarsest mesh.
+  if (!options.given("contact_two_pass")) options.set_default("contact_points", "minima");
   options.set_default("analysis", "static");
-  set_contact_points(options);
   options.set_default("output", stem(options) + "_result.h5");
   set_loads(options, drive, options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1);
   return options;

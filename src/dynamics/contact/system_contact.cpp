@@ -9,6 +9,8 @@
 namespace elastogear::dynamics {
 namespace {
 
+constexpr int kFreeTrials = 8;  // of contact forces before points that come and go are held
+
 std::vector<const model::ElasticBody*> elastic_bodies(const SystemModel& model) {
   std::vector<const model::ElasticBody*> bodies;
   for (const SystemModel::Body& body : model.bodies) bodies.push_back(body.eq.body.get());
@@ -78,10 +80,16 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
 
 void SystemContact::solve(const std::vector<contact::SurfaceMotion>& motion) {
   if (!unilateral_) return residual_contact_.solve(state_, [&] { detect(motion); });
+  int trial = 0;
   residual_contact_.solve_unilateral(state_, [&] {
-    for (std::size_t p = 0; p < pairs_.size(); ++p) detectors_[p].set_forces(state_.pair[p].points);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      detectors_[p].set_forces(state_.pair[p].points);
+      if (trial >= kFreeTrials) detectors_[p].hold_minima(state_.pair[p].points);
+    }
+    ++trial;
     detect(motion);
   });
+  for (contact::Pair& pair : detectors_) pair.release_minima();
 }
 
 // Sets the placements of the bodies; surfaces are undeformed at first.
