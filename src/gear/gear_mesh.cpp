@@ -81,7 +81,8 @@ Sector sector(const Toothing& toothing, const Profile& profile, const Blank& bla
   if (blank.rim_diameter > 2 * s.radius.back()) add_rows(s, n.ring, blank.rim_diameter / 2, blank.face_width);
   s.rim = static_cast<int>(s.half_width.size());
   s.tooth = s.rim + n.rim;
-  s.half_width.resize(static_cast<std::size_t>(s.tooth + s.tooth_grid.rows), blank.face_width / 2);
+  s.half_width.resize(static_cast<std::size_t>(s.tooth) + static_cast<std::size_t>(s.tooth_grid.rows),
+                      blank.face_width / 2);
   return s;
 }
 
@@ -167,7 +168,7 @@ void add_node_sets(mesh::Mesh& mesh, const Sector& s, const Numbering& n, int te
 }
 
 void add_cell(mesh::Mesh& mesh, const Sector& s, const Numbering& n, std::array<int, 4> cell) {
-  const auto [tooth, q, row, plane] = cell;
+  const int tooth = cell[0], q = cell[1], row = cell[2], plane = cell[3];
   const int n_nodes = static_cast<int>(mesh.X.cols()), teeth = n_nodes / n.count;
   const auto node = [&](int dq, int drow, int dplane) {
     return (tooth * n.count + n.at(q + dq, row + drow, plane + dplane)) % n_nodes;

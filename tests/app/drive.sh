@@ -2,9 +2,10 @@
 # A drive file serves every verb: mesh and reduce make all gears, simulate places them with flanks in touch at a roll angle,
 # recover finds the stresses of their roots. Rigid perfect gears transmit without error; without friction the sum of the
 # normal forces is the torque over the base radius, at any angle, on the drive and the coast side; so it is with a helix.
-#   drive.sh PATH/TO/elastogear
+#   drive.sh PATH/TO/elastogear PATH/TO/examples/drives
 set -euo pipefail
 elastogear=$(realpath "$1")
+examples=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -32,18 +33,24 @@ for roll in 0 0.3 0.6 0.9; do
 done
 
 # At this angle points on the sides that the lines of contact cross come and go.
-cat >helical.yaml <<'END'
+cat >slanted.yaml <<'END'
 drive: cylindrical
 module: 3 mm
 helix_angle: 18 deg
 face_width: 25 mm
-pinion: {teeth: 17, profile_shift: 0.3, file: helical_1.h5}
-wheel: {teeth: 43, profile_shift: 0.1, file: helical_2.h5}
+pinion: {teeth: 17, profile_shift: 0.3, file: slanted_1.h5}
+wheel: {teeth: 43, profile_shift: 0.1, file: slanted_2.h5}
 torque: 300 N m
 modes: 10
 END
-run reduce helical.yaml
-run simulate helical.yaml -roll 0.2
+run reduce slanted.yaml
+run simulate slanted.yaml -roll 0.2
+
+for example in "$examples"/*.yaml; do
+  run reduce "$example" -size tiny
+  run simulate "$example" -size tiny -roll 0.1
+  run recover "$example" -size tiny
+done
 
 /usr/bin/python3 - <<'END'
 import h5py
@@ -65,7 +72,7 @@ def error_of_sum(path, m_n, z, T, beta):
 
 
 for path, *gear in (("spur_result.h5", 3e-3, 17, 300, 0), ("coast.h5", 3e-3, 17, 300, 0),
-                    ("helical_result.h5", 3e-3, 17, 300, np.radians(18))):
+                    ("slanted_result.h5", 3e-3, 17, 300, np.radians(18))):
     error = error_of_sum(path, *gear)
     assert abs(error) < 2e-3, f"{path}: sum of normal forces {100 * error:.3f} % off"
 

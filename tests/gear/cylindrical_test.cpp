@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "elastogear/base/error.h"
 #include "mesh_checks.h"
@@ -208,6 +209,48 @@ TEST(CylindricalMesh, has_good_cells_and_exact_flanks) {
   Blank& b = webbed.gears[1].blank;
   b.bore = 20e-3, b.hub_diameter = 34e-3, b.hub_width = 28e-3, b.web_diameter = 74e-3, b.web_width = 8e-3;
   expect_good_mesh(webbed, 1);
+}
+
+// Any pair of external gears.
+CylindricalDrive random_drive(std::mt19937& random) {
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<>(low, high)(random);
+  };
+  const double m_n = between(0.5e-3, 10e-3), beta = between(0, 1) < 0.4 ? 0 : between(0, 35 * kDegree);
+  const int z_1 = 6 + static_cast<int>(60 * std::pow(between(0, 1), 2)),
+            z_2 = std::max(z_1, static_cast<int>(between(6, 121)));
+  const double width = between(4, 15) * m_n;
+  return drive(m_n, beta, gear("pinion", z_1, between(-0.5, 0.8), width),
+               gear("wheel", z_2, between(-0.5, 0.8), width));
+}
+
+bool has_tips_of(double modules, const CylindricalDrive& d, const CylindricalGeometry& g) {
+  for (const Toothing& t : g.gear)
+    if (2 * t.r_a * psi(t, t.r_a) * d.m_n * t.z / (2 * t.r) < modules * d.m_n) return false;
+  return true;
+}
+
+// The bounds are those of the designs that count as possible.
+TEST(CylindricalMesh, of_200_random_designs_has_good_cells) {
+  std::mt19937 random(1);
+  int possible = 0, undercut = 0;
+  while (possible < 200) {
+    const CylindricalDrive d = random_drive(random);
+    CylindricalGeometry g;
+    try {
+      g = derive(d);
+    } catch (const Error&) {
+      continue;
+    }
+    if (g.pair[0].epsilon_alpha < 1.1 || !has_tips_of(0.2, d, g)) continue;
+    ++possible;
+    undercut += g.undercut[0];
+    for (int i : {0, 1}) {
+      SCOPED_TRACE(std::to_string(g.gear[i].z) + " teeth, x = " + std::to_string(d.gears[i].x));
+      expect_good_cells(cylindrical_mesh(d, g, i, cylindrical_counts(d, g, i, Size::tiny)));
+    }
+  }
+  EXPECT_GT(undercut, 10);
 }
 
 struct Refusal {

@@ -217,11 +217,8 @@ void check_tip_paths(const CylindricalDrive& d, const GearPair& pair, Cylindrica
     Toothing& t = g.gear[gear[k]];
     const Toothing& mate = g.gear[gear[1 - k]];
     const std::string &own = d.gears[gear[k]].name, &other = d.gears[gear[1 - k]].name;
-    const TipPath path{.root = generated_profile(generating_rack(d, g, gear[k]), t, t.r_f),
-                       .own = t,
-                       .mate = mate,
-                       .a = p.a,
-                       .alpha_wt = p.alpha_wt};
+    const TipPath path =
+        tip_path(generated_profile(generating_rack(d, g, gear[k]), t, t.r_f), t, mate, p.a, p.alpha_wt);
     const auto clear = [&](double r_a) { return tip_gap(path, r_a) >= -kTouching * d.m_n; };
     require(clear(mate.r_a), other, ": the tip, diameter ", mm(2 * mate.r_a), " mm, cuts into the root of ",
             own, "; tip_diameter of at most ", mm(2 * largest(mate.r_b, mate.r_a, clear)),

@@ -1,6 +1,8 @@
 #pragma once
 // The way of a tip's corner through the mate's space, which finds out whether tips cut into roots.
 
+#include <vector>
+
 #include "elastogear/gear/toothing.h"
 #include "gear/profile.h"
 
@@ -8,11 +10,16 @@ namespace elastogear::gear {
 
 /// Two gears in the transverse plane, flanks in contact.
 struct TipPath {
-  Profile root;         ///< of `own`
+  std::vector<Eigen::Vector2d>
+      fillet;           ///< of `own`: radius, which increases, and angle from the tooth's axis
   Toothing own, mate;   ///< the mate's tip moves in a space of `own`
   double a = 0;         ///< m, centre distance
   double alpha_wt = 0;  ///< rad, working pressure angle
 };
+
+/// profile: of `own`.
+TipPath tip_path(const Profile& profile, const Toothing& own, const Toothing& mate, double a,
+                 double alpha_wt);
 
 /// m, distance along the line of action from where it touches the base circle to where it has the radius r.
 double along_action(const Toothing& toothing, double r);
