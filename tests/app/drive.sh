@@ -51,6 +51,10 @@ for example in "$examples"/*.yaml; do
   run simulate "$example" -size tiny -roll 0.1
   run recover "$example" -size tiny
 done
+for roll in 0 0.3 0.6 0.9; do
+  run simulate "$examples/steering_worm.yaml" -roll $roll -worm_rigid true -wheel_rigid true -contact_law unilateral \
+    -static_steps 1 -output worm_$roll.h5
+done
 
 /usr/bin/python3 - <<'END'
 import h5py
@@ -81,6 +85,17 @@ for roll in (0, 0.3, 0.6, 0.9):
     with h5py.File(f"rigid_{roll}.h5") as file:
         errors.append((file["bodies/pinion/rigid"][-1, 0] - 2 * np.pi * roll / 17 + np.pi / 2) * 25.5e-3 * np.cos(np.radians(20)))
 assert np.ptp(errors) < 0.2e-6, f"transmission error of rigid gears {errors} m"
+
+r_b2 = 82.029e-3 / 2  # m
+errors = []
+for roll in (0, 0.3, 0.6, 0.9):
+    with h5py.File(f"worm_{roll}.h5") as file:
+        errors.append((file["bodies/worm/rigid"][-1, 0] - np.pi * roll) / 20.5 * r_b2)
+assert np.ptp(errors) < 0.2e-6, f"transmission error of a rigid worm drive {errors} m"
+with h5py.File("steering_worm_result.h5") as file:
+    points = file["contact/worm:wheel/points"]
+    force = np.linalg.norm(points["force"][points["offset"][-2]:], axis=1).sum()
+assert abs(force / 2071 - 1) < 5e-3, f"worm drive: sum of normal forces {force} N"  # N, without losses
 END
 
 # Bodies of another drive, gears that are not there and drives that do not exist are refused.

@@ -80,5 +80,32 @@ TEST(GearMeshOfOtherDesigns, is_conforming_and_well_shaped) {
   }
 }
 
+// Worm drives of 1 to 6 starts with diameter quotients of 7 to 14 and pressure angles of 14 to 25 deg, by
+// proportions.
+TEST(ProportionedDesign, exists_and_has_good_cells_for_nearly_all_random_drives) {
+  std::mt19937 random(1);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<>(low, high)(random);
+  };
+  constexpr int kDesigns = 100;
+  int good = 0;
+  for (int i = 0; i < kDesigns; ++i) {
+    const double m_n = between(0.5e-3, 10e-3), alpha_n = between(14, 25) * std::numbers::pi / 180;
+    const int z_1 = static_cast<int>(between(1, 7)), z_2 = 4 * z_1 + static_cast<int>(between(16, 100));
+    const double q = between(7, 14), a = m_n / std::cos(std::atan(z_1 / q)) * (q + z_2) / 2;
+    try {
+      const Design d = proportioned(m_n, alpha_n, z_1, z_2, a);
+      const mesh::Mesh worm = worm_mesh(d, worm_counts(Size::tiny, z_1)),
+                       wheel = wheel_mesh(d, wheel_counts(Size::tiny));
+      good +=
+          std::min(mesh::quality(worm).min_scaled_jacobian, mesh::quality(wheel).min_scaled_jacobian) >= 0.25;
+    } catch (const Error& error) {
+      const std::string why = error.what();
+      EXPECT_TRUE(why.find("undercut") != why.npos || why.find("worm_fillet") != why.npos) << why;
+    }
+  }
+  EXPECT_GE(good, 95);
+}
+
 }  // namespace
 }  // namespace elastogear::gear::gear_mesh_test

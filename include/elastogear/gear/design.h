@@ -65,6 +65,11 @@ struct Geometry {
 /// shafts and rings out of order.
 Geometry derive(const Design& design);
 
+/// A design in proportion to its module: tooth heights of the basic rack, six axial pitches of thread, a
+/// shaft that steps down from the worm's root to both seats and their stubs, a wheel with hub and web. a:
+/// centre distance, m. Throws Error where there is no lead angle.
+Design proportioned(double m_n, double alpha_n, int z1, int z2, double a);
+
 /// The wheel's body.
 Blank wheel_blank(const Design& design);
 

@@ -121,6 +121,8 @@ std::string with_unit(double value, const std::string& unit) {
   return text;
 }
 
+std::string in_mm(double length) { return with_unit(1e3 * length, "mm"); }
+
 std::string duration(double seconds) {
   char text[64];
   if (seconds < 90)

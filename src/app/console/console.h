@@ -17,6 +17,8 @@ Progress console_progress(std::function<std::string()> detail = {});
 void print_item(const std::string& name, const std::string& text);
 /// Number with unit in about four significant digits.
 std::string with_unit(double value, const std::string& unit);
+/// The same of a length in m, in mm.
+std::string in_mm(double length);
 /// Seconds as "0.83 s", "2 min 05 s".
 std::string duration(double seconds);
 /// The most this process has held so far, "1760 MB".

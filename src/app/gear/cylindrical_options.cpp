@@ -98,7 +98,7 @@ double normal_module(const Options& options, const Choices& c) {
   return c.axial_module * std::abs(std::sin(beta));
 }
 
-CylindricalDrive design(const Options& options) {
+CylindricalDrive cylindrical_design(const Options& options) {
   Choices c;
   read_rows(options, kRackRows, c);
   CylindricalDrive d;
@@ -136,23 +136,20 @@ CylindricalDrive design(const Options& options) {
   return d;
 }
 
-std::string mm(double length) { return with_unit(1e3 * length, "mm"); }
-
-std::vector<std::pair<std::string, std::string>> member_facts(const CylindricalDrive& d,
-                                                              const CylindricalGeometry& g, int i) {
+Facts member_facts(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
   const gear::Toothing& t = g.gear[i];
   const double cos_beta = d.m_n * t.z / (2 * t.r);
-  return {{"teeth", std::to_string(t.z) + (g.undercut[i] ? ", undercut" : "")},
-          {"profile shift", with_unit(d.gears[i].x, "")},
-          {"pitch / tip / root diameter", mm(2 * t.r) + " / " + mm(2 * t.r_a) + " / " + mm(2 * t.r_f)},
-          {"base / form diameter", mm(2 * t.r_b) + " / " + mm(2 * t.r_form)},
-          {"tip thickness", mm(2 * t.r_a * gear::psi(t, t.r_a) * cos_beta)},
-          {"face width / bore", mm(g.blank[i].face_width) + " / " + mm(g.blank[i].bore)}};
+  return {
+      {"teeth", std::to_string(t.z) + (g.undercut[i] ? ", undercut" : "")},
+      {"profile shift", with_unit(d.gears[i].x, "")},
+      {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)},
+      {"base / form diameter", in_mm(2 * t.r_b) + " / " + in_mm(2 * t.r_form)},
+      {"tip thickness", in_mm(2 * t.r_a * gear::psi(t, t.r_a) * cos_beta)},
+      {"face width / bore", in_mm(g.blank[i].face_width) + " / " + in_mm(g.blank[i].bore)}};
 }
 
 // The largest sliding is where contact begins or ends, over the speed of the pitch circle.
-std::vector<std::pair<std::string, std::string>> pair_facts(const CylindricalDrive& d,
-                                                            const CylindricalGeometry& g, std::size_t i) {
+Facts pair_facts(const CylindricalDrive& d, const CylindricalGeometry& g, std::size_t i) {
   const gear::PairGeometry& p = g.pair[i];
   const gear::Toothing &t_1 = g.gear[d.pairs[i].first], &t_2 = g.gear[d.pairs[i].second];
   const double pitch_point = t_1.r_b * std::tan(p.alpha_wt);
@@ -160,14 +157,14 @@ std::vector<std::pair<std::string, std::string>> pair_facts(const CylindricalDri
   const double to = p.a * std::sin(p.alpha_wt) - std::sqrt(t_2.r_start * t_2.r_start - t_2.r_b * t_2.r_b);
   const double sliding = std::max(pitch_point - from, to - pitch_point) * (1 / t_1.r_b + 1 / t_2.r_b) *
                          t_1.r_b / (t_1.r_b / std::cos(p.alpha_wt));
-  return {{"centre distance", mm(p.a)},
+  return {{"centre distance", in_mm(p.a)},
           {"ratio", with_unit(static_cast<double>(t_2.z) / t_1.z, "")},
           {"working pressure angle", with_unit(p.alpha_wt / kRadPerDegree, "deg, transverse")},
-          {"normal base pitch", mm(g.p_bn)},
+          {"normal base pitch", in_mm(g.p_bn)},
           {"contact ratio",
            with_unit(p.epsilon_alpha, "") + "transverse, " + with_unit(p.epsilon_beta, "") + "overlap"},
-          {"normal backlash", mm(p.j_n)},
-          {"tip clearances", mm(p.c[0]) + " / " + mm(p.c[1])},
+          {"normal backlash", in_mm(p.j_n)},
+          {"tip clearances", in_mm(p.c[0]) + " / " + in_mm(p.c[1])},
           {"largest sliding", with_unit(sliding, "of the pitch-line speed")}};
 }
 
@@ -176,7 +173,7 @@ std::vector<std::pair<std::string, std::string>> pair_facts(const CylindricalDri
 OptionTable cylindrical_table() { return table_of(kRackRows, kGearRows); }
 
 Drive cylindrical_drive(const Options& options) {
-  const CylindricalDrive d = design(options);
+  const CylindricalDrive d = cylindrical_design(options);
   const CylindricalGeometry g = gear::derive(d);
   const auto angle =
       gear::angles(d, g, options.number("roll"), options.choice("side", {"drive", "coast"}) == 0);

@@ -2,6 +2,7 @@
 // Options of spur and helical gears, "drive: cylindrical".
 
 #include "app/gear/drive.h"
+#include "app/options/options.h"
 
 namespace elastogear::app {
 

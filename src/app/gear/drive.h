@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/options/options.h"
 #include "elastogear/gear/size.h"
 #include "elastogear/gear/toothing.h"
 #include "elastogear/mesh/mesh.h"
 
 namespace elastogear::app {
+
+/// Names and values with units, to be printed.
+using Facts = std::vector<std::pair<std::string, std::string>>;
 
 /// One body of a drive.
 struct DriveMember {
@@ -27,39 +29,13 @@ struct DriveMember {
 
 struct DrivePair {
   int first = 0, second = 1;
-  std::vector<std::pair<std::string, std::string>> facts;  ///< of the pair, name and value with unit
+  Facts facts;
 };
 
 struct Drive {
   std::vector<DriveMember> members;
-  std::vector<std::vector<std::pair<std::string, std::string>>> facts;  ///< of each member
+  std::vector<Facts> facts;  ///< of each member
   std::vector<DrivePair> pairs;
 };
-
-/// The rows of drive files besides those of gear data.
-OptionTable drive_table();
-/// The same with those of gear data that drives share: for verbs that have none of their own.
-OptionTable whole_drive_table();
-
-/// Is this the run of a drive file?
-bool is_drive(const Options& options);
-
-/// Options with the names of the drive's gears, to be checked by reject_unknown.
-Options with_gears(Options options);
-
-/// Throws Error, naming value and remedy, for drives that do not exist.
-Drive read_drive(const Options& options);
-
-/// Options of a member for `reduce`: its section, then what the drive says where nothing is given.
-Options member_options(const Options& options, const DriveMember& member);
-
-/// Options with bodies, places, joints, loads, contact and files of the drive where nothing is given.
-Options with_system(Options options, const Drive& drive);
-
-/// Options with result, stress file and stresses at the roots of all members where nothing is given.
-Options with_recovery(Options options, const Drive& drive);
-
-/// Table of the drive's numbers, on rank 0.
-void print_drive(const Drive& drive);
 
 }  // namespace elastogear::app

@@ -6,7 +6,7 @@
 
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
-#include "app/gear/drive.h"
+#include "app/gear/drive_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"

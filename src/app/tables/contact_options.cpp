@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/console/console.h"
-#include "app/gear/drive.h"
+#include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 

@@ -5,7 +5,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/gear/design_options.h"
-#include "app/gear/drive.h"
+#include "app/gear/drive_options.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/gear/wheel.h"

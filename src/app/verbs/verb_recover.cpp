@@ -5,7 +5,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/finite_elements.h"
-#include "app/gear/drive.h"
+#include "app/gear/drive_options.h"
 #include "app/tables/recover_options.h"
 #include "app/verbs/recover_boxes.h"
 #include "app/verbs/recover_tables.h"

@@ -13,7 +13,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
-#include "app/gear/drive.h"
+#include "app/gear/drive_options.h"
 #include "app/tables/material_options.h"
 #include "app/tables/reduce_options.h"
 #include "app/verbs/named_sets.h"

@@ -7,7 +7,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
-#include "app/gear/drive.h"
+#include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "app/resumable_run.h"
 #include "app/tables/body_options.h"

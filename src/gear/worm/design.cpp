@@ -226,6 +226,32 @@ Geometry derive(const Design& d) {
   return g;
 }
 
+Design proportioned(double m_n, double alpha_n, int z1, int z2, double a) {
+  Design d;
+  d.m_n = m_n, d.alpha_n = alpha_n, d.z1 = z1, d.z2 = z2, d.a = a;
+  d.j_n = 0.02 * m_n;
+  d.addendum = m_n, d.dedendum = 1.25 * m_n;
+  d.worm_fillet = 0.35 * m_n, d.wheel_rack_tip = 0.3 * m_n;
+  check_toothing(d);
+  const Geometry g = pitch_geometry(d);
+  const double root_1 = 2 * g.worm.r_f, root_2 = 2 * g.wheel.r_f;
+  d.thread_length = 6 * g.p_x;
+  d.worm_bore = 0.25 * root_1;
+  d.seat_1_diameter = d.seat_2_diameter = 0.85 * root_1;
+  d.shaft_1_diameter = d.shaft_2_diameter = 0.75 * root_1;
+  d.shoulder = 0.1 * root_1;
+  const double begin = d.thread_length / 2 + 2 * g.p_x + 2 * d.shoulder, end = begin + 0.8 * root_1;
+  d.seat_1_end = -begin, d.seat_1_begin = -end;
+  d.seat_2_begin = begin, d.seat_2_end = end;
+  d.shaft_2_end = end + 0.5 * root_1, d.shaft_1_end = -d.shaft_2_end;
+  d.face_width = 8 * m_n, d.hub_width = 11 * m_n, d.web_width = 4 * m_n;
+  d.rim_diameter = root_2 - 5 * m_n;
+  d.web_diameter = std::min(0.76 * root_2, d.rim_diameter - 2 * m_n);
+  d.wheel_bore = 0.4 * d.web_diameter;
+  d.hub_diameter = 0.6 * d.web_diameter;
+  return d;
+}
+
 Blank wheel_blank(const Design& d) {
   return {.face_width = d.face_width,
           .bore = d.wheel_bore,

@@ -1,5 +1,6 @@
-#include "app/gear/drive.h"
+#include "app/gear/drive_options.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -7,7 +8,9 @@
 #include "app/console/console.h"
 #include "app/gear/cylindrical_options.h"
 #include "app/gear/design_options.h"
+#include "app/gear/worm_options.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/rotation.h"
 
 namespace elastogear::app {
 namespace {
@@ -38,9 +41,8 @@ const Rows<DriveChoices> kDriveRows = {
      "drive: of the first gear at the start of a motion, in that sense"},
 };
 
-// Gear data that drives share with single gears.
-constexpr const char* kShared[] = {"size",     "module",    "pressure_angle", "centre_distance",
-                                   "backlash", "face_width"};
+// Rows of gear data for a single body.
+constexpr const char* kOfParts[] = {"part", "mesh"};
 
 // Of reduce, which the drive says for its members.
 const std::vector<std::string> kOfDrive = {"mesh", "unit",          "output", "stiffness",
@@ -72,18 +74,28 @@ bool any_material(const Options& options) {
                      [](const auto& option) { return option.first.starts_with("material_"); });
 }
 
+bool is_worm_drive(const Options& options) { return options.choice("drive", {"cylindrical", "worm"}) == 1; }
+
+// With the joint's coordinate at the member's angle, or, held there, turned by it.
+void place(Options& options, const DriveMember& member, bool held) {
+  const Eigen::Matrix3d R = rotation_matrix(member.rotation);
+  const Eigen::Matrix3d turned = held ? Eigen::Matrix3d(R * rotation_matrix({0, 0, member.angle})) : R;
+  options.set_default(member.name + "_position", triple(member.position));
+  const Eigen::AngleAxisd rotation(turned);
+  options.set_default(member.name + "_rotation", triple(rotation.angle() * rotation.axis()));
+  options.set_default(member.name + "_joint", held ? "fixed" : "revolute");
+  if (held) return;
+  options.set_default(member.name + "_axis", "0,0,1");
+  options.set_default(member.name + "_angle0", digits(member.angle));
+}
+
 void set_loads(Options& options, const Drive& drive, double sense) {
   const bool moves = options.text("analysis") == "dynamic";
   const double torque = sense * options.number("torque"), speed = sense * options.number("speed");
   for (const DriveMember& member : drive.members) {
     const bool first = &member == &drive.members.front(), last = &member == &drive.members.back();
     const bool held = last && !first && !moves;
-    options.set_default(member.name + "_joint", held ? "fixed" : "revolute");
-    if (held)
-      options.set_default(member.name + "_rotation", triple({0, 0, member.angle}));
-    else
-      options.set_default(member.name + "_angle0", digits(member.angle));
-    if (!held) options.set_default(member.name + "_axis", "0,0,1");
+    place(options, member, held);
     if (first) options.set_default(member.name + "_torque", digits(torque));
     if (last && !first && moves) options.set_default(member.name + "_torque", digits(-torque / member.ratio));
     if (moves && speed != 0) options.set_default(member.name + "_omega0", digits(speed * member.ratio));
@@ -94,15 +106,15 @@ void set_loads(Options& options, const Drive& drive, double sense) {
 
 OptionTable drive_table() {
   OptionTable table = table_of(kDriveRows);
-  const OptionTable more = cylindrical_table();
-  table.insert(table.end(), more.begin(), more.end());
+  for (const OptionTable& more : {cylindrical_table(), worm_table()})
+    table.insert(table.end(), more.begin(), more.end());
   return table;
 }
 
 OptionTable whole_drive_table() {
   OptionTable table = drive_table();
   for (OptionSpec spec : table_of(design_rows())) {
-    if (std::find(std::begin(kShared), std::end(kShared), spec.name) == std::end(kShared)) continue;
+    if (std::find(std::begin(kOfParts), std::end(kOfParts), spec.name) != std::end(kOfParts)) continue;
     spec.help = "drive: " + spec.help;
     if (spec.name != "size") spec.default_value.clear();
     table.push_back(spec);
@@ -113,12 +125,13 @@ OptionTable whole_drive_table() {
 bool is_drive(const Options& options) { return options.given("drive"); }
 
 Options with_gears(Options options) {
-  if (is_drive(options)) options.set_default("gears", DriveChoices{}.gears);
+  if (!is_drive(options)) return options;
+  options.set_default("gears", is_worm_drive(options) ? "worm,wheel" : DriveChoices{}.gears);
   return options;
 }
 
 Drive read_drive(const Options& options) {
-  options.choice("drive", {"cylindrical"});
+  if (is_worm_drive(options)) return worm_drive(options);
   const std::vector<std::string> names = options.list("gears");
   for (const std::string& name : names)
     require(std::count(names.begin(), names.end(), name) == 1, options.label("gears"), ": '", name,
@@ -144,7 +157,6 @@ Options with_system(Options options, const Drive& drive) {
   for (const DriveMember& member : drive.members) {
     bodies += (bodies.empty() ? "" : ",") + member.name;
     options.set_default(member.name + "_file", body_file(options, member));
-    options.set_default(member.name + "_position", triple(member.position));
   }
   for (const DrivePair& pair : drive.pairs)
     pairs +=

@@ -1,0 +1,112 @@
+#include "app/gear/worm_options.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "app/console/console.h"
+#include "app/gear/design_options.h"
+#include "app/options/rows.h"
+#include "elastogear/base/error.h"
+#include "elastogear/gear/wheel.h"
+#include "elastogear/gear/worm.h"
+
+namespace elastogear::app {
+namespace {
+
+using gear::Design, gear::Geometry;
+using std::numbers::pi;
+
+constexpr double kPressureAngle = 20;  // deg
+constexpr int kMostStarts = 6;
+
+struct WormChoices {
+  int starts = 1, teeth = 0;
+  double quotient = 10;
+};
+
+const Rows<WormChoices> kWormRows = {
+    {"worm_starts", &WormChoices::starts, "-", "worm: number of starts", kPositive},
+    {"diameter_quotient", &WormChoices::quotient, "-",
+     "worm: pitch diameter of the worm over its axial module, where no centre distance is given", kPositive},
+};
+
+// tan(gamma) = z1/q; the axial module is m_n/cos(gamma).
+double centre_distance(double m_n, const WormChoices& c) {
+  return m_n / std::cos(std::atan(c.starts / c.quotient)) * (c.quotient + c.teeth) / 2;
+}
+
+Design worm_design(const Options& options) {
+  WormChoices c;
+  read_rows(options, kWormRows, c);
+  for (const char* name : {"z1", "z2"})
+    require(!options.given(name), options.label(name),
+            ": in a drive write worm: {starts: ...} and wheel: {teeth: ...}");
+  require(c.starts <= kMostStarts, options.label("worm_starts"), " = ", c.starts, ": must be 1 to ",
+          kMostStarts);
+  require(options.given("wheel_teeth"),
+          "option -wheel_teeth is missing: number of teeth, as in 'wheel: {teeth: 41}'");
+  c.teeth = options.count("wheel_teeth", 1);
+  require(options.given("module"), "option -module is missing: normal module, as in 'module: 2 mm'");
+  const double m_n = options.positive("module");
+  const bool by_distance = options.given("centre_distance");
+  require(!by_distance || !options.given("diameter_quotient"),
+          "options -centre_distance and -diameter_quotient: give one of them");
+  const double alpha_n = options.given("pressure_angle") ? options.number("pressure_angle") : kPressureAngle;
+  Design d = gear::proportioned(m_n, alpha_n * pi / 180, c.starts, c.teeth,
+                                by_distance ? options.positive("centre_distance") : centre_distance(m_n, c));
+  read_rows(options, design_rows(), d);
+  return d;
+}
+
+Facts facts(const gear::Toothing& t, double width, double bore) {
+  return {
+      {"teeth", std::to_string(t.z)},
+      {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)},
+      {"base / form diameter", in_mm(2 * t.r_b) + " / " + in_mm(2 * t.r_form)},
+      {"width / bore", in_mm(width) + " / " + in_mm(bore)}};
+}
+
+}  // namespace
+
+OptionTable worm_table() { return table_of(kWormRows); }
+
+// Worm local (x, y, z) = world (Y, Z, X): a third of a turn about (1, 1, 1). At zero angles both flanks have
+// half the backlash; a driving worm pushes the wheel from behind.
+Drive worm_drive(const Options& options) {
+  const Design d = worm_design(options);
+  const Geometry g = gear::derive(d);
+  const double turned = 2 * pi * options.number("roll") / d.z1;
+  const double closing = g.j_n / 2 / (g.wheel.r_b * std::cos(g.wheel.beta_b));
+  const double sense = options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
+  DriveMember worm{.name = "worm",
+                   .toothing = g.worm,
+                   .mesh = [d](gear::Size size) { return gear::worm_mesh(d, gear::worm_counts(size, d.z1)); },
+                   .held = "seats"};
+  worm.position = {0, d.a, 0};
+  worm.rotation = Eigen::Vector3d::Constant(2 * pi / 3 / std::sqrt(3.0));
+  worm.angle = turned;
+  DriveMember wheel{.name = "wheel",
+                    .toothing = g.wheel,
+                    .mesh = [d](gear::Size size) { return gear::wheel_mesh(d, gear::wheel_counts(size)); },
+                    .held = "bore"};
+  wheel.angle = turned / g.ratio - sense * closing;
+  wheel.ratio = 1 / g.ratio;
+  Drive drive{
+      .members = {worm, wheel},
+      .facts = {facts(g.worm, d.thread_length, d.worm_bore), facts(g.wheel, d.face_width, d.wheel_bore)},
+      .pairs = {}};
+  drive.pairs.push_back({0,
+                         1,
+                         {{"centre distance", in_mm(d.a)},
+                          {"ratio", with_unit(g.ratio, "")},
+                          {"lead angle", with_unit(g.gamma * 180 / pi, "deg")},
+                          {"diameter quotient", with_unit(2 * g.worm.r * pi / g.p_x, "")},
+                          {"normal base pitch", in_mm(g.p_bn)},
+                          {"contact ratio", with_unit(g.epsilon, "")},
+                          {"normal backlash", in_mm(g.j_n)},
+                          {"tip clearances", in_mm(d.a - g.worm.r_a - g.wheel.r_f) + " / " +
+                                                 in_mm(d.a - g.wheel.r_a - g.worm.r_f)}}});
+  return drive;
+}
+
+}  // namespace elastogear::app
