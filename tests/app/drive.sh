@@ -107,5 +107,6 @@ refused "off the flank of this gear data" simulate spur.yaml -pinion_profile_shi
 refused "unknown option -pinoin_teeth" simulate spur.yaml -pinoin_teeth 18
 refused "module = 3 m: .*module: 3 mm" mesh spur.yaml -module 3
 refused "tip_diameter of at most" mesh spur.yaml -wheel_tip_diameter "136.9 mm"
+refused "torque is missing" simulate spur.yaml -torque 0
 refused "'deg' is no unit of it" mesh spur.yaml -face_width "25 deg"
 refused "must be a gear named before" mesh spur.yaml -wheel_mate idler

@@ -22,8 +22,9 @@ struct DriveChoices {
 
 const Rows<DriveChoices> kDriveRows = {
     {"drive", "-", "",
-     "a drive file: cylindrical (spur and helical gears); its numbers serve mesh, reduce, simulate and "
-     "recover"},
+     "a drive file: cylindrical (spur and helical gears) or worm (ZI worm and cylindrical wheel); its "
+     "numbers "
+     "serve mesh, reduce, simulate and recover"},
     {"gears", &DriveChoices::gears, "-",
      "drive: names of the gears, the driving one first; each has its own section"},
     {"roll", &DriveChoices::roll, "-",
@@ -33,8 +34,7 @@ const Rows<DriveChoices> kDriveRows = {
      "coast"},
     {"torque", &DriveChoices::torque, "N m",
      "drive: on the first gear, in the sense that presses the flanks of side together; the last one is held "
-     "in static "
-     "and relax analyses and carries the rest in motion"},
+     "at rest (static, relax) and carries the torque in motion"},
     {"<gear>_mesh", "-", "", "drive: mesh file that mesh writes, .msh or .inp (default: <gear>.msh)"},
     {"<gear>_file", "-", "", "drive: body file that reduce writes and simulate reads (default: <gear>.h5)"},
     {"speed", &DriveChoices::speed, "rad/s",
@@ -92,6 +92,9 @@ void place(Options& options, const DriveMember& member, bool held) {
 void set_loads(Options& options, const Drive& drive, double sense) {
   const bool moves = options.text("analysis") == "dynamic";
   const double torque = sense * options.number("torque"), speed = sense * options.number("speed");
+  const bool loaded = torque != 0 || options.given("loads") || options.given("gravity") ||
+                      !options.placeholder_values("<body>_torque").empty();
+  require(moves || loaded, "option -torque is missing: on the first gear, as in 'torque: 300 N m'");
   for (const DriveMember& member : drive.members) {
     const bool first = &member == &drive.members.front(), last = &member == &drive.members.back();
     const bool held = last && !first && !moves;
