@@ -144,9 +144,11 @@ double damping(Equilibrium& at, SNESLineSearch search) {
   return at.n_in_vain < kPatience ? 1 : 0.5;
 }
 
-// Share of a change of U until pairs that are apart touch; 1 when they stay apart.
+// Share of a change of U until pairs that are apart touch; 1 when they stay apart. Looked for from below:
+// contact of bodies that are deep within each other takes long to compute.
 double until_touch(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& change) {
-  constexpr int kBisections = 25;
+  constexpr int kBisections = 8;
+  constexpr double kLeast = 1e-6;
   const Eigen::VectorXd V = Eigen::VectorXd::Zero(U.size());
   const std::vector<bool> before = touching(at, U);
   if (std::find(before.begin(), before.end(), false) == before.end()) return 1;
@@ -158,9 +160,12 @@ double until_touch(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::Vecto
       if (after[p] && !before[p]) return true;
     return false;
   };
-  if (!meets(1)) return 1;
-  double apart = 0, met = 1;
-  for (int i = 0; i < kBisections; ++i) {
+  double apart = 0, met = kLeast;
+  for (; !meets(met); met = std::min(1.0, 2 * met)) {
+    if (met == 1) return 1;
+    apart = met;
+  }
+  for (int i = 0; apart > 0 && i < kBisections; ++i) {
     const double share = (apart + met) / 2;
     (meets(share) ? met : apart) = share;
   }
