@@ -44,7 +44,7 @@ struct Equilibrium {
   State state(ConstVector U) const { return {factor, U, zero, zero}; }
 };
 
-// Which pairs touch.
+// Tells of each pair whether its bodies touch.
 std::vector<bool> touching(Equilibrium& at, ConstVector U) {
   std::vector<bool> touch;
   for (const PairContacts& pair : at.problem.system.contacts(at.factor, U, at.zero).pair)

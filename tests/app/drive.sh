@@ -98,6 +98,8 @@ with h5py.File("steering_worm_result.h5") as file:
 assert abs(force / 2071 - 1) < 5e-3, f"worm drive: sum of normal forces {force} N"  # N, without losses
 END
 
+echo "part: wheel" >part.yaml
+
 # Bodies of another drive, gears that are not there and drives that do not exist are refused.
 refused() {
   if "$elastogear" "${@:2}" >log 2>&1; then echo "accepted: ${*:2}"; exit 1; fi
@@ -107,6 +109,11 @@ refused "off the flank of this gear data" simulate spur.yaml -pinion_profile_shi
 refused "unknown option -pinoin_teeth" simulate spur.yaml -pinoin_teeth 18
 refused "module = 3 m: .*module: 3 mm" mesh spur.yaml -module 3
 refused "tip_diameter of at most" mesh spur.yaml -wheel_tip_diameter "136.9 mm"
+refused "addendum: has no meaning in drive: cylindrical" mesh spur.yaml -addendum "3 mm"
+refused "helix_angle: has no meaning in drive: worm" mesh "$examples/steering_worm.yaml" -helix_angle 10
+refused "is for a drive" mesh part.yaml -helix_angle 10
+refused "is for a single body" reduce spur.yaml -mesh other.msh
+refused "counts are for single bodies" mesh spur.yaml -wheel_count_flank 4
 refused "torque is missing" simulate spur.yaml -torque 0
 refused "'deg' is no unit of it" mesh spur.yaml -face_width "25 deg"
 refused "must be a gear named before" mesh spur.yaml -wheel_mate idler

@@ -41,10 +41,12 @@ const Rows<DriveChoices> kDriveRows = {
      "drive: of the first gear at the start of a motion, in that sense"},
 };
 
-// Rows of gear data for a single body.
+// Rows of gear data for a single body, and those that all drives share.
 constexpr const char* kOfParts[] = {"part", "mesh"};
+constexpr const char* kShared[] = {"size",     "module",    "pressure_angle", "centre_distance",
+                                   "backlash", "face_width"};
 
-// Of reduce, which the drive says for its members.
+// Options of reduce that a drive sets itself for each gear.
 const std::vector<std::string> kOfDrive = {"mesh", "unit",          "output", "stiffness",
                                            "mass", "matrix_format", "dofs",   "nodes"};
 
@@ -75,6 +77,41 @@ bool any_material(const Options& options) {
 }
 
 bool is_worm_drive(const Options& options) { return options.choice("drive", {"cylindrical", "worm"}) == 1; }
+
+template <class List>
+bool holds(const List& list, const std::string& name) {
+  return std::find(std::begin(list), std::end(list), name) != std::end(list);
+}
+
+// Names that are given of the options of a table, whatever stands for their placeholders.
+std::vector<std::string> given_of(const Options& options, const OptionTable& table) {
+  std::vector<std::string> names;
+  for (const OptionSpec& spec : table)
+    if (spec.name.find('<') == std::string::npos) {
+      if (options.given(spec.name)) names.push_back(spec.name);
+    } else {
+      for (const std::string& word : options.placeholder_values(spec.name))
+        names.push_back(with_word(spec.name, word));
+    }
+  return names;
+}
+
+// Numbers that the other kind of drive, or a single body, would have must not be passed over in silence.
+void refuse_others(const Options& options) {
+  for (const char* name : kOfParts)
+    require(!options.given(name), options.label(name),
+            ": is for a single body; a drive names its gears' files ", "by <gear>_mesh and <gear>_file");
+  const bool worm = is_worm_drive(options);
+  OptionTable of_worms = table_of(design_rows());
+  for (const OptionSpec& spec : worm_table()) of_worms.push_back(spec);
+  const std::vector<std::string> in_worms = given_of(options, of_worms),
+                                 in_cylindrical = given_of(options, cylindrical_table());
+  for (const std::string& name : worm ? in_cylindrical : in_worms)
+    require(holds(worm ? in_worms : in_cylindrical, name) || holds(kShared, name) ||
+                (worm && name == "wheel_teeth"),
+            options.label(name), ": has no meaning in drive: ", worm ? "worm" : "cylindrical",
+            "; docs/drives.md lists its keys");
+}
 
 // With the joint's coordinate at the member's angle, or, held there, turned by it.
 void place(Options& options, const DriveMember& member, bool held) {
@@ -117,7 +154,7 @@ OptionTable drive_table() {
 OptionTable whole_drive_table() {
   OptionTable table = drive_table();
   for (OptionSpec spec : table_of(design_rows())) {
-    if (std::find(std::begin(kOfParts), std::end(kOfParts), spec.name) != std::end(kOfParts)) continue;
+    if (holds(kOfParts, spec.name)) continue;
     spec.help = "drive: " + spec.help;
     if (spec.name != "size") spec.default_value.clear();
     table.push_back(spec);
@@ -128,12 +165,18 @@ OptionTable whole_drive_table() {
 bool is_drive(const Options& options) { return options.given("drive"); }
 
 Options with_gears(Options options) {
-  if (!is_drive(options)) return options;
+  if (!is_drive(options)) {
+    for (const OptionSpec& spec : drive_table())
+      require(!options.given(spec.name), options.label(spec.name),
+              ": is for a drive; name its kind by 'drive: cylindrical' or 'drive: worm'");
+    return options;
+  }
   options.set_default("gears", is_worm_drive(options) ? "worm,wheel" : DriveChoices{}.gears);
   return options;
 }
 
 Drive read_drive(const Options& options) {
+  refuse_others(options);
   if (is_worm_drive(options)) return worm_drive(options);
   const std::vector<std::string> names = options.list("gears");
   for (const std::string& name : names)
@@ -149,6 +192,7 @@ Options member_options(const Options& options, const DriveMember& member) {
   own.set_default("stress_nodes", "root");
   own.set_default("restrain", member.held);
   if (any_material(own)) return own;
+  print_item("material", "steel: 210 GPa, nu 0.3, 7850 kg/m^3 (none is given)");
   own.set_default("material_E", "210e9");
   own.set_default("material_nu", "0.3");
   own.set_default("material_rho", "7850");

@@ -33,7 +33,7 @@ const Rows<TrueSurfaceFiles> kTrueSurfaceRows = {
      "nodes, 0 at others"},
 };
 
-// Of a drive's member; nothing when the body is none.
+// The toothing of a body that is a member of the run's drive; nothing for other bodies.
 std::optional<gear::Toothing> toothing_of_drive(const Options& options, const std::string& body) {
   if (!is_drive(options)) return {};
   for (const DriveMember& member : read_drive(options).members)

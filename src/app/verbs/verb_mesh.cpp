@@ -75,6 +75,9 @@ Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) 
 
 // All members of a drive file.
 void mesh_drive(const Options& options) {
+  for (const OptionSpec& spec : table_of(kWormCounts, kWheelCounts))
+    require(!options.given(spec.name), options.label(spec.name),
+            ": counts are for single bodies; a drive's meshes follow from size");
   const Drive drive = read_drive(options);
   const gear::Size size = gear::size(options.text("size"));
   std::vector<std::string> paths;

@@ -102,8 +102,9 @@ std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector
   return Vector2d(next - at);
 }
 
-// Whether the gap hardly grows along one direction: its curvatures, of H in the metric of the face's tangents
-// a. Where it is least along such a line is a matter of roundoff, and of the sides that the line crosses.
+// Returns whether the gap hardly grows along one direction of the face. The curvatures are those of H in the
+// metric of the face's tangents a. Where such a gap is least within the face is a matter of roundoff; the
+// minima on the sides that the line of contact crosses stand for it.
 bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H) {
   const Eigen::Matrix2d C = (a.transpose() * a).inverse() * H;
   const double mean = 0.5 * C.trace(), product = C.determinant();

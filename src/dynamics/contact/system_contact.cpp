@@ -70,6 +70,7 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   forget();
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
+  for (contact::Pair& pair : detectors_) pair.release_minima();
   detect(motion);
   if (unilateral_ || residual_contact_.any()) solve(motion);
   U_ = U;
@@ -89,7 +90,6 @@ void SystemContact::solve(const std::vector<contact::SurfaceMotion>& motion) {
     ++trial;
     detect(motion);
   });
-  for (contact::Pair& pair : detectors_) pair.release_minima();
 }
 
 // Sets the placements of the bodies; surfaces are undeformed at first.
