@@ -104,6 +104,21 @@ double distance(const model::Surface& surface, const contact::SurfaceMotion& fro
   return std::sqrt(moved.colwise().squaredNorm().maxCoeff());
 }
 
+bool is_rotation(body::JointType type, Eigen::Index coordinate) {
+  if (body::has_rotation_vector(type)) return type != body::JointType::free || coordinate >= 3;
+  return body::has_rotation_axis(type) && coordinate == 0;
+}
+
+// Largest change of a rotation, rad; places alone do not tell of whole turns.
+double largest_turn(const System& system, const Eigen::VectorXd& change) {
+  double largest = 0;
+  for (const System::Body& body : system.bodies())
+    for (Eigen::Index i = 0; i < body.n_open(); ++i)
+      if (is_rotation(body.eq.joint.type, body.open[static_cast<std::size_t>(i)]))
+        largest = std::max(largest, std::abs(change[body.first + i]));
+  return largest;
+}
+
 // How much too far a change of U goes: at most 1 when every body and surface stays within its limit.
 double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& to) {
   System& system = at.problem.system;
@@ -180,6 +195,7 @@ PetscErrorCode limit(SNESLineSearch search, Vec X, Vec Y, PetscBool* changed, vo
     Eigen::VectorXd y = *ReadView(Y);
     if (!y.allFinite()) return;
     double share = damping(at, search);
+    share = std::min(share, kTurn / largest_turn(at.problem.system, y));
     y *= share;
     while (true) {
       const double too_far = excess(at, *x, *x - y);
