@@ -33,11 +33,18 @@ std::optional<std::string> placeholder(const std::string& pattern, const std::st
   return name.substr(head.size(), name.size() - head.size() - tail.size());
 }
 
-// Null where the table has none of this name.
+// The row whose placeholder stands for the least, so that "<gear>_pitch_deviation" goes before
+// "<body>_deviation". Null where the table has none of this name.
 const OptionSpec* find_spec(const OptionTable& table, const std::string& name) {
-  const auto found = std::find_if(table.begin(), table.end(),
-                                  [&](const OptionSpec& s) { return placeholder(s.name, name).has_value(); });
-  return found == table.end() ? nullptr : &*found;
+  const OptionSpec* found = nullptr;
+  std::size_t least = 0;
+  for (const OptionSpec& spec : table) {
+    const auto word = placeholder(spec.name, name);
+    if (!word || (found && word->size() >= least)) continue;
+    found = &spec;
+    least = word->size();
+  }
+  return found;
 }
 
 bool has(const OptionTable& table, const std::string& name) { return find_spec(table, name); }
@@ -353,6 +360,7 @@ std::map<std::string, std::string> Options::provenance() const {
 std::string help_text(const OptionTable& table) {
   std::ostringstream out;
   for (const OptionSpec& s : table) {
+    if (s.help.empty()) continue;  // another option's help names it
     out << "  -" << s.name << (s.unit == "-" ? "" : " [" + s.unit + "]") << "\n      " << s.help
         << (s.default_value.empty() ? "" : " (default: " + s.default_value + ")") << "\n";
   }

@@ -15,7 +15,7 @@ struct OptionSpec {
   std::string name;
   std::string unit;           ///< "m", "rad/s", "-" for words and counts
   std::string default_value;  ///< as the user would write it; empty: no default
-  std::string help;
+  std::string help;           ///< empty: that of another option names it
 };
 
 using OptionTable = std::vector<OptionSpec>;
