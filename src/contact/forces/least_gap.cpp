@@ -14,7 +14,6 @@ using Eigen::Vector2d;
 constexpr int kSteps = 20;
 constexpr double kConverged = 1e-10;  // of local coordinates
 constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
-constexpr double kLine = 1e-3;        // ratio of curvatures below which surfaces meet along a line
 constexpr double kApart = 1e-4;       // of a face, between minima that are not the same
 
 // A slave point that may be a minimum.
@@ -103,13 +102,14 @@ std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector
 }
 
 // Returns whether the gap hardly grows along one direction of the face. The curvatures are those of H in the
-// metric of the face's tangents a. Where such a gap is least within the face is a matter of roundoff; the
+// metric of the face's tangents a. Where such a gap is least within the face is a matter of roundoff, or of
+// how the bodies deform; the
 // minima on the sides that the line of contact crosses stand for it.
-bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H) {
+bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H, double line) {
   const Eigen::Matrix2d C = (a.transpose() * a).inverse() * H;
   const double mean = 0.5 * C.trace(), product = C.determinant();
   const double most = mean + std::sqrt(std::max(0.0, mean * mean - product));
-  return product < kLine * most * most;
+  return product < line * most * most;
 }
 
 // Newton's method while it is held on the face. on_sides: m, the least gap known on the face's sides.
@@ -125,7 +125,7 @@ std::optional<Minimum> least_within(const GapField& field, SlavePoint point, con
     const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
     const Eigen::Matrix2d H = gap_curvature(t->geometry, 2, t->over.gap);
     const auto way = step_on_face(sides, point.at, slope, H);
-    if (!way || is_flat(t->geometry.a.leftCols<2>(), H)) return {};
+    if (!way || is_flat(t->geometry.a.leftCols<2>(), H, field.line)) return {};
     if (way->cwiseAbs().maxCoeff() < kConverged) {
       const double length = t->geometry.a.colwise().norm().maxCoeff();
       const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;
