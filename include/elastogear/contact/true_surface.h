@@ -30,4 +30,10 @@ Eigen::VectorXd sampled_heights(
     const model::Surface& surface, int f,
     const std::function<double(const Eigen::Vector3d& x, const Eigen::Vector3d& n)>& distance);
 
+/// m, the most by which the polynomial through the heights of face f misses the surface halfway between its
+/// points: 0 but for roundoff on flanks without creases.
+double height_error(
+    const model::Surface& surface, int f, const Eigen::VectorXd& heights,
+    const std::function<double(const Eigen::Vector3d& x, const Eigen::Vector3d& n)>& distance);
+
 }  // namespace elastogear::contact

@@ -189,6 +189,7 @@ Drive cylindrical_drive(const Options& options) {
                        .held = "bore"};
     member.position.head<2>() = g.axis[i];
     member.angle = angle[i];
+    member.width = g.blank[i].face_width;
     drive.members.push_back(member);
     drive.facts.push_back(member_facts(d, g, k));
   }

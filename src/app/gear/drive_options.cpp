@@ -8,6 +8,8 @@
 #include "app/console/console.h"
 #include "app/gear/cylindrical_options.h"
 #include "app/gear/design_options.h"
+#include "app/gear/misalignment.h"
+#include "app/gear/modification_options.h"
 #include "app/gear/worm_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
@@ -146,7 +148,8 @@ void set_loads(Options& options, const Drive& drive, double sense) {
 
 OptionTable drive_table() {
   OptionTable table = table_of(kDriveRows);
-  for (const OptionTable& more : {cylindrical_table(), worm_table()})
+  for (const OptionTable& more :
+       {cylindrical_table(), worm_table(), modification_table(), misalignment_table()})
     table.insert(table.end(), more.begin(), more.end());
   return table;
 }
@@ -177,12 +180,14 @@ Options with_gears(Options options) {
 
 Drive read_drive(const Options& options) {
   refuse_others(options);
-  if (is_worm_drive(options)) return worm_drive(options);
   const std::vector<std::string> names = options.list("gears");
   for (const std::string& name : names)
     require(std::count(names.begin(), names.end(), name) == 1, options.label("gears"), ": '", name,
             "' is there twice");
-  return cylindrical_drive(options);
+  Drive drive = is_worm_drive(options) ? worm_drive(options) : cylindrical_drive(options);
+  for (DriveMember& member : drive.members) member.deviations = flank_deviations(options, member);
+  misalign(options, drive);
+  return drive;
 }
 
 Options member_options(const Options& options, const DriveMember& member) {

@@ -33,16 +33,22 @@ const Rows<TrueSurfaceFiles> kTrueSurfaceRows = {
      "nodes, 0 at others"},
 };
 
-// The toothing of a body that is a member of the run's drive; nothing for other bodies.
-std::optional<gear::Toothing> toothing_of_drive(const Options& options, const std::string& body) {
+// The teeth of a body.
+struct Teeth {
+  gear::Toothing toothing;
+  std::optional<gear::FlankDeviations> deviations = {};
+};
+
+// Those of a body that is a member of the run's drive; nothing for other bodies.
+std::optional<Teeth> teeth_of_drive(const Options& options, const std::string& body) {
   if (!is_drive(options)) return {};
   for (const DriveMember& member : read_drive(options).members)
-    if (member.name == body) return member.toothing;
+    if (member.name == body) return Teeth{member.toothing, member.deviations};
   return {};
 }
 
-// The toothing of the part that files of gear data describe.
-gear::Toothing read_toothing(const std::vector<std::string>& files) {
+// The teeth of the part that files of gear data describe.
+Teeth read_teeth(const std::vector<std::string>& files) {
   const Options options = Options::of_files("mesh", table_of(design_rows()), files);
   require(options.given("part"), join(files), ": names no part; add 'part: worm' or 'part: wheel'");
   const bool worm = is_worm(options);
@@ -50,7 +56,7 @@ gear::Toothing read_toothing(const std::vector<std::string>& files) {
   read_rows(options, design_rows(), design);
   try {
     const gear::Geometry geometry = gear::derive(design);
-    return worm ? geometry.worm : geometry.wheel;
+    return {worm ? geometry.worm : geometry.wheel};
   } catch (const Error& error) {
     fail(join(files), ": ", error.what());
   }
@@ -62,41 +68,57 @@ struct OffNode {
   std::string group;
 };
 
-// The node of all flanks that is farthest from its exact flank.
-OffNode farthest_node(const model::Surface& surface, const gear::Toothing& toothing) {
+// A body may have been meshed with its deviations or without them.
+double off_flank(const Teeth& teeth, const gear::Flank& flank, const Eigen::Vector3d& x) {
+  const double d = gear::flank_distance(teeth.toothing, flank.tooth, flank.side, x);
+  if (!teeth.deviations) return std::abs(d);
+  const double deviation = gear::flank_deviation(teeth.toothing, *teeth.deviations, flank, x);
+  return std::min(std::abs(d), std::abs(d - deviation));
+}
+
+// The node of all flanks that is farthest from its flank.
+OffNode farthest_node(const model::Surface& surface, const Teeth& teeth) {
   OffNode farthest;
   for (int f = 0; f < surface.face.cols(); ++f) {
     const std::string& group = surface.group_name[surface.group[f]];
     const auto flank = gear::flank_of(group);
     if (!flank) continue;
     for (int node : surface.face.col(f)) {
-      const double d =
-          std::abs(gear::flank_distance(toothing, flank->tooth, flank->side, surface.X.col(node)));
+      const double d = off_flank(teeth, *flank, surface.X.col(node));
       if (farthest.node < 0 || d > farthest.distance) farthest = {d, surface.node[node], group};
     }
   }
   return farthest;
 }
 
-// Adds the heights of all flanks; returns how many faces have some.
-int add_heights(const model::Surface& surface, const gear::Toothing& toothing, contact::TrueSurface& known) {
-  int n_faces = 0;
+struct Heights {
+  int n_faces = 0;   // that have some
+  double error = 0;  // m, the most by which their polynomials miss the flank
+};
+
+// Adds the heights of all flanks.
+Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::TrueSurface& known) {
+  Heights heights;
   known.height.resize(static_cast<std::size_t>(surface.face.cols()));
   for (int f = 0; f < surface.face.cols(); ++f) {
     const auto flank = gear::flank_of(surface.group_name[surface.group[f]]);
     if (!flank) continue;
-    known.height[f] = contact::sampled_heights(surface, f, [&](const auto& x, const auto& n) {
-      return gear::flank_distance_along(toothing, *flank, x, n);
-    });
-    ++n_faces;
+    const auto distance = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& n) {
+      return teeth.deviations ? gear::flank_distance_along(teeth.toothing, *teeth.deviations, *flank, x, n)
+                              : gear::flank_distance_along(teeth.toothing, *flank, x, n);
+    };
+    known.height[f] = contact::sampled_heights(surface, f, distance);
+    if (teeth.deviations)
+      heights.error = std::max(heights.error, contact::height_error(surface, f, known.height[f], distance));
+    ++heights.n_faces;
   }
-  return n_faces;
+  return heights;
 }
 
 // file: where the gear data come from.
-void add_flanks(const gear::Toothing& toothing, const std::string& file, const std::string& body,
+void add_flanks(const Teeth& teeth, const std::string& file, const std::string& body,
                 const model::Surface& surface, contact::TrueSurface& known) {
-  const OffNode farthest = farthest_node(surface, toothing);
+  const OffNode farthest = farthest_node(surface, teeth);
   require(farthest.node >= 0, file, ": body '", body, "' has no faces of sets tooth_<ii>_left, ..._right or ",
           "thread_<i>_left, ..._right: reduce it with -surface flanks, from a mesh of elastogear mesh, or "
           "leave out -",
@@ -105,9 +127,12 @@ void add_flanks(const gear::Toothing& toothing, const std::string& file, const s
           farthest.group, ", is ", farthest.distance, " m off the flank of this gear data, allowed is ",
           kOnFlank, " m: name the files that the body was meshed from by -", body,
           "_flanks, or mesh it anew");
-  const int n_faces = add_heights(surface, toothing, known);
-  print_item("flanks of " + body, std::to_string(n_faces) + " faces, nodes within " +
+  const Heights heights = add_heights(surface, teeth, known);
+  print_item("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
                                       with_unit(farthest.distance, "m") + " of " + file);
+  if (teeth.deviations)
+    print_item("modified flanks of " + body,
+               "followed within " + with_unit(heights.error * 1e6, "um") + " by polynomials over the faces");
 }
 
 void add_deviations(const std::string& file, const std::string& body, const model::Surface& surface,
@@ -148,9 +173,9 @@ std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options,
   const bool exact = options.text("contact_surface") == "exact";
   auto known = std::make_shared<contact::TrueSurface>();
   if (exact && !files.flanks.empty())
-    add_flanks(read_toothing(files.flanks), join(files.flanks), body, surface, *known);
-  else if (const auto toothing = toothing_of_drive(options, body); exact && toothing)
-    add_flanks(*toothing, join(options.files()), body, surface, *known);
+    add_flanks(read_teeth(files.flanks), join(files.flanks), body, surface, *known);
+  else if (const auto teeth = teeth_of_drive(options, body); exact && teeth)
+    add_flanks(*teeth, join(options.files()), body, surface, *known);
   if (!files.deviation.empty()) add_deviations(files.deviation, body, surface, *known);
   return known;
 }

@@ -85,12 +85,14 @@ Drive worm_drive(const Options& options) {
   worm.position = {0, d.a, 0};
   worm.rotation = Eigen::Vector3d::Constant(2 * pi / 3 / std::sqrt(3.0));
   worm.angle = turned;
+  worm.width = d.thread_length;
   DriveMember wheel{.name = "wheel",
                     .toothing = g.wheel,
                     .mesh = [d](gear::Size size) { return gear::wheel_mesh(d, gear::wheel_counts(size)); },
                     .held = "bore"};
   wheel.angle = turned / g.ratio - sense * closing;
   wheel.ratio = 1 / g.ratio;
+  wheel.width = d.face_width;
   Drive drive{
       .members = {worm, wheel},
       .facts = {facts(g.worm, d.thread_length, d.worm_bore), facts(g.wheel, d.face_width, d.wheel_bore)},

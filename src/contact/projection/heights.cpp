@@ -154,6 +154,13 @@ void add_deviation(const SurfaceView& surface, int f, const Eigen::VectorXd& dev
   }
 }
 
+Face undeformed_face(const model::Surface& surface, int f) {
+  Face face;
+  face.sides = side_count(surface.face, f);
+  for (int i = 0; i < face.sides; ++i) face.x[i] = surface.X.col(surface.face(i, f));
+  return face;
+}
+
 Eigen::Matrix<double, 2, 4> slopes_at_corners(const HeightCoefficients& C, int sides) {
   Eigen::Matrix<double, 2, 4> slopes = Eigen::Matrix<double, 2, 4>::Zero();
   for (int c = 0; c < sides; ++c) {
@@ -174,9 +181,7 @@ const std::vector<Eigen::Vector2d>& height_points(int sides) {
 Eigen::VectorXd sampled_heights(
     const model::Surface& surface, int f,
     const std::function<double(const Eigen::Vector3d& x, const Eigen::Vector3d& n)>& distance) {
-  Face face;
-  face.sides = side_count(surface.face, f);
-  for (int i = 0; i < face.sides; ++i) face.x[i] = surface.X.col(surface.face(i, f));
+  const Face face = undeformed_face(surface, f);
   const auto& points = height_points(face.sides);
   Eigen::VectorXd h(static_cast<Eigen::Index>(points.size()));
   for (Eigen::Index p = 0; p < h.size(); ++p) {
@@ -184,6 +189,22 @@ Eigen::VectorXd sampled_heights(
     h[p] = distance(combine(face, shape(face.sides, u, v).N), normal(face, u, v));
   }
   return h;
+}
+
+double height_error(
+    const model::Surface& surface, int f, const Eigen::VectorXd& heights,
+    const std::function<double(const Eigen::Vector3d& x, const Eigen::Vector3d& n)>& distance) {
+  const Face face = undeformed_face(surface, f);
+  const HeightCoefficients C = interpolated(face.sides, heights);
+  const auto& points = height_points(face.sides);
+  double error = 0;
+  for (std::size_t p = 0; p + kP + 1 < points.size(); ++p) {
+    const Eigen::Vector2d at = (points[p] + points[p + kP + 1]) / 2;
+    const double exact =
+        distance(combine(face, shape(face.sides, at[0], at[1]).N), normal(face, at[0], at[1]));
+    error = std::max(error, std::abs(polynomial(C, face.sides, at[0], at[1]).f - exact));
+  }
+  return error;
 }
 
 Heights make_heights(const SurfaceView& undeformed, ContactSurface kind, double feature_angle,
