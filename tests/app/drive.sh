@@ -57,6 +57,8 @@ for roll in 0 0.3 0.6 0.9; do
 done
 
 /usr/bin/python3 - <<'END'
+import xml.etree.ElementTree
+
 import h5py
 import numpy as np
 
@@ -85,6 +87,17 @@ for roll in (0, 0.3, 0.6, 0.9):
     with h5py.File(f"rigid_{roll}.h5") as file:
         errors.append((file["bodies/pinion/rigid"][-1, 0] - 2 * np.pi * roll / 17 + np.pi / 2) * 25.5e-3 * np.cos(np.radians(20)))
 assert np.ptp(errors) < 0.2e-6, f"transmission error of rigid gears {errors} m"
+
+# The drawing: of each gear its teeth and its bore across the axis, and two sections along it.
+picture = xml.etree.ElementTree.parse("spur.svg")
+outlines = []  # mm
+for path in picture.iter("{http://www.w3.org/2000/svg}path"):
+    outlines += [np.array([[float(x) for x in point.strip("LZ ").split(",")] for point in outline.split(" L")])
+                 for outline in path.get("d").split("M")[1:]]
+assert len(outlines) == 8, f"{len(outlines)} outlines"
+for outline, diameter in zip(outlines, (18.12, 2 * 29.4, 48.84, 2 * 67.8)):
+    size = np.ptp(outline, axis=0).max()
+    assert 0.98 * diameter < size < diameter + 0.01, f"{size} mm drawn, {diameter} mm expected"
 
 r_b2 = 82.029e-3 / 2  # m
 errors = []
@@ -117,3 +130,12 @@ refused "counts are for single bodies" mesh spur.yaml -wheel_count_flank 4
 refused "torque is missing" simulate spur.yaml -torque 0
 refused "'deg' is no unit of it" mesh spur.yaml -face_width "25 deg"
 refused "must be a gear named before" mesh spur.yaml -wheel_mate idler
+refused "tip_relief = 20000 um" mesh spur.yaml -pinion_tip_relief "20 mm"
+refused "tip_relief_length" mesh spur.yaml -pinion_tip_relief "20 um" -pinion_tip_relief_length "20 mm"
+refused "tooth 44 is not there" mesh spur.yaml -wheel_pitch_deviation "44, 10 um"
+refused "must be pairs of a tooth" mesh spur.yaml -wheel_pitch_deviation "3"
+refused "must be at most 2 deg" mesh spur.yaml -wheel_skew 3
+refused "none.csv: cannot be read" mesh spur.yaml -wheel_topography none.csv
+printf 'diameter,z,height\n0.13,0,1e-6\n0.13,0,2e-6\n' >twice.csv
+refused "twice.csv, line 3: this point of the flank is given twice" mesh spur.yaml -wheel_topography twice.csv
+refused "unknown option -pinion_middle_tip_relief" mesh spur.yaml -pinion_middle_tip_relief "1 um"

@@ -37,6 +37,7 @@ const Rows<DriveChoices> kDriveRows = {
     {"torque", &DriveChoices::torque, "N m",
      "drive: on the first gear, in the sense that presses the flanks of side together; the last one is held "
      "at rest (static, relax) and carries the torque in motion"},
+    {"drawing", "-", "", "drive: SVG file that mesh draws the gears in (default: the file's name, .svg)"},
     {"<gear>_mesh", "-", "", "drive: mesh file that mesh writes, .msh or .inp (default: <gear>.msh)"},
     {"<gear>_file", "-", "", "drive: body file that reduce writes and simulate reads (default: <gear>.h5)"},
     {"speed", &DriveChoices::speed, "rad/s",
@@ -231,6 +232,10 @@ Options with_recovery(Options options, const Drive& drive) {
   for (const DriveMember& member : drive.members)
     if (!chosen) options.set_default("stress_" + member.name, "root");
   return options;
+}
+
+std::string drawing_file(const Options& options) {
+  return options.given("drawing") ? options.text("drawing") : stem(options) + ".svg";
 }
 
 void print_drive(const Drive& drive) {

@@ -30,6 +30,9 @@ Options with_system(Options options, const Drive& drive);
 /// Options with result, stress file and stresses at the roots of all members where nothing is given.
 Options with_recovery(Options options, const Drive& drive);
 
+/// The SVG file that `mesh` draws the drive in.
+std::string drawing_file(const Options& options);
+
 /// Table of the drive's numbers, on rank 0.
 void print_drive(const Drive& drive);
 

@@ -5,9 +5,11 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/gear/design_options.h"
+#include "app/gear/drawing.h"
 #include "app/gear/drive_options.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
 #include "elastogear/gear/wheel.h"
 #include "elastogear/gear/worm.h"
 #include "elastogear/mesh/file.h"
@@ -86,15 +88,21 @@ void mesh_drive(const Options& options) {
     paths.push_back(options.given(option) ? options.text(option) : member.name + ".msh");
     protect_inputs(options, {{option, {paths.back()}}});
   }
+  const std::string drawing = drawing_file(options);
+  protect_inputs(options, {{"drawing", {drawing}}});
   print_drive(drive);
+  std::vector<mesh::Mesh> meshes;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const OutputLock lock(paths[i]);
-    const mesh::Mesh mesh = drive.members[i].mesh(size);
+    meshes.push_back(drive.members[i].mesh(size));
     print_item("mesh of " + drive.members[i].name, "");
-    print_mesh(mesh);
-    mesh::write_mesh(paths[i], mesh);
+    print_mesh(meshes.back());
+    mesh::write_mesh(paths[i], meshes.back());
     print_item("written", paths[i]);
   }
+  const OutputLock lock(drawing);
+  write_drawing(drawing, join(options.files()), drive, meshes);
+  print_item("drawing", drawing);
 }
 
 void run_mesh(const Options& given, const std::vector<std::string>&) {
