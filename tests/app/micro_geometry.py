@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Micro-geometry and misalignment of a spur drive. Rigid gears under a vanishing torque, against closed forms
+"""Micro-geometry and misalignment of a spur drive, and misalignment of a worm drive. Rigid gears under a vanishing torque, against closed forms
 and against profiles that are brought into touch in the plane, point by point; elastic gears, against a mesh
 that was made with the modified flanks.
 
@@ -202,6 +202,36 @@ def check_elastic(drive):
     assert abs(drive.transmission_error(0.1, *options) - exact) > UM, "the modifications have no effect"
 
 
+WORM = """drive: worm
+module: 2 mm
+centre_distance: 50 mm
+pressure_angle: 15
+worm: {starts: 2}
+wheel: {teeth: 41}
+torque: 1 N m
+modes: 1
+"""
+
+
+def check_worm(drive):
+    """Crossed involute helicoids stay conjugate, wherever their axes are; along its axis the wheel turns like a
+    screw."""
+    with open("worm.yaml", "w") as file:
+        file.write(WORM)
+    drive.run("reduce", "worm.yaml")
+    beta_b = np.arcsin(np.sin(np.arctan(2 / 7.1533)) * np.cos(np.radians(15)))
+    for options, expected in ((("-wheel_radial_offset", "50 um"), None), (("-wheel_skew", "0.05"), None),
+                              (("-wheel_axial_offset", "0.3 mm"), -300 * UM * np.tan(beta_b))):
+        errors = []
+        for roll in (0, 0.3, 0.6, 0.9):
+            drive.run("simulate", "worm.yaml", "-roll", str(roll), "-worm_rigid", "true", "-wheel_rigid", "true",
+                      "-contact_law", "unilateral", "-static_steps", "1", "-output", "result.h5", *options)
+            with h5py.File("result.h5") as file:
+                errors.append((file["bodies/worm/rigid"][-1, 0] - np.pi * roll) / 20.5 * 82.029e-3 / 2)
+        near(f"worm drive, {' '.join(options)}, peak to peak", np.ptp(errors), 0, ALLOWED)
+        if expected: near(f"worm drive, {' '.join(options)}, mean", np.mean(errors), expected, ALLOWED)
+
+
 if __name__ == "__main__":
     program = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
@@ -213,3 +243,4 @@ if __name__ == "__main__":
         check_misalignment(d)
         check_profiles(d)
         check_elastic(d)
+        check_worm(d)
