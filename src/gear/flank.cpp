@@ -1,5 +1,6 @@
 #include "elastogear/gear/flank.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -26,14 +27,14 @@ std::optional<Flank> flank_of(const std::string& face_set) {
   return Flank{tooth - 1, side == "left" ? 1 : -1};
 }
 
-// Gradient of flank_distance: dpsi/dr = -tan(alpha)/r at cos(alpha) = r_b/r; inside the base circle psi is
-// constant.
+// Gradient of flank_distance: dpsi/dr = -sign tan(alpha)/r at cos(alpha) = r_b/r; inside the base circle psi
+// is constant.
 Eigen::Vector3d flank_normal(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {
   const double r = std::hypot(x[0], x[1]);
   const double tan_alpha = std::sqrt(std::max(0.0, r * r - t.r_b * t.r_b)) / t.r_b;
   const Eigen::Vector3d radial(x[0] / r, x[1] / r, 0), around(-radial[1], radial[0], 0);
   const Eigen::Vector3d n =
-      flank.side * (around / r - Eigen::Vector3d::UnitZ() / t.p) + tan_alpha / r * radial;
+      flank.side * (around / r - Eigen::Vector3d::UnitZ() / t.p) + t.sign() * tan_alpha / r * radial;
   return n.normalized();
 }
 
@@ -43,7 +44,7 @@ double flank_distance_along(const Toothing& t, const Flank& flank, const Eigen::
   for (int step = 0; step < kNewtonSteps; ++step) {
     const Eigen::Vector3d at = x + s * n;
     const double d = flank_distance(t, flank.tooth, flank.side, at);
-    if (std::abs(d) <= kRoundoff * t.r_a) return s;
+    if (std::abs(d) <= kRoundoff * std::max(t.r_a, t.r_f)) return s;
     const double cosine = n.dot(flank_normal(t, flank, at));
     if (!(cosine >= kLeastCosine)) break;
     s -= d / cosine;

@@ -10,9 +10,9 @@
 namespace elastogear::gear {
 namespace {
 
-// One sector: columns q = -half_pitch .. half_pitch (the last is the next sector's first), rows outwards from
-// the bore (hub, web, ring, rim, tooth), planes along z. A row of cells fills the planes within its half
-// width.
+// One sector: columns q = -half_pitch .. half_pitch (the last is the next sector's first), rows from the
+// bore, or the outside of an internal gear, to the tip (hub, web, ring, rim, tooth), planes along z. A row of
+// cells fills the planes within its half width.
 struct Sector {
   ToothGrid tooth_grid;
   double half_pitch = 0;           // rad
@@ -20,6 +20,7 @@ struct Sector {
   std::vector<double> half_width;  // m, of each row of cells
   std::vector<double> z;           // m, planes
   int rim = 0, tooth = 0;          // rows of nodes where rim and tooth begin
+  bool internal = false;
 
   int rows() const { return static_cast<int>(half_width.size()); }
   int planes() const { return static_cast<int>(z.size()); }
@@ -70,15 +71,17 @@ Sector sector(const Toothing& toothing, const Profile& profile, const Blank& bla
   Sector s{
       .tooth_grid = tooth_grid(
           profile, {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim}),
-      .radius = {blank.bore / 2},
+      .radius = {blank.end_diameter() / 2},
       .half_width = {},
       .z = plane_positions(blank, n)};
   s.half_pitch = std::numbers::pi / toothing.z;
+  s.internal = toothing.internal;
   if (blank.has_web()) {
     add_rows(s, n.hub, blank.hub_diameter / 2, blank.hub_width);
     add_rows(s, n.web, blank.web_diameter / 2, blank.web_width);
   }
-  if (blank.rim_diameter > 2 * s.radius.back()) add_rows(s, n.ring, blank.rim_diameter / 2, blank.face_width);
+  if (blank.rim_diameter != 2 * s.radius.back())
+    add_rows(s, n.ring, blank.rim_diameter / 2, blank.face_width);
   s.rim = static_cast<int>(s.half_width.size());
   s.tooth = s.rim + n.rim;
   s.half_width.resize(static_cast<std::size_t>(s.tooth) + static_cast<std::size_t>(s.tooth_grid.rows),
@@ -96,7 +99,7 @@ Eigen::Vector2d polar_point(const Sector& s, int q, int row) {
   if (row < s.rim) return {s.half_pitch * q / s.tooth_grid.half_pitch, s.radius[row]};
   const Eigen::Vector2d x =
       row <= s.tooth ? s.tooth_grid.strip_point(q, row - s.rim) : s.tooth_grid.tooth_point(q, row - s.tooth);
-  return {std::atan2(x[0], x[1]), x.norm()};
+  return {std::atan2(x[0], s.internal ? -x[1] : x[1]), x.norm()};
 }
 
 bool has_node(const Sector& s, int q, int row, int plane) {
@@ -160,7 +163,7 @@ void add_node_sets(mesh::Mesh& mesh, const Sector& s, const Numbering& n, int te
   for (int tooth = 0; tooth < teeth; ++tooth)
     for_nodes(s, n, [&](int q, int row, int plane) {
       const int node = tooth * n.count + n.at(q, row, plane);
-      if (row == 0) mesh.node_sets["bore"].push_back(node);
+      if (row == 0) mesh.node_sets[s.internal ? "outer" : "bore"].push_back(node);
       if (!on_fillet(s, q, row)) return;
       mesh.node_sets["root"].push_back(node);
       mesh.node_sets[numbered("root", tooth, teeth)].push_back(node);
@@ -170,8 +173,8 @@ void add_node_sets(mesh::Mesh& mesh, const Sector& s, const Numbering& n, int te
 void add_cell(mesh::Mesh& mesh, const Sector& s, const Numbering& n, std::array<int, 4> cell) {
   const int tooth = cell[0], q = cell[1], row = cell[2], plane = cell[3];
   const int n_nodes = static_cast<int>(mesh.X.cols()), teeth = n_nodes / n.count;
-  const auto node = [&](int dq, int drow, int dplane) {
-    return (tooth * n.count + n.at(q + dq, row + drow, plane + dplane)) % n_nodes;
+  const auto node = [&](int dq, int drow, int dplane) {  // rows inwards: the upper plane first
+    return (tooth * n.count + n.at(q + dq, row + drow, plane + (s.internal ? 1 - dplane : dplane))) % n_nodes;
   };
   mesh.cell_sets[row < s.rim ? "body" : "rim"].push_back(mesh.cells.size());
   const auto faces = add_hex(mesh, {node(0, 0, 0), node(0, 1, 0), node(1, 1, 0), node(1, 0, 0), node(0, 0, 1),

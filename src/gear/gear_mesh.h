@@ -10,7 +10,8 @@
 
 namespace elastogear::gear {
 
-/// Sets and numbering: see wheel_mesh. name: of the gear, for errors. The profile's r_inner is the rim's.
+/// Sets and numbering: see wheel_mesh. name: of the gear, for errors. The profile's r_inner is the rim's. The
+/// node set at the outside of an internal gear is `outer`, in place of `bore`.
 mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing, const Profile& profile,
                      const Blank& blank, const WheelCounts& counts);
 

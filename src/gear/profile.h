@@ -10,10 +10,11 @@ namespace elastogear::gear {
 /// coordinate c: axial position (worm, m) or angle (wheel, rad). Plane coordinates (m): x across, y along the
 /// tooth axis.
 struct Profile {
-  bool polar = false;                             ///< wheel: x = r sin c, y = r cos c; worm: x = c, y = r
-  double half_pitch = 0;                          ///< middle of the space, c
-  double r_inner = 0;                             ///< m, lower end of the section: bore (worm), rim (wheel)
-  double r_f = 0, r_form = 0, r_a = 0;            ///< m, root, end of the flank, tip
+  bool polar = false;                   ///< wheel: x = r sin c, y = r cos c; worm: x = c, y = r
+  bool inwards = false;                 ///< of an internal gear: x = r sin c, y = -r cos c
+  double half_pitch = 0;                ///< middle of the space, c
+  double r_inner = 0;                   ///< m, end of the section below the tooth: bore (worm), rim (wheel)
+  double r_f = 0, r_form = 0, r_a = 0;  ///< m, root, end of the flank, tip
   std::function<double(double)> half_width;       ///< c of the flank at radius r
   std::function<Eigen::Vector2d(double)> fillet;  ///< plane point, t = 0 at the root land, 1 at the flank
 

@@ -59,6 +59,7 @@ Form form(const RackTip& rack, const Toothing& t) {
 
 Profile generated_profile(const RackTip& rack, const Toothing& t, double r_inner) {
   Profile profile{.polar = true,
+                  .inwards = false,
                   .half_pitch = pi / t.z,
                   .r_inner = r_inner,
                   .r_f = t.r_f,

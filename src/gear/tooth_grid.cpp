@@ -96,13 +96,14 @@ Points tooth_bottom(const Junction& j, int n) {
 
 // Hermite curve from the inner end, which it leaves at right angles, to the junction.
 Points strip_divider(const Profile& p, const Junction& j, double c, const std::vector<double>& rows) {
-  const Vector2d from = p.point(c, p.r_inner), outwards = p.point(c, p.r_inner + 1) - from;
+  const Vector2d from = p.point(c, p.r_inner),
+                 upwards = (p.inwards ? -1 : 1) * (p.point(c, p.r_inner + 1) - from);
   const double length = (j.x - from).norm();
   return sample(
       [&](double t) {
         const double u = 1 - t;
         return Vector2d(u * u * (1 + 2 * t) * from + t * t * (1 + 2 * u) * j.x +
-                        t * u * u * length * outwards + t * t * u * length * j.inwards);
+                        t * u * u * length * upwards + t * t * u * length * j.inwards);
       },
       rows);
 }

@@ -12,7 +12,9 @@ double involute(double alpha) { return std::tan(alpha) - alpha; }
 
 double tooth_angle(const Toothing& t, int i) { return t.theta_1 + 2 * pi * i / t.z; }
 
-double psi(const Toothing& t, double r) { return t.psi_b - involute(std::acos(std::min(1.0, t.r_b / r))); }
+double psi(const Toothing& t, double r) {
+  return t.psi_b - t.sign() * involute(std::acos(std::min(1.0, t.r_b / r)));
+}
 
 double flank_distance(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
   const double turned = std::atan2(x[1], x[0]) - x[2] / t.p - tooth_angle(t, tooth);

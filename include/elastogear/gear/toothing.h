@@ -3,7 +3,9 @@
 //
 // Body frame: the gear's axis is z. Flanks are involute helicoids,
 //   theta = z/p + s psi(r) + theta_tooth,
-// s = +1: `left`, counter-clockwise seen from +z (on a worm the side of smaller z); s = -1: `right`.
+// s = +1: `left`, counter-clockwise seen from +z (on a worm the side of smaller z); s = -1: `right`. The
+// teeth of an internal gear stand inwards. ISO 21771 counts them below 0; here z > 0, and the standard's sign
+// z/|z| stands in the formulas.
 
 #include <Eigen/Core>
 
@@ -11,18 +13,21 @@ namespace elastogear::gear {
 
 /// The toothing of one gear or worm.
 struct Toothing {
-  int z = 0;           ///< -, teeth or starts
-  double r = 0;        ///< m, pitch radius
-  double r_a = 0;      ///< m, tip radius
-  double r_f = 0;      ///< m, root radius
-  double r_b = 0;      ///< m, base radius
-  double r_form = 0;   ///< m, radius where the flank ends and the fillet begins
-  double r_start = 0;  ///< m, smallest radius on the path of contact
-  double alpha_t = 0;  ///< rad, transverse pressure angle
-  double beta_b = 0;   ///< rad, base helix angle
+  int z = 0;              ///< -, teeth or starts
+  bool internal = false;  ///< teeth inside a ring: r_a < r_form < r_f
+  double r = 0;           ///< m, pitch radius
+  double r_a = 0;         ///< m, tip radius
+  double r_f = 0;         ///< m, root radius
+  double r_b = 0;         ///< m, base radius
+  double r_form = 0;      ///< m, radius where the flank ends and the fillet begins
+  double r_start = 0;     ///< m, radius on the path of contact that is nearest to the root
+  double alpha_t = 0;     ///< rad, transverse pressure angle
+  double beta_b = 0;      ///< rad, base helix angle
   double p = 0;      ///< m/rad, axial advance per radian: lead / (2 pi); < 0 left-handed, infinite for spurs
   double psi_b = 0;  ///< rad, half the tooth thickness as an angle, at the base circle
   double theta_1 = 0;  ///< rad, angle of tooth 1's centre at z = 0
+
+  double sign() const { return internal ? -1 : 1; }  ///< z/|z| of ISO 21771
 };
 
 /// The involute function inv(alpha) = tan(alpha) - alpha.
@@ -31,7 +36,8 @@ double involute(double alpha);
 /// Angle of tooth i (0-based) at z = 0, rad.
 double tooth_angle(const Toothing& toothing, int i);
 
-/// Half the tooth thickness as an angle at radius r >= r_b (the base circle's value inside it), rad.
+/// Half the tooth thickness as an angle at radius r >= r_b (the base circle's value inside it), rad; it
+/// shrinks outwards, that of an internal gear grows.
 double psi(const Toothing& toothing, double r);
 
 /// Exact signed normal distance of point x (body frame, m) to the flank of a tooth on side s = +1 (left) or

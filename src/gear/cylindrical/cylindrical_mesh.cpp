@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gear/cylindrical/generating_rack.h"
+#include "gear/cylindrical/generating_tool.h"
 #include "gear/gear_mesh.h"
 
 namespace elastogear::gear {
@@ -11,6 +11,15 @@ RackTip generating_rack(const CylindricalDrive& d, const CylindricalGeometry& g,
   const Toothing& t = g.gear[i];
   const double beta = std::acos(d.m_n * t.z / (2 * t.r));
   return rack_tip(d.rack.alpha_n, beta, t.r, g.s_n[i], t.r - t.r_f, d.rack.rho_fP * d.m_n);
+}
+
+Cutter generating_cutter(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
+  return cutter(g.gear[i], g.cutter[i].z_0, g.cutter[i].rho_a0 * d.m_n);
+}
+
+Profile tooth_profile(const CylindricalDrive& d, const CylindricalGeometry& g, int i, double r_inner) {
+  return g.gear[i].internal ? shaped_profile(generating_cutter(d, g, i), g.gear[i], r_inner)
+                            : generated_profile(generating_rack(d, g, i), g.gear[i], r_inner);
 }
 
 namespace {
@@ -35,11 +44,11 @@ WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeome
   const double column = std::numbers::pi * g.gear[i].r / (g.gear[i].z * (n.space + 0.5 * n.tooth));
   const auto rows = [&](double outer, double inner) {
     constexpr double kSlender = 3;  // columns that a row may be high
-    return std::max(1, static_cast<int>(std::lround((outer - inner) / 2 / (kSlender * column))));
+    return std::max(1, static_cast<int>(std::lround(std::abs(outer - inner) / 2 / (kSlender * column))));
   };
   if (!b.has_web()) {
     n.web_layers = layers;
-    n.ring = b.rim_diameter > b.bore ? rows(b.rim_diameter, b.bore) : 1;
+    n.ring = rows(b.rim_diameter, b.end_diameter());
     return n;
   }
   n.web_layers = std::max(1, static_cast<int>(std::lround(layers * b.web_width / b.face_width)));
@@ -52,7 +61,7 @@ WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeome
 
 mesh::Mesh cylindrical_mesh(const CylindricalDrive& d, const CylindricalGeometry& g, int i,
                             const WheelCounts& counts) {
-  const Profile profile = generated_profile(generating_rack(d, g, i), g.gear[i], g.blank[i].rim_diameter / 2);
+  const Profile profile = tooth_profile(d, g, i, g.blank[i].rim_diameter / 2);
   return gear_mesh(d.gears[i].name, g.gear[i], profile, g.blank[i], counts);
 }
 

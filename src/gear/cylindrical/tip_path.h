@@ -1,5 +1,6 @@
 #pragma once
-// The way of a tip's corner through the mate's space, which finds out whether tips cut into roots.
+// The way of a tip's corner through the mate's space, which finds out whether tips cut into roots or, of
+// internal pairs, into each other.
 
 #include <vector>
 
@@ -11,18 +12,26 @@ namespace elastogear::gear {
 /// Two gears in the transverse plane, flanks in contact.
 struct TipPath {
   std::vector<Eigen::Vector2d>
-      fillet;           ///< of `own`: radius, which increases, and angle from the tooth's axis
-  Toothing own, mate;   ///< the mate's tip moves in a space of `own`
-  double a = 0;         ///< m, centre distance
+      fillet;          ///< of `own`: radius, which increases (internal: -radius), angle from the tooth's axis
+  Toothing own, mate;  ///< the mate's tip moves in a space of `own`
+  double a = 0;        ///< m, centre distance
   double alpha_wt = 0;  ///< rad, working pressure angle
+  double j = 0;         ///< m, backlash along the transverse line of action
 };
 
 /// profile: of `own`.
-TipPath tip_path(const Profile& profile, const Toothing& own, const Toothing& mate, double a,
-                 double alpha_wt);
+TipPath tip_path(const Profile& profile, const Toothing& own, const Toothing& mate, double a, double alpha_wt,
+                 double j);
+
+/// +1 of external pairs, -1 of internal ones, whose centre distance ISO 21771 counts below 0.
+inline double pair_sign(const Toothing& t_1, const Toothing& t_2) { return t_1.sign() * t_2.sign(); }
 
 /// m, distance along the line of action from where it touches the base circle to where it has the radius r.
 double along_action(const Toothing& toothing, double r);
+
+/// m, the same distance for `own` where it is xi for its mate; action: between both base circles, a
+/// sin(alpha_wt).
+double along_own(const Toothing& own, const Toothing& mate, double action, double xi);
 
 /// m, the least distance around the axis of the corner at the mate's tip radius r_a from fillet and flank; on
 /// an involute flank it is 0, < 0 where it cuts.
