@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"pinion: the tip, diameter 47.2 mm, cuts into the root or the tips of ring",
                 [](auto& d) { d.gears[0].r_a = 23.6e-3; }, [](auto& d) { d.gears[0].r_a = 46.6e-3 / 2; }},
         Refusal{"contact ratio", [](auto& d) { d.gears[0].r_a = 21.5e-3, d.gears[1].r_a = 73e-3; }, {}},
-        Refusal{"a cutter of 71 teeth trims the tips, diameter 141.065",
+        Refusal{"a cutter of 71 teeth trims the tips, diameter 141.17",
                 [](auto& d) { d.gears[1].cutter.z_0 = 71; }, [](auto& d) { d.gears[1].cutter.z_0 = 25; }},
         Refusal{"the cutter of 8 teeth is pointed; cutter_teeth: 25 would do",
                 [](auto& d) { d.gears[1].cutter.z_0 = 8; },

@@ -189,7 +189,7 @@ TEST(InternalPair, keeps_teeth_out_of_each_other_around_the_whole_ring) {
 // With a few teeth more than the pinion's the tips meet on their way in and out, and are shorter than that by
 // no more than it takes.
 TEST(InternalPair, of_few_teeth_between_has_the_longest_tips_that_do_not_meet) {
-  for (int teeth_between : {5, 6, 7}) {
+  for (int teeth_between : {5, 6}) {
     const CylindricalDrive d = narrow(teeth_between);
     CylindricalGeometry g = derive(d);
     g.gear[1].r_a -= 0.02 * kMillimetre;

@@ -40,7 +40,7 @@ const Rows<Choices> kRackRows = {
 // Lengths of the gear's body; a diameter that is not given is chosen.
 struct GearChoices {
   CylindricalGear gear;
-  std::string mate;
+  std::vector<std::string> mate;
   double tip_diameter = 0, centre_distance = 0, direction = 0;
 };
 
@@ -49,18 +49,42 @@ auto of_blank(Member member) {
   return [=](auto& s) -> auto& { return s.gear.blank.*member; };
 }
 
+template <class Member>
+auto of_cutter(Member member) {
+  return [=](auto& s) -> auto& { return s.gear.cutter.*member; };
+}
+
 const Rows<GearChoices> kGearRows = {
     {"<gear>_teeth", in(&GearChoices::gear, &CylindricalGear::z), "-", "number of teeth", kDependent},
     {"<gear>_profile_shift", in(&GearChoices::gear, &CylindricalGear::x), "-",
      "cylindrical: profile shift coefficient x, in modules"},
+    {"<gear>_internal", in(&GearChoices::gear, &CylindricalGear::internal), "-",
+     "cylindrical: whether the teeth stand inwards, in a ring that is held at its outside"},
+    {"<gear>_cutter_teeth", of_cutter(&gear::PinionCutter::z_0), "-",
+     "cylindrical: of the pinion-type cutter of an internal gear (default: near 25, where it spares the "
+     "flanks)",
+     kDependent | kPositive},
+    {"<gear>_cutter_tip_radius", of_cutter(&gear::PinionCutter::rho_a0), "-",
+     "cylindrical: of that cutter, in modules (default: the basic rack's fillet radius, or less where it "
+     "does not "
+     "fit)",
+     kDependent | kPositive},
     {"<gear>_tip_diameter", &GearChoices::tip_diameter, "m",
-     "cylindrical: (default: the basic rack's, less what keeps 0.2 modules to the mates' roots)", kDependent},
+     "cylindrical: (default: the basic rack's, less what keeps 0.2 modules to the mates' roots and, of "
+     "internal "
+     "pairs, spares their fillets and tips)",
+     kDependent},
     {"<gear>_face_width", of_blank(&gear::Blank::face_width), "m",
      "cylindrical: (default: option face_width)", kDependent},
     {"<gear>_bore", of_blank(&gear::Blank::bore), "m",
      "cylindrical: diameter of the bore, which is held (default: 0.4 root diameters)", kDependent},
+    {"<gear>_outer_diameter", of_blank(&gear::Blank::outer_diameter), "m",
+     "cylindrical: of the body of an internal gear, which is held there (default: 3 modules around the root)",
+     kDependent},
     {"<gear>_rim_diameter", of_blank(&gear::Blank::rim_diameter), "m",
-     "cylindrical: inner diameter of the rim, a cell set of its own (default: 2.5 modules below the root)",
+     "cylindrical: inner diameter of the rim, of internal gears the outer one; a cell set of its own "
+     "(default: 2.5 "
+     "modules off the root)",
      kDependent},
     {"<gear>_hub_diameter", of_blank(&gear::Blank::hub_diameter), "m",
      "cylindrical: of a gear with a web: outer diameter of the hub", kDependent},
@@ -70,12 +94,17 @@ const Rows<GearChoices> kGearRows = {
      "cylindrical: outer diameter of the web, inner of the ring", kDependent},
     {"<gear>_web_width", of_blank(&gear::Blank::web_width), "m", "cylindrical: width of the web", kDependent},
     {"<gear>_mate", &GearChoices::mate, "-",
-     "cylindrical: an earlier gear that this one is in mesh with (default: the one before)", kDependent},
+     "cylindrical: an earlier gear that this one is in mesh with (default: the one before), or several, "
+     "planets",
+     kDependent},
     {"<gear>_centre_distance", &GearChoices::centre_distance, "m",
      "cylindrical: to its mate (default: option centre_distance, or what the profile shifts give)",
      kDependent},
     {"<gear>_direction", &GearChoices::direction, "deg",
-     "cylindrical: of the line from its mate's axis to its own, from world +X"},
+     "cylindrical: of the line from its mate's axis to its own, from world +X (default: 0; an internal gear "
+     "around a "
+     "planet has the sun's axis, around the first gear it is 180)",
+     kDependent},
 };
 
 gear::BasicRack basic_rack(const Options& options, const Choices& c) {
@@ -98,6 +127,56 @@ double normal_module(const Options& options, const Choices& c) {
   return c.axial_module * std::abs(std::sin(beta));
 }
 
+GearChoices gear_choices(const Options& options, const std::string& name) {
+  GearChoices g;
+  if (options.given("face_width")) g.gear.blank.face_width = options.positive("face_width");
+  read_rows(options, kGearRows, g, name);
+  require(g.gear.z > 0, "option -", name, "_teeth is missing: number of teeth, as in '", name,
+          ": {teeth: 17}'");
+  require(g.gear.blank.face_width > 0,
+          "option -face_width is missing: width of the teeth, as in 'face_width: 25 mm'");
+  g.gear.name = name;
+  g.gear.r_a = g.tip_diameter / 2;
+  return g;
+}
+
+// The gear through which another one has its place; -1: the first one.
+int mate_of(const CylindricalDrive& d, int gear) {
+  for (const gear::GearPair& pair : d.pairs)
+    if (pair.second == gear) return pair.first;
+  return -1;
+}
+
+// An internal gear without a place stands around the sun of its planet, or so that the pitch point lies where
+// it does for external mates.
+void place_ring(const Options& options, gear::GearPair& pair, const CylindricalDrive& d) {
+  const std::string& name = d.gears.back().name;
+  if (!d.gears.back().internal || options.given(name + "_direction")) return;
+  if (pair.a == 0) pair.coaxial = mate_of(d, pair.first);
+  pair.direction = std::numbers::pi;
+}
+
+// The pairs of the last gear with earlier ones, of which the first gives it its place.
+void add_pairs(const Options& options, const GearChoices& g, CylindricalDrive& d) {
+  const int second = static_cast<int>(d.gears.size()) - 1;
+  const std::string& name = g.gear.name;
+  const auto earlier = [&](const std::string& mate) {
+    for (int i = 0; i < second; ++i)
+      if (d.gears[i].name == mate) return i;
+    fail(options.label(name + "_mate"), " = '", mate, "': must be a gear named before in option -gears");
+  };
+  gear::GearPair pair{.first = g.mate.empty() ? second - 1 : earlier(g.mate[0]),
+                      .second = second,
+                      .a = g.centre_distance,
+                      .direction = g.direction * kRadPerDegree};
+  if (options.given("centre_distance") && second == 1 && pair.a == 0)
+    pair.a = options.positive("centre_distance");
+  place_ring(options, pair, d);
+  d.pairs.push_back(pair);
+  for (std::size_t i = 1; i < g.mate.size(); ++i)
+    d.pairs.push_back({.first = earlier(g.mate[i]), .second = second});
+}
+
 CylindricalDrive cylindrical_design(const Options& options) {
   Choices c;
   read_rows(options, kRackRows, c);
@@ -109,29 +188,10 @@ CylindricalDrive cylindrical_design(const Options& options) {
     d.j_n = options.number("backlash");
     require(d.j_n >= 0, options.label("backlash"), " = ", d.j_n, " m: must be at least 0");
   }
-  const std::vector<std::string> names = options.list("gears");
-  for (const std::string& name : names) {
-    GearChoices g;
-    if (options.given("face_width")) g.gear.blank.face_width = options.positive("face_width");
-    read_rows(options, kGearRows, g, name);
-    require(g.gear.z > 0, "option -", name, "_teeth is missing: number of teeth, as in '", name,
-            ": {teeth: 17}'");
-    require(g.gear.blank.face_width > 0,
-            "option -face_width is missing: width of the teeth, as in 'face_width: 25 mm'");
-    g.gear.name = name;
-    g.gear.r_a = g.tip_diameter / 2;
+  for (const std::string& name : options.list("gears")) {
+    const GearChoices g = gear_choices(options, name);
     d.gears.push_back(g.gear);
-    if (d.gears.size() == 1) continue;
-    const std::string mate = g.mate.empty() ? names[d.gears.size() - 2] : g.mate;
-    const auto first = std::find(names.begin(), names.end(), mate) - names.begin();
-    require(first + 1 < static_cast<std::ptrdiff_t>(d.gears.size()), options.label(name + "_mate"), " = '",
-            mate, "': must be a gear named before in option -gears");
-    if (options.given("centre_distance") && d.gears.size() == 2 && g.centre_distance == 0)
-      g.centre_distance = options.positive("centre_distance");
-    d.pairs.push_back({.first = static_cast<int>(first),
-                       .second = static_cast<int>(d.gears.size()) - 1,
-                       .a = g.centre_distance,
-                       .direction = g.direction * kRadPerDegree});
+    if (d.gears.size() > 1) add_pairs(options, g, d);
   }
   return d;
 }
@@ -139,26 +199,32 @@ CylindricalDrive cylindrical_design(const Options& options) {
 Facts member_facts(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
   const gear::Toothing& t = g.gear[i];
   const double cos_beta = d.m_n * t.z / (2 * t.r);
-  return {
-      {"teeth", std::to_string(t.z) + (g.undercut[i] ? ", undercut" : "")},
+  const gear::Blank& b = g.blank[i];
+  Facts facts = {
+      {"teeth", std::to_string(t.z) + (t.internal      ? ", internal"
+                                       : g.undercut[i] ? ", undercut"
+                                                       : "")},
       {"profile shift", with_unit(d.gears[i].x, "")},
       {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)},
       {"base / form diameter", in_mm(2 * t.r_b) + " / " + in_mm(2 * t.r_form)},
       {"tip thickness", in_mm(2 * t.r_a * gear::psi(t, t.r_a) * cos_beta)},
-      {"face width / bore", in_mm(g.blank[i].face_width) + " / " + in_mm(g.blank[i].bore)}};
+      {t.internal ? "face width / outer diameter" : "face width / bore",
+       in_mm(b.face_width) + " / " + in_mm(b.end_diameter())}};
+  if (t.internal)
+    facts.emplace_back("cutter", std::to_string(g.cutter[i].z_0) + " teeth, tip radius " +
+                                     in_mm(g.cutter[i].rho_a0 * d.m_n));
+  return facts;
 }
 
 // The largest sliding is where contact begins or ends, over the speed of the pitch circle.
 Facts pair_facts(const CylindricalDrive& d, const CylindricalGeometry& g, std::size_t i) {
   const gear::PairGeometry& p = g.pair[i];
   const gear::Toothing &t_1 = g.gear[d.pairs[i].first], &t_2 = g.gear[d.pairs[i].second];
-  const double pitch_point = t_1.r_b * std::tan(p.alpha_wt);
-  const double from = std::sqrt(t_1.r_start * t_1.r_start - t_1.r_b * t_1.r_b);
-  const double to = p.a * std::sin(p.alpha_wt) - std::sqrt(t_2.r_start * t_2.r_start - t_2.r_b * t_2.r_b);
-  const double sliding = std::max(pitch_point - from, to - pitch_point) * (1 / t_1.r_b + 1 / t_2.r_b) *
-                         t_1.r_b / (t_1.r_b / std::cos(p.alpha_wt));
+  const double pitch_point = t_1.r_b * std::tan(p.alpha_wt), both = t_1.sign() * t_2.sign();
+  const double farthest = std::max(std::abs(pitch_point - p.path[0]), std::abs(p.path[1] - pitch_point));
+  const double sliding = farthest * std::abs(1 / t_1.r_b + both / t_2.r_b) * std::cos(p.alpha_wt);
   return {{"centre distance", in_mm(p.a)},
-          {"ratio", with_unit(static_cast<double>(t_2.z) / t_1.z, "")},
+          {"ratio", with_unit(static_cast<double>(t_2.z) / t_1.z, both > 0 ? "" : "in one sense")},
           {"working pressure angle", with_unit(p.alpha_wt / kRadPerDegree, "deg, transverse")},
           {"normal base pitch", in_mm(g.p_bn)},
           {"contact ratio",
@@ -186,7 +252,7 @@ Drive cylindrical_drive(const Options& options) {
                            [=](gear::Size size) {
                              return gear::cylindrical_mesh(d, g, k, gear::cylindrical_counts(d, g, k, size));
                            },
-                       .held = "bore"};
+                       .held = g.gear[i].internal ? "outer" : "bore"};
     member.position.head<2>() = g.axis[i];
     member.angle = angle[i];
     member.width = g.blank[i].face_width;
@@ -196,8 +262,9 @@ Drive cylindrical_drive(const Options& options) {
   for (std::size_t i = 0; i < d.pairs.size(); ++i) {
     const gear::GearPair& pair = d.pairs[i];
     drive.pairs.push_back({pair.first, pair.second, pair_facts(d, g, i)});
+    const double both = g.gear[pair.first].sign() * g.gear[pair.second].sign();
     drive.members[pair.second].ratio =
-        -drive.members[pair.first].ratio * d.gears[pair.first].z / d.gears[pair.second].z;
+        -both * drive.members[pair.first].ratio * d.gears[pair.first].z / d.gears[pair.second].z;
   }
   return drive;
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLeastTip = 0.1;   // modules: thinner teeth count as pointed
 constexpr double kTouching = 1e-6;  // modules, by which a tip may be off the involute
 constexpr int kUsualCutter = 25, kLeastCutter = 10;
+constexpr double kFlankLeft = 0.1;     // modules of the line of action, between a tip and the mate's fillet
 constexpr double kTipArc = 0.85;       // of the largest radius, so that a land is left
 constexpr double kLeastTipArc = 0.05;  // modules
 
@@ -40,14 +41,15 @@ void shorten_to_clearance(const CylindricalDrive& d, CylindricalGeometry& g) {
   });
 }
 
-// Tips of internal pairs stay within the part of the line of action that the mate's flank has.
+// Tips of internal pairs stay within the part of the line of action that the mate's flank has, with something
+// left for the deflection of the teeth.
 void shorten_to_form(const CylindricalDrive& d, CylindricalGeometry& g, bool internal) {
   for_mates(d, g, [&](int own, int mate, const PairGeometry& p) {
     Toothing& t = g.gear[own];
     const Toothing& other = g.gear[mate];
     if (d.gears[own].r_a > 0 || t.internal != internal || pair_sign(t, other) > 0) return;
     const double xi = along_own(t, other, p.a * std::sin(p.alpha_wt), along_action(other, other.r_form));
-    limit_tip(t, std::hypot(t.r_b, xi));
+    limit_tip(t, std::hypot(t.r_b, xi - t.sign() * kFlankLeft * d.m_n));
   });
 }
 
