@@ -65,7 +65,7 @@ import numpy as np
 
 def sum_of_normal_forces(path):
     with h5py.File(path) as file:
-        points = file["contact/pinion:wheel/points"]
+        points = next(iter(file["contact"].values()))["points"]
         return np.linalg.norm(points["force"][points["offset"][-2]:], axis=1).sum()
 
 
@@ -78,7 +78,8 @@ def error_of_sum(path, m_n, z, T, beta):
 
 
 for path, *gear in (("spur_result.h5", 3e-3, 17, 300, 0), ("coast.h5", 3e-3, 17, 300, 0),
-                    ("slanted_result.h5", 3e-3, 17, 300, np.radians(18))):
+                    ("slanted_result.h5", 3e-3, 17, 300, np.radians(18)),
+                    ("internal_result.h5", 2e-3, 21, 60, 0)):
     error = error_of_sum(path, *gear)
     assert abs(error) < 2e-3, f"{path}: sum of normal forces {100 * error:.3f} % off"
 
@@ -112,6 +113,18 @@ assert abs(force / 2071 - 1) < 5e-3, f"worm drive: sum of normal forces {force} 
 END
 
 echo "part: wheel" >part.yaml
+cat >planets.yaml <<'END'
+drive: cylindrical
+module: 2 mm
+face_width: 8 mm
+gears: [sun, planet_1, planet_2, ring]
+sun: {teeth: 24}
+planet_1: {teeth: 24}
+planet_2: {teeth: 24, mate: sun, direction: 120 deg}
+ring: {teeth: 72, internal: true, mate: [planet_1, planet_2]}
+END
+run mesh planets.yaml
+grep -q "planet_2:ring" log || { cat log; exit 1; }
 
 # Bodies of another drive, gears that are not there and drives that do not exist are refused.
 refused() {
@@ -129,6 +142,8 @@ refused "is for a single body" reduce spur.yaml -mesh other.msh
 refused "counts are for single bodies" mesh spur.yaml -wheel_count_flank 4
 refused "torque is missing" simulate spur.yaml -torque 0
 refused "'deg' is no unit of it" mesh spur.yaml -face_width "25 deg"
+refused "cutter_teeth: 25 would do" mesh "$examples/internal.yaml" -ring_cutter_teeth 71
+refused "direction: 120" mesh planets.yaml -planet_2_direction "121 deg"
 refused "must be a gear named before" mesh spur.yaml -wheel_mate idler
 refused "tip_relief = 20000 um" mesh spur.yaml -pinion_tip_relief "20 mm"
 refused "tip_relief_length" mesh spur.yaml -pinion_tip_relief "20 um" -pinion_tip_relief_length "20 mm"

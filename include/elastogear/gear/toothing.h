@@ -37,7 +37,7 @@ double involute(double alpha);
 double tooth_angle(const Toothing& toothing, int i);
 
 /// Half the tooth thickness as an angle at radius r >= r_b (the base circle's value inside it), rad; it
-/// shrinks outwards, that of an internal gear grows.
+/// shrinks outwards, that of an internal gear grows; Eq. (9.2).
 double psi(const Toothing& toothing, double r);
 
 /// Exact signed normal distance of point x (body frame, m) to the flank of a tooth on side s = +1 (left) or

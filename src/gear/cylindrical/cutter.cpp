@@ -56,9 +56,9 @@ double largest_tip_radius(const Toothing& cutter) {
   return low;
 }
 
-// A point of the arc is cut when its normal, which goes through the arc's centre, meets the pitch point.
-// There the normal cuts the cutter's pitch circle. Turned until this is on the line of centres, +y, the
-// cutter has moved the gear by the ratio of their teeth, against the middle of the gear's space.
+// Eq. (9.4). A point of the arc is cut when its normal, which goes through the arc's centre, meets the pitch
+// point. There the normal cuts the cutter's pitch circle. Turned until this is on the line of centres, +y,
+// the cutter has moved the gear by the ratio of their teeth, against the middle of the gear's space.
 Vector2d trochoid(const Cutter& cutter, const Toothing& gear, double b) {
   const Vector2d centre = arc_centre(cutter), normal = at(angle_of(centre) + b, 1);
   const double along = centre.dot(normal), r = cutter.teeth.r;

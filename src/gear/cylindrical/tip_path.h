@@ -29,8 +29,8 @@ inline double pair_sign(const Toothing& t_1, const Toothing& t_2) { return t_1.s
 /// m, distance along the line of action from where it touches the base circle to where it has the radius r.
 double along_action(const Toothing& toothing, double r);
 
-/// m, the same distance for `own` where it is xi for its mate; action: between both base circles, a
-/// sin(alpha_wt).
+/// m, the same distance for `own` where it is xi for its mate, Eq. (9.3); action: between both base circles,
+/// a sin(alpha_wt).
 double along_own(const Toothing& own, const Toothing& mate, double action, double xi);
 
 /// m, the least distance around the axis of the corner at the mate's tip radius r_a from fillet and flank; on
