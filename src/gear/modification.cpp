@@ -94,7 +94,9 @@ void check(const std::string& name, const FlankModification& m, double profile, 
 
 double length_of_roll(const Toothing& t, double r) { return std::sqrt(std::max(0.0, r * r - t.r_b * t.r_b)); }
 
-double profile_length(const Toothing& t) { return length_of_roll(t, t.r_a) - length_of_roll(t, t.r_start); }
+double profile_length(const Toothing& t) {
+  return t.sign() * (length_of_roll(t, t.r_a) - length_of_roll(t, t.r_start));
+}
 
 double relief_length(const Toothing& t) {
   const double profile = profile_length(t), p_bt = 2 * pi * t.r_b / t.z;
@@ -115,7 +117,8 @@ void check(const std::string& name, const Toothing& t, const FlankDeviations& de
 // Eq. (9.9): an index deviation turns the tooth, an eccentricity moves it.
 double flank_deviation(const Toothing& t, const FlankDeviations& deviations, const Flank& flank,
                        const Eigen::Vector3d& x) {
-  const double length = length_of_roll(t, x.head<2>().norm()), roll = length - length_of_roll(t, t.r_start);
+  const double length = length_of_roll(t, x.head<2>().norm()),
+               roll = t.sign() * (length - length_of_roll(t, t.r_start));
   double out = -removed(flank.side > 0 ? deviations.left : deviations.right, roll, profile_length(t), x[2],
                         deviations.width);
   if (deviations.index.size() > 0)

@@ -142,7 +142,8 @@ Flanks read_flanks(const std::string& file, const DriveMember& member) {
       reader.fail_here("must be diameter, z and height in m, or these with tooth and side");
     const double diameter = reader.number(0), z = reader.number(1);
     const double tooth = n == 5 ? reader.number(3) : 0;
-    if (diameter < 2 * member.toothing.r_b || diameter > 2.02 * member.toothing.r_a)
+    if (diameter < 2 * member.toothing.r_b ||
+        diameter > 2.02 * std::max(member.toothing.r_a, member.toothing.r_f))
       reader.fail_here("diameter ", diameter, " m is not on the flank, which has diameters of ",
                        2 * member.toothing.r_form, " to ", 2 * member.toothing.r_a, " m");
     if (std::abs(z) > member.width)
