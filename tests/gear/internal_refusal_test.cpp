@@ -127,6 +127,9 @@ TEST(PlanetsRefusal, names_the_direction_that_would_do) {
   expect_refused(d, "planet_2_direction: 120.00");
   d = planets(24, 23, 70, 3);
   expect_refused(d, "multiple of the number of planets");
+  d = planets(24, 24, 72, 3);
+  d.pairs.push_back(d.pairs.back());
+  expect_refused(d, "planet_3:ring: is there twice");
   d = planets(24, 24, 72, 6);
   expect_refused(d, "are not in mesh, and overlap");
 }

@@ -140,11 +140,11 @@ GearChoices gear_choices(const Options& options, const std::string& name) {
   return g;
 }
 
-// The gear through which another one has its place; -1: the first one.
-int mate_of(const CylindricalDrive& d, int gear) {
+// The pair through which a gear has its place; nothing for the first gear.
+const gear::GearPair* placing(const CylindricalDrive& d, int gear) {
   for (const gear::GearPair& pair : d.pairs)
-    if (pair.second == gear) return pair.first;
-  return -1;
+    if (pair.second == gear) return &pair;
+  return nullptr;
 }
 
 // An internal gear without a place stands around the sun of its planet, or so that the pitch point lies where
@@ -152,8 +152,9 @@ int mate_of(const CylindricalDrive& d, int gear) {
 void place_ring(const Options& options, gear::GearPair& pair, const CylindricalDrive& d) {
   const std::string& name = d.gears.back().name;
   if (!d.gears.back().internal || options.given(name + "_direction")) return;
-  if (pair.a == 0) pair.coaxial = mate_of(d, pair.first);
-  pair.direction = std::numbers::pi;
+  const gear::GearPair* of_planet = placing(d, pair.first);
+  pair.direction = std::numbers::pi + (of_planet ? of_planet->direction : 0);
+  if (of_planet && pair.a == 0) pair.coaxial = of_planet->first;
 }
 
 // The pairs of the last gear with earlier ones, of which the first gives it its place.

@@ -14,7 +14,8 @@ Blank completed_around(const CylindricalDrive& d, const CylindricalGear& gear, c
   Blank b = gear.blank;
   const double root = 2 * t.r_f, least = root + 2 * kLeastBody * d.m_n;
   require(
-      b.bore == 0 && b.hub_diameter == 0 && b.web_diameter == 0 && b.web_width == 0, gear.name,
+      b.bore == 0 && b.hub_diameter == 0 && b.hub_width == 0 && b.web_diameter == 0 && b.web_width == 0,
+      gear.name,
       ": an internal gear has neither bore nor hub nor web; outer_diameter and rim_diameter are its body's");
   if (b.outer_diameter == 0) b.outer_diameter = root + 2 * kBody * d.m_n;
   require(b.outer_diameter >= least, gear.name, ": outer_diameter = ", mm(b.outer_diameter),

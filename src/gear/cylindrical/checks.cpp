@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -60,6 +61,11 @@ void check_pairs(const CylindricalDrive& d) {
     require(
         placed[pair.first] && pair.first != pair.second, "pair ", name,
         ": its first gear must be the first of all or the second of an earlier pair, and not its second one");
+    for (const GearPair& earlier : d.pairs) {
+      if (&earlier == &pair) break;
+      require(std::minmax(earlier.first, earlier.second) != std::minmax(pair.first, pair.second), "pair ",
+              name, ": is there twice; name each mate once");
+    }
     require(pair.coaxial < 0 || (pair.coaxial < n && placed[pair.coaxial]), "pair ", name,
             ": its second gear shares the axis of one that has no place yet");
     const CylindricalGear &g_1 = d.gears[pair.first], &g_2 = d.gears[pair.second];
