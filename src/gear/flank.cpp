@@ -10,6 +10,7 @@ namespace elastogear::gear {
 namespace {
 
 constexpr double kRoundoff = 1e-14;  // of the distance from the axis
+constexpr double kSolved = 1e-12;    // the same, of flanks that are found by iterations themselves
 constexpr double kLeastCosine = 0.5;
 constexpr int kNewtonSteps = 20;
 
@@ -27,24 +28,22 @@ std::optional<Flank> flank_of(const std::string& face_set) {
   return Flank{tooth - 1, side == "left" ? 1 : -1};
 }
 
-// Gradient of flank_distance: dpsi/dr = -sign tan(alpha)/r at cos(alpha) = r_b/r; inside the base circle psi
-// is constant.
 Eigen::Vector3d flank_normal(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {
   const double r = std::hypot(x[0], x[1]);
-  const double tan_alpha = std::sqrt(std::max(0.0, r * r - t.r_b * t.r_b)) / t.r_b;
+  const HalfAngle half = half_angle(t, r, flank.side * x[2]);
   const Eigen::Vector3d radial(x[0] / r, x[1] / r, 0), around(-radial[1], radial[0], 0);
-  const Eigen::Vector3d n =
-      flank.side * (around / r - Eigen::Vector3d::UnitZ() / t.p) + t.sign() * tan_alpha / r * radial;
-  return n.normalized();
+  const double d_z = 1 / t.p + half.d_z;
+  return (flank.side * (around / r - d_z * Eigen::Vector3d::UnitZ()) - half.d_r * radial).normalized();
 }
 
 double flank_distance_along(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x,
                             const Eigen::Vector3d& n) {
+  const double close = (t.half_angle ? kSolved : kRoundoff) * std::max(t.r_a, t.r_f);
   double s = 0;
   for (int step = 0; step < kNewtonSteps; ++step) {
     const Eigen::Vector3d at = x + s * n;
     const double d = flank_distance(t, flank.tooth, flank.side, at);
-    if (std::abs(d) <= kRoundoff * std::max(t.r_a, t.r_f)) return s;
+    if (std::abs(d) <= close) return s;
     const double cosine = n.dot(flank_normal(t, flank, at));
     if (!(cosine >= kLeastCosine)) break;
     s -= d / cosine;

@@ -10,20 +10,30 @@
 namespace elastogear::gear {
 namespace {
 
+// The section of the teeth in a plane.
+struct PlaneSection {
+  ToothGrid grid;
+  std::function<double(double)> shift;  // rad, see Profile
+};
+
 // One sector: columns q = -half_pitch .. half_pitch (the last is the next sector's first), rows from the
 // bore, or the outside of an internal gear, to the tip (hub, web, ring, rim, tooth), planes along z. A row of
 // cells fills the planes within its half width.
 struct Sector {
-  ToothGrid tooth_grid;
-  double half_pitch = 0;           // rad
-  std::vector<double> radius;      // m, rows 0 .. below the rim
-  std::vector<double> half_width;  // m, of each row of cells
-  std::vector<double> z;           // m, planes
-  int rim = 0, tooth = 0;          // rows of nodes where rim and tooth begin
+  ToothGrid tooth_grid;                // in the first plane; all planes have its counts
+  std::vector<PlaneSection> sections;  // of all planes, or one for all
+  double half_pitch = 0;               // rad
+  std::vector<double> radius;          // m, rows 0 .. below the rim
+  std::vector<double> half_width;      // m, of each row of cells
+  std::vector<double> z;               // m, planes
+  int rim = 0, tooth = 0;              // rows of nodes where rim and tooth begin
   bool internal = false;
 
   int rows() const { return static_cast<int>(half_width.size()); }
   int planes() const { return static_cast<int>(z.size()); }
+  const PlaneSection& section(int plane) const {
+    return sections[std::min(static_cast<std::size_t>(plane), sections.size() - 1)];
+  }
 };
 
 constexpr double kSamePlane = 1e-9;  // m, far below any layer
@@ -67,13 +77,27 @@ std::vector<double> plane_positions(const Blank& blank, const WheelCounts& n) {
   return all;
 }
 
-Sector sector(const Toothing& toothing, const Profile& profile, const Blank& blank, const WheelCounts& n) {
-  Sector s{
-      .tooth_grid = tooth_grid(
-          profile, {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim}),
-      .radius = {blank.end_diameter() / 2},
-      .half_width = {},
-      .z = plane_positions(blank, n)};
+// The columns of fillet and root land are the same in all planes.
+std::vector<PlaneSection> sections(const std::function<Profile(double)>& profile,
+                                   const std::vector<double>& z, const WheelCounts& n) {
+  ToothGridCounts counts{
+      .tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim};
+  std::vector<PlaneSection> all;
+  for (double at : z) {
+    const Profile p = profile(at);
+    all.push_back({tooth_grid(p, counts), p.shift});
+    if (n.space > 1) counts.land = all[0].grid.half_pitch - all[0].grid.fillet_end;
+  }
+  return all;
+}
+
+Sector sector(const Toothing& toothing, std::vector<PlaneSection> sections, const Blank& blank,
+              const WheelCounts& n) {
+  Sector s{.tooth_grid = sections[0].grid,
+           .sections = std::move(sections),
+           .radius = {blank.end_diameter() / 2},
+           .half_width = {},
+           .z = plane_positions(blank, n)};
   s.half_pitch = std::numbers::pi / toothing.z;
   s.internal = toothing.internal;
   if (blank.has_web()) {
@@ -95,11 +119,13 @@ bool has_cell(const Sector& s, int q, int row, int plane) {
 }
 
 // (angle from the tooth's axis, radius) of a node of the section.
-Eigen::Vector2d polar_point(const Sector& s, int q, int row) {
+Eigen::Vector2d polar_point(const Sector& s, int q, int row, int plane) {
   if (row < s.rim) return {s.half_pitch * q / s.tooth_grid.half_pitch, s.radius[row]};
+  const PlaneSection& section = s.section(plane);
   const Eigen::Vector2d x =
-      row <= s.tooth ? s.tooth_grid.strip_point(q, row - s.rim) : s.tooth_grid.tooth_point(q, row - s.tooth);
-  return {std::atan2(x[0], s.internal ? -x[1] : x[1]), x.norm()};
+      row <= s.tooth ? section.grid.strip_point(q, row - s.rim) : section.grid.tooth_point(q, row - s.tooth);
+  const double r = x.norm(), angle = std::atan2(x[0], s.internal ? -x[1] : x[1]);
+  return {angle + (section.shift ? section.shift(r) : 0), r};
 }
 
 bool has_node(const Sector& s, int q, int row, int plane) {
@@ -141,7 +167,7 @@ void for_nodes(const Sector& s, const Numbering& n, Visit visit) {
 Eigen::Matrix3Xd positions(const Sector& s, const Numbering& n, const Toothing& toothing) {
   Eigen::Matrix3Xd X(3, n.count * toothing.z);
   for_nodes(s, n, [&](int q, int row, int plane) {
-    const Eigen::Vector2d x = polar_point(s, q, row);
+    const Eigen::Vector2d x = polar_point(s, q, row, plane);
     for (int tooth = 0; tooth < toothing.z; ++tooth) {
       const double theta = tooth_angle(toothing, tooth) + x[0] + s.z[plane] / toothing.p;
       X.col(tooth * n.count + n.at(q, row, plane)) << x[1] * std::cos(theta), x[1] * std::sin(theta),
@@ -184,12 +210,7 @@ void add_cell(mesh::Mesh& mesh, const Sector& s, const Numbering& n, std::array<
   if (q == s.tooth_grid.half_tooth - 1) add_flank(mesh, faces[4], numbered("tooth", tooth, teeth), "left");
 }
 
-}  // namespace
-
-mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing, const Profile& profile,
-                     const Blank& blank, const WheelCounts& counts) {
-  check(name, counts, toothing.z);
-  const Sector s = sector(toothing, profile, blank, counts);
+mesh::Mesh mesh_of(const std::string& name, const Sector& s, const Toothing& toothing) {
   const Numbering n = number_nodes(s);
   mesh::Mesh mesh;
   mesh.X = positions(s, n, toothing);
@@ -202,6 +223,24 @@ mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing, const Pr
   sort_node_sets(mesh);
   check_cells(mesh, name);
   return mesh;
+}
+
+}  // namespace
+
+mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing,
+                     const std::function<Profile(double z)>& profile, const Blank& blank,
+                     const WheelCounts& counts) {
+  check(name, counts, toothing.z);
+  return mesh_of(name,
+                 sector(toothing, sections(profile, plane_positions(blank, counts), counts), blank, counts),
+                 toothing);
+}
+
+mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing, const Profile& profile,
+                     const Blank& blank, const WheelCounts& counts) {
+  check(name, counts, toothing.z);
+  const auto constant = [&](double) { return profile; };
+  return mesh_of(name, sector(toothing, sections(constant, {0}, counts), blank, counts), toothing);
 }
 
 }  // namespace elastogear::gear

@@ -1,7 +1,8 @@
 #pragma once
-// The mesh of any cylindrical gear: the transverse section of one tooth and its part of the body, extruded
-// along the helix and repeated around.
+// The mesh of any gear: the transverse section of one tooth and its part of the body, extruded along the
+// helix and repeated around.
 
+#include <functional>
 #include <string>
 
 #include "elastogear/gear/blank.h"
@@ -14,5 +15,10 @@ namespace elastogear::gear {
 /// node set at the outside of an internal gear is `outer`, in place of `bore`.
 mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing, const Profile& profile,
                      const Blank& blank, const WheelCounts& counts);
+
+/// The same of a gear whose section changes along the axis; profile: at z, m.
+mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing,
+                     const std::function<Profile(double z)>& profile, const Blank& blank,
+                     const WheelCounts& counts);
 
 }  // namespace elastogear::gear

@@ -121,17 +121,16 @@ double flank_deviation(const Toothing& t, const FlankDeviations& deviations, con
                roll = t.sign() * (length - length_of_roll(t, t.r_start));
   double out = -removed(flank.side > 0 ? deviations.left : deviations.right, roll, profile_length(t), x[2],
                         deviations.width);
-  if (deviations.index.size() > 0)
-    out += flank.side * deviations.index[flank.tooth] * t.r_b / t.r * std::cos(t.beta_b);
-  if (!deviations.eccentricity.isZero(0))
-    out += deviations.eccentricity.dot(flank_normal(t, flank, x).head<2>());
+  const Eigen::Vector2d n = flank_normal(t, flank, x).head<2>();
+  if (deviations.index.size() > 0) out += deviations.index[flank.tooth] / t.r * (n[1] * x[0] - n[0] * x[1]);
+  out += deviations.eccentricity.dot(n);
   for (const Topography& topography : deviations.topography)
     if (is_of(topography, flank)) out += height(topography, length, x[2]);
   return out;
 }
 
-// The normals of the exact flank are straight and its distance is exact along them, so that the foot of a
-// point is found at once.
+// The normals of the exact flank are straight and its distance is exact along them (of other forms than
+// involutes to second order), so that the foot of a point is found at once.
 double flank_distance_along(const Toothing& t, const FlankDeviations& deviations, const Flank& flank,
                             const Eigen::Vector3d& x, const Eigen::Vector3d& n) {
   double s = flank_distance_along(t, flank, x, n);

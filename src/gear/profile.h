@@ -17,6 +17,8 @@ struct Profile {
   double r_f = 0, r_form = 0, r_a = 0;  ///< m, root, end of the flank, tip
   std::function<double(double)> half_width;       ///< c of the flank at radius r
   std::function<Eigen::Vector2d(double)> fillet;  ///< plane point, t = 0 at the root land, 1 at the flank
+  std::function<double(double)> shift = {};  ///< rad, of the points at radius r, which makes both sides those
+                                             ///< of the tooth; 0 at r_inner; empty: none
 
   Eigen::Vector2d point(double c, double r) const;
   double lateral(const Eigen::Vector2d& x) const;  ///< c of a plane point

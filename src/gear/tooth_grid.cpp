@@ -123,17 +123,18 @@ Points space_top(const Profile& p, int fillet, int land) {
 
 // Columns of the half space that the lower half of the fillet gets: its share of the length, so that its end
 // is a node. A single column spans fillet and land.
-int fillet_columns(const Profile& p, int space) {
+int fillet_columns(const Profile& p, const ToothGridCounts& n) {
+  if (n.land > 0) return n.space - n.land;
   const double fillet = (p.fillet(0) - p.fillet(0.5)).norm();
   const double land = (p.point(p.half_pitch, p.r_f) - p.fillet(0)).norm();
-  return std::clamp(static_cast<int>(std::lround(space * fillet / (fillet + land))), 1,
-                    std::max(1, space - 1));
+  return std::clamp(static_cast<int>(std::lround(n.space * fillet / (fillet + land))), 1,
+                    std::max(1, n.space - 1));
 }
 
-Points space_edge(const Profile& p, int space) {
-  if (space == 1) return {p.fillet(0.5), p.point(p.half_pitch, p.r_f)};
-  const int fillet = fillet_columns(p, space);
-  return space_top(p, fillet, space - fillet);
+Points space_edge(const Profile& p, const ToothGridCounts& n) {
+  if (n.space == 1) return {p.fillet(0.5), p.point(p.half_pitch, p.r_f)};
+  const int fillet = fillet_columns(p, n);
+  return space_top(p, fillet, n.space - fillet);
 }
 
 // Side of the tooth block: upper half of the fillet, then the flank, equally spaced in radius.
@@ -199,7 +200,7 @@ ToothGrid tooth_grid(const Profile& p, const ToothGridCounts& n) {
                                     .t = rows});
   const Points beside =
       interpolate({.bottom = inner_end(p, divider, p.half_pitch, n.space),
-                   .top = space_edge(p, n.space),
+                   .top = space_edge(p, n),
                    .left = split,
                    .right = line(p.point(p.half_pitch, p.r_inner), p.point(p.half_pitch, p.r_f), rows),
                    .s = uniform(n.space),
@@ -209,7 +210,7 @@ ToothGrid tooth_grid(const Profile& p, const ToothGridCounts& n) {
                  .ring = n.ring,
                  .fillet = n.fillet,
                  .rows = n.fillet + n.flank,
-                 .fillet_end = half_tooth + (n.space == 1 ? 0 : fillet_columns(p, n.space)),
+                 .fillet_end = half_tooth + (n.space == 1 ? 0 : fillet_columns(p, n)),
                  .strip = below,
                  .tooth = tooth_block(p, n, bottom)};
   grid.strip.insert(grid.strip.end(), beside.begin() + n.ring + 1, beside.end());

@@ -11,6 +11,7 @@ namespace elastogear::gear {
 
 struct ToothGridCounts {
   int tooth, space, flank, fillet, ring;
+  int land = 0;  ///< columns of half a space beside the fillet; 0: its share of the length
 };
 
 /// Grid of one tooth and the two half spaces beside it, symmetric about the tooth's axis. Column q = 0 is the

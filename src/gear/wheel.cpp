@@ -1,11 +1,15 @@
 #include "elastogear/gear/wheel.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "elastogear/base/error.h"
+#include "elastogear/mesh/quality.h"
 #include "gear/gear_mesh.h"
+#include "gear/worm/hobbed_wheel.h"
 #include "gear/worm/profiles.h"
 
 namespace elastogear::gear {
-
 WheelCounts wheel_counts(Size size) {
   switch (size) {
     case Size::tiny:
@@ -50,8 +54,32 @@ WheelCounts wheel_counts(Size size) {
   fail("unknown mesh size ", static_cast<int>(size));
 }
 
+namespace {
+
+constexpr double kLeastQuality = 0.25;  // scaled Jacobian of a hobbed wheel's cells
+
+// Seen from the other side, a left-handed wheel is a right-handed one.
+mesh::Mesh hobbed_mesh(const Design& design, const Geometry& geometry, const WheelCounts& counts) {
+  Geometry right = geometry;
+  right.wheel.p = std::abs(right.wheel.p);
+  const Hob tool = hob(design, right);
+  const double side = design.hand == Hand::left ? -1 : 1, end = design.face_width / 2;
+  const auto profile = [&](double z) {
+    return hobbed_profile(tool, design.z2, design.rim_diameter / 2, side * std::clamp(z, -end, end));
+  };
+  mesh::Mesh mesh = gear_mesh("wheel", geometry.wheel, profile, wheel_blank(design), counts);
+  const mesh::Quality quality = mesh::quality(mesh);
+  require(quality.min_scaled_jacobian >= kLeastQuality, "the wheel's mesh has a cell of scaled Jacobian ",
+          quality.min_scaled_jacobian, ", at least ", kLeastQuality,
+          " is needed: a smaller face_width, other element counts or a larger size would do");
+  return mesh;
+}
+
+}  // namespace
+
 mesh::Mesh wheel_mesh(const Design& design, const WheelCounts& counts) {
   const Geometry geometry = derive(design);
+  if (design.wheel_form != WheelForm::helical) return hobbed_mesh(design, geometry, counts);
   const Profile profile =
       generated_profile(wheel_rack(design, geometry), geometry.wheel, design.rim_diameter / 2);
   return gear_mesh("wheel", geometry.wheel, profile, wheel_blank(design), counts);

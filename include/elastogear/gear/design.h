@@ -1,7 +1,8 @@
 #pragma once
-// The worm drive: a ZI worm (involute helicoid, DIN 3975 / ISO 10828) and a cylindrical helical involute
-// wheel at a shaft angle of 90 degrees, both right-handed. The pair is exactly conjugate (crossed helical
-// gears, point contact).
+// The worm drive: a worm with flanks of one of the forms of ISO 10828 and its wheel, at a shaft angle of 90
+// degrees. A helical involute wheel and a ZI worm are crossed helical gears, exactly conjugate in point
+// contact. Any other wheel is what the hob leaves: conjugate in line contact where the hob has the shape of
+// the worm.
 //
 // Frames. World: wheel axis +Z through the origin, worm axis +X through (0, a, 0). Wheel frame = world. Worm
 // frame: axis z, and worm local (x, y, z) = world (Y, Z, X). At zero angles a wheel tooth (tooth_01) stands
@@ -13,6 +14,24 @@
 
 namespace elastogear::gear {
 
+/// Flank forms of a worm (ISO 10828). The pressure angle alpha_n is that of the tool, for ZA and ZI that of
+/// the normal section at the pitch cylinder.
+enum class FlankForm {
+  ZA,  ///< straight in the axial section
+  ZN,  ///< straight in the normal section through the middle of the space, at the pitch cylinder
+  ZI,  ///< involute helicoid
+  ZK   ///< made by a cutter with straight cones whose axis is swivelled by the lead angle
+};
+
+enum class Hand { right, left };
+
+/// What makes the wheel.
+enum class WheelForm {
+  helical,      ///< a rack: an involute helical gear, for form ZI alone
+  cylindrical,  ///< the hob, on a cylindrical blank
+  throated      ///< the hob, on a blank whose tip follows the worm's root up to the outside diameter
+};
+
 /// All numbers of the drive; the defaults are the reference design (electric power steering, 20.5 : 1).
 struct Design {
   // Toothing, common to worm and wheel
@@ -21,11 +40,18 @@ struct Design {
   int z1 = 2;                          ///< -, starts of the worm
   int z2 = 41;                         ///< -, teeth of the wheel
   double a = 50.0e-3;                  ///< m, centre distance
-  double j_n = 0.040e-3;               ///< m, normal backlash, taken half from each body's tooth thickness
-  double addendum = 2.0e-3;            ///< m, tip over pitch radius, both bodies
-  double dedendum = 2.5e-3;            ///< m, pitch over root radius, both bodies
-  double worm_fillet = 0.70e-3;        ///< m, root fillet radius of the worm, axial section
-  double wheel_rack_tip = 0.60e-3;     ///< m, tip radius of the rack that generates the wheel, normal section
+  FlankForm flank = FlankForm::ZI;     ///< of the worm
+  double cutter_diameter = 0;          ///< m, of form ZK, where it reaches the root; 0: 40 modules
+  Hand hand = Hand::right;             ///< of worm and wheel
+  WheelForm wheel_form = WheelForm::helical;
+  double outside_diameter = 0;   ///< m, of a throated wheel; 0: a module above the throat's tip diameter
+  double hob_oversize = 0;       ///< m, pitch diameter of the hob over the worm's: > 0 point contact
+  double j_n = 0.040e-3;         ///< m, normal backlash, taken half from each body's tooth thickness
+  double addendum = 2.0e-3;      ///< m, tip over pitch radius, both bodies
+  double dedendum = 2.5e-3;      ///< m, pitch over root radius, both bodies
+  double worm_fillet = 0.70e-3;  ///< m, root fillet radius of the worm, axial section
+  double wheel_rack_tip =
+      0.60e-3;  ///< m, tip radius of the wheel's rack, normal, or of its hob, axial section
 
   // Worm shaft; z along the axis, the thread's middle at z = 0
   double thread_length = 39.2e-3;  ///< m, between the thread's ends, rounded to whole sections of the mesh
@@ -49,14 +75,18 @@ struct Design {
 
 /// Radii, angles and lengths that follow from a Design.
 struct Geometry {
-  double gamma = 0;    ///< rad, lead angle of the worm = helix angle of the wheel
+  double gamma = 0;    ///< rad, lead angle of the worm = helix angle of the wheel; > 0 for either hand
   double s_n = 0;      ///< m, normal tooth thickness at the pitch cylinders
   double p_bn = 0;     ///< m, normal base pitch, common to both bodies
   double p_x = 0;      ///< m, axial pitch of the worm
   double epsilon = 0;  ///< -, contact ratio
   double j_n = 0;      ///< m, normal backlash
   double ratio = 0;    ///< -, z2/z1
-  Toothing worm, wheel;
+  double cutter_diameter = 0;   ///< m, of form ZK
+  double outside_diameter = 0;  ///< m, of the wheel
+  double throat_radius = 0;     ///< m, of a throated wheel's tip in its axial section; 0: none
+  double hob_swivel = 0;        ///< rad, between the axes of hob and worm
+  Toothing worm, wheel;         ///< radii of a throated wheel are those of its middle plane, z = 0
 };
 
 /// Solves the lead angle from the centre distance (the smaller of the two solutions) and checks the whole

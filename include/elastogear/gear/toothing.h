@@ -1,15 +1,25 @@
 #pragma once
-// Involute teeth: all that flanks, fillets and meshes of one gear need to know.
+// Teeth: all that flanks, fillets and meshes of one gear need to know.
 //
-// Body frame: the gear's axis is z. Flanks are involute helicoids,
-//   theta = z/p + s psi(r) + theta_tooth,
-// s = +1: `left`, counter-clockwise seen from +z (on a worm the side of smaller z); s = -1: `right`. The
-// teeth of an internal gear stand inwards. ISO 21771 counts them below 0; here z > 0, and the standard's sign
-// z/|z| stands in the formulas.
+// Body frame: the gear's axis is z. Flanks are
+//   theta = z/p + s psi(r, s z) + theta_tooth,
+// s = +1: `left`, counter-clockwise seen from +z (on a right-handed worm the side of smaller z); s = -1:
+// `right`. On helicoids psi does not depend on z; involute helicoids are known in closed form. A tooth is its
+// own image when turned by pi about the radial axis through its centre at z = 0. The teeth of an internal
+// gear stand inwards. ISO 21771 counts them below 0; here z > 0, and the standard's sign z/|z| stands in the
+// formulas.
 
 #include <Eigen/Core>
+#include <functional>
 
 namespace elastogear::gear {
+
+/// Half the tooth thickness as an angle, and its derivatives by r and by z.
+struct HalfAngle {
+  double psi = 0;  ///< rad
+  double d_r = 0;  ///< rad/m
+  double d_z = 0;  ///< rad/m
+};
 
 /// The toothing of one gear or worm.
 struct Toothing {
@@ -18,14 +28,15 @@ struct Toothing {
   double r = 0;           ///< m, pitch radius
   double r_a = 0;         ///< m, tip radius
   double r_f = 0;         ///< m, root radius
-  double r_b = 0;         ///< m, base radius
+  double r_b = 0;         ///< m, base radius; 0: the flanks are no involutes
   double r_form = 0;      ///< m, radius where the flank ends and the fillet begins
   double r_start = 0;     ///< m, radius on the path of contact that is nearest to the root
   double alpha_t = 0;     ///< rad, transverse pressure angle
   double beta_b = 0;      ///< rad, base helix angle
   double p = 0;      ///< m/rad, axial advance per radian: lead / (2 pi); < 0 left-handed, infinite for spurs
   double psi_b = 0;  ///< rad, half the tooth thickness as an angle, at the base circle
-  double theta_1 = 0;  ///< rad, angle of tooth 1's centre at z = 0
+  double theta_1 = 0;                                            ///< rad, angle of tooth 1's centre at z = 0
+  std::function<HalfAngle(double r, double z)> half_angle = {};  ///< of flanks that are no involutes
 
   double sign() const { return internal ? -1 : 1; }  ///< z/|z| of ISO 21771
 };
@@ -36,14 +47,16 @@ double involute(double alpha);
 /// Angle of tooth i (0-based) at z = 0, rad.
 double tooth_angle(const Toothing& toothing, int i);
 
-/// Half the tooth thickness as an angle at radius r >= r_b (the base circle's value inside it), rad; it
-/// shrinks outwards, that of an internal gear grows; Eq. (9.2).
-double psi(const Toothing& toothing, double r);
+/// Half the tooth thickness as an angle at radius r and at s z; of involutes inside the base circle that of
+/// the base circle. It shrinks outwards, that of an internal gear grows; Eq. (9.2).
+HalfAngle half_angle(const Toothing& toothing, double r, double z = 0);
+inline double psi(const Toothing& toothing, double r, double z = 0) { return half_angle(toothing, r, z).psi; }
 
-/// Exact signed normal distance of point x (body frame, m) to the flank of a tooth on side s = +1 (left) or
-/// -1 (right): d = r_b cos(beta_b) (s (theta - z/p - theta_tooth) - psi(r)); > 0 outside the tooth. The angle
-/// is taken nearest to the tooth's centre. Inside the base cylinder, where the flank has no points, psi(r_b)
-/// is used.
+/// Signed normal distance of point x (body frame, m) to the flank of a tooth on side s = +1 (left) or -1
+/// (right), > 0 outside the tooth: with F = s (theta - z/p - theta_tooth) - psi(r, s z) it is F/|grad F|.
+/// That is exact on the flank of any form, with its gradient, and everywhere for involutes, where it is
+/// r_b cos(beta_b) F; otherwise its error is of second order in the distance. The angle is taken nearest to
+/// the tooth's centre. Inside the base cylinder, where an involute has no points, psi(r_b) is used.
 double flank_distance(const Toothing& toothing, int tooth, int side, const Eigen::Vector3d& x);
 
 }  // namespace elastogear::gear

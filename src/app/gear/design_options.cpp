@@ -19,6 +19,21 @@ const Rows<Design> kDesignRows = {
      [](const Options& options, const std::string& name, Design& design) {
        if (options.given(name)) design.alpha_n = options.number(name) * kDegree;
      }},
+    {"worm_flank", &Design::flank, one_of("ZA", "ZN", "ZI", "ZK"),
+     "worm: flank form of ISO 10828: straight in the axial section, straight in the normal section of the "
+     "space, "
+     "involute helicoid, or made by a conical cutter"},
+    {"worm_cutter_diameter", &Design::cutter_diameter, "m",
+     "worm: diameter of the cutter of form ZK, where it reaches the root (default: 40 modules)", kDependent},
+    {"hand", &Design::hand, one_of("right", "left"), "hand of worm and wheel"},
+    {"wheel_form", &Design::wheel_form, one_of("helical", "cylindrical", "throated"),
+     "wheel: an involute helical gear, for worms of form ZI, or made by the hob on a cylindrical or a "
+     "throated "
+     "blank"},
+    {"wheel_outside_diameter", &Design::outside_diameter, "m",
+     "wheel: throated: outside diameter (default: a module above the throat's tip diameter)", kDependent},
+    {"hob_oversize", &Design::hob_oversize, "m",
+     "wheel: pitch diameter of the hob over that of the worm: contact in points, for tolerances"},
     {"module", &Design::m_n, "m", "normal module"},
     {"centre_distance", &Design::a, "m", "centre distance; the lead angle follows from it"},
     {"backlash", &Design::j_n, "m", "normal backlash, taken half from each body's tooth thickness"},

@@ -55,15 +55,43 @@ Design worm_design(const Options& options) {
   Design d = gear::proportioned(m_n, alpha_n * pi / 180, c.starts, c.teeth,
                                 by_distance ? options.positive("centre_distance") : centre_distance(m_n, c));
   read_rows(options, design_rows(), d);
+  // Only an involute worm has a helical wheel.
+  if (d.flank != gear::FlankForm::ZI && !options.given("wheel_form"))
+    d.wheel_form = gear::WheelForm::throated;
   return d;
 }
 
 Facts facts(const gear::Toothing& t, double width, double bore) {
-  return {
+  Facts all = {
       {"teeth", std::to_string(t.z)},
-      {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)},
-      {"base / form diameter", in_mm(2 * t.r_b) + " / " + in_mm(2 * t.r_form)},
-      {"width / bore", in_mm(width) + " / " + in_mm(bore)}};
+      {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)}};
+  if (t.r_b > 0)
+    all.push_back({"base / form diameter", in_mm(2 * t.r_b) + " / " + in_mm(2 * t.r_form)});
+  else
+    all.push_back({"form diameter", in_mm(2 * t.r_form)});
+  all.push_back({"width / bore", in_mm(width) + " / " + in_mm(bore)});
+  return all;
+}
+
+Facts worm_facts(const Design& d, const Geometry& g) {
+  constexpr const char* kForms[] = {"ZA", "ZN", "ZI", "ZK"};
+  Facts all = facts(g.worm, d.thread_length, d.worm_bore);
+  const std::string hand = d.hand == gear::Hand::left ? ", left-handed" : ", right-handed";
+  all.push_back({"flank form", kForms[static_cast<int>(d.flank)] + hand});
+  if (g.cutter_diameter > 0) all.push_back({"cutter diameter", in_mm(g.cutter_diameter)});
+  return all;
+}
+
+Facts wheel_facts(const Design& d, const Geometry& g) {
+  Facts all = facts(g.wheel, d.face_width, d.wheel_bore);
+  if (g.throat_radius > 0)
+    all.push_back(
+        {"throat radius / outside diameter", in_mm(g.throat_radius) + " / " + in_mm(g.outside_diameter)});
+  if (d.wheel_form == gear::WheelForm::helical) return all;
+  all.push_back({"hob pitch / tip diameter", in_mm(2 * g.worm.r + d.hob_oversize) + " / " +
+                                                 in_mm(2 * (g.worm.r + d.dedendum) + d.hob_oversize)});
+  all.push_back({"hob swivel", with_unit(g.hob_swivel * 180 / pi, "deg")});
+  return all;
 }
 
 }  // namespace
@@ -71,12 +99,13 @@ Facts facts(const gear::Toothing& t, double width, double bore) {
 OptionTable worm_table() { return table_of(kWormRows); }
 
 // Worm local (x, y, z) = world (Y, Z, X): a third of a turn about (1, 1, 1). At zero angles both flanks have
-// half the backlash; a driving worm pushes the wheel from behind.
+// half the backlash; a driving worm pushes the wheel from behind. A left-handed wheel turns the other way.
 Drive worm_drive(const Options& options) {
   const Design d = worm_design(options);
   const Geometry g = gear::derive(d);
   const double turned = 2 * pi * options.number("roll") / d.z1;
-  const double closing = g.j_n / 2 / (g.wheel.r_b * std::cos(g.wheel.beta_b));
+  const double hand = d.hand == gear::Hand::left ? -1 : 1;
+  const double closing = g.j_n / 2 / (g.wheel.r * std::cos(d.alpha_n) * std::cos(g.gamma));
   const double sense = options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
   DriveMember worm{.name = "worm",
                    .toothing = g.worm,
@@ -90,13 +119,10 @@ Drive worm_drive(const Options& options) {
                     .toothing = g.wheel,
                     .mesh = [d](gear::Size size) { return gear::wheel_mesh(d, gear::wheel_counts(size)); },
                     .held = "bore"};
-  wheel.angle = turned / g.ratio - sense * closing;
-  wheel.ratio = 1 / g.ratio;
+  wheel.angle = hand * (turned / g.ratio - sense * closing);
+  wheel.ratio = hand / g.ratio;
   wheel.width = d.face_width;
-  Drive drive{
-      .members = {worm, wheel},
-      .facts = {facts(g.worm, d.thread_length, d.worm_bore), facts(g.wheel, d.face_width, d.wheel_bore)},
-      .pairs = {}};
+  Drive drive{.members = {worm, wheel}, .facts = {worm_facts(d, g), wheel_facts(d, g)}, .pairs = {}};
   drive.pairs.push_back({0,
                          1,
                          {{"centre distance", in_mm(d.a)},

@@ -1,5 +1,6 @@
 #include "gear/worm/profiles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,14 +12,14 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-// Unit normal of the worm's axial flank, towards the space. The slope is d(p psi)/dr = -p tan(alpha)/r.
+// Unit normal of the worm's axial flank, towards the space.
 Vector2d worm_normal(const Toothing& worm, double r) {
-  const double slope = -worm.p * std::sqrt(std::max(0.0, r * r - worm.r_b * worm.r_b)) / (worm.r_b * r);
-  return Vector2d(1, -slope).normalized();
+  return Vector2d(1, -std::abs(worm.p) * half_angle(worm, r).d_r).normalized();
 }
 
 Vector2d worm_fillet_centre(const Design& design, const Toothing& worm, double r_form) {
-  return Vector2d(worm.p * psi(worm, r_form), r_form) + design.worm_fillet * worm_normal(worm, r_form);
+  return Vector2d(std::abs(worm.p) * psi(worm, r_form), r_form) +
+         design.worm_fillet * worm_normal(worm, r_form);
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ double worm_form_radius(const Design& design, const Geometry& g) {
           worm.r_f, " m to the flank, which exists from the base radius on: at least ", worm.r_b - worm.r_f,
           " m");
   // The arc's centre stands at r_f + rho: r + rho n_r(r) = r_f + rho, increasing in r.
-  double low = worm.r_b, high = worm.r_a;
+  double low = std::max(worm.r_b, worm.r_f), high = worm.r_a;
   for (int i = 0; i < 100; ++i) {
     const double r = (low + high) / 2;
     (r + rho * worm_normal(worm, r)[1] < worm.r_f + rho ? low : high) = r;
@@ -51,7 +52,7 @@ Profile worm_profile(const Design& design, const Geometry& geometry) {
           .r_f = worm.r_f,
           .r_form = worm.r_form,
           .r_a = worm.r_a,
-          .half_width = [worm](double r) { return worm.p * psi(worm, r); },
+          .half_width = [worm](double r) { return std::abs(worm.p) * psi(worm, r); },
           .fillet =
               [=](double t) {
                 const double angle = from + t * sweep;

@@ -18,9 +18,12 @@ struct Builder {
   std::vector<Eigen::Vector3d> X;
   std::map<std::array<int, 5>, int> number;
 
+  // A left-handed worm is the image of a right-handed one, its angles changed in sign.
+  int hand() const { return g.design.hand == Hand::left ? -1 : 1; }
+
   int node(const std::array<int, 5>& key, const Polar& x) {
     const auto [at, is_new] = number.try_emplace(key, static_cast<int>(X.size()));
-    const double theta = x.phi + g.geometry.worm.theta_1;
+    const double theta = hand() * x.phi + g.geometry.worm.theta_1;
     if (is_new) X.emplace_back(x.r * std::cos(theta), x.r * std::sin(theta), x.z);
     return at->second;
   }
@@ -52,8 +55,11 @@ int shaft_node(Builder& b, int end, int ring, int column, int row) {
 // Corner order (r, phi, z): node(dr, dphi, dz).
 template <class Node>
 std::vector<mesh::Face> add_cell(Builder& b, Node node) {
-  return add_hex(b.mesh, {node(0, 0, 0), node(1, 0, 0), node(1, 1, 0), node(0, 1, 0), node(0, 0, 1),
-                          node(1, 0, 1), node(1, 1, 1), node(0, 1, 1)});
+  std::array<int, 8> nodes = {node(0, 0, 0), node(1, 0, 0), node(1, 1, 0), node(0, 1, 0),
+                              node(0, 0, 1), node(1, 0, 1), node(1, 1, 1), node(0, 1, 1)};
+  if (b.hand() < 0)
+    for (int corner : {1, 5}) std::swap(nodes[corner], nodes[corner + 2]);
+  return add_hex(b.mesh, nodes);
 }
 
 void add_core(Builder& b) {
@@ -62,6 +68,12 @@ void add_core(Builder& b) {
     for (int k = h.bottom(j); k < h.top(j); ++k)
       for (int row = 0; row < b.g.n.ring; ++row)
         add_cell(b, [&](int dr, int dphi, int dz) { return core_node(b, {k + dz, j + dphi}, row + dr); });
+}
+
+// Threads are numbered counter-clockwise.
+std::string thread_name(const Builder& b, const char* prefix, int thread) {
+  const int z1 = b.g.design.z1;
+  return numbered(prefix, b.hand() > 0 ? thread : (z1 - thread) % z1, z1);
 }
 
 void add_threads(Builder& b) {
@@ -73,9 +85,10 @@ void add_threads(Builder& b) {
         for (int row = 0; row < g.tooth_grid.rows; ++row) {
           const auto faces = add_cell(
               b, [&](int dr, int dphi, int dz) { return tooth_node(b, thread, J + dphi, q + dz, row + dr); });
-          const std::string name = numbered("thread", thread, g.design.z1);
-          if (row >= g.n.fillet && q == -half) add_flank(b.mesh, faces[0], name, "left");
-          if (row >= g.n.fillet && q == half - 1) add_flank(b.mesh, faces[1], name, "right");
+          const std::string name = thread_name(b, "thread", thread);
+          const bool right = b.hand() > 0;
+          if (row >= g.n.fillet && q == -half) add_flank(b.mesh, faces[0], name, right ? "left" : "right");
+          if (row >= g.n.fillet && q == half - 1) add_flank(b.mesh, faces[1], name, right ? "right" : "left");
         }
 }
 
@@ -92,7 +105,7 @@ void add_shaft(Builder& b, int end) {
 
 void add_root(Builder& b, int thread, int node) {
   b.mesh.node_sets["root"].push_back(node);
-  b.mesh.node_sets[numbered("root", thread, b.g.design.z1)].push_back(node);
+  b.mesh.node_sets[thread_name(b, "root", thread)].push_back(node);
 }
 
 void add_root_set(Builder& b) {

@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
+#include "gear/worm/hobbed_wheel.h"
 #include "gear/worm/profiles.h"
+#include "gear/worm/thread_form.h"
 
 namespace elastogear::gear {
 namespace {
@@ -69,6 +71,25 @@ void check_toothing(const Design& d) {
           " m, else tips and roots touch");
 }
 
+void check_forms(const Design& d) {
+  const bool helical = d.wheel_form == WheelForm::helical, throated = d.wheel_form == WheelForm::throated;
+  require(!helical || d.flank == FlankForm::ZI,
+          "wheel_form = helical: an involute wheel runs with form ZI alone; choose cylindrical or throated");
+  require(d.cutter_diameter == 0 || d.flank == FlankForm::ZK, "cutter_diameter = ", d.cutter_diameter,
+          " m: only form ZK has a cutter of finite diameter");
+  require(d.cutter_diameter == 0 || (std::isfinite(d.cutter_diameter) && d.cutter_diameter >= 2 * d.m_n),
+          "cutter_diameter = ", d.cutter_diameter, " m: must be finite and at least two modules, ", 2 * d.m_n,
+          " m");
+  require(d.outside_diameter == 0 || throated, "outside_diameter = ", d.outside_diameter,
+          " m: only a throated wheel has one; choose wheel_form throated or leave it out");
+  require(std::isfinite(d.outside_diameter) && d.outside_diameter >= 0,
+          "outside_diameter = ", d.outside_diameter, " m: must be positive and finite");
+  require(d.hob_oversize == 0 || !helical, "hob_oversize = ", d.hob_oversize,
+          " m: a helical wheel is not hobbed by a worm; choose wheel_form cylindrical or throated");
+  require(std::isfinite(d.hob_oversize) && d.hob_oversize >= 0, "hob_oversize = ", d.hob_oversize,
+          " m: must be finite and at least 0: a hob smaller than the worm cuts away the contact");
+}
+
 double centre_distance(const Design& d, double gamma) {
   return d.m_n / 2 * (d.z1 / std::sin(gamma) + d.z2 / std::cos(gamma));
 }
@@ -84,20 +105,6 @@ double lead_angle(const Design& d) {
     (centre_distance(d, gamma) > d.a ? low : high) = gamma;
   }
   return high;
-}
-
-// `angle` is the helix angle's complement seen by this body: tan(alpha_t) = tan(alpha_n)/sin(angle).
-Toothing toothing(const Design& d, int z, double angle, double s_n) {
-  Toothing t{.z = z};
-  t.r = d.m_n * z / (2 * std::sin(angle));
-  t.r_a = t.r + d.addendum;
-  t.r_f = t.r - d.dedendum;
-  t.alpha_t = std::atan(std::tan(d.alpha_n) / std::sin(angle));
-  t.r_b = t.r * std::cos(t.alpha_t);
-  t.beta_b = std::asin(std::cos(angle) * std::cos(d.alpha_n));
-  t.p = t.r * std::tan(angle);
-  t.psi_b = s_n / (2 * t.r * std::sin(angle)) + involute(t.alpha_t);
-  return t;
 }
 
 // Length of the path of contact from the pitch point to the tip cylinder.
@@ -180,8 +187,11 @@ Geometry pitch_geometry(const Design& d) {
   g.p_bn = pi * d.m_n * std::cos(d.alpha_n);
   g.p_x = pi * d.m_n / std::cos(g.gamma);
   g.ratio = static_cast<double>(d.z2) / d.z1;
-  g.worm = toothing(d, d.z1, g.gamma, g.s_n);
-  g.wheel = toothing(d, d.z2, pi / 2 - g.gamma, g.s_n);
+  g.worm = pitch_toothing(d, d.z1, g.gamma, g.s_n);
+  set_flank_form(d, g.s_n / std::cos(g.gamma), g.worm);
+  g.wheel = pitch_toothing(d, d.z2, pi / 2 - g.gamma, g.s_n);
+  if (d.flank == FlankForm::ZK) g.cutter_diameter = cutter_diameter(d);
+  g.outside_diameter = 2 * g.wheel.r_a;
   g.worm.theta_1 = pi - pi / d.z1;  // a space faces the wheel, at worm local -x
   g.wheel.theta_1 = pi / 2;
   return g;
@@ -207,22 +217,43 @@ void derive_contact(const Design& d, Geometry& g) {
   check_start(d, g.wheel, "wheel");
 }
 
+void derive_helical_wheel(const Design& d, Geometry& g) {
+  check_tip(d, 2 * psi(g.wheel, g.wheel.r_a) * g.wheel.r_a, "wheel");
+  g.wheel.r_form = wheel_form_radius(d, g);
+}
+
+// The image of the drive in the plane z = 0 of the wheel, which changes the sides of the worm alone.
+void mirror(Geometry& g) {
+  g.worm.p = -g.worm.p, g.wheel.p = -g.wheel.p;
+  if (!g.wheel.half_angle) return;
+  g.wheel.half_angle = [right = g.wheel.half_angle](double r, double z) {
+    HalfAngle half = right(r, -z);
+    half.d_z = -half.d_z;
+    return half;
+  };
+}
+
 }  // namespace
 
 Geometry derive(const Design& d) {
   check_positive(d);
   check_toothing(d);
+  check_forms(d);
+  const bool helical = d.wheel_form == WheelForm::helical;
   Geometry g = pitch_geometry(d);
   check_shaft(d, g);
   check_shoulders(d, g);
   check_wheel(d, g);
   check_tip(d, 2 * psi(g.worm, g.worm.r_a) * g.worm.p, "worm");
-  check_tip(d, 2 * psi(g.wheel, g.wheel.r_a) * g.wheel.r_a, "wheel");
-  g.wheel.r_form = wheel_form_radius(d, g);
+  if (helical) derive_helical_wheel(d, g);
   g.worm.r_form = worm_form_radius(d, g);
-  derive_contact(d, g);
+  if (helical)
+    derive_contact(d, g);
+  else
+    derive_hobbed(d, g);
   check_fillet(g.worm, "worm_fillet", d.worm_fillet);
   check_fillet(g.wheel, "wheel_rack_tip", d.wheel_rack_tip);
+  if (d.hand == Hand::left) mirror(g);
   return g;
 }
 
