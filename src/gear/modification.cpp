@@ -114,7 +114,7 @@ void check(const std::string& name, const Toothing& t, const FlankDeviations& de
       check_amounts(name, largest, {{"a height of the topography", value}});
 }
 
-// Eq. (9.9): an index deviation turns the tooth, an eccentricity moves it.
+// Eq. (9.7): an index deviation turns the tooth, an eccentricity moves it.
 double flank_deviation(const Toothing& t, const FlankDeviations& deviations, const Flank& flank,
                        const Eigen::Vector3d& x) {
   const double length = length_of_roll(t, x.head<2>().norm()),

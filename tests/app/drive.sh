@@ -56,6 +56,29 @@ for roll in 0 0.3 0.6 0.9; do
     -static_steps 1 -output worm_$roll.h5
 done
 
+
+# Wheels that the hob leaves: line contact, of either hand.
+cat >left_worm.yaml <<'END'
+drive: worm
+hand: left
+module: 2 mm
+diameter_quotient: 10
+worm: {starts: 3, flank: ZN, file: left_1.h5}
+wheel: {teeth: 41, file: left_2.h5}
+face_width: 14 mm
+torque: 4 N m
+modes: 10
+END
+run reduce left_worm.yaml
+run simulate left_worm.yaml -roll 0.1
+run reduce "$examples/one_start_worm.yaml" -size tiny -worm_file one_1.h5 -wheel_file one_2.h5
+for roll in 0 0.3 0.6 0.9; do
+  rigid=(-roll $roll -worm_rigid true -wheel_rigid true -contact_law unilateral -static_steps 1)
+  run simulate left_worm.yaml "${rigid[@]}" -output left_worm_$roll.h5
+  run simulate "$examples/one_start_worm.yaml" -size tiny "${rigid[@]}" -worm_file one_1.h5 -wheel_file one_2.h5 \
+    -output one_start_worm_$roll.h5
+done
+
 /usr/bin/python3 - <<'END'
 import xml.etree.ElementTree
 
@@ -106,6 +129,18 @@ for roll in (0, 0.3, 0.6, 0.9):
     with h5py.File(f"worm_{roll}.h5") as file:
         errors.append((file["bodies/worm/rigid"][-1, 0] - np.pi * roll) / 20.5 * r_b2)
 assert np.ptp(errors) < 0.2e-6, f"transmission error of a rigid worm drive {errors} m"
+# All flanks of a worm push it along its axis by T/p, and line contact of hob and worm has no transmission error.
+for name, starts, r_2 in (("one_start_worm", 1, 41.2e-3), ("left_worm", 3, 42.8e-3)):
+    errors = []
+    for roll in (0, 0.3, 0.6, 0.9):
+        with h5py.File(f"{name}_{roll}.h5") as file:
+            errors.append((file["bodies/worm/rigid"][-1, 0] - 2 * np.pi * roll / starts) * starts / 41 * r_2)
+    assert np.ptp(errors) < 0.2e-6, f"{name}: transmission error {errors} m"
+    p = 2e-3 * starts / 2 / np.cos(np.arctan(starts / 10))  # m/rad
+    with h5py.File(f"{name}_result.h5") as file:
+        points = file["contact/worm:wheel/points"]
+        force = abs(points["force"][points["offset"][-2]:, 0].sum())
+    assert abs(force * p / 4 - 1) < 5e-3, f"{name}: axial force {force} N, {4 / p} N is right"
 with h5py.File("steering_worm_result.h5") as file:
     points = file["contact/worm:wheel/points"]
     force = np.linalg.norm(points["force"][points["offset"][-2]:], axis=1).sum()
@@ -137,6 +172,9 @@ refused "module = 3 m: .*module: 3 mm" mesh spur.yaml -module 3
 refused "tip_diameter of at most" mesh spur.yaml -wheel_tip_diameter "136.9 mm"
 refused "addendum: has no meaning in drive: cylindrical" mesh spur.yaml -addendum "3 mm"
 refused "helix_angle: has no meaning in drive: worm" mesh "$examples/steering_worm.yaml" -helix_angle 10
+refused "'ZX'" mesh "$examples/one_start_worm.yaml" -worm_flank ZX
+refused "runs with form ZI alone" mesh "$examples/one_start_worm.yaml" -wheel_form helical
+refused "face_width = .* m would do" mesh "$examples/one_start_worm.yaml" -face_width "25 mm"
 refused "is for a drive" mesh part.yaml -helix_angle 10
 refused "is for a single body" reduce spur.yaml -mesh other.msh
 refused "counts are for single bodies" mesh spur.yaml -wheel_count_flank 4

@@ -208,5 +208,54 @@ TEST(HobbedWheel, has_normals_that_are_gradients_of_the_distance) {
     }
 }
 
+TEST(HobbedWheel, is_made_for_worms_of_1_to_6_starts_of_all_forms) {
+  for (FlankForm form : {FlankForm::ZA, FlankForm::ZN, FlankForm::ZI, FlankForm::ZK})
+    for (int starts = 1; starts <= 6; ++starts)
+      expect_good_cells(wheel_mesh(worm_design(form, starts), wheel_counts(Size::tiny)));
+}
+
+// A larger hob has the pitch point, and no other, in common with the worm: it takes more from the rest of the
+// flank.
+TEST(HobbedWheel, of_a_larger_hob_keeps_off_the_worm_but_in_the_middle) {
+  Design d = worm_design(FlankForm::ZN, 2), same = d;
+  d.hob_oversize = 2e-3;
+  const Geometry g = derive(d), g_0 = derive(same);
+  EXPECT_NEAR(psi(g.wheel, g.wheel.r) * g.wheel.r, psi(g_0.wheel, g.wheel.r) * g.wheel.r, 1e-6);
+  EXPECT_GT(g.hob_swivel, 0);
+  for (double z : {-6e-3, 6e-3})
+    EXPECT_LT((psi(g.wheel, g.wheel.r + 0.5e-3, z) - psi(g_0.wheel, g.wheel.r + 0.5e-3, z)) * g.wheel.r,
+              -1e-6);
+}
+
+std::string refusal(const std::function<void(Design&)>& change) {
+  Design d = worm_design(FlankForm::ZK, 2);
+  change(d);
+  try {
+    derive(d);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(HobbedWheel, is_refused_where_it_cannot_be) {
+  const double nan = std::nan("");
+  const std::pair<const char*, std::function<void(Design&)>> cases[] = {
+      {"choose cylindrical or throated", [](Design& d) { d.wheel_form = WheelForm::helical; }},
+      {"cutter_diameter = nan", [=](Design& d) { d.cutter_diameter = nan; }},
+      {"cutter_diameter = 0.001", [](Design& d) { d.cutter_diameter = 1e-3; }},
+      {"only form ZK", [](Design& d) { d.flank = FlankForm::ZN, d.cutter_diameter = 50e-3; }},
+      {"outside_diameter = nan", [=](Design& d) { d.outside_diameter = nan; }},
+      {"at least the throat's", [](Design& d) { d.outside_diameter = 80e-3; }},
+      {"only a throated wheel",
+       [](Design& d) { d.wheel_form = WheelForm::cylindrical, d.outside_diameter = 90e-3; }},
+      {"hob_oversize = nan", [=](Design& d) { d.hob_oversize = nan; }},
+      {"smaller than the worm", [](Design& d) { d.hob_oversize = -1e-3; }},
+      {"would do", [](Design& d) { d.face_width = 40e-3; }},
+      {"wheel_rack_tip = 0.0011 m", [](Design& d) { d.wheel_rack_tip = 1.1e-3; }}};
+  for (const auto& [message, change] : cases)
+    EXPECT_NE(refusal(change).find(message), std::string::npos) << message << ": " << refusal(change);
+}
+
 }  // namespace
 }  // namespace elastogear::gear::hob_test

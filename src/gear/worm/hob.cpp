@@ -25,7 +25,7 @@ struct Place {
 };
 
 // angle: rad about the hob's axis, from the line to the wheel's. The hob's thread moves along its axis; where
-// the normal is at right angles to that motion against the wheel's turning, the point cuts (9.3).
+// the normal is at right angles to that motion against the wheel's turning, the point cuts: Eq. (9.6).
 Place place(const Hob& h, const HobPoint& p, double angle) {
   const Vector3d axis(std::cos(h.sigma), 0, std::sin(h.sigma)), across(-axis[2], 0, axis[0]);
   const double s = std::sin(angle), c = std::cos(angle), pitch = pi * h.thread.p / h.thread.z;

@@ -44,7 +44,7 @@ AxialPoint of_line(const Tool& tool, double half_width, double q) {
 }
 
 // The circle of the cone that reaches down to q: its point whose normal is at right angles to the velocity of
-// the screw, (-y, x, p).
+// the screw, (-y, x, p): Eq. (9.5).
 AxialPoint of_cone(const Tool& tool, double half_width, double q) {
   const Vector3d along(0, tool.cos_gamma, tool.sin_gamma), across(0, -tool.sin_gamma, tool.cos_gamma);
   const double radius = tool.axis - q, eta = half_width + (q - tool.r) * tool.tan_alpha;
