@@ -1,0 +1,206 @@
+#!/usr/bin/python3
+"""Random possible drives of rigid gears, size tiny, over one pitch: unmodified flanks transmit without error.
+
+    studies/random_drives.py --elastogear build/release/src/app/elastogear --out random_drives cylindrical worm
+
+Cylindrical: two external gears of 6 to 120 teeth, helix angle 0 (two of five) to 35 deg, profile shifts -0.5 to 0.8, modules 0.5 to
+10 mm, 4 to 15 modules wide. Possible are pairs that the program accepts with a contact ratio of at least 1.1 and tips of at least 0.2
+modules. Worm: 1 to 6 starts, 20 to 124 teeth, diameter quotient 7 to 14, pressure angle 14 to 25 deg, the same modules.
+
+Each stands at eight roll angles over a pitch under a torque that gives 2 MPa times module and face width as tangential force. Its
+transmission error is how far the first gear is from where exact rigid flanks touch, times its base radius (worm: times z1/z2 and the
+wheel's pitch radius); it holds where that is below 0.2 um at every angle. Refused designs are counted by their reasons; where the
+message names a value that would do, the drive with it must not be refused for that reason again, and 0.1 % beyond it must be.
+"""
+import argparse
+import collections
+import os
+import re
+import shutil
+import time
+
+import numpy as np
+
+from drive_runs import Drive, Refused
+
+LIMIT = 0.2e-6  # m, transmission error
+LOAD = 2e6  # Pa, tangential force over module and face width
+ROLLS = np.arange(8) / 8
+RIGID_BODIES = ["-basis", "full", "-store", "surface"]  # without eigenmodes, which rigid bodies have no use for
+LEAST_CONTACT_RATIO, LEAST_TIP = 1.1, 0.2  # -, modules
+
+
+def cylindrical(random):
+    """Numbers of a drive file, and m that turn rad of the first gear into the transmission error."""
+    m, beta = random.uniform(0.5, 10), 0.0 if random.random() < 0.4 else random.uniform(0, 35)
+    z_1 = 6 + int(60 * random.random() ** 2)
+    z_2 = max(z_1, int(random.uniform(6, 121)))
+    width = random.uniform(4, 15) * m
+    x_1, x_2 = random.uniform(-0.5, 0.8, 2)
+    r_1 = m * z_1 / (2 * np.cos(np.radians(beta)))  # mm
+    alpha_t = np.arctan(np.tan(np.radians(20)) / np.cos(np.radians(beta)))
+    gears = {"pinion": {"teeth": z_1, "profile_shift": x_1, "bore": bore(m, z_1, x_1, beta)},
+             "wheel": {"teeth": z_2, "profile_shift": x_2, "bore": bore(m, z_2, x_2, beta)}}
+    drive = {"drive": "cylindrical", "module": f"{m:.6g} mm", "helix_angle": f"{beta:.6g} deg", "face_width": f"{width:.6g} mm",
+             "torque": f"{LOAD * m * width * r_1 * 1e-9:.6g} N m", **gears}
+    return drive, r_1 * 1e-3 * np.cos(alpha_t), m
+
+
+def bore(m, z, x, beta):
+    """Of a ring 1.5 modules thick under the root, which saves cells; small gears keep more."""
+    root = m * z / np.cos(np.radians(beta)) + 2 * m * (x - 1.25)
+    return f"{max(0.4 * root, root - 3 * m):.6g} mm"
+
+
+def worm(random):
+    m, alpha = random.uniform(0.5, 10), random.uniform(14, 25)
+    z_1 = int(random.uniform(1, 7))
+    z_2 = 4 * z_1 + int(random.uniform(16, 100))
+    q = random.uniform(7, 14)
+    gamma = np.arctan(z_1 / q)
+    r_1, r_2 = m / np.cos(gamma) * q / 2, m / np.cos(gamma) * z_2 / 2
+    drive = {"drive": "worm", "module": f"{m:.6g} mm", "pressure_angle": f"{alpha:.6g} deg", "diameter_quotient": q,
+             "worm": {"starts": z_1}, "wheel": {"teeth": z_2}, "torque": f"{LOAD * 8 * m * m * r_1 * 1e-9:.6g} N m"}
+    return drive, r_2 * 1e-3 * z_1 / z_2, m
+
+
+def text_of(numbers):
+    def value(v):
+        return "{" + ", ".join(f"{k}: {value(w)}" for k, w in v.items()) + "}" if isinstance(v, dict) else str(v)
+    return "".join(f"{key}: {value(v)}\n" for key, v in numbers.items())
+
+
+def drive_of(numbers, options, name):
+    folder = os.path.join(options.out, name)
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    path = os.path.join(folder, "drive.yaml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text_of(numbers))
+    return Drive(options.elastogear, path, folder, ["-size", "tiny"])
+
+
+def possible(facts, m):
+    """Whether a pair that the program accepts counts; of worm drives all do."""
+    ratio = float(re.search(r"contact ratio +([\d.e+-]+)", facts).group(1))
+    tips = [float(tip) for tip in re.findall(r"tip thickness +([\d.e+-]+) mm", facts)]
+    return ratio >= LEAST_CONTACT_RATIO and all(tip >= LEAST_TIP * m for tip in tips)
+
+
+def errors(drive, bodies, radius):
+    """Transmission error at each roll angle, m."""
+    rigid = [word for body in bodies for word in (f"-{body}_rigid", "true")]
+    drive.reduce(*RIGID_BODIES)
+    found = []
+    for roll in ROLLS:
+        state = drive.at(roll, *rigid, "-contact_law", "unilateral", "-static_steps", 1)
+        found.append((state.angle - state.start) * radius)
+    return np.array(found)
+
+
+def reason(message):
+    """What a refusal says, without numbers."""
+    message = message.split("error: ")[-1]
+    return re.sub(r"-?\d[\d.e+-]*", "#", message)
+
+
+def refusal(numbers, options, name):
+    """The program's message; empty for a drive that it accepts."""
+    try:
+        drive_of(numbers, options, name).run("mesh")
+        return ""
+    except Refused as why:
+        return str(why)
+
+
+REMEDIES = ((r"(pinion|wheel):.*tip_diameter (?:of at most|below) ([\d.e+-]+)", +1),)
+
+
+def remedied(numbers, message, options, name):
+    """Whether the value that a message names is the nearest one that would do; None where it names none."""
+    for pattern, beyond in REMEDIES:
+        found = re.search(pattern, message)
+        if not found:
+            continue
+        gear, value = found.group(1), float(found.group(2))
+
+        def again(diameter):
+            changed = {**numbers, gear: {**numbers[gear], "tip_diameter": f"{diameter:.9g} mm"}}
+            return reason(refusal(changed, options, name)) == reason(message)
+        return not again(value * (1 - 1e-6)) and again(value * (1 + 1e-3 * beyond))
+    return None
+
+
+class Tally:
+    def __init__(self):
+        self.held, self.failed, self.refused = 0, [], collections.Counter()
+        self.remedies, self.seconds, self.largest = collections.Counter(), [], []
+
+    def count(self):
+        return self.held + len(self.failed)
+
+
+def try_design(kind, random, number, options, tally):
+    numbers, radius, m = {"cylindrical": cylindrical, "worm": worm}[kind](random)
+    name = f"{kind}_{number}"
+    start = time.monotonic()
+    drive = drive_of(numbers, options, name)
+    try:
+        facts = drive.run("mesh")
+    except Refused as why:
+        tally.refused[reason(str(why))] += 1
+        held = remedied(numbers, str(why), options, name)
+        tally.remedies[held] += 1
+        if held is False:
+            print(f"{name}: the value named does not do, or is not the nearest: {why}\n{text_of(numbers)}", flush=True)
+        shutil.rmtree(drive.folder)
+        return
+    if kind == "cylindrical" and not possible(facts, m):
+        tally.refused["(accepted, but no possible design)"] += 1
+        shutil.rmtree(drive.folder)
+        return
+    try:
+        found = errors(drive, ("pinion" if kind == "cylindrical" else "worm", "wheel"), radius)
+        largest = np.abs(found).max()
+        why = "" if largest < LIMIT else " ".join(f"{1e6 * e:.3f}" for e in found) + " um"
+    except Refused as refused:
+        largest, why = np.nan, str(refused)
+    tally.seconds.append(time.monotonic() - start)
+    tally.largest.append(largest)
+    if why:
+        tally.failed.append(name)
+        print(f"{name}: does not hold: {why}\n{text_of(numbers)}", flush=True)
+    else:
+        tally.held += 1
+        shutil.rmtree(drive.folder)
+    print(f"{name}: {1e6 * largest:.4f} um, {tally.seconds[-1]:.1f} s", flush=True)
+
+
+def report(kind, tally):
+    print(f"{kind}: {tally.held} of {tally.count()} hold; transmission error, median {1e6 * np.nanmedian(tally.largest):.4f} um; "
+          f"{np.median(tally.seconds):.1f} s a design, {max(tally.seconds):.1f} s the longest")
+    print(f"{kind}: refused or passed over: {sum(tally.refused.values())}")
+    for why, count in tally.refused.most_common():
+        print(f"  {count:5d}  {why}")
+    print(f"{kind}: values named in refusals: {tally.remedies[True]} right, {tally.remedies[False]} wrong; "
+          f"{tally.remedies[None]} refusals name none", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("kinds", nargs="+", choices=["cylindrical", "worm"])
+    parser.add_argument("--elastogear", required=True)
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--designs", type=int, default=200, help="possible ones")
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    for kind in options.kinds:
+        random, tally, number = np.random.default_rng(options.seed), Tally(), 0
+        while tally.count() < options.designs:
+            number += 1
+            try_design(kind, random, number, options, tally)
+        report(kind, tally)
+
+
+if __name__ == "__main__":
+    main()
