@@ -20,8 +20,8 @@ def involute(angle):
 class Position:
     """What a result holds at full load. SI units; moments about the axes of the gears.
 
-    start, angle: of the first gear, without loads, where exact rigid flanks touch, and at full load; turned: R, of the held one; torque: of contact on the held one; energy: all that is stored; force:
-    of each point of contact, on the second gear; work: of the loads."""
+    start, angle: of the first gear, without loads, where exact rigid flanks touch, and at full load; turned: R, of the held one;
+    torque: of contact on the held one; energy: all that is stored; points: the contacts; force: the size of each one's."""
 
     def __init__(self, path, torque):
         with results.open_file(path, "result") as file:
@@ -58,6 +58,7 @@ class Drive:
         self.program, self.path, self.folder = os.path.abspath(program), os.path.abspath(path), os.path.abspath(folder)
         self.more = list(more)
         os.makedirs(self.folder, exist_ok=True)
+        self.output = os.path.join(self.folder, "position.out")
 
     def run(self, verb, *options):
         """What the program writes; throws Refused with its error."""
@@ -75,8 +76,7 @@ class Drive:
 
     def at(self, roll, *options):
         """The drive at rest at a roll angle, in pitches of the first gear."""
-        output = os.path.join(self.folder, "position.out")
-        self.run("simulate", "-roll", repr(float(roll)), "-output", output, *options)
-        with results.open_file(output, "result") as file:
+        self.run("simulate", "-roll", repr(float(roll)), "-output", self.output, *options)
+        with results.open_file(self.output, "result") as file:
             torque = [float(f["joint_force"][-1, 0]) for f in file["bodies"].values() if f["joint_force"].shape[1]]
-        return Position(output, torque[0])
+        return Position(self.output, torque[0])

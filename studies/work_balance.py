@@ -17,7 +17,7 @@ import os
 
 import numpy as np
 
-from drive_runs import Drive
+from drive_runs import Drive, Refused
 
 def rates(before, after):
     """Work of T1, work on the held gear and change of the energy between two near positions, J."""
@@ -44,17 +44,28 @@ def print_torque(name, torque, expected):
     print(f"{name}: T2 {expected:.4f} N m expected: mean {error.mean():+.4f} %, {error.min():+.3f} to {error.max():+.3f} %", flush=True)
 
 
+def row_at(drive, roll, step):
+    state = drive.at(roll)
+    row = [roll, state.torque, state.energy, *balance(drive, roll, step)]
+    print("".join(f"{value:13.5g}" for value in row), flush=True)
+    return row
+
+
 def elastic(name, drive, rolls, step):
     print(f"{name}, elastic: roll, T2 (N m), U (J); dU and what is missing, shares of T1 dphi_1, over the step; over half of it")
-    states = [drive.at(roll) for roll in [*rolls, rolls[0] + 1]]
-    rows = np.array([[roll, state.torque, state.energy, *balance(drive, roll, step)] for roll, state in zip(rolls, states)])
-    for row in rows:
-        print("".join(f"{value:13.5g}" for value in row))
-    print_torque(f"{name}, elastic", rows[:, 1], states[0].load * ratio(states[0], states[-1]))
+    first, last = drive.at(rolls[0]), drive.at(rolls[0] + 1)
+    rows = []
+    for roll in rolls:
+        try:
+            rows.append(row_at(drive, roll, step))
+        except Refused as why:
+            print(f"{roll:13.5g} left out: {why}", flush=True)
+    rows = np.array(rows)
+    print_torque(f"{name}, elastic, {len(rows)} of {len(rolls)} positions", rows[:, 1], first.load * ratio(first, last))
     dU, missing, _, missing_half = 100 * np.abs(rows[:, 3:]).max(axis=0)
     print(f"{name}, elastic: dU up to {dU:.3f} %, missing up to {missing:.4f} %, over half the step {missing_half:.4f} % of T1 dphi_1; "
           f"half of the positions {100 * np.median(np.abs(rows[:, 4])):.2g} %", flush=True)
-    return states[0]
+    return first
 
 
 def rigid(name, drive, rolls, bodies):
