@@ -47,9 +47,9 @@ def cylindrical(random):
 
 
 def bore(m, z, x, beta):
-    """Of a ring 1.5 modules thick under the root, which saves cells; small gears keep more."""
+    """Of a ring 1.5 modules thick under the root, which saves cells; at least a tenth of the root diameter."""
     root = m * z / np.cos(np.radians(beta)) + 2 * m * (x - 1.25)
-    return f"{max(0.4 * root, root - 3 * m):.6g} mm"
+    return f"{max(0.1 * root, root - 3 * m):.6g} mm"
 
 
 def worm(random):
@@ -148,6 +148,7 @@ def try_design(kind, random, number, options, tally):
     try:
         facts = drive.run("mesh")
     except Refused as why:
+        print(f"{name}: refused: {why}", flush=True)
         tally.refused[reason(str(why))] += 1
         held = remedied(numbers, str(why), options, name)
         tally.remedies[held] += 1

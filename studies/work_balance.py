@@ -14,6 +14,7 @@ error. What follows `--` goes to reduce and simulate.
 """
 import argparse
 import os
+import sys
 
 import numpy as np
 
@@ -83,10 +84,11 @@ def main():
     parser.add_argument("--out", required=True)
     parser.add_argument("--positions", type=int, default=32)
     parser.add_argument("--step", type=float, default=1 / 256, help="of a pitch")
-    options, more = parser.parse_known_args()
+    end = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
+    options, more = parser.parse_args(sys.argv[1:end]), sys.argv[end + 1:]
     for path in options.drives:
         name = os.path.splitext(os.path.basename(path))[0]
-        drive = Drive(options.elastogear, path, os.path.join(options.out, name), [word for word in more if word != "--"])
+        drive = Drive(options.elastogear, path, os.path.join(options.out, name), more)
         drive.reduce()
         rolls = np.arange(options.positions) / options.positions
         first = elastic(name, drive, rolls, options.step)

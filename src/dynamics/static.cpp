@@ -25,6 +25,7 @@ constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
 constexpr double kJump = 1e-5;          // share of the forces by which contact may jump
+constexpr double kRoundoff = 1e-15;     // of coordinates in rad and m: smaller changes are none
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -139,8 +140,9 @@ double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& 
 
 // Forces of contact have kinks, between which Newton's method may go round without an end; shorter steps end
 // on one. They have small jumps, too, where points of contact come and go: on one of them no state is in
-// balance, and the one beside it is taken.
-double damping(Equilibrium& at, SNESLineSearch search) {
+// balance, and the one beside it is taken. Without load flanks in touch may press on each other by roundoff
+// alone, all of which may stay.
+double damping(Equilibrium& at, SNESLineSearch search, const Eigen::VectorXd& change) {
   constexpr int kPatience = 4, kInVain = 12;  // iterations in which the imbalance has hardly fallen
   constexpr double kHardly = 0.9;
   SNES snes = nullptr;
@@ -154,7 +156,8 @@ double damping(Equilibrium& at, SNESLineSearch search) {
     at.n_in_vain = 0;
   } else {
     ++at.n_in_vain;
-    if (at.n_in_vain >= kInVain) at.problem.slack = kJump;
+    const bool by_roundoff = at.factor == 0 && change.norm() <= kRoundoff;
+    if (at.n_in_vain >= kInVain) at.problem.slack = by_roundoff ? 1 : kJump;
   }
   return at.n_in_vain < kPatience ? 1 : 0.5;
 }
@@ -194,7 +197,7 @@ PetscErrorCode limit(SNESLineSearch search, Vec X, Vec Y, PetscBool* changed, vo
     const ReadView x(X);
     Eigen::VectorXd y = *ReadView(Y);
     if (!y.allFinite()) return;
-    double share = damping(at, search);
+    double share = damping(at, search, y);
     share = std::min(share, kTurn / largest_turn(at.problem.system, y));
     y *= share;
     while (true) {
@@ -268,7 +271,7 @@ bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
   summary.newton_iterations += iterations;
-  if (reason > 0 && at.problem.slack > 0)
+  if (reason > 0 && at.problem.slack == kJump)
     summary.unbalanced = std::max(summary.unbalanced, imbalance(at.problem.residual));
   return reason > 0;
 }
