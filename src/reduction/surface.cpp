@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "elastogear/base/error.h"
 #include "elastogear/fem/element.h"
@@ -31,16 +30,14 @@ Boundary find_boundary(const mesh::Mesh& mesh) {
   return boundary;
 }
 
-// Of the sets of a face the smallest, of equal ones the longest name, of those the first: a worm's single
-// thread is all of its left and right flanks.
+// std::map visits sets alphabetically, so that `<` keeps the first of equal ones.
 void assign_groups(const mesh::Mesh& mesh, Boundary& boundary) {
   for (const auto& [name, faces] : mesh.face_sets)
     for (const Face& face : faces) {
       const auto found = boundary.find(mesh::face_key(face));
       if (found == boundary.end()) continue;
       BoundaryFace& f = found->second;
-      if (f.group && std::pair(f.group_size, name.size()) <= std::pair(faces.size(), f.group->size()))
-        continue;
+      if (f.group && f.group_size <= faces.size()) continue;
       f.group = &name;
       f.group_size = faces.size();
     }

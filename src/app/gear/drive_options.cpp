@@ -24,7 +24,7 @@ struct DriveChoices {
 
 const Rows<DriveChoices> kDriveRows = {
     {"drive", "-", "",
-     "a drive file: cylindrical (spur and helical gears) or worm (a worm and its wheel); its "
+     "a drive file: cylindrical (spur, helical and internal gears) or worm (a worm and its wheel); its "
      "numbers "
      "serve mesh, reduce, simulate and recover"},
     {"gears", &DriveChoices::gears, "-",
