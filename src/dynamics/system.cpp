@@ -25,6 +25,15 @@ void set_norms(Residual& r, std::size_t block, const Terms& terms, const std::ve
   r.norm[block] = norm(sum(terms));
 }
 
+// Modes on which the forces cancel, as out of a plane of symmetry, are in balance when what is left of them is
+// small against those of other bodies.
+void raise_vanishing_scales(Residual& r) {
+  constexpr double kLeast = 1e-3;  // of the largest one
+  double largest = 0;
+  for (Eigen::Index q = 1; q < r.scale.size(); q += 2) largest = std::max(largest, r.scale[q]);
+  for (Eigen::Index q = 1; q < r.scale.size(); q += 2) r.scale[q] = std::max(r.scale[q], kLeast * largest);
+}
+
 // A matrix with further rows of zeros.
 Eigen::MatrixXd extended(const Eigen::MatrixXd& top, Eigen::Index rows) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, top.cols());
@@ -194,6 +203,7 @@ Residual System::residual(const State& x) {
   Residual r{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(n_blocks), Eigen::VectorXd::Zero(n_blocks)};
   const std::vector<MarkerForce> marker_force = at_markers(x);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) balance(b, x, marker_force[b], &r);
+  raise_vanishing_scales(r);
   return r;
 }
 
