@@ -25,13 +25,16 @@ void set_norms(Residual& r, std::size_t block, const Terms& terms, const std::ve
   r.norm[block] = norm(sum(terms));
 }
 
-// Modes on which the forces cancel, as out of a plane of symmetry, are in balance when what is left of them is
-// small against those of other bodies.
+// Coordinates on which the forces cancel, as the angle of an idler between two gears, or modes out of a plane
+// of symmetry, are in balance when what is left is small against the forces on those of other bodies.
 void raise_vanishing_scales(Residual& r) {
   constexpr double kLeast = 1e-3;  // of the largest one
-  double largest = 0;
-  for (Eigen::Index q = 1; q < r.scale.size(); q += 2) largest = std::max(largest, r.scale[q]);
-  for (Eigen::Index q = 1; q < r.scale.size(); q += 2) r.scale[q] = std::max(r.scale[q], kLeast * largest);
+  for (Eigen::Index kind : {0, 1}) {
+    double largest = 0;
+    for (Eigen::Index i = kind; i < r.scale.size(); i += 2) largest = std::max(largest, r.scale[i]);
+    for (Eigen::Index i = kind; i < r.scale.size(); i += 2)
+      r.scale[i] = std::max(r.scale[i], kLeast * largest);
+  }
 }
 
 // A matrix with further rows of zeros.

@@ -219,8 +219,6 @@ Options with_system(Options options, const Drive& drive) {
   options.set_default("contact_surface", "exact");
   // Exact flanks meet where their gap is least, between the nodes of the coarsest mesh.
   if (!options.given("contact_two_pass")) options.set_default("contact_points", "minima");
-  // Iterations start from flanks that just do not touch: roundoff does not decide which of them do.
-  options.set_default("contact_offset", "1e-8");
   options.set_default("analysis", "static");
   options.set_default("output", stem(options) + "_result.h5");
   set_loads(options, drive, options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1);
