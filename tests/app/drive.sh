@@ -57,6 +57,36 @@ for roll in 0 0.3 0.6 0.9; do
 done
 
 
+# An idler between two gears, and a sun that drives its ring by three planets.
+cat >train.yaml <<'END'
+drive: cylindrical
+module: 2 mm
+face_width: 16 mm
+gears: [first, idler, last]
+first: {teeth: 20}
+idler: {teeth: 25}
+last: {teeth: 30}
+torque: 30 N m
+modes: 10
+END
+cat >planets.yaml <<'END'
+drive: cylindrical
+module: 2 mm
+face_width: 16 mm
+gears: [sun, planet_1, planet_2, planet_3, ring]
+sun: {teeth: 20}
+planet_1: {teeth: 25}
+planet_2: {teeth: 25, mate: sun, direction: 120}
+planet_3: {teeth: 25, mate: sun, direction: 240}
+ring: {teeth: 70, internal: true, mate: [planet_1, planet_2, planet_3]}
+torque: 30 N m
+modes: 10
+END
+run reduce train.yaml
+run simulate train.yaml -roll 0.1
+run reduce planets.yaml
+run simulate planets.yaml -roll 0.35
+
 # Wheels that the hob leaves: line contact, of either hand.
 cat >left_worm.yaml <<'END'
 drive: worm
@@ -86,9 +116,9 @@ import h5py
 import numpy as np
 
 
-def sum_of_normal_forces(path):
+def sum_of_normal_forces(path, pair=None):
     with h5py.File(path) as file:
-        points = next(iter(file["contact"].values()))["points"]
+        points = file["contact"][pair or next(iter(file["contact"]))]["points"]
         return np.linalg.norm(points["force"][points["offset"][-2]:], axis=1).sum()
 
 
@@ -105,6 +135,13 @@ for path, *gear in (("spur_result.h5", 3e-3, 17, 300, 0), ("coast.h5", 3e-3, 17,
                     ("internal_result.h5", 2e-3, 21, 60, 0)):
     error = error_of_sum(path, *gear)
     assert abs(error) < 2e-3, f"{path}: sum of normal forces {100 * error:.3f} % off"
+
+r_b = 20e-3 * np.cos(np.radians(20))  # m, of the first gear and of the sun
+for path, *meshes in (("train", ["first:idler"], ["idler:last"]),
+                      ("planets", [f"sun:planet_{i}" for i in (1, 2, 3)], [f"planet_{i}:ring" for i in (1, 2, 3)])):
+    for pairs in meshes:
+        forces = [sum_of_normal_forces(f"{path}_result.h5", pair) for pair in pairs]
+        assert abs(sum(forces) * r_b / 30 - 1) < 2e-3, f"{pairs}: {forces} N, {30 / r_b} N is right"
 
 errors = []  # m along the line of action
 for roll in (0, 0.3, 0.6, 0.9):
