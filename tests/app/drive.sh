@@ -227,6 +227,7 @@ refused "tip_relief_length" mesh spur.yaml -pinion_tip_relief "20 um" -pinion_ti
 refused "tooth 44 is not there" mesh spur.yaml -wheel_pitch_deviation "44, 10 um"
 refused "must be pairs of a tooth" mesh spur.yaml -wheel_pitch_deviation "3"
 refused "must be at most 2 deg" mesh spur.yaml -wheel_skew 3
+refused "needs wheel_bearing_radial, too" simulate spur.yaml -wheel_bearing_axial "50 N/um"
 refused "none.csv: cannot be read" mesh spur.yaml -wheel_topography none.csv
 printf 'diameter,z,height\n0.13,0,1e-6\n0.13,0,2e-6\n' >twice.csv
 refused "twice.csv, line 3: this point of the flank is given twice" mesh spur.yaml -wheel_topography twice.csv

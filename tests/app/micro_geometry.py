@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Micro-geometry and misalignment of a spur drive, and misalignment of a worm drive. Rigid gears under a vanishing torque, against closed forms
+"""Micro-geometry, misalignment and bearings of a spur drive, and misalignment of a worm drive. Rigid gears under a vanishing torque, against closed forms
 and against profiles that are brought into touch in the plane, point by point; elastic gears, against a mesh
 that was made with the modified flanks.
 
@@ -202,6 +202,19 @@ def check_elastic(drive):
     assert abs(drive.transmission_error(0.1, *options) - exact) > UM, "the modifications have no effect"
 
 
+def check_bearings(drive):
+    """Under 300 N m each bearing gives way by the normal force over its stiffness, along the line of action."""
+    stiff = drive.transmission_error(0.1)
+    force = 300 / R_B[0]
+    drive.run("simulate", "drive.yaml", "-roll", "0.1", "-output", "result.h5", "-pinion_bearing_radial",
+              "1000 N/um", "-wheel_bearing_radial", "500 N/um")
+    with h5py.File("result.h5") as file:
+        pinion = file["bodies/pinion/rigid"][-1]
+    near("bearings, transmission error", pinion[5] * R_B[0] - stiff, force / 1e9 + force / 0.5e9, 0.001 * stiff)
+    near("bearings, along the line of action", -pinion[1] / np.cos(ALPHA_W), force / 1e9, 0.001 * stiff)
+    assert abs(pinion[0] / pinion[1] - np.tan(ALPHA_W)) < 0.002, "the pinion's axis leaves the line of action"
+
+
 WORM = """drive: worm
 module: 2 mm
 centre_distance: 50 mm
@@ -243,4 +256,5 @@ if __name__ == "__main__":
         check_misalignment(d)
         check_profiles(d)
         check_elastic(d)
+        check_bearings(d)
         check_worm(d)

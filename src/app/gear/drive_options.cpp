@@ -1,8 +1,6 @@
 #include "app/gear/drive_options.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "app/console/console.h"
@@ -12,7 +10,6 @@
 #include "app/gear/modification_options.h"
 #include "app/gear/worm_options.h"
 #include "elastogear/base/error.h"
-#include "elastogear/base/rotation.h"
 
 namespace elastogear::app {
 namespace {
@@ -52,26 +49,6 @@ constexpr const char* kShared[] = {"size",     "module",    "pressure_angle", "c
 // Options of reduce that a drive sets itself for each gear.
 const std::vector<std::string> kOfDrive = {"mesh", "unit",          "output", "stiffness",
                                            "mass", "matrix_format", "dofs",   "nodes"};
-
-std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
-std::string triple(const Eigen::Vector3d& v) {
-  return digits(v[0]) + "," + digits(v[1]) + "," + digits(v[2]);
-}
-
-// The file's name without its end.
-std::string stem(const Options& options) {
-  return options.files().empty() ? "drive" : std::filesystem::path(options.files()[0]).stem().string();
-}
-
-std::string body_file(const Options& options, const DriveMember& member) {
-  const std::string option = member.name + "_file";
-  return options.given(option) ? options.text(option) : member.name + ".h5";
-}
 
 bool any_material(const Options& options) {
   const auto all = options.given_to_verb();
@@ -116,41 +93,12 @@ void refuse_others(const Options& options) {
             "; docs/drives.md lists its keys");
 }
 
-// With the joint's coordinate at the member's angle, or, held there, turned by it.
-void place(Options& options, const DriveMember& member, bool held) {
-  const Eigen::Matrix3d R = rotation_matrix(member.rotation);
-  const Eigen::Matrix3d turned = held ? Eigen::Matrix3d(R * rotation_matrix({0, 0, member.angle})) : R;
-  options.set_default(member.name + "_position", triple(member.position));
-  const Eigen::AngleAxisd rotation(turned);
-  options.set_default(member.name + "_rotation", triple(rotation.angle() * rotation.axis()));
-  options.set_default(member.name + "_joint", held ? "fixed" : "revolute");
-  if (held) return;
-  options.set_default(member.name + "_axis", "0,0,1");
-  options.set_default(member.name + "_angle0", digits(member.angle));
-}
-
-void set_loads(Options& options, const Drive& drive, double sense) {
-  const bool moves = options.text("analysis") == "dynamic";
-  const double torque = sense * options.number("torque"), speed = sense * options.number("speed");
-  const bool loaded = torque != 0 || options.given("loads") || options.given("gravity") ||
-                      !options.placeholder_values("<body>_torque").empty();
-  require(moves || loaded, "option -torque is missing: on the first gear, as in 'torque: 300 N m'");
-  for (const DriveMember& member : drive.members) {
-    const bool first = &member == &drive.members.front(), last = &member == &drive.members.back();
-    const bool held = last && !first && !moves;
-    place(options, member, held);
-    if (first) options.set_default(member.name + "_torque", digits(torque));
-    if (last && !first && moves) options.set_default(member.name + "_torque", digits(-torque / member.ratio));
-    if (moves && speed != 0) options.set_default(member.name + "_omega0", digits(speed * member.ratio));
-  }
-}
-
 }  // namespace
 
 OptionTable drive_table() {
   OptionTable table = table_of(kDriveRows);
   for (const OptionTable& more :
-       {cylindrical_table(), worm_table(), modification_table(), misalignment_table()})
+       {cylindrical_table(), worm_table(), modification_table(), misalignment_table(), bearing_table()})
     table.insert(table.end(), more.begin(), more.end());
   return table;
 }
@@ -164,6 +112,15 @@ OptionTable whole_drive_table() {
     table.push_back(spec);
   }
   return table;
+}
+
+std::string drive_stem(const Options& options) {
+  return options.files().empty() ? "drive" : std::filesystem::path(options.files()[0]).stem().string();
+}
+
+std::string body_file(const Options& options, const DriveMember& member) {
+  const std::string option = member.name + "_file";
+  return options.given(option) ? options.text(option) : member.name + ".h5";
 }
 
 bool is_drive(const Options& options) { return options.given("drive"); }
@@ -205,29 +162,9 @@ Options member_options(const Options& options, const DriveMember& member) {
   return own;
 }
 
-Options with_system(Options options, const Drive& drive) {
-  std::string bodies, pairs;
-  for (const DriveMember& member : drive.members) {
-    bodies += (bodies.empty() ? "" : ",") + member.name;
-    options.set_default(member.name + "_file", body_file(options, member));
-  }
-  for (const DrivePair& pair : drive.pairs)
-    pairs +=
-        (pairs.empty() ? "" : ",") + drive.members[pair.first].name + ":" + drive.members[pair.second].name;
-  options.set_default("bodies", bodies);
-  options.set_default("contact_pairs", pairs);
-  options.set_default("contact_surface", "exact");
-  // Exact flanks meet where their gap is least, between the nodes of the coarsest mesh.
-  if (!options.given("contact_two_pass")) options.set_default("contact_points", "minima");
-  options.set_default("analysis", "static");
-  options.set_default("output", stem(options) + "_result.h5");
-  set_loads(options, drive, options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1);
-  return options;
-}
-
 Options with_recovery(Options options, const Drive& drive) {
-  options.set_default("result", stem(options) + "_result.h5");
-  options.set_default("output", stem(options) + "_stress.h5");
+  options.set_default("result", drive_stem(options) + "_result.h5");
+  options.set_default("output", drive_stem(options) + "_stress.h5");
   const bool chosen = !options.placeholder_values("stress_<body>").empty();
   for (const DriveMember& member : drive.members)
     if (!chosen) options.set_default("stress_" + member.name, "root");
@@ -235,7 +172,7 @@ Options with_recovery(Options options, const Drive& drive) {
 }
 
 std::string drawing_file(const Options& options) {
-  return options.given("drawing") ? options.text("drawing") : stem(options) + ".svg";
+  return options.given("drawing") ? options.text("drawing") : drive_stem(options) + ".svg";
 }
 
 void print_drive(const Drive& drive) {

@@ -12,6 +12,14 @@ OptionTable drive_table();
 /// The same with those of gear data that drives share: for verbs that have none of their own.
 OptionTable whole_drive_table();
 
+/// The rows of bearings.
+OptionTable bearing_table();
+
+/// The drive file's name without its end.
+std::string drive_stem(const Options& options);
+/// The member's body file.
+std::string body_file(const Options& options, const DriveMember& member);
+
 /// Is this the run of a drive file?
 bool is_drive(const Options& options);
 
@@ -24,7 +32,8 @@ Drive read_drive(const Options& options);
 /// Options of a member for `reduce`: its section, then what the drive says where nothing is given.
 Options member_options(const Options& options, const DriveMember& member);
 
-/// Options with bodies, places, joints, loads, contact and files of the drive where nothing is given.
+/// Options with bodies, places, joints, bearings, loads, contact and files of the drive where nothing is
+/// given.
 Options with_system(Options options, const Drive& drive);
 
 /// Options with result, stress file and stresses at the roots of all members where nothing is given.

@@ -326,6 +326,11 @@ void Options::set_default(const std::string& name, const std::string& value) {
   given_.try_emplace(name, value);
 }
 
+void Options::append(const std::string& name, const std::string& word) {
+  std::string& words = given_[name];
+  words += (words.empty() ? "" : ",") + word;
+}
+
 int Options::choice(const std::string& name, const std::vector<std::string>& allowed) const {
   const std::string value = text(name);
   const auto found = std::find(allowed.begin(), allowed.end(), value);

@@ -66,6 +66,9 @@ class Options {
   /// Takes this value where none is given.
   void set_default(const std::string& name, const std::string& value);
 
+  /// Adds a word to the list that an option holds.
+  void append(const std::string& name, const std::string& word);
+
   /// Everything in force, defaults included, and the versions of the program and its libraries.
   std::map<std::string, std::string> provenance() const;
   /// Is this key, `given` or not, one of another verb alone?
