@@ -94,10 +94,11 @@ std::vector<PlaneSection> sections(const std::function<Profile(double)>& profile
 Sector sector(const Toothing& toothing, std::vector<PlaneSection> sections, const Blank& blank,
               const WheelCounts& n) {
   Sector s{.tooth_grid = sections[0].grid,
-           .sections = std::move(sections),
+           .sections = {},
            .radius = {blank.end_diameter() / 2},
            .half_width = {},
            .z = plane_positions(blank, n)};
+  s.sections = std::move(sections);
   s.half_pitch = std::numbers::pi / toothing.z;
   s.internal = toothing.internal;
   if (blank.has_web()) {
