@@ -103,7 +103,7 @@ run reduce left_worm.yaml
 run simulate left_worm.yaml -roll 0.1
 run reduce "$examples/one_start_worm.yaml" -size tiny -worm_file one_1.h5 -wheel_file one_2.h5
 for roll in 0 0.3 0.6 0.9; do
-  rigid=(-roll $roll -worm_rigid true -wheel_rigid true -contact_law unilateral -static_steps 1)
+  rigid=(-roll "$roll" -worm_rigid true -wheel_rigid true -contact_law unilateral -static_steps 1)
   run simulate left_worm.yaml "${rigid[@]}" -output left_worm_$roll.h5
   run simulate "$examples/one_start_worm.yaml" -size tiny "${rigid[@]}" -worm_file one_1.h5 -wheel_file one_2.h5 \
     -output one_start_worm_$roll.h5
