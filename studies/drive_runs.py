@@ -20,7 +20,7 @@ def involute(angle):
 class Position:
     """What a result holds at full load. SI units; moments about the axes of the gears.
 
-    start, angle: of the first gear, without loads, where exact rigid flanks touch, and at full load; turned: R, of the held one;
+    start, angle: of the first gear, where exact rigid flanks touch, and at full load; turned: R, of the held one;
     torque: of contact on the held one; energy: all that is stored; points: the contacts; force: the size of each one's."""
 
     def __init__(self, path, torque):
@@ -31,7 +31,8 @@ class Position:
             self.first, self.second = self.pair_name.split(":")
             first, second = (file[f"bodies/{body}"] for body in (self.first, self.second))
             self.load = torque
-            self.start, self.angle = first["rigid"][[0, -1], 0]
+            self.start = float(file["provenance"].attrs[f"option_{self.first}_angle0"])
+            self.angle = first["rigid"][-1, 0]
             self.turned = second["rotation"][-1]
             self.axis = self.turned @ np.array([0.0, 0, 1])
             moment = pair["torque"][-1] - np.cross(second["position"][-1], pair["force"][-1])
