@@ -158,7 +158,8 @@ TEST_P(HobbedWheel, is_meshed_on_its_exact_flanks_with_good_cells) {
   }
 }
 
-// Of the worm's flank to the teeth, which are turned until they touch: in line contact, at any angle.
+// The gap between the worm's flank and the wheel's teeth, turned until they touch, is 0 at any angle in line
+// contact.
 TEST_P(HobbedWheel, turns_with_the_worm_without_transmission_error) {
   const Design d = design(GetParam());
   const Geometry g = derive(d);

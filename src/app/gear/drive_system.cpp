@@ -61,7 +61,7 @@ std::optional<Bearing> bearing(const Options& options, const DriveMember& member
   return b;
 }
 
-// What becomes of one member: how it is held, and what drives it.
+// A gear of the drive in one run: whether it is held, and its torque and speed.
 struct Part {
   const DriveMember& member;
   bool held = false;   // at rest

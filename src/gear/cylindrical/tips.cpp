@@ -59,7 +59,7 @@ TipPath path_in(const CylindricalDrive& d, const CylindricalGeometry& g, int own
                   p.j_n / std::cos(g.gear[own].beta_b));
 }
 
-// What is left of the tips of an internal gear when neither they nor those of its mates cut.
+// Shortens tips of internal gears until neither they nor those of their mates cut.
 void shorten_to_spare_tips(const CylindricalDrive& d, CylindricalGeometry& g) {
   for_mates(d, g, [&](int own, int mate, const PairGeometry& p) {
     Toothing& ring = g.gear[own];

@@ -50,8 +50,8 @@ double hob_radius(const Hob& h, double r, double z) {
   return bracketed_zero([&](double at) { return cut(h, flank_point(h, at), z).r - r; }, low, high);
 }
 
-// What is wrong with the left flank in the plane z; empty: nothing. On a flank without undercut the wheel's
-// radius falls from the tip to the root as the hob's grows.
+// The reason why the wheel has no sound left flank in the plane z; empty where it has. On a flank without
+// undercut the wheel's radius falls from the tip to the root as the hob's grows.
 std::string fault(const Design& d, const Hob& h, double z) {
   if (std::abs(z) >= 0.98 * h.thread.r_form) return "the hob does not reach that far";
   const HobbedSection s = hobbed_section(h, z);
