@@ -144,6 +144,22 @@ TEST(GapMinima, there_is_one_on_either_side_of_a_valley_of_the_deformed_master) 
   }
 }
 
+// Flat squares of 2 x 2 faces, the slave beyond the master's end by a share of a face.
+TEST(GapMinima, nodes_at_ends_that_are_nearly_aligned_touch) {
+  for (const auto& [share, nodes] : {std::pair(0.0, 9), {5e-3, 9}, {2e-2, 6}}) {
+    const model::Surface square =
+        test::grid(2, 2, [](double u, double v) { return Vector3d(u - 0.5, v - 0.5, 0); });
+    Two t{square, square, {}, {}};
+    t.a = {square.X, Vector3d(share * 0.5, 0, -1e-4),
+           Eigen::AngleAxisd(test::pi, Vector3d::UnitX()).toRotationMatrix()};
+    t.b = {square.X, Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+    Pair pair(square, square, minima());
+    std::vector<ContactPoint> points = found(pair, t, false);
+    std::erase_if(points, [](const ContactPoint& c) { return c.slave_side != 0; });
+    EXPECT_EQ(points.size(), std::size_t(nodes)) << share;
+  }
+}
+
 // The smallest gap over points of all slave faces, each against all faces of the master.
 double smallest_gap(const Two& t, int per_side) {
   const auto smooth = [](const model::Surface& s, const Topology& map) {
