@@ -292,8 +292,10 @@ bool Pair::Data::is_left_to_slave(int tried, const SurfaceView& other, const Pro
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0),
                     surface = tracker.view(1 - slave_side, settings.extension);
-  const MasterSide master{surface, side[1 - slave_side].heights, radians(settings.feature_angle),
-                          settings.points == SlavePoints::nodes};
+  const bool at_minima = settings.points == SlavePoints::minima;
+  const Heights& heights = side[1 - slave_side].heights;
+  const MasterSide master{surface, heights, radians(settings.feature_angle), !at_minima,
+                          at_minima && !heights.empty()};
   const Neighbours& near = tracker.near(slave_side);
   std::map<int, NodeGap> gaps;
   history[slave_side].open.clear();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/forces/force_direction.h"
 #include "contact/forces/tangent.h"
 #include "elastogear/base/rotation.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kBeyond = 0.25;  // of local coordinates, that a face may be extended over a smooth edge
-constexpr int kNewtonSteps = 8;
 // A point may lie beside the face that it was on by this share of the face until it leaves it.
 constexpr double kKept = 5e-5;
 
@@ -32,34 +31,12 @@ ContactPoint geometry(const SurfaceView& master, const Projection& w) {
   return contact;
 }
 
-// The closest point on the face extended over its sides; nothing when there is none near.
-std::optional<Projection> extended(const Face& face, const Vector3d& q, Projection w) {
-  const Eigen::Vector2d start(w.point.u, w.point.v);
-  Eigen::Vector2d at = start;
-  for (int step = 0; step < kNewtonSteps; ++step) {
-    const Shape s = shape(face.sides, at[0], at[1]);
-    Eigen::Matrix<double, 3, 2> a;
-    a << combine(face, s.N_u), combine(face, s.N_v);
-    const Vector3d d = q - combine(face, s.N);
-    Eigen::Matrix2d A = a.transpose() * a;
-    A(0, 1) -= d.dot(combine(face, s.N_uv));
-    A(1, 0) = A(0, 1);
-    at += A.inverse() * (a.transpose() * d);
-    if (!((at - start).cwiseAbs().maxCoeff() <= kBeyond)) return {};
-  }
-  const Shape s = shape(face.sides, at[0], at[1]);
-  w.point = {Feature::face, 0, at[0], at[1], s.N, combine(face, s.N), 0};
-  w.n = normal(face, at[0], at[1]);
-  w.g_n = w.n.dot(q - w.point.x);
-  return w;
-}
-
 Projection smooth_projection(const MasterSide& master, const Projection& w, const Vector3d& q) {
   const bool on_face = w.point.feature == Feature::face;
   if (master.heights.empty() || on_face) return w;
   const Face face = face_of(master.surface, w.face);
   if (normal(face, w.point.u, w.point.v).dot(w.n) < std::cos(master.feature_angle)) return w;
-  return extended(face, q, w).value_or(w);
+  return extended_projection(face, q, w).value_or(w);
 }
 
 // A function of (u, v) restricted to the directions in which the closest point can move.
@@ -136,7 +113,7 @@ Projection kept_projection(const MasterSide& master, const Projection& now, cons
   if (nearest.feature == Feature::outside || n.dot(now.n) < std::cos(master.feature_angle)) return now;
   if (nearest.feature == Feature::face)  // of both, as above a concave edge
     return now.point.N.minCoeff() < kKept ? Projection{before, nearest, n, n.dot(x - nearest.x)} : now;
-  const auto kept = extended(face, x, {before, nearest, {}, 0});
+  const auto kept = extended_projection(face, x, {before, nearest, {}, 0});
   return kept && kept->point.N.minCoeff() > -kKept ? *kept : now;
 }
 
@@ -181,6 +158,11 @@ OpenPoint open_point(const MasterSide& master, const Projection& projection, con
   const Face face = face_of(master.surface, w.face);
   open.kinematics = projection_kinematics(face, w, x);
   open.gap = gap(open.kinematics, height_at(master, face, w), offset, fade_at(master, face, w));
+  if (!master.blends || w.point.feature != Feature::face) return open;
+  const ForceDirection gradient{open.gap.n, open.gap.n_x.leftCols<3>()};
+  const ForceDirection direction = force_direction(master, w, x, gradient, open.kinematics.D.leftCols<3>());
+  open.gap.direction = direction.n;
+  open.gap.direction_x += (direction.n_q - gradient.n_q) * spread(1, -w.point.N);
   return open;
 }
 

@@ -1,18 +1,10 @@
 #pragma once
 // From a slave node's projection to its contact point: gap, force, tangent.
 
+#include "contact/forces/force_direction.h"
 #include "contact/forces/law.h"
-#include "contact/projection/heights.h"
 
 namespace elastogear::contact {
-
-/// The data of the master surface that a pass needs beside the projection.
-struct MasterSide {
-  const SurfaceView& surface;
-  const Heights& heights;
-  double feature_angle = 0;  ///< rad
-  bool fades = true;         ///< do forces fade out over the extensions?
-};
 
 bool on_extension(const Projection& projection);
 

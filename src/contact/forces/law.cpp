@@ -131,10 +131,10 @@ Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& g
 // df = f_x dx + f_v dv
 Varying force(const Gap& gap, const Parts& parts) {
   const Friction& friction = parts.friction;
-  const Vector3d per_p = gap.n - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
+  const Vector3d per_p = gap.direction - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
   Varying f;
-  f.value = parts.p * (gap.n - parts.mu * friction.direction);
-  f.x = per_p * parts.p_x + parts.p * gap.n_x - friction.K * parts.motion.x;
+  f.value = parts.p * (gap.direction - parts.mu * friction.direction);
+  f.x = per_p * parts.p_x + parts.p * gap.direction_x - friction.K * parts.motion.x;
   f.v = per_p * parts.p_v - friction.K * parts.motion.v;
   return f;
 }
@@ -173,7 +173,7 @@ void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, Conta
 void set_unilateral(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                     const Parts& parts, ContactPoint& contact) {
   const bool follows_p = law.v_0 > 0;  // what sticks has a tangential force of its own
-  const Vector3d per_p = gap.n - (follows_p ? parts.mu : 0.0) * parts.friction.direction;
+  const Vector3d per_p = gap.direction - (follows_p ? parts.mu : 0.0) * parts.friction.direction;
   contact.c = unilateral_compliance(law, gap.fade.f);
   const LocalRow g_x = -contact.c * parts.p_x, faded = g_x - gap.g_x;
   contact.F_p = (kinematics.G.transpose() * per_p + faded.transpose()).reshaped(3, 5);
@@ -284,6 +284,8 @@ Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, doub
   Gap result;
   static_cast<GapBy<15>&>(result) = smooth_gap<15>(kinematics, height, offset);
   result.fade = fade;
+  result.direction = result.n;
+  result.direction_x = result.n_x;
   result.g_x = result.n.transpose() * kinematics.G;
   return result;
 }
@@ -300,7 +302,7 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
   const Varying f = force(gap, all);
   contact.p = all.p;
   contact.g_n = gap.g;
-  contact.n = gap.n.normalized();
+  contact.n = gap.direction.normalized();
   contact.f = f.value;
   contact.F = (kinematics.G.transpose() * f.value).reshaped(3, 5);
   contact.slip = all.slip.value;

@@ -98,6 +98,8 @@ struct GapBy {
 struct Gap : GapBy<15> {
   LocalRow g_x;  ///< n' G
   FaceFunction fade{1};
+  Eigen::Vector3d direction;  ///< of the force: n, or a blend of it with that of the faces beside
+  Local3 direction_x;
 };
 /// Gap to the smooth surface and its gradient: Eq. (6.19).
 Gap gap(const ProjectionKinematics& kinematics, const FaceFunction& height, double offset,

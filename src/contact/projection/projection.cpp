@@ -134,6 +134,29 @@ std::optional<Projection> walk_to_projection(const SurfaceView& master, const Ei
   return make_projection(master, x, best);
 }
 
+std::optional<Projection> extended_projection(const Face& face, const Eigen::Vector3d& q, Projection w) {
+  constexpr double kBeyond = 0.25;  // of local coordinates
+  constexpr int kNewtonSteps = 8;
+  const Eigen::Vector2d start(w.point.u, w.point.v);
+  Eigen::Vector2d at = start;
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    const Shape s = shape(face.sides, at[0], at[1]);
+    Eigen::Matrix<double, 3, 2> a;
+    a << combine(face, s.N_u), combine(face, s.N_v);
+    const Eigen::Vector3d d = q - combine(face, s.N);
+    Eigen::Matrix2d A = a.transpose() * a;
+    A(0, 1) -= d.dot(combine(face, s.N_uv));
+    A(1, 0) = A(0, 1);
+    at += A.inverse() * (a.transpose() * d);
+    if (!((at - start).cwiseAbs().maxCoeff() <= kBeyond)) return {};
+  }
+  const Shape s = shape(face.sides, at[0], at[1]);
+  w.point = {Feature::face, 0, at[0], at[1], s.N, combine(face, s.N), 0};
+  w.n = normal(face, at[0], at[1]);
+  w.g_n = w.n.dot(q - w.point.x);
+  return w;
+}
+
 Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Move& move,
                   std::span<const int> faces) {
   const auto [reach, limit, around] = move;

@@ -44,6 +44,10 @@ struct Projection {
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
                                           const Limits& limits, std::span<const int> faces, int likely = -1);
 
+/// The foot point of q (m) on the face extended over its sides by at most a quarter of its length, from w on
+/// it; nothing when there is none.
+std::optional<Projection> extended_projection(const Face& face, const Eigen::Vector3d& q, Projection w);
+
 struct Approach {
   double clearance = 0;     ///< m: before moving by as much the node cannot touch
   std::vector<int> faces;   ///< ascending: those that can be the nearest until it has moved by the limit
