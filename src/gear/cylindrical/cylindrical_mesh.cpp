@@ -22,25 +22,14 @@ Profile tooth_profile(const CylindricalDrive& d, const CylindricalGeometry& g, i
                             : generated_profile(generating_rack(d, g, i), g.gear[i], r_inner);
 }
 
-namespace {
+namespace {}  // namespace
 
-// Is the gear driven by one that is not?
-bool is_driven(const CylindricalDrive& d, int i) {
-  for (const GearPair& pair : d.pairs)
-    if (pair.second == i) return !is_driven(d, pair.first);
-  return false;
-}
-
-}  // namespace
-
-// Mates get one layer more or less, so that planes of nodes hardly ever meet planes of nodes: a node that
-// stands on an edge of its mate is pushed along the normals of two faces by turns.
 WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeometry& g, int i, Size size) {
   constexpr double kWidth = 8;  // modules, which the layers of a size are for
   WheelCounts n = wheel_counts(size);
   const Blank& b = g.blank[i];
   const double total = (n.web_layers + 2 * n.face_layers) * b.face_width / (kWidth * d.m_n);
-  const int layers = std::max(2, static_cast<int>(std::lround(total))) + is_driven(d, i);
+  const int layers = std::max(2, static_cast<int>(std::lround(total)));
   const double column = std::numbers::pi * g.gear[i].r / (g.gear[i].z * (n.space + 0.5 * n.tooth));
   const auto rows = [&](double outer, double inner) {
     constexpr double kSlender = 3;  // columns that a row may be high
