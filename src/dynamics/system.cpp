@@ -118,13 +118,28 @@ bool System::solver_is_exact() const {
 
 body::Motion System::motion(std::size_t b, const State& x) const { return dynamics::motion(model_, b, x); }
 
+body::Motion System::sliding_motion(std::size_t b, const State& x) const {
+  body::Motion m = motion(b, x);
+  if (sliding_.empty()) return m;
+  m.s_dot = sliding_[b];
+  m.q_dot.setZero();
+  return m;
+}
+
+void System::set_sliding(std::vector<Eigen::VectorXd> rates) {
+  sliding_ = std::move(rates);
+  contact_->forget();
+}
+
+void System::turn_bushing(std::size_t i, double angle) { model_.marker_forces.turn_unloaded(i, angle); }
+
 std::vector<MovingBody> System::moving_bodies(const State& x) const {
   return dynamics::moving_bodies(model_, x);
 }
 
 contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstVector U,
                                               ConstVector V) const {
-  const body::Motion m = motion(b, {time, U, V, V});
+  const body::Motion m = sliding_motion(b, {time, U, V, V});
   const auto [r_WB, R_WB] = body::placement(model_.bodies[b].eq.joint, m.s);
   const body::FrameMotion frame = body::frame_motion(model_.bodies[b].eq, m);
   return {m.q, r_WB, R_WB, m.q_dot, frame.v, frame.w};
@@ -233,10 +248,12 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     const body::Equations& eq = model_.bodies[b].eq;
     const body::Motion m = motion(b, x);
     const std::vector<int>& node = contact.force[b].node;
-    const body::JointMotion joint{m.s, m.s_dot, m.s_ddot};
+    const body::Motion slides = sliding_motion(b, x);
+    const body::JointMotion joint{slides.s, slides.s_dot, slides.s_ddot};
     const body::FrameDerivative d = body::frame_derivative(eq.joint, eq.H, joint, shift);
     twists.push_back({eq.H, body::MotionSubspace(6, eq.n_s()),
-                      velocity_twists(eq.joint, eq.H, joint, shift.v), body::frame_motion(eq, m).w, shift.v});
+                      velocity_twists(eq.joint, eq.H, joint, shift.v), body::frame_motion(eq, slides).w,
+                      shift.v});
     twists.back().P << d.r, d.theta;
     matrix.body.push_back(body_terms(body::tangent(eq, m, gravity(model_.environment, x.time), shift),
                                      model_.marker_forces.row_count(b), node));

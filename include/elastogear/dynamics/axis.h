@@ -32,7 +32,7 @@ struct Drive {
     speed,    ///< s_0 + v t
     spin_up,  ///< from rest to v within a duration T: s' = v (t/T - sin(2 pi t/T)/(2 pi)), then v
     table,    ///< natural cubic spline through times and values
-    still,    ///< s_0 + v t, taken as if at rest: for equilibria, where t is no time
+    still,    ///< s_0 + v (t - duration) from then on, as if at rest: for equilibria, where t is no time
   };
   Type type = Type::speed;
   double s_0 = 0, v = 0, duration = 0;  ///< m or rad, per s, s
@@ -41,7 +41,7 @@ struct Drive {
 
 Drive speed_drive(double s_0, double v);
 Drive spin_up_drive(double s_0, double v, double duration);
-Drive still_drive(double s_0, double v);
+Drive still_drive(double s_0, double v, double start = 0);
 /// Throws Error unless there are at least two ascending times and all is finite.
 Drive table_drive(std::vector<double> time, std::vector<double> value);
 

@@ -77,6 +77,8 @@ class MarkerForces {
 
   /// Makes the present positions those at which bushings are unloaded.
   void set_unloaded(const std::vector<MovingBody>& bodies);
+  /// Turns the second marker's unloaded orientation by an angle (rad) about z of the bushing's axes.
+  void turn_unloaded(std::size_t bushing, double angle);
   /// Generalised forces of all loads and bushings, one per body.
   std::vector<MarkerForce> forces(double time, const std::vector<MovingBody>& bodies) const;
   /// Adds their tangent to A, which holds that of contact, if any.

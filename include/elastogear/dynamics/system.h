@@ -48,7 +48,12 @@ class System {
   /// Motion of a body, prescribed coordinates included.
   body::Motion motion(std::size_t b, const State& x) const;
   std::vector<MovingBody> moving_bodies(const State& x) const;
+  /// With the velocities that contact sees: those of the state, or prescribed ones.
   contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U, ConstVector V) const;
+  /// Prescribes the rates of all joint coordinates (n_s each, by body; docs/theory.md, section 8.6) with
+  /// which surfaces slide on each other, whatever V is, as of slow motion through equilibria; those of
+  /// elastic coordinates are zero then. All other forces take V.
+  void set_sliding(std::vector<Eigen::VectorXd> rates);
   /// Placement and contacts; kept, so that a second call with equal time, U and V costs nothing.
   const ContactState& contacts(double time, ConstVector U, ConstVector V);
   /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
@@ -90,6 +95,8 @@ class System {
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);
   /// Load, friction and, where the motion is prescribed, the force that it takes: n_s, N or N m.
   Eigen::VectorXd joint_force(std::size_t b, const State& x);
+  /// Turns what the second end of a bushing is unloaded at, by this angle (rad) about z of the axes.
+  void turn_bushing(std::size_t i, double angle);
   /// Makes the present orientations those from which local rotation vectors count, and sets these to zero in
   /// U. True when a joint has one.
   bool rebase(Eigen::Ref<Eigen::VectorXd> U);
@@ -97,12 +104,15 @@ class System {
   void serialize(Archive& archive);
 
  private:
+  /// Motion of a body as contact sees it.
+  body::Motion sliding_motion(std::size_t b, const State& x) const;
   /// Generalised forces of all loads and bushings, one entry per body.
   std::vector<MarkerForce> at_markers(const State& x) const;
   /// Sum and norms of a body's terms: [F_s (n_s); F_q].
   body::Force balance(std::size_t b, const State& x, const MarkerForce& marker_force, Residual* r);
 
   SystemModel model_;
+  std::vector<Eigen::VectorXd> sliding_ = {};  // rates of joint coordinates, by body; empty: those of V
   std::unique_ptr<SystemContact> contact_;
 };
 

@@ -65,6 +65,7 @@ std::optional<Bearing> bearing(const Options& options, const DriveMember& member
 struct Part {
   const DriveMember& member;
   bool held = false;   // at rest
+  bool led = false;    // from position to position
   double torque = 0;   // N m, about its axis
   double omega_0 = 0;  // rad/s
 };
@@ -76,10 +77,12 @@ Eigen::Matrix3d turned(const DriveMember& member) {
 // The axis stands fast. With the joint's coordinate at the member's angle, or, held there, turned by it.
 void set_joint(Options& options, const Part& part) {
   const std::string& name = part.member.name;
-  options.set_default(name + "_joint", part.held ? "fixed" : "revolute");
+  const bool fixed = part.held && !part.led;
+  options.set_default(name + "_joint", fixed ? "fixed" : "revolute");
   options.set_default(name + "_rotation",
-                      part.held ? rotation_vector(turned(part.member)) : triple(part.member.rotation));
-  if (part.held) return;
+                      fixed ? rotation_vector(turned(part.member)) : triple(part.member.rotation));
+  if (fixed) return;
+  if (part.led) options.set_default(name + "_rotation_motion", "speed,0");
   options.set_default(name + "_axis", "0,0,1");
   options.set_default(name + "_angle0", digits(part.member.angle));
   if (part.torque != 0) options.set_default(name + "_torque", digits(part.torque));
@@ -90,7 +93,7 @@ void set_joint(Options& options, const Part& part) {
 // which the whole torque of the drive turns it by kTurn.
 void set_bearing(Options& options, const Part& part, const Bearing& b, double torque) {
   constexpr double kTurn = 1e-8;  // rad
-  const std::string &name = part.member.name, bushing = "bearing_of_" + name, load = "torque_of_" + name;
+  const std::string &name = part.member.name, bushing = bearing_name(part.member), load = "torque_of_" + name;
   options.set_default(name + "_joint", "free");
   options.set_default(name + "_rotation", rotation_vector(turned(part.member)));
   if (part.omega_0 != 0) options.set_default(name + "_omega0", triple({0, 0, part.omega_0}));
@@ -108,14 +111,14 @@ void set_bearing(Options& options, const Part& part, const Bearing& b, double to
 }
 
 void set_parts(Options& options, const Drive& drive, double sense) {
-  const bool moves = options.text("analysis") == "dynamic";
+  const bool moves = options.text("analysis") == "dynamic", sweeps = options.text("analysis") == "sweep";
   const double torque = sense * options.number("torque"), speed = sense * options.number("speed");
   const bool loaded = torque != 0 || options.given("loads") || options.given("gravity") ||
                       !options.placeholder_values("<body>_torque").empty();
   require(moves || loaded, "option -torque is missing: on the first gear, as in 'torque: 300 N m'");
   for (const DriveMember& member : drive.members) {
     const bool first = &member == &drive.members.front(), last = &member == &drive.members.back();
-    Part part{member, last && !first && !moves};
+    Part part{member, last && !first && !moves, last && !first && sweeps};
     if (first) part.torque = torque;
     if (last && !first && moves) part.torque = -torque / member.ratio;
     if (moves) part.omega_0 = speed * member.ratio;
@@ -126,6 +129,8 @@ void set_parts(Options& options, const Drive& drive, double sense) {
 }
 
 }  // namespace
+
+std::string bearing_name(const DriveMember& member) { return "bearing_of_" + member.name; }
 
 OptionTable bearing_table() { return table_of(kBearingRows); }
 

@@ -322,6 +322,11 @@ Options Options::of_section(const std::string& section, const std::vector<std::s
   return options;
 }
 
+void Options::set(const std::string& name, const std::string& value) {
+  given_[name] = value;
+  place_.erase(name);
+}
+
 void Options::set_default(const std::string& name, const std::string& value) {
   given_.try_emplace(name, value);
 }

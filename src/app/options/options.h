@@ -63,6 +63,8 @@ class Options {
   /// The same with the keys of a section, "pinion_modes", in place of the verb's own ones, "modes", but for
   /// `excluded` ones.
   Options of_section(const std::string& section, const std::vector<std::string>& excluded) const;
+  /// Takes this value, in the unit that the option has, whatever is given.
+  void set(const std::string& name, const std::string& value);
   /// Takes this value where none is given.
   void set_default(const std::string& name, const std::string& value);
 

@@ -139,8 +139,7 @@ OptionTable body_table() {
   return table;
 }
 
-dynamics::BodySetup body_setup(const Options& options, const std::string& name,
-                               std::map<std::string, std::string>& identities) {
+dynamics::BodySetup body_setup(const Options& options, const std::string& name, KnownBodies& known) {
   Setup setup;
   setup.name = name;
   read_rows(options, kBodyRows, setup, name);
@@ -152,10 +151,14 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name,
   set_initial_state(options, setup);
   set_drive(options, name + "_rotation_motion", setup.rotation);
   set_drive(options, name + "_translation_motion", setup.translation);
-  model::ElasticBody body = read_or_make_body(options, name, identities[name]);
-  change_body(options, name, body);
-  setup.true_surface = true_surface(options, name, body.surface);
-  setup.body = std::make_shared<model::ElasticBody>(std::move(body));
+  KnownBody& own = known[name];
+  if (!own.body) {
+    model::ElasticBody body = read_or_make_body(options, name, own.identity);
+    change_body(options, name, body);
+    own.body = std::make_shared<model::ElasticBody>(std::move(body));
+  }
+  setup.body = own.body;
+  setup.true_surface = true_surface(options, name, setup.body->surface);
   check_free_body(setup);
   return setup;
 }

@@ -2,6 +2,7 @@
 // The bodies of simulate: where they come from, their joints, initial states, loads and prescribed motions.
 
 #include <map>
+#include <memory>
 #include <string>
 
 #include "app/options/options.h"
@@ -12,8 +13,14 @@ namespace elastogear::app {
 /// Rows of the option table of simulate.
 OptionTable body_table();
 
-/// The body of this name. Enters into `identities` what its file holds, whatever options leave out of it.
-dynamics::BodySetup body_setup(const Options& options, const std::string& name,
-                               std::map<std::string, std::string>& identities);
+/// Bodies that have been read or made, by name, and what their files hold, whatever options leave out of it.
+struct KnownBody {
+  std::shared_ptr<const model::ElasticBody> body = nullptr;
+  std::string identity = {};  ///< empty: there is no file
+};
+using KnownBodies = std::map<std::string, KnownBody>;
+
+/// The setup of the body of this name, which is read unless it is known.
+dynamics::BodySetup body_setup(const Options& options, const std::string& name, KnownBodies& known);
 
 }  // namespace elastogear::app

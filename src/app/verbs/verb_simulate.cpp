@@ -10,6 +10,9 @@
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "app/resumable_run.h"
+#include "app/sweep/sweep_options.h"
+#include "app/sweep/sweep_run.h"
+#include "app/system_setup.h"
 #include "app/tables/body_options.h"
 #include "app/tables/contact_options.h"
 #include "app/tables/initial_state.h"
@@ -23,7 +26,7 @@
 namespace elastogear::app {
 namespace {
 
-enum class Analysis { dynamic, equilibrium, relax };
+enum class Analysis { dynamic, equilibrium, relax, sweep };
 
 struct AnalysisSettings {
   Analysis kind = Analysis::dynamic;
@@ -32,18 +35,16 @@ struct AnalysisSettings {
 
 using dynamics::Environment, dynamics::TimeSettings;
 
-const Rows<Environment> kEnvironmentRows = {
-    {"gravity", &Environment::gravity, "m/s^2", "acceleration of gravity in the world"},
-    {"inertia", &Environment::inertia, body::inertia_level_names(),
-     "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "
-     "its best affine field), or full (needs bodies reduced with -invariants full)"},
-};
-
 const Rows<AnalysisSettings> kAnalysisRows = {
-    {"analysis", &AnalysisSettings::kind, one_of("dynamic", "static", "relax"),
+    {"analysis", &AnalysisSettings::kind, one_of("dynamic", "static", "relax", "sweep"),
      "dynamic; static: equilibrium, the loads grow in static_steps steps (time in the result: load factor); "
-     "or relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests"},
-    {"static_steps", &AnalysisSettings::static_steps, "-", "load steps of a static analysis", kPositive},
+     "relax: motion with velocities set to zero at each peak of the kinetic energy, until all rests; or "
+     "sweep: equilibria of a drive at many roll angles (time in the result: pitches), with sweep_..., "
+     "torques "
+     "and variants"},
+    {"static_steps", &AnalysisSettings::static_steps, "-",
+     "load steps of a static analysis; sweep: at its first position (default: 10; sweep: 1)",
+     kPositive | kDependent},
 };
 
 const Rows<TimeSettings> kTimeRows = {
@@ -68,8 +69,8 @@ const Rows<TimeSettings> kTimeRows = {
 OptionTable simulate_table() {
   OptionTable all = body_table();
   for (const OptionTable& part :
-       {table_of(kEnvironmentRows, kAnalysisRows, kTimeRows), output_table(), contact_table(),
-        initial_state_table(), resumable_run_table(), marker_table(), whole_drive_table()})
+       {environment_table(), table_of(kAnalysisRows, kTimeRows), sweep_table(), output_table(),
+        contact_table(), initial_state_table(), resumable_run_table(), marker_table(), whole_drive_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -138,13 +139,12 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
 }
 
 // Load steps in place of time steps.
-void make_static(const Options& options, std::vector<dynamics::BodySetup>& bodies,
-                 dynamics::MarkerSetups& markers, Environment& surroundings) {
+void make_static(const Options& options, SystemSetup& system) {
   constexpr double kLastValue = std::numeric_limits<double>::infinity();
   const double time = options.given("ts_max_time") ? options.positive("ts_max_time") : kLastValue;
-  for (dynamics::BodySetup& setup : bodies) dynamics::scale_by_load_factor(setup, time);
-  dynamics::scale_by_load_factor(markers, time);
-  dynamics::scale_by_load_factor(surroundings);
+  for (dynamics::BodySetup& setup : system.bodies) dynamics::scale_by_load_factor(setup, time);
+  dynamics::scale_by_load_factor(system.markers, time);
+  dynamics::scale_by_load_factor(system.environment);
 }
 
 std::string step_text(const dynamics::StepInfo& step) {
@@ -177,24 +177,6 @@ dynamics::Computation computation(const Options& options, dynamics::System& syst
   };
 }
 
-std::string points_text(const contact::Settings& settings) {
-  if (settings.points == contact::SlavePoints::faces) return "over faces";
-  if (settings.points == contact::SlavePoints::minima) return "where gaps are least";
-  return settings.two_pass ? "at nodes of both bodies" : "at nodes";
-}
-
-model::ResultHeader header(const Options& options, const dynamics::System& system,
-                           const std::map<std::string, std::string>& identities) {
-  model::ResultHeader header = result_header(system.model());
-  for (auto& body : header.bodies) {
-    const std::string file = body.name + "_file";
-    body.file = options.given(file) ? options.text(file) : "";
-  }
-  header.provenance = options.provenance();
-  add_inputs(options, identities, header.provenance);
-  return header;
-}
-
 // A drive file says what bodies there are and where.
 Options of_system(const Options& given) {
   const Options options = with_gears(given);
@@ -205,32 +187,20 @@ Options of_system(const Options& given) {
 }
 
 void run_simulate(const Options& given, const std::vector<std::string>&) {
+  if (analysis(given) == Analysis::sweep) return run_sweep(given);
   const Options options = of_system(given);
-  const std::vector<std::string> names = options.list("bodies");
-  require(!names.empty(), "option -bodies is missing: names of the bodies");
   options.reject_unknown(simulate_names(options));
   const std::string output = options.text("output");
   protect_inputs(options, {{"output", {output}}, {"sensor_csv", sensor_tables(options)}});
   const OutputLock lock(output);
   if (analysis(options) != Analysis::equilibrium) time_settings(options);
-  const std::vector<dynamics::PairSetup> pairs = pair_setups(options, names);
-  Environment surroundings;
-  read_rows(options, kEnvironmentRows, surroundings);
-  dynamics::MarkerSetups markers = marker_setups(options);
-  std::vector<dynamics::BodySetup> bodies;
-  std::map<std::string, std::string> identities;
-  for (const std::string& name : names) bodies.push_back(body_setup(options, name, identities));
-  require_state_is_used(options, bodies);
-  if (analysis(options) == Analysis::equilibrium) make_static(options, bodies, markers, surroundings);
+  KnownBodies known;
+  SystemSetup setup = system_setup(options, known);
+  if (analysis(options) == Analysis::equilibrium) make_static(options, setup);
 
-  dynamics::System system(bodies, pairs, surroundings, markers);
-  const model::ResultHeader head = header(options, system, identities);
-  for (std::size_t p = 0; p < head.pairs.size(); ++p) {
-    const dynamics::PairSetup& pair = system.pairs()[p];
-    print_item("law of contact",
-               head.pairs[p].law + ", " + points_text(pair.settings) + " (" + pair.name + ")");
-    warn_of_facets(options, pair, names);
-  }
+  dynamics::System system(setup.bodies, setup.pairs, setup.environment, setup.markers);
+  const model::ResultHeader head = result_header(options, system.model(), known);
+  print_laws(options, system.model());
   print_summary(options, keep(options, head, computation(options, system)));
   write_sensor_tables(options, head);
 }

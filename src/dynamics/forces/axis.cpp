@@ -93,7 +93,9 @@ Drive speed_drive(double s_0, double v) {
   return {Drive::Type::speed, s_0, v, 0, {}, {}, {}};
 }
 
-Drive still_drive(double s_0, double v) { return {Drive::Type::still, s_0, v, 0, {}, {}, {}}; }
+Drive still_drive(double s_0, double v, double start) {
+  return {Drive::Type::still, s_0, v, start, {}, {}, {}};
+}
 
 Drive spin_up_drive(double s_0, double v, double duration) {
   require(std::isfinite(s_0) && std::isfinite(v), "prescribed start ", s_0, " and speed ", v,
@@ -117,7 +119,7 @@ Prescribed at(const Drive& drive, double t) {
     case Drive::Type::table:
       return on_spline(drive, t);
     case Drive::Type::still:
-      return {drive.s_0 + drive.v * t, 0, 0};
+      return {drive.s_0 + drive.v * std::max(0.0, t - drive.duration), 0, 0};
   }
   fail("unknown type of drive");
 }

@@ -137,6 +137,10 @@ MatrixXd MarkerForces::columns(std::size_t b) const {
   return all;
 }
 
+void MarkerForces::turn_unloaded(std::size_t bushing, double angle) {
+  bushing_[bushing].A_2 *= rotation_matrix({0, 0, -angle});
+}
+
 void MarkerForces::set_unloaded(const std::vector<MovingBody>& bodies) {
   bushing_.clear();
   for (std::size_t i = 0; i < bushing_at_.size(); ++i) {

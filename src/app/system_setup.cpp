@@ -1,0 +1,68 @@
+#include "app/system_setup.h"
+
+#include "app/console/console.h"
+#include "app/options/rows.h"
+#include "app/resumable_run.h"
+#include "app/tables/contact_options.h"
+#include "app/tables/initial_state.h"
+#include "app/tables/marker_options.h"
+#include "elastogear/base/error.h"
+
+namespace elastogear::app {
+namespace {
+
+using dynamics::Environment;
+
+const Rows<Environment> kEnvironmentRows = {
+    {"gravity", &Environment::gravity, "m/s^2", "acceleration of gravity in the world"},
+    {"inertia", &Environment::inertia, body::inertia_level_names(),
+     "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "
+     "its best affine field), or full (needs bodies reduced with -invariants full)"},
+};
+
+std::string points_text(const contact::Settings& settings) {
+  if (settings.points == contact::SlavePoints::faces) return "over faces";
+  if (settings.points == contact::SlavePoints::minima) return "where gaps are least";
+  return settings.two_pass ? "at nodes of both bodies" : "at nodes";
+}
+
+}  // namespace
+
+OptionTable environment_table() { return table_of(kEnvironmentRows); }
+
+SystemSetup system_setup(const Options& options, KnownBodies& known) {
+  const std::vector<std::string> names = options.list("bodies");
+  require(!names.empty(), "option -bodies is missing: names of the bodies");
+  SystemSetup setup;
+  setup.pairs = pair_setups(options, names);
+  read_rows(options, kEnvironmentRows, setup.environment);
+  setup.markers = marker_setups(options);
+  for (const std::string& name : names) setup.bodies.push_back(body_setup(options, name, known));
+  require_state_is_used(options, setup.bodies);
+  return setup;
+}
+
+model::ResultHeader result_header(const Options& options, const dynamics::SystemModel& system,
+                                  const KnownBodies& known) {
+  model::ResultHeader header = dynamics::result_header(system);
+  for (auto& body : header.bodies) {
+    const std::string file = body.name + "_file";
+    body.file = options.given(file) ? options.text(file) : "";
+  }
+  header.provenance = options.provenance();
+  std::map<std::string, std::string> identities;
+  for (const auto& [name, body] : known) identities[name] = body.identity;
+  add_inputs(options, identities, header.provenance);
+  return header;
+}
+
+void print_laws(const Options& options, const dynamics::SystemModel& system) {
+  for (const dynamics::PairSetup& pair : system.pairs) {
+    const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
+    print_item("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +
+                                     points_text(pair.settings) + " (" + pair.name + ")");
+    warn_of_facets(options, pair, options.list("bodies"));
+  }
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,32 @@
+#pragma once
+// What a simulated system is made of, from the options of simulate.
+
+#include <vector>
+
+#include "app/options/options.h"
+#include "app/tables/body_options.h"
+#include "elastogear/dynamics/system.h"
+
+namespace elastogear::app {
+
+/// Rows for what surrounds the bodies.
+OptionTable environment_table();
+
+struct SystemSetup {
+  std::vector<dynamics::BodySetup> bodies;
+  std::vector<dynamics::PairSetup> pairs;
+  dynamics::Environment environment;
+  dynamics::MarkerSetups markers;
+};
+
+/// The system that the options describe; bodies that are not known yet are read.
+SystemSetup system_setup(const Options& options, KnownBodies& known);
+
+/// The header of its result file, with files of the bodies and provenance.
+model::ResultHeader result_header(const Options& options, const dynamics::SystemModel& system,
+                                  const KnownBodies& known);
+
+/// Prints the law of each pair, and warns of options without effect on it.
+void print_laws(const Options& options, const dynamics::SystemModel& system);
+
+}  // namespace elastogear::app
