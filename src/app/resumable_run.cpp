@@ -34,9 +34,10 @@ void listen_for_stop() {
 std::vector<std::string> files_in(const Options& options, const std::string& key, const std::string& value) {
   const auto table = value.find("table,");
   if (table != std::string::npos) return {value.substr(table + 6)};
-  if (key == "option_output_times") return {value};
+  if (key == "option_output_times" || key == "option_variants") return {value};
   const bool names_files =
-      key.starts_with("option_") && (key.ends_with("_flanks") || key.ends_with("_deviation"));
+      key.starts_with("option_") &&
+      (key.ends_with("_flanks") || key.ends_with("_deviation") || key.ends_with("_topography"));
   return names_files ? options.list(key.substr(7)) : std::vector<std::string>{};
 }
 
@@ -75,18 +76,23 @@ void add_inputs(const Options& options, const std::map<std::string, std::string>
     }
 }
 
-dynamics::RunSummary keep(const Options& options, const model::ResultHeader& header,
-                          const dynamics::Computation& computation) {
+dynamics::ResumableSettings resumable_settings(const Options& options, const std::string& output) {
   ResumableSettings settings;
-  settings.output = options.text("output");
+  settings.output = output;
   read_rows(options, kRows, settings);
   settings.has_effect = [&options](const std::string& key) { return has_effect(options, key); };
+  settings.stop_cause = [] { return stop_signal == 0 ? "" : "signal " + std::to_string(int(stop_signal)); };
+  listen_for_stop();
+  return settings;
+}
+
+dynamics::RunSummary keep(const Options& options, const model::ResultHeader& header,
+                          const dynamics::Computation& computation) {
+  ResumableSettings settings = resumable_settings(options, options.text("output"));
   settings.on_resume = [](double time, const std::string& differences) {
     if (!differences.empty()) print_item("warning", "continues a run with other input: " + differences);
     print_item("continued after", with_unit(time, "s"));
   };
-  settings.stop_cause = [] { return stop_signal == 0 ? "" : "signal " + std::to_string(int(stop_signal)); };
-  listen_for_stop();
   return dynamics::resumable_run(settings, header, computation);
 }
 

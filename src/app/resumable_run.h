@@ -17,8 +17,11 @@ OptionTable resumable_run_table();
 void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance);
 
-/// Runs and writes -output by dynamics::resumable_run, and says where an earlier run goes on. SIGTERM and
-/// SIGINT stop the run, a second one ends the program.
+/// What the options say of a run that writes `output`: how it goes on and what stops it. SIGTERM and SIGINT
+/// stop the run from now on, a second one ends the program.
+dynamics::ResumableSettings resumable_settings(const Options& options, const std::string& output);
+
+/// Runs and writes -output by dynamics::resumable_run, and says where an earlier run goes on.
 dynamics::RunSummary keep(const Options& options, const model::ResultHeader& header,
                           const dynamics::Computation& computation);
 

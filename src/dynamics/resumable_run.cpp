@@ -9,25 +9,6 @@ namespace {
 
 constexpr std::string_view kOption = "option_";  // beginning of the keys of options in the provenance
 
-// "ts_dt 2e-07 (was 1e-07)", one for each key with an effect that differs.
-std::string differences(const ResumableSettings& settings, const std::map<std::string, std::string>& now,
-                        const std::map<std::string, std::string>& then) {
-  std::string text;
-  const auto value = [](const auto& map, const std::string& key) {
-    const auto found = map.find(key);
-    return found == map.end() ? std::string("not given") : found->second;
-  };
-  std::map<std::string, std::string> all = now;
-  all.insert(then.begin(), then.end());
-  for (const auto& [key, unused] : all) {
-    const std::string a = value(now, key), b = value(then, key);
-    if (a == b || (settings.has_effect && !settings.has_effect(key))) continue;
-    const std::string name = key.starts_with(kOption) ? key.substr(kOption.size()) : key;
-    text += (text.empty() ? "" : ", ") + name + " " + a + " (was " + b + ")";
-  }
-  return text;
-}
-
 std::optional<io::UnfinishedRun> earlier_run(const ResumableSettings& settings,
                                              const model::ResultHeader& header) {
   if (settings.resume == Resume::discard) return {};
@@ -90,6 +71,23 @@ RunSummary write_run(Writing& run, const Computation& computation, const Checkpo
 }
 
 }  // namespace
+
+std::string differences(const ResumableSettings& settings, const Provenance& now, const Provenance& then) {
+  std::string text;
+  const auto value = [](const auto& map, const std::string& key) {
+    const auto found = map.find(key);
+    return found == map.end() ? std::string("not given") : found->second;
+  };
+  Provenance all = now;
+  all.insert(then.begin(), then.end());
+  for (const auto& [key, unused] : all) {
+    const std::string a = value(now, key), b = value(then, key);
+    if (a == b || (settings.has_effect && !settings.has_effect(key))) continue;
+    const std::string name = key.starts_with(kOption) ? key.substr(kOption.size()) : key;
+    text += (text.empty() ? "" : ", ") + name + " " + a + " (was " + b + ")";
+  }
+  return text;
+}
 
 RunSummary resumable_run(const ResumableSettings& settings, const model::ResultHeader& header,
                          const Computation& computation) {

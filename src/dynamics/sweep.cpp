@@ -17,7 +17,8 @@ namespace {
 
 // Times of a system that sweeps: loads grow until 1, positions follow from there.
 constexpr double kLoaded = 1;
-constexpr int kMostWarmIterations = 60;  // from one position to the next
+constexpr int kMostToGoOn = 60;   // from one position to the next
+constexpr int kMostToLoad = 120;  // in a load step
 constexpr double kLastValue = std::numeric_limits<double>::infinity();
 
 bool turns(const BodySetup& setup) {
@@ -80,10 +81,19 @@ struct Sweep {
   Eigen::VectorXd U = {};  // the last equilibrium
 };
 
+// The option -snes_max_it wins.
+void limit_iterations(const Sweep& sweep, int most) {
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, "-snes_max_it", &given));
+  if (given) return;
+  check(SNESSetTolerances(sweep.snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, most, -1));
+}
+
 // Finds the equilibrium at the first position; Error where there is none.
 void load(Sweep& sweep, int steps, RunSummary& summary) {
   require_bodies_apart(sweep.system);
   LoadPath path(sweep.system, steps);
+  limit_iterations(sweep, kMostToLoad);
   while (path.reached < 1) advance(sweep.at, sweep.snes, path, summary);
   sweep.U = path.good;
 }
@@ -107,7 +117,7 @@ bool go_on(Sweep& sweep, double position, RunSummary& summary) {
   const double by = position - sweep.position;
   for (std::size_t i = 0; i < sweep.motion.bushing_rate.size(); ++i)
     sweep.system.turn_bushing(i, sweep.motion.bushing_rate[i] * by);
-  check(SNESSetTolerances(sweep.snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, kMostWarmIterations, -1));
+  limit_iterations(sweep, kMostToGoOn);
   sweep.at.factor = kLoaded + position - sweep.first;
   const UniqueVec U = vector(turned_on(sweep, by));
   if (!find_equilibrium(sweep.at, sweep.snes, U, summary)) return false;

@@ -3,6 +3,7 @@
 // a step that cannot be solved it leaves what it has.
 
 #include <functional>
+#include <map>
 #include <string>
 
 #include "elastogear/dynamics/simulate.h"
@@ -29,6 +30,10 @@ struct ResumableSettings {
 
 /// Observes all output times, from the start or from a checkpoint on: simulate() or solve_static().
 using Computation = std::function<RunSummary(const Observer& observer, const Checkpoints& checkpoints)>;
+
+using Provenance = std::map<std::string, std::string>;
+/// "ts_dt 2e-07 (was 1e-07)", one for each key with an effect that differs; empty: two runs have equal input.
+std::string differences(const ResumableSettings& settings, const Provenance& now, const Provenance& then);
 
 /// Computes a run and writes its result. Error when an unfinished run with other input is there, or when the
 /// run does not reach its end; what it has is in the file then. WriteFailure when the file cannot be written;

@@ -33,6 +33,8 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 // A line of progress stands on the terminal, without an end.
 std::atomic<bool> line_is_open = false;
 
+bool is_silent = false;
+
 // Clears a line of progress that is still open, so that the next text begins a line.
 void clear_line() {
   if (line_is_open.exchange(false)) std::fputs("\r\033[K", stderr);
@@ -109,11 +111,14 @@ Progress console_progress(std::function<std::string()> detail) {
 }
 
 void print_item(const std::string& name, const std::string& text) {
-  if (world_rank() > 0) return;
+  if (is_silent || world_rank() > 0) return;
   clear_line();
   std::printf("  %-30s %s\n", name.c_str(), text.c_str());
   std::fflush(stdout);  // a killed run has said it
 }
+
+Silence::Silence(bool silent) : before_(is_silent) { is_silent = is_silent || silent; }
+Silence::~Silence() { is_silent = before_; }
 
 std::string with_unit(double value, const std::string& unit) {
   char text[64];

@@ -15,6 +15,17 @@ Progress console_progress(std::function<std::string()> detail = {});
 
 /// "  name ............ text"
 void print_item(const std::string& name, const std::string& text);
+/// While it lives print_item is silent.
+class Silence {
+ public:
+  explicit Silence(bool silent = true);
+  ~Silence();
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  bool before_;
+};
 /// Number with unit in about four significant digits.
 std::string with_unit(double value, const std::string& unit);
 /// The same of a length in m, in mm.

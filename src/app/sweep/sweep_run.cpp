@@ -1,46 +1,270 @@
 #include "app/sweep/sweep_run.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/gear/drive_options.h"
 #include "app/resumable_run.h"
+#include "app/sweep/sweep_cases.h"
 #include "app/sweep/sweep_options.h"
+#include "app/sweep/sweep_results.h"
+#include "app/sweep/work_queue.h"
 #include "app/tables/marker_options.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/base/petsc.h"
 
 namespace elastogear::app {
+namespace {
 
-void run_sweep(const Options& given) {
-  require(is_drive(given), given.label("analysis"),
-          " = sweep: is for drives; name one by 'drive: cylindrical' ", "or 'drive: worm'");
-  const Options with_names = with_gears(given);
-  Options at_zero = with_names;
-  at_zero.set("roll", "0");
-  const Drive drive = read_drive(at_zero);
-  print_drive(drive);
-  const Options options = with_system(with_names, drive);
-  options.reject_unknown(simulate_names(options));
-  const std::string output = options.text("output");
-  protect_inputs(options, {{"output", {output}}});
-  const OutputLock lock(output);
-  KnownBodies known;
-  const SystemSetup setup = system_setup(options, known);
-  const dynamics::SlowMotion motion = slow_motion(options, drive, setup);
+namespace fs = std::filesystem;
+
+// A drive with values of its own, ready to be swept.
+struct PreparedCase {
+  Options options;
+  dynamics::SlowMotion motion;
+  model::ResultHeader header;
+};
+
+// A sweep as the options ask for it.
+struct SweepJob {
+  Options options;  // of the drive, with the names of its gears
+  SweepCases cases;
+  std::vector<double> positions;
+  std::string output;  // a file, or a folder for several cases
+  UnitStore store;
+  KnownBodies known = {};
+
+  std::vector<SweepUnit> units() const { return sweep_units(cases.cases.size(), positions.size()); }
+  std::string file(std::size_t number) const;
+};
+
+std::string SweepJob::file(std::size_t number) const {
+  if (!cases.several) return output;
+  char name[32];
+  std::snprintf(name, sizeof name, "case_%04zu.h5", number + 1);
+  return (fs::path(output) / name).string();
+}
+
+int rank() {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+
+Drive drive_at_zero(Options options) {
+  options.set("roll", "0");
+  return read_drive(options);
+}
+
+PreparedCase prepare(SweepJob& job, std::size_t number) {
+  const Options own = of_case(job.options, job.cases, job.cases.cases[number]);
+  const Drive drive = drive_at_zero(own);
+  PreparedCase prepared{with_system(own, drive), {}, {}};
+  prepared.motion = slow_motion(prepared.options, drive, system_setup(prepared.options, job.known));
+  const dynamics::SlowMotion& motion = prepared.motion;
   const auto model =
       dynamics::make_system_model(motion.bodies, motion.pairs, motion.environment, motion.markers);
-  print_laws(options, model);
-  dynamics::SweepSettings settings{.positions = sweep_positions(options, drive)};
-  dynamics::SweepSummary summary;
-  keep(options, result_header(options, model, known),
-       [&](const dynamics::Observer& observer, const dynamics::Checkpoints& checkpoints) {
-         summary = dynamics::sweep(motion, settings, observer, console_progress(), checkpoints.stop);
-         return summary.run;
-       });
-  for (const dynamics::MissingPosition& missing : summary.missing)
-    print_item("warning", "no equilibrium at roll " + with_unit(missing.position, "") + missing.why);
+  prepared.header = result_header(prepared.options, model, job.known);
+  if (number == 0) print_laws(prepared.options, model);
+  return prepared;
+}
+
+// Values that no drive can have are found before anything is computed.
+void check_cases(const SweepJob& job) {
+  const Silence silence;
+  for (const SweepCase& one : job.cases.cases) {
+    const Variant& variant = job.cases.variants[static_cast<std::size_t>(one.variant)];
+    try {
+      const Options own = of_case(job.options, job.cases, one);
+      with_system(own, drive_at_zero(own));
+    } catch (const Error& error) {
+      fail(variant.name.empty() ? "" : "variant '" + variant.name + "': ", error.what());
+    }
+  }
+}
+
+SweepJob make_job(const Options& given) {
+  require(is_drive(given), given.label("analysis"),
+          " = sweep: is for drives; name the kind by 'drive: cylindrical' or 'drive: worm'");
+  const Options options = with_gears(given);
+  SweepCases cases = sweep_cases(options);
+  const Options first = of_case(options, cases, cases.cases.front());
+  const Drive drive = drive_at_zero(first);
+  print_drive(drive);
+  const Options all = with_system(first, drive);
+  all.reject_unknown(simulate_names(all));
+  require(!all.given("initial_file"), all.label("initial_file"), ": a sweep begins with the gears in touch");
+  std::string output = all.text("output");
+  if (cases.several) output = fs::path(output).replace_extension().string();
+  return {options, std::move(cases), sweep_positions(all, drive), output, UnitStore(output)};
+}
+
+// Makes the folder of several cases. The lock is on the file that is written last.
+std::string locked_file(const SweepJob& job) {
+  if (!job.cases.several) return job.output;
+  if (rank() == 0) {
+    std::error_code error;
+    fs::create_directories(job.output, error);
+    require(!error, job.output, ": the folder of the cases cannot be made: ", error.message());
+  }
+  return (fs::path(job.output) / "cases.csv").string();
+}
+
+// Units of an earlier sweep of equal input stay.
+void take_up(const SweepJob& job, const dynamics::ResumableSettings& settings,
+             const dynamics::Provenance& input) {
+  const auto earlier =
+      settings.resume == dynamics::Resume::discard ? std::nullopt : job.store.earlier_input();
+  if (!earlier) return job.store.begin(input);
+  const std::string other = differences(settings, input, *earlier);
+  require(other.empty() || settings.resume == dynamics::Resume::anyway, job.store.folder(),
+          " holds a sweep that did not end, with other input: ", other,
+          ". -resume anyway continues it with the present one, -resume discard begins anew");
+  if (!other.empty()) print_item("warning", "continues a sweep with other input: " + other);
+  const std::vector<SweepUnit> units = job.units();
+  const auto done =
+      std::count_if(units.begin(), units.end(), [&](const auto& u) { return job.store.has(u); });
+  print_item("continued after", std::to_string(done) + " of " + std::to_string(units.size()) + " parts");
+}
+
+// Sweeps the units that this rank is given. Returns whether none was given up.
+bool compute(SweepJob& job, const std::vector<SweepUnit>& units, WorkQueue& queue,
+             const std::function<bool()>& stop) {
+  const Progress progress = console_progress();
+  const double all = static_cast<double>(job.units().size()), done = all - static_cast<double>(units.size());
+  const auto tell = [&](double units_done) {
+    if (units_done < static_cast<double>(units.size())) report(progress, "sweep", (done + units_done) / all);
+  };
+  tell(0);
+  std::unique_ptr<PreparedCase> prepared;
+  std::size_t number = 0;
+  for (long u = queue.next(); u < static_cast<long>(units.size()); u = queue.next()) {
+    const SweepUnit& unit = units[static_cast<std::size_t>(u)];
+    if (!prepared || number != unit.number) {
+      const Silence silence;  // the first case has been prepared, and said so, before
+      number = unit.number;
+      prepared = std::make_unique<PreparedCase>(prepare(job, number));
+    }
+    dynamics::SweepSettings settings = unit_settings(unit, job.positions);
+    if (prepared->options.given("static_steps")) settings.steps = prepared->options.count("static_steps", 1);
+    UnitResult result;
+    result.summary = dynamics::sweep(
+        prepared->motion, settings,
+        [&](const model::Snapshot& snapshot) { result.snapshots.push_back(snapshot); },
+        [&](std::string_view, double fraction) { tell(static_cast<double>(u) + fraction); }, stop);
+    if (!result.summary.run.complete) return false;
+    job.store.write(unit, result);
+  }
+  if (!units.empty()) report(progress, "sweep", 1);
+  return true;
+}
+
+// Sweeps what is left on all ranks. Error on all of them when one fails or is stopped.
+void compute_all(SweepJob& job, const std::vector<SweepUnit>& todo,
+                 const std::function<std::string()>& stop_cause) {
+  WorkQueue queue(PETSC_COMM_WORLD, static_cast<long>(todo.size()));
+  collectively(PETSC_COMM_WORLD, [&] {
+    try {
+      const bool all = compute(job, todo, queue, [&] { return !stop_cause().empty(); });
+      require(all && stop_cause().empty(), "stopped by ", stop_cause(), ". What was found is in ",
+              job.store.folder(), "; the same command goes on from there");
+    } catch (const WriteFailure& failure) {
+      queue.close();
+      fail(failure.what(), ". What was found is kept in ", job.store.folder(),
+           "; the same command goes on from there");
+    } catch (...) {
+      queue.close();
+      throw;
+    }
+  });
+}
+
+// Joins the units on rank 0.
+SweepFound write_results(SweepJob& job, const PreparedCase& first) {
+  SweepFound all;
+  std::vector<std::string> files;
+  std::vector<int> positions;
+  for (std::size_t i = 0; i < job.cases.cases.size(); ++i) {
+    std::vector<SweepUnit> units = sweep_units(1, job.positions.size());
+    for (SweepUnit& unit : units) unit.number = i;
+    model::ResultHeader header = first.header;
+    if (i > 0) {
+      const Options own = of_case(job.options, job.cases, job.cases.cases[i]);
+      for (const auto& [key, value] : own.provenance()) header.provenance[key] = value;
+    }
+    const SweepFound found = write_case(job.file(i), header, job.store, units);
+    files.push_back(found.positions > 0 ? fs::path(job.file(i)).filename().string() : "");
+    positions.push_back(found.positions);
+    add(all, found);
+  }
+  if (job.cases.several)
+    write_case_table((fs::path(job.output) / "cases.csv").string(), job.cases, files, positions);
+  return all;
+}
+
+void print_sweep(const SweepJob& job, const SweepFound& found) {
+  const dynamics::SweepSummary& summary = found.summary;
+  const std::size_t wanted = job.cases.cases.size() * job.positions.size();
+  if (job.cases.several) print_item("cases", std::to_string(job.cases.cases.size()));
+  print_item("roll angles", std::to_string(found.positions) + " of " + std::to_string(wanted) + ", " +
+                                std::to_string(summary.restarts) + " of them anew from the unloaded state");
   print_item("Newton iterations", std::to_string(summary.run.newton_iterations));
-  print_item("time", duration(summary.run.wall_time));
-  print_item("written", output);
+  for (const dynamics::PairSummary& pair : summary.run.pair)
+    print_item("contact " + pair.name,
+               "peak force " + with_unit(pair.peak_force, "N") + " at roll " + with_unit(pair.peak_time, ""));
+  if (summary.run.unbalanced > 0)
+    print_item("unbalanced", with_unit(100 * summary.run.unbalanced, "%") +
+                                 " of the forces at most, where points of contact come and go");
+  if (!job.cases.several) {
+    print_item("work of the torques", with_unit(found.work, "J"));
+    print_item("loss by friction", with_unit(found.dissipated, "J"));
+    print_item("largest error of the balance", with_unit(found.largest_imbalance, "J"));
+  }
+  print_item("time of all ranks", duration(summary.run.wall_time));
+  print_item("largest memory", largest_memory());
+  print_item("written", job.output);
+}
+
+// The results are there, but not all of them.
+void require_all_found(const SweepJob& job, const SweepFound& found) {
+  const auto& missing = found.summary.missing;
+  if (missing.empty()) return;
+  fail("no equilibrium found at ", missing.size(), " of ", job.cases.cases.size() * job.positions.size(),
+       " roll angles, which are missing in ", job.output, "; the first one is at roll ",
+       missing.front().position, ": ", missing.front().why);
+}
+
+}  // namespace
+
+void run_sweep(const Options& given) {
+  SweepJob job = make_job(given);
+  protect_inputs(given, {{"output", {job.output}}});
+  const OutputLock lock(locked_file(job));
+  collectively(PETSC_COMM_WORLD, [&] { check_cases(job); });
+  const auto settings = resumable_settings(given, job.output);
+  std::unique_ptr<PreparedCase> first;
+  collectively(PETSC_COMM_WORLD, [&] {
+    first = std::make_unique<PreparedCase>(prepare(job, 0));
+    validate(first->motion, unit_settings({}, job.positions));
+    if (rank() == 0) take_up(job, settings, first->header.provenance);
+  });
+  std::vector<SweepUnit> todo = job.units();
+  std::erase_if(todo, [&](const SweepUnit& unit) { return job.store.has(unit); });
+  compute_all(job, todo, settings.stop_cause);
+  SweepFound found;
+  collectively(PETSC_COMM_WORLD, [&] {
+    if (rank() != 0) return;
+    found = write_results(job, *first);
+    job.store.remove();
+    print_sweep(job, found);
+    require_all_found(job, found);
+  });
 }
 
 }  // namespace elastogear::app

@@ -10,6 +10,7 @@
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "app/resumable_run.h"
+#include "app/sweep/sweep_cases.h"
 #include "app/sweep/sweep_options.h"
 #include "app/sweep/sweep_run.h"
 #include "app/system_setup.h"
@@ -69,7 +70,7 @@ const Rows<TimeSettings> kTimeRows = {
 OptionTable simulate_table() {
   OptionTable all = body_table();
   for (const OptionTable& part :
-       {environment_table(), table_of(kAnalysisRows, kTimeRows), sweep_table(), output_table(),
+       {environment_table(), table_of(kAnalysisRows, kTimeRows), sweep_table(), case_table(), output_table(),
         contact_table(), initial_state_table(), resumable_run_table(), marker_table(), whole_drive_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
@@ -188,6 +189,10 @@ Options of_system(const Options& given) {
 
 void run_simulate(const Options& given, const std::vector<std::string>&) {
   if (analysis(given) == Analysis::sweep) return run_sweep(given);
+  int n_ranks = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &n_ranks);
+  require(n_ranks == 1, "runs on one rank, not on ", n_ranks,
+          ", but for analysis: sweep: call it without mpirun");
   const Options options = of_system(given);
   options.reject_unknown(simulate_names(options));
   const std::string output = options.text("output");
@@ -208,8 +213,12 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
 }  // namespace
 
 Verb simulate_verb() {
-  return {"simulate", "simulate system.yaml [-option value ...]",
-          "bodies, joints, loads, contact -> result file", simulate_table(), run_simulate};
+  return {"simulate",
+          "simulate system.yaml [-option value ...]",
+          "bodies, joints, loads, contact -> result file",
+          simulate_table(),
+          run_simulate,
+          true};
 }
 
 }  // namespace elastogear::app
