@@ -42,6 +42,8 @@ COMMANDS = {
     "mass": "{elastogear} simulate -bodies a -a_mass 1 -a_inertia 1,1,1,0,0,0 -a_joint free {times}",
     "push": "{mass} -loads push -push_marker a.frame -push_force 1,0,0",
     "bearing": "{mass} -bushings bearing -bearing_markers ground,a.frame -bearing_stiffness 1,1,1",
+    "sweep": "{elastogear} simulate -drive cylindrical -module 3e-3 -face_width 0.025 -pinion_teeth 17 -wheel_teeth 43 "
+             "-analysis sweep -output kept_run.h5",
     "pull": "{elastogear} simulate -bodies a -a_file body.h5 -loads pull -pull_marker a.END -pull_force 100,0,0 -analysis static "
             "-static_steps 2 -output kept_run.h5",
     "recover": "{elastogear} recover -result run.h5 -stress_a MIDDLE -output kept_stress.h5",

@@ -88,6 +88,9 @@ def tables(folder):
         "word.csv": "time,torque\n0,1\n1,much\n",
         "nan.csv": "time,torque\n0,1\n1,nan\n",
         "empty.csv": "",
+        "variants.csv": "variant,modes\na,3\n",
+        "few.csv": "wheel_skew,pinion_tip_relief\n0.01,1e-5\n0.02\n",
+        "seconds.csv": "pinion_tip_relief\n3 s\n",
         "one_column.csv": "time\n0\n1\n",
         "misspelt_options.txt": "-modes 3\n-epss_tol 4\n",
         "bad_options.txt": "-modes 3\nmodes 4\n"})

@@ -102,7 +102,7 @@ TEST(Sweep, counts_energies_from_the_position_that_leads_in) {
 
 // A quarter of a turn on, the plate does not reach to the block, which nothing holds then.
 TEST(Sweep, goes_on_behind_positions_without_an_equilibrium) {
-  SlowMotion motion = turntable({0, 1.55, 0}, 2, 4);
+  SlowMotion motion = turntable({0, 1.75, 0}, 2, 4);
   motion.rate[0] = 1;
   const Swept all = swept(motion, {.positions = {0, 0.1, pi / 2, pi, pi + 0.1}});
   ASSERT_EQ(all.summary.missing.size(), 1u);
@@ -118,15 +118,15 @@ TEST(Sweep, goes_on_behind_positions_without_an_equilibrium) {
   }
   const double lost = all.found[2].energy.dissipated - all.found[1].energy.dissipated;
   const double mean = 0.5 * (all.found[1].bodies[0].joint_force[0] + all.found[2].bodies[0].joint_force[0]);
-  EXPECT_NEAR(lost, mean * (pi - 0.1), 1e-7 * lost) << "by the trapezoidal rule over what is missing";
+  EXPECT_NEAR(lost, mean * (pi - 0.1), 1e-5 * lost) << "by the trapezoidal rule over what is missing";
 }
 
 TEST(Sweep, stops_when_asked) {
   int asked = 0;
   const SweepSummary summary =
-      sweep(turntable({1.2, 0, 0}, 4, 4), {.positions = {0, 1, 2, 3}}, {}, {}, [&] { return ++asked >= 20; });
+      sweep(turntable({1.2, 0, 0}, 4, 4), {.positions = {0, 1, 2, 3}}, {}, {}, [&] { return ++asked >= 10; });
   EXPECT_FALSE(summary.run.complete);
-  EXPECT_EQ(asked, 20);
+  EXPECT_EQ(asked, 10);
 }
 
 TEST(Sweep, refuses_what_cannot_be_swept) {

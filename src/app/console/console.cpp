@@ -118,6 +118,8 @@ void print_item(const std::string& name, const std::string& text) {
 }
 
 Silence::Silence(bool silent) : before_(is_silent) { is_silent = is_silent || silent; }
+bool is_silenced() { return is_silent; }
+
 Silence::~Silence() { is_silent = before_; }
 
 std::string with_unit(double value, const std::string& unit) {

@@ -26,6 +26,8 @@ class Silence {
  private:
   bool before_;
 };
+/// Returns whether print_item is silent, so that what it would say need not be found out.
+bool is_silenced();
 /// Number with unit in about four significant digits.
 std::string with_unit(double value, const std::string& unit);
 /// The same of a length in m, in mm.

@@ -7,6 +7,7 @@
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
+#include "app/gear/modification_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"
@@ -115,7 +116,7 @@ Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::
                               : gear::flank_distance_along(teeth.toothing, *flank, x, n);
     };
     known.height[f] = contact::sampled_heights(surface, f, distance);
-    if (teeth.deviations)
+    if (teeth.deviations && !is_silenced())
       heights.error = std::max(heights.error, contact::height_error(surface, f, known.height[f], distance));
     ++heights.n_faces;
   }
@@ -172,6 +173,16 @@ void add_deviations(const std::string& file, const std::string& body, const mode
 }  // namespace
 
 OptionTable true_surface_table() { return table_of(kTrueSurfaceRows); }
+
+std::string true_surface_input(const Options& options, const std::string& body) {
+  std::string input = options.text("contact_surface");
+  OptionTable table = modification_table();
+  for (const OptionSpec& spec : true_surface_table()) table.push_back(spec);
+  for (const OptionSpec& spec : table)
+    if (const std::string name = with_word(spec.name, body); options.given(name))
+      input += "\n" + name + " " + options.text(name);
+  return input;
+}
 
 std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options, const std::string& body,
                                                          const model::Surface& surface) {

@@ -16,4 +16,7 @@ OptionTable true_surface_table();
 std::shared_ptr<const contact::TrueSurface> true_surface(const Options& options, const std::string& body,
                                                          const model::Surface& surface);
 
+/// All that true_surface takes from the options of a body, as text, but for the design of its drive.
+std::string true_surface_input(const Options& options, const std::string& body);
+
 }  // namespace elastogear::app

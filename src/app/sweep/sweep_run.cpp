@@ -76,12 +76,12 @@ PreparedCase prepare(SweepJob& job, std::size_t number) {
 }
 
 // Values that no drive can have are found before anything is computed.
-void check_cases(const SweepJob& job) {
+void check_cases(const Options& options, const SweepCases& cases) {
   const Silence silence;
-  for (const SweepCase& one : job.cases.cases) {
-    const Variant& variant = job.cases.variants[static_cast<std::size_t>(one.variant)];
+  for (const SweepCase& one : cases.cases) {
+    const Variant& variant = cases.variants[static_cast<std::size_t>(one.variant)];
     try {
-      const Options own = of_case(job.options, job.cases, one);
+      const Options own = of_case(options, cases, one);
       with_system(own, drive_at_zero(own));
     } catch (const Error& error) {
       fail(variant.name.empty() ? "" : "variant '" + variant.name + "': ", error.what());
@@ -94,6 +94,7 @@ SweepJob make_job(const Options& given) {
           " = sweep: is for drives; name the kind by 'drive: cylindrical' or 'drive: worm'");
   const Options options = with_gears(given);
   SweepCases cases = sweep_cases(options);
+  check_cases(options, cases);
   const Options first = of_case(options, cases, cases.cases.front());
   const Drive drive = drive_at_zero(first);
   print_drive(drive);
@@ -246,7 +247,6 @@ void run_sweep(const Options& given) {
   SweepJob job = make_job(given);
   protect_inputs(given, {{"output", {job.output}}});
   const OutputLock lock(locked_file(job));
-  collectively(PETSC_COMM_WORLD, [&] { check_cases(job); });
   const auto settings = resumable_settings(given, job.output);
   std::unique_ptr<PreparedCase> first;
   collectively(PETSC_COMM_WORLD, [&] {

@@ -17,6 +17,8 @@ OptionTable body_table();
 struct KnownBody {
   std::shared_ptr<const model::ElasticBody> body = nullptr;
   std::string identity = {};  ///< empty: there is no file
+  std::shared_ptr<const contact::TrueSurface> true_surface = nullptr;
+  std::string true_surface_input = {};  ///< that it was made of
 };
 using KnownBodies = std::map<std::string, KnownBody>;
 
