@@ -28,6 +28,11 @@ std::optional<Flank> flank_of(const std::string& face_set) {
   return Flank{tooth - 1, side == "left" ? 1 : -1};
 }
 
+std::optional<Flank> flank_of(const Toothing& toothing, const std::string& group) {
+  const bool only = toothing.z == 1 && (group == "left" || group == "right");
+  return flank_of(only ? "thread_1_" + group : group);
+}
+
 Eigen::Vector3d flank_normal(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {
   const double r = std::hypot(x[0], x[1]);
   const HalfAngle half = half_angle(t, r, flank.side * x[2]);

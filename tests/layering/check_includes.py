@@ -18,7 +18,7 @@ LEVEL = {
     "model": 2,
     "mesh": 3,
     "gear": 4, "io": 4, "body": 4,
-    "fem": 5, "contact": 5,
+    "fem": 5, "contact": 5, "evaluation": 5,
     "reduction": 6, "dynamics": 6, "recovery": 6,
     "app": 7,
 }

@@ -18,6 +18,9 @@ struct Flank {
 /// The flank of a face set tooth_<ii>_left, tooth_<ii>_right, thread_<i>_left or thread_<i>_right of the
 /// meshes; nothing for other names.
 std::optional<Flank> flank_of(const std::string& face_set);
+/// The flank of a group of faces of a toothing. Those of a worm with one start are in left and right, the
+/// sets of all threads, which are as large as thread_1_left and thread_1_right and come first by name.
+std::optional<Flank> flank_of(const Toothing& toothing, const std::string& group);
 
 /// Outward unit normal of the surface of constant flank_distance through x (body frame, m).
 Eigen::Vector3d flank_normal(const Toothing& toothing, const Flank& flank, const Eigen::Vector3d& x);

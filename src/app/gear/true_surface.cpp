@@ -63,13 +63,6 @@ Teeth read_teeth(const std::vector<std::string>& files) {
   }
 }
 
-// The flank of a group of faces. Those of a worm with one start are in left and right, the sets of all
-// threads, which are as large as thread_1_left and thread_1_right and come first by name.
-std::optional<gear::Flank> flank_of(const gear::Toothing& toothing, const std::string& group) {
-  const bool only = toothing.z == 1 && (group == "left" || group == "right");
-  return gear::flank_of(only ? "thread_1_" + group : group);
-}
-
 struct OffNode {
   double distance = 0;  // m, from its flank
   int node = -1;        // mesh number
@@ -89,7 +82,7 @@ OffNode farthest_node(const model::Surface& surface, const Teeth& teeth) {
   OffNode farthest;
   for (int f = 0; f < surface.face.cols(); ++f) {
     const std::string& group = surface.group_name[surface.group[f]];
-    const auto flank = flank_of(teeth.toothing, group);
+    const auto flank = gear::flank_of(teeth.toothing, group);
     if (!flank) continue;
     for (int node : surface.face.col(f)) {
       const double d = off_flank(teeth, *flank, surface.X.col(node));
@@ -109,7 +102,7 @@ Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::
   Heights heights;
   known.height.resize(static_cast<std::size_t>(surface.face.cols()));
   for (int f = 0; f < surface.face.cols(); ++f) {
-    const auto flank = flank_of(teeth.toothing, surface.group_name[surface.group[f]]);
+    const auto flank = gear::flank_of(teeth.toothing, surface.group_name[surface.group[f]]);
     if (!flank) continue;
     const auto distance = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& n) {
       return teeth.deviations ? gear::flank_distance_along(teeth.toothing, *teeth.deviations, *flank, x, n)

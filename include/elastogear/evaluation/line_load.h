@@ -1,0 +1,32 @@
+#pragma once
+// Load over the face width and its unevenness (docs/theory.md, section 10.3).
+
+#include <Eigen/Core>
+
+#include "elastogear/evaluation/contact.h"
+
+namespace elastogear::evaluation {
+
+/// Normal force of all pairs of teeth per width at stations over the face.
+struct LineLoad {
+  Eigen::VectorXd z;      ///< n, m, along the second gear's axis in its body frame, ascending
+  Eigen::MatrixXd value;  ///< n_t x n, N/m
+};
+
+/// Forces (N) at z (m) shared out to the stations around them by linear functions, over the width that each
+/// station stands for, N/m: Eq. (10.7). Forces beyond the ends count at the end. At least two stations.
+Eigen::VectorXd line_load(const Eigen::VectorXd& stations, const Eigen::VectorXd& z,
+                          const Eigen::VectorXd& force);
+
+/// Stations for the line load of two gears: the layers of nodes of the gear whose nodes come into contact
+/// where axes are parallel, those of the second one else; 17 even ones where there are no layers.
+Eigen::VectorXd stations(const std::array<const Gear*, 2>& gear, int slave_side);
+
+LineLoad line_load(const ContactHistory& contacts, const Eigen::VectorXd& stations);
+
+/// Largest over mean line load, of the mean over all times: KHbeta, Eq. (10.8); NaN without load.
+double face_load_factor(const LineLoad& load);
+/// The mean over all times, N/m.
+Eigen::VectorXd mean_line_load(const LineLoad& load);
+
+}  // namespace elastogear::evaluation

@@ -1,0 +1,43 @@
+#pragma once
+// Stress at the roots of teeth over the roll angle.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "elastogear/evaluation/motion.h"
+#include "elastogear/gear/flank.h"
+#include "elastogear/io/stress_file.h"
+
+namespace elastogear::evaluation {
+
+/// One value of a tooth's stress at a place on its way, where all teeth are taken for each other's copies.
+struct ToothStress {
+  double place = 0;      ///< pitches, of its way through the mesh
+  double tension = 0;    ///< Pa, at the copies of the node of the largest one
+  double von_mises = 0;  ///< Pa, at the copies of its node
+};
+
+/// A largest stress: value and estimated error (Pa; < 0: not estimated), tooth (0-based), mesh node, time.
+struct StressPeak {
+  double value = 0, error = -1;
+  int tooth = 0, node = 0, step = 0;
+};
+
+struct RootStress {
+  int side = 0;               ///< of the loaded flanks: tension is looked for at this side's roots
+  std::vector<int> tooth;     ///< 0-based, that have nodes
+  Eigen::MatrixXd tension;    ///< n_t x teeth, Pa, largest principal stress at the loaded side
+  Eigen::MatrixXd von_mises;  ///< n_t x teeth, Pa, largest at both sides
+  StressPeak largest_tension, largest_von_mises;
+  std::vector<ToothStress> way;  ///< ascending places
+  double range = 0;              ///< Pa, largest less smallest tension of one node on that way
+};
+
+/// Tooth (0-based) whose centre is nearest to a point, and the side of it that the point is on.
+gear::Flank nearest_flank(const gear::Toothing& toothing, const Eigen::Vector3d& x_B);
+
+/// set: stresses at the roots; side: of the loaded flanks. Error when the set has no positions or no node at
+/// that side.
+RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& mate, int side);
+
+}  // namespace elastogear::evaluation

@@ -1,0 +1,120 @@
+#include "elastogear/evaluation/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::evaluation {
+namespace {
+
+constexpr double kSameLayer = 1e-4;  // of the range of z
+constexpr std::size_t kMostLayers = 200;
+
+// The surface's faces are interpolated as those of contact, docs/theory.md, Eq. (6.1).
+Eigen::Vector3d point_on_face(const model::Surface& surface, int face, double u, double v) {
+  const Eigen::Vector4i node = surface.face.col(face);
+  const auto X = [&](int i) -> Eigen::Vector3d { return surface.X.col(node[i]); };
+  if (node[3] == node[2]) return (1 - u - v) * X(0) + u * X(1) + v * X(2);
+  return 0.25 * ((1 - u) * (1 - v) * X(0) + (1 + u) * (1 - v) * X(1) + (1 + u) * (1 + v) * X(2) +
+                 (1 - u) * (1 + v) * X(3));
+}
+
+void require_on_surface(const model::ContactRecord& record, const std::array<Flanks, 2>& flanks) {
+  const int slave = record.slave_side;
+  require(slave == 0 || slave == 1, "contact record: slave_side ", slave, ", must be 0 or 1");
+  require(record.slave_node >= 0 && record.slave_node < flanks[slave].surface->X.cols(),
+          "contact record: the surface has no node ", record.slave_node);
+  require(record.face >= 0 && record.face < flanks[1 - slave].surface->face.cols(),
+          "contact record: the surface has no face ", record.face);
+}
+
+}  // namespace
+
+Flanks flanks(const gear::Toothing& toothing, const model::Surface& surface) {
+  Flanks flanks{.surface = &surface};
+  for (const std::string& name : surface.group_name)
+    flanks.of_group.push_back(gear::flank_of(toothing, name));
+  flanks.of_node.assign(static_cast<std::size_t>(surface.X.cols()), -1);
+  for (int f = static_cast<int>(surface.face.cols()) - 1; f >= 0; --f)
+    for (int node : surface.face.col(f)) flanks.of_node[static_cast<std::size_t>(node)] = surface.group[f];
+  return flanks;
+}
+
+Eigen::VectorXd node_layers(const Flanks& flanks) {
+  std::vector<double> z;
+  for (std::size_t node = 0; node < flanks.of_node.size(); ++node)
+    if (flanks.of_node[node] >= 0 && flanks.of_group[flanks.of_node[node]])
+      z.push_back(flanks.surface->X(2, static_cast<Eigen::Index>(node)));
+  if (z.empty()) return {};
+  std::sort(z.begin(), z.end());
+  const double same = kSameLayer * (z.back() - z.front());
+  std::vector<double> layers;
+  for (double value : z)
+    if (layers.empty() || value - layers.back() > same) layers.push_back(value);
+  if (layers.size() < 2 || layers.size() > kMostLayers) return {};
+  return Eigen::Map<Eigen::VectorXd>(layers.data(), static_cast<Eigen::Index>(layers.size()));
+}
+
+std::vector<FlankContact> flank_contacts(const std::vector<model::ContactRecord>& records,
+                                         const std::array<const Gear*, 2>& gear,
+                                         const std::array<Flanks, 2>& flanks, std::size_t step) {
+  std::vector<FlankContact> contacts;
+  for (const model::ContactRecord& record : records) {
+    require_on_surface(record, flanks);
+    const int slave = record.slave_side, master = 1 - slave;
+    std::array<std::optional<gear::Flank>, 2> flank;
+    flank[slave] = flanks[slave].of_group[flanks[slave].of_node[record.slave_node]];
+    flank[master] = flanks[master].of_group[flanks[master].surface->group[record.face]];
+    if (!flank[0] || !flank[1]) continue;
+    FlankContact c{.flank = {*flank[0], *flank[1]}, .x_B = {}, .x_W = {}, .n = {}, .f = {}};
+    const auto& R = gear[master]->rotation[step];
+    c.x_B[master] = point_on_face(*flanks[master].surface, record.face, record.xi, record.eta);
+    c.x_W = gear[master]->position[step] + R * c.x_B[master];
+    c.x_B[slave] = gear[slave]->rotation[step].transpose() * (c.x_W - gear[slave]->position[step]);
+    c.n = (master == 0 ? 1 : -1) *
+          (R * gear::flank_normal(gear[master]->toothing, *flank[master], c.x_B[master]));
+    c.f = slave == 1 ? record.f : Eigen::Vector3d(-record.f);
+    c.normal_force = c.f.dot(c.n);
+    c.pressure = record.pressure;
+    contacts.push_back(c);
+  }
+  return contacts;
+}
+
+ToothPairs tooth_pairs(const ContactHistory& contacts) {
+  std::map<std::array<int, 2>, Eigen::VectorXd> force;
+  const auto n_t = static_cast<Eigen::Index>(contacts.size());
+  for (std::size_t step = 0; step < contacts.size(); ++step)
+    for (const FlankContact& c : contacts[step]) {
+      Eigen::VectorXd& of_pair = force[{c.flank[0].tooth, c.flank[1].tooth}];
+      if (of_pair.size() == 0) of_pair = Eigen::VectorXd::Zero(n_t);
+      of_pair[static_cast<Eigen::Index>(step)] += c.normal_force;
+    }
+  ToothPairs pairs;
+  pairs.force.resize(n_t, static_cast<Eigen::Index>(force.size()));
+  for (const auto& [tooth, values] : force) {
+    pairs.force.col(static_cast<Eigen::Index>(pairs.tooth.size())) = values;
+    pairs.tooth.push_back(tooth);
+  }
+  const Eigen::VectorXd sum = pairs.force.rowwise().sum();
+  pairs.share = pairs.force;
+  for (Eigen::Index i = 0; i < n_t; ++i) pairs.share.row(i) *= sum[i] > 0 ? 1 / sum[i] : 0;
+  pairs.count = (pairs.share.array() > kBears).cast<int>().rowwise().sum();
+  return pairs;
+}
+
+double contact_ratio(const ToothPairs& pairs) {
+  return pairs.count.size() == 0 ? 0 : pairs.count.cast<double>().mean();
+}
+
+int loaded_side(const ContactHistory& contacts, int g) {
+  double left = 0, right = 0;
+  for (const auto& step : contacts)
+    for (const FlankContact& c : step) (c.flank[g].side > 0 ? left : right) += c.normal_force;
+  if (!(left + right > 0)) return 0;
+  return left >= right ? 1 : -1;
+}
+
+}  // namespace elastogear::evaluation

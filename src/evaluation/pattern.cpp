@@ -1,0 +1,81 @@
+#include "elastogear/evaluation/pattern.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elastogear/gear/modification.h"
+
+namespace elastogear::evaluation {
+namespace {
+
+constexpr int kProfileCells = 60, kFaceCells = 60;
+
+Eigen::VectorXd middles(double begin, double end, int n) {
+  const double half = (end - begin) / (2 * n);
+  return Eigen::VectorXd::LinSpaced(n, begin + half, end - half);
+}
+
+// Half of the width that a contact at z stands for, m, below and above.
+std::pair<double, double> part_of_width(const Gear& gear, double z) {
+  if (gear.layers.size() < 2) return {gear.width / kFaceCells, gear.width / kFaceCells};
+  const auto after = std::upper_bound(gear.layers.begin(), gear.layers.end(), z) - gear.layers.begin();
+  const auto left = std::clamp<Eigen::Index>(after - 1, 0, gear.layers.size() - 2);
+  const double half = (gear.layers[left + 1] - gear.layers[left]) / 2;
+  return {half, half};
+}
+
+// First and last cell whose middles lie in a span; first > last: none does, then the nearest one is taken.
+std::pair<Eigen::Index, Eigen::Index> cells(const Eigen::VectorXd& middle, double begin, double end) {
+  const double cell = middle[1] - middle[0], start = middle[0] - cell / 2;
+  const auto index = [&](double at) {
+    return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor((at - start) / cell)), 0,
+                                    middle.size() - 1);
+  };
+  return {index(begin), index(end)};
+}
+
+void cover(ContactPattern& pattern, const Gear& gear, const FlankPlace& at, double reach, double pressure) {
+  const auto [below, above] = part_of_width(gear, at.z);
+  const auto [p_0, p_1] = cells(pattern.profile, at.profile - reach, at.profile + reach);
+  const auto [z_0, z_1] = cells(pattern.z, at.z - below, at.z + above);
+  auto block = pattern.pressure.block(p_0, z_0, p_1 - p_0 + 1, z_1 - z_0 + 1);
+  block = block.cwiseMax(pressure);
+}
+
+}  // namespace
+
+bool has_length_of_roll(const gear::Toothing& toothing) { return toothing.r_b > 0 && !toothing.half_angle; }
+
+FlankPlace flank_place(const gear::Toothing& toothing, const Eigen::Vector3d& x_B) {
+  const double r = std::hypot(x_B[0], x_B[1]);
+  return {has_length_of_roll(toothing) ? gear::length_of_roll(toothing, r) : r, x_B[2]};
+}
+
+std::optional<ContactPattern> contact_pattern(const ContactHistory& contacts, const Gear& gear, int g,
+                                              int side, double reach) {
+  const gear::Toothing& t = gear.toothing;
+  const auto profile = [&](double r) { return flank_place(t, {r, 0, 0}).profile; };
+  const auto [begin, end] = std::minmax({profile(t.r_form), profile(t.r_a)});
+  ContactPattern pattern{side, middles(begin, end, kProfileCells),
+                         middles(-gear.width / 2, gear.width / 2, kFaceCells),
+                         Eigen::MatrixXd::Zero(kProfileCells, kFaceCells)};
+  bool touched = false;
+  for (const auto& step : contacts)
+    for (const FlankContact& c : step) {
+      if (c.flank[g].side != side) continue;
+      touched = true;
+      cover(pattern, gear, flank_place(t, c.x_B[g]), reach, c.pressure);
+    }
+  if (!touched) return {};
+  return pattern;
+}
+
+std::optional<PressurePeak> largest_pressure(const ContactHistory& contacts) {
+  std::optional<PressurePeak> peak;
+  for (std::size_t step = 0; step < contacts.size(); ++step)
+    for (const FlankContact& c : contacts[step])
+      if (!peak || c.pressure > peak->pressure) peak = {c.pressure, static_cast<int>(step), c};
+  return peak;
+}
+
+}  // namespace elastogear::evaluation

@@ -1,0 +1,117 @@
+#include "elastogear/evaluation/signal.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+#include <vector>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::evaluation {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kEven = 1e-6;  // of a step
+
+// Positive half of the discrete Fourier transform, without the factor 1/n.
+std::vector<std::complex<double>> half_transform(const Eigen::VectorXd& signal) {
+  std::vector<double> in(signal.begin(), signal.end());
+  std::vector<std::complex<double>> out;
+  Eigen::FFT<double> fft;
+  fft.fwd(out, in);
+  out.resize(in.size() / 2 + 1);
+  return out;
+}
+
+// Two halves of the spectrum meet in each order but in the highest one of an even number of samples.
+double one_sided(std::size_t k, Eigen::Index n) { return 2 * static_cast<Eigen::Index>(k) == n ? 1 : 2; }
+
+// Linear interpolation at even roll angles.
+Eigen::VectorXd resampled(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal) {
+  const Eigen::Index n = roll.size();
+  const double step = (roll[n - 1] - roll[0]) / static_cast<double>(n - 1);
+  Eigen::VectorXd even(n);
+  for (Eigen::Index i = 0, j = 0; i < n; ++i) {
+    const double at = roll[0] + step * static_cast<double>(i);
+    while (j < n - 2 && roll[j + 1] < at) ++j;
+    const double s = (at - roll[j]) / (roll[j + 1] - roll[j]);
+    even[i] = (1 - s) * signal[j] + s * signal[j + 1];
+  }
+  return even;
+}
+
+}  // namespace
+
+double peak_to_peak(const Eigen::VectorXd& signal) {
+  return signal.size() == 0 ? 0 : signal.maxCoeff() - signal.minCoeff();
+}
+
+double dynamic_factor(const Eigen::VectorXd& force) {
+  const double mean = force.size() == 0 ? 0 : force.mean();
+  return mean > 0 ? force.maxCoeff() / mean : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<int> whole_pitches(const Eigen::VectorXd& roll) {
+  const Eigen::Index n = roll.size();
+  if (n < 2) return {};
+  const double step = (roll[n - 1] - roll[0]) / static_cast<double>(n - 1);
+  if (!(step > 0)) return {};
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (std::abs(roll[i] - roll[0] - step * static_cast<double>(i)) > kEven * step) return {};
+  const double pitches = step * static_cast<double>(n), whole = std::round(pitches);
+  if (whole < 1 || std::abs(pitches - whole) > kEven * pitches) return {};
+  return static_cast<int>(whole);
+}
+
+Spectrum fourier_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal) {
+  const auto pitches = whole_pitches(roll);
+  require(pitches.has_value(), "Fourier orders need roll angles that are even and fill whole pitches");
+  const Eigen::Index n = signal.size();
+  const auto c = half_transform(signal);
+  const auto orders = static_cast<Eigen::Index>(c.size()) - 1;
+  Spectrum spectrum{Eigen::VectorXd(orders), Eigen::VectorXd(orders), Eigen::VectorXd(orders)};
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k) - 1;
+    spectrum.order[i] = static_cast<double>(k) / *pitches;
+    spectrum.amplitude[i] = one_sided(k, n) * std::abs(c[k]) / static_cast<double>(n);
+    spectrum.phase[i] = std::remainder(std::arg(c[k]) - 2 * pi * spectrum.order[i] * roll[0], 2 * pi);
+  }
+  return spectrum;
+}
+
+Spectrum windowed_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal) {
+  const Eigen::Index n = roll.size();
+  for (Eigen::Index i = 1; i < n; ++i)
+    require(roll[i] > roll[i - 1], "orders of a run: the roll angle ", roll[i], " pitches follows ",
+            roll[i - 1], "; it must increase, in a span of time in which the gears roll on");
+  require(n > 2 && roll[n - 1] - roll[0] >= 2, "orders of a run: it rolls over ",
+          n > 0 ? roll[n - 1] - roll[0] : 0, " pitches, at least 2 are needed");
+  Eigen::VectorXd even = resampled(roll, signal);
+  even.array() -= even.mean();
+  double sum = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double window = 0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(i) / static_cast<double>(n));
+    even[i] *= window;
+    sum += window;
+  }
+  const auto c = half_transform(even);
+  const auto orders = static_cast<Eigen::Index>(c.size()) - 1;
+  const double length = (roll[n - 1] - roll[0]) * static_cast<double>(n) / static_cast<double>(n - 1);
+  Spectrum spectrum{Eigen::VectorXd(orders), Eigen::VectorXd(orders), {}};
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    spectrum.order[static_cast<Eigen::Index>(k) - 1] = static_cast<double>(k) / length;
+    spectrum.amplitude[static_cast<Eigen::Index>(k) - 1] = one_sided(k, n) * std::abs(c[k]) / sum;
+  }
+  return spectrum;
+}
+
+double amplitude_at(const Spectrum& spectrum, double order) {
+  if (spectrum.order.size() == 0) return 0;
+  Eigen::Index at = 0;
+  const double off = (spectrum.order.array() - order).abs().minCoeff(&at);
+  return off <= 0.5 * spectrum.order[0] ? spectrum.amplitude[at] : 0;
+}
+
+}  // namespace elastogear::evaluation
