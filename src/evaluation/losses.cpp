@@ -1,4 +1,4 @@
-#include "elastogear/evaluation/losses.h"
+#include "evaluation/losses.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "elastogear/evaluation/pattern.h"
+#include "evaluation/pattern.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "elastogear/evaluation/root_stress.h"
+#include "evaluation/root_stress.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -161,8 +161,10 @@ void describe_hdf5(Out& out, const std::string& path) {
   line(out, "format: ", format, ", version ", version(file), "; SI units");
   if (format == kBodyFormat.name) return describe_body(out, path);
   if (format == kResultFormat.name) return describe_result(out, path);
+  if (format == kEvaluationFormat.name) return describe_evaluation(out, path);
   require(format == kStressFormat.name, path, ": unknown format '", format, "', known are '",
-          kBodyFormat.name, "', '", kResultFormat.name, "', '", kStressFormat.name, "'");
+          kBodyFormat.name, "', '", kResultFormat.name, "', '", kStressFormat.name, "', '",
+          kEvaluationFormat.name, "'");
   describe_stress(out, path);
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "../message_of.h"
-#include "elastogear/evaluation/pattern.h"
 #include "elastogear/gear/modification.h"
+#include "evaluation/pattern.h"
 #include "rigid_drives.h"
 
 namespace elastogear::evaluation::contact_test {

@@ -1,4 +1,4 @@
-#include "elastogear/evaluation/line_load.h"
+#include "evaluation/line_load.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "elastogear/evaluation/signal.h"
+#include "evaluation/signal.h"
 
 #include <gtest/gtest.h>
 

@@ -22,6 +22,7 @@ Verb mesh_verb();
 Verb reduce_verb();
 Verb simulate_verb();
 Verb recover_verb();
+Verb evaluate_verb();
 Verb compare_verb();
 Verb info_verb();
 

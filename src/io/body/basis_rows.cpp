@@ -10,7 +10,7 @@ namespace {
 using model::DenseRows;
 using model::SparseRows;
 
-bool is_group(const h5::File& file, const std::string& name) { return h5::exists(file, name + "/indptr"); }
+bool is_sparse(const h5::File& file, const std::string& name) { return h5::exists(file, name + "/indptr"); }
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void write_rows(const h5::File& file, const std::string& name, const model::Basi
 }
 
 model::BasisRows read_rows(const h5::File& file, const std::string& name, int block) {
-  if (is_group(file, name)) return read_sparse(file, name);
+  if (is_sparse(file, name)) return read_sparse(file, name);
   const h5::Shape shape = h5::shape(file, name);
   require(shape.size() == 3 && shape[1] == extent(block), file.path, ": ", name, " must have the shape n x ",
           block, " x n_q");
@@ -74,7 +74,7 @@ void write_matrix(const h5::File& file, const std::string& name, const model::Ba
 }
 
 model::BasisRows read_matrix(const h5::File& file, const std::string& name) {
-  if (is_group(file, name)) return read_sparse(file, name);
+  if (is_sparse(file, name)) return read_sparse(file, name);
   const auto values = h5::read<double>(file, name, {h5::kAny, h5::kAny});
   const h5::Shape shape = h5::shape(file, name);
   return DenseRows(Eigen::Map<const DenseRows>(values.data(), static_cast<Eigen::Index>(shape[0]),
@@ -91,7 +91,7 @@ void write_square(const h5::File& file, const std::string& name, const Eigen::Sp
 }
 
 Eigen::SparseMatrix<double> read_square(const h5::File& file, const std::string& name) {
-  if (is_group(file, name)) return read_sparse(file, name);
+  if (is_sparse(file, name)) return read_sparse(file, name);
   const auto values = h5::read<double>(file, name, {h5::kAny, h5::kAny});
   const h5::Shape shape = h5::shape(file, name);
   return Eigen::Map<const DenseRows>(values.data(), static_cast<Eigen::Index>(shape[0]),

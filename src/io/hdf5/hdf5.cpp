@@ -23,10 +23,6 @@ Id access_properties() {
   return properties;
 }
 
-bool is_group(const File& file, const std::string& name) {
-  return H5Iget_type(open_object(file, name)) == H5I_GROUP;
-}
-
 herr_t collect(hid_t, const char* name, const H5L_info_t*, void* names) {
   static_cast<std::vector<std::string>*>(names)->emplace_back(name);
   return 0;
@@ -85,6 +81,10 @@ void check_written(bool good, const File& file, const std::string& object) {
 
 void damaged(const File& file, const std::string& what) {
   fail(file.path, ": damaged: ", what, ". Make the file again or take a copy of it");
+}
+
+bool is_group(const File& file, const std::string& name) {
+  return H5Iget_type(open_object(file, name)) == H5I_GROUP;
 }
 
 // HDF5's own check fails on a path whose parents are missing or no groups.

@@ -56,6 +56,7 @@ void check_written(bool good, const File& file, const std::string& object);
 [[noreturn]] void damaged(const File& file, const std::string& what);
 
 bool exists(const File& file, const std::string& name);
+bool is_group(const File& file, const std::string& name);
 void make_group(const File& file, const std::string& name);
 /// Names of the members of a group, ascending.
 std::vector<std::string> members(const File& file, const std::string& group);
@@ -83,6 +84,8 @@ template <class T>
 std::vector<T> read(const File& file, const std::string& name, const Shape& expected,
                     Finite finite = Finite::required);
 std::vector<std::string> read_strings(const File& file, const std::string& name);
+/// Does the dataset hold text?
+bool holds_text(const File& file, const std::string& name);
 std::string unit(const File& file, const std::string& name);
 
 /// Attributes of the object `name` ("/" for the root).

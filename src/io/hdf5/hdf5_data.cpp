@@ -140,6 +140,10 @@ void write_strings(const File& file, const std::string& name, const std::vector<
   set_attribute(file, name, "unit", "1");
 }
 
+bool holds_text(const File& file, const std::string& name) {
+  return H5Tget_class(Id(H5Dget_type(open_dataset(file, name)))) == H5T_STRING;
+}
+
 Shape shape(const File& file, const std::string& name) {
   return shape_of(Id(H5Dget_space(open_dataset(file, name))));
 }

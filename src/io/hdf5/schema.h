@@ -16,6 +16,7 @@ struct Format {
 };
 constexpr Format kBodyFormat{"elastogear body"}, kStressFormat{"elastogear stress"};
 constexpr Format kResultFormat{"elastogear result", 3};
+constexpr Format kEvaluationFormat{"elastogear evaluation", 2, 2};
 
 /// Attribute of a body file's root: model::fingerprint.
 constexpr const char* kIdentity = "identity";

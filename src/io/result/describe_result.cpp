@@ -2,6 +2,9 @@
 
 #include <set>
 
+#include "elastogear/base/text.h"
+
+#include "elastogear/io/evaluation_file.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "io/hdf5/schema.h"
@@ -77,6 +80,21 @@ void describe_result(Out& out, const std::string& path) {
   for (const std::string& name : header.sensors) line(out, "sensor ", name);
   describe_energies(out, read_energies(path));
   describe_map(out, header.provenance);
+}
+
+void describe_evaluation(Out& out, const std::string& path) {
+  const EvaluationFile evaluation = read_evaluation(path);
+  for (const EvaluationItem& item : evaluation.items) {
+    const std::string unit = item.unit == "1" ? "" : " " + item.unit;
+    if (!item.words.empty())
+      line(out, item.path, ": ", join(item.words));
+    else if (item.shape.empty())
+      line(out, item.path, ": ", item.value[0], unit, " (", item.meaning, ")");
+    else
+      line(out, item.path, ": ", join(item.shape, " x ", [](std::size_t n) { return std::to_string(n); }),
+           " numbers", unit.empty() ? "" : " in", unit);
+  }
+  describe_map(out, evaluation.provenance);
 }
 
 void describe_stress(Out& out, const std::string& path) {

@@ -1,0 +1,89 @@
+#include "app/evaluate/cases.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/base/number.h"
+
+namespace elastogear::app {
+namespace {
+
+constexpr const char* kCasesTable = "cases.csv";
+
+std::vector<std::string> cells_of(std::string line) {
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  std::vector<std::string> cells(1);
+  for (char c : line)
+    if (c == ',')
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  return cells;
+}
+
+// The case of a row; file: relative to the folder.
+Case case_of_row(const std::vector<std::string>& heading, const std::vector<std::string>& row,
+                 const std::string& folder, const std::string& where) {
+  require(row.size() == heading.size(), where, ": has ", row.size(), " cells, the heading has ",
+          heading.size());
+  Case c;
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (heading[i] == "case")
+      c.name = row[i];
+    else if (heading[i] == "file")
+      c.file = (std::filesystem::path(folder) / row[i]).string();
+    else
+      c.columns.emplace_back(heading[i], row[i]);
+  const bool plain = c.name.find_first_of("/\\\"") == std::string::npos;
+  require(!c.name.empty() && plain, where, ": '", c.name,
+          "' is no name of a case: it must not be empty nor hold slashes or quotes");
+  require(std::filesystem::is_regular_file(c.file), where, ": there is no file ", c.file);
+  return c;
+}
+
+std::vector<Case> read_table(const std::string& folder) {
+  const std::string path = (std::filesystem::path(folder) / kCasesTable).string();
+  require(std::filesystem::is_regular_file(path), folder, ": is a folder without ", kCasesTable,
+          ", the table that a sweep of several cases leaves; name a result file");
+  std::istringstream in(read_file(path));
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> heading = cells_of(line);
+  for (const char* needed : {"case", "file"})
+    require(std::count(heading.begin(), heading.end(), needed) == 1, path,
+            ": its heading must have one column '", needed, "', it is '", line, "'");
+  std::vector<Case> cases;
+  std::set<std::string> names;
+  for (int number = 2; std::getline(in, line); ++number) {
+    if (line.empty() || line == "\r") continue;
+    const std::string where = path + ", line " + std::to_string(number);
+    cases.push_back(case_of_row(heading, cells_of(line), folder, where));
+    require(names.insert(cases.back().name).second, where, ": the case ", cases.back().name,
+            " is there twice");
+  }
+  require(!cases.empty(), path, ": holds no cases");
+  return cases;
+}
+
+}  // namespace
+
+std::vector<Case> read_cases(const std::string& path) {
+  if (std::filesystem::is_directory(path)) return read_table(path);
+  require(std::filesystem::is_regular_file(path), path,
+          ": there is no such result; run 'elastogear simulate' with analysis: sweep, or name it by -result");
+  return {{std::filesystem::path(path).stem().string(), path}};
+}
+
+double number_in_column(const Case& of, const std::string& heading) {
+  for (const auto& [name, text] : of.columns)
+    if (name == heading || name.starts_with(heading + " ["))
+      if (const auto value = parse<double>(text)) return *value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace elastogear::app

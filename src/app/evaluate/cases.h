@@ -1,0 +1,23 @@
+#pragma once
+// The cases of a sweep: one result file, or a folder of them with a table.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elastogear::app {
+
+/// One case with what the table says of it beside its name and file.
+struct Case {
+  std::string name, file;
+  std::vector<std::pair<std::string, std::string>> columns = {};  ///< heading and text
+};
+
+/// A file is a case of its own name. A folder has a table cases.csv with the columns case and file (relative
+/// to the folder). Throws Error naming file and line where the table is wrong.
+std::vector<Case> read_cases(const std::string& path);
+
+/// The number that a column holds, such as "torque" or "torque [N m]"; NaN where it holds none.
+double number_in_column(const Case& of, const std::string& heading);
+
+}  // namespace elastogear::app

@@ -1,0 +1,301 @@
+#include "app/evaluate/drive_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "app/finite_elements.h"
+#include "app/gear/drive_options.h"
+#include "app/gear/misalignment.h"
+#include "app/gear/modification_options.h"
+#include "app/options/rows.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/rotation.h"
+#include "elastogear/io/body_file.h"
+#include "elastogear/model/fingerprint.h"
+#include "elastogear/recovery/recover.h"
+
+namespace elastogear::app {
+namespace {
+
+using evaluation::Gear, evaluation::PairOfRun;
+
+enum class Kind { positions, equilibrium, in_time };
+
+// A result file with the times that count.
+struct Source {
+  std::string path;
+  model::ResultHeader header;
+  Kind kind = Kind::positions;
+  Eigen::VectorXd time;    // all
+  std::vector<int> steps;  // that count
+};
+
+std::string given_in(const model::ResultHeader& header, const std::string& option) {
+  const auto found = header.provenance.find("option_" + option);
+  return found == header.provenance.end() ? "" : found->second;
+}
+
+// 0 where the option was not given.
+double number_of(const model::ResultHeader& header, const std::string& option) {
+  return std::strtod(given_in(header, option).c_str(), nullptr);
+}
+
+Kind kind_of(const std::string& path, const model::ResultHeader& header) {
+  const std::string analysis = given_in(header, "analysis");
+  if (analysis == "sweep") return Kind::positions;
+  if (analysis == "static") return Kind::equilibrium;
+  require(analysis == "dynamic", path,
+          ": is the result of analysis: ", analysis.empty() ? "unknown" : analysis,
+          "; evaluate reads those of sweep, static and dynamic");
+  return Kind::in_time;
+}
+
+std::vector<int> steps_of(const Source& source, const EvaluateSettings& settings) {
+  const int n = static_cast<int>(source.time.size());
+  std::vector<int> steps;
+  const bool spans = source.kind == Kind::in_time;
+  require(spans || (!settings.from && !settings.to), source.path,
+          ": options -from and -to are for runs in time (analysis: dynamic)");
+  for (int i = source.kind == Kind::equilibrium ? n - 1 : 0; i < n; ++i)
+    if (source.time[i] >= settings.from.value_or(-INFINITY) &&
+        source.time[i] <= settings.to.value_or(INFINITY))
+      steps.push_back(i);
+  require(!steps.empty(), source.path, ": has no times between -from and -to; it reaches from ",
+          source.time[0], " to ", source.time[n - 1], " s");
+  return steps;
+}
+
+Source open_source(const std::string& path, const EvaluateSettings& settings) {
+  Source source{path, io::read_result_header(path), Kind::positions, io::read_times(path), {}};
+  require(source.time.size() > 0, path, ": holds no times");
+  source.kind = kind_of(path, source.header);
+  source.steps = steps_of(source, settings);
+  return source;
+}
+
+const DriveMember& member_of(const Drive& drive, const std::string& name, const std::string& path) {
+  for (const DriveMember& member : drive.members)
+    if (member.name == name) return member;
+  fail(path, ": body '", name, "' is no gear of the drive file: name the result of this drive by -result");
+}
+
+// Angle of the gear where the roll angle is 0, from that where it is the option's.
+double angle_at_zero(const Drive& drive, const DriveMember& member, double roll) {
+  return member.angle - member.ratio * 2 * std::numbers::pi / drive.members.front().toothing.z * roll;
+}
+
+Gear gear_of(const DriveOfRun& of, const Source& source, const std::string& name) {
+  const DriveMember& member = member_of(of.drive, name, source.path);
+  Gear gear;
+  gear.name = name;
+  gear.toothing = member.toothing;
+  gear.width = member.width;
+  gear.ratio = member.ratio;
+  gear.angle = angle_at_zero(of.drive, member, of.options.number("roll"));
+  gear.R = rotation_matrix(member.rotation);
+  const io::BodyHistory history = io::read_joint_history(source.path, name);
+  for (int step : source.steps) {
+    gear.position.push_back(history.r_WB.col(step));
+    gear.rotation.push_back(
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(history.R_WB.col(step).data()));
+  }
+  return gear;
+}
+
+std::string file_of_body(const DriveOfRun& of, const Source& source, const std::string& name) {
+  if (const auto moved = of.settings.body_file.find(name); moved != of.settings.body_file.end())
+    return moved->second;
+  for (const auto& body : source.header.bodies)
+    if (body.name == name && !body.file.empty()) return body.file;
+  return body_file(of.options, member_of(of.drive, name, source.path));
+}
+
+const model::ElasticBody& elastic_body(const DriveOfRun& of, Bodies& bodies, const Source& source,
+                                       const std::string& name) {
+  const auto identity = source.header.provenance.find(model::identity_key(name));
+  return bodies.get(file_of_body(of, source, name), name, source.path,
+                    identity == source.header.provenance.end() ? "" : identity->second);
+}
+
+Eigen::VectorXd rolls(const DriveOfRun& of, const Source& source) {
+  if (source.kind == Kind::in_time) {
+    const Gear first = gear_of(of, source, of.drive.members.front().name);
+    return evaluation::roll_of_run(first, of.options.number("roll"));
+  }
+  Eigen::VectorXd roll(static_cast<Eigen::Index>(source.steps.size()));
+  if (source.kind == Kind::equilibrium)
+    roll.setConstant(of.options.given("roll") || given_in(source.header, "roll").empty()
+                         ? of.options.number("roll")
+                         : number_of(source.header, "roll"));
+  else
+    for (Eigen::Index i = 0; i < roll.size(); ++i) roll[i] = source.time[source.steps[i]];
+  return roll;
+}
+
+// The held gear of a sweep stands at its nominal angles.
+void require_roll_angles(const PairOfRun& pair, const std::string& path) {
+  constexpr double kMost = 0.25;  // pitches, by which elastic gears turn against each other
+  for (const Gear& gear : pair.gear) {
+    const Eigen::VectorXd nominal = evaluation::nominal_angles(gear, pair.first_teeth, pair.roll);
+    const double off = (evaluation::angles(gear, nominal) - nominal).cwiseAbs().maxCoeff();
+    require(off < kMost * evaluation::pitch(gear), path, ": ", gear.name, " stands ",
+            off / evaluation::pitch(gear),
+            " pitches off its place at the roll angles of this drive: the drive file is not that of the run");
+  }
+}
+
+int slave_side(const std::vector<std::vector<model::ContactRecord>>& contacts) {
+  std::size_t of_second = 0, all = 0;
+  for (const auto& step : contacts)
+    for (const auto& record : step) of_second += record.slave_side == 1, ++all;
+  return 2 * of_second > all ? 1 : 0;
+}
+
+PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
+                    const model::ResultHeader::Pair& of_pair) {
+  PairOfRun pair;
+  std::array<evaluation::Flanks, 2> flanks;
+  for (std::size_t g : {0, 1}) {
+    const std::string& name = source.header.bodies[of_pair.body[g]].name;
+    pair.gear[g] = gear_of(of, source, name);
+    flanks[g] = evaluation::flanks(pair.gear[g].toothing, elastic_body(of, bodies, source, name).surface);
+    pair.gear[g].layers = evaluation::node_layers(flanks[g]);
+  }
+  pair.roll = rolls(of, source);
+  pair.first_teeth = of.drive.members.front().toothing.z;
+  pair.sense = of.options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
+  pair.speed = std::abs(of.options.number("speed"));
+  const io::PairHistory history = io::read_pair_history(source.path, of_pair.name);
+  const auto contacts = io::read_contacts(source.path, of_pair.name);
+  pair.slave_side = slave_side(contacts);
+  pair.friction = number_of(source.header, "contact_friction") != 0;
+  const auto n = static_cast<Eigen::Index>(source.steps.size());
+  pair.force.resize(3, n), pair.torque.resize(3, n);
+  if (source.kind == Kind::in_time) pair.time.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int step = source.steps[static_cast<std::size_t>(i)];
+    pair.force.col(i) = history.force.col(step);
+    pair.torque.col(i) = history.torque.col(step);
+    if (source.kind == Kind::in_time) pair.time[i] = source.time[step];
+    pair.contacts.push_back(evaluation::flank_contacts(contacts[static_cast<std::size_t>(step)],
+                                                       {&pair.gear[0], &pair.gear[1]}, flanks,
+                                                       static_cast<std::size_t>(i)));
+  }
+  if (source.kind != Kind::in_time) require_roll_angles(pair, source.path);
+  return pair;
+}
+
+// Are the flanks of a run exact and in their place?
+bool is_exact(const model::ResultHeader& header, const std::string& gear) {
+  for (const OptionTable& table : {modification_table(), misalignment_table()})
+    for (const OptionSpec& spec : table)
+      if (!given_in(header, with_word(spec.name, gear)).empty()) return false;
+  return given_in(header, gear + "_deviation").empty();
+}
+
+void set_unloaded(const Source& source, const std::map<std::string, Eigen::VectorXd>& unloaded,
+                  NamedPair& pair, std::vector<std::string>& notes) {
+  if (source.kind == Kind::in_time) return;
+  const auto known = unloaded.find(pair.name);
+  if (known != unloaded.end()) {
+    require(known->second.size() == pair.run.roll.size(), source.path, ": has ", pair.run.roll.size(),
+            " positions, the unloaded result has ", known->second.size(), ": sweep both over the same ones");
+    pair.run.unloaded = known->second;
+  } else if (is_exact(source.header, pair.run.gear[0].name) &&
+             is_exact(source.header, pair.run.gear[1].name)) {
+    pair.run.unloaded = Eigen::VectorXd::Zero(pair.run.roll.size());
+  } else {
+    notes.push_back(
+        pair.name +
+        ": no secant stiffness: modified or misaligned flanks have an unloaded transmission error; "
+        "sweep a torque near 0 and name its result by -unloaded");
+  }
+}
+
+io::StressSet some_times(const io::StressSet& all, const std::vector<int>& steps) {
+  io::StressSet set = all;
+  set.stress.resize(0, 0);
+  set.von_mises = all.von_mises(Eigen::all, steps);
+  set.rankine = all.rankine(Eigen::all, steps);
+  if (all.error.size() > 0) {
+    set.error = all.error(Eigen::all, steps);
+    set.peak_error = all.peak_error(steps);
+  }
+  return set;
+}
+
+// Stresses at the roots of each elastic gear.
+std::map<std::string, io::StressSet> recover_roots(const DriveOfRun& of, Bodies& bodies, const Source& source,
+                                                   std::vector<std::string>& notes) {
+  std::map<std::string, io::StressSet> roots;
+  std::map<std::string, std::string> files;
+  for (const auto& body : source.header.bodies) files[body.name] = file_of_body(of, source, body.name);
+  for (recovery::BodyOfRun& body : recovery::read_bodies_of_run(source.path, files)) {
+    const std::string name = body.name;
+    if (body.history.q.rows() == 0) {
+      notes.push_back(name + ": no stresses at its roots: it is rigid in the run");
+      continue;
+    }
+    const model::ElasticBody& elastic = elastic_body(of, bodies, source, name);
+    if (!elastic.stress.sets.contains("root")) {
+      notes.push_back(name + ": no stresses at its roots: its body file has no stress nodes 'root'");
+      continue;
+    }
+    recovery::RecoveredBody recovered = recovery::prepare_recovery(
+        std::move(body), of.settings.mode_acceleration, of.settings.error_estimate, finite_elements());
+    roots[name] = some_times(recovery::recover_stress(recovered, elastic, "root", of.settings.error_estimate),
+                             source.steps);
+  }
+  return roots;
+}
+
+}  // namespace
+
+const model::ElasticBody& Bodies::get(const std::string& file, const std::string& body,
+                                      const std::string& result, const std::string& identity) {
+  std::unique_ptr<Known>& known = known_[file];
+  if (!known) {
+    known = std::make_unique<Known>(Known{io::read_body(file), {}});
+    known->identity = model::fingerprint(known->body);
+  }
+  require(identity.empty() || identity == known->identity, file, ": is not the body '", body, "' of ", result,
+          ": name the body file of the run by option -", body, "_file, or run simulate with this one");
+  return known->body;
+}
+
+CaseRun read_case_run(const DriveOfRun& of, Bodies& bodies, const std::string& result,
+                      const std::map<std::string, Eigen::VectorXd>& unloaded) {
+  const Source source = open_source(result, of.settings);
+  CaseRun run;
+  std::map<std::string, io::StressSet> roots;
+  if (of.settings.roots) roots = recover_roots(of, bodies, source, run.notes);
+  if (!io::is_complete(result)) run.notes.push_back(result + " is incomplete: its run did not reach the end");
+  for (const auto& of_pair : source.header.pairs) {
+    NamedPair pair{of_pair.name, read_pair(of, bodies, source, of_pair)};
+    set_unloaded(source, unloaded, pair, run.notes);
+    for (std::size_t g : {0, 1})
+      if (const auto set = roots.find(pair.run.gear[g].name); set != roots.end())
+        pair.run.root[g] = set->second;
+    run.pairs.push_back(std::move(pair));
+  }
+  require(!run.pairs.empty(), result, ": holds no pair of bodies in contact");
+  if (source.kind == Kind::in_time)
+    for (const std::string& name : source.header.sensors) {
+      const Eigen::MatrixXd a = io::read_sensor_history(result, name).acceleration;
+      run.sensors[name] = a(Eigen::all, source.steps).transpose();
+    }
+  return run;
+}
+
+std::map<std::string, Eigen::VectorXd> transmission_errors(const DriveOfRun& of, Bodies& bodies,
+                                                           const std::string& result) {
+  const Source source = open_source(result, of.settings);
+  std::map<std::string, Eigen::VectorXd> errors;
+  for (const auto& pair : source.header.pairs)
+    errors[pair.name] = evaluation::transmission_error(read_pair(of, bodies, source, pair));
+  return errors;
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,54 @@
+#include "app/evaluate/evaluate_options.h"
+
+#include <filesystem>
+
+#include "app/gear/drive_options.h"
+#include "app/options/rows.h"
+
+namespace elastogear::app {
+namespace {
+
+using E = EvaluateSettings;
+
+const Rows<E> kEvaluateRows = {
+    {"result", &E::result, "-",
+     "result file of simulate, or folder of the results of several cases with their cases.csv (default: the "
+     "drive's)",
+     kDependent},
+    {"output", &E::output, "-",
+     "evaluation file to write (HDF5); tables (CSV) and the summary (JSON) are named after it (default: the "
+     "drive's)",
+     kDependent},
+    {"unloaded", &E::unloaded, "-",
+     "result file of the same positions under a vanishing torque, for the unloaded transmission error and "
+     "the secant stiffness; not needed for exact flanks in place, which have none"},
+    {"from", &E::from, "s", "begin of the span of a run in time that is looked at (default: its start)",
+     kDependent},
+    {"to", &E::to, "s", "end of that span (default: its end)", kDependent},
+    {"root_stress", &E::roots, "-", "recover stresses at the roots of the teeth"},
+    {"case_tables", &E::case_tables, "-", "of several cases: CSV tables of each, beside the table of all"},
+    {"mode_acceleration", &E::mode_acceleration, one_of("false", "auto", "true"),
+     "of stresses at the roots, see recover"},
+    {"error_estimate", &E::error_estimate, "-", "of stresses at the roots, see recover"},
+    {"<body>_file", &E::body_file, "-", "body file, when it is no longer where the result file says"},
+};
+
+}  // namespace
+
+OptionTable evaluate_table() { return table_of(kEvaluateRows); }
+
+EvaluateSettings evaluate_settings(const Options& options) {
+  EvaluateSettings settings;
+  read_rows(options, kEvaluateRows, settings);
+  return settings;
+}
+
+Options with_evaluation(Options options) {
+  const std::string cases = drive_stem(options) + "_result", file = cases + ".h5";
+  const bool several = !std::filesystem::exists(file) && std::filesystem::is_directory(cases);
+  options.set_default("result", several ? cases : file);
+  options.set_default("output", drive_stem(options) + "_evaluation.h5");
+  return options;
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,33 @@
+#pragma once
+// The options of evaluate, beside those of drive files.
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "app/options/options.h"
+#include "elastogear/recovery/static_response.h"
+
+namespace elastogear::app {
+
+/// What the options ask for.
+struct EvaluateSettings {
+  std::string result = {}, output = {};      ///< result file or folder of cases; file to write
+  std::string unloaded = {};                 ///< result file of the same positions without load; empty: none
+  std::optional<double> from = {}, to = {};  ///< s, span of a run in time
+  bool roots = true;                         ///< recover stresses at the roots
+  bool case_tables = true;                   ///< CSV tables of every case, beside the table of all cases
+  recovery::Acceleration mode_acceleration = recovery::Acceleration::automatic;
+  bool error_estimate = true;
+  std::map<std::string, std::string> body_file = {};  ///< by body, where the result names another place
+};
+
+/// Rows for the options of evaluate.
+OptionTable evaluate_table();
+
+EvaluateSettings evaluate_settings(const Options& options);
+
+/// Options with the result and the output of the drive where nothing is given.
+Options with_evaluation(Options options);
+
+}  // namespace elastogear::app

@@ -1,0 +1,159 @@
+// What evaluate prints.
+
+#include <cstdio>
+
+#include "app/console/console.h"
+#include "app/evaluate/evaluate_tables.h"
+
+namespace elastogear::app {
+namespace {
+
+using io::EvaluationItem;
+
+// Values of one pair, in the units that engineers read.
+struct Reader {
+  const std::vector<EvaluationItem>& items;
+
+  bool has(const std::string& path) const { return find_item(items, path) != nullptr; }
+  double value(const std::string& path) const { return find_item(items, path)->value[0]; }
+  std::string in(const std::string& path, double factor, const std::string& unit) const {
+    return with_unit(factor * value(path), unit);
+  }
+  std::string word(const std::string& path) const { return find_item(items, path)->words[0]; }
+};
+
+std::string whole(const Reader& of, const std::string& path) {
+  return std::to_string(static_cast<long>(of.value(path)));
+}
+
+std::string digits_of(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+void print_error(const Reader& of) {
+  const std::string name = "transmission_error/";
+  print_item("transmission error", "mean " + of.in(name + "mean", 1e6, "um") + ", peak to peak " +
+                                       of.in(name + "peak_to_peak", 1e6, "um") + " on the radius " +
+                                       of.in(name + "radius", 1e3, "mm") + "; > 0: the second gear leads");
+  if (of.has(name + "unloaded_peak_to_peak"))
+    print_item("", "peak to peak without load " + of.in(name + "unloaded_peak_to_peak", 1e6, "um"));
+  const EvaluationItem* amplitude = find_item(of.items, name + "amplitude");
+  const EvaluationItem* order = find_item(of.items, name + "order");
+  if (!amplitude || find_item(of.items, "time")) return;
+  std::string text;
+  for (std::size_t i = 0, n = 0; i < order->value.size() && n < 3; ++i)
+    if (order->value[i] == static_cast<long>(order->value[i])) {
+      text += (n++ ? ", " : "") + digits_of(order->value[i], 3) + ": " +
+              with_unit(1e6 * amplitude->value[i], "um");
+    }
+  print_item("", "orders of the mesh, amplitudes " + text);
+}
+
+void print_stiffness(const Reader& of) {
+  for (const char* kind : {"secant", "tangent"})
+    if (const std::string name = std::string("stiffness/") + kind; of.has(name + "_mean"))
+      print_item(std::string("mesh stiffness, ") + kind,
+                 of.in(name + "_mean", 1e-6, "N/um") + ", over the face width " +
+                     of.in(name + "_per_width", 1e-9, "N/(mm um)") + ", peak to peak " +
+                     of.in(name + "_peak_to_peak", 1e-6, "N/um"));
+}
+
+void print_load(const Reader& of) {
+  if (of.has("teeth/contact_ratio"))
+    print_item("operating contact ratio", of.in("teeth/contact_ratio", 1, "") +
+                                              "; one pair of teeth bears up to " +
+                                              of.in("teeth/largest_share", 100, "%"));
+  if (of.has("line_load/KHbeta")) print_item("KHbeta", of.in("line_load/KHbeta", 1, ""));
+}
+
+std::string place_on(const Reader& of, const std::string& gear) {
+  const std::string path = "pressure/peak_on_" + gear;
+  const bool roll = of.has(path + "/length_of_roll");
+  return gear + " tooth " + whole(of, path + "/tooth") + " " + of.word(path + "/side") + ", " +
+         (roll ? "length of roll " : "radius ") +
+         of.in(path + (roll ? "/length_of_roll" : "/radius"), 1e3, "mm") + ", z " +
+         of.in(path + "/z", 1e3, "mm");
+}
+
+void print_pressure(const Reader& of, const std::string& pair) {
+  if (!of.has("pressure/peak")) return;
+  print_item("largest contact pressure", of.in("pressure/peak", 1e-6, "MPa") + ", roll angle " +
+                                             of.in("pressure/peak_roll", 1, "pitches"));
+  print_item("", place_on(of, pair.substr(0, pair.find(':'))));
+}
+
+void print_roots(const Reader& of) {
+  for (const EvaluationItem& item : of.items) {
+    if (!item.path.starts_with("root/") || !item.path.ends_with("/largest_tension")) continue;
+    const std::string path = item.path.substr(0, item.path.rfind('/'));
+    const auto peak = [&](const std::string& name) {
+      const bool error = of.has(path + name + "_error");
+      return of.in(path + name, 1e-6, "MPa") + " at node " + whole(of, path + name + "_node") + " of tooth " +
+             whole(of, path + name + "_tooth") + ", roll angle " +
+             of.in(path + name + "_roll", 1, "pitches") +
+             (error ? ", estimated error " + of.in(path + name + "_error", 1e-6, "MPa")
+                    : std::string(", error not estimated: not to be trusted"));
+    };
+    const std::string gear = path.substr(5);
+    print_item("root of " + gear + ", tension", peak("/largest_tension"));
+    if (of.has(path + "/range"))
+      print_item("", "range of a tooth on its way " + of.in(path + "/range", 1e-6, "MPa"));
+    print_item("root of " + gear + ", von Mises", peak("/largest_von_mises"));
+  }
+}
+
+void print_losses(const Reader& of) {
+  const std::string speed = of.in("losses/speed", 1, "rad/s");
+  print_item("sliding", of.in("losses/largest_sliding_speed", 1, "m/s") + ", pressure times sliding speed " +
+                            of.in("losses/largest_pv", 1e-6, "W/mm^2") + ", at " + speed);
+  if (of.has("losses/efficiency"))
+    print_item("efficiency", of.in("losses/efficiency", 100, "%") + ", friction takes " +
+                                 of.in("losses/friction_loss", 100, "%") + " of the input; loss factor " +
+                                 of.in("losses/loss_factor", 1, ""));
+  if (of.has("force/dynamic_factor"))
+    print_item("dynamic factor", of.in("force/dynamic_factor", 1, "") + ", largest contact force " +
+                                     of.in("force/largest", 1, "N"));
+}
+
+}  // namespace
+
+void print_figures(const CaseFigures& of) {
+  for (const PairFigures& pair : of.pairs) {
+    std::printf("%s, %s\n", of.of.name.c_str(), pair.pair.c_str());
+    const Reader reader{pair.items};
+    print_error(reader);
+    print_stiffness(reader);
+    print_load(reader);
+    print_pressure(reader, pair.pair);
+    print_roots(reader);
+    print_losses(reader);
+  }
+  for (const std::string& note : of.notes) print_item("note", note);
+}
+
+void print_cases(const std::vector<CaseFigures>& cases) {
+  struct Column {
+    const char *title, *path;
+    double factor;
+  };
+  const Column kColumns[] = {
+      {"TE mean um", "transmission_error/mean", 1e6}, {"TE p-p um", "transmission_error/peak_to_peak", 1e6},
+      {"contact ratio", "teeth/contact_ratio", 1},    {"KHbeta", "line_load/KHbeta", 1},
+      {"pressure MPa", "pressure/peak", 1e-6},        {"efficiency %", "losses/efficiency", 100}};
+  std::printf("%-24s %-20s", "case", "pair");
+  for (const Column& column : kColumns) std::printf(" %13s", column.title);
+  std::printf("\n");
+  for (const CaseFigures& of : cases)
+    for (const PairFigures& pair : of.pairs) {
+      std::printf("%-24s %-20s", of.of.name.c_str(), pair.pair.c_str());
+      for (const Column& column : kColumns) {
+        const EvaluationItem* item = find_item(pair.items, column.path);
+        item ? std::printf(" %13.5g", column.factor * item->value[0]) : std::printf(" %13s", "-");
+      }
+      std::printf("\n");
+    }
+}
+
+}  // namespace elastogear::app

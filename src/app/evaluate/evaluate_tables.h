@@ -1,0 +1,44 @@
+#pragma once
+// Outputs of evaluate beside the HDF5 file: CSV tables, the JSON summary and what is printed.
+
+#include <string>
+#include <vector>
+
+#include "app/evaluate/cases.h"
+#include "elastogear/io/evaluation_file.h"
+
+namespace elastogear::app {
+
+/// The items of one pair in one case, paths below it.
+struct PairFigures {
+  std::string pair;  ///< "pinion:wheel"
+  std::vector<io::EvaluationItem> items;
+};
+
+/// A case with all that was read off it.
+struct CaseFigures {
+  Case of;
+  std::vector<PairFigures> pairs;
+  std::vector<io::EvaluationItem> sensors;  ///< order spectra
+  std::vector<std::string> notes;
+};
+
+/// The item at a path; nullptr where there is none.
+const io::EvaluationItem* find_item(const std::vector<io::EvaluationItem>& items, const std::string& path);
+
+/// Writes the tables of a pair, named after `stem`; returns their names.
+std::vector<std::string> write_pair_tables(const std::string& stem,
+                                           const std::vector<io::EvaluationItem>& items);
+
+/// Writes one row a case with all single numbers.
+void write_cases_table(const std::string& path, const std::vector<CaseFigures>& cases);
+
+/// Writes all single numbers and words of all cases as JSON.
+void write_summary(const std::string& path, const std::string& drive, const std::vector<CaseFigures>& cases);
+
+/// Prints what an engineer looks for.
+void print_figures(const CaseFigures& of);
+/// Prints one line a case.
+void print_cases(const std::vector<CaseFigures>& cases);
+
+}  // namespace elastogear::app

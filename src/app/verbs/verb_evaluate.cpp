@@ -1,0 +1,184 @@
+// elastogear evaluate: drive file and results -> what an engineer reads off.
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/console/console.h"
+#include "app/console/outputs.h"
+#include "app/evaluate/drive_run.h"
+#include "app/evaluate/evaluate_tables.h"
+#include "app/gear/drive_options.h"
+#include "app/verbs/verbs.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
+
+namespace elastogear::app {
+namespace {
+
+std::string stem_of(const std::string& output) {
+  return std::filesystem::path(output).replace_extension().string();
+}
+
+std::string with_underscores(std::string name) {
+  std::replace(name.begin(), name.end(), ':', '_');
+  return name;
+}
+
+std::string tables_stem(const EvaluateSettings& settings, const CaseFigures& of, bool several,
+                        const std::string& pair) {
+  return stem_of(settings.output) + (several ? "_" + of.of.name : "") + "_" + with_underscores(pair);
+}
+
+// One case with what evaluation gives besides items, by pair.
+struct Evaluated {
+  CaseFigures figures;
+  std::vector<evaluation::PairEvaluation> pairs;
+  std::vector<double> width;  // m
+  Eigen::VectorXd roll;
+};
+
+Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_case,
+                        const std::map<std::string, Eigen::VectorXd>& unloaded) {
+  CaseRun run = read_case_run(of, bodies, of_case.file, unloaded);
+  Evaluated evaluated{{of_case, {}, {}, std::move(run.notes)}, {}, {}, run.pairs[0].run.roll};
+  for (const NamedPair& pair : run.pairs) {
+    evaluated.pairs.push_back(evaluation::evaluate(pair.run));
+    evaluated.width.push_back(evaluation::common_width(pair.run));
+    evaluated.figures.pairs.push_back({pair.name, evaluated.pairs.back().items});
+  }
+  const char* kAxis[] = {"x", "y", "z"};
+  for (const auto& [sensor, a] : run.sensors)
+    for (int i = 0; i < 3; ++i)
+      for (const io::EvaluationItem& item : evaluation::spectrum_items(
+               run.pairs[0].run, "sensors/" + sensor + "/acceleration_" + kAxis[i], a.col(i), "m/s^2"))
+        evaluated.figures.sensors.push_back(item);
+  return evaluated;
+}
+
+// What must be equal for two cases to differ in their torque alone.
+std::vector<std::string> other_columns(const Case& of) {
+  std::vector<std::string> texts;
+  for (const auto& [heading, text] : of.columns)
+    if (!heading.starts_with("torque")) texts.push_back(text);
+  return texts;
+}
+
+// The case of the next torque, by which the tangent stiffness is taken; -1: there is none.
+int neighbour(const std::vector<Evaluated>& cases, std::size_t i) {
+  const double torque = number_in_column(cases[i].figures.of, "torque");
+  int best = -1;
+  double nearest = INFINITY;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const double off = std::abs(number_in_column(cases[k].figures.of, "torque") - torque);
+    if (!(off > 0) || off >= nearest || cases[k].roll != cases[i].roll ||
+        other_columns(cases[k].figures.of) != other_columns(cases[i].figures.of))
+      continue;
+    nearest = off, best = static_cast<int>(k);
+  }
+  return best;
+}
+
+void add_tangents(std::vector<Evaluated>& cases) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const int other = neighbour(cases, i);
+    if (other < 0) continue;
+    for (std::size_t p = 0; p < cases[i].pairs.size(); ++p) {
+      const auto items = evaluation::tangent_stiffness(
+          cases[i].pairs[p], cases[static_cast<std::size_t>(other)].pairs[p], cases[i].width[p]);
+      auto& all = cases[i].figures.pairs[p].items;
+      all.insert(all.end(), items.begin(), items.end());
+    }
+    cases[i].figures.notes.push_back("tangent stiffness against the case " +
+                                     cases[static_cast<std::size_t>(other)].figures.of.name);
+  }
+}
+
+io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures>& cases) {
+  io::EvaluationFile file{{}, options.provenance()};
+  const auto add = [&](const std::string& group, const std::vector<io::EvaluationItem>& items) {
+    for (io::EvaluationItem item : items) {
+      item.path = group + "/" + item.path;
+      file.items.push_back(std::move(item));
+    }
+  };
+  for (const CaseFigures& of : cases) {
+    file.items.push_back({of.of.name + "/result", "1", "result file of the case", {1}, {}, {of.of.file}});
+    for (const auto& [heading, text] : of.of.columns)
+      file.items.push_back({of.of.name + "/inputs/" + heading, "1", "of cases.csv", {1}, {}, {text}});
+    for (const PairFigures& pair : of.pairs) add(of.of.name + "/" + pair.pair, pair.items);
+    add(of.of.name, of.sensors);
+  }
+  return file;
+}
+
+void write_all(const Options& options, const EvaluateSettings& settings,
+               const std::vector<CaseFigures>& cases) {
+  const bool several = cases.size() > 1;
+  const std::string stem = stem_of(settings.output);
+  io::write_evaluation(settings.output, file_of(options, cases));
+  print_item("written", settings.output);
+  write_summary(stem + ".json", drive_stem(options), cases);
+  print_item("written", stem + ".json");
+  if (several) {
+    write_cases_table(stem + "_cases.csv", cases);
+    print_item("written", stem + "_cases.csv");
+  }
+  if (several && !settings.case_tables) return;
+  std::size_t n = 0;
+  for (const CaseFigures& of : cases)
+    for (const PairFigures& pair : of.pairs)
+      n += write_pair_tables(tables_stem(settings, of, several, pair.pair), pair.items).size();
+  print_item("written", std::to_string(n) + " tables " + stem + "_*.csv");
+}
+
+// Tables are named after the output and cannot be inputs unless these end in .csv or .json.
+void protect(const Options& options, const EvaluateSettings& settings, const std::vector<Case>& cases) {
+  std::vector<std::string> data;
+  for (const Case& of : cases) data.push_back(of.file);
+  if (!settings.unloaded.empty()) data.push_back(settings.unloaded);
+  const std::string stem = stem_of(settings.output);
+  protect_inputs(options, {{"output", {settings.output, stem + ".json", stem + "_cases.csv"}}}, data);
+}
+
+OptionTable all_evaluate_options() {
+  OptionTable table = evaluate_table();
+  const OptionTable of_drives = whole_drive_table();
+  table.insert(table.end(), of_drives.begin(), of_drives.end());
+  return table;
+}
+
+void run_evaluate(const Options& given, const std::vector<std::string>&) {
+  require(is_drive(given),
+          "option -drive is missing: evaluate reads a drive file, with 'drive: cylindrical' or "
+          "'drive: worm'");
+  const Options options = with_evaluation(with_gears(given));
+  options.reject_unknown({{"body", options.list("gears")}});
+  const DriveOfRun of{options, read_drive(options), evaluate_settings(options)};
+  const std::vector<Case> all = read_cases(of.settings.result);
+  protect(options, of.settings, all);
+  const OutputLock lock(of.settings.output);
+  const Progress progress = console_progress();
+  Bodies bodies;
+  std::map<std::string, Eigen::VectorXd> unloaded;
+  if (!of.settings.unloaded.empty()) unloaded = transmission_errors(of, bodies, of.settings.unloaded);
+  std::vector<Evaluated> cases;
+  for (const Case& of_case : all) {
+    report(progress, "cases", static_cast<double>(cases.size()) / static_cast<double>(all.size()));
+    cases.push_back(evaluate_case(of, bodies, of_case, unloaded));
+  }
+  report(progress, "cases", 1);
+  add_tangents(cases);
+  std::vector<CaseFigures> figures;
+  for (Evaluated& one : cases) figures.push_back(std::move(one.figures));
+  figures.size() == 1 ? print_figures(figures[0]) : print_cases(figures);
+  write_all(options, of.settings, figures);
+}
+
+}  // namespace
+
+Verb evaluate_verb() {
+  return {"evaluate", "evaluate drive.yaml [-option value ...]",
+          "what an engineer reads off the results of a drive", all_evaluate_options(), run_evaluate};
+}
+
+}  // namespace elastogear::app
