@@ -81,11 +81,6 @@ const DriveMember& member_of(const Drive& drive, const std::string& name, const 
   fail(path, ": body '", name, "' is no gear of the drive file: name the result of this drive by -result");
 }
 
-// Angle of the gear where the roll angle is 0, from that where it is the option's.
-double angle_at_zero(const Drive& drive, const DriveMember& member, double roll) {
-  return member.angle - member.ratio * 2 * std::numbers::pi / drive.members.front().toothing.z * roll;
-}
-
 Gear gear_of(const DriveOfRun& of, const Source& source, const std::string& name) {
   const DriveMember& member = member_of(of.drive, name, source.path);
   Gear gear;
@@ -93,7 +88,7 @@ Gear gear_of(const DriveOfRun& of, const Source& source, const std::string& name
   gear.toothing = member.toothing;
   gear.width = member.width;
   gear.ratio = member.ratio;
-  gear.angle = angle_at_zero(of.drive, member, of.options.number("roll"));
+  gear.angle = member.angle;
   gear.R = rotation_matrix(member.rotation);
   const io::BodyHistory history = io::read_joint_history(source.path, name);
   for (int step : source.steps) {
@@ -120,18 +115,11 @@ const model::ElasticBody& elastic_body(const DriveOfRun& of, Bodies& bodies, con
 }
 
 Eigen::VectorXd rolls(const DriveOfRun& of, const Source& source) {
-  if (source.kind == Kind::in_time) {
-    const Gear first = gear_of(of, source, of.drive.members.front().name);
-    return evaluation::roll_of_run(first, of.options.number("roll"));
-  }
-  Eigen::VectorXd roll(static_cast<Eigen::Index>(source.steps.size()));
-  if (source.kind == Kind::equilibrium)
-    roll.setConstant(of.options.given("roll") || given_in(source.header, "roll").empty()
-                         ? of.options.number("roll")
-                         : number_of(source.header, "roll"));
-  else
-    for (Eigen::Index i = 0; i < roll.size(); ++i) roll[i] = source.time[source.steps[i]];
-  return roll;
+  const double roll = number_of(source.header, "roll");
+  if (source.kind == Kind::in_time)
+    return evaluation::roll_of_run(gear_of(of, source, of.drive.members.front().name), roll);
+  if (source.kind == Kind::equilibrium) return Eigen::VectorXd::Constant(1, roll);
+  return source.time(source.steps);
 }
 
 // The held gear of a sweep stands at its nominal angles.

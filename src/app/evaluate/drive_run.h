@@ -32,7 +32,7 @@ class Bodies {
 /// What is the same for all cases of a drive.
 struct DriveOfRun {
   const Options& options;
-  Drive drive;
+  Drive drive;  ///< at the roll angle 0
   EvaluateSettings settings;
 };
 

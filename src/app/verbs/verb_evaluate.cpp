@@ -153,7 +153,9 @@ void run_evaluate(const Options& given, const std::vector<std::string>&) {
           "'drive: worm'");
   const Options options = with_evaluation(with_gears(given));
   options.reject_unknown({{"body", options.list("gears")}});
-  const DriveOfRun of{options, read_drive(options), evaluate_settings(options)};
+  Options at_zero = options;
+  at_zero.set("roll", "0");
+  const DriveOfRun of{options, read_drive(at_zero), evaluate_settings(options)};
   const std::vector<Case> all = read_cases(of.settings.result);
   protect(options, of.settings, all);
   const OutputLock lock(of.settings.output);
