@@ -14,7 +14,7 @@ from plots import COLOURS, STYLES, line_styles, plt, readable, save
 HEAT = "YlOrRd"
 MOST_ORDERS = 10
 MOST_PAIRS = 12  # in one legend
-NOTICEABLE = 0.02  # of the largest stress: roots below it are not drawn
+NOTICEABLE = 0.12  # of the largest stress: roots below it are not drawn
 
 
 class Pair:
@@ -48,7 +48,7 @@ def plot_transmission_error(pair, folder):
     figure, panels = plt.subplots(1, 2 if orders else 1, figsize=(10, 4) if orders else (7, 4), squeeze=False)
     axes = panels[0, 0]
     axes.plot(pair.roll, 1e6 * pair[error + "/loaded"], color=COLOURS[0], label="loaded")
-    if pair.has(error + "/unloaded"):
+    if pair.has(error + "/unloaded") and np.ptp(pair[error + "/unloaded"]) > 0:
         axes.plot(pair.roll, 1e6 * pair[error + "/unloaded"], "--", color=COLOURS[1], label="without load")
     axes.axhline(1e6 * pair[error + "/mean"], color=COLOURS[0], linewidth=0.8, linestyle=":",
                  label=f"mean {1e6 * pair[error + '/mean']:.1f} µm, peak to peak {1e6 * pair[error + '/peak_to_peak']:.2f} µm")
@@ -92,7 +92,7 @@ def plot_load_sharing(pair, folder):
     over_roll.set(ylabel="share of the normal force in %", ylim=(0, 105))
     over_roll.legend(title="teeth", frameon=False, fontsize=8)
     way.set(xlabel="place of a pair of teeth on its way, pitches", ylim=(0, 105),
-            title=f"contact ratio in operation {pair['teeth/contact_ratio']:.3f}")
+            title=f"operating contact ratio {pair['teeth/contact_ratio']:.3f}")
     figure.suptitle(pair.title("Load sharing"))
     save(figure, folder, pair.file("load_sharing"))
 
@@ -135,22 +135,22 @@ def plot_pattern(pair, name, folder):
 
 def plot_roots(pair, gear, folder):
     root = "root/" + gear
-    figure, (over_roll, way) = plt.subplots(1, 2, figsize=(11, 4.2), sharey=True)
+    figure, (over_roll, way) = plt.subplots(1, 2, figsize=(11, 4.2))
     tension, tooth = pair[root + "/tension"] / 1e6, pair[root + "/tooth"].astype(int)
     peak = tension.max()
     for column, (style, colour) in zip(np.flatnonzero(tension.max(axis=0) > NOTICEABLE * peak), line_styles()):
         over_roll.plot(pair.roll, tension[:, column], style, color=colour, label=f"tooth {tooth[column]}")
     roll_axis(over_roll, pair)
-    over_roll.set(ylabel="largest principal stress in MPa")
-    over_roll.legend(frameon=False, fontsize=8)
+    over_roll.set(ylabel="stress in MPa", title="largest principal stress at each tooth", ylim=(None, 1.12 * peak))
+    over_roll.legend(frameon=False, fontsize=8, loc="best")
     if pair.has(root + "/way/place"):
         place = pair[root + "/way/place"]
         for name, label, colour, style in (("tension", "largest principal", COLOURS[0], "-"), ("von_mises", "von Mises", COLOURS[1], "--")):
-            way.plot(place, pair[f"{root}/way/{name}"] / 1e6, style, color=colour, label=f"{label}, its node of the largest one")
-        far = np.abs(place[pair[root + "/way/tension"] > NOTICEABLE * 1e6 * peak]).max(initial=1)
+            way.plot(place, pair[f"{root}/way/{name}"] / 1e6, style, color=colour, label=label)
+        far = np.abs(place[pair[root + "/way/tension"] > NOTICEABLE * 1e6 * peak]).max(initial=0.5)
         way.set_xlim(-far - 0.5, far + 0.5)
-        way.legend(frameon=False, fontsize=8)
-    way.set(xlabel="place of a tooth on its way, pitches")
+        way.legend(frameon=False, fontsize=8, loc="upper right")
+    way.set(xlabel="place of a tooth on its way, pitches", title="nodes of the largest ones on the way of a tooth")
     node, error = int(pair[root + "/largest_tension_node"]), ""
     if pair.has(root + "/largest_tension_error"):
         error = f", estimated error {pair[root + '/largest_tension_error'] / 1e6:.2g} MPa"

@@ -36,7 +36,7 @@ Flanks flanks(const gear::Toothing& toothing, const model::Surface& surface) {
   Flanks flanks{.surface = &surface};
   for (const std::string& name : surface.group_name)
     flanks.of_group.push_back(gear::flank_of(toothing, name));
-  flanks.of_node.assign(static_cast<std::size_t>(surface.X.cols()), -1);
+  flanks.of_node.assign(static_cast<std::size_t>(surface.X.cols()), 0);
   for (int f = static_cast<int>(surface.face.cols()) - 1; f >= 0; --f)
     for (int node : surface.face.col(f)) flanks.of_node[static_cast<std::size_t>(node)] = surface.group[f];
   return flanks;
@@ -45,7 +45,7 @@ Flanks flanks(const gear::Toothing& toothing, const model::Surface& surface) {
 Eigen::VectorXd node_layers(const Flanks& flanks) {
   std::vector<double> z;
   for (std::size_t node = 0; node < flanks.of_node.size(); ++node)
-    if (flanks.of_node[node] >= 0 && flanks.of_group[flanks.of_node[node]])
+    if (flanks.of_group[flanks.of_node[node]])
       z.push_back(flanks.surface->X(2, static_cast<Eigen::Index>(node)));
   if (z.empty()) return {};
   std::sort(z.begin(), z.end());

@@ -38,10 +38,6 @@ void add_error(const PairOfRun& pair, const Transmission& t, const Eigen::Vector
   items.number(name + "/mean", "m", "its mean", error.mean());
   items.number(name + "/peak_to_peak", "m", "largest less smallest", peak_to_peak(error));
   items.add(spectrum_items(pair, name, error, "m"));
-  if (pair.unloaded.size() == 0) return;
-  items.curve(name + "/unloaded", "m", "without load", pair.unloaded);
-  items.number(name + "/unloaded_peak_to_peak", "m", "largest less smallest without load",
-               peak_to_peak(pair.unloaded));
 }
 
 void add_stiffness(const std::string& kind, const std::string& what, const Eigen::VectorXd& c, double width,
@@ -120,7 +116,7 @@ std::vector<io::EvaluationItem> spectrum_items(const PairOfRun& pair, const std:
   Items items;
   if (in_time(pair))
     add_spectrum(path, unit, windowed_orders(pair.sense * pair.roll, signal), items);
-  else if (whole_pitches(pair.roll))
+  else if (even_positions(pair.roll))
     add_spectrum(path, unit, fourier_orders(pair.roll, signal), items);
   return items.take();
 }
@@ -135,9 +131,7 @@ PairEvaluation evaluate(const PairOfRun& pair) {
   items.curve("roll", "1", "roll angle of the drive's first gear, pitches", pair.roll);
   items.curve("time", "s", "time", pair.time);
   add_error(pair, t, evaluation.error, items);
-  if (pair.unloaded.size() > 0)
-    add_stiffness("secant", "force on the way from the unloaded transmission error, over that way",
-                  stiffness(evaluation.force, evaluation.error, pair.unloaded), common_width(pair), items);
+  if (pair.unloaded.size() > 0) items.add(unloaded_items(evaluation, pair.unloaded, common_width(pair)));
   add_teeth(pair, items);
   add_line_load(pair, items);
   add_pressure(pair, items);
@@ -146,6 +140,17 @@ PairEvaluation evaluate(const PairOfRun& pair) {
   add_roots(pair, items);
   evaluation.items = items.take();
   return evaluation;
+}
+
+std::vector<io::EvaluationItem> unloaded_items(const PairEvaluation& pair, const Eigen::VectorXd& unloaded,
+                                               double width) {
+  Items items;
+  items.curve("transmission_error/unloaded", "m", "without load", unloaded);
+  items.number("transmission_error/unloaded_peak_to_peak", "m", "largest less smallest without load",
+               peak_to_peak(unloaded));
+  add_stiffness("secant", "force over the way from the unloaded transmission error",
+                stiffness(pair.force, pair.error, unloaded), width, items);
+  return items.take();
 }
 
 std::vector<io::EvaluationItem> tangent_stiffness(const PairEvaluation& pair, const PairEvaluation& other,

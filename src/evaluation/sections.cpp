@@ -1,5 +1,6 @@
 #include "evaluation/sections.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "evaluation/line_load.h"
@@ -56,8 +57,12 @@ void add_patterns(const PairOfRun& pair, int g, Items& items) {
     const auto pattern = contact_pattern(pair.contacts, gear, g, side, half_way(pair, gear));
     if (!pattern) continue;
     const std::string path = "pattern/" + gear.name + "_" + side_name(side);
-    items.curve(path + (has_length_of_roll(gear.toothing) ? "/length_of_roll" : "/radius"), "m",
-                "middles of the cells along the profile", pattern->profile);
+    Eigen::VectorXd radius = pattern->profile;
+    if (has_length_of_roll(gear.toothing)) {
+      items.curve(path + "/length_of_roll", "m", "middles of the cells along the profile", pattern->profile);
+      radius = (radius.array().square() + std::pow(gear.toothing.r_b, 2)).sqrt();
+    }
+    items.curve(path + "/radius", "m", "middles of the cells along the profile", radius);
     items.curve(path + "/z", "m", "middles of the cells along the axis, body frame", pattern->z);
     items.table(path + "/pressure", "Pa", "largest pressure over the run, all teeth; profile x axis",
                 pattern->pressure);

@@ -13,7 +13,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kEven = 1e-6;  // of a step
+constexpr double kEven = 1e-6;        // of a step, per position
+constexpr double kWhole = 1e-6;       // of a pitch
+constexpr double kMostMissing = 0.1;  // of the positions
 
 // Positive half of the discrete Fourier transform, without the factor 1/n.
 std::vector<std::complex<double>> half_transform(const Eigen::VectorXd& signal) {
@@ -42,6 +44,20 @@ Eigen::VectorXd resampled(const Eigen::VectorXd& roll, const Eigen::VectorXd& si
   return even;
 }
 
+// The signal at all positions, linear where some are missing, the first one behind the last one.
+Eigen::VectorXd filled(const EvenPositions& even, const Eigen::VectorXd& signal) {
+  Eigen::VectorXd all(even.n);
+  for (std::size_t i = 0; i < even.index.size(); ++i) {
+    const bool last = i + 1 == even.index.size();
+    const Eigen::Index begin = even.index[i], end = last ? even.n + even.index[0] : even.index[i + 1];
+    const double from = signal[static_cast<Eigen::Index>(i)],
+                 to = signal[last ? 0 : static_cast<Eigen::Index>(i) + 1];
+    for (Eigen::Index k = begin; k < end; ++k)
+      all[k] = from + (to - from) * static_cast<double>(k - begin) / static_cast<double>(end - begin);
+  }
+  return all;
+}
+
 }  // namespace
 
 double peak_to_peak(const Eigen::VectorXd& signal) {
@@ -53,29 +69,35 @@ double dynamic_factor(const Eigen::VectorXd& force) {
   return mean > 0 ? force.maxCoeff() / mean : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<int> whole_pitches(const Eigen::VectorXd& roll) {
+std::optional<EvenPositions> even_positions(const Eigen::VectorXd& roll) {
   const Eigen::Index n = roll.size();
   if (n < 2) return {};
-  const double step = (roll[n - 1] - roll[0]) / static_cast<double>(n - 1);
+  const double step = (roll.tail(n - 1) - roll.head(n - 1)).minCoeff();
   if (!(step > 0)) return {};
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (std::abs(roll[i] - roll[0] - step * static_cast<double>(i)) > kEven * step) return {};
-  const double pitches = step * static_cast<double>(n), whole = std::round(pitches);
-  if (whole < 1 || std::abs(pitches - whole) > kEven * pitches) return {};
-  return static_cast<int>(whole);
+  EvenPositions even;
+  for (double angle : roll) {
+    const double index = (angle - roll[0]) / step;
+    if (std::abs(index - std::round(index)) > kEven * static_cast<double>(n)) return {};
+    even.index.push_back(static_cast<Eigen::Index>(std::llround(index)));
+  }
+  even.pitches = static_cast<int>(std::ceil(static_cast<double>(even.index.back() + 1) * step - kWhole));
+  const double all = even.pitches / step;
+  even.n = static_cast<Eigen::Index>(std::llround(all));
+  if (std::abs(all - static_cast<double>(even.n)) > kWhole * all) return {};
+  if (static_cast<double>(even.n - n) > kMostMissing * static_cast<double>(even.n)) return {};
+  return even;
 }
 
 Spectrum fourier_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal) {
-  const auto pitches = whole_pitches(roll);
-  require(pitches.has_value(), "Fourier orders need roll angles that are even and fill whole pitches");
-  const Eigen::Index n = signal.size();
-  const auto c = half_transform(signal);
+  const auto even = even_positions(roll);
+  require(even.has_value(), "Fourier orders need roll angles that are even and fill whole pitches");
+  const auto c = half_transform(filled(*even, signal));
   const auto orders = static_cast<Eigen::Index>(c.size()) - 1;
   Spectrum spectrum{Eigen::VectorXd(orders), Eigen::VectorXd(orders), Eigen::VectorXd(orders)};
   for (std::size_t k = 1; k < c.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k) - 1;
-    spectrum.order[i] = static_cast<double>(k) / *pitches;
-    spectrum.amplitude[i] = one_sided(k, n) * std::abs(c[k]) / static_cast<double>(n);
+    spectrum.order[i] = static_cast<double>(k) / even->pitches;
+    spectrum.amplitude[i] = one_sided(k, even->n) * std::abs(c[k]) / static_cast<double>(even->n);
     spectrum.phase[i] = std::remainder(std::arg(c[k]) - 2 * pi * spectrum.order[i] * roll[0], 2 * pi);
   }
   return spectrum;

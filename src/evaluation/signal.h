@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 namespace elastogear::evaluation {
 
@@ -13,9 +14,15 @@ double peak_to_peak(const Eigen::VectorXd& signal);
 /// Largest over mean value, Eq. (10.11); NaN where the mean is not positive.
 double dynamic_factor(const Eigen::VectorXd& force);
 
-/// Number of whole pitches that evenly spaced roll angles fill, the end of the last one excluded; nothing
-/// when they are not even or fill no whole pitches.
-std::optional<int> whole_pitches(const Eigen::VectorXd& roll);
+/// Evenly spaced roll angles that fill whole pitches, the end of the last one excluded.
+struct EvenPositions {
+  int pitches = 0;
+  Eigen::Index n = 0;               ///< positions
+  std::vector<Eigen::Index> index;  ///< of each roll angle
+};
+/// The even positions that ascending roll angles are, but for up to a tenth that is missing; nothing when
+/// they are others.
+std::optional<EvenPositions> even_positions(const Eigen::VectorXd& roll);
 
 /// One-sided amplitudes of a signal, by order.
 struct Spectrum {
@@ -24,8 +31,8 @@ struct Spectrum {
   Eigen::VectorXd phase;      ///< n, rad, against a cosine of the roll angle; empty with a window
 };
 
-/// Fourier orders of a signal that repeats, sampled at roll angles that fill whole pitches: Eq. (10.1).
-/// Throws Error when they do not.
+/// Fourier orders of a signal that repeats, at even positions of whole pitches: Eq. (10.1). Between its
+/// neighbours a missing one is taken to be linear. Throws Error for other roll angles.
 Spectrum fourier_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal);
 
 /// Orders of a signal of a run in time: resampled linearly at even roll angles, less its mean, under Hann's

@@ -22,13 +22,26 @@ Eigen::VectorXd even(int n, double begin, double pitches) {
   return Eigen::VectorXd::LinSpaced(n, begin, begin + pitches * (n - 1) / n);
 }
 
-TEST(WholePitches, are_counted_with_the_last_ones_end_excluded) {
-  EXPECT_EQ(whole_pitches(even(16, 0.3, 1)), 1);
-  EXPECT_EQ(whole_pitches(even(48, 0, 3)), 3);
-  EXPECT_FALSE(whole_pitches(even(16, 0, 0.9)));
-  EXPECT_FALSE(whole_pitches(Eigen::VectorXd::LinSpaced(16, 0, 1)));
-  EXPECT_FALSE(whole_pitches(Eigen::Vector3d(0, 0.2, 0.6)));
-  EXPECT_FALSE(whole_pitches(Eigen::VectorXd::Constant(1, 0.2)));
+TEST(EvenPositions, fill_whole_pitches_with_the_last_ones_end_excluded) {
+  EXPECT_EQ(even_positions(even(16, 0.3, 1))->pitches, 1);
+  EXPECT_EQ(even_positions(even(48, 0, 3))->pitches, 3);
+  EXPECT_EQ(even_positions(even(48, 0, 3))->n, 48);
+  EXPECT_FALSE(even_positions(even(16, 0, 0.85)));
+  EXPECT_FALSE(even_positions(Eigen::VectorXd::LinSpaced(16, 0, 1)));
+  EXPECT_FALSE(even_positions(Eigen::Vector3d(0, 0.2, 0.55)));
+  EXPECT_FALSE(even_positions(Eigen::VectorXd::Constant(1, 0.2)));
+}
+
+TEST(EvenPositions, may_miss_a_tenth) {
+  const Eigen::VectorXd u = even(32, 0, 1);
+  std::vector<int> found;
+  for (int i = 0; i < 31; ++i)
+    if (i != 10) found.push_back(i);
+  EXPECT_EQ(even_positions(u(found))->n, 32);
+  EXPECT_FALSE(even_positions(u.head(28)));
+  const Spectrum s = fourier_orders(u(found), harmonics(u)(found));
+  EXPECT_NEAR(amplitude_at(s, 1), 2, 0.02 * 2);
+  EXPECT_NEAR(amplitude_at(s, 3), 0.5, 0.02 * 2);
 }
 
 TEST(DynamicFactor, is_the_largest_over_the_mean_force) {

@@ -38,6 +38,11 @@ struct PairEvaluation {
 /// Throws Error where the run has no times.
 PairEvaluation evaluate(const PairOfRun& pair);
 
+/// What is known beside another transmission error, without load (n_t, m), at the same roll angles: that, and
+/// the secant stiffness, Eq. (10.4). width: m.
+std::vector<io::EvaluationItem> unloaded_items(const PairEvaluation& pair, const Eigen::VectorXd& unloaded,
+                                               double width);
+
 /// The tangent stiffness between two loads at the same roll angles, Eq. (10.4), as items. width: m.
 std::vector<io::EvaluationItem> tangent_stiffness(const PairEvaluation& pair, const PairEvaluation& other,
                                                   double width);

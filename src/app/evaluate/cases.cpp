@@ -13,15 +13,18 @@
 namespace elastogear::app {
 namespace {
 
-constexpr const char* kCasesTable = "cases.csv";
+constexpr const char *kCasesTable = "cases.csv", *kPositions = "positions";
 
-std::vector<std::string> cells_of(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
+// Texts apart by commas, which within quotes are text.
+std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
+  bool quoted = false;
   for (char c : line)
-    if (c == ',')
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
       cells.emplace_back();
-    else
+    else if (c != '\r')
       cells.back() += c;
   return cells;
 }
@@ -42,6 +45,7 @@ Case case_of_row(const std::vector<std::string>& heading, const std::vector<std:
   const bool plain = c.name.find_first_of("/\\\"") == std::string::npos;
   require(!c.name.empty() && plain, where, ": '", c.name,
           "' is no name of a case: it must not be empty nor hold slashes or quotes");
+  if (number_in_column(c, kPositions) == 0) return c;
   require(std::filesystem::is_regular_file(c.file), where, ": there is no file ", c.file);
   return c;
 }
@@ -62,11 +66,11 @@ std::vector<Case> read_table(const std::string& folder) {
   for (int number = 2; std::getline(in, line); ++number) {
     if (line.empty() || line == "\r") continue;
     const std::string where = path + ", line " + std::to_string(number);
-    cases.push_back(case_of_row(heading, cells_of(line), folder, where));
-    require(names.insert(cases.back().name).second, where, ": the case ", cases.back().name,
-            " is there twice");
+    const Case row = case_of_row(heading, cells_of(line), folder, where);
+    require(names.insert(row.name).second, where, ": the case ", row.name, " is there twice");
+    if (number_in_column(row, kPositions) != 0) cases.push_back(row);
   }
-  require(!cases.empty(), path, ": holds no cases");
+  require(!cases.empty(), path, ": holds no cases with positions");
   return cases;
 }
 

@@ -14,7 +14,8 @@ struct Case {
 };
 
 /// A file is a case of its own name. A folder has a table cases.csv with the columns case and file (relative
-/// to the folder). Throws Error naming file and line where the table is wrong.
+/// to the folder); cases with 0 in its column positions, for which the sweep found nothing, are left out.
+/// Throws Error naming file and line where the table is wrong.
 std::vector<Case> read_cases(const std::string& path);
 
 /// The number that a column holds, such as "torque" or "torque [N m]"; NaN where it holds none.

@@ -114,6 +114,19 @@ const model::ElasticBody& elastic_body(const DriveOfRun& of, Bodies& bodies, con
                     identity == source.header.provenance.end() ? "" : identity->second);
 }
 
+// Flanks may be meshed with their deviations: what is farther off belongs to another gear.
+void require_teeth(const evaluation::Flanks& flanks, const Gear& gear, const std::string& file) {
+  constexpr double kOff = 0.02;  // of the tooth's height
+  const double most = kOff * std::abs(gear.toothing.r_a - gear.toothing.r_f);
+  const model::Surface& surface = *flanks.surface;
+  for (std::size_t node = 0; node < flanks.of_node.size(); ++node)
+    if (const auto& flank = flanks.of_group[flanks.of_node[node]])
+      require(std::abs(gear::flank_distance(gear.toothing, flank->tooth, flank->side,
+                                            surface.X.col(static_cast<Eigen::Index>(node)))) < most,
+              file, ": node ", surface.node[node], " of body '", gear.name,
+              "' is not on its flank: the drive file is not that of the run");
+}
+
 Eigen::VectorXd rolls(const DriveOfRun& of, const Source& source) {
   const double roll = number_of(source.header, "roll");
   if (source.kind == Kind::in_time)
@@ -149,6 +162,7 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
     const std::string& name = source.header.bodies[of_pair.body[g]].name;
     pair.gear[g] = gear_of(of, source, name);
     flanks[g] = evaluation::flanks(pair.gear[g].toothing, elastic_body(of, bodies, source, name).surface);
+    require_teeth(flanks[g], pair.gear[g], file_of_body(of, source, name));
     pair.gear[g].layers = evaluation::node_layers(flanks[g]);
   }
   pair.roll = rolls(of, source);
@@ -259,6 +273,10 @@ CaseRun read_case_run(const DriveOfRun& of, Bodies& bodies, const std::string& r
   CaseRun run;
   std::map<std::string, io::StressSet> roots;
   if (of.settings.roots) roots = recover_roots(of, bodies, source, run.notes);
+  if (const auto missing = source.header.provenance.find("missing_positions");
+      missing != source.header.provenance.end())
+    run.notes.push_back("no equilibrium was found at the roll angles " + missing->second +
+                        ": means leave them out, orders take them to be linear between their neighbours");
   if (!io::is_complete(result)) run.notes.push_back(result + " is incomplete: its run did not reach the end");
   for (const auto& of_pair : source.header.pairs) {
     NamedPair pair{of_pair.name, read_pair(of, bodies, source, of_pair)};

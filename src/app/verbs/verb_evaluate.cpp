@@ -1,6 +1,7 @@
 // elastogear evaluate: drive file and results -> what an engineer reads off.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "app/console/console.h"
@@ -56,41 +57,54 @@ Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_cas
 }
 
 // What must be equal for two cases to differ in their torque alone.
-std::vector<std::string> other_columns(const Case& of) {
+std::vector<std::string> other_inputs(const Case& of) {
   std::vector<std::string> texts;
   for (const auto& [heading, text] : of.columns)
-    if (!heading.starts_with("torque")) texts.push_back(text);
+    if (!heading.starts_with("torque") && heading != "positions") texts.push_back(text);
   return texts;
 }
 
-// The case of the next torque, by which the tangent stiffness is taken; -1: there is none.
-int neighbour(const std::vector<Evaluated>& cases, std::size_t i) {
-  const double torque = number_in_column(cases[i].figures.of, "torque");
-  int best = -1;
-  double nearest = INFINITY;
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    const double off = std::abs(number_in_column(cases[k].figures.of, "torque") - torque);
-    if (!(off > 0) || off >= nearest || cases[k].roll != cases[i].roll ||
-        other_columns(cases[k].figures.of) != other_columns(cases[i].figures.of))
+// The other case at the same positions whose torque alone differs, for which `off` of both torques is least;
+// nullptr: there is none.
+template <class Off>
+const Evaluated* other_load(const std::vector<Evaluated>& cases, const Evaluated& of, const Off& off) {
+  const double torque = number_in_column(of.figures.of, "torque");
+  const Evaluated* best = nullptr;
+  double least = INFINITY;
+  for (const Evaluated& other : cases) {
+    const double other_torque = number_in_column(other.figures.of, "torque");
+    if (!(std::abs(other_torque - torque) > 0) || other.roll != of.roll ||
+        other_inputs(other.figures.of) != other_inputs(of.figures.of))
       continue;
-    nearest = off, best = static_cast<int>(k);
+    if (off(torque, other_torque) < least) least = off(torque, other_torque), best = &other;
   }
   return best;
 }
 
-void add_tangents(std::vector<Evaluated>& cases) {
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const int other = neighbour(cases, i);
-    if (other < 0) continue;
-    for (std::size_t p = 0; p < cases[i].pairs.size(); ++p) {
-      const auto items = evaluation::tangent_stiffness(
-          cases[i].pairs[p], cases[static_cast<std::size_t>(other)].pairs[p], cases[i].width[p]);
-      auto& all = cases[i].figures.pairs[p].items;
-      all.insert(all.end(), items.begin(), items.end());
-    }
-    cases[i].figures.notes.push_back("tangent stiffness against the case " +
-                                     cases[static_cast<std::size_t>(other)].figures.of.name);
-  }
+void append(const std::vector<io::EvaluationItem>& items, PairFigures& pair) {
+  pair.items.insert(pair.items.end(), items.begin(), items.end());
+}
+
+// By the case of the next torque.
+void add_tangents(const std::vector<Evaluated>& cases, Evaluated& of) {
+  const Evaluated* next =
+      other_load(cases, of, [](double torque, double other) { return std::abs(torque - other); });
+  if (!next) return;
+  for (std::size_t p = 0; p < of.pairs.size(); ++p)
+    append(evaluation::tangent_stiffness(of.pairs[p], next->pairs[p], of.width[p]), of.figures.pairs[p]);
+  of.figures.notes.push_back("tangent stiffness against the case " + next->figures.of.name);
+}
+
+// Of modified flanks, by a case whose torque is next to nothing.
+void add_secants(const std::vector<Evaluated>& cases, Evaluated& of) {
+  constexpr double kNothing = 0.01;  // of the torque
+  const Evaluated* least = other_load(cases, of, [](double, double other) { return std::abs(other); });
+  const double torque = std::abs(number_in_column(of.figures.of, "torque"));
+  if (!least || std::abs(number_in_column(least->figures.of, "torque")) > kNothing * torque) return;
+  for (std::size_t p = 0; p < of.pairs.size(); ++p)
+    if (!find_item(of.figures.pairs[p].items, "transmission_error/unloaded"))
+      append(evaluation::unloaded_items(of.pairs[p], least->pairs[p].error, of.width[p]),
+             of.figures.pairs[p]);
 }
 
 io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures>& cases) {
@@ -169,7 +183,10 @@ void run_evaluate(const Options& given, const std::vector<std::string>&) {
     cases.push_back(evaluate_case(of, bodies, of_case, unloaded));
   }
   report(progress, "cases", 1);
-  add_tangents(cases);
+  for (Evaluated& one : cases) {
+    add_tangents(cases, one);
+    add_secants(cases, one);
+  }
   std::vector<CaseFigures> figures;
   for (Evaluated& one : cases) figures.push_back(std::move(one.figures));
   figures.size() == 1 ? print_figures(figures[0]) : print_cases(figures);

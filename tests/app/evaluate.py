@@ -1,0 +1,218 @@
+#!/usr/bin/python3
+"""Figures that evaluate reads off sweeps of spur gears, against those of the result itself and closed forms: rigid perfect gears have no
+transmission error, the shares of the teeth add up to one, what friction takes is missing in the output, KHbeta of rigid bodies on a
+Winkler layer; HDF5, JSON and CSV say the same.
+
+    evaluate.py PATH/TO/elastogear
+"""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+DRIVE = """drive: cylindrical
+module: 3 mm
+face_width: 25 mm
+pinion: {teeth: 17, profile_shift: 0.3}
+wheel: {teeth: 43, profile_shift: 0.1}
+torque: 300 N m
+modes: 10
+"""
+ALPHA, TEETH, T_1, WIDTH = np.radians(20), (17, 43), 300, 25e-3
+R_B = [3e-3 * z / 2 * np.cos(ALPHA) for z in TEETH]
+UM = 1e-6
+RIGID = ("-pinion_rigid", "true", "-wheel_rigid", "true")
+LAYER = (*RIGID, "-contact_law", "penalty", "-contact_penalty", "per_area", "-contact_points", "nodes",
+         "-contact_stiffness", "2e13")
+
+
+class Drive:
+    def __init__(self, elastogear):
+        self.elastogear = elastogear
+
+    def call(self, *arguments):
+        return subprocess.run([self.elastogear, *arguments], capture_output=True, text=True, check=False)
+
+    def run(self, *arguments):
+        done = self.call(*arguments)
+        assert done.returncode == 0, f"{arguments}: {done.stdout[-800:]}{done.stderr}"
+        return done.stdout
+
+    def sweep(self, positions, *options):
+        self.run("simulate", "drive.yaml", "-analysis", "sweep", "-sweep_positions", str(positions), "-resume", "discard", *options)
+
+    def evaluate(self, *options):
+        """Figures of the first case."""
+        self.run("evaluate", "drive.yaml", *options)
+        return Figures("drive_evaluation")
+
+    def refusal(self, words, *arguments):
+        done = self.call(*arguments)
+        assert done.returncode != 0 and words in done.stderr, f"{arguments}: '{words}' not in {done.stdout[-200:]}{done.stderr}"
+
+
+class Figures:
+    def __init__(self, stem):
+        with open(stem + ".json", encoding="utf-8") as file:
+            self.case = json.load(file)["cases"][0]
+        self.file = h5py.File(stem + ".h5")
+        self.pair = next(iter(self.file["cases"].values()))["pinion:wheel"]
+
+    def __getitem__(self, path):
+        return self.pair[path][()]
+
+    def in_json(self, path):
+        node = self.case["pairs"]["pinion:wheel"]
+        for key in path.split("/"):
+            node = node[key]
+        return node["value"]
+
+
+def near(what, value, expected, allowed):
+    print(f"{what}: {value:.8g}, expected {expected:.8g} within {allowed:.2g}")
+    assert abs(value - expected) <= allowed, what
+
+
+def check_elastic(drive):
+    drive.sweep(16)
+    text = drive.run("evaluate", "drive.yaml")
+    for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "KHbeta", "root of pinion, tension", "efficiency"):
+        assert word in text, f"'{word}' is not printed"
+    figures = Figures("drive_evaluation")
+    with h5py.File("drive_result.h5") as result:
+        angle, roll = result["bodies/pinion/rigid"][:, 0], result["time"][:]
+        force = np.linalg.norm(result["contact/pinion:wheel/points/force"][:], axis=1).sum() / len(roll)
+    # The wheel stands at its nominal angles, the pinion is ahead: the wheel lags.
+    error = -(angle + np.pi / 2 - 2 * np.pi * roll / TEETH[0]) * TEETH[0] / TEETH[1] * R_B[1]
+    near("transmission error, mean", figures["transmission_error/mean"], error.mean(), 1e-12)
+    near("transmission error, largest difference", abs(figures["transmission_error/loaded"] - error).max(), 0, 1e-12)
+    near("amplitudes of orders", np.sqrt((figures["transmission_error/amplitude"][:-1]**2).sum() / 2 +
+                                         figures["transmission_error/amplitude"][-1]**2), error.std(), 1e-12)
+    near("mean stiffness", figures["stiffness/secant_mean"], abs(figures["torque/second"] / R_B[1] / error).mean(), 1)
+    near("sum of shares", abs(figures["teeth/share"].sum(axis=1) - 1).max(), 0, 1e-12)
+    near("sum of normal forces", figures["teeth/force"].sum(axis=1).mean(), force, 1e-4 * force)
+    near("contact ratio", figures["teeth/contact_ratio"], 1.6, 0.15)  # 1.516 rigid, teeth meet earlier under load
+    near("line load over the width", np.trapz(figures["line_load/mean"], figures["line_load/z"]), force, 1e-6 * force)
+    near("torque on the wheel", -figures["torque/second_mean"], T_1 * TEETH[1] / TEETH[0], 1e-3 * T_1 * TEETH[1] / TEETH[0])
+    near("efficiency without friction", figures["losses/efficiency"], 1, 1e-3)
+    near("largest tension", figures["root/pinion/largest_tension"], figures["root/pinion/tension"].max(), 1e-3)
+    near("KHbeta in JSON", figures.in_json("line_load/KHbeta"), figures["line_load/KHbeta"], 1e-12)
+    assert figures["root/pinion/largest_tension_error"] < 0.05 * figures["root/pinion/largest_tension"]
+    with open("drive_evaluation_pinion_wheel.csv", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    near("rows of the table", len(rows), len(roll), 0)
+    near("transmission error in the table", float(rows[3]["transmission error [m]"]), error[3], 1e-12)
+    assert "transmission_error/mean" in drive.run("info", "drive_evaluation.h5")
+
+
+def check_friction(drive):
+    drive.sweep(32, "-contact_friction", "0.08")
+    figures = drive.evaluate()
+    near("friction takes what the output lacks", figures["losses/friction_loss"], 1 - figures["losses/efficiency"], 2e-4)
+    near("loss", figures["losses/friction_loss"], 0.08 * figures["losses/loss_factor"], 0.03 * figures["losses/friction_loss"])
+
+
+def check_rigid(drive):
+    drive.sweep(8, *RIGID, "-contact_law", "unilateral")
+    figures = drive.evaluate()
+    near("transmission error of rigid gears, peak to peak", figures["transmission_error/peak_to_peak"], 0, 0.2 * UM)
+    assert "root" not in figures.pair, "rigid bodies have no stresses"
+
+
+TORQUES = (1, 75, 150, 225, 300, 375, 450, 600, 900)
+
+
+def layer(drive):
+    """The Winkler layer that the nodes of coarse rigid gears make: at each position lags (m) and the line loads (N/m) that they give, from
+    sweeps of aligned gears under TORQUES; KHbeta of the largest one."""
+    with open("layer.yaml", "w", encoding="utf-8") as file:
+        file.write(DRIVE.replace("torque: 300 N m", f"torques: {list(TORQUES)}"))
+    drive.run("simulate", "layer.yaml", "-analysis", "sweep", "-sweep_positions", "8", "-resume", "discard", *LAYER)
+    drive.run("evaluate", "layer.yaml")
+    with h5py.File("layer_evaluation.h5") as file:
+        pairs = [case["pinion:wheel"] for case in file["cases"].values()]
+        lags = np.array([-pair["transmission_error/loaded"][:] for pair in pairs])
+        loads = np.array([pair["line_load/value"][:].mean(axis=1) for pair in pairs])
+        return lags.T, loads.T, pairs[-1]["line_load/KHbeta"][()]
+
+
+def closed_form(lags, loads, gap, z):
+    """KHbeta of rigid gears on this layer with the gap (m) at the stations z, in the mean over the positions."""
+    load = []
+    for lag, line_load in zip(lags, loads):
+        low, high = lag[0], lag[-1] + np.ptp(gap)
+        for _ in range(60):
+            delta = (low + high) / 2
+            w = np.interp(delta - gap, lag, line_load, left=0)
+            low, high = (delta, high) if np.trapz(w, z) < T_1 / R_B[0] else (low, delta)
+        load.append(w)
+    mean = np.mean(load, axis=0)
+    return mean.max() / (np.trapz(mean, z) / WIDTH)
+
+
+def check_face_load(drive):
+    lags, loads, aligned = layer(drive)
+    near("KHbeta, aligned", aligned, 1, 0.005)
+    slope, alpha_w = np.radians(0.03), np.arccos(sum(R_B) / 91.14711905291227e-3)
+    for options, gap in ((("-wheel_skew", "0.03 deg"), lambda z: slope * np.cos(alpha_w) * z),
+                         (("-wheel_lead_crowning", "12 um"), lambda z: 12e-6 * (2 * z / WIDTH)**2)):
+        drive.sweep(8, *LAYER, *options)
+        figures = drive.evaluate()
+        z = figures["line_load/z"]
+        expected = closed_form(lags, loads, gap(z), z)
+        near(f"KHbeta, {' '.join(options)}", figures["line_load/KHbeta"], expected, 0.05 * expected)
+        assert expected > 1.1, "the deviation has no effect"
+
+
+def check_cases(drive):
+    with open("loads.yaml", "w", encoding="utf-8") as file:
+        file.write(DRIVE.replace("torque: 300 N m", "torques: [1 N m, 200 N m, 300 N m]"))
+    drive.run("simulate", "loads.yaml", "-analysis", "sweep", "-sweep_positions", "8")
+    text = drive.run("evaluate", "loads.yaml", "-output", "cases.h5")
+    assert text.count("pinion:wheel") == 3, text
+    with open("cases_cases.csv", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    near("rows of the table of cases", len(rows), 3, 0)
+    errors = [float(row["pinion:wheel transmission_error/mean [m]"]) for row in rows]
+    assert errors[0] > errors[1] > errors[2], errors
+    with h5py.File("cases.h5") as file:
+        cases = list(file["cases"].values())
+        tangent = [case["pinion:wheel/stiffness/tangent"][:] for case in cases[1:]]
+        near("tangent stiffness between the same loads", abs(tangent[0] / tangent[1] - 1).max(), 0, 1e-9)
+        secant = cases[2]["pinion:wheel/stiffness/secant"][:]
+        assert (tangent[1] > 0.9 * secant).all(), "teeth are not softer under more load"
+
+
+def check_misuse(drive):
+    drive.refusal("there is no such result", "evaluate", "drive.yaml", "-result", "nosuch.h5")
+    drive.refusal("-from and -to", "evaluate", "drive.yaml", "-from", "0.1")
+    drive.refusal("drive", "evaluate", "-result", "drive_result.h5")
+    drive.refusal("is not that of the run", "evaluate", "drive.yaml", "-wheel_teeth", "40")
+    drive.refusal("drive_result.h5", "evaluate", "drive.yaml", "-output", "drive_result.h5")
+    os.makedirs("empty", exist_ok=True)
+    drive.refusal("cases.csv", "evaluate", "drive.yaml", "-result", "empty")
+    with open("empty/cases.csv", "w", encoding="utf-8") as file:
+        file.write("case,file\n1,nosuch.h5\n")
+    drive.refusal("cases.csv, line 2", "evaluate", "drive.yaml", "-result", "empty")
+    drive.refusal("result", "evaluate", "drive.yaml", "-result", "pinion.h5")
+
+
+if __name__ == "__main__":
+    program = os.path.abspath(sys.argv[1])
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        with open("drive.yaml", "w", encoding="utf-8") as drive_file:
+            drive_file.write(DRIVE)
+        d = Drive(program)
+        d.run("reduce", "drive.yaml")
+        check_elastic(d)
+        check_misuse(d)
+        check_friction(d)
+        check_rigid(d)
+        check_face_load(d)
+        check_cases(d)
