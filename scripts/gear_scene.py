@@ -26,6 +26,7 @@ WIDTH, HEIGHT = 1800, 860
 NEAR = 0.16  # of both gears' size: half height of the view of the mesh
 TILT = 0.35  # of the view against the second gear's axis
 MARGIN = 1.25  # around the flank
+GAP = 0.008  # between panels, of the picture's width
 
 
 def frames_of(path):
@@ -92,7 +93,7 @@ def two_panels(picture, bodies, views, end, right):
     """Whole drive and mesh in the left part of a picture up to `right`."""
     table = scene.colour_table(end)
     picture.panel((0, 0.14, right / 2, 0.92), stress_actors(bodies, table, False), views.whole)
-    picture.panel((right / 2, 0.14, right, 0.92), stress_actors(bodies, table, True), views.near)
+    picture.panel((right / 2 + GAP, 0.14, right, 0.92), stress_actors(bodies, table, True), views.near)
     above = max(body.stress.max() for body in bodies) > end
     picture.panel((0, 0, right, 0.14), [scene.text_actor("von Mises stress in MPa" + ("; blue: above" if above else ""), 0.5, 0.82, 24),
                                         scene.colour_bar(table, above)])
@@ -183,7 +184,7 @@ def draw_picture(options):
     two_panels(picture, bodies, Views(bodies), end_of_colours(bodies), 2 / 3)
     gear = os.path.splitext(os.path.basename(options.second))[0].rsplit("_", 1)[-1]
     actors, view, table, name = flank_actors(options.body_file, bodies[1], pattern_of(options.evaluation, options.case, gear))
-    picture.panel((2 / 3, 0.14, 1, 0.92), actors, view)
+    picture.panel((2 / 3 + GAP, 0.14, 1, 0.92), actors, view)
     picture.panel((2 / 3, 0, 1, 0.14), [scene.text_actor("largest contact pressure over all roll angles in MPa", 0.5, 0.82, 24), scene.colour_bar(table, False)])
     picture.panel((0, 0.92, 2 / 3, 1), [scene.text_actor(f"roll angle {paths[0][1]:.3f} pitches, deformation x {scale:g}", 0.5, 0.5, 30)])
     picture.panel((2 / 3, 0.92, 1, 1), [scene.text_actor(f"contact pattern: {name}", 0.5, 0.5, 30)])
@@ -195,7 +196,7 @@ def draw_animation(options):
     first = [Body(path) for path, _ in frames[0]]
     scale, views = min(body.scale for body in first), Views(first)
     bodies = [[Body(path, scale) for path, _ in frame] for frame in frames]
-    end = max(end_of_colours(pair) for pair in bodies)
+    end = end_of_colours([body for pair in bodies for body in pair])
     with tempfile.TemporaryDirectory() as folder:
         for number, (pair, frame) in enumerate(zip(bodies, frames)):
             picture = scene.Picture(WIDTH // 2 * 2, HEIGHT)

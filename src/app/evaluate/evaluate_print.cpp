@@ -62,10 +62,10 @@ void print_stiffness(const Reader& of) {
 
 void print_load(const Reader& of) {
   if (of.has("teeth/contact_ratio"))
-    print_item("operating contact ratio", of.in("teeth/contact_ratio", 1, "") +
+    print_item("operating contact ratio", digits_of(of.value("teeth/contact_ratio"), 4) +
                                               "; one pair of teeth bears up to " +
                                               of.in("teeth/largest_share", 100, "%"));
-  if (of.has("line_load/KHbeta")) print_item("KHbeta", of.in("line_load/KHbeta", 1, ""));
+  if (of.has("line_load/KHbeta")) print_item("KHbeta", digits_of(of.value("line_load/KHbeta"), 4));
 }
 
 std::string place_on(const Reader& of, const std::string& gear) {
@@ -108,12 +108,17 @@ void print_losses(const Reader& of) {
   const std::string speed = of.in("losses/speed", 1, "rad/s");
   print_item("sliding", of.in("losses/largest_sliding_speed", 1, "m/s") + ", pressure times sliding speed " +
                             of.in("losses/largest_pv", 1e-6, "W/mm^2") + ", at " + speed);
-  if (of.has("losses/efficiency"))
-    print_item("efficiency", of.in("losses/efficiency", 100, "%") + ", friction takes " +
-                                 of.in("losses/friction_loss", 100, "%") + " of the input; loss factor " +
-                                 of.in("losses/loss_factor", 1, ""));
+  if (of.has("losses/efficiency")) {
+    const std::string friction =
+        of.value("losses/friction_loss") != 0
+            ? "friction takes " + of.in("losses/friction_loss", 100, "%") + " of the input"
+            : "the run has no friction";
+    print_item("efficiency", of.in("losses/efficiency", 100, "%") + "; " + friction +
+                                 "; loss per coefficient of friction " +
+                                 digits_of(of.value("losses/loss_factor"), 4));
+  }
   if (of.has("force/dynamic_factor"))
-    print_item("dynamic factor", of.in("force/dynamic_factor", 1, "") + ", largest contact force " +
+    print_item("dynamic factor", digits_of(of.value("force/dynamic_factor"), 4) + ", largest contact force " +
                                      of.in("force/largest", 1, "N"));
 }
 
