@@ -17,7 +17,7 @@ LEVEL = {
     "base": 1,
     "model": 2,
     "mesh": 3,
-    "gear": 4, "io": 4, "body": 4,
+    "gear": 4, "io": 4, "body": 4, "life": 4,
     "fem": 5, "contact": 5, "evaluation": 5,
     "reduction": 6, "dynamics": 6, "recovery": 6,
     "app": 7,
