@@ -162,9 +162,10 @@ void describe_hdf5(Out& out, const std::string& path) {
   if (format == kBodyFormat.name) return describe_body(out, path);
   if (format == kResultFormat.name) return describe_result(out, path);
   if (format == kEvaluationFormat.name) return describe_evaluation(out, path);
+  if (format == kLifeFormat.name) return describe_life(out, path);
   require(format == kStressFormat.name, path, ": unknown format '", format, "', known are '",
           kBodyFormat.name, "', '", kResultFormat.name, "', '", kStressFormat.name, "', '",
-          kEvaluationFormat.name, "'");
+          kEvaluationFormat.name, "', '", kLifeFormat.name, "'");
   describe_stress(out, path);
 }
 

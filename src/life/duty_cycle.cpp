@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/number.h"
 #include "elastogear/base/text.h"
 
 namespace elastogear::life {
@@ -20,7 +21,12 @@ double largest_amplitude(const std::vector<Cycle>& cycles, const MeanStress& mea
 
 [[noreturn]] void refuse_torque(const std::vector<double>& known, double torque) {
   fail("duty cycle: the torque ", torque, " N m lies outside those whose stresses are known, ",
-       join(known, ", ", [](double t) { return std::to_string(t); }),
+       join(known, ", ",
+            [](double t) {
+              std::string text;
+              print(text, t);
+              return text;
+            }),
        " N m: add it to the torques of the sweep, or scale stresses in proportion by life_proportional");
 }
 

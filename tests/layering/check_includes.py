@@ -23,7 +23,7 @@ LEVEL = {
     "app": 7,
 }
 BUILDING = {"gear", "mesh", "fem", "reduction"}  # makes body files
-RUNNING = {"body", "contact", "dynamics", "recovery"}  # uses body files
+RUNNING = {"body", "contact", "dynamics", "life", "recovery"}  # uses body files
 ROOTS = ("src", "include/elastogear")
 PROGRAMS = ("examples", "studies")  # use the library as programs outside the tree do
 API = ["dynamics/generalized_alpha.h"]  # a TS type for programs of others

@@ -25,5 +25,6 @@ Verb recover_verb();
 Verb evaluate_verb();
 Verb compare_verb();
 Verb info_verb();
+Verb life_verb();
 
 }  // namespace elastogear::app

@@ -114,4 +114,20 @@ void describe_stress(Out& out, const std::string& path) {
   describe_map(out, history.provenance);
 }
 
+void describe_life(Out& out, const std::string& path) {
+  const h5::File file = open_format(path, kLifeFormat);
+  line(out, "duty cycle: ", counted(h5::shape(file, "/duty_cycle/torque")[0], "block"), ", ",
+       read_vector(file, "/duty_cycle/revolutions").sum(), " revolutions of the first gear");
+  for (const std::string& body : h5::members(file, "/")) {
+    if (body == "duty_cycle" || body == "provenance") continue;
+    for (const std::string& set : h5::members(file, "/" + body)) {
+      const std::string group = "/" + body + "/" + set;
+      const Eigen::VectorXd damage = read_vector(file, group + "/damage");
+      line(out, "damage of ", body, "/", set, ": ", counted(damage.size(), "node"), ", largest ",
+           damage.maxCoeff(), " at node ", h5::number_attribute(file, group + "/critical", "node"));
+    }
+  }
+  describe_map(out, h5::read_map(file, "/provenance"));
+}
+
 }  // namespace elastogear::io

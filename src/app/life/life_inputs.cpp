@@ -1,0 +1,152 @@
+#include "app/life/life_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "app/finite_elements.h"
+#include "app/gear/drive_options.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/number.h"
+#include "elastogear/base/text.h"
+#include "elastogear/io/describe.h"
+#include "elastogear/io/result_file.h"
+#include "elastogear/life/revolution.h"
+#include "elastogear/recovery/recover.h"
+
+namespace elastogear::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Provenance = std::map<std::string, std::string>;
+
+bool is_stress_file(const std::string& file) {
+  const std::string format = io::file_format(file);
+  require(format == "elastogear stress" || format == "elastogear result", file, ": holds an ", format,
+          "; a life is computed from result files of sweeps, or from stress files");
+  return format == "elastogear stress";
+}
+
+// The torque of a run by its options, < 0 on the coast side.
+double torque_of(const std::string& file, const Provenance& provenance) {
+  const auto found = provenance.find("option_torque");
+  const auto torque = found == provenance.end() ? std::nullopt : parse<double>(found->second);
+  require(torque && std::isfinite(*torque) && *torque != 0, file,
+          ": does not say the torque of its run; give it by -file_torques");
+  const auto side = provenance.find("option_side");
+  return side != provenance.end() && side->second == "coast" ? -*torque : *torque;
+}
+
+SweptTorque of_file(const std::string& file, const double* torque) {
+  SweptTorque at{file, 0, is_stress_file(file)};
+  if (torque)
+    at.torque = *torque;
+  else if (at.recovered)
+    at.torque = torque_of(file, io::read_stress(file).provenance);
+  else
+    at.torque = torque_of(file, io::read_result_header(file).provenance);
+  return at;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  for (char c : line)
+    if (c == ',')
+      fields.emplace_back();
+    else if (c != '\r')
+      fields.back() += c;
+  return fields;
+}
+
+std::size_t column_of(const std::string& file, const std::vector<std::string>& heading,
+                      const std::string& name) {
+  for (std::size_t i = 0; i < heading.size(); ++i)
+    if (heading[i] == name || heading[i].starts_with(name + " [")) return i;
+  fail(file, ": has no column ", name);
+}
+
+// The table of cases that a sweep with several torques or variants writes.
+std::vector<SweptTorque> of_cases(const Options& options, const std::string& table,
+                                  const std::string& variant) {
+  std::ifstream in(table);
+  std::string line;
+  require(in.good() && std::getline(in, line), table, ": cannot be read");
+  const std::vector<std::string> heading = fields_of(line);
+  const std::size_t file = column_of(table, heading, "file"), torque = column_of(table, heading, "torque"),
+                    name = column_of(table, heading, "variant");
+  const double sense = options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
+  std::vector<SweptTorque> all;
+  std::set<std::string> variants;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> fields = fields_of(line);
+    if (fields.size() != heading.size()) fail(table, ": '", line, "' has not the columns of its heading");
+    variants.insert(fields[name]);
+    if (!variant.empty() && fields[name] != variant) continue;
+    const std::string path = (fs::path(table).parent_path() / fields[file]).string();
+    const auto value = parse<double>(fields[torque]);
+    require(value.has_value(), table, ": torque '", fields[torque], "' is no number");
+    all.push_back({path, sense * *value, is_stress_file(path)});
+  }
+  require(!all.empty() && (variants.size() == 1 || !variant.empty()), table, ": ",
+          all.empty() ? "no case of variant '" + variant + "'" : "has several variants",
+          "; choose one by -variant: ", join(variants));
+  return all;
+}
+
+// Stresses of the sets that are wanted, of a result.
+io::StressFile recovered(const LifeSettings& settings, const std::string& result) {
+  require(io::is_complete(result), result, ": is incomplete, its run did not reach the end; go on with it");
+  io::StressFile file{io::read_times(result), {}, {}};
+  for (recovery::BodyOfRun& body : recovery::read_bodies_of_run(result, settings.body_file)) {
+    const auto sets = settings.sets.find(body.name);
+    if (sets == settings.sets.end()) continue;
+    recovery::RecoveredBody ready = recovery::prepare_recovery(
+        std::move(body), recovery::Acceleration::automatic, false, finite_elements());
+    const model::ElasticBody elastic = recovery::read_elastic_body(ready.run);
+    for (const std::string& set : sets->second)
+      file.sets.push_back(recovery::recover_stress(ready, elastic, set, false));
+  }
+  return file;
+}
+
+}  // namespace
+
+std::vector<SweptTorque> swept_torques(const Options& options, const LifeSettings& settings) {
+  std::vector<SweptTorque> all;
+  for (std::size_t i = 0; i < settings.files.size(); ++i)
+    all.push_back(of_file(settings.files[i], settings.torques.empty() ? nullptr : &settings.torques[i]));
+  if (!all.empty()) return all;
+  const std::string stem = drive_stem(options) + "_result", table = stem + "/cases.csv";
+  if (fs::exists(table)) return of_cases(options, table, settings.variant);
+  require(fs::exists(stem + ".h5"), stem, ".h5: there is no such file, nor ", table,
+          ": sweep the drive first, elastogear simulate ", options.files().empty() ? "" : options.files()[0],
+          " with analysis: sweep, or name result or stress files by -files");
+  return {of_file(stem + ".h5", nullptr)};
+}
+
+std::vector<SweptStress> read_stresses(const LifeSettings& settings, const SweptTorque& at) {
+  const io::StressFile file = at.recovered ? io::read_stress(at.file) : recovered(settings, at.file);
+  std::vector<SweptStress> all;
+  for (const auto& [body, sets] : settings.sets)
+    for (const std::string& name : sets) {
+      const auto set = std::find_if(file.sets.begin(), file.sets.end(),
+                                    [&](const io::StressSet& s) { return s.body == body && s.set == name; });
+      require(set != file.sets.end() && set->X.cols() > 0, at.file, ": holds no stresses of ", body, " ",
+              name, ": recover it with -stress_", body, " ", name);
+      all.push_back({body, name, set->node, set->X, file.time, life::signed_principal(set->stress)});
+    }
+  return all;
+}
+
+std::string body_file_of(const Options& options, const DriveMember& member, const SweptTorque& at) {
+  if (!at.recovered && !options.given(member.name + "_file"))
+    for (const auto& body : io::read_result_header(at.file).bodies)
+      if (body.name == member.name) return body.file;
+  const std::string file = body_file(options, member);
+  return fs::exists(file) ? file : "";
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,131 @@
+// elastogear life: damage of the gears of a drive over a duty cycle.
+
+#include <algorithm>
+
+#include "app/console/console.h"
+#include "app/console/outputs.h"
+#include "app/gear/drive_options.h"
+#include "app/life/life_of_set.h"
+#include "app/verbs/verbs.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
+
+namespace elastogear::app {
+namespace {
+
+// Deviations that differ from tooth to tooth.
+bool teeth_differ(const DriveMember& member) {
+  if (!member.deviations) return false;
+  const gear::FlankDeviations& d = *member.deviations;
+  return d.index.any() || d.eccentricity.any() ||
+         std::any_of(d.topography.begin(), d.topography.end(), [](const auto& t) { return t.tooth >= 0; });
+}
+
+void refuse_different_teeth(const Drive& drive, const std::string& file, const life::Revolutions& r) {
+  if (!r.laid) return;
+  for (const DriveMember& member : drive.members)
+    require(!teeth_differ(member), file, ": teeth of ", member.name,
+            " differ (pitch_deviation, run_out or topography), and this sweep does not go over whole "
+            "revolutions: what one tooth bears is not what the next one bears; sweep with sweep_pitches: "
+            "hunting");
+}
+
+const DriveMember& member_of(const Options& options, const Drive& drive, const std::string& name) {
+  for (const DriveMember& member : drive.members)
+    if (member.name == name) return member;
+  fail(options.label("stress_" + name), ": the drive has no gear '", name,
+       "'; it has: ", join(drive.members, ", ", &DriveMember::name));
+}
+
+// The same nodes and as many positions at every torque.
+void add(SetHistory& history, const Drive& drive, const std::string& file, SweptStress read) {
+  const life::Sweep sweep = life::find_sweep(file, read.roll);
+  require(
+      history.at.empty() || (sweep.pitches == history.sweep.pitches &&
+                             sweep.per_pitch == history.sweep.per_pitch && read.node == history.place.node),
+      file, ": has other positions or nodes of ", read.body, " ", read.set,
+      " than the files before: sweep all torques alike");
+  const DriveMember& member = *history.member;
+  history.sweep = sweep;
+  history.at.push_back(life::over_revolutions(member.name + " " + read.set, read.stress, read.X, sweep,
+                                              member.toothing.z, member.ratio > 0 ? 1 : -1));
+  refuse_different_teeth(drive, file, history.at.back());
+  history.place = std::move(read);
+}
+
+std::vector<SetHistory> read_histories(const Options& options, const Drive& drive,
+                                       const LifeSettings& settings, const std::vector<SweptTorque>& swept) {
+  const Progress progress = console_progress();
+  std::vector<SetHistory> all;
+  for (const SweptTorque& at : swept) {
+    report(progress, "stresses", static_cast<double>(&at - swept.data()) / static_cast<double>(swept.size()));
+    std::vector<SweptStress> read = read_stresses(settings, at);
+    all.resize(read.size());
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      all[i].member = &member_of(options, drive, read[i].body);
+      all[i].body_file = body_file_of(options, *all[i].member, at);
+      add(all[i], drive, at.file, std::move(read[i]));
+    }
+  }
+  report(progress, "stresses", 1);
+  return all;
+}
+
+io::LifeFile life_file(const Options& options, const LifeReport& report) {
+  io::LifeFile file;
+  const auto n = static_cast<Eigen::Index>(report.blocks.size());
+  file.torque.resize(n);
+  file.revolutions.resize(n);
+  file.time.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const life::Block& block = report.blocks[static_cast<std::size_t>(i)];
+    file.torque[i] = block.torque;
+    file.revolutions[i] = block.revolutions;
+    file.time[i] = block.time;
+  }
+  for (const LifeOfSet& one : report.sets) file.sets.push_back(one.set);
+  file.provenance = options.provenance();
+  return file;
+}
+
+void run_life(const Options& given, const std::vector<std::string>&) {
+  require(is_drive(given), "needs a drive file: elastogear life drive.yaml (docs/drives.md)");
+  const Options options = with_gears(given);
+  const Drive drive = read_drive(options);
+  std::vector<std::string> names;
+  for (const DriveMember& member : drive.members) names.push_back(member.name);
+  options.reject_unknown({{"body", names}, {"gear", names}});
+  const LifeSettings settings = life_settings(options, drive);
+  LifeReport report{duty_cycle(options), swept_torques(options, settings), {}};
+  const OutputLock lock(settings.output);
+  std::vector<double> torques;
+  for (const SweptTorque& at : report.swept) torques.push_back(at.torque);
+  for (const life::Block& block : report.blocks) life::between(torques, block.torque, settings.proportional);
+  for (const SetHistory& history : read_histories(options, drive, settings, report.swept))
+    report.sets.push_back(life_of_set(history, strength_of(options, history.member->name), torques,
+                                      report.blocks, settings.proportional));
+  std::vector<std::string> data, outputs = side_files(settings.output, report, settings.field);
+  for (const SweptTorque& at : report.swept) data.push_back(at.file);
+  outputs.push_back(settings.output);
+  protect_inputs(options, {{"output", outputs}}, data);
+  io::write_life(settings.output, life_file(options, report));
+  print_life(report);
+  print_item("written", settings.output);
+  write_side_files(settings.output, report, settings.field);
+}
+
+OptionTable all_life_options() {
+  OptionTable table = life_table();
+  const OptionTable of_drives = whole_drive_table();
+  table.insert(table.end(), of_drives.begin(), of_drives.end());
+  return table;
+}
+
+}  // namespace
+
+Verb life_verb() {
+  return {"life", "life drive.yaml [-option value ...]",
+          "damage and life of the gears of a drive over a duty cycle", all_life_options(), run_life};
+}
+
+}  // namespace elastogear::app
