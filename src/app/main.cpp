@@ -105,8 +105,7 @@ int main(int argc, char** argv) {
   using namespace elastogear;
   const std::vector<app::Verb> verbs = {app::mesh_verb(),    app::reduce_verb(),   app::simulate_verb(),
                                         app::recover_verb(), app::evaluate_verb(), app::life_verb(),
-                                        app::compare_verb(),
-                                        app::info_verb()};
+                                        app::wear_verb(),    app::compare_verb(),  app::info_verb()};
   const app::CommandLine line = app::parse_command_line(argc, argv);
   if (line.version) return std::printf("elastogear %s (%s)\n", version(), git_hash()), 0;
   if (line.verb.empty()) return app::print_usage(verbs), line.help ? 0 : 1;

@@ -163,9 +163,10 @@ void describe_hdf5(Out& out, const std::string& path) {
   if (format == kResultFormat.name) return describe_result(out, path);
   if (format == kEvaluationFormat.name) return describe_evaluation(out, path);
   if (format == kLifeFormat.name) return describe_life(out, path);
+  if (format == kWearFormat.name) return describe_wear(out, path);
   require(format == kStressFormat.name, path, ": unknown format '", format, "', known are '",
           kBodyFormat.name, "', '", kResultFormat.name, "', '", kStressFormat.name, "', '",
-          kEvaluationFormat.name, "', '", kLifeFormat.name, "'");
+          kEvaluationFormat.name, "', '", kLifeFormat.name, "', '", kWearFormat.name, "'");
   describe_stress(out, path);
 }
 

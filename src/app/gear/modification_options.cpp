@@ -24,7 +24,7 @@ constexpr double kEndRelief = 0.1;  // of the face width, where no length is giv
 struct Errors {
   std::vector<double> pitch;
   double run_out = 0, run_out_angle = 0;
-  std::string topography;
+  std::string topography, wear;
 };
 
 const Rows<Errors> kErrorRows = {
@@ -39,6 +39,8 @@ const Rows<Errors> kErrorRows = {
      "drive: CSV file of measured flanks: a line for each point with its diameter, z and height out of the "
      "exact flank, all in m; two more columns, tooth (0: all) and side (left, right, both), where flanks "
      "differ; the points of a flank form a grid of diameters and z"},
+    {"<gear>_wear", &Errors::wear, "-",
+     "drive: CSV file of worn flanks that wear wrote, in the form of topography; comes on top of all others"},
 };
 
 template <class Member>
@@ -215,7 +217,9 @@ std::optional<FlankDeviations> flank_deviations(const Options& options, const Dr
   deviations.index = index_deviations(options, member, errors.pitch);
   const double angle = member.toothing.theta_1 + errors.run_out_angle * std::numbers::pi / 180;
   deviations.eccentricity = errors.run_out / 2 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-  if (!errors.topography.empty()) deviations.topography = read_topography(errors.topography, member);
+  for (const std::string& file : {errors.topography, errors.wear})
+    if (!file.empty())
+      for (Topography& more : read_topography(file, member)) deviations.topography.push_back(std::move(more));
   gear::check(member.name, member.toothing, deviations);
   return deviations;
 }

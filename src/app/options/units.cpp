@@ -12,7 +12,7 @@
 namespace elastogear::app {
 namespace {
 
-enum class Quantity { length, angle, time, mass, force, torque, pressure, speed, density, stiffness };
+enum class Quantity { length, angle, time, mass, force, torque, pressure, speed, density, stiffness, wear };
 
 struct Unit {
   const char* name;
@@ -61,7 +61,10 @@ constexpr Unit kUnits[] = {{"nm", length, 1e-9},
                            {"N/m", stiffness, 1},
                            {"N/mm", stiffness, 1e3},
                            {"N/um", stiffness, 1e6},
-                           {"N/µm", stiffness, 1e6}};
+                           {"N/µm", stiffness, 1e6},
+                           {"m^2/N", wear, 1},
+                           {"mm^2/N", wear, 1e-6},
+                           {"mm^3/(N m)", wear, 1e-9}};
 
 const Unit* find(const std::string& name) {
   const auto* unit =

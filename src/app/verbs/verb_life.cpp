@@ -106,6 +106,8 @@ void run_life(const Options& given, const std::vector<std::string>&) {
                                       report.blocks, settings.proportional));
   std::vector<std::string> data, outputs = side_files(settings.output, report, settings.field);
   for (const SweptTorque& at : report.swept) data.push_back(at.file);
+  for (const LifeOfSet& one : report.sets)
+    if (!one.body_file.empty()) data.push_back(one.body_file);
   outputs.push_back(settings.output);
   protect_inputs(options, {{"output", outputs}}, data);
   io::write_life(settings.output, life_file(options, report));

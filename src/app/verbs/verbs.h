@@ -26,5 +26,6 @@ Verb evaluate_verb();
 Verb compare_verb();
 Verb info_verb();
 Verb life_verb();
+Verb wear_verb();
 
 }  // namespace elastogear::app

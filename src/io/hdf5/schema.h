@@ -15,7 +15,8 @@ struct Format {
   int version = 2, oldest = 1;
 };
 constexpr Format kBodyFormat{"elastogear body"}, kStressFormat{"elastogear stress"};
-constexpr Format kResultFormat{"elastogear result", 3}, kLifeFormat{"elastogear life"};
+constexpr Format kResultFormat{"elastogear result", 3}, kLifeFormat{"elastogear life"},
+    kWearFormat{"elastogear wear"};
 constexpr Format kEvaluationFormat{"elastogear evaluation", 2, 2};
 
 /// Attribute of a body file's root: model::fingerprint.

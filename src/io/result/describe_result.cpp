@@ -130,4 +130,18 @@ void describe_life(Out& out, const std::string& path) {
   describe_map(out, h5::read_map(file, "/provenance"));
 }
 
+void describe_wear(Out& out, const std::string& path) {
+  const h5::File file = open_format(path, kWearFormat);
+  const Eigen::VectorXd revolutions = read_vector(file, "/revolutions");
+  line(out, "wear over ", revolutions.tail<1>()[0], " revolutions of the first gear, ",
+       counted(revolutions.size() - 1, "step"));
+  for (const std::string& body : h5::members(file, "/")) {
+    if (body == "revolutions" || body == "provenance") continue;
+    line(out, "wear of ", body, ": largest depth ",
+         read_vector(file, "/" + body + "/largest_depth").tail<1>()[0], " m, mass ",
+         read_vector(file, "/" + body + "/mass").tail<1>()[0], " kg");
+  }
+  describe_map(out, h5::read_map(file, "/provenance"));
+}
+
 }  // namespace elastogear::io

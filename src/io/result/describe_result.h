@@ -11,5 +11,6 @@ void describe_result(Out& out, const std::string& path);
 void describe_evaluation(Out& out, const std::string& path);
 void describe_stress(Out& out, const std::string& path);
 void describe_life(Out& out, const std::string& path);
+void describe_wear(Out& out, const std::string& path);
 
 }  // namespace elastogear::io

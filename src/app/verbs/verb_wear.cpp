@@ -1,0 +1,164 @@
+// elastogear wear: sweeps, and what they take off the flanks, in turn.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "app/console/console.h"
+#include "app/console/outputs.h"
+#include "app/gear/drive_options.h"
+#include "app/sweep/sweep_run.h"
+#include "app/verbs/verbs.h"
+#include "app/wear/wear_report.h"
+#include "elastogear/base/error.h"
+#include "elastogear/io/body_file.h"
+
+namespace elastogear::app {
+namespace {
+
+std::string output_of(const Options& options) {
+  return options.given("output") ? options.text("output") : drive_stem(options) + "_wear.h5";
+}
+
+std::string sweep_file(const std::string& output) {
+  return std::filesystem::path(output).replace_extension().string() + "_sweep.h5";
+}
+
+std::vector<WearingGear> wearing_gears(const Options& options, const Drive& drive,
+                                       const WearSettings& settings) {
+  std::vector<WearingGear> gears;
+  double largest = 0;
+  for (const DriveMember& member : drive.members) {
+    const WearMaterial material = wear_material(options, member);
+    largest = std::max(largest, material.coefficient);
+    gears.push_back(wearing_gear(member, material, settings,
+                                 io::read_body(body_file(options, member), io::BodyUse::motion).surface));
+  }
+  require(largest > 0,
+          "option -coefficient is missing: k of Archard's law in m^2/N, as in 'wear: {coefficient: "
+          "1e-9 mm^3/(N m)}', or of one gear");
+  return gears;
+}
+
+// m by revolution of the first gear, on each side of the gear's teeth.
+Eigen::MatrixXd rate(const WearingGear& gear, const Eigen::MatrixXd& passed) {
+  return gear.material.coefficient * std::abs(gear.member->ratio) * life::depth(gear.cells, passed);
+}
+
+// The sweep of the drive with flanks that are worn so far.
+void sweep_worn(const Options& options, const std::vector<WearingGear>& gears, const std::string& output) {
+  Options of_sweep = options;
+  of_sweep.set("analysis", "sweep");
+  of_sweep.set("output", sweep_file(output));
+  for (const WearingGear& gear : gears)
+    of_sweep.set(gear.member->name + "_wear", worn_flanks_file(output, gear.member->name));
+  run_sweep(of_sweep);
+}
+
+// Revolutions to the next sweep: to the end, the limit, or the increment, whichever comes first.
+double next_step(const WearSettings& settings, const std::vector<WearingGear>& gears,
+                 const std::vector<PassedVolume>& passed, double done) {
+  double step = settings.revolutions - done;
+  for (std::size_t i = 0; i < gears.size(); ++i)
+    for (int side = 0; side < 2; ++side) {
+      const Eigen::MatrixXd fresh = rate(gears[i], passed[i].of[side]);
+      if (fresh.maxCoeff() > 0) step = std::min(step, settings.increment / fresh.maxCoeff());
+      if (settings.limit > 0)
+        for (Eigen::Index k = 0; k < fresh.size(); ++k)
+          if (fresh.reshaped()[k] > 0)
+            step =
+                std::min(step, (settings.limit - gears[i].depth[side].reshaped()[k]) / fresh.reshaped()[k]);
+    }
+  return std::max(step, 0.0);
+}
+
+// Why the run ends; empty when it goes on.
+std::string end_of(const WearSettings& settings, const std::vector<WearingGear>& gears, double done) {
+  if (done >= settings.revolutions * (1 - 1e-12)) return "all revolutions are done";
+  for (const WearingGear& gear : gears)
+    if (settings.limit > 0 && largest_depth(gear) >= settings.limit * (1 - 1e-9))
+      return gear.member->name + " reaches the limit of depth";
+  return "";
+}
+
+WearCourse wear_down(const Options& options, const Drive& drive, const WearSettings& settings,
+                     std::vector<WearingGear>& gears, const std::string& output, std::string& why) {
+  WearCourse course;
+  note(course, gears, 0);
+  for (int sweep = 0; why.empty(); ++sweep) {
+    require(sweep < settings.most_sweeps, options.label("most_sweeps"), ": ", sweep, " sweeps reach ",
+            course.revolutions.back(), " of ", settings.revolutions,
+            " revolutions; a larger increment takes fewer");
+    for (const WearingGear& gear : gears)
+      write_worn_flanks(worn_flanks_file(output, gear.member->name), gear);
+    sweep_worn(options, gears, output);
+    const std::vector<PassedVolume> passed = passed_volume(sweep_file(output), drive, gears);
+    const double done = course.revolutions.back(), step = next_step(settings, gears, passed, done);
+    for (std::size_t i = 0; i < gears.size(); ++i)
+      for (int side = 0; side < 2; ++side) gears[i].depth[side] += step * rate(gears[i], passed[i].of[side]);
+    note(course, gears, done + step);
+    why = end_of(settings, gears, done + step);
+  }
+  return course;
+}
+
+void refuse_single_teeth(const Drive& drive, const Options& options) {
+  for (const DriveMember& member : drive.members) {
+    const std::string name = member.name + "_wear";
+    require(!options.given(name), options.label(name), ": wear begins with flanks that are not worn");
+    if (!member.deviations) continue;
+    require(!member.deviations->index.any() && !member.deviations->eccentricity.any(), "wear of ",
+            member.name, ": its teeth differ (pitch_deviation, run_out); wear takes all teeth alike");
+  }
+}
+
+void run_wear(const Options& given, const std::vector<std::string>&) {
+  require(is_drive(given), "needs a drive file: elastogear wear drive.yaml (docs/drives.md)");
+  const Options options = with_gears(given);
+  const Drive drive = read_drive(options);
+  std::vector<std::string> names;
+  for (const DriveMember& member : drive.members) names.push_back(member.name);
+  options.reject_unknown({{"body", names}, {"gear", names}});
+  refuse_single_teeth(drive, options);
+  const WearSettings settings = wear_settings(options);
+  const std::string output = output_of(options);
+  std::vector<WearingGear> gears = wearing_gears(options, drive, settings);
+  Outputs outputs{"output", course_files(output)};
+  outputs.files.insert(outputs.files.end(), {output, sweep_file(output)});
+  std::vector<std::string> bodies;
+  for (const DriveMember& member : drive.members) {
+    outputs.files.push_back(worn_flanks_file(output, member.name));
+    bodies.push_back(body_file(options, member));
+  }
+  protect_inputs(options, {outputs}, bodies);
+  const OutputLock lock(output);
+  std::string why;
+  const WearCourse course = wear_down(options, drive, settings, gears, output, why);
+  for (const WearingGear& gear : gears) {
+    write_worn_flanks(worn_flanks_file(output, gear.member->name), gear);
+    print_item("written", worn_flanks_file(output, gear.member->name));
+  }
+  io::WearFile file = wear_file(course, gears);
+  file.provenance = options.provenance();
+  io::write_wear(output, file);
+  write_course(output, course, gears, why);
+  for (const std::string& path : course_files(output)) print_item("written", path);
+  print_item("written", output);
+  print_wear(course, gears, why);
+}
+
+OptionTable all_wear_options() {
+  OptionTable table = wear_table();
+  const OptionTable of_runs = simulate_verb().table;
+  table.insert(table.end(), of_runs.begin(), of_runs.end());
+  return table;
+}
+
+}  // namespace
+
+Verb wear_verb() {
+  return {"wear", "wear drive.yaml [-option value ...]",
+          "worn depth and mass of the flanks of a drive over its revolutions", all_wear_options(), run_wear};
+}
+
+}  // namespace elastogear::app

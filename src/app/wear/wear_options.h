@@ -1,0 +1,33 @@
+#pragma once
+// The options of wear.
+
+#include <string>
+
+#include "app/gear/drive.h"
+#include "app/options/options.h"
+
+namespace elastogear::app {
+
+struct WearSettings {
+  double revolutions = 0;      ///< of the first gear
+  double limit = 0;            ///< m, largest depth; 0: none
+  double increment = 1e-6;     ///< m, largest growth of the depth between two sweeps
+  int along = 40, across = 8;  ///< cells of a flank along its profile and across the face
+  int most_sweeps = 1000;
+};
+
+/// Of one gear.
+struct WearMaterial {
+  double coefficient = 0;  ///< m^2/N, of Archard's law; 0: does not wear
+  double density = 7850;   ///< kg/m^3
+};
+
+/// Rows for the options of wear, beside those of simulate.
+OptionTable wear_table();
+
+WearSettings wear_settings(const Options& options);
+
+/// The gear's own keys, and those of all gears where it has none.
+WearMaterial wear_material(const Options& options, const DriveMember& member);
+
+}  // namespace elastogear::app

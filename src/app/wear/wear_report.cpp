@@ -1,0 +1,103 @@
+#include "app/wear/wear_report.h"
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/console/console.h"
+#include "elastogear/base/file.h"
+#include "elastogear/base/number.h"
+#include "elastogear/io/csv.h"
+
+namespace elastogear::app {
+namespace {
+
+std::string without_end(const std::string& output) {
+  return std::filesystem::path(output).replace_extension().string();
+}
+
+Eigen::VectorXd middles(const Eigen::VectorXd& edges) {
+  const Eigen::Index n = edges.size() - 1;
+  return (edges.head(n) + edges.tail(n)) / 2;
+}
+
+Eigen::VectorXd diameters(const WearingGear& gear) {
+  const double r_b = gear.member->toothing.r_b;
+  return middles(gear.cells.u).unaryExpr([r_b](double u) { return 2 * std::hypot(r_b, u); });
+}
+
+Eigen::VectorXd column(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+void note(WearCourse& course, const std::vector<WearingGear>& gears, double revolutions) {
+  course.depth.resize(gears.size());
+  course.mass.resize(gears.size());
+  if (!course.depth.front().empty()) course.revolutions.push_back(revolutions);
+  for (std::size_t i = 0; i < gears.size(); ++i) {
+    course.depth[i].push_back(largest_depth(gears[i]));
+    course.mass[i].push_back(worn_mass(gears[i]));
+  }
+}
+
+std::string worn_flanks_file(const std::string& output, const std::string& gear) {
+  return without_end(output) + "_" + gear + ".csv";
+}
+
+void write_worn_flanks(const std::string& path, const WearingGear& gear) {
+  const Eigen::VectorXd diameter = diameters(gear), z = middles(gear.cells.v);
+  std::string text = "diameter [m],z [m],height [m],tooth,side\n";
+  const auto add = [&text](double value) {
+    print(text, value);
+    text += ',';
+  };
+  for (int side = 0; side < 2; ++side)
+    for (Eigen::Index i = 0; i < diameter.size(); ++i)
+      for (Eigen::Index j = 0; j < z.size(); ++j) {
+        for (double value : {diameter[i], z[j], 0 - gear.depth[side](i, j)}) add(value);
+        text += side == 0 ? "0,left\n" : "0,right\n";
+      }
+  write_file(path, text);
+}
+
+std::vector<std::string> course_files(const std::string& output) {
+  return {without_end(output) + ".csv", without_end(output) + ".json"};
+}
+
+void write_course(const std::string& output, const WearCourse& course, const std::vector<WearingGear>& gears,
+                  const std::string& why) {
+  std::vector<io::CsvColumn> columns = {{"revolutions", "1", column(course.revolutions)}};
+  nlohmann::ordered_json json = {{"ended", why}, {"revolutions_of_first_gear", course.revolutions.back()}};
+  for (std::size_t i = 0; i < gears.size(); ++i) {
+    const std::string& name = gears[i].member->name;
+    columns.push_back({"largest depth of " + name, "m", column(course.depth[i])});
+    columns.push_back({"worn mass of " + name, "kg", column(course.mass[i])});
+    json["gears"].push_back({{"gear", name},
+                             {"largest_depth_m", course.depth[i].back()},
+                             {"worn_mass_kg", course.mass[i].back()},
+                             {"flanks", worn_flanks_file(output, name)}});
+  }
+  io::write_csv(course_files(output)[0], columns);
+  write_file(course_files(output)[1], json.dump(2) + "\n");
+}
+
+io::WearFile wear_file(const WearCourse& course, const std::vector<WearingGear>& gears) {
+  io::WearFile file;
+  file.revolutions = column(course.revolutions);
+  for (std::size_t i = 0; i < gears.size(); ++i)
+    file.gears.push_back({gears[i].member->name, diameters(gears[i]), middles(gears[i].cells.u),
+                          middles(gears[i].cells.v), gears[i].depth[0], gears[i].depth[1],
+                          column(course.depth[i]), column(course.mass[i])});
+  return file;
+}
+
+void print_wear(const WearCourse& course, const std::vector<WearingGear>& gears, const std::string& why) {
+  print_item("wear", with_unit(course.revolutions.back(), "revolutions of the first gear") + ", " + why);
+  for (std::size_t i = 0; i < gears.size(); ++i)
+    print_item(gears[i].member->name, "largest depth " + with_unit(1e6 * course.depth[i].back(), "um") +
+                                          ", worn mass " + with_unit(1e3 * course.mass[i].back(), "g"));
+}
+
+}  // namespace elastogear::app

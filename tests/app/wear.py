@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+"""Wear of two small spur gears: the volume of one sweep is k times the sum of force and sliding over all contacts, in the velocities
+that the sweep itself reports; both gears lose the same volume; wear goes on in turn with sweeps to a limit of depth.
+
+    wear.py PATH/TO/elastogear PATH/TO/scripts
+"""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+DRIVE = """
+drive: cylindrical
+module: 3 mm
+face_width: 9 mm
+pinion: {teeth: 17, profile_shift: 0.3}
+wheel: {teeth: 23, profile_shift: 0.1}
+torque: 50 N m
+modes: 4
+stress_nodes: ''
+sweep_positions: 6
+wear: {coefficient: 1e-9 mm^3/(N m), increment: 4 um, density: 8000}
+"""
+K, DENSITY = 1e-18, 8000
+
+
+def look(program, scripts):
+    def run(verb, *options, fails=None):
+        done = subprocess.run([program, verb, "drive.yaml", *options], capture_output=True, text=True, check=False)
+        if fails is None:
+            assert done.returncode == 0, done.stdout[-2000:] + done.stderr
+            return done.stdout
+        assert done.returncode != 0 and fails in done.stderr, f"{options}: {fails} is not in {done.stderr}"
+        return done.stderr
+
+    with open("drive.yaml", "w", encoding="utf-8") as file:
+        file.write(DRIVE)
+    run("wear", "-revolutions", "10", fails="pinion.h5")
+    run("reduce")
+    before = sorted(os.listdir())
+    run("wear", fails="revolutions is missing")
+    run("wear", "-revolutions", "-4", fails="revolutions")
+    run("wear", "-revolutions", "4", "-coefficient", "0", fails="-coefficient is missing")
+    run("wear", "-revolutions", "4", "-coefficient", "1 mm", fails="is no unit of it")
+    run("wear", "-revolutions", "4", "-pinion_pitch_deviation", "3,10 um", fails="its teeth differ")
+    run("wear", "-revolutions", "4", "-output", "pinion.h5", fails="pinion.h5")
+    assert sorted(os.listdir()) == before
+
+    run("wear", "-revolutions", "1000")  # less than the increment: one sweep
+    with h5py.File("drive_wear_sweep.h5") as file:
+        points = file["contact/pinion:wheel/points"]
+        force, slip = np.linalg.norm(points["force"][:], axis=1), np.linalg.norm(points["slip"][:], axis=1)
+        volume = (force * slip).sum() / 6  # m^3 of one passing for k = 1
+    with h5py.File("drive_wear.h5") as file:
+        for gear, z, turns in (("pinion", 17, 1000), ("wheel", 23, 1000 * 17 / 23)):
+            mass = file[gear]["mass"][-1] / (DENSITY * K * z * turns)
+            assert abs(mass / volume - 1) < 0.01, (gear, mass, volume)
+            assert file[gear]["left"][:].max() > 0 and file[gear]["right"][:].max() == 0
+        assert list(file["revolutions"][:]) == [0, 1000]
+
+    text = run("wear", "-revolutions", "1e12", "-limit", "6 um", "-coefficient", "1e-9 mm^3/(N m)")
+    assert "reaches the limit of depth" in text, text
+    with open("drive_wear.csv", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    depth = np.array([[float(value) for value in row] for row in rows[1:]])
+    assert len(depth) >= 3 and (np.diff(depth, axis=0) > 0).all()
+    assert abs(max(depth[-1, 1], depth[-1, 3]) / 6e-6 - 1) < 1e-6, depth[-1]
+    with open("drive_wear.json", encoding="utf-8") as file:
+        assert json.load(file)["gears"][0]["gear"] == "pinion"
+    described = subprocess.run([program, "info", "drive_wear.h5"], capture_output=True, text=True, check=True).stdout
+    assert "wear of wheel: largest depth" in described, described
+    subprocess.run([os.path.join(scripts, "wear.py"), "drive_wear.h5", "--out", "pictures"], capture_output=True, check=True)
+    assert sorted(os.listdir("pictures")) == ["wear_course.png", "wear_pinion_left.png", "wear_wheel_left.png"]
+
+
+def main():
+    program, scripts = map(os.path.abspath, sys.argv[1:])
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        look(program, scripts)
+        os.chdir("/")
+    print("wear is right")
+
+
+if __name__ == "__main__":
+    main()
