@@ -51,10 +51,14 @@ SweptTorque of_file(const std::string& file, const double* torque) {
   return at;
 }
 
+// Commas between quotes belong to a field.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields(1);
+  bool quoted = false;
   for (char c : line)
-    if (c == ',')
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
       fields.emplace_back();
     else if (c != '\r')
       fields.back() += c;
@@ -85,6 +89,7 @@ std::vector<SweptTorque> of_cases(const Options& options, const std::string& tab
     if (fields.size() != heading.size()) fail(table, ": '", line, "' has not the columns of its heading");
     variants.insert(fields[name]);
     if (!variant.empty() && fields[name] != variant) continue;
+    require(!fields[file].empty(), table, ": the case '", line, "' has no file: no position was found");
     const std::string path = (fs::path(table).parent_path() / fields[file]).string();
     const auto value = parse<double>(fields[torque]);
     require(value.has_value(), table, ": torque '", fields[torque], "' is no number");

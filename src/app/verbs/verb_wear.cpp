@@ -50,8 +50,10 @@ void sweep_worn(const Options& options, const std::vector<WearingGear>& gears, c
   Options of_sweep = options;
   of_sweep.set("analysis", "sweep");
   of_sweep.set("output", sweep_file(output));
+  of_sweep.set("resume", "discard");  // an earlier one had other flanks
   for (const WearingGear& gear : gears)
     of_sweep.set(gear.member->name + "_wear", worn_flanks_file(output, gear.member->name));
+  std::filesystem::remove(sweep_file(output));
   run_sweep(of_sweep);
 }
 
@@ -102,6 +104,11 @@ WearCourse wear_down(const Options& options, const Drive& drive, const WearSetti
   return course;
 }
 
+void refuse_several_cases(const Options& options) {
+  for (const char* name : {"torques", "variants"})
+    require(!options.given(name), options.label(name), ": wear takes one case, of torque");
+}
+
 void refuse_single_teeth(const Drive& drive, const Options& options) {
   for (const DriveMember& member : drive.members) {
     const std::string name = member.name + "_wear";
@@ -119,6 +126,7 @@ void run_wear(const Options& given, const std::vector<std::string>&) {
   std::vector<std::string> names;
   for (const DriveMember& member : drive.members) names.push_back(member.name);
   options.reject_unknown({{"body", names}, {"gear", names}});
+  refuse_several_cases(options);
   refuse_single_teeth(drive, options);
   const WearSettings settings = wear_settings(options);
   const std::string output = output_of(options);
