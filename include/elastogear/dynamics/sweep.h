@@ -49,11 +49,11 @@ struct SweepSummary {
 void validate(const SlowMotion& motion, const SweepSettings& settings);
 
 /// Each equilibrium is found from the one before, by turning all bodies with their rate; the first one, and
-/// those not found so, from the unloaded state at their position. They are observed with p as time. Friction
-/// acts against the sliding of the rates. Work and losses count from the first one on, which are those of
-/// the motion at one unit of p a second; losses by the trapezoidal rule. Bodies' memory of earlier
-/// positions is none: the result does not depend on them but by the tolerance of the equilibria. `stop` is
-/// asked at each evaluation; true ends the sweep, not complete.
+/// those not found so, from the unloaded state at their position or shortly before it. They are observed with
+/// p as time. Friction acts against the sliding of the rates. Work and losses count from the first one on,
+/// which are those of the motion at one unit of p a second; losses by the trapezoidal rule. Bodies' memory of
+/// earlier positions is none: the result does not depend on them but by the tolerance of the equilibria.
+/// `stop` is asked at each evaluation; true ends the sweep, not complete.
 SweepSummary sweep(const SlowMotion& motion, const SweepSettings& settings, const Observer& observer,
                    const Progress& progress = {}, const std::function<bool()>& stop = {});
 

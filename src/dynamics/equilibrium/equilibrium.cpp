@@ -1,4 +1,4 @@
-#include "dynamics/equilibrium.h"
+#include "dynamics/equilibrium/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,6 @@ constexpr int kMostIterations = 300;    // contact that is far away is approache
 constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
-constexpr double kJump = 1e-5;          // share of the forces by which contact may jump
 constexpr double kRoundoff = 1e-15;     // of coordinates in rad and m: smaller changes are none
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
@@ -141,7 +140,7 @@ double damping(Equilibrium& at, SNESLineSearch search, const Eigen::VectorXd& ch
   } else {
     ++at.n_in_vain;
     const bool by_roundoff = at.factor == 0 && change.norm() <= kRoundoff;
-    if (at.n_in_vain >= kInVain) at.problem.slack = by_roundoff ? 1 : kJump;
+    if (at.n_in_vain >= kInVain) at.problem.slack = by_roundoff ? 1 : at.jump;
   }
   return at.n_in_vain < kPatience ? 1 : 0.5;
 }
@@ -239,7 +238,7 @@ bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
   summary.newton_iterations += iterations;
-  if (reason > 0 && at.problem.slack == kJump)
+  if (reason > 0 && at.problem.slack == at.jump)
     summary.unbalanced = std::max(summary.unbalanced, imbalance(at.problem.residual));
   return reason > 0;
 }
@@ -289,7 +288,8 @@ LoadPath::LoadPath(const System& system, int steps)
     : U(vector(system.initial_position())),
       good(system.initial_position()),
       first_step(1.0 / steps),
-      step(1.0 / steps) {}
+      step(1.0 / steps),
+      least_step(kSmallestStep / steps) {}
 
 bool advance(Equilibrium& at, SNES snes, LoadPath& path, RunSummary& summary) {
   const bool last = path.reached + (1 + kStepRoundoff) * path.step >= 1;
@@ -297,7 +297,7 @@ bool advance(Equilibrium& at, SNES snes, LoadPath& path, RunSummary& summary) {
   if (!find_equilibrium(at, snes, path.U, summary)) {
     ++summary.rejected_steps;
     path.step /= 2;
-    if (path.reached < 0 || path.step < kSmallestStep * path.first_step) fail_without_equilibrium(at);
+    if (path.reached < 0 || path.step < path.least_step) fail_without_equilibrium(at);
     assign(path.U, path.good);
     if (!path.pairs.empty()) at.problem.system.set_forces(path.pairs);
     return false;

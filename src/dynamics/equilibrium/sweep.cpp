@@ -1,11 +1,12 @@
 #include "elastogear/dynamics/sweep.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 
-#include "dynamics/equilibrium.h"
+#include "dynamics/equilibrium/equilibrium.h"
 #include "dynamics/run.h"
 #include "dynamics/vec_view.h"
 #include "elastogear/base/error.h"
@@ -17,8 +18,12 @@ namespace {
 
 // Times of a system that sweeps: loads grow until 1, positions follow from there.
 constexpr double kLoaded = 1;
-constexpr int kMostToGoOn = 60;   // from one position to the next
-constexpr int kMostToLoad = 120;  // in a load step
+constexpr int kMostToGoOn = 40;        // iterations from one position to the next
+constexpr int kMostToLoad = 40;        // iterations in a load step
+constexpr double kLeastStep = 0.1;     // of the load, of the first attempt, and of the load steps of others
+constexpr double kBefore = 0.25;       // of the way between positions, before one that is not found
+constexpr double kLargeJump = 1e-3;    // share of the forces that may be unbalanced where all else fails
+constexpr double kUsualWay = 1 / 32.;  // where there is one position only
 constexpr double kLastValue = std::numeric_limits<double>::infinity();
 
 bool turns(const BodySetup& setup) {
@@ -93,6 +98,7 @@ void limit_iterations(const Sweep& sweep, int most) {
 void load(Sweep& sweep, int steps, RunSummary& summary) {
   require_bodies_apart(sweep.system);
   LoadPath path(sweep.system, steps);
+  path.least_step = kLeastStep * std::min(1.0, 2.0 / steps);
   limit_iterations(sweep, kMostToLoad);
   while (path.reached < 1) advance(sweep.at, sweep.snes, path, summary);
   sweep.U = path.good;
@@ -176,17 +182,34 @@ struct Leader {
   SweepLedger ledger = {};
 };
 
-// Finds an equilibrium from the unloaded state; false where there is none.
+// Finds the equilibrium of a position from the unloaded state there, then by way of one shortly before it,
+// then by more load steps; false where there is none.
 bool load_anew(Leader& leader, double position) {
+  const SweepSettings& settings = leader.settings;
+  const auto& p = settings.positions;
+  const double way = p.size() > 1 ? (p.back() - p.front()) / static_cast<double>(p.size() - 1) : kUsualWay;
+  struct Attempt {
+    double from;
+    int steps;
+    bool may_jump;
+  };
+  const std::vector<Attempt> attempts = {{position, settings.steps, false},
+                                         {position - kBefore * way, settings.steps, true},
+                                         {position - 2 * kBefore * way, settings.steps, true},
+                                         {position, settings.more_steps, true}};
   std::string why;
-  for (const int steps : {leader.settings.steps, leader.settings.more_steps}) try {
-      leader.sweep = std::make_unique<Sweep>(leader.motion, position, leader.stop);
-      load(*leader.sweep, steps, leader.summary.run);
-      return true;
+  for (const Attempt& attempt : attempts) try {
+      leader.sweep = std::make_unique<Sweep>(leader.motion, attempt.from, leader.stop);
+      if (attempt.may_jump) leader.sweep->at.jump = kLargeJump;
+      load(*leader.sweep, attempt.steps, leader.summary.run);
+      if (attempt.from == position || go_on(*leader.sweep, position, leader.summary.run)) {
+        leader.sweep->at.jump = Equilibrium::kUsualJump;
+        return true;
+      }
     } catch (const Error& error) {
-      why = error.what();
-      leader.sweep.reset();
+      if (why.empty()) why = error.what();
     }
+  leader.sweep.reset();
   leader.summary.missing.push_back({position, why});
   return false;
 }

@@ -16,6 +16,8 @@ struct Equilibrium {
 
   Problem problem;
   double factor = 0;  // of the loads, in place of the time
+  static constexpr double kUsualJump = 1e-5;
+  double jump = kUsualJump;  // share of the forces by which contact may jump
   Eigen::VectorXd zero;
   std::vector<Eigen::VectorXd> resistance = {};  // sigma M of each body's joint coordinates, its diagonal
   Eigen::VectorXd unloaded_scale = {};           // of forces without load, the largest so far
@@ -44,6 +46,7 @@ struct LoadPath {
   Eigen::VectorXd good;               // the last equilibrium
   std::vector<PairContacts> pairs{};  // its contacts
   double first_step, step;
+  double least_step;    // cut below that, there is no equilibrium
   double reached = -1;  // load factor; negative: not even the unloaded state
 };
 

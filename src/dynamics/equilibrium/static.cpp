@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dynamics/equilibrium.h"
+#include "dynamics/equilibrium/equilibrium.h"
 #include "dynamics/run.h"
 #include "dynamics/vec_view.h"
 #include "elastogear/base/error.h"
