@@ -188,6 +188,23 @@ def check_cases(drive):
         assert (tangent[1] > 0.9 * secant).all(), "teeth are not softer under more load"
 
 
+def check_in_time(drive):
+    """Rigid gears on springs at 200 rad/s, over 2.2 pitches."""
+    drive.run("simulate", "drive.yaml", "-analysis", "dynamic", "-speed", "200", "-ts_dt", "2e-5", "-ts_max_time", "4.5e-3", "-sensors_hub",
+              "wheel.frame", "-output", "run.h5", "-resume", "discard", *LAYER)
+    figures = drive.evaluate("-result", "run.h5", "-from", "4e-4")
+    roll, time = figures["roll"], figures["time"]
+    assert time[0] >= 4e-4
+    near("roll angle per time", np.polyfit(time, roll, 1)[0], 200 * TEETH[0] / (2 * np.pi), 0.01 * 200 * TEETH[0] / (2 * np.pi))
+    with h5py.File("run.h5") as result:
+        force = np.linalg.norm(result["contact/pinion:wheel/force"][:], axis=1)[-len(time):]
+        turned = [result[f"bodies/{gear}/rigid"][-len(time):, 0] for gear in ("pinion", "wheel")]
+    near("dynamic factor", figures["force/dynamic_factor"], force.max() / force.mean(), 1e-9)
+    change = -R_B[1] * np.diff(turned[1] + turned[0] * TEETH[0] / TEETH[1])
+    near("dynamic transmission error, its changes", abs(np.diff(figures["transmission_error/loaded"]) - change).max(), 0, 1e-12)
+    assert "sensors/hub/acceleration_y/amplitude" in next(iter(figures.file["cases"].values())), "no spectrum of the sensor"
+
+
 def check_misuse(drive):
     drive.refusal("there is no such result", "evaluate", "drive.yaml", "-result", "nosuch.h5")
     drive.refusal("-from and -to", "evaluate", "drive.yaml", "-from", "0.1")
@@ -216,3 +233,4 @@ if __name__ == "__main__":
         check_rigid(d)
         check_face_load(d)
         check_cases(d)
+        check_in_time(d)

@@ -45,7 +45,8 @@ EvaluateSettings evaluate_settings(const Options& options) {
 
 Options with_evaluation(Options options) {
   const std::string cases = drive_stem(options) + "_result", file = cases + ".h5";
-  const bool several = !std::filesystem::exists(file) && std::filesystem::is_directory(cases);
+  const bool of_cases = options.given("torques") || options.given("variants");
+  const bool several = std::filesystem::is_directory(cases) && (of_cases || !std::filesystem::exists(file));
   options.set_default("result", several ? cases : file);
   options.set_default("output", drive_stem(options) + "_evaluation.h5");
   return options;
