@@ -26,7 +26,7 @@ struct Local {
   Face face;
   Vector3d q;
   Eigen::Matrix<double, 3, 5> v;
-  Heights heights{{HeightCoefficients::Zero()}};
+  Heights heights{{FaceHeights{}}};
 };
 
 Local behind(Random& random, int sides, double depth) {
@@ -168,7 +168,7 @@ Local place(Random& random, Where where, double depth) {
   Local local = beyond                 ? beyond_end(random, triangle ? 3 : 4, depth)
                 : where == Where::edge ? at_edge(random, depth)
                                        : behind(random, triangle ? 3 : 4, depth);
-  for (double& h : local.heights.face[0].reshaped()) h = 0.01 * random.uniform(-depth, depth);
+  for (double& h : local.heights.face[0].C.reshaped()) h = 0.01 * random.uniform(-depth, depth);
   return local;
 }
 

@@ -1,6 +1,7 @@
 #include "app/gear/true_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -97,6 +98,34 @@ struct Heights {
   double error = 0;  // m, the most by which their polynomials miss the flank
 };
 
+// An involute is a smooth function of its roll angle, and its radius one of the square of that: over a face
+// near the base circle heights are polynomials of a coordinate that is linear in the roll angle, Eq. (6.19b).
+// Sides across the profile are chords of a helix, whose middle has a smaller radius: the bulge is where the
+// face has that of its corners, Eq. (6.19c).
+contact::Stretch stretch_by_roll(const model::Surface& surface, int f, const gear::Toothing& toothing) {
+  static constexpr double kMost = 0.9;        // keeps derivatives with (u, v) finite on the base circle
+  static constexpr double kMostBulge = 0.25;  // of half a face
+  if (toothing.r_b == 0 || contact::side_count(surface.face, f) != 4) return {};
+  const auto corner = [&](int c) { return Eigen::Vector2d(surface.X.col(surface.face(c % 4, f)).head<2>()); };
+  const auto roll = [&](int c) {
+    return std::sqrt(std::max(0.0, corner(c).squaredNorm() / (toothing.r_b * toothing.r_b) - 1));
+  };
+  contact::Stretch stretch;
+  const std::array<std::array<int, 2>, 2> ends{{{3, 1}, {0, 2}}};  // sides at -1 and 1 of u and of v
+  for (int k : {0, 1}) {
+    const auto [first, last] = ends[static_cast<std::size_t>(k)];
+    const double low = roll(first) + roll(first + 1), high = roll(last) + roll(last + 1);
+    const double amount = low + high > 0 ? (high - low) / (high + low) : 0;
+    if (std::abs(amount) <= std::abs(stretch.amount)) continue;
+    const int fine = amount > 0 ? first : last, coarse = amount > 0 ? last : first;
+    const auto middle = [&](int side) { return (corner(side) + corner(side + 1)).norm() / 2; };
+    const double sag = (corner(fine).norm() + corner(fine + 1).norm()) / 2 - middle(fine);
+    const double half = std::clamp(sag / std::abs(middle(coarse) - middle(fine)), 0.0, kMostBulge);
+    stretch = {k, std::clamp(amount, -kMost, kMost), 2 * half / (1 - half)};
+  }
+  return stretch;
+}
+
 // Adds the heights of all flanks.
 Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::TrueSurface& known) {
   Heights heights;
@@ -108,7 +137,8 @@ Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::
       return teeth.deviations ? gear::flank_distance_along(teeth.toothing, *teeth.deviations, *flank, x, n)
                               : gear::flank_distance_along(teeth.toothing, *flank, x, n);
     };
-    known.height[f] = contact::sampled_heights(surface, f, distance);
+    known.height[f] =
+        contact::sampled_heights(surface, f, distance, stretch_by_roll(surface, f, teeth.toothing));
     if (teeth.deviations && !is_silenced())
       heights.error = std::max(heights.error, contact::height_error(surface, f, known.height[f], distance));
     ++heights.n_faces;

@@ -19,18 +19,35 @@ struct Chebyshev {
   Terms T = Terms::Zero(), T_t = Terms::Zero(), T_tt = Terms::Zero();
 };
 
-// Beyond |t| = 1 each polynomial goes on as its parabola there.
 Chebyshev chebyshev(double t) {
-  const double end = std::clamp(t, -1.0, 1.0), beyond = t - end;
   Chebyshev c;
   c.T[0] = 1;
-  c.T[1] = end;
+  c.T[1] = t;
   c.T_t[1] = 1;
   for (int i = 2; i < kP; ++i) {
-    c.T[i] = 2 * end * c.T[i - 1] - c.T[i - 2];
-    c.T_t[i] = 2 * c.T[i - 1] + 2 * end * c.T_t[i - 1] - c.T_t[i - 2];
-    c.T_tt[i] = 4 * c.T_t[i - 1] + 2 * end * c.T_tt[i - 1] - c.T_tt[i - 2];
+    c.T[i] = 2 * t * c.T[i - 1] - c.T[i - 2];
+    c.T_t[i] = 2 * c.T[i - 1] + 2 * t * c.T_t[i - 1] - c.T_t[i - 2];
+    c.T_tt[i] = 4 * c.T_t[i - 1] + 2 * t * c.T_tt[i - 1] - c.T_tt[i - 2];
   }
+  return c;
+}
+
+// The coordinate a in [-1, 1] of the stretched t, Eq. (6.19b).
+double unstretched(double stretch, double t) { return t + stretch * (t * t - 1) / 2; }
+
+double stretched(double stretch, double a) {
+  const double root = std::sqrt((1 - stretch) * (1 - stretch) + 2 * stretch * (1 + a));
+  return (2 * a + stretch) / (root + 1);
+}
+
+// The Chebyshev polynomials of the stretched coordinate and their derivatives with a; beyond |a| = 1 each one
+// goes on as its parabola there.
+Chebyshev chebyshev(double stretch, double a) {
+  const double end = std::clamp(a, -1.0, 1.0), beyond = a - end, t = stretched(stretch, end);
+  const double t_a = 1 / (1 + stretch * t), t_aa = -stretch * t_a * t_a * t_a;
+  Chebyshev c = chebyshev(t);
+  c.T_tt = t_a * t_a * c.T_tt + t_aa * c.T_t;
+  c.T_t *= t_a;
   if (beyond != 0) {
     c.T += beyond * (c.T_t + 0.5 * beyond * c.T_tt);
     c.T_t += beyond * c.T_tt;
@@ -38,11 +55,31 @@ Chebyshev chebyshev(double t) {
   return c;
 }
 
-// |T_i| and its derivatives are largest at the end of a parabola, t = 1 + beyond.
-Chebyshev largest_chebyshev(double beyond) { return chebyshev(1 + beyond); }
+// The side, at -1 or 1 of the stretched coordinate, where the stretch is finest.
+double fine_side(const Stretch& stretch) { return stretch.amount > 0 ? -1 : 1; }
 
-// Coordinate of a face along which the Chebyshev polynomials are orthogonal.
-double chebyshev_coordinate(int sides, double u) { return sides == 4 ? u : 2 * u - 1; }
+// The coordinate that is stretched, as a function of both with its derivatives, Eq. (6.19c).
+FaceFunction bent(const Stretch& stretch, const Eigen::Vector2d& at) {
+  const int k = stretch.along;
+  const double across = at[1 - k], from = at[k] + fine_side(stretch), beta = stretch.bulge;
+  FaceFunction p;
+  p.f = at[k] + beta / 2 * (1 - across * across) * from;
+  p.f_a[k] = 1 + beta / 2 * (1 - across * across);
+  p.f_a[1 - k] = -beta * across * from;
+  p.f_ab(0, 1) = p.f_ab(1, 0) = -beta * across;
+  p.f_ab(1 - k, 1 - k) = -beta * from;
+  return p;
+}
+
+// (u, v) where heights of a face are known.
+Eigen::Vector2d sampled_at(int sides, const Stretch& stretch, Eigen::Index p) {
+  Eigen::Vector2d at = height_points(sides)[static_cast<std::size_t>(p)];
+  if (sides == 3) return at;
+  const int k = stretch.along;
+  const double half = stretch.bulge / 2 * (1 - at[1 - k] * at[1 - k]);
+  at[k] = (unstretched(stretch.amount, at[k]) - fine_side(stretch) * half) / (1 + half);
+  return at;
+}
 
 std::vector<Eigen::Vector2d> quadrilateral_points() {
   std::vector<Eigen::Vector2d> points;
@@ -75,22 +112,22 @@ Eigen::MatrixXd interpolation(int sides) {
   const auto n = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd values(n, n);
   for (Eigen::Index p = 0; p < n; ++p) {
-    const Terms a = chebyshev(chebyshev_coordinate(sides, points[p][0])).T,
-                b = chebyshev(chebyshev_coordinate(sides, points[p][1])).T;
+    const Eigen::Vector2d t = sides == 4 ? points[p] : Eigen::Vector2d(2 * points[p].array() - 1);
+    const Terms a = chebyshev(t[0]).T, b = chebyshev(t[1]).T;
     for (Eigen::Index t = 0; t < n; ++t) values(p, t) = a[terms[t].first] * b[terms[t].second];
   }
   return values.inverse();
 }
 
-HeightCoefficients interpolated(int sides, const Eigen::VectorXd& samples) {
+FaceHeights interpolated(int sides, const ExactHeights& samples) {
   static const Eigen::MatrixXd of_triangle = interpolation(3), of_quadrilateral = interpolation(4);
   static const auto triangle_terms = terms_of(3), quadrilateral_terms = terms_of(4);
-  const Eigen::VectorXd coefficient = (sides == 4 ? of_quadrilateral : of_triangle) * samples;
+  const Eigen::VectorXd coefficient = (sides == 4 ? of_quadrilateral : of_triangle) * samples.value;
   const auto& terms = sides == 4 ? quadrilateral_terms : triangle_terms;
-  HeightCoefficients C = HeightCoefficients::Zero();
+  FaceHeights heights{HeightCoefficients::Zero(), samples.stretch};
   for (std::size_t t = 0; t < terms.size(); ++t)
-    C(terms[t].first, terms[t].second) = coefficient[static_cast<Eigen::Index>(t)];
-  return C;
+    heights.C(terms[t].first, terms[t].second) = coefficient[static_cast<Eigen::Index>(t)];
+  return heights;
 }
 
 void require_fits(const TrueSurface& known, const SurfaceView& surface) {
@@ -102,37 +139,60 @@ void require_fits(const TrueSurface& known, const SurfaceView& surface) {
           surface.x.cols());
   require(known.deviation.allFinite(), "contact: a deviation is not finite");
   for (std::size_t f = 0; f < known.height.size(); ++f) {
-    const Eigen::VectorXd& h = known.height[f];
-    const auto n = height_points(side_count(surface.face, static_cast<int>(f))).size();
+    const Eigen::VectorXd& h = known.height[f].value;
+    const Stretch& stretch = known.height[f].stretch;
+    const int sides = side_count(surface.face, static_cast<int>(f));
+    const auto n = height_points(sides).size();
     require(h.size() == 0 || h.size() == static_cast<Eigen::Index>(n), "contact: ", h.size(),
             " exact heights of face ", f, " given, it has ", n, " points");
     require(h.allFinite(), "contact: an exact height of face ", f, " is not finite");
+    const bool bends = stretch.amount != 0 || stretch.bulge != 0;
+    require(!bends || (sides == 4 && std::abs(stretch.amount) < 1 && stretch.bulge >= 0 &&
+                       stretch.bulge < 1 && (stretch.along == 0 || stretch.along == 1)),
+            "contact: face ", f, " with ", sides, " sides has the stretch ", stretch.amount, " along ",
+            stretch.along, " and the bulge ", stretch.bulge,
+            "; must be between -1 and 1 along 0 or 1, and 0 to 1, on quadrilaterals");
   }
 }
 
-Eigen::VectorXd smooth_samples(int sides, const CornerSlopes& slopes) {
+ExactHeights smooth_samples(int sides, const CornerSlopes& slopes) {
   const auto& points = height_points(sides);
   Eigen::VectorXd h(static_cast<Eigen::Index>(points.size()));
   for (Eigen::Index p = 0; p < h.size(); ++p) h[p] = smooth_height(sides, slopes, points[p][0], points[p][1]);
+  return {h};
+}
+
+// sum_ij C_ij a_i b_j with the derivatives with the coordinates of a and b.
+FaceFunction sum_of(const HeightCoefficients& C, const Chebyshev& a, const Chebyshev& b) {
+  const Terms by_b = C * b.T, by_b_t = C * b.T_t, by_b_tt = C * b.T_tt;
+  FaceFunction h;
+  h.f = a.T.dot(by_b);
+  h.f_a << a.T_t.dot(by_b), a.T.dot(by_b_t);
+  const double mixed = a.T_t.dot(by_b_t);
+  h.f_ab << a.T_tt.dot(by_b), mixed, mixed, a.T.dot(by_b_tt);
   return h;
 }
 
-FaceFunction polynomial(const HeightCoefficients& C, int sides, double u, double v) {
-  const Chebyshev a = chebyshev(chebyshev_coordinate(sides, u)),
-                  b = chebyshev(chebyshev_coordinate(sides, v));
-  const Terms by_b = C * b.T, by_b_t = C * b.T_t, by_b_tt = C * b.T_tt;
-  const double scale = chebyshev_coordinate(sides, 1) - chebyshev_coordinate(sides, 0);
-  FaceFunction h;
-  h.f = a.T.dot(by_b);
-  h.f_a = scale * Eigen::Vector2d(a.T_t.dot(by_b), a.T.dot(by_b_t));
-  const double mixed = a.T_t.dot(by_b_t);
-  h.f_ab << a.T_tt.dot(by_b), mixed, mixed, a.T.dot(by_b_tt);
-  h.f_ab *= scale * scale;
+FaceFunction polynomial(const FaceHeights& heights, int sides, double u, double v) {
+  if (sides == 3) {
+    FaceFunction h = sum_of(heights.C, chebyshev(0, 2 * u - 1), chebyshev(0, 2 * v - 1));
+    h.f_a *= 2;
+    h.f_ab *= 4;
+    return h;
+  }
+  const int k = heights.stretch.along;
+  const FaceFunction p = bent(heights.stretch, {u, v});
+  const Chebyshev along = chebyshev(heights.stretch.amount, p.f), across = chebyshev(0, k == 0 ? v : u);
+  FaceFunction h = k == 0 ? sum_of(heights.C, along, across) : sum_of(heights.C, across, along);
+  Eigen::Matrix2d J = Eigen::Matrix2d::Identity();  // of the bent coordinates
+  J.row(k) = p.f_a.transpose();
+  h.f_ab = (J.transpose() * h.f_ab * J + h.f_a[k] * p.f_ab).eval();
+  h.f_a = (J.transpose() * h.f_a).eval();
   return h;
 }
 
 // The length of the gradient of (6.19) on the surface itself: a height over the distance along its normal.
-double stretch(const Face& face, const FaceFunction& h, const Shape& s) {
+double gradient_length(const Face& face, const FaceFunction& h, const Shape& s) {
   Eigen::Matrix<double, 3, 2> a;
   a << combine(face, s.N_u), combine(face, s.N_v);
   const Eigen::Matrix2d metric = a.transpose() * a;
@@ -141,16 +201,15 @@ double stretch(const Face& face, const FaceFunction& h, const Shape& s) {
 }
 
 // Adds deviations, which count along the normal of the surface, to its heights h at the height_points.
-void add_deviation(const SurfaceView& surface, int f, const Eigen::VectorXd& deviation, Eigen::VectorXd& h) {
+void add_deviation(const SurfaceView& surface, int f, const Eigen::VectorXd& deviation, ExactHeights& h) {
   const Face face = face_of(surface, f);
-  const HeightCoefficients C = interpolated(face.sides, h);
-  const auto& points = height_points(face.sides);
-  for (Eigen::Index p = 0; p < h.size(); ++p) {
-    const double u = points[p][0], v = points[p][1];
-    const Shape s = shape(face.sides, u, v);
+  const FaceHeights without = interpolated(face.sides, h);
+  for (Eigen::Index p = 0; p < h.value.size(); ++p) {
+    const Eigen::Vector2d at = sampled_at(face.sides, h.stretch, p);
+    const Shape s = shape(face.sides, at[0], at[1]);
     double d = 0;
     for (int i = 0; i < face.sides; ++i) d += s.N[i] * deviation[surface.face(i, f)];
-    h[p] += d * stretch(face, polynomial(C, face.sides, u, v), s);
+    h.value[p] += d * gradient_length(face, polynomial(without, face.sides, at[0], at[1]), s);
   }
 }
 
@@ -161,11 +220,31 @@ Face undeformed_face(const model::Surface& surface, int f) {
   return face;
 }
 
-Eigen::Matrix<double, 2, 4> slopes_at_corners(const HeightCoefficients& C, int sides) {
+// A part of the range of one coordinate over which sum_i C_i T_i is the sum of terms * C times functions that
+// are at most as large as `weight`.
+struct Piece {
+  Eigen::MatrixXd terms;
+  Eigen::VectorXd weight;
+};
+
+// The range between the sides, where |T_i| <= 1, and beyond each of them the parabola as far as `beyond`.
+std::vector<Piece> pieces(double stretch, double beyond) {
+  std::vector<Piece> all{{Eigen::MatrixXd::Identity(kP, kP), Terms::Ones()}};
+  if (beyond <= 0) return all;
+  for (double end : {-1.0, 1.0}) {
+    const Chebyshev c = chebyshev(stretch, end);
+    Eigen::MatrixXd terms(3, kP);
+    terms << c.T.transpose(), c.T_t.transpose(), c.T_tt.transpose();
+    all.push_back({terms, Eigen::Vector3d(1, beyond, 0.5 * beyond * beyond)});
+  }
+  return all;
+}
+
+Eigen::Matrix<double, 2, 4> slopes_at_corners(const FaceHeights& heights, int sides) {
   Eigen::Matrix<double, 2, 4> slopes = Eigen::Matrix<double, 2, 4>::Zero();
   for (int c = 0; c < sides; ++c) {
     const Eigen::Vector2d at = on_side(sides, c, 0);
-    slopes.col(c) = polynomial(C, sides, at[0], at[1]).f_a;
+    slopes.col(c) = polynomial(heights, sides, at[0], at[1]).f_a;
   }
   return slopes;
 }
@@ -178,31 +257,32 @@ const std::vector<Eigen::Vector2d>& height_points(int sides) {
   return sides == 4 ? quadrilateral : triangle;
 }
 
-Eigen::VectorXd sampled_heights(
+ExactHeights sampled_heights(
     const model::Surface& surface, int f,
-    const std::function<double(const Eigen::Vector3d& x, const Eigen::Vector3d& n)>& distance) {
+    const std::function<double(const Eigen::Vector3d& x, const Eigen::Vector3d& n)>& distance,
+    const Stretch& stretch) {
   const Face face = undeformed_face(surface, f);
-  const auto& points = height_points(face.sides);
-  Eigen::VectorXd h(static_cast<Eigen::Index>(points.size()));
-  for (Eigen::Index p = 0; p < h.size(); ++p) {
-    const double u = points[p][0], v = points[p][1];
-    h[p] = distance(combine(face, shape(face.sides, u, v).N), normal(face, u, v));
+  ExactHeights h{Eigen::VectorXd(static_cast<Eigen::Index>(height_points(face.sides).size())), stretch};
+  for (Eigen::Index p = 0; p < h.value.size(); ++p) {
+    const Eigen::Vector2d at = sampled_at(face.sides, stretch, p);
+    h.value[p] = distance(combine(face, shape(face.sides, at[0], at[1]).N), normal(face, at[0], at[1]));
   }
   return h;
 }
 
 double height_error(
-    const model::Surface& surface, int f, const Eigen::VectorXd& heights,
+    const model::Surface& surface, int f, const ExactHeights& heights,
     const std::function<double(const Eigen::Vector3d& x, const Eigen::Vector3d& n)>& distance) {
   const Face face = undeformed_face(surface, f);
-  const HeightCoefficients C = interpolated(face.sides, heights);
-  const auto& points = height_points(face.sides);
+  const FaceHeights polynomials = interpolated(face.sides, heights);
   double error = 0;
-  for (std::size_t p = 0; p + kP + 1 < points.size(); ++p) {
-    const Eigen::Vector2d at = (points[p] + points[p + kP + 1]) / 2;
+  for (Eigen::Index p = 0; p + kP + 1 < heights.value.size(); ++p) {
+    const Eigen::Vector2d at =
+        (sampled_at(face.sides, heights.stretch, p) + sampled_at(face.sides, heights.stretch, p + kP + 1)) /
+        2;
     const double exact =
         distance(combine(face, shape(face.sides, at[0], at[1]).N), normal(face, at[0], at[1]));
-    error = std::max(error, std::abs(polynomial(C, face.sides, at[0], at[1]).f - exact));
+    error = std::max(error, std::abs(polynomial(polynomials, face.sides, at[0], at[1]).f - exact));
   }
   return error;
 }
@@ -217,8 +297,9 @@ Heights make_heights(const SurfaceView& undeformed, ContactSurface kind, double 
                           : corner_slopes(undeformed, feature_angle);
   for (int f = 0; f < undeformed.face.cols(); ++f) {
     const int sides = side_count(undeformed.face, f);
-    const bool exact = kind == ContactSurface::exact && !known.height.empty() && known.height[f].size() > 0;
-    Eigen::VectorXd h = exact ? known.height[f] : smooth_samples(sides, slopes[f]);
+    const bool exact =
+        kind == ContactSurface::exact && !known.height.empty() && known.height[f].value.size() > 0;
+    ExactHeights h = exact ? known.height[f] : smooth_samples(sides, slopes[f]);
     if (known.deviation.size() > 0) add_deviation(undeformed, f, known.deviation, h);
     heights.face.push_back(interpolated(sides, h));
     heights.slope.push_back(slopes_at_corners(heights.face.back(), sides));
@@ -231,20 +312,17 @@ FaceFunction height(const Heights& heights, int sides, int f, double u, double v
 }
 
 double largest_height(const Heights& heights, double extension) {
-  const Terms T = largest_chebyshev(2 * extension).T;
+  const double beyond = 2 * extension;
   double largest = 0;
-  for (const HeightCoefficients& C : heights.face) largest = std::max(largest, T.dot(C.cwiseAbs() * T));
-  return largest;
-}
-
-double largest_second_derivative(const Heights& heights) {
-  const Chebyshev c = largest_chebyshev(0);
-  constexpr double kTriangle = 4;  // (da/du)^2 there, 1 on quadrilaterals
-  double largest = 0;
-  for (const HeightCoefficients& C : heights.face) {
-    const HeightCoefficients size = C.cwiseAbs();
-    for (const double bound : {c.T_tt.dot(size * c.T), c.T_t.dot(size * c.T_t), c.T.dot(size * c.T_tt)})
-      largest = std::max(largest, kTriangle * bound);
+  for (const FaceHeights& h : heights.face) {
+    const int k = h.stretch.along;
+    std::vector<Piece> by_coordinate[2];
+    by_coordinate[k] = pieces(h.stretch.amount, beyond + h.stretch.bulge * (1 + beyond / 2));
+    by_coordinate[1 - k] = pieces(0, beyond);
+    for (const Piece& a : by_coordinate[0])
+      for (const Piece& b : by_coordinate[1])
+        largest =
+            std::max(largest, a.weight.dot((a.terms * h.C * b.terms.transpose()).cwiseAbs() * b.weight));
   }
   return largest;
 }

@@ -13,13 +13,19 @@ namespace elastogear::contact {
 
 inline constexpr int kHeightPoints = 7;  ///< along each side of a face; degree 6
 
-/// m, of T_i(a) T_j(b) with Chebyshev polynomials T. Quadrilaterals: (a, b) = (u, v); triangles: 2 (u, v)
-/// - 1.
+/// m, of T_i T_j with Chebyshev polynomials T.
 using HeightCoefficients = Eigen::Matrix<double, kHeightPoints, kHeightPoints>;
+
+/// Heights over one face, Eq. (6.19a): polynomials of (u, v), stretched as Eq. (6.19b) says, on
+/// quadrilaterals and of 2 (u, v) - 1 on triangles.
+struct FaceHeights {
+  HeightCoefficients C = HeightCoefficients::Zero();
+  Stretch stretch = {};
+};
 
 /// Heights of one surface.
 struct Heights {
-  std::vector<HeightCoefficients> face = {};  ///< by face; none at all: facets as they are
+  std::vector<FaceHeights> face = {};  ///< by face; none at all: facets as they are
   std::vector<Eigen::Matrix<double, 2, 4>> slope =
       {};  ///< by face: m, its derivatives with (u, v) at the corners
 
@@ -32,14 +38,11 @@ struct Heights {
 Heights make_heights(const SurfaceView& undeformed, ContactSurface kind, double feature_angle,
                      const TrueSurface& known);
 
-/// Height h(u, v) along the normal of face f, m. Beyond |a| = 1 and |b| = 1 it goes on as a parabola.
+/// Height h(u, v) along the normal of face f, m. Beyond the sides it goes on as a parabola.
 FaceFunction height(const Heights& heights, int sides, int f, double u, double v);
 
 /// Bound of |h| over all faces with their sides moved outwards by `extension` shares of the face's length, m.
 double largest_height(const Heights& heights, double extension);
-
-/// Bound of the second derivatives of h with (u, v) over all faces, m.
-double largest_second_derivative(const Heights& heights);
 
 /// The largest curvature along u or v at 3 x 3 points of face f, 1/m.
 double largest_curvature(const SurfaceView& undeformed, const Heights& heights, int f);
