@@ -17,10 +17,15 @@ constexpr double kSkin = 0.25;  // of the face size: dozens of time steps, and f
 
 constexpr double kCompliance = 1e-4;  // of the penalty's, that is left without one: Eq. (6.24)
 
-// Of a face's length, by which boundaries of two surfaces may miss each other where they are meant to meet:
-// aligned ends of gears move by micrometres along their axes as the teeth are loaded, and would gain and lose
-// their contact otherwise.
-constexpr double kSharedBoundary = 1e-2;
+// Of a face's length, by which boundaries of two surfaces may miss each other where they are meant to meet.
+// Aligned ends of gears move by micrometres along their axes as elastic teeth are loaded, and would gain and
+// lose their contact otherwise; rigid ones stay where they are, and a tip does not touch beyond the mate's
+// flank.
+constexpr double kSharedBoundary = 1e-2, kRigidSharedBoundary = 1e-4;
+
+bool is_rigid(const model::Surface& surface) {
+  return std::visit([](const auto& rows) { return rows.cols(); }, surface.Phi) == 0;
+}
 
 }  // namespace
 
@@ -124,7 +129,8 @@ Settings with_defaults(Settings settings, const model::Surface& a, const model::
   const double size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
   if (settings.depth == 0) settings.depth = 0.5 * size;
   if (settings.skin == 0) settings.skin = kSkin * size;
-  if (settings.points == SlavePoints::minima) settings.extension = kSharedBoundary;
+  if (settings.points == SlavePoints::minima)
+    settings.extension = is_rigid(a) && is_rigid(b) ? kRigidSharedBoundary : kSharedBoundary;
   require(settings.depth > 0, "contact: the faces have no area, give the depth");
   require(std::abs(settings.offset) <= settings.depth, "contact: offset ", settings.offset,
           " m must not exceed the depth that is searched, ", settings.depth, " m");
