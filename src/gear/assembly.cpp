@@ -10,6 +10,7 @@ namespace elastogear::gear {
 namespace {
 constexpr int kMaxCount = 1000;    // of one kind of elements
 constexpr double kMaxCells = 2e7;  // far above any use, far below the range of int
+constexpr double kLeastQuality = 0.25;
 }  // namespace
 
 std::vector<mesh::Face> add_hex(mesh::Mesh& mesh, const std::array<int, 8>& nodes) {
@@ -31,11 +32,16 @@ void check_counts(const std::string& body, std::initializer_list<int> counts, do
 }
 
 void check_cells(const mesh::Mesh& mesh, const std::string& body) {
-  const auto cell = mesh::first_inverted_cell(mesh);
-  if (!cell) return;
-  const Eigen::Vector3d x = mesh.X.col(mesh.cells[*cell][0]);
-  fail("the ", body, "'s mesh has a folded cell at (", x.transpose(),
-       ") m: change the element counts or make the design's steps there less sharp");
+  const auto folded = mesh::first_inverted_cell(mesh);
+  const mesh::Quality quality = mesh::quality(mesh);
+  if (!folded && quality.min_scaled_jacobian >= kLeastQuality) return;
+  const Eigen::Vector3d x = mesh.X.col(mesh.cells[folded.value_or(quality.worst_cell)][0]);
+  require(!folded, "the ", body, "'s mesh has a folded cell at (", x.transpose(),
+          ") m: change the element counts or make the design's steps there less sharp");
+  fail("the ", body, "'s mesh has a cell of scaled Jacobian ", quality.min_scaled_jacobian, " at (",
+       x.transpose(), ") m, at least ", kLeastQuality,
+       " is needed: another size or other element counts, less sharp steps of the design there or, of "
+       "a throated wheel, a smaller face_width would do");
 }
 
 void sort_node_sets(mesh::Mesh& mesh) {

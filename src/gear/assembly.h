@@ -19,8 +19,8 @@ void add_flank(mesh::Mesh& mesh, const mesh::Face& face, const std::string& toot
 /// Throws Error when a count is not within 1..1000, or when about `cells` cells are too many for one mesh.
 void check_counts(const std::string& body, std::initializer_list<int> counts, double cells);
 
-/// Throws Error, naming the place, when a cell is folded: the design passes its checks, but not at these
-/// counts.
+/// Throws Error, naming the place, when a cell is folded or its scaled Jacobian is below 0.25: the design
+/// passes its checks, but not at these counts.
 void check_cells(const mesh::Mesh& mesh, const std::string& body);
 
 /// Sorts the node sets and removes duplicates.

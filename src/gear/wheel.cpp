@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "elastogear/base/error.h"
-#include "elastogear/mesh/quality.h"
 #include "gear/gear_mesh.h"
 #include "gear/worm/hobbed_wheel.h"
 #include "gear/worm/profiles.h"
@@ -56,8 +55,6 @@ WheelCounts wheel_counts(Size size) {
 
 namespace {
 
-constexpr double kLeastQuality = 0.25;  // scaled Jacobian of a hobbed wheel's cells
-
 // Seen from the other side, a left-handed wheel is a right-handed one.
 mesh::Mesh hobbed_mesh(const Design& design, const Geometry& geometry, const WheelCounts& counts) {
   Geometry right = geometry;
@@ -67,12 +64,7 @@ mesh::Mesh hobbed_mesh(const Design& design, const Geometry& geometry, const Whe
   const auto profile = [&](double z) {
     return hobbed_profile(tool, design.z2, design.rim_diameter / 2, side * std::clamp(z, -end, end));
   };
-  mesh::Mesh mesh = gear_mesh("wheel", geometry.wheel, profile, wheel_blank(design), counts);
-  const mesh::Quality quality = mesh::quality(mesh);
-  require(quality.min_scaled_jacobian >= kLeastQuality, "the wheel's mesh has a cell of scaled Jacobian ",
-          quality.min_scaled_jacobian, ", at least ", kLeastQuality,
-          " is needed: a smaller face_width, other element counts or a larger size would do");
-  return mesh;
+  return gear_mesh("wheel", geometry.wheel, profile, wheel_blank(design), counts);
 }
 
 }  // namespace
