@@ -213,6 +213,18 @@ def check_bearings(drive):
     near("bearings, transmission error", pinion[5] * R_B[0] - stiff, force / 1e9 + force / 0.5e9, 0.001 * stiff)
     near("bearings, along the line of action", -pinion[1] / np.cos(ALPHA_W), force / 1e9, 0.001 * stiff)
     assert abs(pinion[0] / pinion[1] - np.tan(ALPHA_W)) < 0.002, "the pinion's axis leaves the line of action"
+    # One bearing twice as far from the teeth as the other and half as stiff: both give way alike.
+    with open("bearings.csv", "w") as file:
+        file.write("# designation, radial, axial, tilt\n6306, 1e9, 1e8, 0\n6206, 4e8, 1e8, 0\n")
+    with open("two_bearings.yaml", "w") as file:
+        file.write(DRIVE.replace("shift: 0.3", "shift: 0.3, bearings: [near, far]") + """bearing_catalogue: bearings.csv
+near: {at: 20 mm, radial: 800 N/um}
+far: {at: -40 mm, catalogue: 6206}
+""")
+    drive.run("simulate", "two_bearings.yaml", "-roll", "0.1", "-output", "result.h5")
+    with h5py.File("result.h5") as file:
+        pinion = file["bodies/pinion/rigid"][-1]
+    near("two bearings, along the line of action", -pinion[1] / np.cos(ALPHA_W), force / 1.2e9, 0.001 * stiff)
 
 
 WORM = """drive: worm

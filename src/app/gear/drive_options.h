@@ -36,8 +36,8 @@ Options member_options(const Options& options, const DriveMember& member);
 /// given.
 Options with_system(Options options, const Drive& drive);
 
-/// The bushing of a member's bearings.
-std::string bearing_name(const DriveMember& member);
+/// The bushings that stand for a member's bearings; none where its axis stands fast.
+std::vector<std::string> bearing_names(const Options& options, const DriveMember& member);
 
 /// Options with result, stress file and stresses at the roots of all members where nothing is given.
 Options with_recovery(Options options, const Drive& drive);

@@ -4,22 +4,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <fstream>
 
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
+#include "elastogear/io/delimited_reader.h"
 
 namespace elastogear::app {
 namespace {
 
-// Stiffness of the bearings of one gear together, at the origin of its body frame.
+// Stiffness of one bearing, or of those of one gear together.
 struct Bearing {
+  double at = 0;                 // m, along the axis, in the gear's body frame
   double radial = 0, axial = 0;  // N/m
   double tilt = 0;               // N m/rad
 };
 
+// Of all bearings of a gear together, at the origin of its body frame.
 const Rows<Bearing> kBearingRows = {
     {"<gear>_bearing_radial", &Bearing::radial, "N/m",
      "drive: radial stiffness of the gear's bearings together; without one its axis stands fast",
@@ -30,6 +33,22 @@ const Rows<Bearing> kBearingRows = {
      "drive: stiffness of the bearings against tilting (default: that of the radial one spread over the "
      "face)",
      kDependent | kPositive},
+};
+
+const Rows<Bearing> kOneBearingRows = {
+    {"<gear>_bearings", "-", "", "drive: names of the gear's bearings; each has its own <bearing>_... keys"},
+    {"bearing_catalogue", "-", "",
+     "drive: CSV file of rolling bearings: a line for each, designation, radial and axial stiffness (N/m) "
+     "and "
+     "that against tilting (N m/rad)"},
+    {"<bearing>_at", &Bearing::at, "m",
+     "drive: place of the bearing along the gear's axis, from the middle of the teeth"},
+    {"<bearing>_catalogue", "-", "", "drive: designation in bearing_catalogue whose stiffness it has"},
+    {"<bearing>_radial", &Bearing::radial, "N/m", "drive: radial stiffness of the bearing", kDependent},
+    {"<bearing>_axial", &Bearing::axial, "N/m",
+     "drive: axial stiffness of the bearing (default: 0, or that of the catalogue)", kDependent},
+    {"<bearing>_tilt", &Bearing::tilt, "N m/rad",
+     "drive: stiffness of the bearing against tilting (default: 0, or that of the catalogue)", kDependent},
 };
 
 std::string digits(double value) {
@@ -47,18 +66,75 @@ std::string rotation_vector(const Eigen::Matrix3d& R) {
   return triple(rotation.angle() * rotation.axis());
 }
 
-std::optional<Bearing> bearing(const Options& options, const DriveMember& member) {
-  const std::string radial = member.name + "_bearing_radial";
-  for (const auto& row : kBearingRows) {
-    const std::string name = with_word(row.spec.name, member.name);
-    require(!options.given(name) || options.given(radial), options.label(name), ": needs ", radial, ", too");
-  }
-  if (!options.given(radial)) return {};
+// By the bushing that stands for each.
+using Bearings = std::vector<std::pair<std::string, Bearing>>;
+
+Bearing all_bearings(const Options& options, const DriveMember& member) {
   Bearing b;
   read_rows(options, kBearingRows, b, member.name);
   if (b.axial == 0) b.axial = b.radial;
   if (b.tilt == 0) b.tilt = b.radial * member.width * member.width / 12;
   return b;
+}
+
+Bearing in_catalogue(const std::string& file, const std::string& designation) {
+  std::ifstream in(file);
+  require(in.good(), file, ": cannot be read");
+  io::DelimitedReader reader(in, file);
+  while (reader.next("#")) {
+    if (reader.fields()[0] != designation) continue;
+    if (reader.fields().size() != 4)
+      reader.fail_here(
+          "must be a designation, radial and axial stiffness (N/m) and that against tilting (N m/rad)");
+    return {.radial = reader.number(1), .axial = reader.number(2), .tilt = reader.number(3)};
+  }
+  fail(file, ": has no line of bearing '", designation, "'");
+}
+
+Bearing one_bearing(const Options& options, const std::string& name) {
+  Bearing b;
+  const std::string designation = name + "_catalogue";
+  if (options.given(designation)) {
+    require(options.given("bearing_catalogue"), options.label(designation), ": needs bearing_catalogue, too");
+    b = in_catalogue(options.text("bearing_catalogue"), options.text(designation));
+  }
+  read_rows(options, kOneBearingRows, b, name);
+  require(b.radial > 0 && b.axial >= 0 && b.tilt >= 0, "bearing ", name, ": stiffness ", b.radial,
+          " N/m radial, ", b.axial, " N/m axial, ", b.tilt,
+          " N m/rad against tilting: the first must be positive, the others at least 0; give ", name,
+          "_radial or ", designation);
+  return b;
+}
+
+// What holds a gear must hold it along and across its axis.
+void require_held(const DriveMember& member, const Bearings& bearings) {
+  double axial = 0, tilt = 0;
+  for (const auto& [name, b] : bearings) {
+    axial += b.axial;
+    tilt += b.tilt + std::abs(b.at - bearings[0].second.at);
+  }
+  const std::string all = member.name + "_bearings: ";
+  require(axial > 0, all, "none of them holds the gear along its axis; give one <bearing>_axial");
+  require(tilt > 0, all,
+          "they do not keep the gear from tilting; give them different places by <bearing>_at, or one "
+          "<bearing>_tilt");
+}
+
+// None: the gear's axis stands fast.
+Bearings bearings(const Options& options, const DriveMember& member) {
+  const std::string radial = member.name + "_bearing_radial", list = member.name + "_bearings";
+  for (const auto& row : kBearingRows) {
+    const std::string name = with_word(row.spec.name, member.name);
+    require(!options.given(name) || options.given(radial), options.label(name), ": needs ", radial, ", too");
+  }
+  require(!options.given(radial) || !options.given(list), options.label(radial), ": the gear has ", list,
+          ", too; give one of the two");
+  if (options.given(radial)) return {{"bearing_of_" + member.name, all_bearings(options, member)}};
+  Bearings all;
+  if (!options.given(list)) return all;
+  for (const std::string& name : options.list(list)) all.emplace_back(name, one_bearing(options, name));
+  if (!all.empty()) require_held(member, all);
+  return all;
 }
 
 // A gear of the drive in one run: whether it is held, and its torque and speed.
@@ -89,20 +165,33 @@ void set_joint(Options& options, const Part& part) {
   if (part.omega_0 != 0) options.set_default(name + "_omega0", digits(part.omega_0));
 }
 
-// A free body on a bushing that lets it turn about its axis; a held one is kept by a stiff spring there, in
-// which the whole torque of the drive turns it by kTurn.
-void set_bearing(Options& options, const Part& part, const Bearing& b, double torque) {
+// Bushings let a gear turn about its axis; `turn` (N m/rad) keeps it from that.
+void set_bushing(Options& options, const DriveMember& member, const std::string& name, const Bearing& b,
+                 double turn) {
+  std::string marker = member.name + ".frame";
+  if (b.at != 0) {
+    marker = member.name + "." + name;
+    options.append(member.name + "_points", name + "," + triple({0, 0, b.at}));
+  }
+  options.append("bushings", name);
+  options.set_default(name + "_markers", "ground," + marker);
+  options.set_default(name + "_axes", rotation_vector(rotation_matrix(member.rotation)));
+  options.set_default(name + "_stiffness", triple({b.radial, b.radial, b.axial}));
+  options.set_default(name + "_rotational_stiffness", triple({b.tilt, b.tilt, turn}));
+}
+
+// A free body in its bearings; a held one is kept by a stiff spring at the first of them, in which the whole
+// torque of the drive turns it by kTurn.
+void set_bearings(Options& options, const Part& part, const Bearings& all, double torque) {
   constexpr double kTurn = 1e-8;  // rad
-  const std::string &name = part.member.name, bushing = bearing_name(part.member), load = "torque_of_" + name;
+  const std::string &name = part.member.name, load = "torque_of_" + name;
   options.set_default(name + "_joint", "free");
   options.set_default(name + "_rotation", rotation_vector(turned(part.member)));
   if (part.omega_0 != 0) options.set_default(name + "_omega0", triple({0, 0, part.omega_0}));
-  options.append("bushings", bushing);
-  options.set_default(bushing + "_markers", "ground," + name + ".frame");
-  options.set_default(bushing + "_axes", rotation_vector(rotation_matrix(part.member.rotation)));
-  options.set_default(bushing + "_stiffness", triple({b.radial, b.radial, b.axial}));
-  options.set_default(bushing + "_rotational_stiffness",
-                      triple({b.tilt, b.tilt, part.held ? std::abs(torque) / kTurn : 0}));
+  for (const auto& [bushing, b] : all) {
+    const bool holds = part.held && bushing == all[0].first;
+    set_bushing(options, part.member, bushing, b, holds ? std::abs(torque) / kTurn : 0);
+  }
   if (part.torque == 0) return;
   options.append("loads", load);
   options.set_default(load + "_marker", name + ".frame");
@@ -123,16 +212,20 @@ void set_parts(Options& options, const Drive& drive, double sense) {
     if (last && !first && moves) part.torque = -torque / member.ratio;
     if (moves) part.omega_0 = speed * member.ratio;
     options.set_default(member.name + "_position", triple(member.position));
-    const auto b = bearing(options, member);
-    b ? set_bearing(options, part, *b, torque / member.ratio) : set_joint(options, part);
+    const Bearings all = bearings(options, member);
+    all.empty() ? set_joint(options, part) : set_bearings(options, part, all, torque / member.ratio);
   }
 }
 
 }  // namespace
 
-std::string bearing_name(const DriveMember& member) { return "bearing_of_" + member.name; }
+std::vector<std::string> bearing_names(const Options& options, const DriveMember& member) {
+  std::vector<std::string> names;
+  for (const auto& [name, bearing] : bearings(options, member)) names.push_back(name);
+  return names;
+}
 
-OptionTable bearing_table() { return table_of(kBearingRows); }
+OptionTable bearing_table() { return table_of(kBearingRows, kOneBearingRows); }
 
 Options with_system(Options options, const Drive& drive) {
   std::string bodies, pairs;

@@ -211,6 +211,9 @@ void Options::load(const std::vector<std::string>& files, int argc, char** argv)
 void Options::reject_unknown(const PlaceholderValues& given_values) const {
   PlaceholderValues values = given_values;
   values.try_emplace("gear", given("drive") ? list_with_files("gears") : std::vector<std::string>{});
+  std::vector<std::string>& bearings = values["bearing"];
+  for (const std::string& gear : values["gear"])
+    for (const std::string& name : list_with_files(gear + "_bearings")) bearings.push_back(name);
   const OptionTable known = expand(known_, values);
   for (const auto& [name, value] : given_) {
     if (has(known, name)) continue;

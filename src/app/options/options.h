@@ -39,7 +39,8 @@ class Options {
 
   /// Throws Error for the first key that neither a table nor PETSc knows, naming where it was given and the
   /// nearest known key. `values` restrict "<body>"-like names; placeholders without an entry stand for any
-  /// word, "<gear>" for those of option gears, where there is a drive.
+  /// word, "<gear>" for those of option gears, where there is a drive, and "<bearing>" for those of their
+  /// options bearings.
   void reject_unknown(const PlaceholderValues& values = {}) const;
 
   bool given(const std::string& name) const;

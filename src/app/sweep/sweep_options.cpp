@@ -81,9 +81,11 @@ dynamics::SlowMotion slow_motion(const Options& options, const Drive& drive, con
     return member == members.end() ? 0 : angular_pitch(drive) * member->ratio;
   };
   for (const dynamics::BodySetup& body : motion.bodies) motion.rate.push_back(rate(body.name));
-  for (const dynamics::BushingSetup& bushing : motion.markers.bushings)
-    motion.bushing_rate.push_back(bushing.name == bearing_name(members.back()) ? rate(members.back().name)
-                                                                               : 0);
+  const std::vector<std::string> led = bearing_names(options, members.back());
+  for (const dynamics::BushingSetup& bushing : motion.markers.bushings) {
+    const bool turns = std::find(led.begin(), led.end(), bushing.name) != led.end();
+    motion.bushing_rate.push_back(turns ? rate(members.back().name) : 0);
+  }
   for (dynamics::PairSetup& pair : motion.pairs)
     if (contact::FrictionSettings& friction = pair.settings.friction; friction.mu > 0)
       friction.v_0 = fading_speed(options, drive, friction.v_0);
