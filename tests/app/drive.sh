@@ -236,6 +236,8 @@ echo "6206, 1e8, 1e7" >bearings.csv
 refused "has no line of bearing '6205'" simulate spur.yaml -wheel_bearings old -old_catalogue 6205 -bearing_catalogue bearings.csv
 refused "bearings.csv, line 1: must be a designation" simulate spur.yaml -wheel_bearings old -old_catalogue 6206 -bearing_catalogue bearings.csv
 refused "unknown option -old_at" simulate spur.yaml -old_at 1
+refused "rack_protuberance = 0.5: must be 0 to 0.2" mesh spur.yaml -rack_protuberance 0.5
+refused "rack_protuberance_angle = 25 deg: must be" mesh spur.yaml -rack_protuberance 0.02 -rack_protuberance_angle 25
 refused "none.csv: cannot be read" mesh spur.yaml -wheel_topography none.csv
 printf 'diameter,z,height\n0.13,0,1e-6\n0.13,0,2e-6\n' >twice.csv
 refused "twice.csv, line 3: this point of the flank is given twice" mesh spur.yaml -wheel_topography twice.csv

@@ -141,12 +141,16 @@ double rolled_clearance(const CylindricalDrive& d, const CylindricalGeometry& g,
   const double alpha = d.rack.alpha_n, cos_beta = d.m_n * t.z / (2 * t.r), depth = t.r - t.r_f;
   const double rho = d.rack.rho_fP * d.m_n, half_pitch = pi * d.m_n / 2, centre = rho - depth;
   // Half the tool's thickness at the height h over the pitch line; its flank is g.s_n/2 from the tooth's
-  // middle at h = 0.
-  const double straight_end = centre - rho * std::sin(alpha);
-  const double arc = half_pitch - g.s_n[i] / 2 - (rho - centre * std::sin(alpha)) / std::cos(alpha);
+  // middle at h = 0. A protuberance is a flank of its own that touches the arc.
+  const double pr = d.rack.pr * d.m_n, alpha_pr = pr > 0 ? d.rack.alpha_pr : alpha;
+  const double straight_end = centre - rho * std::sin(alpha_pr);
+  const double arc = half_pitch - g.s_n[i] / 2 - (rho - pr - centre * std::sin(alpha)) / std::cos(alpha);
   const auto half_tool = [&](double h) {
-    if (h >= straight_end) return half_pitch - g.s_n[i] / 2 + h * std::tan(alpha);
-    return arc + std::sqrt(std::max(0.0, rho * rho - (h - centre) * (h - centre)));
+    const double flank = half_pitch - g.s_n[i] / 2 + h * std::tan(alpha);
+    if (h >= straight_end)
+      return std::max(flank, arc + rho * std::cos(alpha_pr) + (h - straight_end) * std::tan(alpha_pr));
+    const double tip = arc + std::sqrt(std::max(0.0, rho * rho - (h - centre) * (h - centre)));
+    return h > centre - rho * std::sin(alpha) ? std::max(flank, tip) : tip;
   };
   double least = 1;
   for (int k = -kPositions; k <= kPositions; ++k) {
@@ -188,6 +192,23 @@ TEST(Fillet, is_what_the_rack_leaves_that_rolls_by) {
   EXPECT_FALSE(derive(undercut()).undercut[1]);
 }
 
+// Teeth that are cut for grinding; the root of the wheel is inside its base circle or outside.
+CylindricalDrive for_grinding(double pr, double alpha_pr, double beta, int z_2 = 80) {
+  CylindricalDrive d = drive(4e-3, beta, gear("pinion", 19, 0.35, 30e-3), gear("wheel", z_2, 0.1, 30e-3));
+  d.rack.h_fP = 1.4, d.rack.pr = pr, d.rack.alpha_pr = alpha_pr;
+  return d;
+}
+
+TEST(Fillet, is_what_a_tool_with_protuberance_leaves) {
+  for (const auto& [pr, z_2, i] : {std::tuple(0.005, 80, 0), {0.03, 43, 0}, {0.06, 43, 1}, {0.03, 80, 1}}) {
+    const CylindricalDrive d = for_grinding(pr, 10 * kDegree, i == 0 ? 0 : 15 * kDegree, z_2);
+    expect_swept_fillet(d, i);
+    CylindricalDrive without = d;
+    without.rack.pr = 0, without.rack.alpha_pr = -1;
+    EXPECT_GT(derive(d).gear[i].r_form, derive(without).gear[i].r_form);
+  }
+}
+
 void expect_good_mesh(const CylindricalDrive& d, int i) {
   const CylindricalGeometry g = derive(d);
   const Toothing& t = g.gear[i];
@@ -205,6 +226,7 @@ TEST(CylindricalMesh, has_good_cells_and_exact_flanks) {
   expect_good_mesh(helical(), 0);
   expect_good_mesh(helical(), 1);
   expect_good_mesh(undercut(), 0);
+  expect_good_mesh(for_grinding(0.04, 10 * kDegree, 0), 0);
   CylindricalDrive webbed = helical();
   Blank& b = webbed.gears[1].blank;
   b.bore = 20e-3, b.hub_diameter = 34e-3, b.hub_width = 28e-3, b.web_diameter = 74e-3, b.web_width = 8e-3;

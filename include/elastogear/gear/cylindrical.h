@@ -21,6 +21,9 @@ struct BasicRack {
   double h_aP = 1;                     ///< addendum
   double h_fP = 1.25;                  ///< dedendum
   double rho_fP = 0.38;                ///< root fillet radius: that of the generating tool's tip
+  double pr =
+      0;  ///< protuberance: by which that tip stands out beyond the finished flanks, along their normal
+  double alpha_pr = -1;  ///< rad, pressure angle of the tool there; < 0: half of alpha_n
 };
 
 /// Profiles A, B, C and D of ISO 53:1998; throws Error listing them for any other name.
@@ -88,7 +91,7 @@ struct CylindricalGeometry {
   double p_bn = 0;                    ///< m, normal base pitch
   std::vector<Toothing> gear;         ///< r_start: the one nearest to the root of all its pairs
   std::vector<double> s_n;            ///< m, normal tooth thickness at the pitch cylinder
-  std::vector<char> undercut;         ///< whether the fillet cuts the involute
+  std::vector<char> undercut;         ///< whether the fillet cuts the involute, as a protuberance always does
   std::vector<PinionCutter> cutter;   ///< of internal gears, complete
   std::vector<Blank> blank;           ///< complete
   std::vector<Eigen::Vector2d> axis;  ///< m, in the world

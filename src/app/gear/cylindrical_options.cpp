@@ -20,6 +20,7 @@ struct Choices {
   std::string rack = "A";
   double helix_angle = 0, transverse_module = 0, axial_module = 0;
   double addendum = 0, dedendum = 0, fillet = 0;
+  double protuberance = 0, protuberance_angle = -1;
 };
 
 const Rows<Choices> kRackRows = {
@@ -35,6 +36,12 @@ const Rows<Choices> kRackRows = {
     {"rack_fillet", &Choices::fillet, "-",
      "cylindrical: root fillet radius of the basic rack, in modules (default: its own)",
      kDependent | kPositive},
+    {"rack_protuberance", &Choices::protuberance, "-",
+     "cylindrical: by which the tip of the tool of external gears stands out beyond the finished flanks, "
+     "along "
+     "their normal, in modules"},
+    {"rack_protuberance_angle", &Choices::protuberance_angle, "deg",
+     "cylindrical: pressure angle of the tool there (default: half the pressure angle)", kDependent},
 };
 
 // Lengths of the gear's body; a diameter that is not given is chosen.
@@ -113,6 +120,12 @@ gear::BasicRack basic_rack(const Options& options, const Choices& c) {
   if (c.addendum > 0) rack.h_aP = c.addendum;
   if (c.dedendum > 0) rack.h_fP = c.dedendum;
   if (c.fillet > 0) rack.rho_fP = c.fillet;
+  rack.pr = c.protuberance;
+  if (options.given("rack_protuberance_angle")) {
+    rack.alpha_pr = c.protuberance_angle * kRadPerDegree;
+    require(rack.alpha_pr >= 0, options.label("rack_protuberance_angle"), " = ", c.protuberance_angle,
+            " deg: must be at least 0");
+  }
   return rack;
 }
 
@@ -203,6 +216,7 @@ Facts member_facts(const CylindricalDrive& d, const CylindricalGeometry& g, int 
   const gear::Blank& b = g.blank[i];
   Facts facts = {
       {"teeth", std::to_string(t.z) + (t.internal      ? ", internal"
+                                       : d.rack.pr > 0 ? ", undercut by protuberance"
                                        : g.undercut[i] ? ", undercut"
                                                        : "")},
       {"profile shift", with_unit(d.gears[i].x, "")},

@@ -79,10 +79,25 @@ void check_pairs(const CylindricalDrive& d) {
   for (int i = 0; i < n; ++i) require(placed[i], "gear ", d.gears[i].name, " is in no pair");
 }
 
+void check_protuberance(const CylindricalDrive& d) {
+  constexpr double kMost = 0.2;  // modules
+  constexpr double kLeastAngle = kDegree;
+  const BasicRack& rack = d.rack;
+  require(rack.pr >= 0 && rack.pr <= kMost, "rack_protuberance = ", rack.pr, ": must be 0 to ", kMost,
+          " modules");
+  require(rack.alpha_pr < 0 || rack.pr > 0, "rack_protuberance_angle = ", rack.alpha_pr / kDegree,
+          " deg: needs rack_protuberance, too");
+  require(rack.alpha_pr < 0 || (rack.alpha_pr >= kLeastAngle && rack.alpha_pr < rack.alpha_n),
+          "rack_protuberance_angle = ", rack.alpha_pr / kDegree, " deg: must be at least ",
+          kLeastAngle / kDegree, " deg and below the pressure angle of ", rack.alpha_n / kDegree, " deg");
+}
+
 // The tool's tip must fit into the space between its flanks.
 void check_rack(const CylindricalDrive& d) {
   const double alpha = d.rack.alpha_n;
-  const double room = pi / 4 - d.rack.h_fP * std::tan(alpha);  // half the tip's land without rounding
+  check_protuberance(d);
+  // Half the tip's land without rounding.
+  const double room = pi / 4 - d.rack.h_fP * std::tan(alpha) + d.rack.pr / std::cos(alpha);
   require(room > 0, "basic rack: dedendum ", d.rack.h_fP,
           " is too deep for pressure_angle = ", alpha / kDegree, " deg: at most ", pi / 4 / std::tan(alpha));
   const double most = room / ((1 - std::sin(alpha)) / std::cos(alpha));

@@ -10,7 +10,9 @@ namespace elastogear::gear {
 RackTip generating_rack(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
   const Toothing& t = g.gear[i];
   const double beta = std::acos(d.m_n * t.z / (2 * t.r));
-  return rack_tip(d.rack.alpha_n, beta, t.r, g.s_n[i], t.r - t.r_f, d.rack.rho_fP * d.m_n);
+  const Protuberance protuberance{d.rack.pr * d.m_n,
+                                  d.rack.alpha_pr < 0 ? d.rack.alpha_n / 2 : d.rack.alpha_pr};
+  return rack_tip(d.rack.alpha_n, beta, t.r, g.s_n[i], t.r - t.r_f, d.rack.rho_fP * d.m_n, protuberance);
 }
 
 Cutter generating_cutter(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
@@ -21,8 +23,6 @@ Profile tooth_profile(const CylindricalDrive& d, const CylindricalGeometry& g, i
   return g.gear[i].internal ? shaped_profile(generating_cutter(d, g, i), g.gear[i], r_inner)
                             : generated_profile(generating_rack(d, g, i), g.gear[i], r_inner);
 }
-
-namespace {}  // namespace
 
 WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeometry& g, int i, Size size) {
   constexpr double kWidth = 8;  // modules, which the layers of a size are for

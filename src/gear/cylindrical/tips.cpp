@@ -173,6 +173,8 @@ void shape_teeth(const CylindricalDrive& d, CylindricalGeometry& g) {
     if (d.gears[i].internal) continue;
     check_tip(d, d.gears[i].name, g.gear[i]);
     const Form f = form(generating_rack(d, g, i), g.gear[i]);
+    require(f.r_form > 0 && f.r_form < g.gear[i].r_a, d.gears[i].name, ": rack_protuberance = ", d.rack.pr,
+            ": its fillet leaves no flank; a smaller one, a larger profile_shift or more teeth would do");
     g.gear[i].r_form = f.r_form;
     g.undercut[i] = f.undercut;
   }
