@@ -21,9 +21,9 @@ void enter(Run& run, const State& x) {
   } catch (const Error& error) {
     throw Insane(error.what());
   }
-  run.last = std::move(now);
+  run.last = std::make_shared<const model::Snapshot>(std::move(now));
   run.last_observed = false;
-  update(run.summary, run.last);
+  update(run.summary, *run.last);
 }
 
 void observe_between(Run& run, TS ts, double time) {
@@ -35,6 +35,16 @@ void observe_between(Run& run, TS ts, double time) {
   const ReadView at_u(u), at_v(v), at_a(a);
   enter(run, {time, *at_u, *at_v, *at_a});
   observe(run);
+}
+
+// The acceleration may have to be solved for. What a callback throws then goes before PETSc's error.
+void find_state(Run& run, TS ts, Vec* U, Vec* V, Vec* A) {
+  try {
+    generalized_alpha_state(ts, U, V, A);
+  } catch (const Error&) {
+    check(0, run.problem.pending);
+    throw;
+  }
 }
 
 bool has_output_times(const TimeSettings& settings) {
@@ -83,7 +93,7 @@ void update(RunSummary& summary, const model::Snapshot& snapshot) {
 }
 
 void observe(Run& run) {
-  if (run.observer) run.observer(run.last);
+  if (run.observer) run.observer(*run.last);
   run.last_observed = true;
 }
 
@@ -107,25 +117,27 @@ void observe_since_last_step(Run& run, TS ts) {
 
 void enter_step(Run& run, TS ts, int step, double time) {
   Vec U = nullptr, V = nullptr, A = nullptr;
-  generalized_alpha_state(ts, &U, &V, &A);
+  find_state(run, ts, &U, &V, &A);
   const ReadView u(U), v(V), a(A);
   enter(run, {time, *u, *v, *a});
-  run.touches = std::any_of(run.last.pairs.begin(), run.last.pairs.end(),
+  run.touches = std::any_of(run.last->pairs.begin(), run.last->pairs.end(),
                             [](const model::PairState& pair) { return pair.count > 0; });
-  const model::Energies& energy = run.last.energy;
+  const model::Energies& energy = run.last->energy;
   if (step == 0)
     run.summary.initial_energy = energy.kinetic + energy.elastic + energy.contact + energy.bushing;
   if (is_due(run, step)) observe(run);
 }
 
 void report_step(const Run& run, TS ts, int step) {
-  StepInfo info{
-      .step = step, .time = run.last.time, .unbalanced = run.unbalanced, .balance = run.last.energy.balance};
+  StepInfo info{.step = step,
+                .time = run.last->time,
+                .unbalanced = run.unbalanced,
+                .balance = run.last->energy.balance};
   PetscInt newton = 0;
   check(TSGetTimeStep(ts, &info.dt));
   check(TSGetSNESIterations(ts, &newton));
   info.newton_iterations = run.summary.newton_iterations + newton;
-  for (const model::PairState& pair : run.last.pairs) {
+  for (const model::PairState& pair : run.last->pairs) {
     info.contacts += pair.count;
     info.penetration = std::max(info.penetration, pair.penetration);
   }

@@ -2,6 +2,7 @@
 // One time integration in progress. Private to module dynamics.
 
 #include <chrono>
+#include <memory>
 
 #include "dynamics/integrator/problem.h"
 #include "dynamics/integrator/sanity.h"
@@ -27,7 +28,7 @@ struct Run {
   const Checkpoints& checkpoints;
   EnergyLedger ledger;
   Sanity sanity;
-  model::Snapshot last;
+  std::shared_ptr<const model::Snapshot> last;   // null: none yet
   bool last_observed = true;                     // nothing to observe yet
   double nominal_dt = 0;                         // s, at the start
   RunSummary summary;                            // its counts: of the time before this run was continued
@@ -43,6 +44,12 @@ struct Run {
   std::vector<double> step_state = {};  // a checkpoint of the last step, where the steps take long; or empty
   Clock::time_point start = Clock::now(), kept = start, step_start = start;
 };
+
+/// The integrator of a run that begins at U and V, with all that it calls at steps. J is created; U, V, J and
+/// the run must outlive it.
+UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J);
+/// Did it stop at the largest number of steps, before the end time?
+bool is_out_of_steps(TS ts);
 
 /// Throws Error when surfaces of a pair lie inside each other at the start.
 void require_bodies_apart(System& system);

@@ -1,8 +1,7 @@
 #include "elastogear/dynamics/simulate.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "dynamics/run.h"
 #include "dynamics/vec_view.h"
@@ -54,221 +53,6 @@ void require_tables_cover(const System& system, double end_time) {
   system.marker_forces().require_tables_cover(end_time);
 }
 
-// Keeps the state that a step begins with, for the case that the step is given up. Only long steps are given
-// up, and only then is the state copied.
-void remember_step(Run& run, TS ts) {
-  const bool first = run.step_start == run.start;
-  const bool takes_long = first || seconds_since(run.step_start) >= run.checkpoints.patience;
-  run.step_state.clear();
-  if (run.checkpoints.keep && run.checkpoints.stop && takes_long) run.step_state = state_now(run, ts);
-  run.step_start = Clock::now();
-}
-
-bool is_out_of_steps(TS ts) {
-  PetscReal time = 0, end = 0;
-  TSConvergedReason reason = TS_CONVERGED_ITERATING;
-  check(TSGetConvergedReason(ts, &reason));
-  check(TSGetTime(ts, &time));
-  check(TSGetMaxTime(ts, &end));
-  return reason == TS_CONVERGED_ITS && time < end;
-}
-
-// How far a relaxing run has come, by the orders of magnitude that the unbalanced forces have fallen.
-double relaxed_share(const Run& run) {
-  const double wanted = std::log(std::min(0.1, run.settings.rest_tolerance));
-  return std::clamp(std::log(run.least_unbalanced) / wanted, 0.0, 0.99);
-}
-
-// After everything else that happens between two steps.
-void keep_if_due(Run& run, TS ts, PetscReal time) {
-  PetscReal end = 0;
-  TSConvergedReason reason = TS_CONVERGED_ITERATING;
-  check(TSGetMaxTime(ts, &end));
-  check(TSGetConvergedReason(ts, &reason));
-  const bool stopped = reason == TS_CONVERGED_USER || is_out_of_steps(ts),
-             goes_on = reason == TS_CONVERGED_ITERATING && time < end;
-  if (run.settings.relax)
-    report(run.progress, "relax", goes_on || stopped ? relaxed_share(run) : 1);
-  else
-    report(run.progress, "simulate", goes_on || stopped ? time / end : 1);
-  if (stopped || (goes_on && seconds_since(run.kept) >= run.checkpoints.every)) keep_state(run, ts);
-  if (goes_on) remember_step(run, ts);
-}
-
-PetscErrorCode monitor(TS ts, PetscInt step, PetscReal time, Vec, void* ctx) {
-  auto& run = *static_cast<Run*>(ctx);
-  if (step == run.entered_step) return 0;  // before the run was interrupted, or before a step that failed
-  run.entered_step = static_cast<int>(step);
-  return guard(run.problem.pending, [&] {
-    enter_step(run, ts, step, time);
-    report_step(run, ts, step);
-    keep_if_due(run, ts, time);
-  });
-}
-
-bool has_fixed_steps(TS ts) {
-  TSAdapt adapt = nullptr;
-  PetscBool fixed = PETSC_FALSE;
-  check(TSGetAdapt(ts, &adapt));
-  check(PetscObjectTypeCompare((PetscObject)adapt, TSADAPTNONE, &fixed));
-  return fixed;
-}
-
-// Throws Error when steps stay far below the nominal one: the motion is too fast for it, and the run would
-// take that much longer than planned.
-void require_long_steps(Run& run, TS ts) {
-  constexpr double kShort = 1. / 64;  // of the nominal step
-  constexpr int kMostShort = 2000;
-  PetscReal time = 0, before = 0;
-  check(TSGetTime(ts, &time));
-  check(TSGetPrevTime(ts, &before));
-  const double dt = time - before;
-  const bool is_short = has_fixed_steps(ts) && dt < kShort * run.nominal_dt;
-  run.short_steps = is_short ? run.short_steps + 1 : 0;
-  run.longest_short = is_short ? std::max(run.longest_short, dt) : 0;
-  require(run.short_steps < kMostShort, "at t = ", time, " s: none of the last ", kMostShort,
-          " steps could be longer than ", run.longest_short, " s, where -ts_dt = ", run.nominal_dt,
-          " s was asked for: something moves too fast for it. Are speeds, loads and stiffness those that "
-          "were meant? "
-          "If so, take -ts_dt ",
-          run.longest_short);
-}
-
-// Without an error estimate nothing would lengthen a step again that Newton's failure has cut.
-PetscErrorCode recover_dt(TS ts) {
-  Run* run = nullptr;
-  PetscReal time = 0, end = 0, dt = 0;
-  PetscInt rejected = 0;
-  PetscCall(TSGetApplicationContext(ts, &run));
-  PetscCall(TSGetStepRejections(ts, &rejected));
-  rejected += run->summary.rejected_steps;
-  PetscCall(TSGetTime(ts, &time));
-  PetscCall(TSGetMaxTime(ts, &end));
-  PetscCall(TSGetTimeStep(ts, &dt));
-  if (has_fixed_steps(ts) && rejected > 0 && dt < run->nominal_dt && time < end)
-    PetscCall(TSSetTimeStep(ts, std::min({2 * dt, run->nominal_dt, end - time})));
-  return 0;
-}
-
-// The monitor could not: a step clears the reason.
-void stop_if_asked(const Run& run, TS ts) {
-  TSConvergedReason reason = TS_CONVERGED_ITERATING;
-  if (!run.checkpoints.stop || !run.checkpoints.stop()) return;
-  check(TSGetConvergedReason(ts, &reason));
-  if (reason == TS_CONVERGED_ITERATING) check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
-}
-
-void accept(System& system, TS ts) {
-  Vec U = nullptr, V = nullptr, A = nullptr;
-  PetscReal time = 0;
-  check(TSGetTime(ts, &time));
-  generalized_alpha_state(ts, &U, &V, &A);
-  system.accept({time, *ReadView(U), *ReadView(V), *ReadView(A)});
-}
-
-// An impulse is no part of the acceleration with which the next step begins.
-void leave_out_impulse(const System& system, TS ts) {
-  if (system.had_impulse())
-    generalized_alpha_set_acceleration(ts, StepAcceleration::at_start);
-  else if (system.had_impulse_before())
-    generalized_alpha_set_acceleration(ts, StepAcceleration::mean);
-}
-
-// Rotation vectors of free bodies begin at zero in every step.
-void rebase(System& system, TS ts) {
-  Vec U = nullptr, V = nullptr, A = nullptr;
-  generalized_alpha_state(ts, &U, &V, &A);
-  Eigen::VectorXd positions = *ReadView(U);
-  if (!system.rebase(positions)) return;
-  assign(U, positions);
-  generalized_alpha_set_state(ts, U, V, A);
-}
-
-PetscErrorCode post_step(TS ts) {
-  Run* run = nullptr;
-  PetscCall(TSGetApplicationContext(ts, &run));
-  PetscCall(guard(run->problem.pending, [&] {
-    observe_since_last_step(*run, ts);
-    accept(run->problem.system, ts);
-    leave_out_impulse(run->problem.system, ts);
-    rebase(run->problem.system, ts);
-    if (run->settings.relax) relax(*run, ts);
-    require_long_steps(*run, ts);
-    stop_if_asked(*run, ts);
-  }));
-  return recover_dt(ts);
-}
-
-// Forces of impacts are found step by step.
-PetscErrorCode pre_stage(TS ts, PetscReal) {
-  Run* run = nullptr;
-  PetscReal dt = 0, alpha_f = 0;
-  PetscCall(TSGetApplicationContext(ts, &run));
-  PetscCall(TSGetTimeStep(ts, &dt));
-  PetscCall(TSAlpha2GetParams(ts, nullptr, &alpha_f, nullptr, nullptr));
-  return guard(run->problem.pending, [&] { run->problem.system.begin_step(dt, alpha_f); });
-}
-
-PetscErrorCode check_stage(TS ts, bool* changed) {
-  Run* run = nullptr;
-  PetscCall(TSGetApplicationContext(ts, &run));
-  return guard(run->problem.pending, [&] { *changed = run->problem.system.change_closed(); });
-}
-
-PetscErrorCode post_stage(TS ts, PetscReal, PetscInt, Vec*) {
-  Run* run = nullptr;
-  SNES snes = nullptr;
-  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  PetscReal alpha_m = 0, gamma = 0;
-  PetscCall(TSGetApplicationContext(ts, &run));
-  PetscCall(TSAlpha2GetParams(ts, &alpha_m, nullptr, &gamma, nullptr));
-  PetscCall(TSGetSNES(ts, &snes));
-  PetscCall(SNESGetConvergedReason(snes, &reason));
-  return guard(run->problem.pending, [&] { run->problem.system.end_step(reason > 0, gamma / alpha_m); });
-}
-
-void find_impacts(TS ts) {
-  check(TSSetPreStage(ts, pre_stage));
-  check(TSSetPostStage(ts, post_stage));
-  generalized_alpha_set_check(ts, [ts](bool* changed) { return check_stage(ts, changed); });
-}
-
-void set_time(TS ts, const TimeSettings& settings) {
-  check(TSSetTimeStep(ts, settings.dt));
-  check(TSSetMaxTime(ts, settings.end_time));
-  check(TSSetMaxSteps(ts, std::numeric_limits<PetscInt>::max()));
-  check(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
-  check(TSSetMaxSNESFailures(ts, -1));
-  check(TSSetErrorIfStepFails(ts, PETSC_FALSE));
-}
-
-struct Start {
-  UniqueVec U, V;
-};
-
-UniqueTS make_ts(Run& run, const Start& motion, UniqueMat& J) {
-  UniqueTS ts;
-  check(TSCreate(PETSC_COMM_SELF, ts.out()));
-  register_generalized_alpha();
-  check(TSSetType(ts, "generalized_alpha"));
-  check(TSAlpha2SetRadius(ts, run.settings.rho_inf));
-  TSAdapt adapt = nullptr;
-  check(TSGetAdapt(ts, &adapt));
-  check(TSAdaptSetType(adapt, TSADAPTNONE));
-  attach(run.problem, ts, J);
-  set_time(ts, run.settings);
-  check(TSSetApplicationContext(ts, &run));
-  check(TSSetPostStep(ts, post_step));
-  check(TSMonitorSet(ts, monitor, &run, nullptr));
-  check(TS2SetSolution(ts, motion.U, motion.V));
-  control_steps(run, ts);
-  check(TSSetFromOptions(ts));
-  if (!run.settings.relax && run.problem.system.any_augmented()) find_impacts(ts);
-  check(TSGetTimeStep(ts, &run.nominal_dt));
-  require(run.nominal_dt > 0, "time step dt = ", run.nominal_dt, " s must be positive");
-  return ts;
-}
-
 void require_solved(const Run& run, TS ts) {
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   PetscReal time = 0, dt = 0;
@@ -282,11 +66,74 @@ void require_solved(const Run& run, TS ts) {
           run.summary.pair.empty() ? "" : ", a softer contact or a larger contact depth");
 }
 
-// False: given up within a step.
-bool solve(Run& run, TS ts, Vec U) {
+// The first step must not pass the end.
+void end_on_time(TS ts) {
+  PetscReal time = 0, end = 0, dt = 0;
+  TSExactFinalTimeOption option = TS_EXACTFINALTIME_UNSPECIFIED;
+  check(TSGetTime(ts, &time));
+  check(TSGetMaxTime(ts, &end));
+  check(TSGetTimeStep(ts, &dt));
+  check(TSGetExactFinalTime(ts, &option));
+  const double left = end - time;
+  const bool reaches = dt >= left || PetscIsCloseAtTol(dt, left, 10 * PETSC_MACHINE_EPSILON, 0);
+  if (option == TS_EXACTFINALTIME_MATCHSTEP && reaches) check(TSSetTimeStep(ts, left));
+}
+
+TSConvergedReason reason_at_start(TS ts) {
+  PetscInt step = 0, most = 0;
+  PetscReal time = 0, end = 0;
+  check(TSGetStepNumber(ts, &step));
+  check(TSGetMaxSteps(ts, &most));
+  check(TSGetTime(ts, &time));
+  check(TSGetMaxTime(ts, &end));
+  if (step >= most) return TS_CONVERGED_ITS;
+  return time >= end ? TS_CONVERGED_TIME : TS_CONVERGED_ITERATING;
+}
+
+void enter_state(Run& run, TS ts) {
+  PetscInt step = 0;
+  PetscReal time = 0;
+  Vec U = nullptr;
+  check(TSGetStepNumber(ts, &step));
+  check(TSGetTime(ts, &time));
+  check(TSGetSolution(ts, &U));
+  check(TSMonitor(ts, step, time, U), run.problem.pending);
+}
+
+// TSSolve's work before its first step.
+void begin(Run& run, TS ts) {
+  PetscInt step = 0;
+  check(TSSetUp(ts));
+  check(TSGetStepNumber(ts, &step));
+  if (step == 0) check(TSRestartStep(ts));
+  end_on_time(ts);
+  check(TSSetConvergedReason(ts, TS_CONVERGED_ITERATING));
+  check(TSViewFromOptions(ts, nullptr, "-ts_view_pre"));
+  check(TSSetConvergedReason(ts, reason_at_start(ts)));
+  enter_state(run, ts);
+}
+
+// TSSolve's work on one step.
+void take_step(Run& run, TS ts) {
+  check(TSPreStep(ts), run.problem.pending);
+  check(TSStep(ts), run.problem.pending);
+  check(TSPostEvaluate(ts), run.problem.pending);
+  check(TSPostStep(ts), run.problem.pending);
+  enter_state(run, ts);
+}
+
+// Observes the last state of a run that has come to its end.
+void end(Run& run, TS ts) {
+  require_solved(run, ts);
+  if (!run.last_observed) observe(run);
+  check(TSViewFromOptions(ts, nullptr, "-ts_view"));
+}
+
+// What is left to do when `part` of the run throws.
+template <class Part>
+void keep_what_there_is(Run& run, TS ts, const Part& part) {
   try {
-    check(TSSolve(ts, U), run.problem.pending);
-    require_solved(run, ts);
+    part();
   } catch (const Interrupted&) {
   } catch (const Insane&) {
     if (!run.last_observed) observe(run);
@@ -296,12 +143,12 @@ bool solve(Run& run, TS ts, Vec U) {
     if (!run.interrupted && !run.last_observed) observe(run);
     if (!run.interrupted) throw;
   }
-  if (run.interrupted && !run.step_state.empty()) run.checkpoints.keep(run.step_state);
+  if (!run.interrupted) return;
+  if (!run.step_state.empty()) run.checkpoints.keep(run.step_state);
   if (!run.last_observed) observe(run);
-  return !run.interrupted;
 }
 
-void finish(Run& run, TS ts, bool ended) {
+void complete_summary(Run& run, TS ts, bool ended) {
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   PetscInt steps = 0, rejected = 0, newton = 0;
   check(TSGetConvergedReason(ts, &reason));
@@ -310,7 +157,7 @@ void finish(Run& run, TS ts, bool ended) {
   check(TSGetStepRejections(ts, &rejected));
   check(TSGetSNESIterations(ts, &newton));
   run.summary.out_of_steps = ended && is_out_of_steps(ts);
-  run.summary.complete = ended && reason != TS_CONVERGED_USER && !run.summary.out_of_steps;
+  run.summary.complete = ended && reason > 0 && reason != TS_CONVERGED_USER && !run.summary.out_of_steps;
   run.summary.steps = steps;
   run.summary.rejected_steps += rejected;
   run.summary.newton_iterations += newton;
@@ -357,26 +204,83 @@ RunSummary new_summary(const System& system) {
   return summary;
 }
 
-RunSummary simulate(System& system, const TimeSettings& settings, const Observer& observer,
-                    const Progress& progress, const Checkpoints& checkpoints) {
-  validate(settings);
-  validate(checkpoints);
-  if (!settings.relax && system.any_augmented()) system.begin_step(0, 1);
-  require_tables_cover(system, settings.end_time);
-  if (checkpoints.state.empty()) require_bodies_apart(system);
-  Run run(system, settings, observer, progress, checkpoints);
-  run.summary = new_summary(system);
+struct Simulation::Data {
+  Data(System& system, TimeSettings time, Observer o, Progress p, Checkpoints c)
+      : settings(std::move(time)),
+        observer(std::move(o)),
+        progress(std::move(p)),
+        checkpoints(std::move(c)),
+        run(system, settings, observer, progress, checkpoints) {}
+
+  TimeSettings settings;
+  Observer observer;
+  Progress progress;
+  Checkpoints checkpoints;
+  Run run;
+  UniqueVec U, V;
   UniqueMat J;
-  const Start motion{vector(system.initial_position()), vector(system.initial_velocity())};
-  const UniqueTS ts = make_ts(run, motion, J);
-  if (checkpoints.state.empty())
+  UniqueTS ts;
+  bool begun = false, ended = false, finished = false;
+};
+
+Simulation::Simulation(System& system, TimeSettings settings, Observer observer, Progress progress,
+                       Checkpoints checkpoints)
+    : data_(std::make_unique<Data>(system, std::move(settings), std::move(observer), std::move(progress),
+                                   std::move(checkpoints))) {
+  Data& d = *data_;
+  validate(d.settings);
+  validate(d.checkpoints);
+  if (!d.settings.relax && system.any_augmented()) system.begin_step(0, 1);
+  require_tables_cover(system, d.settings.end_time);
+  const bool anew = d.checkpoints.state.empty();
+  if (anew) require_bodies_apart(system);
+  d.run.summary = new_summary(system);
+  d.U = vector(system.initial_position());
+  d.V = vector(system.initial_velocity());
+  d.ts = make_ts(d.run, d.U, d.V, d.J);
+  if (anew)
     system.accept({0, system.initial_position(), system.initial_velocity(), system.initial_velocity()});
   else
-    go_on_from(run, ts, checkpoints.state);
-  let_stop(run);
-  const bool ended = solve(run, ts, motion.U);
-  finish(run, ts, ended);
+    go_on_from(d.run, d.ts, d.checkpoints.state);
+  let_stop(d.run);
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+bool Simulation::advance() {
+  Data& d = *data_;
+  if (d.ended) return false;
+  d.ended = true;  // unless all below succeeds
+  keep_what_there_is(d.run, d.ts, [&d] {
+    d.begun ? take_step(d.run, d.ts) : begin(d.run, d.ts);
+    d.begun = true;
+    TSConvergedReason reason = TS_CONVERGED_ITERATING;
+    check(TSGetConvergedReason(d.ts, &reason));
+    d.ended = reason != TS_CONVERGED_ITERATING;
+    if (d.ended) end(d.run, d.ts);
+  });
+  return !d.run.interrupted;
+}
+
+bool Simulation::ended() const { return data_->ended; }
+
+std::shared_ptr<const model::Snapshot> Simulation::state() const { return data_->run.last; }
+
+RunSummary Simulation::finish() {
+  Run& run = data_->run;
+  data_->ended = true;
+  if (std::exchange(data_->finished, true)) return run.summary;
+  if (!run.last_observed) observe(run);
+  complete_summary(run, data_->ts, !run.interrupted);
   return run.summary;
+}
+
+RunSummary simulate(System& system, const TimeSettings& settings, const Observer& observer,
+                    const Progress& progress, const Checkpoints& checkpoints) {
+  Simulation simulation(system, settings, observer, progress, checkpoints);
+  while (simulation.advance()) continue;
+  return simulation.finish();
 }
 
 }  // namespace elastogear::dynamics

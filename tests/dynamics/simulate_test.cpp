@@ -99,6 +99,52 @@ TEST(Simulate, impact_too_fast_for_the_time_step_is_cut_and_recovers) {
   EXPECT_DOUBLE_EQ(seen.back(), 3);
 }
 
+TEST(Simulation, of_single_steps_equals_simulate_to_the_bit) {
+  System one = impact(0.01), other = impact(0.01);
+  const TimeSettings settings{.dt = 0.005, .end_time = 0.3};
+  std::vector<model::Snapshot> seen;
+  const RunSummary whole = simulate(one, settings, [&](const model::Snapshot& s) { seen.push_back(s); });
+  ASSERT_GT(whole.pair[0].peak_force, 0);
+  Simulation simulation(other, settings);
+  EXPECT_EQ(simulation.state(), nullptr);
+  const std::shared_ptr<const model::Snapshot> first = (simulation.advance(), simulation.state());
+  for (const model::Snapshot& expected : seen) {
+    EXPECT_EQ(simulation.state()->time, expected.time);
+    EXPECT_EQ(simulation.state()->bodies[0].q, expected.bodies[0].q);
+    EXPECT_EQ(simulation.state()->bodies[0].q_ddot, expected.bodies[0].q_ddot);
+    EXPECT_EQ(simulation.advance(), expected.time < 0.3);
+  }
+  EXPECT_TRUE(simulation.ended());
+  EXPECT_EQ(first->time, 0);  // has stayed
+  EXPECT_EQ(simulation.finish().newton_iterations, whole.newton_iterations);
+}
+
+TEST(Simulation, may_end_before_its_time) {
+  System system = impact(0.01);
+  int observed = 0;
+  Simulation simulation(system, {.dt = 0.005, .end_time = 0.3, .output_every = 10},
+                        [&](const model::Snapshot&) { ++observed; });
+  for (int i = 0; i < 13; ++i) EXPECT_TRUE(simulation.advance());
+  const RunSummary summary = simulation.finish();
+  EXPECT_EQ(summary.steps, 12);
+  EXPECT_FALSE(summary.complete);
+  EXPECT_EQ(observed, 3);  // steps 0, 10 and the last
+  EXPECT_FALSE(simulation.advance());
+}
+
+TEST(Simulation, has_ended_after_an_error) {
+  System system = spinning_rigid_box();
+  Simulation simulation(system, {.dt = 0.1, .end_time = 1}, [](const model::Snapshot& s) {
+    if (s.time > 0.25) fail("disk full");
+  });
+  EXPECT_EQ(message_of([&] {
+              while (simulation.advance()) continue;
+            }),
+            "disk full");
+  EXPECT_TRUE(simulation.ended());
+  EXPECT_FALSE(simulation.advance());
+}
+
 TEST(Simulate, repeats_itself_bit_for_bit) {
   const auto end = [] {
     System system = impact(0.01);

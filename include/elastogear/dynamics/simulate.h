@@ -3,6 +3,7 @@
 // -ts_*, -snes_*, -ksp_* of the options database win over the settings.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,31 @@ struct Checkpoints {
   double patience = 1;
   /// Such a state of an equal system, to go on from instead of the initial one; empty: none.
   std::vector<double> state = {};
+};
+
+/// A run that its owner advances step by step.
+class Simulation {
+ public:
+  /// The run that simulate() would make of the same arguments, with its errors, before its first state. The
+  /// system must outlive it.
+  Simulation(System& system, TimeSettings settings, Observer observer = {}, Progress progress = {},
+             Checkpoints checkpoints = {});
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+
+  /// Enters the first state when called for the first time, then takes one step with each call. False when
+  /// there was no step to take any more, or when `stop` of the checkpoints gave it up. After an Error the run
+  /// has ended.
+  bool advance();
+  bool ended() const;
+  /// The last state that was reached; null before the first one. It stays as it is when the run goes on.
+  std::shared_ptr<const model::Snapshot> state() const;
+  /// Ends the run: the last state is observed if it was not, and counts and times are complete.
+  RunSummary finish();
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
 };
 
 /// Runs from the system's initial state to the end time. Newton has converged when in every block (joint and
