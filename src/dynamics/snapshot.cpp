@@ -83,6 +83,8 @@ void EnergyLedger::enter_joint(const System::Body& body, const model::BodyState&
     dissipated_ += lost;
     work_ += axis.drive ? 0.5 * (now.joint_force[i] + before.joint_force[i]) * distance + lost
                         : at(axis.load, 0.5 * (times[0] + times[1])) * distance;
+    if (axis.law)
+      work_ += law_force(axis, 0.5 * (times[0] + times[1]), 0.5 * (now.s[i] + before.s[i]), rate) * distance;
     ++i;
   }
 }

@@ -58,23 +58,29 @@ BodyTerms body_terms(body::Tangent tangent, Eigen::Index n_m, const std::vector<
   return terms;
 }
 
-// Load minus resistance along each joint coordinate, and the derivative of the latter.
-Eigen::VectorXd load(const SystemModel::Body& body, double time, const Eigen::VectorXd& s_dot) {
+// Loads minus resistance along each joint coordinate, and minus their derivative with it at a shift.
+Eigen::VectorXd load(const SystemModel::Body& body, double time, const body::Motion& m) {
   Eigen::VectorXd h = Eigen::VectorXd::Zero(body.eq.n_s());
   for (Eigen::Index i = 0; const Axis& axis : body.axis) {
-    h[i] = at(axis.load, time) - resistance(axis, s_dot[i]);
+    h[i] = at(axis.load, time) - resistance(axis, m.s_dot[i]);
+    if (axis.law) h[i] += law_force(axis, time, m.s[i], m.s_dot[i]);
     ++i;
   }
   return h;
 }
 
-Eigen::VectorXd load_rate(const SystemModel::Body& body, const Eigen::VectorXd& s_dot) {
-  Eigen::VectorXd rate = Eigen::VectorXd::Zero(body.eq.n_s());
+Eigen::VectorXd load_stiffness(const SystemModel::Body& body, double time, const body::Motion& m,
+                               double shift_v) {
+  Eigen::VectorXd k = Eigen::VectorXd::Zero(body.eq.n_s());
   for (Eigen::Index i = 0; const Axis& axis : body.axis) {
-    rate[i] = resistance_rate(axis, s_dot[i]);
+    k[i] = shift_v * resistance_rate(axis, m.s_dot[i]);
+    if (axis.law) {
+      const LawRates law = law_rates(axis, time, m.s[i], m.s_dot[i]);
+      k[i] -= law.by_s + shift_v * law.by_s_dot;
+    }
     ++i;
   }
-  return rate;
+  return k;
 }
 
 // Rows and columns of the coordinates that are unknown.
@@ -199,7 +205,7 @@ body::Force System::balance(std::size_t b, const State& x, const MarkerForce& ma
                 -weight.s,
                 -marker_force.loads.s,
                 -marker_force.bushings.s,
-                -load(body, x.time, m.s_dot)},
+                -load(body, x.time, m)},
       q{inertia.q,
         inner.q,
         -quadratic.q,
@@ -227,7 +233,7 @@ Residual System::residual(const State& x) {
 
 Eigen::VectorXd System::joint_force(std::size_t b, const State& x) {
   const Body& body = model_.bodies[b];
-  Eigen::VectorXd force = load(body, x.time, motion(b, x).s_dot);
+  Eigen::VectorXd force = load(body, x.time, motion(b, x));
   const bool driven = body.n_open() < body.eq.n_s();
   if (!driven) return force;
   const Eigen::VectorXd missing = balance(b, x, at_markers(x)[b], nullptr).s;
@@ -257,7 +263,7 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     twists.back().P << d.r, d.theta;
     matrix.body.push_back(body_terms(body::tangent(eq, m, gravity(model_.environment, x.time), shift),
                                      model_.marker_forces.row_count(b), node));
-    matrix.body.back().C.diagonal() += shift.v * load_rate(model_.bodies[b], m.s_dot);
+    matrix.body.back().C.diagonal() += load_stiffness(model_.bodies[b], x.time, m, shift.v);
     add_geometric_stiffness(twists.back(), contact.force[b], matrix.body.back());
     matrix.body.back().R = contact_->flexibility_among(b, node);
   }

@@ -82,6 +82,10 @@ TEST(Axis, refuses_what_makes_no_sense) {
   EXPECT_THROW(validate({.friction = 1}, ""), Error);  // no rate
   EXPECT_THROW(validate({.load = constant_signal(1), .drive = speed_drive(0, 1)}, ""), Error);
   EXPECT_THROW(validate({.load = constant_signal(INFINITY)}, ""), Error);
+  const auto law = [](double t, double, double) { return 1 / t; };
+  EXPECT_THROW(validate({.drive = speed_drive(0, 1), .law = law}, ""), Error);
+  EXPECT_THROW(law_force({.law = law}, 0, 0, 0), Error);
+  EXPECT_EQ(law_force({.law = law}, 2, 0, 0), 0.5);
   EXPECT_THROW(require_covers({.load = table_signal({0, 1}, {0, 1})}, 1.1, ""), Error);
   EXPECT_THROW(require_covers({.drive = table_drive({0.1, 2}, {0, 1})}, 1, ""), Error);
   EXPECT_NO_THROW(require_covers({.load = ramp_signal(1, 0.1)}, 1, ""));

@@ -56,6 +56,18 @@ TEST(Prismatic, viscous_damping_slows_exponentially) {
   EXPECT_NEAR(x.energy.balance, 0, kLedger * x.energy.dissipated);
 }
 
+// A spring and a damper that a program computes.
+TEST(Prismatic, swings_and_fades_under_a_computed_force) {
+  constexpr double kSpring = 50, kDamper = 2;
+  const double decay = kDamper / (2 * kMass), omega = std::sqrt(kSpring / kMass - decay * decay);
+  const Axis axis{.s_0 = 0.1, .law = [](double, double s, double v) { return -kSpring * s - kDamper * v; }};
+  const model::Snapshot x = run(sliding(axis), 2e-4, 1);
+  const double exact =
+      0.1 * std::exp(-decay) * (std::cos(omega) + decay / omega * std::sin(omega));  // after 1 s
+  expect_near(x.bodies[0].s[0], exact, kTimeError);
+  EXPECT_NEAR(x.energy.balance, 0, kLedger * kSpring * 0.01);
+}
+
 TEST(Prismatic, friction_stops_after_m_v2_over_2_F) {
   const Axis axis{.s_dot_0 = 3, .friction = 6, .friction_rate = 0.003};
   const model::Snapshot x = run(sliding(axis), 1e-3, 1.5);   // it stops after 1 s

@@ -82,12 +82,20 @@ BushingSetup bushing(const MarkerName& first, const MarkerName& second, bool axe
   return setup;
 }
 
+// Linear in the motion, so that its differences are its derivative.
+body::Wrench spring_and_damper(double t, const body::MarkerMotion& m) {
+  body::Wrench wrench;
+  wrench << -20 * m.x - 3 * m.v + Vector3d(t, 0, 1), -2 * m.w + 5 * m.v.cross(Vector3d::UnitX());
+  return wrench;
+}
+
 MarkerSetups all_kinds() {
   MarkerSetups setups;
   const MarkerName a{"a", "x_max"}, b{"b", "x_min"}, frame{"b", "frame"}, ground;
   setups.loads = {{"world", a, {1, -2, 3}, {0.5, 0.7, -0.3}, false, ramp_signal(2, 1)},
                   {"follower", b, {-1, 2, 1}, {0.3, -0.6, 0.4}, true, constant_signal(1.5)},
                   {"on_frame", frame, {0, 1, 2}, {1, 0, 1}, true, constant_signal(1)}};
+  setups.loads.push_back({.name = "computed", .marker = b, .law = spring_and_damper});
   setups.bushings = {bushing(a, b, true), bushing(ground, frame, false), bushing(a, ground, false)};
   return setups;
 }
@@ -184,6 +192,11 @@ TEST(MarkerForces, refuses_names_and_values_that_make_no_sense) {
   refused({.loads = {{"l", {"a", "x_max"}}, {"l", {"b", "x_max"}}}});
   refused({.loads = {{"l", {"a", "x_max"}, {NAN, 0, 0}}}});
   refused({.sensors = {{"s", {}}}});
+  System infinite =
+      two_boxes({}, {.loads = {{.name = "l", .marker = {"a", "x_max"}, .law = [](double, const auto&) {
+                                  return body::Wrench(body::Wrench::Constant(INFINITY));
+                                }}}});
+  EXPECT_THROW(infinite.residual(some_state(infinite)), Error);
   BushingSetup both = bushing({"a", "frame"}, {"a", "frame"}, false);
   refused({.bushings = {both}});
   refused({.bushings = {bushing({}, {}, false)}});

@@ -163,6 +163,8 @@ INSTANTIATE_TEST_SUITE_P(
         Options{InertiaLevel::constant}, Options{InertiaLevel::linear}, Options{InertiaLevel::linear, true},
         Options{InertiaLevel::linear, false, 1}, Options{.basis = model::Basis::full},
         Options{.rotation = {.damping = 0.7, .friction = 0.5, .friction_rate = 0.4}},
+        Options{
+            .rotation = {.law = [](double t, double s, double v) { return t - 20 * s + std::sin(3 * v); }}},
         Options{.rotation = {.drive = spin_up_drive(-0.0045, 0.1, 1)}},
         Options{.joint = JointType::cylindrical, .rotation = {.drive = spin_up_drive(-0.0045, 0.1, 1)}},
         Options{.level = InertiaLevel::affine},

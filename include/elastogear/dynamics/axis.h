@@ -1,6 +1,7 @@
 #pragma once
 // Load, friction and prescribed motion along one coordinate of a joint.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,10 @@ Drive table_drive(std::vector<double> time, std::vector<double> value);
 
 Prescribed at(const Drive& drive, double t);
 
+/// A force along a coordinate that a program computes, N or N m, of the time (s), the coordinate (m or rad)
+/// and its rate. It is asked any number of times in a step, in any order, and must depend on nothing else.
+using ForceLaw = std::function<double(double t, double s, double s_dot)>;
+
 struct Axis {
   double s_0 = 0, s_dot_0 = 0;  ///< m or rad, initial values; not with a drive
   Signal load = {};             ///< N or N m
@@ -54,14 +59,24 @@ struct Axis {
   double friction = 0;          ///< N or N m, Coulomb: friction tanh(s' / friction_rate)
   double friction_rate = 0;     ///< m/s or rad/s
   std::optional<Drive> drive = {};
+  ForceLaw law = {};  ///< beside the load; not with a drive
 };
+
+/// Force of the law, 0 where there is none. Throws Error when it is not finite.
+double law_force(const Axis& axis, double t, double s, double s_dot);
+
+/// Derivatives of the law's force with coordinate and rate, by central differences; zero where there is none.
+struct LawRates {
+  double by_s = 0, by_s_dot = 0;
+};
+LawRates law_rates(const Axis& axis, double t, double s, double s_dot);
 
 /// Damping and friction, a force against the motion, and its derivative with the rate.
 double resistance(const Axis& axis, double s_dot);
 double resistance_rate(const Axis& axis, double s_dot);
 
 /// Throws Error, beginning with `who`, for values that are not finite, negative damping or friction, friction
-/// without a rate, loads or initial values beside a drive.
+/// without a rate, loads, laws or initial values beside a drive.
 void validate(const Axis& axis, const std::string& who);
 
 /// Throws Error when a table ends before `end_time` or begins after 0.

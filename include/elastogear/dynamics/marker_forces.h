@@ -18,6 +18,10 @@ struct MarkerName {
   std::string body, marker;
 };
 
+/// Force and torque (N, N m) that a program computes of the time (s) and the marker's motion without its
+/// acceleration. It is asked any number of times in a step, in any order, and must depend on nothing else.
+using WrenchLaw = std::function<body::Wrench(double t, const body::MarkerMotion& marker)>;
+
 /// force and torque times the signal; in the world, or turning with the marker.
 struct LoadSetup {
   std::string name;
@@ -26,6 +30,7 @@ struct LoadSetup {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
   bool follows = false;                              ///< components in the marker's frame
   Signal signal = constant_signal(1);
+  WrenchLaw law = {};  ///< beside these, in the same frame
 };
 
 /// Unloaded in the initial state; a marker on the ground is then at the place of the other one.
@@ -124,6 +129,8 @@ class MarkerForces {
   std::vector<body::MarkerMotion> motions(const std::vector<MovingBody>& bodies) const;
   std::vector<body::Wrench> load_wrenches(double time, const std::vector<body::MarkerMotion>& motion) const;
   std::vector<body::Wrench> bushing_wrenches(const std::vector<body::MarkerMotion>& motion) const;
+  void add_stiffness(std::size_t load, double time, const body::MarkerMotion& marker,
+                     Eigen::Ref<Eigen::Matrix<double, 6, 12>> K) const;
   Eigen::MatrixXd stiffness(double time, const std::vector<body::MarkerMotion>& motion) const;
   void add_place(const Place& place, const MovingBody& body, const Tangent& tangent, BodyTerms& terms) const;
 

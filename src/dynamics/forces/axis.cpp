@@ -139,6 +139,22 @@ double resistance_rate(const Axis& axis, double s_dot) {
   return rate;
 }
 
+double law_force(const Axis& axis, double t, double s, double s_dot) {
+  if (!axis.law) return 0;
+  const double force = axis.law(t, s, s_dot);
+  require(std::isfinite(force), "a force law gives ", force, " at t = ", t, " s, coordinate ", s,
+          " and rate ", s_dot, ": must be finite");
+  return force;
+}
+
+LawRates law_rates(const Axis& axis, double t, double s, double s_dot) {
+  if (!axis.law) return {};
+  constexpr double kStep = 1e-6;  // relative, of coordinates and rates above 1
+  const double h = kStep * std::max(1.0, std::abs(s)), h_dot = kStep * std::max(1.0, std::abs(s_dot));
+  return {(law_force(axis, t, s + h, s_dot) - law_force(axis, t, s - h, s_dot)) / (2 * h),
+          (law_force(axis, t, s, s_dot + h_dot) - law_force(axis, t, s, s_dot - h_dot)) / (2 * h_dot)};
+}
+
 void validate(const Axis& axis, const std::string& who) {
   require(std::isfinite(axis.s_0) && std::isfinite(axis.s_dot_0), who, "initial coordinate ", axis.s_0,
           " and rate ", axis.s_dot_0, " must be finite");
@@ -150,7 +166,7 @@ void validate(const Axis& axis, const std::string& who) {
   require(axis.friction == 0 || (std::isfinite(axis.friction_rate) && axis.friction_rate > 0), who,
           "friction needs a friction rate, the speed at which it is tanh(1) of its full value: ",
           axis.friction_rate, " must be positive");
-  require(!axis.drive || (axis.s_0 == 0 && axis.s_dot_0 == 0 && axis.load.value.empty()), who,
+  require(!axis.drive || (axis.s_0 == 0 && axis.s_dot_0 == 0 && axis.load.value.empty() && !axis.law), who,
           "a prescribed motion takes no load, initial coordinate or initial rate beside it");
 }
 

@@ -37,7 +37,28 @@ Wrench wrench_of(const LoadSetup& load, double time, const MarkerMotion& marker)
   const Eigen::Matrix3d R = load.follows ? marker.R : Eigen::Matrix3d::Identity();
   Wrench wrench;
   wrench << R * load.force, R * load.torque;
-  return at(load.signal, time) * wrench;
+  wrench *= at(load.signal, time);
+  if (!load.law) return wrench;
+  const Wrench computed = load.law(time, marker);
+  require(computed.allFinite(), "load '", load.name, "': its law gives (", computed.transpose(),
+          ") at t = ", time, " s: must be finite");
+  wrench.head<3>() += R * computed.head<3>();
+  wrench.tail<3>() += R * computed.tail<3>();
+  return wrench;
+}
+
+// Changes place (m), orientation (rad), velocity (m/s) or angular velocity (rad/s) along one of the axes.
+MarkerMotion moved(MarkerMotion marker, int column, double h) {
+  const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(column % 3);
+  if (column < 3)
+    marker.x += step;
+  else if (column < 6)
+    marker.R = rotation_matrix(step) * marker.R;
+  else if (column < 9)
+    marker.v += step;
+  else
+    marker.w += step;
+  return marker;
 }
 
 }  // namespace
@@ -99,7 +120,7 @@ void MarkerForces::add_load(const LoadSetup& load) {
   for (double value : load.signal.value)
     require(std::isfinite(value), who, "signal ", value, " must be finite");
   load_at_.push_back(use(load.marker, who));
-  if (!load.torque.isZero(0) || load.follows) require_turning(place(load_at_.back()), who);
+  if (!load.torque.isZero(0) || load.follows || load.law) require_turning(place(load_at_.back()), who);
 }
 
 void MarkerForces::add_bushing(const BushingSetup& bushing) {
@@ -184,16 +205,30 @@ std::vector<Wrench> MarkerForces::bushing_wrenches(const std::vector<MarkerMotio
   return wrench;
 }
 
+// Adds minus the change of a load's wrench with the motion of its marker, where a law gives it by
+// differences.
+void MarkerForces::add_stiffness(std::size_t load, double time, const MarkerMotion& marker,
+                                 Eigen::Ref<Eigen::Matrix<double, 6, 12>> K) const {
+  constexpr double kStep = 1e-6;
+  const LoadSetup& setup = setups_.loads[load];
+  if (!setup.law && !setup.follows) return;
+  const Wrench wrench = wrench_of(setup, time, marker);
+  if (setup.law) {
+    for (int column = 0; column < kMotion; ++column)
+      K.col(column) -= (wrench_of(setup, time, moved(marker, column, kStep)) - wrench) / kStep;
+  } else {
+    K.block<3, 3>(0, 3) += skew(wrench.head<3>());
+    K.block<3, 3>(3, 3) += skew(wrench.tail<3>());
+  }
+}
+
 // Minus the change of all wrenches with all motions.
 MatrixXd MarkerForces::stiffness(double time, const std::vector<MarkerMotion>& motion) const {
   const auto n = static_cast<Index>(place_.size());
   MatrixXd K = MatrixXd::Zero(6 * n, kMotion * n);
   for (std::size_t i = 0; i < load_at_.size(); ++i) {
     const Index at = load_at_[i];
-    if (!setups_.loads[i].follows) continue;
-    const Wrench wrench = wrench_of(setups_.loads[i], time, motion[at]);
-    K.block<3, 3>(6 * at, kMotion * at + 3) += skew(wrench.head<3>());
-    K.block<3, 3>(6 * at + 3, kMotion * at + 3) += skew(wrench.tail<3>());
+    add_stiffness(i, time, motion[at], K.block<6, kMotion>(6 * at, kMotion * at));
   }
   for (std::size_t i = 0; i < bushing_.size(); ++i) {
     const auto& at = bushing_at_[i];
