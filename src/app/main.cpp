@@ -5,10 +5,9 @@
 #include <exception>
 
 #include "app/options/command_line.h"
-#include "app/verbs/verbs.h"
+#include "app/verbs/registry.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
-#include "elastogear/base/text.h"
 #include "elastogear/base/version.h"
 
 namespace elastogear::app {
@@ -31,12 +30,6 @@ void print_help(const Verb& verb) {
   std::printf("PETSc's and SLEPc's options (-eps_*, -st_*, -ts_*, -snes_*, -log_view) work beside these.\n");
 }
 
-const Verb& find(const std::vector<Verb>& verbs, const std::string& name) {
-  for (const Verb& verb : verbs)
-    if (verb.name == name) return verb;
-  fail("unknown verb '", name, "'; the verbs are ", join(verbs, ", ", &Verb::name));
-}
-
 // An option of PETSc that is known, but that the solvers of this run have not asked for.
 void warn_of_unused_options() {
   PetscInt n = 0;
@@ -46,29 +39,13 @@ void warn_of_unused_options() {
   check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
 }
 
-// The options of all verbs, bare, under the verb's own section ("recover_output"), and those of reduce under
-// the name of a drive's gear ("pinion_modes").
-OptionTable all_options(const std::vector<Verb>& verbs) {
-  OptionTable all;
-  for (const Verb& verb : verbs)
-    for (const OptionSpec& spec : verb.table) {
-      all.push_back(spec);
-      all.push_back(spec);
-      all.back().name = verb.name + "_" + spec.name;
-      if (verb.name != "reduce" || spec.name.starts_with("<gear>")) continue;
-      all.push_back(spec);
-      all.back().name = "<gear>_" + spec.name;
-    }
-  return all;
-}
-
 void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& line, int argc, char** argv) {
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   require(verb.parallel || size == 1, "runs on one rank, not on ", size, ": call it without mpirun");
-  Options options(verb.name, verb.table, all_options(verbs));
-  options.load(verb.configured ? line.arguments : std::vector<std::string>{}, argc, argv);
-  verb.run(options, line.arguments);
+  OptionSources sources{.argc = argc, .argv = argv};
+  if (verb.configured) sources.files = line.arguments;
+  verb.run(load_options(verb, verbs, sources), line.arguments);
 }
 
 // Returns the complaint about the words of the command line, or an empty text when they are right.
@@ -87,7 +64,7 @@ int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, con
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   try {
     require(problem.empty(), problem);
-    run(find(verbs, line.verb), verbs, line, argc, argv);
+    run(find_verb(verbs, line.verb), verbs, line, argc, argv);
     if (rank == 0) warn_of_unused_options();
     return 0;
   } catch (const std::bad_alloc&) {
@@ -103,9 +80,7 @@ int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, con
 
 int main(int argc, char** argv) {
   using namespace elastogear;
-  const std::vector<app::Verb> verbs = {app::mesh_verb(),    app::reduce_verb(),   app::simulate_verb(),
-                                        app::recover_verb(), app::evaluate_verb(), app::life_verb(),
-                                        app::wear_verb(),    app::compare_verb(),  app::info_verb()};
+  const std::vector<app::Verb> verbs = app::all_verbs();
   const app::CommandLine line = app::parse_command_line(argc, argv);
   if (line.version) return std::printf("elastogear %s (%s)\n", version(), git_hash()), 0;
   if (line.verb.empty()) return app::print_usage(verbs), line.help ? 0 : 1;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/console/console.h"
+#include "app/console/embedding.h"
 #include "app/options/rows.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/fingerprint.h"
@@ -28,6 +29,14 @@ void listen_for_stop() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESETHAND;
   for (int signal : {SIGTERM, SIGINT}) sigaction(signal, &action, nullptr);
+}
+
+// Asks the program that the verb runs in, or the signals.
+std::function<std::string()> stop_cause() {
+  if (const Embedding* in = embedding())
+    return [in] { return in->interrupted() ? std::string("an interrupt") : std::string(); };
+  listen_for_stop();
+  return [] { return stop_signal == 0 ? "" : "signal " + std::to_string(int(stop_signal)); };
 }
 
 // The files that the value of an option names.
@@ -81,8 +90,7 @@ dynamics::ResumableSettings resumable_settings(const Options& options, const std
   settings.output = output;
   read_rows(options, kRows, settings);
   settings.has_effect = [&options](const std::string& key) { return has_effect(options, key); };
-  settings.stop_cause = [] { return stop_signal == 0 ? "" : "signal " + std::to_string(int(stop_signal)); };
-  listen_for_stop();
+  settings.stop_cause = stop_cause();
   return settings;
 }
 

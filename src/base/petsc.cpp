@@ -53,18 +53,25 @@ void check(PetscErrorCode code, std::exception_ptr& pending, const char* file, i
   check(code, file, line);
 }
 
-Session::Session(int& argc, char**& argv) {
+void start_solvers(int& argc, char**& argv) {
   const auto print = PetscErrorPrintf;
   PetscErrorPrintf = keep_text;
   const PetscErrorCode code = SlepcInitialize(&argc, &argv, nullptr, nullptr);
   if (PetscErrorPrintf == keep_text) PetscErrorPrintf = print;
   require(code == 0, "PETSc cannot start. Its options are in PETSC_OPTIONS and in the files .petscrc, too. ",
           message_in(start_text));
-  check(PetscPushErrorHandler(keep_message, nullptr));
+}
+
+SilentErrors::SilentErrors() { check(PetscPushErrorHandler(keep_message, nullptr)); }
+SilentErrors::~SilentErrors() { PetscPopErrorHandler(); }
+
+Session::Session(int& argc, char**& argv) {
+  start_solvers(argc, argv);
+  silent_.emplace();
 }
 
 Session::~Session() {
-  PetscPopErrorHandler();
+  silent_.reset();
   SlepcFinalize();
 }
 

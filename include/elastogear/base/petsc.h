@@ -5,6 +5,7 @@
 #include <petscts.h>
 
 #include <exception>
+#include <optional>
 #include <utility>
 
 namespace elastogear {
@@ -54,14 +55,28 @@ using UniqueViewer = Handle<PetscViewer, PetscViewerDestroy>;
 
 inline MPI_Comm comm_of(Mat A) { return PetscObjectComm(reinterpret_cast<PetscObject>(A)); }
 
-/// First object in `main`: initialises MPI, PETSc and SLEPc; finalises them last. PETSc errors return codes
-/// silently (check() turns them into exceptions).
+/// Initialises MPI, PETSc and SLEPc unless they run; Error when they cannot start.
+void start_solvers(int& argc, char**& argv);
+
+/// While it lives PETSc's errors return codes silently (check() turns them into exceptions).
+class SilentErrors {
+ public:
+  SilentErrors();
+  ~SilentErrors();
+  SilentErrors(const SilentErrors&) = delete;
+  SilentErrors& operator=(const SilentErrors&) = delete;
+};
+
+/// First object in `main`: initialises MPI, PETSc and SLEPc; finalises them last. PETSc errors are silent.
 class Session {
  public:
   Session(int& argc, char**& argv);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
+
+ private:
+  std::optional<SilentErrors> silent_;
 };
 
 /// Body of every PETSc callback: runs `f`, keeps an exception in `pending` for rethrow after the solve, and

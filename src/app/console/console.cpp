@@ -15,6 +15,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "app/console/embedding.h"
 #include "app/console/progress_line.h"
 
 namespace elastogear::app {
@@ -105,13 +106,17 @@ class ProgressConsole {
 }  // namespace
 
 Progress console_progress(std::function<std::string()> detail) {
+  if (const Embedding* in = embedding())
+    return [in](std::string_view name, double fraction) { in->progress(name, fraction); };
   if (world_rank() > 0) return {};
   auto console = std::make_shared<ProgressConsole>(std::move(detail));
   return [console](std::string_view name, double fraction) { console->report(name, fraction); };
 }
 
 void print_item(const std::string& name, const std::string& text) {
-  if (is_silent || world_rank() > 0) return;
+  if (is_silent) return;
+  if (const Embedding* in = embedding()) return in->item(name, text);
+  if (world_rank() > 0) return;
   clear_line();
   std::printf("  %-30s %s\n", name.c_str(), text.c_str());
   std::fflush(stdout);  // a killed run has said it

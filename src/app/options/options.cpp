@@ -148,13 +148,23 @@ Options Options::of_files(std::string verb, const OptionTable& own, const std::v
   return options;
 }
 
-void Options::insert(const std::string& file) {
-  const std::string text = text_on_all_ranks(file);
-  for (const YamlEntry& entry : parse_yaml(text, file)) {
+void Options::insert(const std::string& text, const std::string& name, bool is_file) {
+  for (const YamlEntry& entry : parse_yaml(text, name)) {
     check(PetscOptionsSetValue(nullptr, ("-" + entry.name).c_str(), entry.value.c_str()));
-    place_[entry.name] = file + ", line " + std::to_string(entry.line);
+    place_.erase(entry.name);
+    if (is_file) place_[entry.name] = name + ", line " + std::to_string(entry.line);
   }
-  files_.push_back(file);
+}
+
+void Options::promote_own_section() {
+  const std::string section = verb_ + "_";
+  for (const auto& [name, value] : options_in_database())
+    if (name.starts_with(section)) {
+      const std::string own = name.substr(section.size());
+      check(PetscOptionsSetValue(nullptr, ("-" + own).c_str(), value.c_str()));
+      check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
+      if (place_.contains(name)) place_[own] = place_[name];
+    }
 }
 
 // Their lines; PETSc itself takes their options.
@@ -177,16 +187,18 @@ void Options::convert_units() {
   }
 }
 
-void Options::load(const std::vector<std::string>& files, int argc, char** argv) {
-  for (const std::string& file : files) insert(file);
-  const std::string section = verb_ + "_";
-  for (const auto& [name, value] : options_in_database())
-    if (name.starts_with(section)) {
-      const std::string own = name.substr(section.size());
-      check(PetscOptionsSetValue(nullptr, ("-" + own).c_str(), value.c_str()));
-      check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
-      if (place_.contains(name)) place_[own] = place_[name];
-    }
+void Options::load(const OptionSources& sources) {
+  int argc = sources.argc;
+  char** argv = sources.argv;
+  for (const std::string& file : sources.files) {
+    insert(text_on_all_ranks(file), file, true);
+    files_.push_back(file);
+  }
+  for (const OptionText& text : sources.texts) {
+    insert(text.yaml, text.name, false);
+    files_.push_back(text.name);
+  }
+  promote_own_section();
   given_in_files_ = options_in_database();
   check(PetscOptionsInsert(nullptr, &argc, &argv, nullptr));
   given_ = options_in_database();
@@ -194,6 +206,8 @@ void Options::load(const std::vector<std::string>& files, int argc, char** argv)
     const auto now = given_.find(place.first), then = given_in_files_.find(place.first);
     return now == given_.end() || then == given_in_files_.end() || now->second != then->second;
   });
+  for (const OptionText& text : sources.chosen) insert(text.yaml, text.name, false);
+  given_ = options_in_database();
   note_options_files(argc, argv);
   const std::map<std::string, std::string> as_written = given_;
   convert_units();

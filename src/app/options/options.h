@@ -23,15 +23,30 @@ using OptionTable = std::vector<OptionSpec>;
 /// Values that a placeholder, such as "body", may stand for.
 using PlaceholderValues = std::map<std::string, std::vector<std::string>>;
 
+/// A text of YAML that a program gives in place of a file. Its name stands in messages about its form.
+struct OptionText {
+  std::string yaml, name;
+};
+
+/// Where options come from; later ones win.
+struct OptionSources {
+  std::vector<std::string> files = {};
+  std::vector<OptionText> texts = {};  ///< read as files are
+  int argc = 0;
+  char** argv = nullptr;                ///< the command line
+  std::vector<OptionText> chosen = {};  ///< options of the running verb that a program sets
+};
+
 /// The options in force: files given on the command line first, then the command line again, so that it wins.
 class Options {
  public:
   /// `known`: tables of all verbs (a file may serve several verbs); `own`: the running verb's table.
   Options(std::string verb, OptionTable own, OptionTable known);
 
-  /// Inserts YAML files, promotes keys of the verb's own section ("recover_output" -> "output"), then inserts
-  /// the command line again. Throws Error for missing or malformed files, naming the line. Collective.
-  void load(const std::vector<std::string>& files, int argc, char** argv);
+  /// Inserts files and texts, promotes keys of the verb's own section ("recover_output" -> "output"), then
+  /// inserts the command line again, then what is chosen. Throws Error for missing or malformed files, naming
+  /// the line. Collective.
+  void load(const OptionSources& sources);
 
   /// The verb's options as YAML files have them, later ones first, apart from those of the run. Throws Error
   /// for missing or malformed files, naming the line.
@@ -86,7 +101,8 @@ class Options {
 
  private:
   const OptionSpec& spec(const std::string& name) const;
-  void insert(const std::string& file);
+  void insert(const std::string& text, const std::string& name, bool is_file);
+  void promote_own_section();
   void note_options_files(int argc, char** argv);
   void convert_units();
 

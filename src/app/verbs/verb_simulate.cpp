@@ -1,5 +1,6 @@
 // elastogear simulate: bodies + joints + loads + contact -> result file.
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -19,6 +20,7 @@
 #include "app/tables/initial_state.h"
 #include "app/tables/marker_options.h"
 #include "app/tables/output_options.h"
+#include "app/verbs/simulation.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
@@ -210,7 +212,63 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   write_sensor_tables(options, head);
 }
 
+dynamics::Axis& axis_of(dynamics::BodySetup& body, const std::string& name) {
+  const body::JointType joint = body.joint.type;
+  const bool turns = body::has_rotation_axis(joint), slides = body::has_translation_axis(joint);
+  require(turns || slides, "force on '", name, "': the joint of this body has no axis, it is ",
+          body::joint_names()[static_cast<std::size_t>(joint)],
+          "; name a load (option loads) at a marker of the body");
+  require(turns != slides, "force on '", name, "': this body turns and slides; name ", name, ".rotation or ",
+          name, ".translation");
+  return turns ? body.rotation : body.translation;
+}
+
+// The axis that "worm", "worm.rotation" or "worm.translation" names.
+dynamics::Axis& find_axis(std::vector<dynamics::BodySetup>& bodies, const std::string& name) {
+  std::string known;
+  for (dynamics::BodySetup& body : bodies) {
+    if (name == body.name) return axis_of(body, name);
+    if (name == body.name + ".rotation" && body::has_rotation_axis(body.joint.type)) return body.rotation;
+    if (name == body.name + ".translation" && body::has_translation_axis(body.joint.type))
+      return body.translation;
+    known += (known.empty() ? "" : ", ") + body.name;
+  }
+  fail("force on '", name, "': there is no such axis; the bodies are ", known);
+}
+
+void set_laws(const ProgramLaws& laws, SystemSetup& setup) {
+  for (const auto& [name, law] : laws.of_axes) find_axis(setup.bodies, name).law = law;
+  for (const auto& [name, law] : laws.of_loads) {
+    const auto load = std::find_if(setup.markers.loads.begin(), setup.markers.loads.end(),
+                                   [&name = name](const auto& l) { return l.name == name; });
+    require(load != setup.markers.loads.end(), "force on '", name,
+            "': there is no such load; option loads names them, with load_marker");
+    load->law = law;
+  }
+}
+
 }  // namespace
+
+PreparedSimulation prepare_simulation(const Options& given, const MakeLaws& make_laws) {
+  Options motion = given;
+  if (is_drive(motion)) motion.set_default("analysis", "dynamic");
+  const Options options = of_system(motion);
+  options.reject_unknown(simulate_names(options));
+  const Analysis kind = analysis(options);
+  require(kind == Analysis::dynamic || kind == Analysis::relax, options.label("analysis"), " = '",
+          options.text("analysis"), "': has no time steps; give analysis: dynamic or relax");
+  TimeSettings time = time_settings(options);
+  KnownBodies known;
+  SystemSetup setup = system_setup(options, known);
+  set_laws(make_laws(options.list("loads")), setup);
+  PreparedSimulation prepared{
+      std::make_unique<dynamics::System>(setup.bodies, setup.pairs, setup.environment, setup.markers),
+      time,
+      {}};
+  prepared.header = result_header(options, prepared.system->model(), known);
+  print_laws(options, prepared.system->model());
+  return prepared;
+}
 
 Verb simulate_verb() {
   return {"simulate",

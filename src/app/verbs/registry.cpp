@@ -1,0 +1,44 @@
+#include "app/verbs/registry.h"
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
+
+namespace elastogear::app {
+namespace {
+
+// The options of all verbs, bare, under the verb's own section ("recover_output"), and those of reduce under
+// the name of a drive's gear ("pinion_modes").
+OptionTable all_options(const std::vector<Verb>& verbs) {
+  OptionTable all;
+  for (const Verb& verb : verbs)
+    for (const OptionSpec& spec : verb.table) {
+      all.push_back(spec);
+      all.push_back(spec);
+      all.back().name = verb.name + "_" + spec.name;
+      if (verb.name != "reduce" || spec.name.starts_with("<gear>")) continue;
+      all.push_back(spec);
+      all.back().name = "<gear>_" + spec.name;
+    }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Verb> all_verbs() {
+  return {mesh_verb(), reduce_verb(), simulate_verb(), recover_verb(), evaluate_verb(),
+          life_verb(), wear_verb(),   compare_verb(),  info_verb()};
+}
+
+const Verb& find_verb(const std::vector<Verb>& verbs, const std::string& name) {
+  for (const Verb& verb : verbs)
+    if (verb.name == name) return verb;
+  fail("unknown verb '", name, "'; the verbs are ", join(verbs, ", ", &Verb::name));
+}
+
+Options load_options(const Verb& verb, const std::vector<Verb>& verbs, const OptionSources& sources) {
+  Options options(verb.name, verb.table, all_options(verbs));
+  options.load(sources);
+  return options;
+}
+
+}  // namespace elastogear::app
