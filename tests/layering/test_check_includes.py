@@ -42,6 +42,9 @@ class CheckIncludes(unittest.TestCase):
 
     def test_the_programs_may_include_everything(self):
         self.assert_allowed("src/app/a.cpp", '"elastogear/dynamics/simulate.h"')
+        self.assert_allowed("src/python/a.cpp", '"app/options/options.h"')
+        self.assert_forbidden("src/app/a.cpp", '"python/arrays.h"')
+        self.assert_forbidden("src/python/a.cpp", '"fem/elements/hex8.h"')
 
     def test_upward_includes_are_forbidden(self):
         self.assert_forbidden("src/model/a.cpp", '"elastogear/mesh/mesh.h"')

@@ -9,3 +9,8 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja -DCM
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/elastogear_user)
 run(${WORK}/prefix/bin/elastogear -help)
+if(PYTHON)  # the installed module, not that of the build tree
+  file(GLOB packages ${WORK}/prefix/lib/python*/dist-packages)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${packages} ${PYTHON} -B -c
+      "import elastogear as eg; assert eg.__file__.startswith('${WORK}'); print(eg.describe('${MESH}'))")
+endif()

@@ -1,0 +1,30 @@
+"""Stresses in gears under transient load by elastic multibody models.
+
+    import elastogear as eg
+
+    drive = eg.Drive("drive.yaml")          # or a dict of the same keys
+    drive.reduce()                          # meshes and reduces all gears
+    result = drive.simulate()               # equilibrium or motion
+    stress = drive.recover()                # stresses at the roots of the teeth
+    print(stress["pinion", "root"].von_mises.max())   # Pa
+
+Numbers are in SI units; options may have a unit, "3 mm". docs/python.md tells more.
+"""
+
+import sys as _sys
+
+try:
+    import numpy as _numpy  # noqa: F401
+
+    from . import _elastogear
+except ImportError as _error:
+    raise ImportError(f"elastogear is built for Debian's /usr/bin/python3 and numpy, not for {_sys.executable} "
+                      f"(Python {_sys.version.split()[0]}): {_error}") from None
+
+from ._elastogear import (Body, Error, Mesh, State, __version__, describe, git_hash,
+                          option_table, read_mesh, von_mises)
+from .results import Result, Stress, StressSet
+from .runs import Drive, Report, Simulation, System, Warning
+
+__all__ = ["Body", "Drive", "Error", "Mesh", "Report", "Result", "Simulation", "State", "Stress", "StressSet",
+           "System", "Warning", "__version__", "describe", "git_hash", "option_table", "read_mesh", "von_mises"]

@@ -1,0 +1,198 @@
+"""Result and stress files as arrays of numpy. The first index of a history is the time."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+from numpy.typing import NDArray
+
+from . import _elastogear as _library
+
+if TYPE_CHECKING:
+    from .runs import Report
+
+Path = Union[str, "os.PathLike[str]"]
+Array = NDArray[Any]
+
+
+class _Histories:
+    """Arrays of a file, read when they are asked for first."""
+
+    def __init__(self, values: dict[str, Any]) -> None:
+        self.__dict__.update(values)
+
+
+class BodyHistory(_Histories):
+    """Motion of one body over n_t times.
+
+    position    (n_t, 3), m, origin of the body frame in the world
+    rotation    (n_t, 3, 3), from the body frame to the world
+    s, s_dot, s_ddot    (n_t, n_s), joint coordinates, rad or m, and their rates
+    q, q_dot, q_ddot    (n_t, n_q), elastic coordinates and their rates
+    """
+
+    position: Array
+    rotation: Array
+    s: Array
+    s_dot: Array
+    s_ddot: Array
+    q: Array
+    q_dot: Array
+    q_ddot: Array
+
+
+class PairHistory(_Histories):
+    """Contact of one pair a:b over n_t times.
+
+    force, torque     (n_t, 3), N, N m, on body b, in the world, about its origin
+    count             (n_t,), active contacts
+    penetration       (n_t,), m, largest
+    area, pressure    (n_t,), m^2, Pa (largest)
+    sliding_speed     (n_t,), m/s, largest
+    friction_power, damping_power    (n_t,), W, taken
+    group_force       (n_t, 3) each, N, on body b, by the name of a face set of a or b
+    """
+
+    force: Array
+    torque: Array
+    count: Array
+    penetration: Array
+    area: Array
+    pressure: Array
+    sliding_speed: Array
+    friction_power: Array
+    damping_power: Array
+    group_force: dict[str, Array]
+
+
+class SensorHistory(_Histories):
+    """Motion of a marker in the world over n_t times.
+
+    position, velocity, acceleration    (n_t, 3), m, m/s, m/s^2
+    rotation                            (n_t, 3, 3), from the marker to the world
+    angular_velocity                    (n_t, 3), rad/s
+    """
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+    rotation: Array
+    angular_velocity: Array
+
+
+class Result:
+    """A result file.
+
+    time         (n_t,), s; of an equilibrium the load factor
+    bodies, pairs, bushings, sensors    their names
+    complete     did the run reach its end?
+    provenance   options in force, versions
+    path         of the file
+    report       what the run said, or None
+    """
+
+    def __init__(self, path: Path, report: Optional["Report"] = None) -> None:
+        self.path = os.path.abspath(os.fspath(path))
+        self.report = report
+        header = _library.read_result_header(self.path)
+        self.time: Array = header["time"]
+        self.bodies: list[str] = [body[0] for body in header["bodies"]]
+        self.pairs: list[str] = header["pairs"]
+        self.bushings: list[str] = header["bushings"]
+        self.sensors: list[str] = header["sensors"]
+        self.complete: bool = header["complete"]
+        self.provenance: dict[str, str] = header["provenance"]
+
+    def body(self, name: str) -> BodyHistory:
+        """Motion of a body."""
+        return BodyHistory(_library.read_body_history(self.path, name))
+
+    def pair(self, name: str) -> PairHistory:
+        """Contact of a pair, 'a:b'."""
+        return PairHistory(_library.read_pair_history(self.path, name))
+
+    def sensor(self, name: str) -> SensorHistory:
+        """Motion of a sensor."""
+        return SensorHistory(_library.read_sensor_history(self.path, name))
+
+    def contacts(self, pair: str) -> list[Array]:
+        """Active contacts of a pair at each time: slave_side, slave_node, face, xi, eta, gap (m), force (N), ..."""
+        return _library.read_contacts(self.path, pair)
+
+    @property
+    def energies(self) -> dict[str, Array]:
+        """(n_t,) each, J: kinetic, elastic, contact, bushing, dissipated, work and balance."""
+        return _library.read_energies(self.path)
+
+    def plot(self, pair: Optional[str] = None, axes: Any = None) -> Any:
+        """Draws the contact force of a pair (default: the first one) over the time; returns the axes."""
+        from . import plots
+        return plots.contact_force(self, pair, axes)
+
+    def __repr__(self) -> str:
+        return f"<elastogear.Result {self.path}: {len(self.time)} times>"
+
+
+class StressSet:
+    """Stresses at the n nodes of a set over n_t times, body frame.
+
+    body, set     names
+    node          (n,), numbers in the mesh
+    X             (n, 3), m, undeformed; empty in older files
+    stress        (n_t, n, 6), Pa, xx yy zz xy yz xz
+    von_mises     (n_t, n), Pa
+    rankine       (n_t, n), Pa, largest principal stress
+    error         (n_t, n), Pa, estimated error of von_mises against the unreduced body, or None
+    peak_error    (n_t,), Pa, of the largest von Mises stress of the set, or None
+    """
+
+    body: str
+    set: str
+    node: Array
+    X: Array
+    stress: Array
+    von_mises: Array
+    rankine: Array
+    error: Optional[Array]
+    peak_error: Optional[Array]
+
+    def __init__(self, values: dict[str, Any]) -> None:
+        self.__dict__.update(values)
+
+    def __repr__(self) -> str:
+        return f"<elastogear.StressSet {self.body} {self.set}: {len(self.node)} nodes>"
+
+
+class Stress:
+    """A stress file.
+
+    time         (n_t,), s
+    sets         list of StressSet; one of them by stress["pinion", "root"]
+    provenance   options in force, versions
+    path         of the file
+    report       what the run said, or None
+    """
+
+    def __init__(self, path: Path, report: Optional["Report"] = None) -> None:
+        self.path = os.path.abspath(os.fspath(path))
+        self.report = report
+        values = _library.read_stress(self.path)
+        self.time: Array = values["time"]
+        self.sets = [StressSet(each) for each in values["sets"]]
+        self.provenance: dict[str, str] = values["provenance"]
+
+    def __getitem__(self, key: tuple[str, str]) -> StressSet:
+        for each in self.sets:
+            if (each.body, each.set) == key:
+                return each
+        known = ", ".join(f"{each.body} {each.set}" for each in self.sets)
+        raise KeyError(f"there are no stresses of {key}; there are: {known}")
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the largest von Mises stress of each set over the time; returns the axes."""
+        from . import plots
+        return plots.peak_stress(self, axes)
+
+    def __repr__(self) -> str:
+        return f"<elastogear.Stress {self.path}: {len(self.sets)} sets, {len(self.time)} times>"

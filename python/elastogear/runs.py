@@ -1,0 +1,236 @@
+"""Runs of the program's verbs, and simulations that are advanced step by step."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from typing import Any, Callable, Iterator, Mapping, Optional, Union
+
+from . import _elastogear as _library
+from .results import Result, Stress
+
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+Progress = Callable[[str, float], object]
+Force = Callable[..., Any]
+
+
+class Warning(UserWarning):
+    """An input that can be computed with but is hardly meant, or a result that is not to be trusted."""
+
+
+class Report:
+    """What a verb has said.
+
+    items     list of (name, text), as the program prints them
+    files     files that were written, absolute paths
+    """
+
+    def __init__(self, items: list[tuple[str, str]]) -> None:
+        self.items = items
+        self.files = [os.path.abspath(text) for name, text in items if name == "written"]
+
+    def __getitem__(self, name: str) -> str:
+        """The first text of this name."""
+        for item, text in self.items:
+            if item == name:
+                return text
+        raise KeyError(name)
+
+    def __str__(self) -> str:
+        return "\n".join(f"  {name:30} {text}" for name, text in self.items)
+
+    def __repr__(self) -> str:
+        return f"<elastogear.Report of {len(self.items)} items>"
+
+
+def _plain(value: Any) -> Any:
+    """Arrays and paths as what YAML knows; keys without a value are left out."""
+    if isinstance(value, Mapping):
+        return {key: _plain(part) for key, part in value.items() if part is not None}
+    if isinstance(value, (list, tuple)):
+        return [_plain(part) for part in value]
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if hasattr(value, "tolist"):  # of numpy
+        return value.tolist()
+    return value
+
+
+def _yaml(options: Mapping[str, Any]) -> str:
+    """JSON, which YAML reads, one key a line."""
+    if not options:
+        return ""
+    try:
+        return json.dumps(_plain(options), ensure_ascii=False, indent=0)
+    except (TypeError, ValueError) as error:
+        raise _library.Error(f"options must be numbers, texts, lists and dicts of these: {error}") from None
+
+
+def _warn(items: list[tuple[str, str]], depth: int) -> None:
+    for name, text in items:
+        if name == "warning":
+            warnings.warn(text, Warning, stacklevel=depth + 1)
+
+
+class System:
+    """An input of the program: a YAML file, or a dict with the same keys.
+
+    source    path, or dict; its keys may be nested, {"contact": {"friction": 0.1}}
+    name      stem of the files that are written, where the options do not name them (default: that of the
+              file, or "drive")
+    options   further keys, which win
+
+    Every option that `elastogear VERB -help` lists can be given to the methods, too, and wins.
+    """
+
+    def __init__(self, source: Source, *, name: Optional[str] = None, **options: Any) -> None:
+        self._files: list[str] = []
+        self._text = ""
+        self._name = name or "drive"
+        self._options = dict(options)
+        if isinstance(source, Mapping):
+            self._text = _yaml(source)
+        elif name is not None:
+            raise _library.Error("a name is for a dict; that of a file is its own")
+        else:
+            self._files = [os.fspath(source)]
+
+    def _given(self, options: Mapping[str, Any]) -> _library.Given:
+        return _library.Given(self._files, self._text, self._name, _yaml({**self._options, **options}))
+
+    def _run(self, verb: str, options: Mapping[str, Any], progress: Optional[Progress] = None) -> Report:
+        report = Report(_library.run_verb(verb, self._given(options), progress))
+        _warn(report.items, 3)
+        return report
+
+    def mesh(self, **options: Any) -> Report:
+        """Writes the meshes of a drive, or of a worm or its wheel, as `elastogear mesh` does."""
+        return self._run("mesh", options)
+
+    def reduce(self, *, progress: Optional[Progress] = None, **options: Any) -> Report:
+        """Reduces a mesh, or all gears of a drive, to body files, as `elastogear reduce` does.
+
+        Under mpirun, with mpi4py or without, all ranks must call it and work together.
+        progress(stage, fraction) is called now and then.
+        """
+        return self._run("reduce", options, progress)
+
+    def simulate(self, *, forces: Optional[Mapping[str, Force]] = None,
+                 on_step: Optional[Callable[["Simulation"], object]] = None,
+                 progress: Optional[Progress] = None, **options: Any) -> Result:
+        """Computes an equilibrium or a motion and writes its result, as `elastogear simulate` does.
+
+        forces     see `simulation`; of motions alone
+        on_step    called with the simulation after each step; of motions alone
+        """
+        if forces is None and on_step is None:
+            report = self._run("simulate", options, progress)
+            return Result(next(file for file in report.files if not file.endswith(".csv")), report)
+        output = options.pop("output", None) or self._name_of_result()
+        with self.simulation(output=output, forces=forces, **options) as simulation:
+            while simulation.step():
+                if on_step is not None:
+                    on_step(simulation)
+                if progress is not None:
+                    progress("simulate", simulation.state.time)
+        return Result(os.path.abspath(output), None)
+
+    def _name_of_result(self) -> str:
+        stem = os.path.splitext(os.path.basename(self._files[0]))[0] if self._files else self._name
+        return stem + "_result.h5"
+
+    def recover(self, *, progress: Optional[Progress] = None, **options: Any) -> Stress:
+        """Recovers the stresses of the last result, as `elastogear recover` does."""
+        report = self._run("recover", options, progress)
+        return Stress(report.files[0], report)
+
+    def simulation(self, *, output: Union[str, "os.PathLike[str]", None] = None,
+                   forces: Optional[Mapping[str, Force]] = None, **options: Any) -> "Simulation":
+        """A motion that is advanced step by step; needs ts_dt and ts_max_time (s). Of drives the analysis is
+        dynamic where none is given.
+
+        output    result file to write; None: none is written
+        forces    functions by what they act on:
+                  "worm" (or "worm.rotation", "worm.translation" of a body with both): f(t, s, s_dot) -> N m
+                  about, or N along, the axis of the body's joint, of time (s), coordinate (rad or m) and rate;
+                  the name of a load (option loads): f(t, marker) -> (force, torque), three components each, N
+                  and N m, where marker has position (m), rotation, velocity (m/s), angular_velocity (rad/s).
+                  They are called any number of times in a step, in any order, and must depend on nothing but
+                  their arguments and what changes between steps.
+        """
+        return Simulation(self._given(options), forces or {}, os.fspath(output) if output is not None else "")
+
+
+class Drive(System):
+    """A gear drive: a drive file (docs/drives.md), or a dict with the same keys.
+
+    facts     numbers of the design, {"pinion": {"tip diameter": "64.7 mm", ...}, "pinion:wheel": {...}}
+    """
+
+    def __init__(self, source: Source, *, name: Optional[str] = None, **options: Any) -> None:
+        super().__init__(source, name=name, **options)
+        self.facts = {part: dict(facts) for part, facts in _library.drive_facts(self._given({})).items()}
+
+    def meshes(self, **options: Any) -> dict[str, _library.Mesh]:
+        """The meshes of all gears, by name; nothing is written."""
+        return _library.drive_meshes(self._given(options))
+
+    def __repr__(self) -> str:
+        return f"<elastogear.Drive of {', '.join(name for name in self.facts if ':' not in name)}>"
+
+
+class Simulation:
+    """A motion that is advanced step by step. Made by `System.simulation`.
+
+        with drive.simulation(ts_dt=1e-6, ts_max_time=1e-3) as simulation:
+            for state in simulation:
+                print(state.time, state.body("worm").s_dot)
+
+    An interrupt (Ctrl-C) or an error ends it; what was observed until then is in the output.
+    """
+
+    def __init__(self, given: _library.Given, forces: Mapping[str, Force], output: str) -> None:
+        self._run = _library.SteppedRun(given, dict(forces), output)
+        _warn(self._run.take_items(), 4)
+
+    @property
+    def state(self) -> _library.State:
+        """The last state; its arrays are views that stay as they are when the simulation goes on."""
+        return self._run.state
+
+    @property
+    def ended(self) -> bool:
+        """Is there no step to take any more?"""
+        return self._run.ended
+
+    def step(self) -> bool:
+        """Takes one step; False when the end was reached before."""
+        taken = self._run.step()
+        _warn(self._run.take_items(), 2)
+        return taken
+
+    def run(self) -> dict[str, Any]:
+        """Takes all steps that are left; see `summary`."""
+        self._run.run()
+        _warn(self._run.take_items(), 2)
+        return self.summary()
+
+    def summary(self) -> dict[str, Any]:
+        """Ends the simulation; counts of steps and iterations, energies (J) and times (s)."""
+        return self._run.finish()
+
+    def close(self) -> None:
+        """Ends the simulation and frees its memory; states that were taken from it stay."""
+        self._run.close()
+
+    def __iter__(self) -> Iterator[_library.State]:
+        """The states at the ends of the steps that are left."""
+        while self.step():
+            yield self.state
+
+    def __enter__(self) -> "Simulation":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

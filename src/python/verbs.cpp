@@ -1,0 +1,115 @@
+#include "python/verbs.h"
+
+#include <pybind11/stl.h>
+
+#include "app/gear/drive_options.h"
+#include "app/verbs/registry.h"
+#include "elastogear/base/error.h"
+#include "elastogear/io/describe.h"
+
+namespace elastogear::python {
+namespace {
+
+// Options of PETSc that are known, but that the solvers of this run have not asked for.
+void note_unused_options(Items& items) {
+  PetscInt n = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &n, &names, &values));
+  for (PetscInt i = 0; i < n; ++i)
+    items.emplace_back("warning", std::string("nothing used the option -") + names[i]);
+  check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
+}
+
+Items run_verb(const std::string& name, const Given& given, const py::object& progress) {
+  const std::vector<app::Verb> verbs = app::all_verbs();
+  const app::Verb& verb = app::find_verb(verbs, name);
+  const OptionDatabase database;
+  Work work(verb.parallel ? Ranks::all : Ranks::this_one, &database);
+  Listener listener(work, progress, name != "simulate");
+  const app::Embedding embedding = listener.embedding();
+  const app::EmbeddingScope scope(embedding);
+  work.without_gil([&] {
+    verb.run(app::load_options(verb, verbs, sources(given)), given.files);
+    note_unused_options(listener.items);
+  });
+  work.raise_kept();
+  return listener.items;
+}
+
+std::vector<std::array<std::string, 4>> option_table(const std::string& name) {
+  const std::vector<app::Verb> verbs = app::all_verbs();
+  std::vector<std::array<std::string, 4>> rows;
+  for (const app::OptionSpec& spec : app::find_verb(verbs, name).table)
+    rows.push_back({spec.name, spec.unit, spec.default_value, spec.help});
+  return rows;
+}
+
+using FactsByName = std::map<std::string, app::Facts>;
+
+// Names and values of a drive's numbers, by its gears and pairs.
+FactsByName drive_facts(const Given& given) {
+  const std::vector<app::Verb> verbs = app::all_verbs();
+  const OptionDatabase database;
+  Work work(Ranks::this_one, &database);
+  const app::Options options =
+      app::with_gears(app::load_options(app::find_verb(verbs, "mesh"), verbs, sources(given)));
+  require(app::is_drive(options), "option -drive is missing: these are not the keys of a drive");
+  options.reject_unknown();
+  const app::Drive drive = app::read_drive(options);
+  FactsByName facts;
+  for (std::size_t i = 0; i < drive.members.size(); ++i) facts[drive.members[i].name] = drive.facts[i];
+  for (const app::DrivePair& pair : drive.pairs)
+    facts[drive.members[pair.first].name + ":" + drive.members[pair.second].name] = pair.facts;
+  return facts;
+}
+
+}  // namespace
+
+app::OptionSources sources(const Given& given) {
+  static char program[] = "elastogear";
+  static char* argv[] = {program, nullptr};
+  app::OptionSources all{.files = given.files, .argc = 1, .argv = argv};
+  if (!given.text.empty()) all.texts.push_back({given.text, given.name});
+  if (!given.chosen.empty()) all.chosen.push_back({given.chosen, "keyword"});
+  return all;
+}
+
+Listener::Listener(Work& work, py::object told, bool progress_ends)
+    : work_(work), told_(std::move(told)), progress_ends_(progress_ends) {}
+
+app::Embedding Listener::embedding() {
+  return {
+      .item = [this](const std::string& name, const std::string& text) { items.emplace_back(name, text); },
+      .progress =
+          [this](std::string_view stage, double fraction) {
+            if (progress_ends_) work_.interrupts().raise();
+            if (told_.is_none()) return;
+            const py::gil_scoped_acquire gil;
+            told_(std::string(stage), fraction);
+          },
+      .interrupted = [this] { return work_.interrupts().pending(); }};
+}
+
+void bind_verbs(py::module_& module) {
+  py::class_<Given>(module, "Given", "Where the options of a run come from.")
+      .def(py::init(
+               [](std::vector<std::string> files, std::string text, std::string name, std::string chosen) {
+                 return Given{std::move(files), std::move(text), std::move(name), std::move(chosen)};
+               }),
+           py::arg("files"), py::arg("text") = "", py::arg("name") = "", py::arg("chosen") = "");
+  module.def("run_verb", run_verb, py::arg("name"), py::arg("given"), py::arg("progress") = py::none(),
+             "Runs a verb of the program; returns what it said, as (name, text).");
+  module.def("option_table", option_table, py::arg("verb"),
+             "Options of a verb: (name, unit, default, meaning) each.");
+  module.def("drive_facts", drive_facts, py::arg("given"),
+             "The numbers of a drive, by the names of gears and pairs: (name, value with unit) each.");
+  module.def(
+      "describe",
+      [](const std::string& path) {
+        const Work work;
+        return io::describe(path);
+      },
+      py::arg("path"), "What a mesh, body, result or stress file holds, as text.");
+}
+
+}  // namespace elastogear::python

@@ -1,0 +1,447 @@
+"""The Python module beside the program: equal numbers, equal messages, and what must not crash it.
+
+    module_test.py PATH/TO/elastogear [unittest's arguments]
+"""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import elastogear as eg
+
+PROGRAM = ""
+SPUR = {
+    "drive": "cylindrical", "module": "3 mm", "face_width": "25 mm", "torque": "300 N m", "modes": 4,
+    "basis": "modal", "pinion": {"teeth": 17, "profile_shift": 0.3}, "wheel": {"teeth": 43, "profile_shift": 0.1},
+}
+MOTION = {"ts_dt": 1e-6, "ts_max_time": 4e-5, "contact_surface": "facets", "contact_points": "nodes"}
+REST = {"roll": 0.25, "contact_law": "unilateral"}
+ENDLESS = {**MOTION, "ts_max_time": 1e3}
+
+
+def command(*words):
+    return subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+
+
+def python(script):
+    """Runs a script in an interpreter of its own."""
+    return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=600)
+
+
+class WithDrive(unittest.TestCase):
+    """A drive that is reduced once."""
+
+    @classmethod
+    def setUpClass(cls):
+        warnings.simplefilter("ignore", eg.Warning)
+        cls.folder = tempfile.TemporaryDirectory()
+        os.chdir(cls.folder.name)
+        cls.drive = eg.Drive(SPUR)
+        cls.report = cls.drive.reduce()
+
+    @classmethod
+    def tearDownClass(cls):
+        os.chdir("/")
+        cls.folder.cleanup()
+
+    def interrupter(self):
+        """An event: Ctrl-C comes a little after it is set."""
+        under_way = threading.Event()
+
+        def interrupt():
+            under_way.wait()
+            time.sleep(0.05)
+            os.kill(os.getpid(), signal.SIGINT)
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        self.addCleanup(thread.join)
+        self.addCleanup(under_way.set)
+        return under_way
+
+
+class Runs(WithDrive):
+    def test_stepped_motion_equals_that_of_the_program_to_the_bit(self):
+        with open("spur.yaml", "w", encoding="utf-8") as file:
+            file.write("""
+                drive: cylindrical
+                module: 3 mm
+                face_width: 25 mm
+                torque: 300 N m
+                pinion: {teeth: 17, profile_shift: 0.3}
+                wheel: {teeth: 43, profile_shift: 0.1}
+                analysis: dynamic
+                """)
+        words = [word for key, value in MOTION.items() for word in (f"-{key}", str(value))]
+        done = command("simulate", "spur.yaml", "-output", "program.h5", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        program = eg.Result("program.h5")
+        pinion, pair = program.body("pinion"), program.pair("pinion:wheel")
+        simulation = eg.Drive("spur.yaml").simulation(output="stepped.h5", **MOTION)
+        states = [simulation.state, *simulation]
+        self.assertEqual(len(states), len(program.time))
+        self.assertGreater(max(state.pair("pinion:wheel").count for state in states), 0)
+        for i, state in enumerate(states):
+            self.assertEqual(state.time, program.time[i])
+            for name in ["q", "q_dot", "q_ddot", "s", "s_dot", "s_ddot", "rotation"]:
+                np.testing.assert_array_equal(getattr(state.body("pinion"), name), getattr(pinion, name)[i])
+            np.testing.assert_array_equal(state.pair("pinion:wheel").force, pair.force[i])
+            for name in state.pair("pinion:wheel").contacts.dtype.names:
+                np.testing.assert_array_equal(state.pair("pinion:wheel").contacts[name],
+                                              program.contacts("pinion:wheel")[i][name])
+        stepped = eg.Result("stepped.h5")
+        self.assertTrue(stepped.complete)
+        np.testing.assert_array_equal(stepped.body("wheel").q, program.body("wheel").q)
+        self.assertTrue(simulation.summary()["complete"])
+
+    def test_equilibrium_and_stresses_from_a_dict(self):
+        result = self.drive.simulate(**REST)
+        stress = self.drive.recover()
+        self.assertEqual(result.bodies, ["pinion", "wheel"])
+        self.assertAlmostEqual(result.time[-1], 1)
+        root = stress["pinion", "root"]
+        self.assertEqual(root.stress.shape, (*root.von_mises.shape, 6))
+        np.testing.assert_allclose(eg.von_mises(root.stress[-1]), root.von_mises[-1])
+        self.assertGreater(root.von_mises[-1].max(), 1e7)
+        self.assertEqual(set(result.energies), {"kinetic", "elastic", "contact", "bushing", "dissipated", "work", "balance"})
+        body = eg.Body("pinion.h5")
+        self.assertEqual(body.stress("root", result.body("pinion").q[-1]).shape, (len(root.node), 6))
+        self.assertEqual(len(body.frequencies), 4)
+        with self.assertRaisesRegex(KeyError, "pinion root"):
+            stress["pinion", "tip"]
+        import matplotlib
+        matplotlib.use("Agg")
+        from elastogear import plots
+        for picture in [result.plot(), stress.plot(), plots.energies(result), plots.speed(result),
+                        plots.stress_map(root), plots.mesh(self.drive.meshes()["wheel"])]:
+            picture.figure.canvas.draw()
+            matplotlib.pyplot.close(picture.figure)
+
+    def test_messages_are_those_of_the_program(self):
+        def message(**options):
+            with self.assertRaises(eg.Error) as caught:
+                self.drive.simulate(**options)
+            return str(caught.exception)
+
+        with open("plain.yaml", "w", encoding="utf-8") as file:
+            file.write("{drive: cylindrical, module: 3 mm, face_width: 25 mm, torque: 300 N m, "
+                       "pinion: {teeth: 17, profile_shift: 0.3}, wheel: {teeth: 43, profile_shift: 0.1}}")
+        for option, value in [("rol", 0.1), ("static_steps", 0), ("torque", "3 mm"), ("analysis", "statistic"),
+                              ("pinion_file", "nowhere.h5"), ("contact_friction", -1)]:
+            program = command("simulate", "plain.yaml", f"-{option}", str(value)).stderr
+            self.assertEqual(f"elastogear simulate: error: {message(**{option: value})}", program.strip().splitlines()[-1])
+
+    def test_warnings_are_those_of_python(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", eg.Warning)
+            with self.assertRaisesRegex(eg.Warning, "too coarse a surface"):
+                self.drive.simulate(**REST)
+
+    def test_options_have_tables(self):
+        rows = {row[0]: row for row in eg.option_table("simulate")}
+        self.assertEqual(rows["ts_dt"][1], "s")
+        self.assertEqual(rows["contact_friction"][2], "0")
+        with self.assertRaisesRegex(eg.Error, "the verbs are mesh, "):
+            eg.option_table("simulat")
+
+
+class States(WithDrive):
+    def test_arrays_are_views_that_stay(self):
+        simulation = self.drive.simulation(**MOTION)
+        state = simulation.state
+        q = state.body("pinion").q
+        kept = q.copy()
+        contacts = state.pair("pinion:wheel").contacts
+        self.assertFalse(q.flags.owndata or q.flags.writeable or contacts.flags.writeable)
+        self.assertTrue(np.shares_memory(q, state.body("pinion").q))
+        with self.assertRaises(ValueError):
+            q[0] = 1
+        for _ in range(3):
+            simulation.step()
+        last = simulation.state.body("pinion").q
+        self.assertFalse(np.shares_memory(q, last))
+        simulation.close()
+        del state, simulation
+        np.testing.assert_array_equal(q, kept)
+        self.assertTrue(np.isfinite(last).all())
+
+    def test_names_that_are_not_there(self):
+        state = self.drive.simulation(**MOTION).state
+        with self.assertRaisesRegex(eg.Error, "there is no 'worm'; there are: pinion, wheel"):
+            state.body("worm")
+        self.assertEqual(list(state.bodies), ["pinion", "wheel"])
+
+    def test_closed_simulation(self):
+        simulation = self.drive.simulation(**MOTION)
+        simulation.close()
+        simulation.close()
+        for use in [simulation.step, lambda: simulation.state, simulation.summary]:
+            with self.assertRaisesRegex(eg.Error, "this simulation is closed"):
+                use()
+
+    def test_early_end_leaves_a_whole_file(self):
+        with self.drive.simulation(output="early.h5", **MOTION) as simulation:
+            for _ in range(5):
+                simulation.step()
+        result = eg.Result("early.h5")
+        self.assertFalse(result.complete)
+        self.assertEqual(len(result.time), 6)
+        self.assertFalse([name for name in os.listdir() if name.startswith("early.h5.")])
+
+
+class Forces(WithDrive):
+    def motion(self, force, **options):
+        return self.drive.simulation(forces={"pinion": force}, **{**MOTION, **options})
+
+    def test_constant_force_is_that_of_the_option(self):
+        given = self.drive.simulation(pinion={"torque": 7}, torque=0, **MOTION)
+        computed = self.motion(lambda t, s, v: 7, torque=0)
+        given.run(), computed.run()
+        np.testing.assert_allclose(computed.state.body("pinion").s, given.state.body("pinion").s, rtol=1e-12)
+        self.assertLess(abs(computed.state.energies["work"] / given.state.energies["work"] - 1), 1e-6)
+
+    def test_controller_between_steps(self):
+        class Controller:
+            torque = 0.0
+
+            def __call__(self, t, angle, speed):
+                return self.torque - 0.1 * speed
+
+            def update(self, simulation):
+                self.torque += 1.0
+
+        controller = Controller()
+        result = self.drive.simulate(forces={"pinion": controller}, on_step=controller.update, output="c.h5", **MOTION)
+        self.assertEqual(controller.torque, 40)
+        self.assertTrue(result.complete)
+
+    def test_load_at_a_marker(self):
+        loads = {"loads": "push", "push": {"marker": "pinion.frame", "torque": [0, 0, 0]}}
+        simulation = self.drive.simulation(
+            forces={"push": lambda t, marker: ([0, 0, 0], [0, 0, 50 - marker.angular_velocity[2]])}, **loads, **MOTION)
+        simulation.run()
+        self.assertAlmostEqual(simulation.state.load("push").torque[2],
+                               50 - simulation.state.body("pinion").s_dot[0], delta=1e-6)
+
+    def test_exceptions_pass(self):
+        def fails(t, s, v):
+            if t > 1e-5:
+                raise ZeroDivisionError("here")
+            return 0
+        simulation = self.motion(fails, output="failed.h5")
+        with self.assertRaisesRegex(ZeroDivisionError, "here"):
+            simulation.run()
+        with self.assertRaisesRegex(eg.Error, "ended by an error"):
+            simulation.step()
+        self.assertFalse(eg.Result("failed.h5").complete)
+
+    def test_wrong_values(self):
+        for force, message in [(lambda t, s, v: "x", "must return a number, not str"),
+                               (lambda t, s, v: None, "must return a number, not NoneType"),
+                               (lambda t, s, v: float("nan"), "must be finite")]:
+            with self.assertRaisesRegex(eg.Error, message):
+                self.motion(force).run()
+        with self.assertRaises(TypeError):
+            self.motion(lambda t: 0).run()
+        with self.assertRaisesRegex(eg.Error, "must be a function, not int"):
+            self.motion(3)
+        with self.assertRaisesRegex(eg.Error, "there is no such axis; the bodies are pinion, wheel"):
+            self.drive.simulation(forces={"worm": lambda t, s, v: 0}, **MOTION)
+        loads = {"loads": "push", "push": {"marker": "pinion.frame", "torque": [0, 0, 0]}}
+        for value, message in [(([0, 0], [0, 0, 0]), "three components of force"), (5, "must return .force, torque."),
+                               (([0, 0, 0], [0, float("nan"), 0]), "must be finite")]:
+            with self.assertRaisesRegex(eg.Error, message):
+                self.drive.simulation(forces={"push": lambda t, marker: value}, **loads, **MOTION).run()
+
+    def test_work_within_work_is_refused(self):
+        def again(t, s, v):
+            simulation.step()
+            return 0
+        simulation = self.motion(lambda t, s, v: 0)
+        simulation.step()
+        other = None
+        with self.assertRaisesRegex(eg.Error, "elastogear is at work"):
+            other = self.motion(again)
+        self.assertIsNone(other)
+        simulation.step()
+        self.assertGreater(simulation.state.time, 0)
+
+    def test_simulation_freed_in_a_force(self):
+        held = [self.drive.simulation(**MOTION)]
+
+        def frees(t, s, v):
+            held.clear()
+            return 0
+        self.motion(frees).run()
+        self.assertEqual(held, [])
+
+
+class BadInput(WithDrive):
+    def test_meshes(self):
+        points = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
+        cell = {"hex8": [[0, 1, 2, 3, 4, 5, 6, 7]]}
+        self.assertEqual(eg.Mesh(points, cell).quality()["min_scaled_jacobian"], 1)
+        infinite = points.copy()
+        infinite[3, 1] = np.nan
+        for arguments, message in [((infinite, cell), "must be finite"), ((points[:, :2], cell), r"shape \(n, 3\)"),
+                                   ((points.ravel(), cell), "2 dimension"), (("abc", cell), "array of numbers"),
+                                   ((points, {"hex9": []}), "the types are hex8"),
+                                   ((points, {"hex8": [[0, 1, 2]]}), r"shape \(n, 8\)"),
+                                   ((points, {"hex8": [[0, 1, 2, 3, 4, 5, 6, 99]]}), "names a node outside"),
+                                   ((points, {"hex8": [[0, 1, 2, 3, 4, 5, 6, 7.5]]}), "no number of a node"),
+                                   ((points, cell, {"a": [-1]}), "-1"), ((points, cell, {}, {"f": [[0, 1, 6, 7]]}), "f")]:
+            with self.assertRaisesRegex(eg.Error, message, msg=str(arguments[1:])):
+                eg.Mesh(*arguments)
+        with self.assertRaises(TypeError):
+            eg.Mesh(None, None)
+
+    def test_stresses(self):
+        body = eg.Body("pinion.h5")
+        for q, message in [([1, 2], "the body has 4"), ([1, 2, 3, np.inf], "must be finite"), ([[1] * 4], "1 dimension"),
+                           (None, "array of numbers|must have 1"), (np.array([1j] * 4), "array of numbers|finite")]:
+            with self.subTest(q=q), warnings.catch_warnings():
+                warnings.simplefilter("error")
+                with self.assertRaisesRegex((eg.Error, Exception), message):
+                    body.stress("root", q)
+        with self.assertRaisesRegex(eg.Error, "no set 'tip' of stress nodes; it has: root"):
+            body.stress("tip", [0] * 4)
+
+    def test_options(self):
+        for source, message in [({}, "option -drive is missing"), ({"drive": float("nan")}, "must be one of"),
+                                ({"drive": {1, 2}}, "numbers, texts, lists"), ({"drive": object()}, "numbers, texts"),
+                                ({**SPUR, "module": np.array([np.nan])}, "finite"), ({**SPUR, "a b": 1}, "is no key"),
+                                ({**SPUR, "pinion_teeth": 18}, "given twice"), ({**SPUR, "modes\n": 1}, "is no key")]:
+            with self.assertRaisesRegex(eg.Error, message, msg=str(source)):
+                eg.Drive(source).simulate()
+        with self.assertRaisesRegex(eg.Error, "there is no such file"):
+            eg.Drive("nowhere.yaml")
+        for damaged in ["spur.msh", "nothing.h5"]:
+            with self.assertRaises(eg.Error):
+                eg.Result(damaged)
+            with self.assertRaises(eg.Error):
+                eg.Stress(damaged)
+
+    def test_progress_that_raises(self):
+        def stop(stage, fraction):
+            raise LookupError(stage)
+        with self.assertRaises(LookupError):
+            self.drive.simulate(progress=stop, **REST)
+        self.drive.simulate(**REST)
+
+
+class Interrupts(WithDrive):
+    def test_run_ends_and_leaves_a_whole_file(self):
+        under_way = self.interrupter()
+        with self.assertRaises(KeyboardInterrupt):
+            self.drive.simulate(analysis="dynamic", output="endless.h5", resume="discard",
+                                progress=lambda stage, fraction: under_way.set(), **ENDLESS)
+        self.assertFalse(eg.Result("endless.h5").complete)
+        self.assertFalse([name for name in os.listdir() if ".tmp" in name or name.endswith(".lock")])
+
+    def test_stepping_ends(self):
+        under_way = self.interrupter()
+        simulation = self.drive.simulation(**ENDLESS)
+        under_way.set()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.run()
+        with self.assertRaisesRegex(eg.Error, "ended by an error or an interrupt"):
+            simulation.step()
+
+    def test_callback_ends(self):
+        under_way = self.interrupter()
+        with self.assertRaises(KeyboardInterrupt):
+            self.drive.simulate(forces={"pinion": lambda t, s, v: 0.0}, output="endless.h5",
+                                on_step=lambda simulation: under_way.set(), **ENDLESS)
+
+    def test_reduction_ends(self):
+        under_way = self.interrupter()
+        with self.assertRaises(KeyboardInterrupt):
+            while True:
+                self.drive.reduce(pinion={"file": "again_1.h5"}, wheel={"file": "again_2.h5"},
+                                  progress=lambda stage, fraction: under_way.set())
+        self.assertFalse([name for name in os.listdir() if ".tmp" in name or name.endswith(".lock")])
+
+    def test_other_threads_go_on(self):
+        count = [0]
+        simulation = self.drive.simulation(**ENDLESS)
+        stop = threading.Event()
+
+        def other():
+            while not stop.is_set():
+                count[0] += 1
+                try:
+                    eg.Body("pinion.h5")
+                except eg.Error as error:
+                    self.assertIn("at work", str(error))
+                time.sleep(0.001)
+        thread = threading.Thread(target=other)
+        thread.start()
+        taken = 0
+        while count[0] < 20 or taken < 20:
+            try:
+                simulation.step()
+                taken += 1
+            except eg.Error as error:
+                self.assertIn("at work", str(error))
+        stop.set()
+        thread.join()
+
+
+class Processes(WithDrive):
+    def test_forked_child_gets_an_exception(self):
+        simulation = self.drive.simulation(**MOTION)
+        read, write = os.pipe()
+        child = os.fork()
+        if child == 0:
+            said = []
+            for use in [simulation.step, lambda: self.drive.simulate(**REST), lambda: eg.Body("pinion.h5"),
+                        simulation.close]:
+                try:
+                    use()
+                    said.append("nothing")
+                except eg.Error as error:
+                    said.append(str(error))
+            del simulation
+            os.write(write, "\n".join(said).encode())
+            os._exit(0)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            said = pipe.read().splitlines()
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+        self.assertEqual(len(said), 4)
+        for text in said:
+            self.assertIn("forked", text)
+        self.assertTrue(simulation.step())
+
+    def test_interpreter_ends_with_a_run_alive(self):
+        done = python(f"import elastogear as eg, warnings\nwarnings.simplefilter('ignore')\n"
+                      f"s = eg.Drive({SPUR}).simulation(**{MOTION})\ns.step()\nprint(s.state.time)")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_forked_before_the_first_use(self):
+        done = python("import os, elastogear as eg\n"
+                      "if os.fork() == 0:\n    eg.describe('pinion.h5')\n"
+                      "else:\n    assert os.wait()[1] == 0\n    eg.describe('pinion.h5')\n")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_beside_petsc4py_and_mpi4py(self):
+        for first, last in [("from mpi4py import MPI", "assert MPI.COMM_WORLD.allreduce(1) == 1"),
+                            ("from petsc4py import PETSc", "v = PETSc.Vec().createSeq(3); v.set(1); assert v.sum() == 3")]:
+            module = first.split()[1]
+            if python(f"import {module}").returncode != 0:
+                continue
+            use = "import elastogear as eg\neg.describe('pinion.h5')\n"
+            for script in [f"{first}\n{use}{last}", f"{use}{first}\n{last}\n{use}"]:
+                done = python(script)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), script)
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main(verbosity=2)
