@@ -1,4 +1,4 @@
-"""What stepping from Python costs beside the steps of `simulate` in C++: processor time of equal motions of a drive, in turns.
+"""The cost of stepping from Python beside the steps of `simulate` in C++: processor time of equal motions, in turns.
 
     PYTHONPATH=build/release/python OPENBLAS_NUM_THREADS=1 python3 studies/python_overhead.py [SIZE] [MODES] [STEPS]
 

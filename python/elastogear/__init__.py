@@ -11,20 +11,20 @@
 Numbers are in SI units; options may have a unit, "3 mm". docs/python.md tells more.
 """
 
+import importlib as _importlib
 import sys as _sys
 
 try:
-    import numpy as _numpy  # noqa: F401
-
-    from . import _elastogear
+    for _module in ["numpy", "elastogear._elastogear"]:
+        _importlib.import_module(_module)
 except ImportError as _error:
-    raise ImportError(f"elastogear is built for Debian's /usr/bin/python3 and numpy, not for {_sys.executable} "
+    raise ImportError(f"elastogear is built for Debian's /usr/bin/python3 with numpy, not for {_sys.executable} "
                       f"(Python {_sys.version.split()[0]}): {_error}") from None
 
 from ._elastogear import (Body, Error, Mesh, State, __version__, describe, git_hash,
                           option_table, read_mesh, von_mises)
-from .results import Result, Stress, StressSet
+from .results import Evaluation, Life, Result, Stress, StressSet
 from .runs import Drive, Report, Simulation, System, Warning
 
-__all__ = ["Body", "Drive", "Error", "Mesh", "Report", "Result", "Simulation", "State", "Stress", "StressSet",
+__all__ = ["Body", "Drive", "Error", "Evaluation", "Life", "Mesh", "Report", "Result", "Simulation", "State", "Stress", "StressSet",
            "System", "Warning", "__version__", "describe", "git_hash", "option_table", "read_mesh", "von_mises"]

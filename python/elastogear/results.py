@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from typing import TYPE_CHECKING, Any, Optional, Union
 
@@ -84,17 +85,20 @@ class SensorHistory(_Histories):
 class Result:
     """A result file.
 
-    time         (n_t,), s; of an equilibrium the load factor
+    time         (n_t,), s; of an equilibrium the load factor, of a sweep the roll angle in pitches
     bodies, pairs, bushings, sensors    their names
     complete     did the run reach its end?
     provenance   options in force, versions
     path         of the file
     report       what the run said, or None
+    inputs       of a sweep of several cases: its row of cases.csv, by heading
     """
 
-    def __init__(self, path: Path, report: Optional["Report"] = None) -> None:
+    def __init__(self, path: Path, report: Optional["Report"] = None,
+                 inputs: Optional[dict[str, str]] = None) -> None:
         self.path = os.path.abspath(os.fspath(path))
         self.report = report
+        self.inputs = inputs or {}
         header = _library.read_result_header(self.path)
         self.time: Array = header["time"]
         self.bodies: list[str] = [body[0] for body in header["bodies"]]
@@ -196,3 +200,67 @@ class Stress:
 
     def __repr__(self) -> str:
         return f"<elastogear.Stress {self.path}: {len(self.sets)} sets, {len(self.time)} times>"
+
+
+class Evaluation:
+    """What is read off a drive (docs/evaluation.md).
+
+        evaluation["transmission_error/peak_to_peak"]      a number, an array or a list of words
+        evaluation.unit("transmission_error/peak_to_peak")
+
+    A path is that of the file, "CASE/PAIR/transmission_error/mean", or its end where that is of one figure alone.
+
+    provenance, path, report    as of Result
+    """
+
+    def __init__(self, path: Path, report: Optional["Report"] = None) -> None:
+        self.path = os.path.abspath(os.fspath(path))
+        self.report = report
+        values = _library.read_evaluation(self.path)
+        self._items: dict[str, tuple[Any, str, str]] = values["items"]
+        self.provenance: dict[str, str] = values["provenance"]
+
+    @property
+    def paths(self) -> list[str]:
+        """All figures."""
+        return list(self._items)
+
+    def _find(self, path: str) -> tuple[Any, str, str]:
+        if path in self._items:
+            return self._items[path]
+        found = [each for each in self._items if each.endswith("/" + path)]
+        if len(found) != 1:
+            raise KeyError(f"{path}: " + ("is none of the figures in paths" if not found else
+                                          "may be " + " or ".join(found)))
+        return self._items[found[0]]
+
+    def __getitem__(self, path: str) -> Any:
+        return self._find(path)[0]
+
+    def unit(self, path: str) -> str:
+        """Unit of a figure; "1" for none."""
+        return self._find(path)[1]
+
+    def meaning(self, path: str) -> str:
+        """One line on a figure."""
+        return self._find(path)[2]
+
+    def __repr__(self) -> str:
+        return f"<elastogear.Evaluation {self.path}: {len(self._items)} figures>"
+
+
+class Life:
+    """Fatigue damage and life of a drive's gears (docs/life.md).
+
+    summary         the contents of the JSON file: for each set the most damaged node, its damage and life
+    path, report    as of Result
+    """
+
+    def __init__(self, path: Path, report: Optional["Report"] = None) -> None:
+        self.path = os.path.abspath(os.fspath(path))
+        self.report = report
+        with open(os.path.splitext(self.path)[0] + ".json", encoding="utf-8") as file:
+            self.summary: dict[str, Any] = json.load(file)
+
+    def __repr__(self) -> str:
+        return f"<elastogear.Life {self.path}>"

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 import warnings
 from typing import Any, Callable, Iterator, Mapping, Optional, Union
 
 from . import _elastogear as _library
-from .results import Result, Stress
+from .results import Evaluation, Life, Result, Stress
 
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Progress = Callable[[str, float], object]
@@ -20,15 +21,15 @@ class Warning(UserWarning):
 
 
 class Report:
-    """What a verb has said.
+    """Everything that a verb has said.
 
     items     list of (name, text), as the program prints them
-    files     files that were written, absolute paths
+    files     files and folders that were written, absolute paths
     """
 
     def __init__(self, items: list[tuple[str, str]]) -> None:
         self.items = items
-        self.files = [os.path.abspath(text) for name, text in items if name == "written"]
+        self.files = [os.path.abspath(text) for name, text in items if name == "written" and os.path.exists(text)]
 
     def __getitem__(self, name: str) -> str:
         """The first text of this name."""
@@ -126,7 +127,10 @@ class System:
         """
         if forces is None and on_step is None:
             report = self._run("simulate", options, progress)
-            return Result(next(file for file in report.files if not file.endswith(".csv")), report)
+            path = next(file for file in report.files if not file.endswith(".csv"))
+            if os.path.isdir(path):
+                raise _library.Error(f"{path}: holds several cases; Drive.sweep returns them all")
+            return Result(path, report)
         output = options.pop("output", None) or self._name_of_result()
         with self.simulation(output=output, forces=forces, **options) as simulation:
             while simulation.step():
@@ -175,6 +179,34 @@ class Drive(System):
     def meshes(self, **options: Any) -> dict[str, _library.Mesh]:
         """The meshes of all gears, by name; nothing is written."""
         return _library.drive_meshes(self._given(options))
+
+    def sweep(self, *, progress: Optional[Progress] = None, **options: Any) -> list[Result]:
+        """Equilibria at many roll angles, as `elastogear simulate -analysis sweep` finds them: one result for each
+        torque and variant, whose time is the roll angle in pitches and whose `inputs` tell the case.
+
+        Under mpirun all ranks must call it, and share the work.
+        """
+        report = self._run("simulate", {"analysis": "sweep", **options}, progress)
+        path = report.files[0]
+        if not os.path.isdir(path):
+            return [Result(path, report)]
+        with open(os.path.join(path, "cases.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        return [Result(os.path.join(path, row["file"]), report, row) for row in rows if row["file"]]
+
+    def evaluate(self, *, progress: Optional[Progress] = None, **options: Any) -> Evaluation:
+        """Reads off the last result, or that of the option `result`, what `elastogear evaluate` does."""
+        report = self._run("evaluate", options, progress)
+        return Evaluation(report.files[0], report)
+
+    def life(self, *, progress: Optional[Progress] = None, **options: Any) -> Life:
+        """Fatigue damage over a duty cycle from the last sweep, as `elastogear life` finds it."""
+        report = self._run("life", options, progress)
+        return Life(next(file for file in report.files if file.endswith(".h5")), report)
+
+    def wear(self, *, progress: Optional[Progress] = None, **options: Any) -> Report:
+        """Wears the flanks by Archard's law, as `elastogear wear` does."""
+        return self._run("wear", options, progress)
 
     def __repr__(self) -> str:
         return f"<elastogear.Drive of {', '.join(name for name in self.facts if ':' not in name)}>"

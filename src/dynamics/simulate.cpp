@@ -129,7 +129,7 @@ void end(Run& run, TS ts) {
   check(TSViewFromOptions(ts, nullptr, "-ts_view"));
 }
 
-// What is left to do when `part` of the run throws.
+// Keeps and observes the last states when `part` of the run throws.
 template <class Part>
 void keep_what_there_is(Run& run, TS ts, const Part& part) {
   try {

@@ -27,7 +27,7 @@ py::array view(const T* data, const Shape& shape, const py::handle& owner) {
   return array;
 }
 
-/// The same of what the view alone will own.
+/// A view that alone owns these numbers.
 template <class Owned>
 py::array owning_view(Owned&& numbers, const Shape& shape) {
   auto* kept = new std::remove_cvref_t<Owned>(std::forward<Owned>(numbers));

@@ -7,6 +7,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/body_file.h"
+#include "elastogear/io/evaluation_file.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/recovery/stress.h"
@@ -142,6 +143,27 @@ py::dict read_stress(const std::string& path) {
   return all;
 }
 
+// A number, an array, or a list of words.
+py::object value_of(io::EvaluationItem&& item) {
+  if (!item.words.empty()) return py::cast(item.words);
+  if (item.shape.empty() && item.value.size() == 1) return py::float_(item.value[0]);
+  const Shape shape(item.shape.begin(), item.shape.end());
+  return owning_view(std::move(item.value), shape);
+}
+
+py::dict read_evaluation(const std::string& path) {
+  const Work work;
+  io::EvaluationFile file = io::read_evaluation(path);
+  py::dict items, all;
+  for (io::EvaluationItem& item : file.items) {
+    const py::str name(item.path), unit(item.unit), meaning(item.meaning);
+    items[name] = py::make_tuple(value_of(std::move(item)), unit, meaning);
+  }
+  all["items"] = items;
+  all["provenance"] = file.provenance;
+  return all;
+}
+
 /// A body file, for stresses of given coordinates.
 struct Body {
   explicit Body(const std::string& file) : path(file) {
@@ -219,6 +241,7 @@ void bind_results(py::module_& module) {
   module.def("read_contacts", contacts, path, py::arg("pair"));
   module.def("read_sensor_history", sensor_history, path, py::arg("sensor"));
   module.def("read_stress", read_stress, path);
+  module.def("read_evaluation", read_evaluation, path);
   module.def(
       "von_mises",
       [](const py::object& stress) {

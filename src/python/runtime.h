@@ -27,7 +27,7 @@ class OptionDatabase {
   PetscOptions options_ = nullptr;
 };
 
-/// Who takes part in a piece of work.
+/// Ranks that take part in a piece of work.
 enum class Ranks { this_one, all };
 
 /// Looks for signals, at most every 20 ms, may be called without the GIL. What a handler of Python raises is
@@ -36,7 +36,7 @@ class Interrupts {
  public:
   /// True from the first exception on.
   bool pending();
-  /// The same, as an exception.
+  /// Throws that exception when there is one.
   void raise();
   bool kept() const { return kept_.has_value(); }
 

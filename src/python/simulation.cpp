@@ -101,7 +101,7 @@ std::shared_ptr<const Names> names_of(const dynamics::System& system, const mode
 
 }  // namespace
 
-/// What a run holds of the library.
+/// The objects of the library that a run holds.
 struct SteppedRun::Parts {
   OptionDatabase database;
   app::PreparedSimulation prepared = {};
@@ -122,7 +122,7 @@ struct SteppedRun::Parts {
     end_output(summary.complete);
   }
 
-  // What there is stays in the file; nothing to go on from.
+  // The file keeps what there is; nothing stays to go on from.
   void end_output(bool complete) {
     if (writer && writer->n_times() > 0) writer->finish(complete);
     if (writer && !complete) std::filesystem::remove_all(output + ".partial");

@@ -20,12 +20,22 @@ void note_unused_options(Items& items) {
   check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
 }
 
+// All ranks reduce and sweep together; what else simulate does is for one of them.
+Ranks ranks_of(const app::Verb& verb, const std::vector<app::Verb>& verbs, const Given& given) {
+  if (verb.name != "simulate") return verb.parallel ? Ranks::all : Ranks::this_one;
+  const OptionDatabase database;
+  const Work work(Ranks::this_one, &database);
+  const app::Options options = app::load_options(verb, verbs, sources(given));
+  return options.given("analysis") && options.text("analysis") == "sweep" ? Ranks::all : Ranks::this_one;
+}
+
 Items run_verb(const std::string& name, const Given& given, const py::object& progress) {
   const std::vector<app::Verb> verbs = app::all_verbs();
   const app::Verb& verb = app::find_verb(verbs, name);
+  const Ranks ranks = ranks_of(verb, verbs, given);
   const OptionDatabase database;
-  Work work(verb.parallel ? Ranks::all : Ranks::this_one, &database);
-  Listener listener(work, progress, name != "simulate");
+  Work work(ranks, &database);
+  Listener listener(work, progress, name != "simulate" && name != "wear");
   const app::Embedding embedding = listener.embedding();
   const app::EmbeddingScope scope(embedding);
   work.without_gil([&] {

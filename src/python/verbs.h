@@ -13,7 +13,7 @@
 
 namespace elastogear::python {
 
-/// What a verb has said: names and texts, in order.
+/// Names and texts that a verb has said, in order.
 using Items = std::vector<std::pair<std::string, std::string>>;
 
 /// Where options come from, as Python gives them: a file or a text of YAML, and chosen ones as YAML.

@@ -1,5 +1,5 @@
 #pragma once
-// What `simulate` makes of its options, for programs that take the steps themselves.
+// The system that `simulate` makes of its options, for programs that take the steps themselves.
 
 #include <functional>
 #include <map>

@@ -1,4 +1,4 @@
-// What PETSc's time stepper calls at steps and stages of a run.
+// Functions that PETSc's time stepper calls at steps and stages of a run.
 #include <algorithm>
 #include <cmath>
 #include <limits>
