@@ -10,16 +10,29 @@
 namespace elastogear::contact {
 namespace {
 
+// x(u, v) - q = (c + a u) + (b + t u) v
+struct Bilinear {
+  Eigen::Vector3d c, a, b, t;
+};
+
+Bilinear bilinear(const Face& face, const Eigen::Vector3d& q) {
+  const auto& x = face.x;
+  if (face.sides == 3) return {x[0] - q, x[1] - x[0], x[2] - x[0], Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d low = x[0] + x[1], high = x[3] + x[2], along_low = x[1] - x[0],
+                        along_high = x[2] - x[3];
+  return {0.25 * (low + high) - q, 0.25 * (along_low + along_high), 0.25 * (high - low),
+          0.25 * (along_high - along_low)};
+}
+
 // Half the gradient and Hessian of |q - x(u, v)|^2.
 struct Derivatives {
   double g_u, g_v, h_uu, h_vv, h_uv;
 };
 
-Derivatives derivatives(const Face& face, const Eigen::Vector3d& q, const Eigen::Vector2d& at, bool full) {
-  const Shape s = shape(face.sides, at[0], at[1]);
-  const Eigen::Vector3d d = q - combine(face, s.N), a_u = combine(face, s.N_u), a_v = combine(face, s.N_v);
-  const double curvature = full ? d.dot(combine(face, s.N_uv)) : 0;
-  return {-d.dot(a_u), -d.dot(a_v), a_u.squaredNorm(), a_v.squaredNorm(), a_u.dot(a_v) - curvature};
+Derivatives derivatives(const Bilinear& x, const Eigen::Vector2d& at, bool full) {
+  const Eigen::Vector3d a_u = x.a + at[1] * x.t, a_v = x.b + at[0] * x.t, d = x.c + at[0] * x.a + at[1] * a_v;
+  const double curvature = full ? d.dot(x.t) : 0;
+  return {d.dot(a_u), d.dot(a_v), a_u.squaredNorm(), a_v.squaredNorm(), a_u.dot(a_v) + curvature};
 }
 
 // Newton's step; false when the Hessian is not safely positive definite.
@@ -36,12 +49,11 @@ constexpr double kFarAway = 3;  // local coordinates beyond which the foot point
 
 // Foot point from a start: Gauss-Newton steps first, then full Newton. Where
 // the full Hessian is indefinite, Gauss-Newton goes on: only it descends there. docs/theory.md, Eq. (6.2).
-bool foot_point(const Face& face, const Eigen::Vector3d& q, Eigen::Vector2d& at) {
+bool foot_point(const Bilinear& x, Eigen::Vector2d& at) {
   for (int i = 0; i < kSteps; ++i) {
     Eigen::Vector2d delta;
     const bool full = i >= kGaussNewtonSteps;
-    if (!step(derivatives(face, q, at, full), delta) &&
-        !(full && step(derivatives(face, q, at, false), delta)))
+    if (!step(derivatives(x, at, full), delta) && !(full && step(derivatives(x, at, false), delta)))
       return false;
     delta *= std::min(1.0, 1 / delta.cwiseAbs().maxCoeff());
     at += delta;
@@ -59,8 +71,9 @@ ClosestPoint point_at(const Face& face, const Eigen::Vector3d& q, Feature featur
   return p;
 }
 
-void try_interior(const Face& face, const Eigen::Vector3d& q, Eigen::Vector2d start, ClosestPoint& best) {
-  if (!foot_point(face, q, start) || !inside(face, start[0], start[1])) return;
+void try_interior(const Face& face, const Bilinear& x, const Eigen::Vector3d& q, Eigen::Vector2d start,
+                  ClosestPoint& best) {
+  if (!foot_point(x, start) || !inside(face, start[0], start[1])) return;
   const ClosestPoint p = point_at(face, q, Feature::face, 0, start);
   if (p.distance2 < best.distance2) best = p;
 }
@@ -83,50 +96,46 @@ ClosestPoint on_open_side(const Face& face, const Eigen::Vector3d& q, int side) 
   return point_at(face, q, Feature::outside, side, (1 - s) * a + s * b);
 }
 
-ClosestPoint on_shared_side(const Face& face, const Eigen::Vector3d& q, int side) {
+// Offers the closest point of a side that may be shared.
+void try_shared_side(const Face& face, const Eigen::Vector3d& q, int side, ClosestPoint& best) {
   const int next = (side + 1) % face.sides, previous = (side + face.sides - 1) % face.sides;
   const bool forward = in_order(face.x[side], face.x[next]);
   const int first = forward ? side : next, last = forward ? next : side;
+  const Eigen::Vector3d &a = face.x[first], &b = face.x[last];
   const double lo = -face.extension[forward ? previous : next];
   const double hi = 1 + face.extension[forward ? next : previous];
-  const double s = std::clamp(line_parameter(face.x[first], face.x[last], q), lo, hi);
+  const double s = std::clamp(line_parameter(a, b, q), lo, hi);
+  const Eigen::Vector3d x = s == 0 ? a : s == 1 ? b : Eigen::Vector3d((1 - s) * a + s * b);
+  const double distance2 = (q - x).squaredNorm();
+  if (!(distance2 < best.distance2)) return;
 
-  ClosestPoint p{Feature::edge, side};
-  const bool is_point = face.x[first] == face.x[last];
-  if (s == lo || s == hi || is_point) p.feature = s == 0 || s == 1 ? Feature::vertex : Feature::outside;
-  if (p.feature == Feature::vertex) p.part = s == 0 ? first : last;
+  best = {Feature::edge, side};
+  if (s == lo || s == hi || a == b) best.feature = s == 0 || s == 1 ? Feature::vertex : Feature::outside;
+  if (best.feature == Feature::vertex) best.part = s == 0 ? first : last;
   const Eigen::Vector2d local = on_side(face.sides, side, forward ? s : 1 - s);
-  p.u = local[0], p.v = local[1];
-  p.N[first] = 1 - s;
-  p.N[last] = s;
-  p.x = s == 0   ? face.x[first]
-        : s == 1 ? face.x[last]
-                 : Eigen::Vector3d((1 - s) * face.x[first] + s * face.x[last]);
-  p.distance2 = (q - p.x).squaredNorm();
-  return p;
+  best.u = local[0], best.v = local[1];
+  best.N[first] = 1 - s;
+  best.N[last] = s;
+  best.x = x;
+  best.distance2 = distance2;
 }
 
 void try_sides(const Face& face, const Eigen::Vector3d& q, ClosestPoint& best) {
   for (int side = 0; side < face.sides; ++side) {
-    const ClosestPoint p =
-        face.extension[side] > 0 ? on_open_side(face, q, side) : on_shared_side(face, q, side);
-    if (p.distance2 < best.distance2) best = p;
+    if (face.extension[side] == 0) {
+      try_shared_side(face, q, side, best);
+    } else if (const ClosestPoint p = on_open_side(face, q, side); p.distance2 < best.distance2) {
+      best = p;
+    }
   }
 }
 
 // A face whose twist is not small against the heights of its parallelogram may have several foot points.
-bool is_irregular(const Face& face) {
+bool is_irregular(const Bilinear& x) {
   constexpr double kModerate = 0.25;
-  const Shape s = shape(4, 0, 0);
-  const Eigen::Vector3d a = combine(face, s.N_u), b = combine(face, s.N_v), twist = combine(face, s.N_uv);
-  const double longer2 = std::max(a.squaredNorm(), b.squaredNorm());
-  return !(twist.squaredNorm() * longer2 < kModerate * kModerate * a.cross(b).squaredNorm());
+  const double longer2 = std::max(x.a.squaredNorm(), x.b.squaredNorm());
+  return !(x.t.squaredNorm() * longer2 < kModerate * kModerate * x.a.cross(x.b).squaredNorm());
 }
-
-// x(u, v) - q = (c + a u) + (b + t u) v
-struct Bilinear {
-  Eigen::Vector3d c, a, b, t;
-};
 
 // The distance from q to the line of constant u, squared, is |n|^2 / m with n = (c + a u) x (b + t u) and m =
 // |b + t u|^2. The coefficients of m d|n|^2/du - |n|^2 dm/du, by ascending powers of u.
@@ -145,9 +154,7 @@ std::vector<double> slope_of_distance(const Bilinear& x) {
 }
 
 // All foot points of a quadrilateral.
-void try_all_foot_points(const Face& face, const Eigen::Vector3d& q, ClosestPoint& best) {
-  const Shape s = shape(4, 0, 0);
-  const Bilinear x{combine(face, s.N) - q, combine(face, s.N_u), combine(face, s.N_v), combine(face, s.N_uv)};
+void try_all_foot_points(const Face& face, const Bilinear& x, const Eigen::Vector3d& q, ClosestPoint& best) {
   const auto& e = face.extension;
   for (double u : sign_changes(slope_of_distance(x), -1 - 2 * e[3], 1 + 2 * e[1])) {
     const Eigen::Vector3d along = x.b + u * x.t;
@@ -155,24 +162,25 @@ void try_all_foot_points(const Face& face, const Eigen::Vector3d& q, ClosestPoin
     if (!inside(face, u, v)) continue;
     const ClosestPoint p = point_at(face, q, Feature::face, 0, {u, v});
     if (p.distance2 < best.distance2) best = p;
-    try_interior(face, q, {u, v}, best);
+    try_interior(face, x, q, {u, v}, best);
   }
 }
 
 }  // namespace
 
 ClosestPoint closest_point(const Face& face, const Eigen::Vector3d& q) {
+  const Bilinear x = bilinear(face, q);
   ClosestPoint best;
   best.distance2 = std::numeric_limits<double>::infinity();
   if (face.sides == 3) {
-    try_interior(face, q, Eigen::Vector2d::Constant(1.0 / 3), best);
+    try_interior(face, x, q, Eigen::Vector2d::Constant(1.0 / 3), best);
     if (best.feature != Feature::face) try_sides(face, q, best);
     return best;
   }
-  try_interior(face, q, Eigen::Vector2d::Zero(), best);
-  const bool irregular = is_irregular(face);
+  try_interior(face, x, q, Eigen::Vector2d::Zero(), best);
+  const bool irregular = is_irregular(x);
   if (best.feature == Feature::face && !irregular) return best;
-  if (irregular) try_all_foot_points(face, q, best);
+  if (irregular) try_all_foot_points(face, x, q, best);
   try_sides(face, q, best);
   return best;
 }
