@@ -1,9 +1,10 @@
 #include "contact/projection/node_normals.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace elastogear::contact {
 namespace {
@@ -112,19 +113,39 @@ Eigen::Matrix<double, 9, 1> monomials(double x, double y) {
       .finished();
 }
 
-// The columns of A that their predecessors do not explain.
-std::vector<int> independent_columns(const Eigen::MatrixXd& A) {
-  std::vector<int> kept;
-  Eigen::MatrixXd Q(A.rows(), 0);
-  for (int i = 0; i < A.cols() && Q.cols() < A.rows(); ++i) {
-    Eigen::VectorXd rest = A.col(i);
-    for (int pass : {0, 1}) static_cast<void>(pass), rest -= Q * (Q.transpose() * rest);
-    if (!(rest.norm() > kIndependent * A.col(i).norm())) continue;
-    kept.push_back(i);
-    Q.conservativeResize(Eigen::NoChange, Q.cols() + 1);
-    Q.rightCols<1>() = rest.normalized();
+// A polynomial fitted to points, A c = z in the least squares: columns are made orthogonal one after the
+// other, twice; those that their predecessors explain are left out.
+struct Fit {
+  std::vector<int> kept;                   // columns of A
+  std::array<double, 9> coefficient = {};  // of these, in their order
+};
+
+Fit fit(Eigen::Matrix<double, Eigen::Dynamic, 9> A, Eigen::VectorXd z) {
+  Fit result;
+  Eigen::Matrix<double, 9, 9> R = Eigen::Matrix<double, 9, 9>::Zero();
+  Eigen::Matrix<double, 9, 1> y;
+  int n = 0;  // of columns kept, which lie first in A
+  for (int i = 0; i < A.cols() && n < A.rows(); ++i) {
+    const double size = A.col(i).norm();
+    for (int pass : {0, 1})
+      for (int j = 0; j < n; ++j) {
+        const double part = A.col(j).dot(A.col(i));
+        R(j, n) = pass == 0 ? part : R(j, n) + part;
+        A.col(i) -= part * A.col(j);
+      }
+    R(n, n) = A.col(i).norm();
+    if (!(R(n, n) > kIndependent * size)) continue;
+    A.col(n) = A.col(i) / R(n, n);
+    y[n] = A.col(n).dot(z);
+    z -= y[n] * A.col(n);
+    result.kept.push_back(i);
+    ++n;
   }
-  return kept;
+  for (int i = n - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n; ++j) y[i] -= R(i, j) * result.coefficient[j];
+    result.coefficient[i] = y[i] / R(i, i);
+  }
+  return result;
 }
 
 // Normal of the polynomial z(x, y) through x_0 that comes nearest to the points, weighted with their inverse
@@ -134,16 +155,15 @@ Vector3d fitted_normal(const Vector3d& x_0, const Eigen::Matrix3Xd& points, cons
   const Vector3d t_1 = n.unitOrthogonal(), t_2 = n.cross(t_1);
   const Eigen::Matrix3Xd d = points.colwise() - x_0;
   const double size = std::sqrt(d.colwise().squaredNorm().mean());
-  Eigen::MatrixXd A(d.cols(), 9);
+  Eigen::Matrix<double, Eigen::Dynamic, 9> A(d.cols(), 9);
   Eigen::VectorXd z(d.cols());
   for (Eigen::Index i = 0; i < d.cols(); ++i) {
     const double weight = size * size / d.col(i).squaredNorm();
     A.row(i) = weight * monomials(t_1.dot(d.col(i)) / size, t_2.dot(d.col(i)) / size).transpose();
     z[i] = weight * n.dot(d.col(i)) / size;
   }
-  const std::vector<int> kept = independent_columns(A);
+  const auto [kept, slope] = fit(std::move(A), std::move(z));
   if (kept.size() < 2 || kept[1] != 1) return Vector3d::Zero();
-  const Eigen::VectorXd slope = A(Eigen::all, kept).householderQr().solve(z);
   return (n - slope[0] * t_1 - slope[1] * t_2).normalized();
 }
 
