@@ -102,7 +102,8 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
     for (int i = 0; i < contact.n_local(); ++i)
       columns.template middleRows<3>(3 * i) = (R * columns.template middleRows<3>(3 * i)).eval();
   };
-  for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot}) rotate_rows(*columns);
+  for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot})
+    if (!columns->isZero(0)) rotate_rows(*columns);
   if (!contact.tangential) return;
   rotate_rows(contact.tangential->F_t);
   rotate_rows(contact.tangential->u_x);
@@ -192,13 +193,14 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
       this->law({slave_side, node, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)}, w.face);
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, settings.full_tangent);
-  if (settings.points == SlavePoints::minima || law.impact || (law.unilateral && !master.heights.empty())) {
+  if (settings.points == SlavePoints::minima) {
     const PointGap over = point_gap(master, w, slave.x, settings.offset);
-    if (settings.points == SlavePoints::minima &&
-        over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
+    if (over.gap.g < largest_gap_at(reach, slave_side, tracker.side(slave_side).topology.node_corners[node],
                                     over.projection.face))
       gaps[node] = {over.gap.g, over.gap.n, over.projection.face};
     if (over.gap.g > reach.gap && law.p_given == 0) return {};
+  } else if (law.p_given == 0 && (law.impact || (law.unilateral && !master.heights.empty()))) {
+    if (size_of_gap(master, w, slave.x, settings.offset) > reach.gap) return {};
   }
   const OpenPoint open = open_point(master, w, slave.x, settings.offset);
   return general_contact(

@@ -150,6 +150,11 @@ PointGap point_gap(const MasterSide& master, const Projection& projection, const
   return {w, gap(slave_kinematics(face, w, x), height_at(master, face, w), offset)};
 }
 
+double size_of_gap(const MasterSide& master, const Projection& projection, const Vector3d& x, double offset) {
+  const Projection w = smooth_projection(master, projection, x);
+  return w.g_n - height_at(master, face_of(master.surface, w.face), w).f + offset;
+}
+
 OpenPoint open_point(const MasterSide& master, const Projection& projection, const Vector3d& x,
                      double offset) {
   OpenPoint open;

@@ -28,6 +28,10 @@ struct PointGap {
 PointGap point_gap(const MasterSide& master, const Projection& projection, const Eigen::Vector3d& x,
                    double offset);
 
+/// m, the gap alone.
+double size_of_gap(const MasterSide& master, const Projection& projection, const Eigen::Vector3d& x,
+                   double offset);
+
 /// A slave point over the master, whatever its gap.
 struct OpenPoint {
   Projection projection;

@@ -24,7 +24,7 @@ struct Varying {
 
 Local flat(const LocalVectors& v) { return v.reshaped(); }  // of a slave point and its master's nodes
 
-// Velocity of the slave node against the master, v_r of docs/theory.md, Eq. (6.13).
+// Velocity of the slave node against the master, v_r of docs/theory.md, Eq. (6.13), and its derivatives.
 Varying relative_velocity(const ProjectionKinematics& kinematics, const LocalVectors& v) {
   Varying rate;
   rate.value = kinematics.G * flat(v);
@@ -35,7 +35,13 @@ Varying relative_velocity(const ProjectionKinematics& kinematics, const LocalVec
   return rate;
 }
 
-// The part of y normal to the direction n.
+// The part of y normal to the direction of the gap.
+Vector3d tangential(const Vector3d& y, const Gap& gap) {
+  const Vector3d n = gap.n / gap.n.norm();
+  return (Matrix3d::Identity() - n * n.transpose()) * y;
+}
+
+// The same with its derivatives.
 Varying tangential(const Varying& y, const Gap& gap) {
   const double length = gap.n.norm();
   const Vector3d n = gap.n / length;
@@ -71,7 +77,7 @@ NormalForce impact_force(const Impact& impact, double p_given, double rate) {
 
 // The parts that make up a contact force.
 struct Parts {
-  Varying slip;        // velocity
+  Vector3d slip;       // velocity
   Varying motion;      // argument of friction: velocity, or displacement of a node that sticks
   NormalForce normal;  // of the whole node
   double p = 0;        // N, what is left of it on an extension
@@ -83,7 +89,6 @@ struct Parts {
 // The force normal to the surface, with its derivatives.
 void set_normal(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                 const ContactPoint& contact, Parts& parts) {
-  const Varying rate = relative_velocity(kinematics, contact.v);
   if (law.unilateral) {
     parts.normal = given_force(law, gap.fade.f);
     parts.p = law.p_given;
@@ -93,6 +98,7 @@ void set_normal(const Law& law, const ProjectionKinematics& kinematics, const Ga
     parts.p_v.setZero();
     return;
   }
+  const Varying rate = relative_velocity(kinematics, contact.v);
   parts.normal = normal_force(law, gap.g, gap.n.dot(rate.value));
   parts.p = gap.fade.f * parts.normal.p;
   const LocalRow rate_x = rate.value.transpose() * gap.n_x + gap.n.transpose() * rate.x;
@@ -104,12 +110,12 @@ void set_normal(const Law& law, const ProjectionKinematics& kinematics, const Ga
 Parts parts(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap, const StickMotion* stick,
             const ContactPoint& contact) {
   Parts parts;
-  parts.slip = tangential(relative_velocity(kinematics, contact.v), gap);
+  parts.slip = tangential(Vector3d(kinematics.G * flat(contact.v)), gap);
   set_normal(law, kinematics, gap, contact, parts);
   if (law.mu == 0) return parts;
   if (law.v_0 > 0) {
     parts.mu = law.mu;
-    parts.motion = parts.slip;
+    parts.motion = tangential(relative_velocity(kinematics, contact.v), gap);
     parts.friction = regularised(parts.motion.value, law.v_0, law.mu * parts.p);
   } else if (stick && law.unilateral) {
     const GivenFriction& given = stick->given;
@@ -134,8 +140,11 @@ Varying force(const Gap& gap, const Parts& parts) {
   const Vector3d per_p = gap.direction - (friction.at_limit ? parts.mu : 0.0) * friction.direction;
   Varying f;
   f.value = parts.p * (gap.direction - parts.mu * friction.direction);
-  f.x = per_p * parts.p_x + parts.p * gap.direction_x - friction.K * parts.motion.x;
-  f.v = per_p * parts.p_v - friction.K * parts.motion.v;
+  f.x = per_p * parts.p_x + parts.p * gap.direction_x;
+  f.v = per_p * parts.p_v;
+  if (friction.K.isZero(0)) return f;
+  f.x -= friction.K * parts.motion.x;
+  f.v -= friction.K * parts.motion.v;
   return f;
 }
 
@@ -159,13 +168,14 @@ void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, Conta
   contact.k.setIdentity(n, n);
   contact.W.leftCols<3>() = spread(1, -contact.N).transpose();
   contact.V.leftCols<3>() = -f.x.transpose();
-  contact.V_dot.leftCols<3>() = -f.v.transpose();
   for (int i = 0; i < kinematics.n_dir; ++i) {
     contact.W.col(3 + i) = -spread(0, kinematics.N_a.col(i)).transpose() * f.value;
     contact.V.col(3 + i) = -kinematics.D.row(i).transpose();
   }
   contact.W.rightCols(m) = kinematics.spin.transpose() * T;
   contact.V.rightCols(m) = (skew(kinematics.d) * f.x - skew(f.value) * kinematics.d_x).transpose() * T;
+  if (f.v.isZero(0)) return;
+  contact.V_dot.leftCols<3>() = -f.v.transpose();
   contact.V_dot.rightCols(m) = (skew(kinematics.d) * f.v).transpose() * T;
 }
 
@@ -305,7 +315,7 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
   contact.n = gap.direction.normalized();
   contact.f = f.value;
   contact.F = (kinematics.G.transpose() * f.value).reshaped(3, 5);
-  contact.slip = all.slip.value;
+  contact.slip = all.slip;
   contact.energy = (law.unilateral ? 1 : gap.fade.f) * all.normal.energy;
   contact.power = gap.fade.f * all.normal.power;
   contact.friction_power = 0;
