@@ -21,6 +21,7 @@ struct GapRate {
 /// By slave node, forces and gaps by slave point.
 struct History {
   std::vector<int> last_face;            ///< master face each node touched last; -1
+  std::vector<int> nearest_face;         ///< where a node's search begins, which nothing depends on; -1
   std::map<int, StickPoint> stuck = {};  ///< after the last accepted step
   std::map<int, StickPoint> open = {};   ///< where the last look found the other nodes that are near
   std::map<int, double> p = {};          ///< N, normal forces given

@@ -277,7 +277,8 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
                     [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
   int& last_face = history[placed.side].last_face[placed.node];
-  auto projection = find_projection(master.surface, q, limits, faces, last_face);
+  int& nearest = history[placed.side].nearest_face[placed.node];
+  auto projection = find_projection(master.surface, q, limits, faces, &nearest);
   if (projection && std::binary_search(faces.begin(), faces.end(), last_face))
     projection = kept_projection(master, *projection, placed.x, last_face);
   last_face = projection ? projection->face : -1;
@@ -292,8 +293,9 @@ bool Pair::Data::is_left_to_slave(int tried, const SurfaceView& other, const Pro
 }
 
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
-  const SurfaceView slave = tracker.view(slave_side, 0),
-                    surface = tracker.view(1 - slave_side, settings.extension);
+  const Placer place_slave = tracker.placer(slave_side), place_master = tracker.placer(1 - slave_side);
+  const SurfaceView slave = tracker.view(slave_side, 0, &place_slave),
+                    surface = tracker.view(1 - slave_side, settings.extension, &place_master);
   const bool at_minima = settings.points == SlavePoints::minima;
   const Heights& heights = side[1 - slave_side].heights;
   const MasterSide master{surface, heights, radians(settings.feature_angle), !at_minima,
@@ -470,7 +472,7 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
     slaves[i] = {tried_nodes(both[i], settings, is_whole(settings, i)), spare(reach, i, both[i].topology)};
   data_.reset(new Data{settings,
                        {std::move(side[0]), std::move(side[1])},
-                       {History{untouched(a)}, History{untouched(b)}},
+                       {History{untouched(a), untouched(a)}, History{untouched(b), untouched(b)}},
                        reach,
                        Tracker(std::move(both), settings, reach.limits, std::move(slaves))});
 }

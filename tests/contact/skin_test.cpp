@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <numbers>
 
 #include "contact/search/neighbour_list.h"
 #include "elastogear/base/error.h"
@@ -137,6 +138,29 @@ TEST(Skin, contacts_equal_those_of_a_search_at_every_stage) {
     EXPECT_GE(kept.n_searches(), 10);
     EXPECT_LT(n_displaced, n_steps * static_cast<int>(a.surface.X.cols() + b.surface.X.cols()));
   }
+}
+
+// A patch dives through another, farther than the depth limit, and comes back.
+TEST(Skin, nodes_deeper_than_the_limit_are_found_as_soon_as_they_are_not) {
+  Random random(4);
+  const Elastic a = elastic_patch(16, true, random), b = elastic_patch(14, false, random);
+  Pair searched(a.surface, b.surface, settings(Update::bound));
+  Pair kept(a.surface, b.surface, settings(Update::bound), {&a.K_r, &b.K_r});
+  SurfaceMotion m_a{Eigen::VectorXd::Zero(n_modes), {-0.3, 0.1, 0}, test::rotation({0.01, -0.02, 0.3})};
+  SurfaceMotion m_b{Eigen::VectorXd::Zero(n_modes), {0, 0, 0}, Eigen::Matrix3d::Identity()};
+  int n_empty = 0, n_full = 0, n_displaced = 0;
+  constexpr int n_steps = 240;
+  for (int step = 0; step < n_steps; ++step) {
+    m_a.q += amplitudes(random, 5e-3);
+    m_a.r_WB[2] = 0.06 - 0.16 * std::sin(std::numbers::pi * step / n_steps);
+    const auto found = kept.detect(m_a, m_b);
+    expect_equal(found, searched.detect(surface_state(a.surface, m_a), surface_state(b.surface, m_b)));
+    (found.empty() ? n_empty : n_full)++;
+    n_displaced += kept.n_displaced();
+  }
+  EXPECT_GT(n_empty, n_steps / 4);
+  EXPECT_GT(n_full, n_steps / 4);
+  EXPECT_LT(n_displaced, n_steps * static_cast<int>(a.surface.X.cols() + b.surface.X.cols()) / 2);
 }
 
 TEST(Skin, of_bodies_that_are_far_apart_displaces_no_node) {

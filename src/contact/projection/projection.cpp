@@ -45,8 +45,9 @@ Nearest nearest(const Trial& trial, const Accept& accept) {
   Nearest best(trial.depth * trial.depth);
   const auto offer = [&](int f) {
     const Face face = face_of(trial.master, f);
+    constexpr double kRoundoff = 1e-14;  // which must not decide between faces that are as near
     const double bound = distance_bound(face, trial.q);
-    if (bound * bound > best.distance2) return;
+    if ((1 - kRoundoff) * bound * bound > best.distance2) return;
     const ClosestPoint p = closest_point(face, trial.q);
     if (accept(face, p)) best.offer(f, p);
   };
@@ -95,19 +96,21 @@ Projection make_projection(const SurfaceView& master, const Eigen::Vector3d& q, 
 }  // namespace
 
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
-                                          const Limits& limits, std::span<const int> faces, int likely) {
-  const Trial trial{master, slave.x, limits.depth, faces, likely};
+                                          const Limits& limits, std::span<const int> faces, int* likely) {
+  const int first = likely ? *likely : -1;
+  const Trial trial{master, slave.x, limits.depth, faces, first};
   const Nearest any = nearest(trial, [](auto&&...) { return true; });
   if (!any.found()) return {};
-  if (place(master, slave.x, any) == Place::outside && !is_taken(master, slave, any, limits.outside))
-    return {};
+  if (likely) *likely = any.face;
+  const bool is_far = any.distance2 > limits.outside * limits.outside;
+  if (is_far && place(master, slave.x, any) == Place::outside) return {};
   const Eigen::Vector3d n_slave = slave.normal();
   const auto opposes = [&](const Face& face, const ClosestPoint& p) {
     return normal(face, p.u, p.v).dot(n_slave) <= limits.cos_angle;
   };
   const bool settled = opposes(face_of(master, any.face), any.point);
   const auto all = [&] { return slave.all_faces ? slave.all_faces() : faces; };
-  const Nearest best = settled ? any : nearest({master, slave.x, trial.depth, all(), likely}, opposes);
+  const Nearest best = settled ? any : nearest({master, slave.x, trial.depth, all(), first}, opposes);
   if (!is_taken(master, slave, best, limits.outside)) return {};
   return make_projection(master, slave.x, best);
 }
@@ -161,9 +164,10 @@ Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Mov
                   std::span<const int> faces) {
   const auto [reach, limit, around] = move;
   const Nearest any = nearest({master, x, reach, faces, -1}, [](auto&&...) { return true; });
-  if (!any.found()) return {std::numeric_limits<double>::infinity(), {}, {}};
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  if (!any.found()) return {kFar, kFar, {}, {}};
   const double distance = std::sqrt(any.distance2);
-  Approach result{place(master, x, any) == Place::outside ? distance : 0, {}, {}};
+  Approach result{distance, place(master, x, any) == Place::outside ? distance : 0, {}, {}};
   if (result.clearance > limit) return result;
   for (int f : faces) {  // all move by `limit`
     const double bound = distance_bound(face_of(master, f), x);

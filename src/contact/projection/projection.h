@@ -39,17 +39,19 @@ struct Projection {
 
 /// Nothing when the node is outside the master body (further than the limit), beyond a surface boundary,
 /// deeper than the limit, or when only faces that do not oppose it are near. `faces` must hold all master
-/// faces within `depth` of the node; they ascend. `likely`, one of them or -1, is tried first: the search is
-/// quickest when it is right.
+/// faces within `depth` of the node; they ascend. `likely`, if not null: one of them or -1, is tried first
+/// and becomes the nearest. The search is quickest when it is right.
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
-                                          const Limits& limits, std::span<const int> faces, int likely = -1);
+                                          const Limits& limits, std::span<const int> faces,
+                                          int* likely = nullptr);
 
 /// The foot point of q (m) on the face extended over its sides by at most a quarter of its length, from w on
 /// it; nothing when there is none.
 std::optional<Projection> extended_projection(const Face& face, const Eigen::Vector3d& q, Projection w);
 
 struct Approach {
-  double clearance = 0;     ///< m: before moving by as much the node cannot touch
+  double distance = 0;      ///< m, infinite when no face is within the reach
+  double clearance = 0;     ///< m: before moving by as much a node that is outside cannot touch
   std::vector<int> faces;   ///< ascending: those that can be the nearest until it has moved by the limit
   std::vector<int> around;  ///< those within the distance `around` of Move, as long
 };

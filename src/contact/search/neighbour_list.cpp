@@ -1,38 +1,6 @@
 #include "contact/search/neighbour_list.h"
 
-#include <algorithm>
-
 namespace elastogear::contact {
-namespace {
-
-// A set of numbers below n, for many insertions and one look.
-class Marks {
- public:
-  explicit Marks(Eigen::Index n) : is_set_(static_cast<std::size_t>(n), 0) {}
-  void set(int i) {
-    char& is_set = is_set_[static_cast<std::size_t>(i)];
-    if (!is_set) numbers_.push_back(i);
-    is_set = 1;
-  }
-  // A few are sorted; of many all marks are read in order.
-  std::vector<int> ascending() {
-    constexpr std::size_t kFew = 32;  // times fewer than there may be
-    if (kFew * numbers_.size() < is_set_.size()) {
-      std::sort(numbers_.begin(), numbers_.end());
-      return std::move(numbers_);
-    }
-    numbers_.clear();
-    for (std::size_t i = 0; i < is_set_.size(); ++i)
-      if (is_set_[i]) numbers_.push_back(static_cast<int>(i));
-    return std::move(numbers_);
-  }
-
- private:
-  std::vector<char> is_set_;
-  std::vector<int> numbers_;
-};
-
-}  // namespace
 
 Ball enclosing_ball(const Eigen::Matrix3Xd& X) {
   const Eigen::Vector3d centre = 0.5 * (X.rowwise().minCoeff() + X.rowwise().maxCoeff());
@@ -85,26 +53,6 @@ Neighbours not_apart(const Neighbours& neighbours, const std::vector<double>& ap
     if (apart_until[neighbours.slave[i]] <= path)
       near.add(neighbours.slave[i], neighbours.faces(i), neighbours.faces_around(i));
   return near;
-}
-
-std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,
-                              const Eigen::Matrix4Xi& face) {
-  Marks distinct(face.cols()), corners(topology.node_corners.size());
-  for (int f : faces) distinct.set(f);
-  for (int f : distinct.ascending())
-    for (int node : face.col(f)) corners.set(node);
-  return nodes_around_nodes(corners.ascending(), topology, face);
-}
-
-std::vector<int> nodes_around_nodes(const std::vector<int>& nodes, const Topology& topology,
-                                    const Eigen::Matrix4Xi& face) {
-  Marks around(topology.node_corners.size());
-  for (int node : nodes) {
-    around.set(node);
-    for (int corner : topology.node_corners[node])
-      for (int neighbour : face.col(corner / 4)) around.set(neighbour);
-  }
-  return around.ascending();
 }
 
 }  // namespace elastogear::contact

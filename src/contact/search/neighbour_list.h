@@ -35,7 +35,6 @@ struct NeighbourList {
   double path = 0;                       ///< m, of the surfaces from the search to measured_at, step by step
   std::array<std::vector<double>, 2> apart_until;  ///< by slave side and node: the path without touch, m
   std::array<Neighbours, 2> within, near;          ///< by slave side: the candidates that can touch
-  std::array<std::vector<int>, 2> node;  ///< per surface: whose positions their fine search reads, ascending
 };
 
 /// Ball around the undeformed nodes of a surface in its own frame.
@@ -60,13 +59,5 @@ Neighbours everything(const Candidates& candidates);
 /// Candidates or neighbours without the nodes whose entry of apart_until exceeds `path`.
 Neighbours not_apart(const Candidates& candidates, const std::vector<double>& apart_until, double path);
 Neighbours not_apart(const Neighbours& neighbours, const std::vector<double>& apart_until, double path);
-
-/// Nodes of these faces, with all nodes of the faces around them: edges and vertices take their normals from
-/// there. Ascending, without duplicates.
-std::vector<int> nodes_around(std::span<const int> faces, const Topology& topology,
-                              const Eigen::Matrix4Xi& face);
-/// The given nodes with all nodes of the faces around them, ascending, without duplicates.
-std::vector<int> nodes_around_nodes(const std::vector<int>& nodes, const Topology& topology,
-                                    const Eigen::Matrix4Xi& face);
 
 }  // namespace elastogear::contact

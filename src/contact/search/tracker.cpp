@@ -75,15 +75,18 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
       search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update) {
   for (int i : {0, 1}) {
     configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
-    deformed_[i].stamp.assign(static_cast<std::size_t>(side_[i].surface->X.cols()), stage_);
+    const auto n = static_cast<std::size_t>(side_[i].surface->X.cols());
+    deformed_[i].stamp.assign(n, stage_);
+    const std::vector<long> of_faces(static_cast<std::size_t>(side_[i].surface->face.cols()), 0);
+    look_[i] = {std::vector<long>(n, 0), std::vector<long>(n, 0), of_faces, {}};
   }
   reach_ = limits.depth + limits.around +
            kStretch * std::max(extension_reach(view(0, settings.extension)),
                                extension_reach(view(1, settings.extension)));
 }
 
-SurfaceView Tracker::view(int i, double extension) const {
-  return {side_[i].surface->face, side_[i].topology, configuration_.x[i], extension};
+SurfaceView Tracker::view(int i, double extension, const Placer* placer) const {
+  return {side_[i].surface->face, side_[i].topology, configuration_.x[i], extension, placer};
 }
 
 void Tracker::place(const SurfaceState& a, const SurfaceState& b) {
@@ -123,17 +126,50 @@ Eigen::Vector3d Tracker::position(int i, int node) {
   return deformed.x_B.col(node) + (*residual_)[i].at(node);
 }
 
-// Places the nodes by the present motion, in the BRF of surface b.
-void Tracker::place_nodes(int i, const std::vector<int>& nodes) {
+// Begins to place nodes by the present motion.
+void Tracker::start_look() {
+  ++n_looks_;
   const RelativeMotion relative = relative_motion(*now_[0], *now_[1]);
   configuration_.R = relative.R;
   configuration_.r = relative.r;
-  for (int node : nodes) {
-    const Eigen::Vector3d x_B = position(i, node);
-    require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
-            " is not finite");
-    configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(relative.R * x_B + relative.r) : x_B;
-  }
+  for (Look& look : look_) look.nodes.clear();
+}
+
+// Places a node by the present motion, in the BRF of surface b.
+void Tracker::place_node(int i, int node) {
+  if (look_[i].node[node] == n_looks_) return;
+  look_[i].node[node] = n_looks_;
+  look_[i].nodes.push_back(node);
+  const Eigen::Vector3d x_B = position(i, node);
+  require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
+          " is not finite");
+  configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(configuration_.R * x_B + configuration_.r) : x_B;
+}
+
+// Places a node and all nodes of the faces around it: edges and vertices take their normals from there.
+void Tracker::place_around(int i, int node) {
+  if (!now_[0] || look_[i].around[node] == n_looks_) return;
+  look_[i].around[node] = n_looks_;
+  place_node(i, node);
+  for (int corner : side_[i].topology.node_corners[node])
+    for (int other : side_[i].surface->face.col(corner / 4)) place_node(i, other);
+}
+
+// Places the nodes of a face; all around it where more than nodes are held.
+void Tracker::place_face(int i, int face) {
+  if (look_[i].face[face] == n_looks_) return;
+  look_[i].face[face] = n_looks_;
+  for (int node : side_[i].surface->face.col(face))
+    settings_.points == SlavePoints::nodes ? place_node(i, node) : place_around(i, node);
+}
+
+// Places the nodes whose positions the fine search of these neighbours reads.
+void Tracker::place_for(int slave, const Neighbours& near) {
+  const bool nodes_alone = settings_.points == SlavePoints::nodes;
+  for (int node : near.slave) nodes_alone ? place_node(slave, node) : place_around(slave, node);
+  for (int f : near.face) place_face(1 - slave, f);
+  if (nodes_alone) return;
+  for (int f : near.around) place_face(1 - slave, f);
 }
 
 // Bound of the relative motion of both surfaces since `then`: docs/theory.md, Eq. (5.5).
@@ -143,27 +179,6 @@ double Tracker::distance_since(const SurfaceMotion then[2]) const {
   Ball ball = side_[0].ball;
   ball.radius += largest_displacement(side_[0].bound, then[0].q);
   return distance + travel(ball, relative_motion(then[0], then[1]), relative_motion(*now_[0], *now_[1]));
-}
-
-// Lists the nodes whose positions the fine search of the present candidates reads.
-void Tracker::list_nodes() {
-  std::array<std::vector<int>, 2>& lists = neighbours_->node = kept_;
-  for (int slave : slave_sides(settings_))
-    for (int i : {0, 1}) {
-      const Topology& t = side_[i].topology;
-      const Eigen::Matrix4Xi& face = side_[i].surface->face;
-      const Neighbours& near = neighbours_->near[slave];
-      const auto add = [&](const std::vector<int>& nodes) {
-        lists[i].insert(lists[i].end(), nodes.begin(), nodes.end());
-      };
-      if (i == slave) {
-        add(nodes_around_nodes(near.slave, t, face));
-      } else {
-        add(nodes_around(near.face, t, face));
-        if (!near.around.empty()) add(nodes_around(near.around, t, face));
-      }
-    }
-  for (auto& list : lists) sort_unique(list);
 }
 
 // Measures the clearance of all candidates and leaves out those that cannot touch while the surfaces move by
@@ -176,8 +191,7 @@ void Tracker::measure_clearance(double limit) {
   v.uses = 0;
   for (int slave : slave_sides(settings_))
     v.near[slave] = not_apart(v.candidates[slave], v.apart_until[slave], v.path + soon);
-  list_nodes();
-  for (int i : {0, 1}) place_nodes(i, v.node[i]);
+  for (int slave : slave_sides(settings_)) place_for(slave, v.near[slave]);
   for (int slave : slave_sides(settings_)) leave_out(slave, soon);
   v.within = std::exchange(v.near, {});
   take_near(kFirstStretch * limit);
@@ -192,31 +206,31 @@ void Tracker::take_near(double distance) {
   v.near_limit = distance;
   for (int slave : slave_sides(settings_))
     v.near[slave] = not_apart(v.within[slave], v.apart_until[slave], v.path + distance + limits_.outside);
-  list_nodes();
 }
 
 // Leaves out the near nodes that have more clearance than `clear`. A node for which less than limits.outside
-// serves has so much clearance more.
+// serves has so much clearance more. Whichever side of the surface it is on, nothing comes of a node that is
+// farther away than the depth limit.
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
-  const SurfaceView master = view(1 - slave, settings_.extension);
+  const Placer place_master = placer(1 - slave);
+  const SurfaceView master = view(1 - slave, settings_.extension, &place_master);
   const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around};
-  const double surely_seen = settings_.skin + limits_.outside;  // whichever side of the surface it is on
   Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {
     const int node = all.slave[i];
-    const auto [clearance, faces, around] =
-        approach(master, configuration_.x[slave].col(node), move, all.faces(i));
+    const Approach found = approach(master, configuration_.x[slave].col(node), move, all.faces(i));
     const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
-    neighbours_->apart_until[slave][node] = neighbours_->path + std::min(clearance, surely_seen) + spare;
-    if (clearance + spare > clear) continue;
-    near.add(node, faces, around);
+    const double beyond = std::min(found.distance, move.reach) - limits_.depth + limits_.outside;
+    const double surely_seen = std::min(found.clearance, settings_.skin + limits_.outside);
+    neighbours_->apart_until[slave][node] = neighbours_->path + std::max(surely_seen + spare, beyond);
+    if (std::max(found.clearance + spare, beyond) > clear) continue;
+    near.add(node, found.faces, found.around);
   }
 }
 
-// Brings the neighbour lists up to date; returns whether clearances were measured, which places all nodes of
-// the lists.
-bool Tracker::update_neighbours() {
+// Brings the neighbour lists up to date.
+void Tracker::update_neighbours() {
   const bool search_is_due =
       !neighbours_ || !(distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin);
   if (search_is_due) find_candidates();
@@ -230,7 +244,6 @@ bool Tracker::update_neighbours() {
     take_near(std::min(2 * distance, neighbours_->limit));
   }
   ++neighbours_->uses;
-  return is_used_up;
 }
 
 // Candidates within `margin` of each other where the nodes are placed now.
@@ -283,18 +296,21 @@ void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b,
   for (int i : {0, 1}) validate(*now_[i], *side_[i].surface, i);
   n_displaced_ = 0;
   start_stage();
+  start_look();
   for (double* sum : {&residual_since_found_, &residual_since_measured_})
     for (const ResidualDisplacement& y : residual) *sum += y.change;
-  if (!update_neighbours())
-    for (int i : {0, 1}) place_nodes(i, neighbours_->node[i]);
+  update_neighbours();
+  for (int i : {0, 1})
+    for (int node : kept_[i]) place_node(i, node);
+  for (int slave : slave_sides(settings_)) place_for(slave, neighbours_->near[slave]);
 }
 
 void Tracker::forget() { neighbours_.reset(); }
 
 std::span<const int> Tracker::all_faces(int slave, int node) {
   const auto faces = neighbours_->candidates[slave][node];
-  const Tracked& master = side_[1 - slave];
-  if (now_[0]) place_nodes(1 - slave, nodes_around(faces, master.topology, master.surface->face));
+  if (now_[0])
+    for (int f : faces) place_face(1 - slave, f);
   return faces;
 }
 
@@ -315,7 +331,8 @@ Eigen::Vector3d Tracker::velocity(int i, int node) const {
 
 void Tracker::remember() {
   for (int i : {0, 1}) {
-    remembered_[i].node = neighbours_ ? neighbours_->node[i] : std::vector<int>();
+    remembered_[i].node = look_[i].nodes;
+    sort_unique(remembered_[i].node);
     remembered_[i].x = configuration_.x[i](Eigen::all, remembered_[i].node);
   }
 }
@@ -350,6 +367,7 @@ void Tracker::serialize(Archive& archive) {
   find_candidates();
   for (int i : {0, 1}) now_[i] = &then.measured_at[i];
   start_stage();
+  start_look();
   measure_clearance(then.limit);
   take_near(then.near_limit);
   neighbours_->uses = then.uses;

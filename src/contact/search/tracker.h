@@ -51,7 +51,13 @@ class Tracker {
 
   const Tracked& side(int i) const { return side_[i]; }
   const Configuration& configuration() const { return configuration_; }
-  SurfaceView view(int i, double extension) const;
+  /// placer: that of the surface where nodes are in contact, whose faces alone follow places. Where faces or
+  /// points between nodes are, it places those around them, too.
+  SurfaceView view(int i, double extension, const Placer* placer = nullptr) const;
+  /// To be called while follow's motions live.
+  Placer placer(int i) {
+    return [this, i](int node) { place_around(i, node); };
+  }
   /// Slave nodes that can touch, with the faces that can be nearest.
   const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
   /// All faces within the depth limit of a slave node, their nodes placed.
@@ -76,15 +82,18 @@ class Tracker {
  private:
   void place(const SurfaceState& a, const SurfaceState& b);
   void place(bool deformed);
-  void place_nodes(int i, const std::vector<int>& nodes);
+  void place_node(int i, int node);
+  void place_around(int i, int node);
+  void place_face(int i, int face);
+  void place_for(int slave, const Neighbours& near);
   Eigen::Vector3d position(int i, int node);
   void start_stage();
+  void start_look();
   double distance_since(const SurfaceMotion then[2]) const;
-  void list_nodes();
   void measure_clearance(double limit);
   void take_near(double distance);
   void leave_out(int slave, double clear);
-  bool update_neighbours();
+  void update_neighbours();
   void find_candidates(double margin);
   void find_candidates();
 
@@ -108,6 +117,12 @@ class Tracker {
     std::vector<long> stamp;
   };
   std::array<Deformed, 2> deformed_;
+  struct Look {                            // what is placed now: entries with the present number
+    std::vector<long> node, around, face;  // by node: itself, and all nodes of the faces there; by face
+    std::vector<int> nodes;
+  };
+  std::array<Look, 2> look_;
+  long n_looks_ = 0;
   struct Placed {
     std::vector<int> node;  // ascending
     Eigen::Matrix3Xd x;
