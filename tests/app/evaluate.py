@@ -26,6 +26,7 @@ modes: 10
 ALPHA, TEETH, T_1, WIDTH = np.radians(20), (17, 43), 300, 25e-3
 R_B = [3e-3 * z / 2 * np.cos(ALPHA) for z in TEETH]
 UM = 1e-6
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
 RIGID = ("-pinion_rigid", "true", "-wheel_rigid", "true")
 LAYER = (*RIGID, "-contact_law", "penalty", "-contact_penalty", "per_area", "-contact_points", "nodes",
          "-contact_stiffness", "2e13")
@@ -108,6 +109,10 @@ def check_elastic(drive):
     near("rows of the table", len(rows), len(roll), 0)
     near("transmission error in the table", float(rows[3]["transmission error [m]"]), error[3], 1e-12)
     assert "transmission_error/mean" in drive.run("info", "drive_evaluation.h5")
+    drawn = subprocess.run([os.path.join(SCRIPTS, "gear_plots.py"), "drive_evaluation.h5", "--out", "plots"], capture_output=True, text=True, check=False)
+    assert drawn.returncode == 0, drawn.stderr
+    for name in ("transmission_error_pinion_wheel", "load_sharing_pinion_wheel", "line_load_pinion_wheel", "pattern_wheel_left", "root_stress_pinion"):
+        assert os.path.getsize(f"plots/{name}.png") > 10000, f"{name} is not drawn"
 
 
 def check_friction(drive):
