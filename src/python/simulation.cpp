@@ -111,8 +111,8 @@ struct SteppedRun::Parts {
   std::unique_ptr<io::ResultWriter> writer = {};
   std::unique_ptr<dynamics::Simulation> run = {};
   std::shared_ptr<const model::Snapshot> state = {};  // the last one, for all threads
-  Work* work = nullptr;  // the present one
-  Items items = {};      // said since they were last taken
+  Work* work = nullptr;                               // the present one
+  Items items = {};                                   // said since they were last taken
   bool failed = false, finished = false;
   dynamics::RunSummary summary = {};
 
