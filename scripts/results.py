@@ -103,6 +103,7 @@ class NodeStress:
 
 
 TRUSTED = 0.05  # of the peak: above this estimated error a stress is not to be trusted
+WELL_TRUSTED = 0.02  # of the peak: up to this one needs no second look
 
 
 class Peak:

@@ -11,6 +11,7 @@
 #include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/quality.h"
 #include "io/body/body_schema.h"
+#include "io/describe_arrays.h"
 #include "io/describe_text.h"
 #include "io/hdf5/schema.h"
 #include "io/result/describe_result.h"
@@ -196,13 +197,16 @@ std::string describe(const std::string& path) {
   line(out, "file: ", path);
   if (has_hdf5_signature(path)) {
     describe_hdf5(out, path);
+    describe_datasets(out, path);
   } else if (extension == ".msh" || extension == ".inp") {
     describe_mesh_file(out, path, extension == ".msh" ? "Gmsh MSH 4.1" : "Abaqus/CalculiX input");
-  } else if (extension == ".vtu" || extension == ".pvd") {
-    line(out, "format: VTK ", extension == ".vtu" ? "unstructured grid" : "time series",
-         " (open it with ParaView)");
+  } else if (extension == ".vtu" || extension == ".vtp" || extension == ".pvd") {
+    describe_vtk(out, path, extension);
+  } else if (extension == ".csv") {
+    describe_table(out, path);
   } else {
-    fail(path, ": unknown format; known are .msh, .inp, .vtu, .pvd and the HDF5 files of this program");
+    fail(path,
+         ": unknown format; known are .msh, .inp, .vtu, .vtp, .pvd, .csv and the HDF5 files of this program");
   }
   return out.str();
 }

@@ -103,12 +103,15 @@ void write_vtu(const std::string& path, const mesh::Mesh& mesh, const std::vecto
   write_file(path, grid.xml + grid.bytes + "\n</AppendedData>\n</VTKFile>\n");
 }
 
-void write_pvd(const std::string& path, const std::vector<TimeStep>& steps) {
+void write_pvd(const std::string& path, const std::vector<SeriesFile>& files) {
   std::ostringstream out;
   out.precision(17);
   out << "<VTKFile type=\"Collection\" version=\"1.0\">\n<Collection>\n";
-  for (const TimeStep& step : steps)
-    out << "<DataSet timestep=\"" << step.time << "\" file=\"" << escaped(step.file) << "\"/>\n";
+  for (const auto& [time, file, part, name] : files) {
+    out << "<DataSet timestep=\"" << time << "\" part=\"" << part;
+    if (!name.empty()) out << "\" name=\"" << escaped(name);
+    out << "\" file=\"" << escaped(file) << "\"/>\n";
+  }
   out << "</Collection>\n</VTKFile>\n";
   write_file(path, out.str());
 }

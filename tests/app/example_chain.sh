@@ -22,7 +22,7 @@ equal_forces() { awk -F' *[|] *' -v modes="$1" '$2 == "worm root" && $3 == modes
 echo "under equal forces: $(equal_forces 10) % off with 10 modes, $(equal_forces 60) % with 60"
 awk -v few="$(equal_forces 10)" -v many="$(equal_forces 60)" 'BEGIN { exit !(many < few) }'
 [ -s "$work/same_forces.svg" ] || { echo "FAIL: no figure of equal forces"; exit 1; }
-for part in "<h1>Turn-in" "paper, 1000 modes" "modal_60" "git hash" "Inputs"; do
+for part in "<h1>Turn-in" "paper, 1000 modes" "modal_60" "revision" "Inputs"; do
   grep -q "$part" report.html || { echo "FAIL: the page lacks '$part'"; exit 1; }
 done
 grep -q 'src="http' report.html && { echo "FAIL: the page is not self-contained"; exit 1; }

@@ -65,10 +65,10 @@ refused "output: $overwrites run.h5" "${recover[@]}" -output run.h5
 refused "output: $overwrites hard.h5, the same file as .*body.h5" "${recover[@]}" -output hard.h5
 cp run.h5 stress_a_FIX.csv
 refused "output: $overwrites stress_a_FIX.csv" "${recover[@]}" -result stress_a_FIX.csv -output stress.h5
-cp run.h5 field_a.pvd
-refused "fields: $overwrites field_a.pvd" "${recover[@]}" -result field_a.pvd -output stress.h5 -fields field
+cp run.h5 field.pvd
+refused "fields: $overwrites field.pvd" "${recover[@]}" -result field.pvd -output stress.h5 -fields field
 refused "output: $overwrites tables_1.csv" "$elastogear" compare tables_1.csv stress.h5 -output tables
-rm run_load.csv stress_a_FIX.csv field_a.pvd options.txt
+rm run_load.csv stress_a_FIX.csv field.pvd options.txt
 
 # Another run holds the lock of the output.
 held() { refused "$1: another run writes it now" flock "$1.lock" "${@:2}"; }

@@ -4,8 +4,10 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/io/csv.h"
 #include "elastogear/io/describe.h"
 #include "elastogear/io/field_file.h"
+#include "elastogear/io/polydata_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/mesh/file.h"
 #include "sample_body.h"
@@ -15,6 +17,7 @@ namespace elastogear::describe_test {
 using namespace io;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace {
 
@@ -110,9 +113,27 @@ TEST_F(Describe, stress_and_field_files) {
       describe(path("stress.h5")),
       AllOf(HasSubstr("worm/root: 2 nodes"), HasSubstr("peak von Mises: 1.23e+08 Pa at node 7, t = 2e-06 s"),
             HasSubstr("peak Rankine: 9.8e+07 Pa at node 4, t = 1e-06 s"),
-            HasSubstr("estimated error of the reduction: none in the file")));
-  write_vtu(path("a.vtu"), mesh::box_mesh({1, 1, 1}), {});
-  EXPECT_THAT(describe(path("a.vtu")), HasSubstr("VTK unstructured grid"));
+            HasSubstr("estimated error of the reduction: none in the file"),
+            HasSubstr("arrays:\n  /time: 3, s\n"), HasSubstr("  /worm/root/stress: 3 x 2 x 6, Pa\n")));
+  const mesh::Mesh box = mesh::box_mesh({1, 1, 1});
+  write_vtu(path("a.vtu"), box, {{"u <1> [m]", box.X}});
+  EXPECT_THAT(
+      describe(path("a.vtu")),
+      AllOf(HasSubstr("VTK unstructured grid"), HasSubstr("points: 8, cells: 1\n"),
+            HasSubstr("array of points: u <1> [m], components: 3\n"), Not(HasSubstr("connectivity"))));
+}
+
+TEST_F(Describe, collections_polygons_and_tables) {
+  write_pvd(path("a.pvd"), {{0, "a_0.vtu", 0, "a"}, {1, "a_1.vtu", 0, "a"}, {0, "b_0.vtu", 1, "b"}});
+  EXPECT_THAT(describe(path("a.pvd")),
+              AllOf(HasSubstr("3 files: 2 times of a, b\n"), HasSubstr("  1 s: a_1.vtu\n")));
+  write_polydata(path("a.vtp"), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {{"level", {3}}});
+  EXPECT_THAT(describe(path("a.vtp")), AllOf(HasSubstr("points: 3, polygons: 1\n"),
+                                             HasSubstr("array of cells: level, components: 1\n")));
+  write_csv(path("a.csv"), {{"time", "s", Eigen::Vector2d(0, 1)}, {"force", "N", Eigen::Vector2d(2, 3)}});
+  EXPECT_THAT(describe(path("a.csv")), HasSubstr("table, 2 rows\ncolumn: time [s]\ncolumn: force [N]\n"));
+  write_file(path("b.vtu"), "nothing");
+  EXPECT_THROW(describe(path("b.vtu")), Error);
 }
 
 TEST_F(Describe, estimated_errors_of_stresses) {

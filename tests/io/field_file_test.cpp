@@ -69,10 +69,11 @@ TEST_F(FieldFile, refuses_fields_that_do_not_fit_or_are_not_finite) {
   EXPECT_EQ(folder.files(), 0);
 }
 
-TEST_F(FieldFile, series_lists_times_and_files) {
-  write_pvd(folder / "a.pvd", {{0.1, "a_0.vtu"}, {1.0 / 3, "a&b.vtu"}});
-  EXPECT_THAT(read_file(folder / "a.pvd"), HasSubstr("timestep=\"0.10000000000000001\" file=\"a_0.vtu\""));
-  EXPECT_THAT(read_file(folder / "a.pvd"), HasSubstr("a&amp;b.vtu"));
+TEST_F(FieldFile, series_lists_times_parts_and_files) {
+  write_pvd(folder / "a.pvd", {{0.1, "a_0.vtu", 0, ""}, {1.0 / 3, "a&b.vtu", 1, "<b>"}});
+  EXPECT_THAT(read_file(folder / "a.pvd"),
+              HasSubstr("timestep=\"0.10000000000000001\" part=\"0\" file=\"a_0.vtu\""));
+  EXPECT_THAT(read_file(folder / "a.pvd"), HasSubstr("part=\"1\" name=\"&lt;b>\" file=\"a&amp;b.vtu\""));
 }
 
 TEST_F(FieldFile, table_has_units_in_its_header_and_exact_numbers) {

@@ -5,8 +5,8 @@
 
 namespace elastogear::io {
 
-/// Readable summary of a mesh (.msh, .inp), a body, result or stress file, or the name of a field file (.vtu,
-/// .pvd). Error for files that are none of these.
+/// Readable summary of a mesh (.msh, .inp), a body, result or stress file, a field file (.vtu, .vtp, .pvd) or
+/// a table (.csv), with the arrays that it holds. Error for files that are none of these.
 std::string describe(const std::string& path);
 
 /// Root attribute `format` of an HDF5 file of the program, "elastogear result"; Error for other files.

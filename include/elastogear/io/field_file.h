@@ -1,5 +1,5 @@
 #pragma once
-// Fields on a body's mesh for ParaView: VTU (one time) and PVD (a series of VTU files).
+// Fields on a body's mesh for ParaView: VTU (one body, one time) and PVD (bodies and times of VTU files).
 
 #include <Eigen/Core>
 #include <string>
@@ -19,11 +19,15 @@ struct NodeField {
 /// the mesh or is not finite.
 void write_vtu(const std::string& path, const mesh::Mesh& mesh, const std::vector<NodeField>& fields);
 
-struct TimeStep {
+/// One file of a series: a body at one time.
+struct SeriesFile {
   double time = 0;   ///< s
-  std::string file;  ///< of that time, relative to the PVD file
+  std::string file;  ///< relative to the PVD file
+  int part = 0;      ///< number of the body among those of the series
+  std::string name;  ///< of the body; empty: none
 };
 
-void write_pvd(const std::string& path, const std::vector<TimeStep>& steps);
+/// Collection of field files of several times and bodies.
+void write_pvd(const std::string& path, const std::vector<SeriesFile>& files);
 
 }  // namespace elastogear::io

@@ -22,6 +22,11 @@ std::vector<int> box_levels(const Options& options, const std::string& name) {
   return levels;
 }
 
+void read_field_times(const Options& options, const std::string& name, RecoverSettings& settings) {
+  settings.all_fields = options.list(name) == std::vector<std::string>{"all"};
+  if (!settings.all_fields) settings.field_times = options.numbers(name);
+}
+
 int n_directions(const Options& options, const std::string& name) {
   options.choice(name, {"6", "14", "18", "24", "26"});
   return options.count(name);
@@ -36,8 +41,11 @@ const Rows<RecoverSettings> kRecoverRows = {
     {"csv", &RecoverSettings::all_nodes, one_of("peak", "all"),
      "nodes in the CSV tables of sets above 10 nodes: peak (those of the largest von Mises and of the "
      "largest principal stress) or all"},
-    {"field_times", &RecoverSettings::field_times, "s",
-     "times at which fields of whole bodies are written for ParaView"},
+    {"field_times", "s", "",
+     "times at which fields of whole bodies are written for ParaView, or all: every output time",
+     [](auto& o, auto& name, auto& s) { read_field_times(o, name, s); }},
+    {"field_every", &RecoverSettings::field_every, "-",
+     "with field_times all: every n-th output time, and the last", kPositive},
     {"fields", &RecoverSettings::fields, "-",
      "first part of the field files' names (default: the result file without .h5)"},
     {"box_levels", "-", "",
@@ -64,6 +72,8 @@ OptionTable recover_table() { return table_of(kRecoverRows); }
 RecoverSettings recover_settings(const Options& options) {
   RecoverSettings settings;
   read_rows(options, kRecoverRows, settings);
+  require(settings.all_fields || !options.given("field_every"),
+          "option -field_every = ", settings.field_every, ": goes with -field_times all only");
   settings.stress.erase("nodes");  // stress_nodes is reduce's key in a shared file
   if (settings.fields.empty())
     settings.fields = std::filesystem::path(settings.result).replace_extension().string();

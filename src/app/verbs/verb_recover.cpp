@@ -44,7 +44,7 @@ std::vector<std::string> known_bodies(const Options& options) {
 
 // Returns whether stresses of the body are wanted together with their estimated error.
 bool needs_error(const RecoverSettings& settings, const std::string& body) {
-  return (settings.stress.contains(body) || !settings.field_times.empty()) && settings.error_estimate;
+  return (settings.stress.contains(body) || has_fields(settings)) && settings.error_estimate;
 }
 
 Run read_run(const RecoverSettings& settings, const Progress& progress) {
@@ -119,6 +119,9 @@ int nearest_step(const Eigen::VectorXd& time, double t) {
 
 std::vector<int> field_steps(const RecoverSettings& settings, const Run& run) {
   std::vector<int> steps;
+  const int last = static_cast<int>(run.time.size()) - 1;
+  for (int step = 0; settings.all_fields && step < last; step += settings.field_every) steps.push_back(step);
+  if (settings.all_fields) steps.push_back(last);
   for (double time : settings.field_times) steps.push_back(nearest_step(run.time, time));
   return steps;
 }
@@ -129,40 +132,42 @@ std::string field_path(const std::string& base, std::size_t i, std::size_t n) {
 
 void write_fields(const RecoverSettings& settings, const Run& run, const std::vector<int>& steps,
                   const Progress& progress) {
+  std::vector<io::SeriesFile> series;
   for (const RecoveredBody& recovered : run.bodies) {
     const recovery::BodyOfRun& body = recovered.run;
-    if (steps.empty()) break;
+    if (steps.empty()) return;
     if (body.file.empty()) continue;  // rigid, without a mesh
     const double before = share(run.bodies, recovered), each = 1.0 / static_cast<double>(run.bodies.size());
     const io::BodySource source = io::read_body_source(body.file);
     const model::Surface surface = read_elastic_body(body).surface;
     const recovery::BodyContact contact = recovery::read_body_contact(run.result, body.name, surface);
     const std::string base = settings.fields + "_" + body.name;
-    std::vector<io::TimeStep> series;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       report(progress, "fields", before + each * share(steps, steps[i]));
       const std::string path = field_path(base, i, steps.size());
       recovery::FieldState state = recovered_state(recovered, steps[i], settings.error_estimate);
       state.more = contact_fields(contact, steps[i], state.R_WB, surface, source.mesh.X.cols());
       write_field(path, body.file, source, state, finite_elements());
-      series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string()});
+      series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string(),
+                        static_cast<int>(&recovered - run.bodies.data()), body.name});
       print_item("written", path);
     }
-    io::write_pvd(base + ".pvd", series);
   }
-  if (!steps.empty()) report(progress, "fields", 1);
+  const std::string path = settings.fields + ".pvd";
+  io::write_pvd(path, series);
+  print_item("written", path);
+  report(progress, "fields", 1);
 }
 
 void protect_inputs(const Options& options, const RecoverSettings& settings, const Run& run,
                     std::size_t n_fields) {
-  Outputs stresses{"output", {settings.output}}, fields{"fields", {}};
+  Outputs stresses{"output", {settings.output}}, fields{"fields", {settings.fields + ".pvd"}};
   for (const auto& [body, sets] : settings.stress)
     for (const std::string& set : sets) stresses.files.push_back(table_path(settings, body, set));
   std::vector<std::string> data = {run.result};
   for (const auto& [body, response, reference] : run.bodies) {
     data.push_back(body.file);
     const std::string base = settings.fields + "_" + body.name;
-    fields.files.push_back(base + ".pvd");
     for (std::size_t i = 0; i < n_fields; ++i) fields.files.push_back(field_path(base, i, n_fields));
     for (const std::string& file : box_files(settings.fields, body.name)) fields.files.push_back(file);
   }

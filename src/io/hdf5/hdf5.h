@@ -60,6 +60,8 @@ bool is_group(const File& file, const std::string& name);
 void make_group(const File& file, const std::string& name);
 /// Names of the members of a group, ascending.
 std::vector<std::string> members(const File& file, const std::string& group);
+/// Paths of all datasets, ascending.
+std::vector<std::string> datasets(const File& file);
 
 using Shape = std::vector<hsize_t>;
 
