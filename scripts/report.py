@@ -1,359 +1,279 @@
 #!/usr/bin/python3
-"""One self-contained HTML page of an example that scripts/example has run: the paper's figures and tables with our figures
-beside the paper's, pictures of the von Mises stress (unreduced | reduced; when scripts/example ran with --fields), inputs,
-versions and times.
+"""One HTML page of a run that can be turned and played, without a network: question, answer and how sure it is, stresses on the
+bodies, curves, tables, inputs, versions (docs/report.md).
 
-    scripts/report.py impact|turn_in|rolling FOLDER [--out REPORT.html]      FOLDER: out/examples/SIZE/EXAMPLE
+  report.py drive.yaml                         the input file of simulate and recover; its result file is there already
+  report.py impact|turn_in|rolling FOLDER      an example that scripts/example has run in out/examples/SIZE/EXAMPLE
 """
 import argparse
 import base64
-import csv
-import glob
-import html
-import io
+import json
 import os
-import re
 import subprocess
 import sys
+import tempfile
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
+import yaml
 
 import results
-from plots import COLOURS, STYLES
+from page import bundle, curves, evaluation, example, fields, pack, texts
 
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
-INPUT = os.path.join(SCRIPTS, "..", "examples", "worm_gear")
-INPUTS = {"impact": ["impact"], "turn_in": ["turn_in"], "rolling": ["rolling", "rolling_static"]}
-TITLE = {"impact": "Impact (the paper's section 3.1)", "turn_in": "Turn-in (the paper's section 3.2.1)",
-         "rolling": "Rolling contact (the paper's section 3.2.2)"}
-PAPER_TIMES = {"full": 71000, "modal_100": 17, "modal_500": 70, "modal_1000": 339, "modal_2000": 1374}  # s, Tab. 2
-MEASURES = ("xx", "yy", "zz", "xy", "xz", "yz", "von Mises", "Rankine")
-PAPER_STRESS = {  # %, Tabs. 3 and 4, 1000 modes
-    "turn_in": {"worm": (9.32, 4.59, 31.42, 9.17, 105.90, 122.49, 10.51, 2.77),
-                "wheel": (59.04, 212.54, 505.97, 45.78, 84.62, 251.80, 48.18, 22.46)},
-    "rolling": {"worm": (1.49, 2.36, 27.71, 15.76, 116.91, 133.27, 16.67, 9.28)}}
-STATE_OF_ROLLING = 0.05  # s, as in scripts/example: the state that the static reference is made for
-END_OF_REBOUND = 0.35  # ms, as in scripts/example: what comes later is another impact, of the other flanks
-STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#1a1a1a}
-table{border-collapse:collapse;margin:1em 0;font-size:14px;font-variant-numeric:tabular-nums}
-td,th{padding:.25em .7em;border-bottom:1px solid #ccc;text-align:right;white-space:nowrap}td:first-child,th:first-child{text-align:left}
-tr.paper td{color:#666;font-style:italic}img{max-width:100%}pre{background:#f4f4f4;padding:1em;overflow:auto;font-size:13px}
-.pair{display:grid;grid-template-columns:1fr 1fr;gap:1em}figcaption{color:#555;font-size:14px}figure{margin:1em 0}"""
+PROGRAM = os.path.join(SCRIPTS, "..", "build", "release", "src", "app", "elastogear")
+SOURCE = os.path.join(SCRIPTS, "page", "src")
+MOST_BYTES = 15_000_000  # of the page
+QUANTITIES = (("von_mises", "Von Mises stress"), ("rankine", "Largest principal stress"), ("contact_traction", "Contact pressure"),
+              ("pattern", "Contact pattern, largest pressure of all times"), ("error_of_von_mises", "Estimated error of von Mises"))
+SHOWN_QUANTILE, STANDS_OUT = 0.999, 3  # as in scripts/pictures.py: colours end there where a few nodes stand out
+WARP_SHARE = 0.08  # of a body's size: the largest displacement that may be drawn
 
 
-def variants(folder):
-    """Labels BASIS_MODES of the reduced runs, by basis and number of modes."""
-    labels = [os.path.basename(path)[:-10] for path in glob.glob(os.path.join(folder, "*_stress.h5"))]
-    reduced = [label for label in labels if re.fullmatch(r"(?!full)\w+_\d+", label)]
-    return sorted(reduced, key=lambda label: (label.rsplit("_", 1)[0], int(label.rsplit("_", 1)[1])))
+def read_keys(path):
+    """All keys of an input file, with their values as text."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            keys = yaml.load(file, Loader=yaml.BaseLoader)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        sys.exit(f"{path}: cannot be read: {error}")
+    if not isinstance(keys, dict):
+        sys.exit(f"{path}: holds no keys: expected an input file of elastogear simulate, or the name of an example")
+    return keys
 
 
-def table(head, rows, paper=()):
-    """rows: lists of text; those whose number is in `paper` are marked as the paper's."""
-    def line(cells, tag, mark=""):
-        return f"<tr{mark}>" + "".join(f"<{tag}>{html.escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
-    body = "".join(line(row, "td", ' class="paper"' if i in paper else "") for i, row in enumerate(rows))
-    return f"<table>{line(head, 'th')}{body}</table>"
+def default_result(path, keys):
+    """The result file that simulate writes with this input file."""
+    own = keys.get("simulate") if isinstance(keys.get("simulate"), dict) else {}
+    if "output" in own or "output" in keys:
+        return own.get("output", keys.get("output"))
+    return os.path.splitext(os.path.basename(path))[0] + "_result.h5"
 
 
-def image(data, caption):
-    text = base64.b64encode(data).decode()
-    return f'<figure><img src="data:image/png;base64,{text}" alt=""><figcaption>{html.escape(caption)}</figcaption></figure>'
+def recover(options, result, n_times, folder):
+    """Stresses at all output times, and fields at no more than the times wanted; returns both files and the command."""
+    stress, base = os.path.join(folder, "stress.h5"), os.path.join(folder, "fields")
+    every = max(1, -(-(n_times - 1) // max(options.times - 1, 1)))
+    command = [options.elastogear, "recover", options.input, "-result", result, "-output", stress]
+    if not options.no_picture:
+        command += ["-fields", base, "-field_times", "all", "-field_every", str(every)]
+    print(f"recovering stresses{'' if options.no_picture else f', fields of every {every}. time'}", file=sys.stderr, flush=True)
+    try:
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    except OSError as error:
+        sys.exit(f"{options.elastogear}: cannot be run: {error}. Build it by scripts/build, or name it by --elastogear")
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed (--no-picture makes a page without the bodies):\n{done.stderr}")
+    return stress, None if options.no_picture else base + ".pvd"
 
 
-def picture(figure, caption):
-    stream = io.BytesIO()
-    figure.savefig(stream, format="png")
-    plt.close(figure)
-    return image(stream.getvalue(), caption)
+def round_up(value):
+    """The next 1, 2 or 5 times a power of ten."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(next(digit * power for digit in (1, 2, 5, 10) if digit * power >= value * (1 - 1e-9)))
 
 
-def read_csv(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.reader(file))[1:]
+def colour_end(case, surfaces, name):
+    """A round number beyond the largest stress evaluated (of von Mises), else beyond the largest value, or where a few nodes stand
+    out far beyond all but those."""
+    most = np.concatenate([surface.fields[name].max(axis=0) for surface in surfaces if name in surface.fields])
+    shown = float(np.quantile(most, SHOWN_QUANTILE))
+    if name == "contact_traction" or most.max() <= STANDS_OUT * shown:
+        shown = float(most.max())
+    if name == "von_mises" and case.peaks:
+        shown = max(peak.value for _, _, _, peak in case.peaks)
+    if shown <= 0:
+        return 1.0
+    step = round_up(shown / 10)
+    return step * float(np.ceil(shown / step))
 
 
-def share(text):
-    value = float(text)
-    return f"{value:.2f}" if np.isfinite(value) else "-"
+def quantities(case, surfaces):
+    """What the bodies can be coloured by, in MPa."""
+    known = {name for surface in surfaces for name in surface.fields}
+    shown = []
+    for key, label in QUANTITIES:
+        name = "contact_traction" if key == "pattern" else key
+        if name in known and (key != "pattern" or len(surfaces[0].displacement) > 1):
+            shown.append({"key": key, "label": label, "unit": "MPa", "factor": 1e-6, "end": colour_end(case, surfaces, name), "twoSides": key == "rankine"})
+    return shown
 
 
-class Example:
-    """The files of one example: the reference's and those of the reduced runs."""
-
-    def __init__(self, name, folder):
-        self.name, self.folder, self.labels = name, folder, variants(folder)
-        if not self.labels:
-            sys.exit(f"{folder}: holds no results of scripts/example {name}")
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def reference(self, label):
-        return "full_at_" + label if self.name == "rolling" else "full"
-
-    def result(self, label):
-        return results.open_file(self.path(label + ".h5"), "result")
-
-    def stress(self, label):
-        return results.open_file(self.path(label + "_stress.h5"), "stress")
-
-    def deviations(self, label, number):
-        """Rows of a table of `elastogear compare` of stresses: 1 relative, 2 of von Mises, 3 over time."""
-        return read_csv(self.path(f"{label}_against_full_stress_{number}.csv"))
-
-    def steps(self):
-        """Last CPU time (s), wall time (s) and memory (MB) of each step, those that made the bodies first (if they were made here)."""
-        rows = []
-        for path in filter(os.path.exists, (os.path.join(self.folder, "..", "steps.csv"), self.path("steps.csv"))):
-            with open(path, encoding="utf-8", newline="") as file:
-                rows += csv.reader(file)
-        return {row[0]: [float(value) for value in row[1:]] for row in rows}
+def scales(surfaces):
+    """Enlargements of the displacements to choose from: 0, 1, 2, 5, ..."""
+    size = max(float(np.ptp(surface.X, axis=0).max()) for surface in surfaces)
+    largest = max(float(np.linalg.norm(surface.displacement, axis=2).max()) for surface in surfaces)
+    most = WARP_SHARE * size / largest if largest > 0 else 1
+    steps = [digit * 10**power for power in range(7) for digit in (1, 2, 5)]
+    return [0, 1] + [step for step in steps if 1 < step <= most]
 
 
-def line_style(i):
-    """Of the i-th curve of a panel; the first is the reference's."""
-    if i == 0:
-        return {"color": "black", "linewidth": 2.2}
-    return {"color": COLOURS[(i - 1) % len(COLOURS)], "linewidth": 1.2, "linestyle": STYLES[(i - 1) // len(COLOURS) % 3]}
+def start_step(case, times):
+    """The field time nearest to the largest evaluated stress."""
+    if not case.peaks:
+        return len(times) - 1
+    peak = max((entry[3] for entry in case.peaks), key=lambda peak: peak.value)
+    return int(np.abs(times - case.stress["time"][peak.step]).argmin())
 
 
-def lines(figure_size, panels):
-    """Figure of panels [(title, label of y, [(name, x, y)])] in one row."""
-    figure, axes = plt.subplots(1, len(panels), figsize=figure_size, squeeze=False)
-    for panel, (title, unit, curves) in zip(axes[0], panels):
-        for i, (name, x, y) in enumerate(curves):
-            panel.plot(x, y, label=name, **line_style(i))
-        panel.set(title=title, ylabel=unit, xlabel="time in ms")
-    axes[0][0].legend(frameon=False, fontsize=8)
-    return figure
+def view_data(case, collection, room):
+    """Everything that the picture needs. room: characters that it may take."""
+    times, surfaces = fields.read_surfaces(collection, case.result)
+    return {"times": times.tolist(), "start": start_step(case, times), "x": case.axis.data(), "quantities": quantities(case, surfaces),
+            "scales": scales(surfaces), "bodies": pack.pack(surfaces, room)}
 
 
-def impact_figures(example):
-    """Figs. 9 to 12."""
-    labels = ["full"] + example.labels
-    forces, speed = {}, []
-    for label in labels:
-        with example.result(label) as file:
-            t, pair = file["time"][:] * 1e3, next(iter(file["contact"].values()))
-            speed.append((label, t, file["bodies/wheel/rigid_velocity"][:, 0]))
-            for area, force in results.group_forces(pair).items():
-                forces.setdefault(area, []).append((label, t, force / 1e3))
-    most = sorted(forces, key=lambda area: -max(force[t < END_OF_REBOUND].max() for _, t, force in forces[area]))[:2]
-    yield picture(lines((11, 3.6), [(area.replace("_", " "), "force in kN", forces[area]) for area in most] + [("wheel", "speed in rad/s", speed)]),
-                  "Fig. 9: contact force of both areas of contact, speed of the wheel")
-    for number, body in ((10, "worm"), (11, "wheel")):
-        yield stress_figure(example, labels, body, "root", f"Fig. {number}: stress at the {body}'s root node")
-    with example.stress("full") as file:
-        flanks = {body: name for body, name, _ in results.stress_sets(file) if name != "root"}
-    panels = []
-    for body, name in flanks.items():
-        node, histories = node_histories(example, labels, body, name)
-        panels.append((f"{body} flank node {node}", r"$\sigma_{xx}$ in MPa",
-                       [(label, t, stress[:, 0] / 1e6) for label, t, stress in histories]))
-    yield picture(lines((11, 3.6), panels), "Fig. 12: normal stress at a flank node of each body")
+def template(name):
+    with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
+        return file.read()
 
 
-def node_histories(example, labels, body, name):
-    """The node with the reference's largest von Mises stress, and [(label, time in ms, n_t x 6 in Pa)]."""
-    with example.stress("full") as file:
-        group = file[body][name]
-        row = int(group["von_mises"][:].max(axis=0).argmax())
-        node = int(group["nodes"][row])
-    histories = []
-    for label in labels:
-        with example.stress(label) as file:
-            histories.append((label, file["time"][:] * 1e3, file[body][name]["stress"][:, row, :]))
-    return node, histories
+def fill(text, parts):
+    """Replaces each {{key}} once; what is filled in is not looked at again."""
+    pieces = text.split("{{")
+    return pieces[0] + "".join(str(parts[key]) + rest for key, rest in (piece.split("}}", 1) for piece in pieces[1:]))
 
 
-def stress_figure(example, labels, body, name, caption):
-    node, histories = node_histories(example, labels, body, name)
-    figure, axes = plt.subplots(2, 3, figsize=(11, 6))
-    for i, panel in enumerate(axes.flat):
-        for j, (label, t, stress) in enumerate(histories):
-            panel.plot(t, stress[:, i] / 1e6, label=label, **line_style(j))
-        panel.set_title(f"${'σ' if i < 3 else 'τ'}_{{{results.COMPONENTS[i]}}}$ in MPa")
-    axes[0][0].legend(frameon=False, fontsize=8)
-    return picture(figure, f"{caption} ({node}), over the time in ms")
+def view_section(case, data):
+    options = "".join(f'<option value="{texts.escape(q["key"])}">{texts.escape(q["label"])}</option>' for q in data["quantities"])
+    names = "".join(f'<option value="{texts.escape(body["name"])}">{texts.escape(body["name"])}</option>' for body in data["bodies"])
+    alt = texts.escape(f"{' and '.join(body['name'] for body in data['bodies'])} in three dimensions, coloured by stress.")
+    return fill(template("view.html"), {"quantities": options, "bodies": names, "alt": alt, "scales": len(data["scales"]) - 1, "last": len(data["times"]) - 1,
+                                        "start": data["start"], "still": "hidden" if len(data["times"]) < 2 else ""})
 
 
-def no_figures(_):
-    return ()
+def charts_section(charts):
+    if not charts:
+        return ""
+    figures = "".join(f'<figure><figcaption>{texts.escape(chart["title"])}</figcaption><div class="chart" id="{chart["id"]}" role="img" '
+                      f'aria-label="{texts.escape(describe(chart))}"></div></figure>' for chart in charts)
+    return (f'<section aria-labelledby="charts-head"><h2 id="charts-head">Over time</h2><p class="note">A click on a curve shows its time on the bodies.</p>'
+            f'<div class="charts">{figures}</div></section>')
 
 
-def rolling_figures(example):
-    """Fig. 14: force, speed, torque ratio and number of tooth pairs of the last run."""
-    label = example.labels[-1]
-    with example.result(label) as file:
-        t, pair = file["time"][:] * 1e3, next(iter(file["contact"].values()))
-        force, torque = results.total_force(pair), pair["torque"][:, 2]
-        count = sum((area > 0).astype(int) for area in results.group_forces(pair).values())
-        speed = {body: file[f"bodies/{body}/rigid_velocity"][:, 0] for body in file["bodies"]}
-    figure, axes = plt.subplots(2, 2, figsize=(11, 6), sharex=True)
-    for panel, values, unit in zip(axes.flat, (force / 1e3, speed["worm"], torque, count),
-                                   ("contact force in kN", "worm's speed in rad/s", "torque on the wheel in N m",
-                                    "tooth pairs in contact")):
-        panel.plot(t, values, color=COLOURS[0], linewidth=1)
-        panel.set(ylabel=unit, xlabel="time in ms")
-    yield picture(figure, f"Fig. 14: rolling contact, {label}")
-    yield "<h2>Transmission (exactly 20.5)</h2>" + table(*transmission(example))
+def describe(chart):
+    """The curves in words."""
+    said = [f"{curve['name']}: from {min(curve['values']):.4g} to {max(curve['values']):.4g}" for curve in chart["curves"] if not curve.get("band")]
+    return f"{chart['title']}, {chart['yLabel']}. " + "; ".join(said)
 
 
-def require_rolling(example):
-    """A mean over a turn needs the turn."""
-    for label in example.labels:
-        with example.result(label) as file:
-            stopped = results.standstill(file)
-        if stopped:
-            sys.exit(f"{example.path(label)}.h5: {stopped}. There is no torque ratio of a turn to report")
+def drawing(path):
+    if not path or not os.path.isfile(path):
+        return ""
+    with open(path, "rb") as file:
+        data = base64.b64encode(file.read()).decode()
+    return f'<p><img class="drawing" src="data:image/svg+xml;base64,{data}" alt="Two sections of the gears in place, with their main numbers"></p>'
 
 
-def transmission(example):
-    """Head and rows of a table: mean torque ratios, number of tooth pairs in contact, balance of energy."""
-    rows = []
-    for label in example.labels:
-        with example.result(label) as file:
-            pair, t, angle = next(iter(file["contact"].values())), file["time"][:], file["bodies/worm/rigid"][:, 0]
-            on_wheel, on_worm = pair["torque"][:, 2], results.torque_on_worm(file)
-            count = sum((area > 0).astype(int) for area in results.group_forces(pair).values())
-            balance, work = np.abs(file["energy/balance"]).max(), np.abs(file["energy/work"]).max()
-        turn = t >= np.interp(angle[-1] - 2 * np.pi, angle, t)
-        ratios = [abs(np.trapz(on_wheel[part], t[part]) / np.trapz(on_worm[part], t[part])) for part in (t > t[-1] / 2, turn)]
-        shares = [f"{100 * (count[t > t[-1] / 2] == n).mean():.0f} %" for n in (1, 2, 3, 4)]
-        rows.append([label, *(f"{ratio:.4f} ({100 * (ratio / 20.5 - 1):+.3f} %)" for ratio in ratios), *shares,
-                     f"{1e6 * balance:.3g} of {1e6 * work:.3g}"])
-    return ["run", "torques, second half", "over the last turn", *(f"{n} pairs" for n in (1, 2, 3, 4)), "balance of energy, uJ"], rows
+def script_data(data):
+    """JSON that may stand inside of a script element."""
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-def deviation_section(example):
-    """Deviations of the stresses for each variant, at each node, with the paper's rows."""
-    for number, title in ((1, "Relative deviation of the stress in %"),
-                          (2, "Deviation in % of the reference's von Mises stress")):
-        nodes = {}
-        for label in example.labels:
-            for row in example.deviations(label, number):
-                nodes.setdefault(row[0], []).append([label] + [share(cell) for cell in row[1:]])
-        yield f"<h2>{title}</h2>"
-        for node, rows in nodes.items():
-            body = node.split()[0]
-            known = PAPER_STRESS.get(example.name, {}).get(body) if number == 1 and " root node" in node else None
-            paper = [["paper, 1000 modes", *map(share, known), ""]] if known else []
-            yield f"<h3>{html.escape(node)}</h3>" + table(["", *MEASURES, "reference in MPa"], rows + paper,
-                                                           range(len(rows), len(rows) + len(paper)))
+def write(path, text):
+    temporary = path + ".tmp"
+    with open(temporary, "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(temporary, path)
+    print(f"{path}: {len(text.encode()) / 1e6:.2f} MB, open it in a browser")
 
 
-def peak_steps(example, time):
-    """Output times at which a run is held against its reference, and those of the reference."""
-    if example.name == "impact":
-        until = slice(0, int(np.searchsorted(time * 1e3, END_OF_REBOUND)))
-        return until, until
-    if example.name == "turn_in":
-        return slice(-1, None), slice(-1, None)
-    nearest = int(np.abs(time - STATE_OF_ROLLING).argmin())
-    return slice(nearest, nearest + 1), slice(-1, None)
+def compose(case, collection, parts, out, evaluated=None):
+    """parts: of the template page.html, but for those that are made here. evaluated: an evaluation file."""
+    folder = bundle.ready()
+    script, style = (bundle.read(os.path.join(folder, name)) for name in ("page.js", "page.css"))
+    charts = curves.charts(case) + (evaluation.charts(evaluated, case.result.filename) if evaluated else [])
+    data = {"charts": charts, "x": case.axis.data()}
+    parts = {"title": texts.escape(case.title()), "results": texts.stress_table(case) + texts.contact_table(case)
+             + (evaluation.table(evaluated, case.result.filename) if evaluated else ""), "more": "", "view": "", "top": "top", **parts}
+    room = MOST_BYTES - len(script) - len(style) - len(script_data(data)) - sum(map(len, parts.values()))
+    if collection:
+        data.update(view_data(case, collection, room - 300_000))
+        parts.update({"view": view_section(case, data), "top": "top two-sides"})
+    parts.update({"script": script.replace("</script", "<\\/script"), "style": style.replace("</style", "<\\/style"), "data": script_data(data),
+                  "charts": charts_section(charts)})
+    write(out, fill(template("page.html"), parts))
 
 
-def peaks(example):
-    """Yields (label, body, set, results.Peak of the run, of the unreduced bodies)."""
-    for label in example.labels:
-        with example.stress(label) as file, example.stress(example.reference(label)) as reference:
-            steps, reference_steps = peak_steps(example, file["time"][:])
-            for body, name, group in results.stress_sets(file):
-                yield label, body, name, results.Peak(group, steps), results.Peak(reference[body][name], reference_steps)
+def mesh_sizes(case, options):
+    sizes = {}
+    for body in case.bodies:
+        path = options.get(body) or results.text(case.result["bodies"][body].attrs.get("file", ""))
+        if path and os.path.isfile(path):
+            results.require_body_of_run(case.result, body, path)
+            with results.open_file(path, "body") as file:
+                sizes[body] = f"{file['mesh/X'].shape[0]} nodes, {file['mesh/cell_type'].shape[0]} elements"
+                sizes[body] += f", {results.mode_count(file)} modes" if results.mode_count(file) else ", unreduced"
+    return sizes
 
 
-def peak_section(example):
-    """Largest von Mises stress of each set with its estimated error, beside the unreduced bodies."""
-    rows = [[f"{label}, {body} {name.replace('_', ' ')}", f"{peak.value / 1e6:.1f}", peak.trust(), f"{true.value / 1e6:.1f}",
-             f"{abs(peak.value - true.value) / 1e6:.2g}"] for label, body, name, peak, true in peaks(example)]
-    head = ["", "peak in MPa", "estimated error of the reduction", "unreduced in MPa", "true error in MPa"]
-    return "<h2>Largest von Mises stress</h2>" + table(head, rows)
+def report_input(options):
+    """Page of an input file's run."""
+    keys = read_keys(options.input)
+    path = options.result or default_result(options.input, keys)
+    stem = os.path.splitext(os.path.basename(options.input))[0]
+    with results.open_file(path, "result") as result, tempfile.TemporaryDirectory(prefix="elastogear_report_") as folder:
+        stress_path, collection = options.stress, None if options.no_picture else options.fields
+        if not stress_path or not (collection or options.no_picture):
+            made, fields_made = recover(options, path, len(result["time"]), folder)
+            stress_path, collection = stress_path or made, collection or fields_made
+        with results.open_file(stress_path, "stress") as stress:
+            case = texts.Case(result, stress, keys)
+            meshes = mesh_sizes(case, {})
+            names = [options.input] + ([options.result] if options.result else [])
+            commands = [f"elastogear {verb} {options.input}" for verb in (("reduce",) if "drive" in keys else ()) + ("simulate", "recover")]
+            commands.append("scripts/report.py " + " ".join(names))
+            source = f"<details><summary>{texts.escape(stem)}.yaml as it stands</summary><pre tabindex=\"0\">{texts.escape(bundle.read(options.input))}</pre></details>"
+            evaluated = options.evaluation or stem + "_evaluation.h5"
+            shown = drawing(options.drawing or stem + ".svg")
+            compose(case, collection, {"summary": texts.summary(case, meshes), "inputs": shown + texts.inputs_table(case, os.path.basename(options.input)) + source,
+                                       "provenance": texts.provenance_table(case, [options.input, path], commands)},
+                    options.out or stem + "_report.html", evaluated if os.path.isfile(evaluated) else None)
 
 
-def time_section(example):
-    steps = example.steps()
-    rows = []
-    for name, (cpu, wall, memory) in steps.items():
-        label = name.removeprefix("simulate_")
-        paper = PAPER_TIMES.get(label, "") if name.startswith("simulate_") and example.name == "impact" else ""
-        rows.append([name.replace("_", " "), f"{cpu:.1f}", f"{wall:.1f}", f"{memory:.0f}", paper])
-    yield "<h2>Times</h2>" + table(["step", "CPU time in s", "wall time in s", "memory in MB", "paper in s (Tab. 2)"], rows)
+def report_example(options):
+    """Page of an example of the paper: that of its last run, with the paper's figures and tables."""
+    chosen = example.Example(options.input, options.folder)
+    if chosen.name == "rolling":
+        example.require_rolling(chosen)
+    label = chosen.labels[-1]
+    collection = chosen.path(label + ".pvd")
+    with chosen.result(label) as result, chosen.stress(label) as stress:
+        case = texts.Case(result, stress, {})
+        inputs = "".join(example.inputs(chosen)) + texts.inputs_table(case, "")
+        commands = [f"scripts/example {chosen.name}", f"scripts/report.py {chosen.name} {options.folder}"]
+        more = f'<section class="more" aria-label="Beside the paper">{"".join(example.sections(chosen))}</section>'
+        compose(case, collection if os.path.exists(collection) else None,
+                {"title": texts.escape(example.TITLE[chosen.name]), "summary": texts.summary(case, mesh_sizes(case, {})), "more": more, "inputs": inputs,
+                 "provenance": texts.provenance_table(case, [chosen.path(label + ".h5")], commands)}, options.out or chosen.path("report.html"))
 
 
-def overview_section(example):
-    """Forces and motion: the first table of `elastogear compare` of the result files."""
-    for label in example.labels:
-        rows = [[row[0], *(f"{float(value):.5g}" if np.isfinite(float(value)) else "-" for value in row[1:])]
-                for row in read_csv(example.path(f"{label}_against_full_result_1.csv"))]
-        yield f"<h3>Forces and motion, {label}</h3>" + table(["", "reduced", "unreduced", "deviation in %"], rows)
-
-
-def field_of(example, label, body):
-    return next(iter(sorted(glob.glob(example.path(f"{label}_{body}*.vtu")))), None)
-
-
-def picture_section(example):
-    """Fig. 13: unreduced beside reduced, in the same colours."""
-    label = example.labels[-1]
-    fields = {(side, body): field_of(example, side, body) for side in (example.reference(label), label)
-              for body in ("worm", "wheel")}
-    if not all(fields.values()):
-        return
-    yield "<h2>Von Mises stress: unreduced | reduced (Fig. 13)</h2>"
-    for body in ("worm", "wheel"):
-        pair = ""
-        for side in (example.reference(label), label):
-            out = example.path(f"{side}_{body}_von_mises.png")
-            subprocess.run([os.path.join(SCRIPTS, "pictures.py"), "stress", fields[side, body], "--like",
-                            fields[example.reference(label), body], "--title", f"{body}, {side}", "--out", out], check=True, stdout=subprocess.DEVNULL)
-            with open(out, "rb") as file:
-                pair += image(file.read(), f"{body}, {side}")
-        yield f'<div class="pair">{pair}</div>'
-
-
-def provenance_section(example):
-    label = example.labels[-1]
-    with example.result(label) as file:
-        known = {key: results.text(value) for key, value in file["provenance"].attrs.items()}
-    wanted = ("program_version", "git_hash", "petsc_version", "slepc_version")
-    yield "<h2>Versions</h2>" + table(["", ""], [[key.replace("_", " "), known.get(key, "?").splitlines()[0]] for key in wanted])
-    yield "<h2>Inputs</h2>"
-    for name in INPUTS[example.name] + ["worm", "wheel"]:
-        with open(os.path.join(INPUT, name + ".yaml"), encoding="utf-8") as file:
-            yield f"<h3>{name}.yaml</h3><pre>{html.escape(file.read())}</pre>"
-
-
-def page(example):
-    figures = {"impact": impact_figures, "turn_in": no_figures, "rolling": rolling_figures}[example.name]
-    parts = (figures, peak_section, deviation_section, picture_section, overview_section, time_section, provenance_section)
-    sections = []
-    for i, part in enumerate(parts):
-        print(f"part {i + 1}/{len(parts)}: {part.__name__.replace('_', ' ')}", file=sys.stderr, flush=True)
-        sections.append("".join(part(example)))
-    title = TITLE[example.name]
-    return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head>'
-            f"<body><h1>{title}</h1>{''.join(sections)}</body></html>")
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("input", help="input file, or impact, turn_in or rolling")
+    parser.add_argument("folder", nargs="?", help="of an example's results")
+    parser.add_argument("--result", help="result file; default: the one that simulate writes with the input file")
+    parser.add_argument("--stress", help="stress file of recover; without it and --fields recover is run")
+    parser.add_argument("--fields", help="collection (.pvd) of recover's fields")
+    parser.add_argument("--times", type=int, default=60, help="most times that are shown on the bodies (default: %(default)s)")
+    parser.add_argument("--drawing", help="SVG file of elastogear mesh; default: INPUT.svg where it is")
+    parser.add_argument("--evaluation", help="file of elastogear evaluate; default: INPUT_evaluation.h5 where it is")
+    parser.add_argument("--no-picture", action="store_true", help="without the bodies in three dimensions")
+    parser.add_argument("--elastogear", default=PROGRAM, help="program")
+    parser.add_argument("--out", help="default: INPUT_report.html")
+    options = parser.parse_args()
+    if (options.input in example.TITLE) != bool(options.folder):
+        parser.error("expected an input file, or impact, turn_in or rolling with the folder of its results")
+    if options.times < 1:
+        parser.error(f"--times is {options.times}, must be at least 1")
+    return options
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("example", choices=sorted(TITLE))
-    parser.add_argument("folder")
-    parser.add_argument("--out", help="default: FOLDER/report.html")
-    options = parser.parse_args()
-    path = options.out or os.path.join(options.folder, "report.html")
-    example = Example(options.example, options.folder)
-    if example.name == "rolling":
-        require_rolling(example)
-    text = page(example)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    print(path)
+    options = arguments()
+    if options.folder:
+        report_example(options)
+    else:
+        report_input(options)
 
 
 if __name__ == "__main__":

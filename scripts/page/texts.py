@@ -1,0 +1,258 @@
+"""What the page says in words and tables, from a result and a stress file: question, answer, trust, inputs, provenance."""
+import html
+import math
+import os
+import time
+
+import numpy as np
+
+import results
+
+LIGHTS = {"good": ("●", "trusted"), "fair": ("▲", "within 5 %"), "bad": ("■", "not to be trusted")}
+SHORTEST = 0.4  # of a unit: shorter runs are told in the next smaller one
+IMBALANCE = (0.01, 0.05)  # of the energy: up to these the balance is good, fair
+
+
+def escape(text):
+    return html.escape(str(text))
+
+
+def table(head, rows, caption, classes="sortable"):
+    """rows: lists of text, or of (text, number to sort by)."""
+    def cell(value, tag):
+        text, number = value if isinstance(value, tuple) else (value, None)
+        mark = f' data-value="{number:.9g}"' if number is not None else ""
+        return f"<{tag}{mark}>{text if isinstance(text, Html) else escape(text)}</{tag}>"
+    lines = "".join("<tr>" + "".join(cell(value, "td") for value in row) + "</tr>" for row in rows)
+    heads = "".join(f'<th scope="col">{escape(name)}</th>' for name in head)
+    return (f'<div class="scroll" tabindex="0" role="group" aria-label="{escape(caption)}"><table class="{classes}"><caption>{escape(caption)}'
+            f"</caption><thead><tr>{heads}</tr></thead><tbody>{lines}</tbody></table></div>")
+
+
+class Html(str):
+    """Text that is HTML already."""
+
+
+def light(kind, words=None):
+    sign, meaning = LIGHTS[kind]
+    return Html(f'<span class="light {kind}"><span aria-hidden="true">{sign}</span> {escape(words or meaning)}</span>')
+
+
+def trust(value, error):
+    """The light of a value with its estimated error (None: not estimated)."""
+    if error is None or not math.isfinite(error) or error > results.TRUSTED * abs(value):
+        return "bad"
+    return "good" if error <= results.WELL_TRUSTED * abs(value) else "fair"
+
+
+def worst(kinds):
+    return max(kinds, key=list(LIGHTS).index, default="bad")
+
+
+def mega(pascal, digits=4):
+    return f"{pascal / 1e6:.{digits}g}"
+
+
+def plus_minus(value, error):
+    """"282.8 ± 1.9" in MPa: the last digit of both is that of two digits of the error."""
+    if error is None or error <= 0:
+        return f"{value / 1e6:.4g}"
+    decimals = max(0, min(4, 1 - math.floor(math.log10(error / 1e6))))
+    return f"{value / 1e6:.{decimals}f} ± {error / 1e6:.{decimals}f}"
+
+
+def options_of(file):
+    """{option: value} in force in the run that wrote a file."""
+    return {key.removeprefix("option_"): results.text(value) for key, value in file["provenance"].attrs.items() if key.startswith("option_")}
+
+
+class Axis:
+    """What the times of a result are: name, label, unit, factor into the unit."""
+
+    def __init__(self, analysis, last):
+        if analysis == "sweep":
+            self.name, self.unit, self.factor = "roll angle", "pitches", 1.0
+        elif analysis == "static":
+            self.name, self.unit, self.factor = "load factor", "", 1.0
+        else:
+            self.name = "time"
+            units = (("s", 1.0), ("ms", 1e3), ("µs", 1e6))
+            self.unit, self.factor = next((entry for entry in units if last * entry[1] >= SHORTEST), units[-1])
+        self.label = f"{self.name} in {self.unit}" if self.unit else self.name
+
+    def at(self, value):
+        return f"{value * self.factor:.4g} {self.unit}".strip()
+
+    def data(self):
+        return {"name": self.name, "label": self.label, "unit": self.unit, "factor": self.factor}
+
+
+class Case:
+    """One run: its files, open, and what was asked."""
+
+    def __init__(self, result, stress, drive):
+        self.result, self.stress, self.drive = result, stress, drive or {}
+        self.options = options_of(result)
+        self.analysis = self.options.get("analysis", "dynamic")
+        self.time = result["time"][:]
+        self.axis = Axis(self.analysis, float(self.time[-1]))
+        self.bodies = sorted(result["bodies"], key=lambda name: int(result["bodies"][name].attrs["number"]))
+        self.peaks = [(body, name, group, results.Peak(group)) for body, name, group in results.stress_sets(stress)] if stress else []
+
+    def kind(self):
+        return {"worm": "worm drive", "cylindrical": "gear drive"}.get(self.drive.get("drive"), "")
+
+    def teeth(self, body):
+        section = self.drive.get(body)
+        section = section if isinstance(section, dict) else {}
+        return section.get("teeth") or (section.get("starts", "1") if body == "worm" and self.kind() == "worm drive" else None)
+
+    def title(self):
+        if not self.kind():
+            return os.path.splitext(os.path.basename(self.result.filename))[0].replace("_", " ").capitalize() + f": {' and '.join(self.bodies)}"
+        numbers = [self.teeth(body) for body in self.bodies]
+        return self.kind().capitalize() + (" " + " : ".join(numbers) if all(numbers) else "")
+
+
+def motion_of(case, body):
+    """"held", or how a body may move and starts."""
+    state = case.result["bodies"][body]
+    speed = state["rigid_velocity"]
+    if speed.shape[1] == 0:
+        return "held"
+    if case.analysis != "dynamic":
+        return "free to turn"
+    first = float(speed[0, 0])
+    return f"{'starting at' if first else 'free, from rest'}{f' {abs(first):.4g} {results.speed_unit(state)}' if first else ''}"
+
+
+def question(case):
+    """What was asked, a sentence."""
+    torque = case.drive.get("torque", case.options.get("torque", "0"))
+    if case.kind():
+        if case.analysis == "sweep":
+            return f"What stresses do the teeth of this {case.kind()} bear as it rolls under {torque}?"
+        if case.analysis == "static":
+            return f"What stresses do the teeth of this {case.kind()} bear at rest under {torque} on the {case.bodies[0]}?"
+    moving = ", ".join(f"{body} ({motion_of(case, body)})" for body in case.bodies)
+    if case.analysis == "dynamic":
+        return f"What stresses arise within {case.axis.at(case.time[-1])} in {moving}, with each other in contact?"
+    return f"What stresses arise at rest in {moving}?"
+
+
+def balance(case):
+    """Largest imbalance of energy as a share of what was there or came in; None where nothing moves."""
+    energy = case.result["energy"]
+    if case.analysis != "dynamic":
+        return None
+    whole = sum(abs(float(energy[name][0])) for name in ("kinetic", "elastic", "contact")) + float(np.abs(energy["work"][:]).max())
+    return float(np.abs(energy["balance"][:]).max()) / whole if whole > 0 else None
+
+
+def checks(case, meshes):
+    """Rows (light, what, figure) of all that can be told of how sure the answer is."""
+    rows = []
+    for body, name, _, peak in case.peaks:
+        share = f"off by an estimated {100 * peak.error / max(peak.value, 1e-300):.2g} %" if peak.error is not None else "error not estimated"
+        kind = trust(peak.value, peak.error)
+        rows.append((kind, f"{LIGHTS[kind][1].capitalize()}", f"{body} {name.replace('_', ' ')}, {share}"))
+    off = balance(case)
+    if off is not None:
+        kind = "good" if off <= IMBALANCE[0] else "fair" if off <= IMBALANCE[1] else "bad"
+        rows.append((kind, "Energy", f"balance off by at most {100 * off:.2g} %"))
+    if not case.result.attrs.get("complete", 1):
+        rows.append(("bad", "Stopped", "the run did not reach its end"))
+    if meshes:
+        rows.append(("fair", "Mesh", f"its error is not estimated, repeat with a finer one ({'; '.join(f'{body}: {size}' for body, size in meshes.items())})"))
+    return rows
+
+
+def cards(case):
+    """The answer: the largest stress of each set, and the largest contact force."""
+    for body, name, group, peak in sorted(case.peaks, key=lambda entry: -entry[3].value):
+        kind, node = trust(peak.value, peak.error), int(group["nodes"][peak.row])
+        place = f"node {node}" + (f", {case.axis.at(case.time[peak.step])}" if len(case.time) > 1 else "")
+        visit = escape(f'{{"body": "{body}", "node": {node}, "time": {case.time[peak.step]!r}}}')
+        yield (f'<li class="card"><h3>{escape(body)}, {escape(name.replace("_", " "))}</h3>'
+               f'<p class="figure">{plus_minus(peak.value, peak.error)} <span class="unit">MPa</span></p><p>largest von Mises stress, {light(kind)}</p>'
+               f'<p class="where">{escape(place)} <button type="button" data-visit="{visit}">Show</button></p></li>')
+    for name, pair in case.result["contact"].items():
+        force = results.total_force(pair)
+        step = int(force.argmax())
+        pressure = float(pair["pressure"][:].max()) if "pressure" in pair else 0
+        more = f"contact pressure up to {mega(pressure)} MPa" if pressure > 0 else ""
+        yield (f'<li class="card"><h3>Contact {escape(name.replace(":", " on "))}</h3><p class="figure">{force[step]:.4g} <span class="unit">N</span></p>'
+               f'<p>largest contact force</p><p>{more}</p><p class="where">{escape(case.axis.at(case.time[step])) if len(case.time) > 1 else ""}</p></li>')
+
+
+def summary(case, meshes):
+    """Question, answer and how sure it is."""
+    rows = checks(case, meshes)
+    overall = worst([kind for kind, _, _ in rows]) if case.peaks else "bad"
+    listed = "".join(f"<li>{light(kind, what)}: {escape(figure)}</li>" for kind, what, figure in rows)
+    missing = "" if case.peaks else f"<p>{light('bad', 'No stresses were evaluated')}</p>"
+    return (f'<section aria-labelledby="asked" class="summary"><p id="asked" class="asked">{escape(question(case))}</p>'
+            f'<ul class="cards">{"".join(cards(case))}</ul>'
+            f'<div class="verdict {overall}"><h2>How sure</h2>{missing}<ul class="checks">{listed}</ul>'
+            f'<p class="note">After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh. It covers neither the mesh nor the '
+            f"law of contact.</p></div></section>")
+
+
+def stress_table(case):
+    rows = []
+    for body, name, group, peak in case.peaks:
+        tension = group["rankine"][:]
+        rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), (mega(peak.error, 2) if peak.error is not None else "–", peak.error or 0),
+                     light(trust(peak.value, peak.error)), str(int(group["nodes"][peak.row])),
+                     (case.axis.at(case.time[peak.step]), float(case.time[peak.step])), (mega(float(tension.max())), float(tension.max()))])
+    return table(["body", "node set", "von Mises in MPa", "± in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
+
+
+def contact_table(case):
+    rows = []
+    for pair_name, pair in case.result["contact"].items():
+        for side, body in (("a", pair_name.split(":")[0]), ("b", pair_name.split(":")[-1])):
+            group = pair[f"groups/{side}"]
+            forces = results.group_forces(pair, side)
+            for i, (name, force) in enumerate(forces.items()):
+                if force.max() > 0:
+                    step = int(force.argmax())
+                    most = float(group["pressure"][:, i].max()) if "pressure" in group else 0.0
+                    rows.append([body, name.replace("_", " "), (f"{force[step]:.4g}", float(force[step])), (case.axis.at(case.time[step]), float(case.time[step])),
+                                 (mega(most), most)])
+    return table(["body", "area of contact", "largest force in N", case.axis.name, "largest pressure in MPa"], rows, "Areas of contact") if rows else ""
+
+
+def flat(tree, prefix=""):
+    for key, value in tree.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, dict):
+            yield from flat(value, name + ".")
+        else:
+            yield name, ", ".join(map(str, value)) if isinstance(value, list) else value
+
+
+def inputs_table(case, source):
+    """source: name of the input file whose keys case.drive holds."""
+    given = [[key, value] for key, value in flat(case.drive)]
+    every = [[key, value] for key, value in sorted(case.options.items())]
+    text = table(["key", "value"], given, f"Given in {source}") if given else ""
+    return text + (f"<details><summary>All {len(every)} options of simulate in force</summary>"
+                   f'{table(["option", "value"], every, "Options in force; numbers without a unit are in SI units")}</details>')
+
+
+def bytes_of(path):
+    size = os.path.getsize(path)
+    return f"{size / 1e6:.1f} MB" if size >= 1e6 else f"{size / 1e3:.1f} kB"
+
+
+def provenance_table(case, files, commands):
+    known = {key: results.text(value).strip() for key, value in case.result["provenance"].attrs.items() if not key.startswith("option_")}
+    rows = [["elastogear", f"{known.get('program_version', '?')}, revision {known.get('git_hash', '?')}"],
+            ["PETSc", known.get("petsc_version", "?").removeprefix("Petsc Release Version ")],
+            ["SLEPc", known.get("slepc_version", "?").removeprefix("SLEPc Release Version ")]]
+    rows += [[f"body {key.removeprefix('identity_')}", f"identity {value}"] for key, value in known.items() if key.startswith("identity_")]
+    rows += [["command", command] for command in commands]
+    rows += [[os.path.basename(path), f"{bytes_of(path)}, {time.strftime('%Y-%m-%d %H:%M', time.localtime(os.path.getmtime(path)))}"]
+             for path in files]
+    return table(["", ""], rows, "Versions, commands and files", "plain")
