@@ -17,7 +17,7 @@ roller = eg.System(hertz / "hertz.yaml")
 
 stress = {}
 for basis in ["full", "modal_residual", "modal"]:
-    roller.reduce(mesh=repository / "meshes" / "roller.inp", basis=basis)
+    roller.reduce(mesh=repository / "meshes" / "roller.inp", basis=basis, output="roller.h5")
     roller.simulate()
     stress[basis] = roller.recover()["roller", "AXIS"]
 

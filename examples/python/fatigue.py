@@ -27,7 +27,7 @@ for result in drive.sweep():
 
 damage = {}
 for revolutions in [1e6, 1e7]:
-    life = drive.life(life={"duty_cycle": ["250 N m", revolutions, "300 N m", 0.1 * revolutions]})
+    life = drive.life(duty_cycle=["250 N m", revolutions, "300 N m", 0.1 * revolutions])
     for each in life.summary["sets"]:
         print(f"{each['body']} {each['set']}: damage {each['damage']:.3g}")
         damage[each["body"], revolutions] = each["damage"]

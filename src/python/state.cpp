@@ -58,7 +58,7 @@ void def_rotation(py::class_<PartView<Part>>& type, const char* name, Eigen::Mat
   type.def_property_readonly(
       name,
       [member](const PartView<Part>& v) {
-        return view((v.part->*member).data(), {3, 3}, v.owner).attr("T");  // by columns
+        return py::object(view((v.part->*member).data(), {3, 3}, v.owner).attr("T"));  // by columns
       },
       doc);
 }

@@ -83,6 +83,7 @@ REDUCE = [
          after=goes_on("kept.h5")),
     Case("all modes of a degenerate bar", r"", "{reduce} -modes 36", kind="good", leaves=r"kept\.h5"),
     Case("modal_residual without a surface", r"", "{reduce} -basis modal_residual -surface ''", kind="good", leaves=r"kept\.h5"),
+    Case("a body file that runs read, made anew", r"", "{reduce} -a_file kept.h5", kind="good", leaves=r"kept\.h5"),
     Case("SLEPc told nonsense", r"eps_type", "{reduce} -eps_type nosuch"),
 
 ]

@@ -108,7 +108,7 @@ class Runs(WithDrive):
         root = stress["pinion", "root"]
         self.assertEqual(root.stress.shape, (*root.von_mises.shape, 6))
         np.testing.assert_allclose(eg.von_mises(root.stress[-1]), root.von_mises[-1])
-        self.assertGreater(root.von_mises[-1].max(), 1e7)
+        self.assertGreater(root.von_mises[-1].max(), 1e6)  # of four modes alone
         self.assertEqual(set(result.energies), {"kinetic", "elastic", "contact", "bushing", "dissipated", "work", "balance"})
         body = eg.Body("pinion.h5")
         self.assertEqual(body.stress("root", result.body("pinion").q[-1]).shape, (len(root.node), 6))

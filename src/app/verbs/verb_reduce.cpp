@@ -206,7 +206,11 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
 
 void reduce_body(const Options& options, const NodeSource& read) {
   const std::string output = options.text("output");
-  protect_inputs(options, {{"output", {output}}});
+  std::vector<Outputs> outputs{{"output", {output}}};
+  // Body files that the input names are those that runs read afterwards.
+  for (const std::string& body : options.placeholder_values("<gear>_file"))
+    outputs.push_back({with_word("<gear>_file", body), {}});
+  protect_inputs(options, outputs);
   ReductionOptions reduction = reduction_options(options);
   reduction.announce = print_cost;
   const OutputLock lock(output);

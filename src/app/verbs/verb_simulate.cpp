@@ -196,6 +196,7 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   require(n_ranks == 1, "runs on one rank, not on ", n_ranks,
           ", but for analysis: sweep: call it without mpirun");
   const Options options = of_system(given);
+  require(!options.list("bodies").empty(), "option -bodies is missing: names of the bodies");
   options.reject_unknown(simulate_names(options));
   const std::string output = options.text("output");
   protect_inputs(options, {{"output", {output}}, {"sensor_csv", sensor_tables(options)}});
