@@ -2,17 +2,16 @@
 """Both gears of a drive in one scene, drawn by VTK without a screen: von Mises stress on the deformed bodies, and the contact pattern on
 the loaded flank of the second one; as a picture, or as an animation of the roll angles.
 
-    gear_scene.py picture   FIRST.pvd SECOND.pvd --evaluation EVALUATION.h5 --body-file SECOND.h5 --out PICTURE.png [--frame 0]
-    gear_scene.py animation FIRST.pvd SECOND.pvd --out FILM.mp4|FILM.gif [--seconds 4]
+    gear_scene.py picture   FIELDS.pvd --evaluation EVALUATION.h5 --body-file SECOND.h5 --out PICTURE.png [--frame 0]
+    gear_scene.py animation FIELDS.pvd --out FILM.mp4|FILM.gif [--seconds 4]
 
-The .pvd files are those of `elastogear recover ... -field_times ...`; ffmpeg makes the film.
+The .pvd file is that of `elastogear recover ... -field_times all`; ffmpeg makes the film.
 """
 import argparse
 import os
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree
 
 import numpy as np
 import vtk
@@ -20,6 +19,7 @@ import vtk
 import pictures
 import results
 import scene
+from page import fields
 
 ASPECT = 1.25  # of a panel
 WIDTH, HEIGHT = 1800, 860
@@ -29,16 +29,14 @@ MARGIN = 1.25  # around the flank
 GAP = 0.008  # between panels, of the picture's width
 
 
-def frames_of(path):
-    """Files and times of a .pvd file."""
-    try:
-        sets = xml.etree.ElementTree.parse(path).getroot().iter("DataSet")
-        found = [(os.path.join(os.path.dirname(path), item.get("file")), float(item.get("timestep"))) for item in sets]
-    except (OSError, xml.etree.ElementTree.ParseError) as error:
-        sys.exit(f"{path}: is no .pvd file: {error}")
-    if not found:
-        sys.exit(f"{path}: names no fields")
-    return found
+def frames_of(options):
+    """Names of the two gears, and for each time the files of both and the time."""
+    series = fields.series(options.fields)
+    names = options.gears or list(series)[:2]
+    if len(names) < 2 or not set(names) <= set(series):
+        sys.exit(f"{options.fields}: has fields of {', '.join(series) or 'no body'}, expected {' and '.join(names) if options.gears else 'two gears'}")
+    first, second = (series[name] for name in names)
+    return names, [((file, mate), time) for (time, file), (_, mate) in zip(first, second)]
 
 
 class Body:
@@ -176,32 +174,33 @@ def flank_actors(body_file, body, pattern):
 
 
 def draw_picture(options):
-    paths = [frames_of(path)[options.frame] for path in (options.first, options.second)]
-    bodies = [Body(path) for path, _ in paths]
-    scale = min(body.scale for body in bodies)
-    bodies = [Body(path, scale) for path, _ in paths]
+    (_, gear), frames = frames_of(options)
+    if not 0 <= options.frame < len(frames):
+        sys.exit(f"{options.fields}: has no frame {options.frame}, only 0 to {len(frames) - 1}")
+    paths, roll = frames[options.frame]
+    scale = min(Body(path).scale for path in paths)
+    bodies = [Body(path, scale) for path in paths]
     picture = scene.Picture(int(WIDTH * 1.5), HEIGHT)
     two_panels(picture, bodies, Views(bodies), end_of_colours(bodies), 2 / 3)
-    gear = os.path.splitext(os.path.basename(options.second))[0].rsplit("_", 1)[-1]
     actors, view, table, name = flank_actors(options.body_file, bodies[1], pattern_of(options.evaluation, options.case, gear))
     picture.panel((2 / 3 + GAP, 0.14, 1, 0.92), actors, view)
     picture.panel((2 / 3, 0, 1, 0.14), [scene.text_actor("largest contact pressure over all roll angles in MPa", 0.5, 0.82, 24), scene.colour_bar(table, False)])
-    picture.panel((0, 0.92, 2 / 3, 1), [scene.text_actor(f"roll angle {paths[0][1]:.3f} pitches, deformation x {scale:g}", 0.5, 0.5, 30)])
+    picture.panel((0, 0.92, 2 / 3, 1), [scene.text_actor(f"roll angle {roll:.3f} pitches, deformation x {scale:g}", 0.5, 0.5, 30)])
     picture.panel((2 / 3, 0.92, 1, 1), [scene.text_actor(f"contact pattern: {name}", 0.5, 0.5, 30)])
     picture.save(options.out)
 
 
 def draw_animation(options):
-    frames = list(zip(frames_of(options.first), frames_of(options.second)))
-    first = [Body(path) for path, _ in frames[0]]
+    _, frames = frames_of(options)
+    first = [Body(path) for path in frames[0][0]]
     scale, views = min(body.scale for body in first), Views(first)
-    bodies = [[Body(path, scale) for path, _ in frame] for frame in frames]
+    bodies = [[Body(path, scale) for path in paths] for paths, _ in frames]
     end = end_of_colours([body for pair in bodies for body in pair])
     with tempfile.TemporaryDirectory() as folder:
-        for number, (pair, frame) in enumerate(zip(bodies, frames)):
+        for number, (pair, (_, roll)) in enumerate(zip(bodies, frames)):
             picture = scene.Picture(WIDTH // 2 * 2, HEIGHT)
             two_panels(picture, pair, views, end, 1)
-            picture.panel((0, 0.92, 1, 1), [scene.text_actor(f"roll angle {frame[0][1]:.3f} pitches, deformation x {scale:g}", 0.5, 0.5, 30)])
+            picture.panel((0, 0.92, 1, 1), [scene.text_actor(f"roll angle {roll:.3f} pitches, deformation x {scale:g}", 0.5, 0.5, 30)])
             picture.save(os.path.join(folder, f"{number:04d}.png"))
         encode(folder, len(frames) / options.seconds, options.out)
 
@@ -229,8 +228,8 @@ def arguments():
     animation.add_argument("--seconds", type=float, default=4, help="length of the film")
     animation.set_defaults(draw=draw_animation)
     for command in (picture, animation):
-        command.add_argument("first", help=".pvd file of the first gear")
-        command.add_argument("second", help=".pvd file of the second gear")
+        command.add_argument("fields", help=".pvd file of recover")
+        command.add_argument("--gears", nargs=2, metavar=("FIRST", "SECOND"), help="default: the first two")
         command.add_argument("--out", required=True, help="file to write")
     return parser.parse_args()
 

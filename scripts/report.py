@@ -141,12 +141,12 @@ def view_section(case, data):
                                         "start": data["start"], "still": "hidden" if len(data["times"]) < 2 else ""})
 
 
-def charts_section(charts):
+def charts_section(charts, axis):
     if not charts:
         return ""
     figures = "".join(f'<figure><figcaption>{texts.escape(chart["title"])}</figcaption><div class="chart" id="{chart["id"]}" role="img" '
                       f'aria-label="{texts.escape(describe(chart))}"></div></figure>' for chart in charts)
-    return (f'<section aria-labelledby="charts-head"><h2 id="charts-head">Over time</h2><p class="note">A click on a curve shows its time on the bodies.</p>'
+    return (f'<section aria-labelledby="charts-head"><h2 id="charts-head">Over the {axis.name}</h2><p class="note">A click on a curve shows its {axis.name} on the bodies.</p>'
             f'<div class="charts">{figures}</div></section>')
 
 
@@ -190,7 +190,7 @@ def compose(case, collection, parts, out, evaluated=None):
         data.update(view_data(case, collection, room - 300_000))
         parts.update({"view": view_section(case, data), "top": "top two-sides"})
     parts.update({"script": script.replace("</script", "<\\/script"), "style": style.replace("</style", "<\\/style"), "data": script_data(data),
-                  "charts": charts_section(charts)})
+                  "charts": charts_section(charts, case.axis)})
     write(out, fill(template("page.html"), parts))
 
 

@@ -81,7 +81,11 @@ class Axis:
         self.label = f"{self.name} in {self.unit}" if self.unit else self.name
 
     def at(self, value):
-        return f"{value * self.factor:.4g} {self.unit}".strip()
+        return f"{value * self.factor:.4g} {self.unit}" if self.unit else f"{self.name} {value:.4g}"
+
+    def cell(self, value):
+        """For a table's column that has the axis' name."""
+        return f"{value * self.factor:.4g} {self.unit}".strip(), float(value)
 
     def data(self):
         return {"name": self.name, "label": self.label, "unit": self.unit, "factor": self.factor}
@@ -128,7 +132,7 @@ def motion_of(case, body):
 
 def question(case):
     """What was asked, a sentence."""
-    torque = case.drive.get("torque", case.options.get("torque", "0"))
+    torque = case.options.get("torque", case.drive.get("torque", "0"))
     if case.kind():
         if case.analysis == "sweep":
             return f"What stresses do the teeth of this {case.kind()} bear as it rolls under {torque}?"
@@ -204,7 +208,7 @@ def stress_table(case):
         tension = group["rankine"][:]
         rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), (mega(peak.error, 2) if peak.error is not None else "–", peak.error or 0),
                      light(trust(peak.value, peak.error)), str(int(group["nodes"][peak.row])),
-                     (case.axis.at(case.time[peak.step]), float(case.time[peak.step])), (mega(float(tension.max())), float(tension.max()))])
+                     case.axis.cell(case.time[peak.step]), (mega(float(tension.max())), float(tension.max()))])
     return table(["body", "node set", "von Mises in MPa", "± in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
 
 
@@ -218,7 +222,7 @@ def contact_table(case):
                 if force.max() > 0:
                     step = int(force.argmax())
                     most = float(group["pressure"][:, i].max()) if "pressure" in group else 0.0
-                    rows.append([body, name.replace("_", " "), (f"{force[step]:.4g}", float(force[step])), (case.axis.at(case.time[step]), float(case.time[step])),
+                    rows.append([body, name.replace("_", " "), (f"{force[step]:.4g}", float(force[step])), case.axis.cell(case.time[step]),
                                  (mega(most), most)])
     return table(["body", "area of contact", "largest force in N", case.axis.name, "largest pressure in MPa"], rows, "Areas of contact") if rows else ""
 
@@ -232,9 +236,16 @@ def flat(tree, prefix=""):
             yield name, ", ".join(map(str, value)) if isinstance(value, list) else value
 
 
+def in_force(case, key, value):
+    """The value of a key, and that of the run where the command line had another one."""
+    used = case.options.get(key, value)
+    plain = value.replace(" ", "") == used.replace(" ", "")
+    return value if plain else f"{used} in this run, {value} in the file"
+
+
 def inputs_table(case, source):
     """source: name of the input file whose keys case.drive holds."""
-    given = [[key, value] for key, value in flat(case.drive)]
+    given = [[key, in_force(case, key, value)] for key, value in flat(case.drive)]
     every = [[key, value] for key, value in sorted(case.options.items())]
     text = table(["key", "value"], given, f"Given in {source}") if given else ""
     return text + (f"<details><summary>All {len(every)} options of simulate in force</summary>"

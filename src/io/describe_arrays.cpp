@@ -23,13 +23,23 @@ std::string xml_attribute(const std::string& tag, const std::string& name) {
   return value;
 }
 
+// Where the tag that begins at `open` ends: at the first > that is not in an attribute's value.
+std::size_t end_of_tag(const std::string& text, std::size_t open) {
+  bool quoted = false;
+  for (std::size_t i = open; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '>' && !quoted) return i;
+  }
+  return text.size();
+}
+
 // Tags in their order, up to the appended bytes.
 std::vector<std::string> tags_of(const std::string& path) {
   std::ifstream file(path);
   std::vector<std::string> tags;
   for (std::string text; std::getline(file, text);)
     for (auto open = text.find('<'); open != text.npos; open = text.find('<', open + 1)) {
-      tags.push_back(text.substr(open, text.find('>', open) - open));
+      tags.push_back(text.substr(open, end_of_tag(text, open) - open));
       if (tags.back().starts_with("<AppendedData")) return tags;
     }
   require(!tags.empty() && file.eof(), path, ": holds no VTK data");

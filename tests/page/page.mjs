@@ -33,6 +33,7 @@ async function open(width, height, more = {}) {
 const changes = (page) => page.evaluate(() => {
   const { viewer } = window.report, gl = viewer.renderer.getContext();
   viewer.resize(1);
+  viewer.drawNow();
   const { drawingBufferWidth: w, drawingBufferHeight: h } = gl, now = new Uint8Array(4 * w * h);
   gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, now);
   const before = window.seen;
@@ -112,13 +113,13 @@ seen.turn = await page.evaluate(() => new Promise((done) => {
 await page.screenshot({ path: join(folder, "desktop.png"), fullPage: true });
 seen.pdf = (await page.pdf({ path: join(folder, "print.pdf"), format: "A4", printBackground: true })).length;
 seen.printed = await page.evaluate(() => document.querySelector("#print").src.length);
-for (const width of [390, 320]) {
-  const phone = await open(width, 844, { isMobile: true, hasTouch: true });
-  await phone.locator(".card [data-visit]").first().click();
-  await phone.waitForFunction(() => !document.querySelector("#picked").hidden);
+const phone = await open(390, 844, { isMobile: true, hasTouch: true });
+await phone.locator(".card [data-visit]").first().click();
+await phone.waitForFunction(() => !document.querySelector("#picked").hidden);
+for (const width of [320, 390]) {
+  await phone.setViewportSize({ width, height: 844 });
   seen.widths[width] = await phone.evaluate(() => document.documentElement.scrollWidth);
-  if (width === 390) await phone.screenshot({ path: join(folder, "phone.png"), fullPage: true });
-  await phone.context().close();
 }
+await phone.screenshot({ path: join(folder, "phone.png"), fullPage: true });
 await browser.close();
 console.log(JSON.stringify(seen));

@@ -5,9 +5,9 @@ import { ABOVE, HEAT, TWO_SIDES, ramp } from "./colours.js";
 
 const N_COLOURS = 256, TURN = Math.PI / 24, CLICK = 5; // colours; radians a key; pixels a pointer may move in a click
 const SAMPLE = 3, FRAME = 1.06; // every n-th node tells a body's extent; room around it
-const SLOW = 30, FAST = 18; // ms a frame
+const SLOW = 30; // ms a frame
 const DETAIL = 2, LEAST_DETAIL = 0.4; // pixels of the picture for one of the page, at rest and in motion on slow machines
-const REST = 350; // ms without a frame
+const REST = 350, MOTION = 120; // ms: a picture rests after so long; one that is wanted sooner after the last belongs to a motion
 
 const VERTEX = `
   attribute float value;
@@ -65,7 +65,8 @@ class Shape {
     this.lines.setAttribute("position", attribute(new Float32Array(3 * body.nodes), 3).setUsage(THREE.DynamicDrawUsage));
     this.lines.setIndex(attribute(body.edges, 1));
     this.group = new THREE.Group();
-    this.group.add(this.mesh, new THREE.LineSegments(this.lines, new THREE.LineBasicMaterial({ color: 0x555555 })));
+    this.creases = new THREE.LineSegments(this.lines, new THREE.LineBasicMaterial({ color: 0x555555 }));
+    this.group.add(this.mesh, this.creases);
     this.group.matrixAutoUpdate = false;
     for (const part of this.group.children) part.frustumCulled = false;
     const spread = new THREE.Box3().setFromArray(body.X);
@@ -146,8 +147,7 @@ export class Viewer {
     this.picked = null;
     this.waiting = false;
     this.detail = this.swift = DETAIL; // swift: that of the last motion
-    this.pace = FAST;
-    this.patience = REST;
+    this.last = this.wanted = 0; // times of the last frame, and of the call for the next one
     this.listen(onPick);
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
     this.fit();
@@ -326,10 +326,11 @@ export class Viewer {
   draw() {
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame((now) => {
+    this.wanted = performance.now();
+    requestAnimationFrame(() => {
       this.waiting = false;
-      this.renderer.render(this.scene, this.camera);
-      this.adapt(now);
+      this.adapt(performance.now());
+      this.drawNow();
     });
   }
 
@@ -339,25 +340,28 @@ export class Viewer {
 
   /** Fewer pixels while frames follow each other too slowly, all of them again when the picture rests. */
   adapt(now) {
-    const gap = now - (this.last ?? 0);
+    const moving = this.wanted - this.last < MOTION, lag = now - this.wanted;
     this.last = now;
-    const moving = gap < this.patience;
-    this.pace = moving ? 0.7 * this.pace + 0.3 * gap : FAST;
-    if (moving && this.detail > this.swift) {
-      this.resize(this.swift);
-    } else if (this.pace > SLOW && this.detail > LEAST_DETAIL) {
-      this.swift = Math.max(LEAST_DETAIL, 0.7 * this.detail);
-      this.pace = FAST;
-      this.resize(this.swift);
-    }
-    clearTimeout(this.rest);
-    this.patience = REST + (moving ? 3 * this.pace : 0);
-    if (this.detail < DETAIL) this.rest = setTimeout(() => this.resize(DETAIL), this.patience);
+    if (moving && this.detail > this.swift) this.resize(this.swift);
+    else if (moving && lag > SLOW && this.detail > LEAST_DETAIL)
+      this.resize((this.swift = Math.max(LEAST_DETAIL, this.detail * Math.max(0.5, Math.min(0.85, Math.sqrt(SLOW / lag))))));
+    this.restAfter(Math.max(REST, moving ? 2 * lag : 0));
   }
 
+  restAfter(wait) {
+    clearTimeout(this.rest);
+    if (this.detail === DETAIL) return;
+    this.rest = setTimeout(() => {
+      if (this.waiting) return this.restAfter(wait);
+      this.resize(DETAIL);
+      this.drawNow();
+    }, wait);
+  }
+
+  /** pixels of the picture for one of the page. Creases are left out of the coarsest ones. */
   resize(detail) {
     this.detail = detail;
     this.renderer.setPixelRatio(detail);
-    this.drawNow();
+    for (const shape of this.shapes) shape.creases.visible = detail > LEAST_DETAIL;
   }
 }

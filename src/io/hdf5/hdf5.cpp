@@ -127,7 +127,7 @@ std::vector<std::string> datasets(const File& file) {
   std::vector<std::string> names;
   const auto add = [](hid_t, const char* name, const H5O_info_t* info, void* data) -> herr_t {
     if (info->type == H5O_TYPE_DATASET)
-      static_cast<std::vector<std::string>*>(data)->push_back("/" + std::string(name));
+      static_cast<std::vector<std::string>*>(data)->emplace_back("/") += name;
     return 0;
   };
   if (H5Ovisit(file.id, H5_INDEX_NAME, H5_ITER_INC, add, &names) < 0) damaged(file, "the tree of groups");
