@@ -187,6 +187,7 @@ def check_cases(drive):
     assert errors[0] > errors[1] > errors[2], errors
     with h5py.File("cases.h5") as file:
         cases = list(file["cases"].values())
+        assert [text.decode() for text in cases[1]["inputs/heading"][:2]] == ["torque [N m]", "variant"], cases[1]["inputs/heading"][:]
         tangent = [case["pinion:wheel/stiffness/tangent"][:] for case in cases[1:]]
         near("tangent stiffness between the same loads", abs(tangent[0] / tangent[1] - 1).max(), 0, 1e-9)
         secant = cases[2]["pinion:wheel/stiffness/secant"][:]

@@ -107,6 +107,16 @@ void add_secants(const std::vector<Evaluated>& cases, Evaluated& of) {
              of.figures.pairs[p]);
 }
 
+// Headings hold units, "N/m", which would be groups in a path.
+void add_case_inputs(const Case& of, io::EvaluationFile& file) {
+  std::vector<std::string> headings, texts;
+  for (const auto& [heading, text] : of.columns) headings.push_back(heading), texts.push_back(text);
+  if (headings.empty()) return;
+  const std::vector<std::size_t> shape = {headings.size()};
+  file.items.push_back({of.name + "/inputs/heading", "1", "columns of cases.csv", shape, {}, headings});
+  file.items.push_back({of.name + "/inputs/text", "1", "what they hold", shape, {}, texts});
+}
+
 io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures>& cases) {
   io::EvaluationFile file{{}, options.provenance()};
   const auto add = [&](const std::string& group, const std::vector<io::EvaluationItem>& items) {
@@ -117,8 +127,7 @@ io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures
   };
   for (const CaseFigures& of : cases) {
     file.items.push_back({of.of.name + "/result", "1", "result file of the case", {1}, {}, {of.of.file}});
-    for (const auto& [heading, text] : of.of.columns)
-      file.items.push_back({of.of.name + "/inputs/" + heading, "1", "of cases.csv", {1}, {}, {text}});
+    add_case_inputs(of.of, file);
     for (const PairFigures& pair : of.pairs) add(of.of.name + "/" + pair.pair, pair.items);
     add(of.of.name, of.sensors);
   }
