@@ -112,7 +112,8 @@ class System:
     def reduce(self, *, progress: Optional[Progress] = None, **options: Any) -> Report:
         """Reduces a mesh, or all gears of a drive, to body files, as `elastogear reduce` does.
 
-        Under mpirun, with mpi4py or without, all ranks must call it and work together.
+        Under mpirun, with mpi4py or without, all ranks must call it and work together; the report of the first
+        rank is the one that holds.
         progress(stage, fraction) is called now and then.
         """
         return self._run("reduce", options, progress)

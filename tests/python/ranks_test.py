@@ -16,7 +16,8 @@ drive = eg.Drive({"drive": "cylindrical", "module": "3 mm", "face_width": "25 mm
                   "basis": "modal", "pinion": {"teeth": 17, "profile_shift": 0.3},
                   "wheel": {"teeth": 43, "profile_shift": 0.1}})
 report = drive.reduce()
-assert report["ranks"].startswith(f"{world.size},"), report["ranks"]
+if world.rank == 0:  # the other ranks' reports lack what the first one alone knows
+    assert report["ranks"].startswith(f"{world.size},"), report["ranks"]
 result = drive.simulate(roll=0.1 * world.rank, contact_law="unilateral", output=f"result_{world.rank}.h5")
 forces = world.allgather(float(abs(result.pair("pinion:wheel").force[-1]).max()))
 assert len(set(forces)) == world.size, forces
