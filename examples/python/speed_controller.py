@@ -1,11 +1,12 @@
 """A worm drive whose worm is brought to 100 rad/s by a speed controller, against a torque on the wheel.
 
 The controller is proportional and integral: torque = K_P (wanted - speed) + integral. Its integral changes between the
-steps; within a step the torque is a function of the speed alone. Expected: the worm reaches its speed within 1 %.
+steps; within a step the torque is a function of the speed alone. Expected: from 8 to 10 ms the worm has its speed
+within 1 % in the mean; teeth that rattle in their backlash make it fluctuate.
 """
 import elastogear as eg
 
-WANTED, K_P, K_I = 100, 0.03, 30  # rad/s, N m s, N m
+WANTED, K_P, K_I = 100, 0.01, 8  # rad/s, N m s, N m
 
 drive = eg.Drive({
     "drive": "worm",
@@ -35,7 +36,8 @@ DT = 2e-6  # s
 controller = Controller()
 result = drive.simulate(forces={"worm": controller.torque}, on_step=controller.update, contact_points="nodes",
                         wheel={"torque": "-2 N m"}, worm={"rigid": True},
-                        ts={"dt": DT, "max_time": "4 ms"}, output_dt="0.1 ms")
+                        ts={"dt": DT, "max_time": "10 ms"}, output_dt="0.1 ms")
 speed = result.body("worm").s_dot[:, 0]
-print(f"speed after 4 ms: {speed[-1]:.2f} rad/s, torque {controller.torque(0, 0, speed[-1]):.4f} N m")
-assert abs(speed[-1] / WANTED - 1) < 0.01
+mean = speed[-20:].mean()
+print(f"speed from 8 to 10 ms: {mean:.2f} rad/s in the mean, integral {controller.integral:.4f} N m")
+assert abs(mean / WANTED - 1) < 0.01

@@ -101,7 +101,8 @@ near("roll angles", r["time"], -0.2 + np.arange(18) / 18, 1e-15)
 offset = r["contact/pinion:wheel/points/offset"]
 force = np.linalg.norm(r["contact/pinion:wheel/points/force"], axis=1)
 sums = np.array([force[a:b].sum() for a, b in zip(offset, offset[1:])])
-near("sums of normal forces over T/r_b", sums * R_B1 / 300, 1, 4e-3)
+# Where the edge of a tip bears before the path of contact begins, its normal is not that of the involute.
+near("sums of normal forces over T/r_b", sums * R_B1 / 300, 1, 6e-3)
 near("energy of elastic gears against their turnover", r["energy/balance"] / (300 * 2 * np.pi / 17), 0, 2e-3)
 for swept, static, i in ((r, "static.h5", 15), (datasets("bearings.h5"), "static_bearings.h5", 4)):
     s = datasets(static)

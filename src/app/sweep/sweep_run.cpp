@@ -196,7 +196,9 @@ SweepFound write_results(SweepJob& job, const PreparedCase& first) {
     for (SweepUnit& unit : units) unit.number = i;
     model::ResultHeader header = first.header;
     if (i > 0) {
-      const Options own = of_case(job.options, job.cases, job.cases.cases[i]);
+      const Options begun = of_case(job.options, job.cases, job.cases.cases[0]),
+                    own = of_case(job.options, job.cases, job.cases.cases[i]);
+      for (const auto& entry : begun.provenance()) header.provenance.erase(entry.first);
       for (const auto& [key, value] : own.provenance()) header.provenance[key] = value;
     }
     const SweepFound found = write_case(job.file(i), header, job.store, units);
