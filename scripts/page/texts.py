@@ -2,6 +2,7 @@
 import html
 import math
 import os
+import re
 import time
 
 import numpy as np
@@ -133,6 +134,8 @@ def motion_of(case, body):
 def question(case):
     """What was asked, a sentence."""
     torque = case.options.get("torque", case.drive.get("torque", "0"))
+    if re.fullmatch(r"[-+\d.e]+", torque.strip()):
+        torque = torque.strip() + " N m"
     if case.kind():
         if case.analysis == "sweep":
             return f"What stresses do the teeth of this {case.kind()} bear as it rolls under {torque}?"
