@@ -14,6 +14,7 @@
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
 #include "app/gear/drive_options.h"
+#include "app/options/rows.h"
 #include "app/tables/material_options.h"
 #include "app/tables/reduce_options.h"
 #include "app/verbs/named_sets.h"
