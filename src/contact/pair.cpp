@@ -273,7 +273,11 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
 // faces: of the master, that can be nearest.
 std::optional<Projection> Pair::Data::project(const MasterSide& master, const SurfaceView& slave,
                                               const PlacedNode& placed, std::span<const int> faces) {
-  const SlaveNode q{placed.x, [&slave, &placed] { return node_normal(slave, placed.node); },
+  const SlaveNode q{placed.x,
+                    [this, &placed] {
+                      tracker.place_around(placed.side, placed.node);
+                      return node_normal(tracker.view(placed.side, 0), placed.node);
+                    },
                     [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
   int& last_face = history[placed.side].last_face[placed.node];
@@ -293,9 +297,8 @@ bool Pair::Data::is_left_to_slave(int tried, const SurfaceView& other, const Pro
 }
 
 void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
-  const Placer place_slave = tracker.placer(slave_side), place_master = tracker.placer(1 - slave_side);
-  const SurfaceView slave = tracker.view(slave_side, 0, &place_slave),
-                    surface = tracker.view(1 - slave_side, settings.extension, &place_master);
+  const SurfaceView slave = tracker.view(slave_side, 0),
+                    surface = tracker.view(1 - slave_side, settings.extension);
   const bool at_minima = settings.points == SlavePoints::minima;
   const Heights& heights = side[1 - slave_side].heights;
   const MasterSide master{surface, heights, radians(settings.feature_angle), !at_minima,

@@ -163,6 +163,31 @@ TEST(Skin, nodes_deeper_than_the_limit_are_found_as_soon_as_they_are_not) {
   EXPECT_LT(n_displaced, n_steps * static_cast<int>(a.surface.X.cols() + b.surface.X.cols()) / 2);
 }
 
+// The tip of a cone rocks on a plane, until the normals of its node and the face are no longer opposite: that
+// node alone is near, and those around it give the normal.
+TEST(Skin, normals_of_nodes_follow_the_motion) {
+  const model::Surface cone = test::flipped(test::grid(16, 16, [](double u, double v) {
+    return Eigen::Vector3d(2 * u - 1, 2 * v - 1, std::hypot(2 * u - 1, 2 * v - 1));
+  }));
+  const model::Surface plane =
+      test::grid(14, 14, [](double u, double v) { return Eigen::Vector3d(2 * u - 1, 2 * v - 1, 0); });
+  Settings s = settings(Update::bound);
+  s.two_pass = false;
+  s.normal_angle = 176;
+  Pair searched(cone, plane, s), kept(cone, plane, s);
+  const SurfaceMotion below{{}, {0, 0, 0}, Eigen::Matrix3d::Identity()};
+  int n_without = 0, n_with = 0;
+  for (int step = 0; step < 200; ++step) {
+    const double tilt = 0.1 * std::sin(0.05 * step);
+    const SurfaceMotion above{{}, {0.03, 0.04, -0.002}, test::rotation({tilt, 0.3 * tilt, 0})};
+    const auto found = kept.detect(above, below);
+    expect_equal(found, searched.detect(surface_state(cone, above), surface_state(plane, below)));
+    (found.empty() ? n_without : n_with)++;
+  }
+  EXPECT_GT(n_without, 20);
+  EXPECT_GT(n_with, 20);
+}
+
 TEST(Skin, of_bodies_that_are_far_apart_displaces_no_node) {
   Random random(4);
   const Elastic a = elastic_patch(8, true, random), b = elastic_patch(8, false, random);

@@ -3,7 +3,6 @@
 // shares of area.
 
 #include <Eigen/Core>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,16 +38,12 @@ int side_count(const Eigen::Matrix4Xi& face, int f);
 /// face: 4 x n_f node numbers in 0 .. n_nodes-1.
 Topology topology(const Eigen::Matrix4Xi& face, int n_nodes);
 
-/// Places the nodes of all faces around a node.
-using Placer = std::function<void(int node)>;
-
 /// A surface in one configuration.
 struct SurfaceView {
   const Eigen::Matrix4Xi& face;
   const Topology& topology;
-  const Eigen::Matrix3Xd& x;       ///< 3 x n_nodes, m
-  double extension = 0;            ///< by which open sides are moved outwards, part of the face's length
-  const Placer* placer = nullptr;  ///< of nodes that are placed no sooner than normals at nodes and edges ask
+  const Eigen::Matrix3Xd& x;  ///< 3 x n_nodes, m
+  double extension = 0;       ///< by which open sides are moved outwards, part of the face's length
 };
 
 Face face_of(const SurfaceView& surface, int f);

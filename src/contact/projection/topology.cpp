@@ -64,7 +64,6 @@ Face face_of(const SurfaceView& surface, int f) {
 }
 
 Eigen::Vector3d node_normal(const SurfaceView& surface, int node) {
-  if (surface.placer) (*surface.placer)(node);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int entry : surface.topology.node_corners[node]) {
     const Face face = face_of(surface, entry / 4);
@@ -82,7 +81,6 @@ Eigen::Vector3d edge_normal(const SurfaceView& surface, int f, int side, double 
     const Face face = face_of(surface, entry / 4);
     const bool same_way = surface.face(entry % 4, entry / 4) == start;
     const Eigen::Vector2d at = on_side(face.sides, entry % 4, same_way ? s : 1 - s);
-    if (surface.placer) (*surface.placer)(start);
     sum += normal(face, at[0], at[1]);
   }
   return sum;

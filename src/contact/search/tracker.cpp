@@ -85,8 +85,8 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
                                extension_reach(view(1, settings.extension)));
 }
 
-SurfaceView Tracker::view(int i, double extension, const Placer* placer) const {
-  return {side_[i].surface->face, side_[i].topology, configuration_.x[i], extension, placer};
+SurfaceView Tracker::view(int i, double extension) const {
+  return {side_[i].surface->face, side_[i].topology, configuration_.x[i], extension};
 }
 
 void Tracker::place(const SurfaceState& a, const SurfaceState& b) {
@@ -146,7 +146,6 @@ void Tracker::place_node(int i, int node) {
   configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(configuration_.R * x_B + configuration_.r) : x_B;
 }
 
-// Places a node and all nodes of the faces around it: edges and vertices take their normals from there.
 void Tracker::place_around(int i, int node) {
   if (!now_[0] || look_[i].around[node] == n_looks_) return;
   look_[i].around[node] = n_looks_;
@@ -155,7 +154,8 @@ void Tracker::place_around(int i, int node) {
     for (int other : side_[i].surface->face.col(corner / 4)) place_node(i, other);
 }
 
-// Places the nodes of a face; all around it where more than nodes are held.
+// Places the nodes of a face; all around it where more than nodes are held. An edge or vertex that is nearest
+// takes its normal from faces that are all as near.
 void Tracker::place_face(int i, int face) {
   if (look_[i].face[face] == n_looks_) return;
   look_[i].face[face] = n_looks_;
@@ -213,8 +213,7 @@ void Tracker::take_near(double distance) {
 // farther away than the depth limit.
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
-  const Placer place_master = placer(1 - slave);
-  const SurfaceView master = view(1 - slave, settings_.extension, &place_master);
+  const SurfaceView master = view(1 - slave, settings_.extension);
   const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around};
   Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {

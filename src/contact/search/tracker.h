@@ -51,17 +51,14 @@ class Tracker {
 
   const Tracked& side(int i) const { return side_[i]; }
   const Configuration& configuration() const { return configuration_; }
-  /// placer: that of the surface where nodes are in contact, whose faces alone follow places. Where faces or
-  /// points between nodes are, it places those around them, too.
-  SurfaceView view(int i, double extension, const Placer* placer = nullptr) const;
-  /// To be called while follow's motions live.
-  Placer placer(int i) {
-    return [this, i](int node) { place_around(i, node); };
-  }
-  /// Slave nodes that can touch, with the faces that can be nearest.
+  SurfaceView view(int i, double extension) const;
+  /// Slave nodes that can touch, with the faces that can be nearest. follow places both; where more than
+  /// nodes are held, all nodes of the faces around them, too.
   const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
   /// All faces within the depth limit of a slave node, their nodes placed.
   std::span<const int> all_faces(int slave, int node);
+  /// Places a slave node and all nodes of the faces around it, from which its normal is taken.
+  void place_around(int i, int node);
   /// Position of a node placed by follow, in the BRF of its surface, m.
   Eigen::Vector3d position_B(int i, int node) const;
   /// Velocity of a node placed by follow, m/s, components in the BRF of surface b; zero after find, which
@@ -83,7 +80,6 @@ class Tracker {
   void place(const SurfaceState& a, const SurfaceState& b);
   void place(bool deformed);
   void place_node(int i, int node);
-  void place_around(int i, int node);
   void place_face(int i, int face);
   void place_for(int slave, const Neighbours& near);
   Eigen::Vector3d position(int i, int node);
