@@ -66,9 +66,13 @@ Face face_of(const SurfaceView& surface, int f) {
 Eigen::Vector3d node_normal(const SurfaceView& surface, int node) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int entry : surface.topology.node_corners[node]) {
-    const Face face = face_of(surface, entry / 4);
-    const Eigen::Vector2d at = on_side(face.sides, entry % 4, 0);
-    sum += corner_angle(face, entry % 4) * normal(face, at[0], at[1]);
+    const int f = entry / 4, corner = entry % 4, sides = side_count(surface.face, f);
+    const auto along = [&](int other) {
+      return Eigen::Vector3d(surface.x.col(surface.face(other % sides, f)) - surface.x.col(node));
+    };
+    const Eigen::Vector3d a = along(corner + 1), b = along(corner + sides - 1), n = a.cross(b);
+    const double size = n.norm(), roundoff = 1e-14;  // of a face that is degenerate there
+    if (size > roundoff * (a.squaredNorm() + b.squaredNorm())) sum += std::atan2(size, a.dot(b)) / size * n;
   }
   const double size = sum.norm(), opposite = 1e-9;  // faces back to back have no common normal
   return size > opposite ? Eigen::Vector3d(sum / size) : Eigen::Vector3d::Zero();
