@@ -46,6 +46,7 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
   const MatrixXd& R = compliant.R;
   Body body{{}, &R, missing, VectorXd::Zero(R.rows()), VectorXd::Zero(R.rows())};
   const Eigen::Matrix3d R_BW = compliant.R_WB.transpose();
+  body.touches.reserve(4 * contacts_.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const contact::ContactPoint& point = *contacts_[c].point;
     for (int i = 0; i < point.n_local(); ++i) {
@@ -68,13 +69,14 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
     }
   }
   MatrixXd response = MatrixXd::Zero(R.rows(), C_.cols());  // R L_p
-  for (const Touch& t : body.touches)
-    response.middleCols(contacts_[t.contact].first, t.F_z.cols()) += R.middleCols<3>(t.row) * t.F_z;
+  for (const Touch& t : body.touches)                       // a few columns at a time, which need no blocks
+    response.middleCols(contacts_[t.contact].first, t.F_z.cols()) +=
+        R.middleCols<3>(t.row).lazyProduct(t.F_z);
+  const VectorXd left = missing - response * z_found_;
   for (const Touch& t : body.touches) {
     const Contact& contact = contacts_[t.contact];
-    const MatrixXd rows = t.y_x.transpose() * response.middleRows<3>(t.row);
-    C_.middleRows(contact.first, contact.n) += rows;
-    q_.segment(contact.first, contact.n) += t.y_x.transpose() * missing.segment<3>(t.row) - rows * z_found_;
+    C_.middleRows(contact.first, contact.n) += t.y_x.transpose().lazyProduct(response.middleRows<3>(t.row));
+    q_.segment(contact.first, contact.n) += t.y_x.transpose() * left.segment<3>(t.row);
   }
   bodies_.push_back(std::move(body));
 }
