@@ -135,6 +135,15 @@ TEST_F(BodyFile, gives_checks_back) {
   }
 }
 
+TEST_F(BodyFile, gives_shares_of_nothing_back) {
+  BodySource source = sample_source();
+  source.checks = {{"captured_mass", "1", "shares", Eigen::RowVector2d(0.5, NAN)}};
+  BodyWriter(path, source.mesh.n_nodes(), 0).finish(sample_full_body(), source);
+  const auto read = read_body_source(path).checks;
+  EXPECT_EQ(read.at(0).value(0), 0.5);
+  EXPECT_TRUE(std::isnan(read.at(0).value(1)));
+}
+
 TEST_F(BodyFile, gives_an_orthotropic_material_back) {
   BodySource source = sample_source();
   model::Material& material = source.regions[1].material = test::kFibre;

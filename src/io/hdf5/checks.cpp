@@ -21,7 +21,8 @@ std::vector<std::string> split(const std::string& text) {
 
 model::Check read_check(const h5::File& file, const std::string& name) {
   const std::string path = kGroup + "/" + name;
-  const auto values = h5::read<double>(file, path, {h5::kAny, h5::kAny});
+  // Shares of nothing, of directions that are held at all nodes, are no numbers.
+  const auto values = h5::read<double>(file, path, {h5::kAny, h5::kAny}, h5::Finite::any);
   const h5::Shape shape = h5::shape(file, path);
   model::Check check{name, h5::unit(file, path), h5::string_attribute(file, path, "meaning"), {}};
   check.value = Eigen::Map<const model::DenseRows>(values.data(), static_cast<Eigen::Index>(shape[0]),
