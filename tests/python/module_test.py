@@ -35,21 +35,19 @@ def python(script):
     return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=600)
 
 
+def setUpModule():
+    """A drive that is reduced once, in a folder of its own."""
+    warnings.simplefilter("ignore", eg.Warning)
+    folder = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(folder.cleanup)
+    unittest.addModuleCleanup(os.chdir, "/")
+    os.chdir(folder.name)
+    WithDrive.drive = eg.Drive(SPUR)
+    WithDrive.drive.reduce()
+
+
 class WithDrive(unittest.TestCase):
-    """A drive that is reduced once."""
-
-    @classmethod
-    def setUpClass(cls):
-        warnings.simplefilter("ignore", eg.Warning)
-        cls.folder = tempfile.TemporaryDirectory()
-        os.chdir(cls.folder.name)
-        cls.drive = eg.Drive(SPUR)
-        cls.report = cls.drive.reduce()
-
-    @classmethod
-    def tearDownClass(cls):
-        os.chdir("/")
-        cls.folder.cleanup()
+    drive: eg.Drive
 
     def interrupter(self):
         """An event: Ctrl-C comes a little after it is set."""
