@@ -1,8 +1,10 @@
+#!/usr/bin/python3
 """The cost of stepping from Python beside the steps of `simulate` in C++: processor time of equal motions, in turns.
 
-    PYTHONPATH=build/release/python OPENBLAS_NUM_THREADS=1 python3 studies/python_overhead.py [SIZE] [MODES] [STEPS]
+    PYTHONPATH=build/release/python OPENBLAS_NUM_THREADS=1 studies/python_overhead.py [SIZE] [MODES] [STEPS]
 
-A pair of spur gears under torque, from rest. Bodies are read once for each run; the time is that of the steps alone.
+First a rigid body that spins, whose steps cost next to nothing, so that the cost of Python is seen by itself; then a
+pair of spur gears under torque, from rest. The time is that of the steps alone, the least of several runs.
 """
 import os
 import sys
@@ -12,48 +14,55 @@ import warnings
 
 import elastogear as eg
 
-REPEATS = 5
-DT = 1e-6  # s
+SPUR = {"drive": "cylindrical", "module": "3 mm", "face_width": "25 mm", "torque": "300 N m", "basis": "modal",
+        "pinion": {"teeth": 17, "profile_shift": 0.3}, "wheel": {"teeth": 43, "profile_shift": 0.1},
+        "contact_points": "nodes"}
+SPINNER = {"bodies": ["a", "b"], **{name: {"mass": 1, "inertia": [1, 1, 1, 0, 0, 0], "joint": "revolute", "omega0": 1}
+                                    for name in "ab"}}
 
 
-def steps_alone(simulation, advance):
-    start = time.process_time()
-    advance(simulation)
-    used = time.process_time() - start
-    summary = simulation.summary()
-    simulation.close()
-    return used, summary
+def in_c(simulation):
+    simulation.run()
 
 
-def all_steps(simulation):
+def steps(simulation):
     while simulation.step():
         pass
 
 
-def with_states(simulation):
+def steps_and_states(simulation):
     for state in simulation:
-        state.body("pinion").s_dot, state.body("wheel").q, state.pair("pinion:wheel").contacts
+        state.body(BODIES[0]).s_dot, state.body(BODIES[1]).q, state.energies
+
+
+def measure(system, n, dt, repeats):
+    """Processor time of a step, s, by the way of stepping."""
+    times = {in_c: [], steps: [], steps_and_states: []}
+    for _ in range(repeats):
+        for way, each in times.items():
+            simulation = system.simulation(ts_dt=dt, ts_max_time=n * dt)
+            start = time.process_time()
+            way(simulation)
+            each.append((time.process_time() - start) / n)
+            simulation.close()
+    return {way: min(each) for way, each in times.items()}
 
 
 def main():
     size, modes, n = (sys.argv[1:] + ["small", "200", "200"][len(sys.argv) - 1:])[:3]
     warnings.simplefilter("ignore")
     os.chdir(tempfile.mkdtemp())
-    drive = eg.Drive({"drive": "cylindrical", "module": "3 mm", "face_width": "25 mm", "torque": "300 N m",
-                      "pinion": {"teeth": 17, "profile_shift": 0.3}, "wheel": {"teeth": 43, "profile_shift": 0.1},
-                      "size": size, "modes": int(modes), "basis": "modal"})
+    BODIES[:] = ["a", "b"]
+    alone = measure(eg.System(SPINNER, output="none.h5"), 10000, 1e-4, 7)
+    BODIES[:] = ["pinion", "wheel"]
+    drive = eg.Drive({**SPUR, "size": size, "modes": int(modes)})
     drive.reduce()
-    motion = {"ts_dt": DT, "ts_max_time": int(n) * DT}
-    times = {"simulate": [], "steps": [], "steps and states": []}
-    for _ in range(REPEATS):
-        for name, advance in [("simulate", lambda s: s.run()), ("steps", all_steps),
-                              ("steps and states", with_states)]:
-            used, summary = steps_alone(drive.simulation(**motion), advance)
-            times[name].append(used)
-    least = {name: min(each) for name, each in times.items()}
-    print(f"{summary['steps']} steps, {summary['newton_iterations']} iterations of Newton, {modes} modes a body")
-    for name, used in least.items():
-        print(f"{name:18} {1e3 * used / summary['steps']:8.4f} ms a step, {100 * (used / least['simulate'] - 1):+.2f} %")
+    of_drive = measure(drive, int(n), 1e-6, 5)
+    for way in [steps, steps_and_states]:
+        cost = alone[way] - alone[in_c]
+        print(f"{way.__name__}: {1e6 * cost:.2f} us a step by itself, {100 * cost / of_drive[in_c]:.3f} % of a step of "
+              f"the drive, {1e3 * of_drive[in_c]:.3f} ms; measured there {100 * (of_drive[way] / of_drive[in_c] - 1):+.2f} %")
 
 
+BODIES = []
 main()
