@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """Wear of two small spur gears: the volume of one sweep is k times the sum of force and sliding over all contacts, in the velocities
-that the sweep itself reports; both gears lose the same volume; wear goes on in turn with sweeps to a limit of depth.
+that the sweep itself reports; both gears lose the same volume; wear goes on in turn with sweeps to a limit of depth. Life recovers
+the stresses of a sweep itself; what teeth of either gear bear repeats from pitch to pitch.
 
     wear.py PATH/TO/elastogear PATH/TO/scripts
 """
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -22,7 +24,6 @@ pinion: {teeth: 17, profile_shift: 0.3}
 wheel: {teeth: 23, profile_shift: 0.1}
 torque: 50 N m
 modes: 4
-stress_nodes: ''
 sweep_positions: 6
 wear: {coefficient: 1e-9 mm^3/(N m), increment: 4 um, density: 8000}
 """
@@ -75,6 +76,12 @@ def look(program, scripts):
     described = subprocess.run([program, "info", "drive_wear.h5"], capture_output=True, text=True, check=True).stdout
     assert "wear of wheel: largest depth" in described, described
     subprocess.run([os.path.join(scripts, "wear.py"), "drive_wear.h5", "--out", "pictures"], capture_output=True, check=True)
+    run("simulate", "-analysis", "sweep", "-sweep_pitches", "2")
+    text = run("life", "-duty_cycle", "50 N m, 1e6, 25 N m, 1e6", "-proportional", "true", "-sn_knee_stress", "50 MPa", "-tensile_strength", "800 MPa")
+    different = [float(found) for found in re.findall(r"others differ by at most ([-+.e0-9]+) MPa", text)]
+    largest = [float(found) for found in re.findall(r"largest stress ([-+.e0-9]+) MPa", text)]
+    assert len(different) == len(largest) == 2 and max(different) < 0.01 * min(largest), text
+    assert os.path.exists("drive_life_wheel.vtu")
     assert sorted(os.listdir("pictures")) == ["wear_course.png", "wear_pinion_left.png", "wear_wheel_left.png"]
 
 

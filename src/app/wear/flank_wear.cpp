@@ -8,7 +8,6 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/contact/face.h"
-#include "elastogear/gear/flank.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/life/revolution.h"
 
@@ -27,9 +26,8 @@ struct Placed {
   Eigen::Matrix3d R = {};
 };
 
-int side_of_face(const model::Surface& surface, int face) {
-  const auto flank = gear::flank_of(surface.group_name[static_cast<std::size_t>(surface.group[face])]);
-  return flank ? flank->side : 0;
+std::optional<gear::Flank> flank_of_face(const model::Surface& surface, int face) {
+  return gear::flank_of(surface.group_name[static_cast<std::size_t>(surface.group[face])]);
 }
 
 // Point of a master face in its body frame, m.
@@ -42,32 +40,88 @@ Eigen::Vector3d point_on_face(const model::Surface& surface, const model::Contac
   return x;
 }
 
+// Moves a point near the flank onto it: faces lie off the flank.
+Eigen::Vector3d on_flank(const gear::Toothing& t, const gear::Flank& flank, const Eigen::Vector3d& x) {
+  return x - gear::flank_distance(t, flank.tooth, flank.side, x) * gear::flank_normal(t, flank, x);
+}
+
+// Place of a contact on both flanks, slave and master: points (m, world) and lengths of roll (m).
+struct Touch {
+  Eigen::Vector3d x_W[2];
+  double u[2] = {0, 0};
+};
+
+// Place by the closest point of the master's face.
+Touch touch_of_point(const Placed* const at[2], const gear::Flank (&flank)[2],
+                     const model::ContactRecord& contact) {
+  Touch touch;
+  Eigen::Vector3d x_W = at[1]->r + at[1]->R * point_on_face(at[1]->gear->surface, contact);
+  for (int i : {1, 0}) {
+    const gear::Toothing& t = at[i]->gear->member->toothing;
+    const Eigen::Vector3d x = on_flank(t, flank[i], at[i]->R.transpose() * (x_W - at[i]->r));
+    touch.u[i] = gear::length_of_roll(t, x.head<2>().norm());
+    touch.x_W[i] = x_W = at[i]->r + at[i]->R * x;
+  }
+  return touch;
+}
+
+// The line of action of two external gears, away from the first one, on the side of `normal`; zero where base
+// circles overlap.
+Eigen::Vector3d line_of_action(const Placed& from, const Placed& to, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d axis = from.R.col(2), between = to.r - from.r;
+  const Eigen::Vector3d across = between - axis * axis.dot(between);
+  const double cosine = (from.gear->member->toothing.r_b + to.gear->member->toothing.r_b) / across.norm();
+  if (cosine >= 1) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d c = across.normalized(), t = axis.cross(c);
+  return std::sqrt(1 - cosine * cosine) * c + std::copysign(cosine, normal.dot(t)) * t;
+}
+
+// Moves the place of a contact onto the line of action, where involutes touch: points of contact sit
+// somewhere in faces that may be as long as the line moves in several steps. Beyond the flank of one of both,
+// where the edge of a tip bears, it stays where it is. force: on the slave.
+void move_onto_line(const Placed* const at[2], const gear::Flank (&flank)[2], const Eigen::Vector3d& force,
+                    Touch& touch) {
+  Touch moved = touch;
+  for (int i = 0; i < 2; ++i) {
+    const gear::Toothing& t = at[i]->gear->member->toothing;
+    if (t.internal) return;
+    const Eigen::Vector3d e = line_of_action(*at[i], *at[1 - i], i == 0 ? -force : force);
+    const Eigen::Vector3d foot = -flank[i].side * at[i]->R.col(2).cross(e),
+                          foot_B = at[i]->R.transpose() * foot;
+    const double z = (at[i]->R.transpose() * (touch.x_W[i] - at[i]->r))[2];
+    const double turn = std::atan2(foot_B[1], foot_B[0]) - gear::tooth_angle(t, flank[i].tooth) - z / t.p;
+    moved.u[i] = t.r_b * (t.psi_b - flank[i].side * std::remainder(turn, 2 * pi));
+    if (!(moved.u[i] >= at[i]->gear->cells.u[0] && moved.u[i] <= at[i]->gear->cells.u.tail<1>()[0])) return;
+    moved.x_W[i] = at[i]->r + at[i]->R.col(2) * z + t.r_b * foot + moved.u[i] * e;
+  }
+  touch = moved;
+}
+
 // The track of a contact over one step: along the profile as far as it rolls on, across the face by the layer
 // of the mesh that its force stands for.
-life::ContactTrack track(const Placed& at, const Eigen::Vector3d& x_W, double layer, double step) {
-  const gear::Toothing& t = at.gear->member->toothing;
-  const Eigen::Vector3d x = at.R.transpose() * (x_W - at.r);
-  const double u = gear::length_of_roll(t, x.head<2>().norm()), b = at.gear->member->width / 2;
-  const double du = t.r_b * at.w.norm() * step / 2, z = std::clamp(x[2], -b, b);
-  return {{u - du, u + du}, {std::max(-b, z - layer / 2), std::min(b, z + layer / 2)}};
+life::ContactTrack track(const Placed& at, const Touch& touch, int i, double layer, double step) {
+  const double b = at.gear->member->width / 2, du = at.gear->member->toothing.r_b * at.w.norm() * step / 2;
+  const double z = std::clamp((at.R.transpose() * (touch.x_W[i] - at.r))[2], -b, b);
+  return {{touch.u[i] - du, touch.u[i] + du}, {std::max(-b, z - layer / 2), std::min(b, z + layer / 2)}};
 }
 
 // step: pitches from one position to the next. weight: of what is worn there.
-void add_contact(const model::ContactRecord& contact, const Placed (&at)[2], double step, double weight,
+void add_contact(const model::ContactRecord& contact, const Placed (&of_pair)[2], double step, double weight,
                  std::vector<PassedVolume>& volumes) {
-  const Placed &slave = at[contact.slave_side], &master = at[1 - contact.slave_side];
-  const int sides[2] = {slave.gear->side[static_cast<std::size_t>(contact.slave_node)],
-                        side_of_face(master.gear->surface, contact.face)};
-  if (sides[0] == 0 || sides[1] == 0) return;
-  const Eigen::Vector3d X = point_on_face(master.gear->surface, contact), x_W = master.r + master.R * X;
-  const Eigen::Vector3d n = contact.f.normalized();
-  const Eigen::Vector3d v = slave.w.cross(x_W - slave.r) - master.w.cross(x_W - master.r);
+  const Placed* const at[2] = {&of_pair[contact.slave_side], &of_pair[1 - contact.slave_side]};
+  const auto slave = at[0]->gear->flank[static_cast<std::size_t>(contact.slave_node)],
+             master = flank_of_face(at[1]->gear->surface, contact.face);
+  if (!slave || !master) return;
+  const gear::Flank flanks[2] = {*slave, *master};
+  Touch touch = touch_of_point(at, flanks, contact);
+  move_onto_line(at, flanks, contact.f, touch);
+  const Eigen::Vector3d n = contact.f.normalized(), x_W = touch.x_W[1];
+  const Eigen::Vector3d v = at[0]->w.cross(x_W - at[0]->r) - at[1]->w.cross(x_W - at[1]->r);
   const double volume = contact.f.norm() * (v - n * n.dot(v)).norm() * step * weight;
   if (!(volume > 0)) return;
-  const Placed* both[2] = {&slave, &master};
   for (int i = 0; i < 2; ++i)
-    life::lay_volume(both[i]->gear->cells, track(*both[i], x_W, slave.gear->layer, step), volume,
-                     volumes[both[i]->member].of[sides[i] > 0 ? 0 : 1]);
+    life::lay_volume(at[i]->gear->cells, track(*at[i], touch, i, at[0]->gear->layer, step), volume,
+                     volumes[at[i]->member].of[flanks[i].side > 0 ? 0 : 1]);
 }
 
 std::size_t number_of(const Drive& drive, const std::string& name) {
@@ -89,12 +143,12 @@ WearingGear wearing_gear(const DriveMember& member, const WearMaterial& material
   require(t.r_b > 0, "wear of ", member.name, ": is for involute flanks, which this gear has not");
   WearingGear gear{.member = &member, .material = material, .surface = std::move(surface)};
   const model::Surface& s = gear.surface;
-  gear.side.resize(s.node.size(), 0);
+  gear.flank.resize(s.node.size());
   std::set<long> planes;
   for (int f = 0; f < s.face.cols(); ++f)
-    if (const int side = side_of_face(s, f); side != 0)
+    if (const auto flank = flank_of_face(s, f))
       for (int node : s.face.col(f)) {
-        gear.side[static_cast<std::size_t>(node)] = side;
+        gear.flank[static_cast<std::size_t>(node)] = flank;
         planes.insert(std::lround(s.X(2, node) / kSamePlane));
       }
   require(planes.size() > 1, "wear of ", member.name, ": its body has no faces of flanks");

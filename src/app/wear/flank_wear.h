@@ -1,11 +1,13 @@
 #pragma once
 // What the flanks of one gear lose in a sweep, by Archard's law in their own coordinates.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/gear/drive.h"
 #include "app/wear/wear_options.h"
+#include "elastogear/gear/flank.h"
 #include "elastogear/life/wear.h"
 #include "elastogear/model/elastic_body.h"
 
@@ -15,11 +17,11 @@ namespace elastogear::app {
 struct WearingGear {
   const DriveMember* member = nullptr;
   WearMaterial material;
-  model::Surface surface = {};    ///< of its body file
-  std::vector<int> side = {};     ///< of each node of the surface: +1 left, -1 right, 0 on no flank
-  double layer = 0;               ///< m, distance of the mesh's nodes across the face
-  life::FlankCells cells = {};    ///< u: length of roll, v: z
-  Eigen::MatrixXd depth[2] = {};  ///< cells, m, of left and right flanks
+  model::Surface surface = {};                         ///< of its body file
+  std::vector<std::optional<gear::Flank>> flank = {};  ///< of each node of the surface
+  double layer = 0;                                    ///< m, distance of the mesh's nodes across the face
+  life::FlankCells cells = {};                         ///< u: length of roll, v: z
+  Eigen::MatrixXd depth[2] = {};                       ///< cells, m, of left and right flanks
 };
 
 /// Error when the body has no involute flanks.
