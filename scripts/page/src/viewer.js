@@ -57,7 +57,7 @@ class Shape {
     const uniforms = { low: { value: 0 }, width: { value: 1 }, plain: { value: 0 }, twoSides: { value: 0 } };
     this.material = new THREE.ShaderMaterial({
       uniforms: { ...uniforms, colours: { value: null }, above: { value: above } },
-      vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
+      vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.FrontSide,
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     });
     this.mesh = new THREE.Mesh(this.geometry, this.material);
