@@ -96,6 +96,10 @@ bool Interrupts::pending() {
   return kept_.has_value();
 }
 
+void Interrupts::keep(const py::error_already_set& error) {
+  if (!kept_) kept_.emplace(error);
+}
+
 void Interrupts::raise() {
   if (pending()) throw *kept_;
 }

@@ -31,14 +31,15 @@ class OptionDatabase {
 enum class Ranks { this_one, all };
 
 /// Looks for signals, at most every 20 ms, may be called without the GIL. What a handler of Python raises is
-/// kept for Work::finish.
+/// kept for Work::raise_kept.
 class Interrupts {
  public:
   /// True from the first exception on.
   bool pending();
   /// Throws that exception when there is one.
   void raise();
-  bool kept() const { return kept_.has_value(); }
+  /// Keeps what a function of the user raised, as if a signal had; with the GIL.
+  void keep(const py::error_already_set& error);
 
  private:
   friend class Work;
@@ -56,7 +57,7 @@ class Work {
   Work& operator=(const Work&) = delete;
 
   Interrupts& interrupts() { return interrupts_; }
-  /// Runs `f` without the GIL. An exception that a signal raised goes before those of `f`.
+  /// Runs `f` without the GIL. What a signal or a function of the user raised goes before exceptions of `f`.
   template <class F>
   auto without_gil(F&& f) {
     try {
@@ -67,7 +68,7 @@ class Work {
       throw;
     }
   }
-  /// Throws what a signal raised, if anything.
+  /// Throws what was kept, if anything.
   void raise_kept();
 
  private:

@@ -95,7 +95,12 @@ app::Embedding Listener::embedding() {
             if (progress_ends_) work_.interrupts().raise();
             if (told_.is_none()) return;
             const py::gil_scoped_acquire gil;
-            told_(std::string(stage), fraction);
+            try {
+              told_(std::string(stage), fraction);
+            } catch (const py::error_already_set& error) {
+              work_.interrupts().keep(error);
+              throw;
+            }
           },
       .interrupted = [this] { return work_.interrupts().pending(); }};
 }

@@ -332,6 +332,24 @@ class BadInput(WithDrive):
             self.drive.simulate(progress=stop, **REST)
         self.drive.simulate(**REST)
 
+    def test_progress_that_raises_in_any_stage_of_a_reduction(self):
+        stages = set()
+
+        def stop_in_a_new_stage(stage, fraction):
+            if stage not in stages:
+                stages.add(stage)
+                raise LookupError(stage)
+        reduced = False
+        while not reduced:
+            n = len(stages)
+            try:
+                self.drive.reduce(pinion={"file": "raised_1.h5"}, wheel={"file": "raised_2.h5"},
+                                  progress=stop_in_a_new_stage)
+                reduced = True
+            except LookupError:
+                self.assertEqual(len(stages), n + 1)
+        self.assertGreater(len(stages), 3)
+
 
 class Interrupts(WithDrive):
     def test_run_ends_and_leaves_a_whole_file(self):
