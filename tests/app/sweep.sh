@@ -101,8 +101,13 @@ near("roll angles", r["time"], -0.2 + np.arange(18) / 18, 1e-15)
 offset = r["contact/pinion:wheel/points/offset"]
 force = np.linalg.norm(r["contact/pinion:wheel/points/force"], axis=1)
 sums = np.array([force[a:b].sum() for a, b in zip(offset, offset[1:])])
-# Where the edge of a tip bears before the path of contact begins, its normal is not that of the involute.
-near("sums of normal forces over T/r_b", sums * R_B1 / 300, 1, 6e-3)
+# Where the edge of a tip bears before the path of contact begins, its normal is not that of the involute: there the sum is not T/r_b.
+steepness = r["contact/pinion:wheel/points/force"][:, 1] / r["contact/pinion:wheel/points/force"][:, 0]
+angle = np.degrees(np.arctan(steepness))  # of the normals with the line of centres
+at_involutes = np.array([np.ptp(angle[a:b]) < 0.15 for a, b in zip(offset, offset[1:])])
+assert at_involutes.sum() >= 15, at_involutes
+near("sums of normal forces over T/r_b on involutes", sums[at_involutes] * R_B1 / 300, 1, 1.5e-3)
+near("moments of contact forces about the pinion's axis over its torque", r["contact/pinion:wheel/torque"][:, 2] / 300, 1, 1e-6)
 near("energy of elastic gears against their turnover", r["energy/balance"] / (300 * 2 * np.pi / 17), 0, 2e-3)
 for swept, static, i in ((r, "static.h5", 15), (datasets("bearings.h5"), "static_bearings.h5", 4)):
     s = datasets(static)
