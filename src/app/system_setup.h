@@ -1,5 +1,5 @@
 #pragma once
-// What a simulated system is made of, from the options of simulate.
+// Builds the bodies, joints, bushings, loads and sensors of a system from the options of simulate.
 
 #include <vector>
 

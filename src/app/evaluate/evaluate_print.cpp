@@ -1,4 +1,4 @@
-// What evaluate prints.
+// The tables that evaluate prints on the terminal.
 
 #include <cstdio>
 

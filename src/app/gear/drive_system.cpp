@@ -22,7 +22,7 @@ struct Bearing {
   double tilt = 0;               // N m/rad
 };
 
-// Of all bearings of a gear together, at the origin of its body frame.
+// Options of the stiffness that all bearings of a gear have together, at the origin of its body frame.
 const Rows<Bearing> kBearingRows = {
     {"<gear>_bearing_radial", &Bearing::radial, "N/m",
      "drive: radial stiffness of the gear's bearings together; without one its axis stands fast",
@@ -106,7 +106,7 @@ Bearing one_bearing(const Options& options, const std::string& name) {
   return b;
 }
 
-// What holds a gear must hold it along and across its axis.
+// Refuses bearings that together leave a gear free along its axis or free to tilt.
 void require_held(const DriveMember& member, const Bearings& bearings) {
   double axial = 0, tilt = 0;
   for (const auto& [name, b] : bearings) {

@@ -1,5 +1,5 @@
 #pragma once
-// What life writes and prints.
+// The tables of damage and life that the verb life prints, and its results for the file.
 
 #include <string>
 #include <vector>

@@ -56,7 +56,7 @@ Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_cas
   return evaluated;
 }
 
-// What must be equal for two cases to differ in their torque alone.
+// The inputs of a case without its torque: two cases in which they are equal differ in their torque alone.
 std::vector<std::string> other_inputs(const Case& of) {
   std::vector<std::string> texts;
   for (const auto& [heading, text] : of.columns)
@@ -95,7 +95,8 @@ void add_tangents(const std::vector<Evaluated>& cases, Evaluated& of) {
   of.figures.notes.push_back("tangent stiffness against the case " + next->figures.of.name);
 }
 
-// Of modified flanks, by a case whose torque is next to nothing.
+// Adds the secant stiffness of drives with modified flanks, which needs the transmission error without load:
+// it is that of a case whose torque is next to nothing.
 void add_secants(const std::vector<Evaluated>& cases, Evaluated& of) {
   constexpr double kNothing = 0.01;  // of the torque
   const Evaluated* least = other_load(cases, of, [](double, double other) { return std::abs(other); });
