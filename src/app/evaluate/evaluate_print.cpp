@@ -143,7 +143,7 @@ void print_cases(const std::vector<CaseFigures>& cases) {
     const char *title, *path;
     double factor;
   };
-  const Column kColumns[] = {
+  constexpr Column kColumns[] = {
       {"TE mean um", "transmission_error/mean", 1e6}, {"TE p-p um", "transmission_error/peak_to_peak", 1e6},
       {"contact ratio", "teeth/contact_ratio", 1},    {"KHbeta", "line_load/KHbeta", 1},
       {"pressure MPa", "pressure/peak", 1e-6},        {"efficiency %", "losses/efficiency", 100}};

@@ -57,7 +57,7 @@ std::vector<std::string> gears_with_roots(const Items& items) {
 
 std::vector<CsvColumn> over_roll(const Items& items) {
   std::vector<CsvColumn> columns;
-  const std::pair<const char*, const char*> kCurves[] = {
+  constexpr std::pair<const char*, const char*> kCurves[] = {
       {"roll", "roll angle"},
       {"time", "time"},
       {"transmission_error/loaded", "transmission error"},
@@ -85,7 +85,8 @@ std::vector<CsvColumn> over_roll(const Items& items) {
 std::vector<CsvColumn> of_group(const Items& items, const std::string& group,
                                 const std::vector<std::string>& members) {
   std::vector<CsvColumn> columns;
-  for (const std::string& member : members) add_curve(columns, items, group + "/" + member, member);
+  for (const std::string& member : members)
+    add_curve(columns, items, std::string(group).append("/").append(member), member);
   return columns;
 }
 

@@ -137,8 +137,9 @@ std::vector<SweptStress> read_stresses(const LifeSettings& settings, const Swept
   std::vector<SweptStress> all;
   for (const auto& [body, sets] : settings.sets)
     for (const std::string& name : sets) {
-      const auto set = std::find_if(file.sets.begin(), file.sets.end(),
-                                    [&](const io::StressSet& s) { return s.body == body && s.set == name; });
+      const auto set =
+          std::find_if(file.sets.begin(), file.sets.end(),
+                       [&, &body = body](const io::StressSet& s) { return s.body == body && s.set == name; });
       require(set != file.sets.end() && set->X.cols() > 0, at.file, ": holds no stresses of ", body, " ",
               name, ": recover it with -stress_", body, " ", name);
       all.push_back({body, name, set->node, set->X, file.time, life::signed_principal(set->stress)});

@@ -41,7 +41,8 @@ const Rows<CaseChoices> kCaseRows = {
      "contact, as in 'variant_crowned: {pinion: {lead_crowning: 10 um}}'"},
 };
 
-// A key of a variant: its full name, as errors give it, the option that it sets, and the value that a user wrote.
+// A key of a variant: its full name, as errors give it, the option that it sets, and the value that a user
+// wrote.
 struct Entry {
   std::string label, key, value;
 };

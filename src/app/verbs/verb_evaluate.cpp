@@ -47,7 +47,7 @@ Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_cas
     evaluated.width.push_back(evaluation::common_width(pair.run));
     evaluated.figures.pairs.push_back({pair.name, evaluated.pairs.back().items});
   }
-  const char* kAxis[] = {"x", "y", "z"};
+  constexpr const char* kAxis[] = {"x", "y", "z"};
   for (const auto& [sensor, a] : run.sensors)
     for (int i = 0; i < 3; ++i)
       for (const io::EvaluationItem& item : evaluation::spectrum_items(

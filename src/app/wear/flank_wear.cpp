@@ -87,9 +87,10 @@ void move_onto_line(const Placed* const at[2], const gear::Flank (&flank)[2], co
     if (t.internal) return;
     const Eigen::Vector3d e = line_of_action(*at[i], *at[1 - i], i == 0 ? -force : force);
     const Eigen::Vector3d foot = -flank[i].side * at[i]->R.col(2).cross(e),
-                          foot_B = at[i]->R.transpose() * foot;
+                          foot_gear = at[i]->R.transpose() * foot;
     const double z = (at[i]->R.transpose() * (touch.x_W[i] - at[i]->r))[2];
-    const double turn = std::atan2(foot_B[1], foot_B[0]) - gear::tooth_angle(t, flank[i].tooth) - z / t.p;
+    const double turn =
+        std::atan2(foot_gear[1], foot_gear[0]) - gear::tooth_angle(t, flank[i].tooth) - z / t.p;
     moved.u[i] = t.r_b * (t.psi_b - flank[i].side * std::remainder(turn, 2 * pi));
     if (!(moved.u[i] >= at[i]->gear->cells.u[0] && moved.u[i] <= at[i]->gear->cells.u.tail<1>()[0])) return;
     moved.x_W[i] = at[i]->r + at[i]->R.col(2) * z + t.r_b * foot + moved.u[i] * e;
