@@ -10,7 +10,7 @@ namespace elastogear::life {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kSteel_a = 0.35e-9, kSteel_b = -0.1;  // 1/Pa, -: FKM guideline, table of a_M and b_M
+constexpr double kSteelSlope = 0.35e-9, kSteelOffset = -0.1;  // 1/Pa, -: FKM guideline, table of a_M and b_M
 
 // Haigh's diagram of the FKM guideline, load case F2: the amplitude that is endured, over that at ratio -1.
 double fkm_factor(double M, double amplitude, double mean) {
@@ -69,7 +69,7 @@ double cycles_to_failure(const SnCurve& curve, double amplitude) {
 }
 
 double fkm_sensitivity_of_steel(double tensile_strength) {
-  return std::max(0.0, kSteel_a * tensile_strength + kSteel_b);
+  return std::max(0.0, kSteelSlope * tensile_strength + kSteelOffset);
 }
 
 void check(const MeanStress& mean_stress) {

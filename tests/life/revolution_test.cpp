@@ -19,7 +19,8 @@ Eigen::Matrix3Xd nodes(int z) {
   Eigen::Matrix3Xd X(3, 3 * z);
   for (int i = 0; i < 3 * z; ++i) {
     const int shuffled = i * 13 % (3 * z);
-    X.col(i) = rotation_matrix({0, 0, 2 * pi * (shuffled / 3) / z}) * places[shuffled % 3];
+    const int tooth = shuffled / 3;
+    X.col(i) = rotation_matrix({0, 0, 2 * pi * tooth / z}) * places[shuffled % 3];
   }
   return X;
 }
@@ -91,7 +92,8 @@ TEST(Sweep, is_found_from_its_positions) {
   for (const auto& [roll, what] :
        {std::pair{positions(0, 1, 1), "has 1 position"}, std::pair{positions(0, 0.1, 8), "0.8 pitches"},
         std::pair{positions(0, 0.4, 5), "as many in each"}})
-    EXPECT_NE(test::message_of([&] { find_sweep("a.h5", roll); }).find(what), std::string::npos) << what;
+    EXPECT_NE(test::message_of([&roll = roll] { find_sweep("a.h5", roll); }).find(what), std::string::npos)
+        << what;
   Eigen::VectorXd uneven = positions(0, 0.125, 8);
   uneven[3] += 0.01;
   EXPECT_NE(test::message_of([&] { find_sweep("a.h5", uneven); }).find("position 3"), std::string::npos);

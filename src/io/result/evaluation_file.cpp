@@ -58,7 +58,7 @@ void read_below(const h5::File& file, const std::string& name, int depth,
   require(depth > 0, file.path, ": ", name, " lies too deep below ", kCases);
   if (!h5::is_group(file, name)) return items.push_back(read_item(file, name));
   for (const std::string& member : h5::members(file, name))
-    read_below(file, name + "/" + member, depth - 1, items);
+    read_below(file, std::string(name).append("/").append(member), depth - 1, items);
 }
 
 }  // namespace
