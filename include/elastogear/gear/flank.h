@@ -15,8 +15,8 @@ struct Flank {
   int side = 1;   ///< +1 left, -1 right
 };
 
-/// The flank of a face set tooth_<ii>_left, tooth_<ii>_right, thread_<i>_left or thread_<i>_right of the
-/// meshes; nothing for other names.
+/// The flank of a face set `tooth_<ii>_left`, `tooth_<ii>_right`, `thread_<i>_left` or `thread_<i>_right` of
+/// the meshes; nothing for other names.
 std::optional<Flank> flank_of(const std::string& face_set);
 /// The flank of a group of faces of a toothing. Those of a worm with one start are in left and right, the
 /// sets of all threads, which are as large as thread_1_left and thread_1_right and come first by name.

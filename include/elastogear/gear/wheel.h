@@ -25,11 +25,11 @@ struct WheelCounts {
 
 WheelCounts wheel_counts(Size size);
 
-/// Mesh in the wheel frame. Face sets left, right, flanks, tooth_<ii>_left, tooth_<ii>_right; node sets bore,
-/// root, root_<ii> (nodes of the fillet surface); cell sets body and rim (from the rim radius on), disjoint.
-/// Teeth are numbered 01..z2 with as many digits as z2 has. Nodes and cells are numbered sector by sector:
-/// with n = n_nodes/z2, node i n + j is node j turned by 2 pi i/z2. Throws Error for designs that do not
-/// exist and counts that are not positive.
+/// Mesh in the wheel frame. Face sets left, right, flanks, `tooth_<ii>_left`, `tooth_<ii>_right`; node sets
+/// bore, root, `root_<ii>` (nodes of the fillet surface); cell sets body and rim (from the rim radius on),
+/// disjoint. Teeth are numbered 01..z2 with as many digits as z2 has. Nodes and cells are numbered sector by
+/// sector: with n = n_nodes/z2, node i n + j is node j turned by 2 pi i/z2. Throws Error for designs that do
+/// not exist and counts that are not positive.
 mesh::Mesh wheel_mesh(const Design& design, const WheelCounts& counts);
 
 }  // namespace elastogear::gear

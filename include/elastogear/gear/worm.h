@@ -27,9 +27,9 @@ struct WormCounts {
 /// Counts of a size for a worm with z1 starts (sections per turn follow from it).
 WormCounts worm_counts(Size size, int z1 = Design{}.z1);
 
-/// Mesh in the worm frame. Face sets left, right, flanks, thread_<i>_left, thread_<i>_right; node sets seats,
-/// seat_1, seat_2, root, root_<i> (nodes of the fillet surface); cell set body. Threads are numbered 1..z1.
-/// Throws Error for designs that do not exist and counts that do not fit.
+/// Mesh in the worm frame. Face sets left, right, flanks, `thread_<i>_left`, `thread_<i>_right`; node sets
+/// seats, seat_1, seat_2, root, `root_<i>` (nodes of the fillet surface); cell set body. Threads are
+/// numbered 1..z1. Throws Error for designs that do not exist and counts that do not fit.
 mesh::Mesh worm_mesh(const Design& design, const WormCounts& counts);
 
 }  // namespace elastogear::gear

@@ -7,7 +7,7 @@
 
 namespace elastogear::model {
 
-/// One table, dataset /checks/<name> of the body file.
+/// One table, dataset `/checks/<name>` of the body file.
 struct Check {
   std::string name;     ///< "static_completeness"
   std::string unit;     ///< "1" for none

@@ -13,9 +13,9 @@ void require_mode_count(int n_modes, int n_free);
 
 /// By SLEPc's EPS, of the type "block_lanczos" (elastogear/reduction/block_lanczos.h) or, with options.window
 /// = 0, "krylovschur" with shift-and-invert about 0 and MUMPS' Cholesky for all modes at once, unless the
-/// options database says otherwise (-<prefix>eps_type, -<prefix>eps_tol, -<prefix>st_*, ...); it does not
-/// choose the number of modes. Of a small body of which a large part of the spectrum is wanted, and no type
-/// is asked for, by LAPACK. Reports the stage "eigenmodes". Collective. Throws Error when n_modes is not
+/// options database says otherwise (`-<prefix>eps_type`, `-<prefix>eps_tol`, `-<prefix>st_*`, ...); it does
+/// not choose the number of modes. Of a small body of which a large part of the spectrum is wanted, and no
+/// type is asked for, by LAPACK. Reports the stage "eigenmodes". Collective. Throws Error when n_modes is not
 /// in 1..n (n: size of K) or no mode lies in the interval, when K is singular (the body is not held, or has a
 /// mechanism), when modes do not converge or are missing. docs/theory.md, Eq. (2.3).
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,

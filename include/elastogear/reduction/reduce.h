@@ -67,7 +67,7 @@ struct ReductionOptions {
   double alpha = 0, beta = 0;                          ///< 1/s, s: Rayleigh damping D = alpha M + beta K
   model::DampingRatio ratio = {};                      ///< modal only, beside it
   std::map<std::string, double> point_mass = {};       ///< kg, spread evenly over each node or face set
-  std::string prefix = {};                             ///< of PETSc's options: -<prefix>eps_type, ...
+  std::string prefix = {};                             ///< of PETSc's options: `-<prefix>eps_type`, ...
   std::map<std::string, std::string> provenance = {};  ///< stored in the file as it is
 };
 
