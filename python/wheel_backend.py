@@ -1,7 +1,7 @@
 """Makes the wheel of `pip install .` by CMake, without network: the hook build_wheel of PEP 517.
 
-The release preset is built, which a build by scripts/build has done already. The wheel needs the shared libraries that
-scripts/setup installs (PETSc, SLEPc, HDF5, Open MPI).
+The release preset is built, which a build by scripts/build has done already; `--config-settings build-dir=FOLDER` takes what a
+build in FOLDER has made, as it is. The wheel needs the shared libraries that scripts/setup installs (PETSc, SLEPc, HDF5, Open MPI).
 """
 import base64
 import hashlib
@@ -26,11 +26,12 @@ def run(*words):
     subprocess.run(words, cwd=ROOT, check=True, stdout=sys.stderr)
 
 
-def build(prefix):
-    """Installs the package below `prefix` and returns its folder."""
-    run("cmake", "--preset", "release", "--log-level=WARNING", "-DELASTOGEAR_PYTHON_MODULE=ON")
-    run("cmake", "--build", "--preset", "release", "--parallel", str(os.cpu_count()), "--target", "_elastogear")
-    run("cmake", "--install", "build/release", "--component", "python", "--prefix", prefix)
+def build(prefix, tree):
+    """Installs the package below `prefix` and returns its folder. tree: of a build that is there; empty: one is made."""
+    if not tree:
+        run("cmake", "--preset", "release", "--log-level=WARNING", "-DELASTOGEAR_PYTHON_MODULE=ON")
+        run("cmake", "--build", "--preset", "release", "--parallel", str(os.cpu_count()), "--target", "_elastogear")
+    run("cmake", "--install", tree or "build/release", "--component", "python", "--prefix", prefix)
     found = list(Path(prefix).glob(f"**/{NAME}/__init__.py"))
     if not found:
         raise SystemExit("The Python module was not built: scripts/setup installs pybind11-dev and python3-dev")
@@ -70,7 +71,7 @@ def write(path, files):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     info = f"{NAME}-{version()}.dist-info"
     with tempfile.TemporaryDirectory() as prefix:
-        package = build(prefix)
+        package = build(prefix, (config_settings or {}).get("build-dir"))
         check_interpreter(package)
         files = {f"{NAME}/{path.name}": path.read_bytes() for path in sorted(package.iterdir()) if path.is_file()}
     files[f"{info}/METADATA"] = metadata().encode()
