@@ -42,8 +42,11 @@ async function frames(what, n, act) {
   await run(SETTLING, act);
   start = cpu();
   const wall = await run(n, act);
-  const detail = await page.evaluate(() => window.report.viewer.detail);
-  console.log(`${what}: ${((cpu() - start) / n).toFixed(1)} ms of CPU time a frame, ${((1000 * n) / wall).toFixed(1)} frames/s, ${detail.toFixed(2)} pixels for one of the page`);
+  const [detail, triangles] = await page.evaluate(() => {
+    const { viewer } = window.report;
+    return [viewer.detail, viewer.visible().reduce((sum, shape) => sum + shape.geometry.index.count / 3, 0)];
+  });
+  console.log(`${what}: ${((cpu() - start) / n).toFixed(1)} ms of CPU time a frame, ${((1000 * n) / wall).toFixed(1)} frames/s, ${triangles} triangles, ${detail.toFixed(2)} pixels for one of the page`);
 }
 
 /** ms that n frames take, in each of which act(report) is called. */

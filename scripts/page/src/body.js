@@ -2,6 +2,7 @@
 import { unpackField, unpackIndex, unpackSums } from "./unpack.js";
 
 const SMOOTH = Math.cos((35 * Math.PI) / 180); // faces that turn by less share a normal
+const COARSEST = 8; // cells over the largest extent of a coarse body, at least
 
 function cross(X, a, b, c, out) {
   const ux = X[3 * b] - X[3 * a], uy = X[3 * b + 1] - X[3 * a + 1], uz = X[3 * b + 2] - X[3 * a + 2];
@@ -51,6 +52,34 @@ async function readX({ block, low, step }, nodes) {
   for (let i = 0; i < nodes; i++)
     for (let k = 0; k < 3; k++) X[3 * i + k] = low[k] + step * q[k * nodes + i];
   return X;
+}
+
+/** Lowest coordinates of a body, and its largest extent. */
+function extent(X) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < X.length; i++) {
+    low[i % 3] = Math.min(low[i % 3], X[i]);
+    high[i % 3] = Math.max(high[i % 3], X[i]);
+  }
+  return { low, size: Math.max(...high.map((x, k) => x - low[k]), 1e-30) };
+}
+
+/** At most about `most` triangles: the vertices in each cell of a grid become one of them. */
+export function coarse({ X, nodeOf, index }, most) {
+  const { low, size } = extent(X), place = (v, k, cells) => Math.floor(((X[3 * nodeOf[v] + k] - low[k]) / size) * cells);
+  for (let cells = 128; ; cells *= 0.75) {
+    const first = new Map(), stands = new Uint32Array(nodeOf.length), triangles = [];
+    for (let v = 0; v < nodeOf.length; v++) {
+      const cell = (place(v, 0, cells) * 1024 + place(v, 1, cells)) * 1024 + place(v, 2, cells);
+      if (!first.has(cell)) first.set(cell, v);
+      stands[v] = first.get(cell);
+    }
+    for (let t = 0; t < index.length; t += 3) {
+      const [a, b, c] = [stands[index[t]], stands[index[t + 1]], stands[index[t + 2]]];
+      if (a !== b && b !== c && c !== a) triangles.push(a, b, c);
+    }
+    if (triangles.length <= 3 * most || cells < COARSEST) return Uint32Array.from(triangles);
+  }
 }
 
 export class Body {

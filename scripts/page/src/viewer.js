@@ -1,12 +1,14 @@
 // Bodies in three dimensions: draws when something has changed, and picks nodes.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { coarse } from "./body.js";
 import { ABOVE, HEAT, TWO_SIDES, ramp } from "./colours.js";
 
 const N_COLOURS = 256, TURN = Math.PI / 24, CLICK = 5; // colours; radians a key; pixels a pointer may move in a click
 const SAMPLE = 3, FRAME = 1.06; // every n-th node tells a body's extent; room around it
 const SLOW = 30; // ms a frame
 const DETAIL = 2, LEAST_DETAIL = 0.4; // pixels of the picture for one of the page, at rest and in motion on slow machines
+const ROUGH = 6000; // triangles of a body in motion on machines that are slow even then
 const REST = 350, MOTION = 120; // ms: a picture rests after so long; one that is wanted sooner after the last belongs to a motion
 
 const VERTEX = `
@@ -53,7 +55,8 @@ class Shape {
     this.geometry.setAttribute("position", this.position);
     this.geometry.setAttribute("value", this.value);
     this.geometry.setAttribute("normal", new THREE.InterleavedBufferAttribute(normals, 3, 0, true));
-    this.geometry.setIndex(attribute(body.index, 1));
+    this.fine = attribute(body.index, 1);
+    this.geometry.setIndex(this.fine);
     const uniforms = { low: { value: 0 }, width: { value: 1 }, plain: { value: 0 }, twoSides: { value: 0 } };
     this.material = new THREE.ShaderMaterial({
       uniforms: { ...uniforms, colours: { value: null }, above: { value: above } },
@@ -72,6 +75,12 @@ class Shape {
     const spread = new THREE.Box3().setFromArray(body.X);
     this.sphere = spread.getBoundingSphere(new THREE.Sphere());
     this.geometry.boundingSphere = new THREE.Sphere(this.sphere.center.clone(), 1.5 * this.sphere.radius);
+  }
+
+  /** Draws fewer triangles, or all. */
+  roughen(rough) {
+    if (rough && !this.rough) this.rough = new THREE.BufferAttribute(coarse(this.body, ROUGH), 1);
+    this.geometry.setIndex(rough ? this.rough : this.fine);
   }
 
   /** Moves the surface to its place and shape at a time; shift: m, world frame. */
@@ -147,6 +156,7 @@ export class Viewer {
     this.picked = null;
     this.waiting = false;
     this.detail = this.swift = DETAIL; // swift: that of the last motion
+    this.rough = false; // fewer triangles are needed in motion
     this.last = this.wanted = 0; // times of the last frame, and of the call for the next one
     this.listen(onPick);
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
@@ -312,6 +322,7 @@ export class Viewer {
   /** The node drawn nearest to a place on the page, on what is seen there. */
   nodeAt(x, y) {
     const box = this.canvas.getBoundingClientRect(), ray = new THREE.Raycaster();
+    for (const shape of this.shapes) shape.roughen(false);
     const at = new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
     ray.setFromCamera(at, this.camera);
     const hits = ray.intersectObjects(this.visible().map((shape) => shape.mesh), false);
@@ -342,9 +353,14 @@ export class Viewer {
   adapt(now) {
     const moving = this.wanted - this.last < MOTION, lag = now - this.wanted;
     this.last = now;
-    if (moving && this.detail > this.swift) this.resize(this.swift);
-    else if (moving && lag > SLOW && this.detail > LEAST_DETAIL)
+    if (moving && this.detail > this.swift) {
+      this.resize(this.swift);
+    } else if (moving && lag > SLOW && this.detail > LEAST_DETAIL) {
       this.resize((this.swift = Math.max(LEAST_DETAIL, this.detail * Math.max(0.5, Math.min(0.85, Math.sqrt(SLOW / lag))))));
+    } else if (moving && lag > SLOW && !this.rough) {
+      this.rough = true;
+      this.resize(LEAST_DETAIL);
+    }
     this.restAfter(Math.max(REST, moving ? 2 * lag : 0));
   }
 
@@ -358,10 +374,13 @@ export class Viewer {
     }, wait);
   }
 
-  /** pixels of the picture for one of the page. Creases are left out of the coarsest ones. */
+  /** pixels of the picture for one of the page. Creases, and triangles on the slowest machines, are left out of the coarsest ones. */
   resize(detail) {
     this.detail = detail;
     this.renderer.setPixelRatio(detail);
-    for (const shape of this.shapes) shape.creases.visible = detail > LEAST_DETAIL;
+    for (const shape of this.shapes) {
+      shape.creases.visible = detail > LEAST_DETAIL;
+      shape.roughen(detail <= LEAST_DETAIL && this.rough);
+    }
   }
 }
