@@ -13,6 +13,7 @@ CURVES = (  # place, title, {dataset: name}, unit
     ("stiffness", "Mesh stiffness", {"secant": "secant", "tangent": "tangent"}, "N/m"),
     ("pressure", "Largest contact pressure", {"largest": "pressure"}, "Pa"),
 )
+PREFIXED = ("m", "N", "N/m", "Pa", "W")
 NOTICEABLE = 0.01  # of the force: pairs of teeth that bear less are not drawn
 
 
@@ -60,6 +61,17 @@ def charts(path, result):
         return made
 
 
+def in_words(value, unit):
+    """A figure with its unit; those of some units with a prefix."""
+    factor, unit = readable(abs(value), unit) if unit in PREFIXED else (1, unit)
+    return f"{value * factor:.5g} {'' if unit == '1' else unit}".strip()
+
+
+def in_order(name):
+    """worm:wheel/root/largest_tension -> worm on wheel, root, largest tension"""
+    return name.replace(":", " on ").replace("/", ", ").replace("_", " ")
+
+
 def table(path, result):
     """All single numbers of the case."""
     rows = []
@@ -67,7 +79,7 @@ def table(path, result):
     def add(name, item):
         if isinstance(item, h5py.Dataset) and item.shape in ((), (1,)) and item.dtype.kind in "fi":
             value, unit = float(item[()].ravel()[0]) if item.shape else float(item[()]), results.text(item.attrs.get("unit", "1"))
-            rows.append([name.replace("_", " "), (f"{value:.5g} {'' if unit == '1' else unit}".strip(), value), results.text(item.attrs.get("meaning", ""))])
+            rows.append([in_order(name), (in_words(value, unit), value), results.text(item.attrs.get("meaning", ""))])
 
     with results.open_file(path, "evaluation") as file:
         case = group_of(file, result)

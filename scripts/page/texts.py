@@ -11,6 +11,8 @@ import results
 
 LIGHTS = {"good": ("●", "trusted"), "fair": ("▲", "within 5 %"), "bad": ("■", "not to be trusted")}
 SHORTEST = 0.4  # of a unit: shorter runs are told in the next smaller one
+UNITS = {"": 1, "nm": 1e-9, "um": 1e-6, "µm": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1, "deg": math.pi / 180, "rad": 1, "us": 1e-6, "µs": 1e-6, "ms": 1e-3,
+         "s": 1, "N": 1, "kN": 1e3, "Nmm": 1e-3, "Nm": 1, "kNm": 1e3, "MPa": 1e6, "GPa": 1e9, "rad/s": 1, "rpm": math.pi / 30, "1/min": math.pi / 30}
 IMBALANCE = (0.01, 0.05)  # of the energy: up to these the balance is good, fair
 
 
@@ -136,6 +138,7 @@ def question(case):
     torque = case.options.get("torque", case.drive.get("torque", "0"))
     if re.fullmatch(r"[-+\d.e]+", torque.strip()):
         torque = torque.strip() + " N m"
+    torque = torque.replace(" ", "\u00a0")
     if case.kind():
         if case.analysis == "sweep":
             return f"What stresses do the teeth of this {case.kind()} bear as it rolls under {torque}?"
@@ -239,11 +242,22 @@ def flat(tree, prefix=""):
             yield name, ", ".join(map(str, value)) if isinstance(value, list) else value
 
 
+def number_of(text):
+    """A number with a unit or without in SI units, None where a text is none."""
+    found = re.fullmatch(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?: *(\D.*))?", text.strip())
+    factor = UNITS.get((found[2] or "").replace(" ", "")) if found else None
+    return float(found[1]) * factor if factor else None
+
+
 def in_force(case, key, value):
     """The value of a key, and that of the run where the command line had another one."""
     used = case.options.get(key, value)
-    plain = value.replace(" ", "") == used.replace(" ", "")
-    return value if plain else f"{used} in this run, {value} in the file"
+    asked, taken = number_of(value), number_of(used)
+    units = (1, UNITS["deg"]) if value.endswith("deg") else (1,)  # angles of designs stay in degrees
+    same = None not in (asked, taken) and any(math.isclose(asked, taken * unit, rel_tol=1e-9) for unit in units)
+    if same or value.replace(" ", "") == used.replace(" ", ""):
+        return value
+    return f"{used if taken is None else f'{taken:.6g}'} in this run, {value} in the file"
 
 
 def inputs_table(case, source):

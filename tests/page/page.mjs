@@ -70,6 +70,8 @@ async function clickBody(page, name) {
 const page = await open(1280, 900);
 seen.firstPicture = await page.evaluate(() => performance.getEntriesByName("first picture")[0].startTime);
 seen.title = await page.title();
+seen.asked = await page.locator("#asked").textContent();
+seen.module = await page.locator("tr", { has: page.locator("td", { hasText: /^module$/ }) }).first().locator("td").nth(1).textContent();
 await page.locator("#time").focus();
 await page.keyboard.press("End");
 await changes(page);

@@ -9,8 +9,9 @@ const FONT = "13px system-ui, sans-serif";
 const digits = (value) => (value === 0 ? "0" : Math.abs(value) >= 1e5 || Math.abs(value) < 1e-3 ? value.toExponential(2) : String(+value.toPrecision(4)));
 
 function series(curve, i) {
+  const least = 1e-9 * curve.values.reduce((most, v) => Math.max(most, Math.abs(v ?? 0)), 0); // below: rounding
   const stroke = curve.black ? "#111" : COLOURS[i % COLOURS.length];
-  const common = { label: curve.name, stroke, width: curve.band ? 0 : 2, points: { show: curve.values.length < 2 }, value: (_, v) => (v == null ? "–" : digits(v)) };
+  const common = { label: curve.name, stroke, width: curve.band ? 0 : 2, points: { show: curve.values.length < 2 }, value: (_, v) => (v == null ? "–" : digits(Math.abs(v) < least ? 0 : v)) };
   return curve.dash ? { ...common, dash: [7, 4] } : common;
 }
 

@@ -135,7 +135,7 @@ class Page {
       for (const cell of [label, value, `± ${step}`]) row.append(Object.assign(document.createElement("td"), { textContent: cell }));
       return row;
     }));
-    $("pick-at").textContent = [0, 1, 2].map((k) => text(1e3 * body.X[3 * node + k])).join(", ");
+    $("pick-at").textContent = [0, 1, 2].map((k) => (1e3 * body.X[3 * node + k]).toFixed(3).replace(/^-(0\.0*)$/, "$1")).join(", ");
     $("picked").hidden = false;
     $("pick-hint").hidden = true;
   }
