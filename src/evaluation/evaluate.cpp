@@ -14,14 +14,14 @@ namespace {
 
 bool in_time(const PairOfRun& pair) { return pair.time.size() > 0; }
 
-// Speed of the drive's first gear in its sense, rad/s: of a run in time its mean one, else 1 where none is
-// known.
+// Speed of the drive's first gear, rad/s, > 0 counter-clockwise: of a run in time its mean one, else 1 where
+// none is known.
 double speed_of(const PairOfRun& pair) {
   const Eigen::Index last = pair.roll.size() - 1;
   if (in_time(pair) && last > 0)
     return 2 * std::numbers::pi / pair.first_teeth * (pair.roll[last] - pair.roll[0]) /
            (pair.time[last] - pair.time[0]);
-  return pair.sense * (pair.speed > 0 ? pair.speed : 1);
+  return pair.turning * (pair.speed > 0 ? pair.speed : 1);
 }
 
 void add_spectrum(const std::string& path, const std::string& unit, const Spectrum& spectrum, Items& items) {

@@ -120,6 +120,12 @@ def check_friction(drive):
     figures = drive.evaluate()
     near("friction takes what the output lacks", figures["losses/friction_loss"], 1 - figures["losses/efficiency"], 2e-4)
     near("loss", figures["losses/friction_loss"], 0.08 * figures["losses/loss_factor"], 0.03 * figures["losses/friction_loss"])
+    loss = figures["losses/friction_loss"]
+    drive.sweep(32, "-contact_friction", "0.08", "-side", "coast")
+    drive.refusal("give evaluate the option -side coast", "evaluate", "drive.yaml")
+    figures = drive.evaluate("-side", "coast")
+    near("friction takes what the output lacks, wheel driving", figures["losses/friction_loss"], 1 - figures["losses/efficiency"], 2e-4)
+    near("loss with the wheel driving", figures["losses/friction_loss"], loss, 0.05 * loss)
 
 
 def check_rigid(drive):

@@ -19,6 +19,7 @@ struct PairOfRun {
   Eigen::VectorXd roll;            ///< n_t, pitches, of the drive's first gear
   int first_teeth = 1;             ///< of the drive's first gear
   double sense = 1;                ///< +1: the drive's first gear drives counter-clockwise; -1: clockwise
+  double turning = 1;              ///< +1: it turns counter-clockwise, as in every sweep; -1: clockwise
   double speed = 0;                ///< rad/s, > 0, of the drive's first gear; 0: not known
   ContactHistory contacts;         ///< n_t
   Eigen::Matrix3Xd force, torque;  ///< 3 x n_t, N, N m about the world origin, on the second gear, world

@@ -67,11 +67,19 @@ std::vector<int> steps_of(const Source& source, const EvaluateSettings& settings
   return steps;
 }
 
-Source open_source(const std::string& path, const EvaluateSettings& settings) {
+// Where flanks touch at the roll angle 0 depends on the side.
+void require_side(const Options& options, const Source& source) {
+  const std::string of_run = given_in(source.header, "side"), here = options.text("side");
+  require(of_run.empty() || of_run == here, source.path, ": is a run with side: ", of_run,
+          ", the drive file has side: ", here, "; give evaluate the option -side ", of_run);
+}
+
+Source open_source(const DriveOfRun& of, const std::string& path) {
   Source source{path, io::read_result_header(path), Kind::positions, io::read_times(path), {}};
   require(source.time.size() > 0, path, ": holds no times");
   source.kind = kind_of(path, source.header);
-  source.steps = steps_of(source, settings);
+  source.steps = steps_of(source, of.settings);
+  require_side(of.options, source);
   return source;
 }
 
@@ -168,6 +176,7 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
   pair.roll = rolls(of, source);
   pair.first_teeth = of.drive.members.front().toothing.z;
   pair.sense = of.options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
+  pair.turning = source.kind == Kind::positions ? 1 : pair.sense;
   pair.speed = std::abs(of.options.number("speed"));
   const io::PairHistory history = io::read_pair_history(source.path, of_pair.name);
   const auto contacts = io::read_contacts(source.path, of_pair.name);
@@ -269,7 +278,7 @@ const model::ElasticBody& Bodies::get(const std::string& file, const std::string
 
 CaseRun read_case_run(const DriveOfRun& of, Bodies& bodies, const std::string& result,
                       const std::map<std::string, Eigen::VectorXd>& unloaded) {
-  const Source source = open_source(result, of.settings);
+  const Source source = open_source(of, result);
   CaseRun run;
   std::map<std::string, io::StressSet> roots;
   if (of.settings.roots) roots = recover_roots(of, bodies, source, run.notes);
@@ -297,7 +306,7 @@ CaseRun read_case_run(const DriveOfRun& of, Bodies& bodies, const std::string& r
 
 std::map<std::string, Eigen::VectorXd> transmission_errors(const DriveOfRun& of, Bodies& bodies,
                                                            const std::string& result) {
-  const Source source = open_source(result, of.settings);
+  const Source source = open_source(of, result);
   std::map<std::string, Eigen::VectorXd> errors;
   for (const auto& pair : source.header.pairs)
     errors[pair.name] = evaluation::transmission_error(read_pair(of, bodies, source, pair));
