@@ -201,7 +201,9 @@ def check_cases(drive):
 
 
 def check_in_time(drive):
-    """Rigid gears on springs at 200 rad/s, over 2.2 pitches."""
+    """Rigid gears on springs at 200 rad/s, over 2.2 pitches, beside a body that is no gear."""
+    with open("drive.yaml", "a", encoding="utf-8") as file:
+        file.write("bodies: [pinion, wheel, rotor]\nrotor: {mass: 1, inertia: [1e-3, 1e-3, 1e-3, 0, 0, 0], joint: revolute}\n")
     drive.run("simulate", "drive.yaml", "-analysis", "dynamic", "-speed", "200", "-ts_dt", "2e-5", "-ts_max_time", "4.5e-3", "-sensors_hub",
               "wheel.frame", "-output", "run.h5", "-resume", "discard", *LAYER)
     figures = drive.evaluate("-result", "run.h5", "-from", "4e-4")

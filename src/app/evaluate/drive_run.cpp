@@ -242,9 +242,15 @@ std::map<std::string, io::StressSet> recover_roots(const DriveOfRun& of, Bodies&
                                                    std::vector<std::string>& notes) {
   std::map<std::string, io::StressSet> roots;
   std::map<std::string, std::string> files;
-  for (const auto& body : source.header.bodies) files[body.name] = file_of_body(of, source, body.name);
+  const auto is_gear = [&](const std::string& name) {
+    return std::any_of(of.drive.members.begin(), of.drive.members.end(),
+                       [&](const DriveMember& member) { return member.name == name; });
+  };
+  for (const auto& body : source.header.bodies)
+    if (is_gear(body.name)) files[body.name] = file_of_body(of, source, body.name);
   for (recovery::BodyOfRun& body : recovery::read_bodies_of_run(source.path, files)) {
     const std::string name = body.name;
+    if (!is_gear(name)) continue;
     if (body.history.q.rows() == 0) {
       notes.push_back(name + ": no stresses at its roots: it is rigid in the run");
       continue;

@@ -171,12 +171,19 @@ OptionTable all_evaluate_options() {
   return table;
 }
 
+// Gears, and what else a file for simulate has: shafts, couplings.
+std::vector<std::string> gears_and_bodies(const Options& options) {
+  std::vector<std::string> names = options.list("gears");
+  for (const std::string& name : options.list_with_files("bodies")) names.push_back(name);
+  return names;
+}
+
 void run_evaluate(const Options& given, const std::vector<std::string>&) {
   require(is_drive(given),
           "option -drive is missing: evaluate reads a drive file, with 'drive: cylindrical' or "
           "'drive: worm'");
   const Options options = with_evaluation(with_gears(given));
-  options.reject_unknown({{"body", options.list("gears")}});
+  options.reject_unknown({{"body", gears_and_bodies(options)}});
   Options at_zero = options;
   at_zero.set("roll", "0");
   const DriveOfRun of{options, read_drive(at_zero), evaluate_settings(options)};
