@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
+#include "evaluation/by_pitch.h"
 #include "evaluation/losses.h"
 #include "evaluation/sections.h"
 #include "evaluation/signal.h"
@@ -114,9 +115,9 @@ double common_width(const PairOfRun& pair) { return std::min(pair.gear[0].width,
 std::vector<io::EvaluationItem> spectrum_items(const PairOfRun& pair, const std::string& path,
                                                const Eigen::VectorXd& signal, const std::string& unit) {
   Items items;
-  if (in_time(pair))
+  if (in_time(pair) && rolls_on(pair.sense * pair.roll))
     add_spectrum(path, unit, windowed_orders(pair.sense * pair.roll, signal), items);
-  else if (even_positions(pair.roll))
+  else if (!in_time(pair) && even_positions(pair.roll))
     add_spectrum(path, unit, fourier_orders(pair.roll, signal), items);
   return items.take();
 }
@@ -137,6 +138,7 @@ PairEvaluation evaluate(const PairOfRun& pair) {
   add_pressure(pair, items);
   add_losses(pair, losses, items);
   add_dynamics(pair, items);
+  if (in_time(pair)) add_pitches(pair, evaluation.error, items);
   add_roots(pair, items);
   evaluation.items = items.take();
   return evaluation;

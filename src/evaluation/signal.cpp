@@ -103,6 +103,13 @@ Spectrum fourier_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& sign
   return spectrum;
 }
 
+bool rolls_on(const Eigen::VectorXd& roll) {
+  const Eigen::Index n = roll.size();
+  for (Eigen::Index i = 1; i < n; ++i)
+    if (!(roll[i] > roll[i - 1])) return false;
+  return n > 2 && roll[n - 1] - roll[0] >= 2;
+}
+
 Spectrum windowed_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal) {
   const Eigen::Index n = roll.size();
   for (Eigen::Index i = 1; i < n; ++i)

@@ -35,6 +35,9 @@ struct Spectrum {
 /// neighbours a missing one is taken to be linear. Throws Error for other roll angles.
 Spectrum fourier_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal);
 
+/// Do roll angles of a run in time increase strictly, over at least two pitches? Only then it has orders.
+bool rolls_on(const Eigen::VectorXd& roll);
+
 /// Orders of a signal of a run in time: resampled linearly at even roll angles, less its mean, under Hann's
 /// window, Eq. (10.2). Throws Error unless roll angles increase strictly, over at least two pitches.
 Spectrum windowed_orders(const Eigen::VectorXd& roll, const Eigen::VectorXd& signal);

@@ -216,7 +216,14 @@ def check_in_time(drive):
     near("dynamic factor", figures["force/dynamic_factor"], force.max() / force.mean(), 1e-9)
     change = -R_B[1] * np.diff(turned[1] + turned[0] * TEETH[0] / TEETH[1])
     near("dynamic transmission error, its changes", abs(np.diff(figures["transmission_error/loaded"]) - change).max(), 0, 1e-12)
+    pitch = np.floor(roll)
+    first = np.flatnonzero(np.diff(pitch))[0] + 1
+    second = np.flatnonzero(pitch > pitch[first])[0]
+    near("range of the first whole pitch", figures["by_pitch/error_peak_to_peak"][0], np.ptp(figures["transmission_error/loaded"][first:second + 1]), 1e-12)
+    near("speed of it", figures["by_pitch/speed"][0], 2 * np.pi / TEETH[0] * (roll[second] - roll[first]) / (time[second] - time[first]), 1e-9)
     assert "sensors/hub/acceleration_y/amplitude" in next(iter(figures.file["cases"].values())), "no spectrum of the sensor"
+    figures = drive.evaluate("-result", "run.h5", "-to", "1e-3")
+    assert any("no orders" in note for note in figures.case["notes"]), figures.case["notes"]
 
 
 def check_misuse(drive):

@@ -51,6 +51,13 @@ void print_error(const Reader& of) {
   print_item("", "orders of the mesh, amplitudes " + text);
 }
 
+void print_pitches(const Reader& of) {
+  const std::string name = "by_pitch/largest_";
+  if (!of.has(name + "peak_to_peak")) return;
+  print_item("", "largest peak to peak within a pitch " + of.in(name + "peak_to_peak", 1e6, "um") + ", at " +
+                     of.in(name + "at_speed", 1, "rad/s"));
+}
+
 void print_stiffness(const Reader& of) {
   for (const char* kind : {"secant", "tangent"})
     if (const std::string name = std::string("stiffness/") + kind; of.has(name + "_mean"))
@@ -129,6 +136,7 @@ void print_figures(const CaseFigures& of) {
     std::printf("%s, %s\n", of.of.name.c_str(), pair.pair.c_str());
     const Reader reader{pair.items};
     print_error(reader);
+    print_pitches(reader);
     print_stiffness(reader);
     print_load(reader);
     print_pressure(reader, pair.pair);

@@ -157,6 +157,9 @@ std::vector<std::string> write_pair_tables(const std::string& stem, const Items&
   write("", over_roll(items));
   write("_orders", of_group(items, "transmission_error", {"order", "amplitude", "phase"}));
   write("_force_orders", of_group(items, "force", {"order", "amplitude"}));
+  write("_by_pitch",
+        of_group(items, "by_pitch",
+                 {"roll", "speed", "error_mean", "error_peak_to_peak", "force_mean", "force_largest"}));
   write("_line_load", of_group(items, "line_load", {"z", "mean"}));
   for (const std::string& gear : gears_with_roots(items))
     write("_root_" + gear, of_group(items, "root/" + gear + "/way", {"place", "tension", "von_mises"}));

@@ -38,6 +38,12 @@ struct Evaluated {
   Eigen::VectorXd roll;
 };
 
+std::string no_orders(const evaluation::PairOfRun& run) {
+  return run.time.size() > 0
+             ? ": no orders: the gears do not roll on over at least two pitches in this span of time"
+             : ": no orders: the roll angles are not even positions that fill whole pitches";
+}
+
 Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_case,
                         const std::map<std::string, Eigen::VectorXd>& unloaded) {
   CaseRun run = read_case_run(of, bodies, of_case.file, unloaded);
@@ -46,6 +52,8 @@ Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_cas
     evaluated.pairs.push_back(evaluation::evaluate(pair.run));
     evaluated.width.push_back(evaluation::common_width(pair.run));
     evaluated.figures.pairs.push_back({pair.name, evaluated.pairs.back().items});
+    if (!find_item(evaluated.pairs.back().items, "transmission_error/order"))
+      evaluated.figures.notes.push_back(pair.name + no_orders(pair.run));
   }
   constexpr const char* kAxis[] = {"x", "y", "z"};
   for (const auto& [sensor, a] : run.sensors)
