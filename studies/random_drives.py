@@ -10,7 +10,8 @@ modules. Worm: 1 to 6 starts, 20 to 124 teeth, diameter quotient 7 to 14, pressu
 Each stands at eight roll angles over a pitch under a torque that gives 2 MPa times module and face width as tangential force. Its
 transmission error is how far the first gear is from where exact rigid flanks touch, times its base radius (worm: times z1/z2 and the
 wheel's pitch radius); it holds where that is below 0.2 um at every angle. Refused designs are counted by their reasons; where the
-message names a value that would do, the drive with it must not be refused for that reason again, and 0.1 % beyond it must be.
+message names a value that would do, the drive with it must not be refused for that reason again, and 0.1 % beyond it (profile
+shifts: 0.02) must be.
 """
 import argparse
 import collections
@@ -104,6 +105,11 @@ def reason(message):
     return re.sub(r"-?\d[\d.e+-]*", "#", message)
 
 
+def cause(message):
+    """The reason without the remedy."""
+    return reason(message).split(";")[0].split(": take")[0]
+
+
 def refusal(numbers, options, name):
     """The program's message; empty for a drive that it accepts."""
     try:
@@ -113,21 +119,25 @@ def refusal(numbers, options, name):
         return str(why)
 
 
-REMEDIES = ((r"(pinion|wheel):.*tip_diameter (?:of at most|below) ([\d.e+-]+)", +1),)
+# Pattern of gear and value, key, unit, and the step to what is beyond the value: a share of it, or a number.
+REMEDIES = ((r"(?P<gear>pinion|wheel):.*tip_diameter (?:of at most|below) (?P<value>[\d.e+-]+)", "tip_diameter", " mm",
+             lambda value: 1e-3 * value),
+            (r"profile_shift of (?P<gear>pinion|wheel) of at least (?P<value>[\d.e+-]+) would", "profile_shift", "", lambda _: -0.02),
+            (r"profile_shift of (?P<gear>pinion|wheel) of at most (?P<value>[\d.e+-]+) would", "profile_shift", "", lambda _: 0.02))
 
 
 def remedied(numbers, message, options, name):
     """Whether the value that a message names is the nearest one that would do; None where it names none."""
-    for pattern, beyond in REMEDIES:
+    for pattern, key, unit, step in REMEDIES:
         found = re.search(pattern, message)
         if not found:
             continue
-        gear, value = found.group(1), float(found.group(2))
+        gear, value = found["gear"], float(found["value"])
 
-        def again(diameter):
-            changed = {**numbers, gear: {**numbers[gear], "tip_diameter": f"{diameter:.9g} mm"}}
-            return reason(refusal(changed, options, name)) == reason(message)
-        return not again(value * (1 - 1e-6)) and again(value * (1 + 1e-3 * beyond))
+        def again(other):
+            changed = {**numbers, gear: {**numbers[gear], key: f"{other:.9g}{unit}"}}
+            return cause(refusal(changed, options, name)) == cause(message)
+        return not again(value - 1e-3 * step(value)) and again(value + step(value))
     return None
 
 

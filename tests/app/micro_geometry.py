@@ -26,8 +26,8 @@ modes: 10
 M, ALPHA, WIDTH, BACKLASH = 3e-3, np.radians(20), 25e-3, 0.09e-3  # m, rad
 TEETH, SHIFT = (17, 43), (0.3, 0.1)
 UM = 1e-6
-ALLOWED = 0.25 * UM  # of rigid gears: polynomials over the faces of size tiny leave 0.2 um
-KINK = 0.3 * UM  # what they leave of a kink
+ALLOWED = 0.03 * UM  # of rigid gears at size tiny
+KINK = 0.2 * UM  # what polynomials over a face leave of a kink
 SAME = 0.01  # of elastic gears on either mesh
 
 

@@ -298,6 +298,23 @@ TEST_P(CylindricalRefusal, names_the_value_and_one_that_would_do) {
   EXPECT_NO_THROW(derive(d));
 }
 
+TEST(CylindricalRefusal, names_the_nearest_profile_shift_with_which_contact_does_not_end) {
+  CylindricalDrive d = drive(3e-3, 0, gear("pinion", 7, -0.1, 25e-3), gear("wheel", 115, 0.6, 25e-3));
+  std::string message;
+  try {
+    derive(d);
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  const std::string remedy = "profile_shift of pinion of at least ";
+  const std::size_t at = message.find(remedy);
+  ASSERT_NE(at, std::string::npos) << message;
+  d.gears[0].x = std::stod(message.substr(at + remedy.size()));
+  EXPECT_NO_THROW(derive(d));
+  d.gears[0].x -= 0.01;
+  EXPECT_THROW(derive(d), Error);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, CylindricalRefusal,
     testing::Values(

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "elastogear/base/error.h"
 #include "gear/cylindrical/derivation.h"
@@ -11,6 +12,8 @@ namespace elastogear::gear {
 namespace {
 
 using std::numbers::pi;
+
+constexpr double kLeastContactRatio = 1;
 
 // Without thinning, without shorter tips. ISO 21771 counts the diameters of internal gears below 0.
 Toothing toothing(const CylindricalDrive& d, int i, double beta) {
@@ -45,21 +48,8 @@ std::vector<double> hands(const CylindricalDrive& d) {
   return hand;
 }
 
-}  // namespace
-
-double half_angle_at_base(const CylindricalDrive& d, const Toothing& t, double s_n) {
-  return s_n / (d.m_n * t.z) + t.sign() * involute(t.alpha_t);
-}
-
-BasicRack basic_rack(const std::string& name) {
-  if (name == "A") return {};
-  if (name == "B") return {.rho_fP = 0.30};
-  if (name == "C") return {.rho_fP = 0.25};
-  if (name == "D") return {.h_fP = 1.4, .rho_fP = 0.39};
-  fail("there is no basic rack '", name, "'; those of ISO 53 are A, B, C, D");
-}
-
-CylindricalGeometry derive(const CylindricalDrive& d) {
+// With all checks but that of contact ratios.
+CylindricalGeometry solved(const CylindricalDrive& d) {
   check_design(d);
   CylindricalGeometry g;
   g.p_bn = pi * d.m_n * std::cos(d.rack.alpha_n);
@@ -77,6 +67,63 @@ CylindricalGeometry derive(const CylindricalDrive& d) {
   check_tips(d, g);
   for (std::size_t i = 0; i < d.pairs.size(); ++i) set_path_of_contact(d, d.pairs[i], g, g.pair[i]);
   check_loops(d, g);
+  return g;
+}
+
+double contact_ratio(const PairGeometry& p) { return p.epsilon_alpha + p.epsilon_beta; }
+
+// "profile_shift of pinion of at least 0.31 would do", the nearest value in steps of a hundredth; empty where
+// none of either gear does.
+std::string shift_that_would_do(const CylindricalDrive& d, std::size_t pair) {
+  constexpr int kSteps = 100;
+  constexpr double kStep = 0.01;
+  const auto does = [&](int gear, double x) {
+    CylindricalDrive other = d;
+    other.gears[static_cast<std::size_t>(gear)].x = x;
+    try {
+      return contact_ratio(solved(other).pair[pair]) >= kLeastContactRatio;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  for (int i = 1; i <= kSteps; ++i)
+    for (int gear : {d.pairs[pair].first, d.pairs[pair].second})
+      for (int sign : {1, -1}) {
+        const CylindricalGear& own = d.gears[static_cast<std::size_t>(gear)];
+        const double x = std::round(own.x / kStep + sign * i) * kStep + 0.0;  // no -0
+        if (!does(gear, x)) continue;
+        std::ostringstream text;
+        text << "; profile_shift of " << own.name << (sign > 0 ? " of at least " : " of at most ") << x
+             << " would do";
+        return text.str();
+      }
+  return "";
+}
+
+}  // namespace
+
+double half_angle_at_base(const CylindricalDrive& d, const Toothing& t, double s_n) {
+  return s_n / (d.m_n * t.z) + t.sign() * involute(t.alpha_t);
+}
+
+BasicRack basic_rack(const std::string& name) {
+  if (name == "A") return {};
+  if (name == "B") return {.rho_fP = 0.30};
+  if (name == "C") return {.rho_fP = 0.25};
+  if (name == "D") return {.h_fP = 1.4, .rho_fP = 0.39};
+  fail("there is no basic rack '", name, "'; those of ISO 53 are A, B, C, D");
+}
+
+CylindricalGeometry derive(const CylindricalDrive& d) {
+  CylindricalGeometry g = solved(d);
+  for (std::size_t i = 0; i < d.pairs.size(); ++i) {
+    if (contact_ratio(g.pair[i]) >= kLeastContactRatio) continue;
+    const bool external = pair_sign(g.gear[d.pairs[i].first], g.gear[d.pairs[i].second]) > 0;
+    fail("pair ", pair_name(d, d.pairs[i]), ": the contact ratio is ", contact_ratio(g.pair[i]),
+         ", at least ", kLeastContactRatio, " is needed: take tips that reach deeper, a ",
+         external ? "smaller" : "larger", " centre distance, or profile shifts with less undercut",
+         shift_that_would_do(d, i));
+  }
   return g;
 }
 

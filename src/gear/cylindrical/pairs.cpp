@@ -12,7 +12,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kRounding = 0.01;  // modules of overlap, as profile shifts of few digits leave
-constexpr double kLeastContactRatio = 1;
 
 // Normal backlash of a pair at the working pressure angle alpha_wt: what the teeth leave of the base pitch.
 double backlash(const Toothing& t_1, const Toothing& t_2, double alpha_wt) {
@@ -135,11 +134,6 @@ void set_path_of_contact(const CylindricalDrive& d, const GearPair& pair, Cylind
   const double width = std::min(g.blank[pair.first].face_width, g.blank[pair.second].face_width);
   p.epsilon_alpha = t_1.sign() * (p.path[1] - p.path[0]) / (2 * pi * t_1.r_b / t_1.z);
   p.epsilon_beta = width * std::sin(std::abs(d.beta)) / (pi * d.m_n);
-  require(p.epsilon_alpha + p.epsilon_beta >= kLeastContactRatio, "pair ", pair_name(d, pair),
-          ": the contact ratio is ", p.epsilon_alpha + p.epsilon_beta, ", at least ", kLeastContactRatio,
-          " is needed: take tips that reach deeper, a ",
-          pair_sign(t_1, t_2) > 0 ? "smaller centre distance" : "larger centre distance",
-          ", or profile shifts with less undercut");
 }
 
 }  // namespace elastogear::gear
