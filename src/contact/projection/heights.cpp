@@ -223,17 +223,17 @@ Face undeformed_face(const model::Surface& surface, int f) {
 // A part of the range of one coordinate over which sum_i C_i T_i is the sum of terms * C times functions that
 // are at most as large as `weight`.
 struct Piece {
-  Eigen::MatrixXd terms;
-  Eigen::VectorXd weight;
+  Eigen::Matrix<double, Eigen::Dynamic, kP, 0, kP, kP> terms;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kP, 1> weight;
 };
 
 // The range between the sides, where |T_i| <= 1, and beyond each of them the parabola as far as `beyond`.
 std::vector<Piece> pieces(double stretch, double beyond) {
-  std::vector<Piece> all{{Eigen::MatrixXd::Identity(kP, kP), Terms::Ones()}};
+  std::vector<Piece> all{{HeightCoefficients::Identity(), Terms::Ones()}};
   if (beyond <= 0) return all;
   for (double end : {-1.0, 1.0}) {
     const Chebyshev c = chebyshev(stretch, end);
-    Eigen::MatrixXd terms(3, kP);
+    Eigen::Matrix<double, 3, kP> terms;
     terms << c.T.transpose(), c.T_t.transpose(), c.T_tt.transpose();
     all.push_back({terms, Eigen::Vector3d(1, beyond, 0.5 * beyond * beyond)});
   }
@@ -313,16 +313,21 @@ FaceFunction height(const Heights& heights, int sides, int f, double u, double v
 
 double largest_height(const Heights& heights, double extension) {
   const double beyond = 2 * extension;
+  const std::vector<Piece> across = pieces(0, beyond);
+  std::vector<Piece> along = across;  // of the last stretch
+  Stretch last;
   double largest = 0;
-  for (const FaceHeights& h : heights.face) {
-    const int k = h.stretch.along;
-    std::vector<Piece> by_coordinate[2];
-    by_coordinate[k] = pieces(h.stretch.amount, beyond + h.stretch.bulge * (1 + beyond / 2));
-    by_coordinate[1 - k] = pieces(0, beyond);
-    for (const Piece& a : by_coordinate[0])
-      for (const Piece& b : by_coordinate[1])
-        largest =
-            std::max(largest, a.weight.dot((a.terms * h.C * b.terms.transpose()).cwiseAbs() * b.weight));
+  for (const auto& [C, stretch] : heights.face) {
+    if (stretch.amount != last.amount || stretch.bulge != last.bulge) {
+      along = pieces(stretch.amount, beyond + stretch.bulge * (1 + beyond / 2));
+      last = stretch;
+    }
+    for (const Piece& a : stretch.along == 0 ? along : across) {
+      const Eigen::Matrix<double, Eigen::Dynamic, kP, 0, kP, kP> a_C = a.terms.lazyProduct(C);
+      for (const Piece& b : stretch.along == 0 ? across : along)
+        largest = std::max(
+            largest, a.weight.dot(a_C.lazyProduct(b.terms.transpose()).cwiseAbs().lazyProduct(b.weight)));
+    }
   }
   return largest;
 }
