@@ -8,7 +8,6 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
-#include "elastogear/contact/pair.h"
 #include "elastogear/contact/topology.h"
 
 namespace elastogear::contact {
@@ -68,9 +67,9 @@ void find_enclosed(const model::Surface* surface[2], const SurfaceState* state[2
 
 }  // namespace
 
-InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b, const Settings& settings,
-                               const SurfaceState& state_a, const SurfaceState& state_b,
-                               const std::array<const TrueSurface*, 2>& known) {
+InitialOverlap initial_overlap(const Pair& pair, const SurfaceState& state_a, const SurfaceState& state_b) {
+  const model::Surface &a = pair.surface(0), &b = pair.surface(1);
+  const Settings& settings = pair.given();
   InitialOverlap result;
   result.face_size = std::min(face_size(a.X, a.face), face_size(b.X, b.face));
   Settings deep = settings;
@@ -78,7 +77,7 @@ InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b,
   deep.points = SlavePoints::nodes;
   deep.k = 6;  // for one search trees that are built quickly are better than tight ones
   deep.depth = std::max(settings.depth, 2 * result.face_size);
-  for (const ContactPoint& contact : Pair(a, b, deep, {}, known).detect(state_a, state_b)) {
+  for (const ContactPoint& contact : Pair(pair, deep).detect(state_a, state_b)) {
     if (-contact.g_n <= result.penetration) continue;
     result.penetration = -contact.g_n;
     result.slave_side = contact.slave_side;
@@ -89,6 +88,12 @@ InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b,
   const SurfaceState* state[2] = {&state_a, &state_b};
   if (result.slave_node < 0) find_enclosed(surface, state, result);
   return result;
+}
+
+InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b, const Settings& settings,
+                               const SurfaceState& state_a, const SurfaceState& state_b,
+                               const std::array<const TrueSurface*, 2>& known) {
+  return initial_overlap(Pair(a, b, settings, {}, known), state_a, state_b);
 }
 
 void require_apart(const InitialOverlap& overlap, const std::string& pair, double allowed) {

@@ -61,15 +61,26 @@ std::vector<bool> tried_nodes(const Tracked& tracked, const Settings& settings, 
                                                 : edge_nodes(undeformed, radians(settings.feature_angle));
 }
 
-Side make_side(const Tracked& tracked, const Settings& settings, const TrueSurface* known,
-               std::vector<bool> responds) {
+Heights heights_of(const Tracked& tracked, const Settings& settings, const TrueSurface* known) {
   const model::Surface& surface = *tracked.surface;
   const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
-  return {node_laws(settings, surface),
-          make_heights(undeformed, settings.surface, radians(settings.feature_angle),
-                       known ? *known : TrueSurface{}),
-          std::move(responds),
+  return make_heights(undeformed, settings.surface, radians(settings.feature_angle),
+                      known ? *known : TrueSurface{});
+}
+
+Side make_side(const model::Surface& surface, const Settings& settings, Heights heights,
+               std::vector<bool> responds) {
+  return {node_laws(settings, surface), std::move(heights), std::move(responds),
           settings.points == SlavePoints::faces ? node_areas(surface.X, surface.face) : Eigen::VectorXd()};
+}
+
+Settings complete(Settings settings, const model::Surface& a, const model::Surface& b) {
+  if (settings.law == ContactLaw::automatic) settings.law = chosen_law(settings, false);
+  settings.points = chosen_points(settings, settings.slave == 0 ? a : b);
+  validate(settings);
+  validate(a, 0);
+  validate(b, 1);
+  return with_defaults(settings, a, b);
 }
 
 // Contact that is integrated over faces knows the law of its slave nodes alone: without any static response
@@ -112,7 +123,7 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
 }  // namespace
 
 struct Pair::Data {
-  Settings settings;
+  Settings given, settings;
   Side side[2];
   Histories history;
   Reach reach;
@@ -121,6 +132,8 @@ struct Pair::Data {
   std::vector<Minimum> minima[2] = {};                 // of the last look
   std::map<int, Minimum> held[2] = {};                 // by number, those that are kept where they were
 
+  static std::unique_ptr<Data> make(const Settings& given, const Settings& settings,
+                                    std::array<Tracked, 2> both, std::array<Side, 2> side);
   bool sticks() const { return settings.friction.mu > 0 && settings.friction.law == FrictionLaw::stick; }
   const model::Surface& surface(int i) const { return *tracker.side(i).surface; }
   bool is_between_steps() const { return history[0].step && !history[0].in_step; }
@@ -452,19 +465,8 @@ void Pair::accept(const std::vector<ContactPoint>& contacts) {
   if (data_->sticks() && data_->settings.points == SlavePoints::faces) data_->tracker.remember();
 }
 
-Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
-           const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r,
-           const std::array<const TrueSurface*, 2>& known, const std::array<std::vector<bool>, 2>& responds) {
-  Settings settings = given;
-  if (settings.law == ContactLaw::automatic) settings.law = chosen_law(given, false);
-  settings.points = chosen_points(given, given.slave == 0 ? a : b);
-  validate(settings);
-  validate(a, 0);
-  validate(b, 1);
-  settings = with_defaults(settings, a, b);
-  std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
-  Side side[2] = {make_side(both[0], settings, known[0], responds[0]),
-                  make_side(both[1], settings, known[1], responds[1])};
+std::unique_ptr<Pair::Data> Pair::Data::make(const Settings& given, const Settings& settings,
+                                             std::array<Tracked, 2> both, std::array<Side, 2> side) {
   for (int i : {0, 1}) soften_without_response(side[i], side[1 - i]);
   std::array<Heights, 2> curved;
   for (int i : {0, 1}) curved[i] = behind_facets(both[i], side[i], settings);
@@ -472,18 +474,45 @@ Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& giv
   const Reach reach = reach_of(settings, {&both[0], &both[1]}, {heights(0), heights(1)});
   std::array<SlaveNodes, 2> slaves;
   for (int i : {0, 1})
-    slaves[i] = {tried_nodes(both[i], settings, is_whole(settings, i)), spare(reach, i, both[i].topology)};
-  data_.reset(new Data{settings,
-                       {std::move(side[0]), std::move(side[1])},
-                       {History{untouched(a), untouched(a)}, History{untouched(b), untouched(b)}},
-                       reach,
-                       Tracker(std::move(both), settings, reach.limits, std::move(slaves))});
+    slaves[i] = {tried_nodes(both[i], settings, contact::is_whole(settings, i)),
+                 spare(reach, i, both[i].topology)};
+  const model::Surface &a = *both[0].surface, &b = *both[1].surface;
+  return std::unique_ptr<Data>(
+      new Data{given,
+               settings,
+               {std::move(side[0]), std::move(side[1])},
+               {History{untouched(a), untouched(a)}, History{untouched(b), untouched(b)}},
+               reach,
+               Tracker(std::move(both), settings, reach.limits, std::move(slaves))});
+}
+
+Pair::Pair(const model::Surface& a, const model::Surface& b, const Settings& given,
+           const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r,
+           const std::array<const TrueSurface*, 2>& known, const std::array<std::vector<bool>, 2>& responds) {
+  const Settings settings = complete(given, a, b);
+  std::array<Tracked, 2> both{tracked(a, K_r[0]), tracked(b, K_r[1])};
+  const auto side = [&](int i) {
+    return make_side(*both[i].surface, settings, heights_of(both[i], settings, known[i]), responds[i]);
+  };
+  std::array<Side, 2> sides{side(0), side(1)};
+  data_ = Data::make(given, settings, std::move(both), std::move(sides));
+}
+
+Pair::Pair(const Pair& like, const Settings& given) {
+  const Tracker& tracker = like.data_->tracker;
+  const Settings settings = complete(given, like.data_->surface(0), like.data_->surface(1));
+  const auto side = [&](int i) {
+    return make_side(like.data_->surface(i), settings, like.data_->side[i].heights, {});
+  };
+  data_ = Data::make(given, settings, {tracker.side(0), tracker.side(1)}, {side(0), side(1)});
 }
 
 Pair::~Pair() = default;
 Pair::Pair(Pair&&) noexcept = default;
 
+const Settings& Pair::given() const { return data_->given; }
 const Settings& Pair::settings() const { return data_->settings; }
+const model::Surface& Pair::surface(int side) const { return data_->surface(side); }
 int Pair::n_searches() const { return data_->tracker.n_searches(); }
 int Pair::n_displaced() const { return data_->tracker.n_displaced(); }
 

@@ -184,17 +184,15 @@ void go_on_from(Run& run, TS ts, const std::vector<double>& state) {
 }  // namespace
 
 void require_bodies_apart(System& system) {
-  for (const PairSetup& pair : system.pairs()) {
-    const int a = pair.body[0], b = pair.body[1];
-    const auto surface = [&](int i) -> const model::Surface& { return system.bodies()[i].eq.body->surface; };
-    const auto state = [&](int i) {
-      return contact::surface_state(
-          surface(i), system.surface_motion(i, 0, system.initial_position(), system.initial_velocity()));
-    };
-    const auto known = [&](int i) { return system.bodies()[i].true_surface.get(); };
-    contact::require_apart(contact::initial_overlap(surface(a), surface(b), pair.settings, state(a), state(b),
-                                                    {known(a), known(b)}),
-                           pair.name);
+  const auto state = [&](int i) {
+    return contact::surface_state(
+        system.bodies()[i].eq.body->surface,
+        system.surface_motion(i, 0, system.initial_position(), system.initial_velocity()));
+  };
+  for (std::size_t p = 0; p < system.pairs().size(); ++p) {
+    const PairSetup& pair = system.pairs()[p];
+    contact::require_apart(
+        contact::initial_overlap(system.detector(p), state(pair.body[0]), state(pair.body[1])), pair.name);
   }
 }
 

@@ -164,6 +164,7 @@ double System::depth_share(double time, ConstVector U, ConstVector V) {
 }
 
 const contact::Settings& System::contact_settings(std::size_t pair) const { return contact_->settings(pair); }
+const contact::Pair& System::detector(std::size_t pair) const { return contact_->detector(pair); }
 bool System::any_augmented() const { return contact_->any_augmented(); }
 double System::unclosed() const { return contact_->unclosed(); }
 void System::augment() { contact_->augment(); }

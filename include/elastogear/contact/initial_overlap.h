@@ -10,6 +10,7 @@
 #include <array>
 #include <string>
 
+#include "elastogear/contact/pair.h"
 #include "elastogear/contact/true_surface.h"
 #include "elastogear/contact/types.h"
 
@@ -24,7 +25,9 @@ struct InitialOverlap {
   bool enclosed = false;   ///< the part of surface `slave_side` with node `slave_node` lies inside the other
 };
 
-/// known: of either surface, as for Pair.
+/// Of the surfaces of a pair, with its settings.
+InitialOverlap initial_overlap(const Pair& pair, const SurfaceState& state_a, const SurfaceState& state_b);
+/// The same without a pair. known: of either surface, as for Pair.
 InitialOverlap initial_overlap(const model::Surface& a, const model::Surface& b, const Settings& settings,
                                const SurfaceState& state_a, const SurfaceState& state_b,
                                const std::array<const TrueSurface*, 2>& known = {});

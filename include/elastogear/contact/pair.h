@@ -24,6 +24,9 @@ class Pair {
        const std::array<const Eigen::SparseMatrix<double>*, 2>& K_r = {},
        const std::array<const TrueSurface*, 2>& known = {},
        const std::array<std::vector<bool>, 2>& responds = {});
+  /// The surfaces of another pair with other settings, which take gaps from the same surface with the same
+  /// feature angle. No node is known to be without a static response.
+  Pair(const Pair& like, const Settings& settings);
   ~Pair();
   Pair(Pair&&) noexcept;
 
@@ -69,6 +72,8 @@ class Pair {
 
   /// The settings in force: as given, with stiffness, depth and skin filled in where they were 0.
   const Settings& settings() const;
+  const Settings& given() const;
+  const model::Surface& surface(int side) const;
   /// Searches made so far, and nodes displaced in the last call of detect.
   int n_searches() const;
   int n_displaced() const;

@@ -11,6 +11,10 @@
 #include "elastogear/dynamics/low_rank_solver.h"
 #include "elastogear/dynamics/system_model.h"
 
+namespace elastogear::contact {
+class Pair;
+}
+
 namespace elastogear::dynamics {
 
 class SystemContact;
@@ -60,6 +64,7 @@ class System {
   double depth_share(double time, ConstVector U, ConstVector V);
   /// Settings of a pair in force, with stiffness, depth and skin filled in.
   const contact::Settings& contact_settings(std::size_t pair) const;
+  const contact::Pair& detector(std::size_t pair) const;
   /// Has a pair the augmented law?
   bool any_augmented() const;
   /// How far the gaps of the last evaluation are from closed, at most, over the depth of their pair; -.

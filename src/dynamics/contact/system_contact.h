@@ -25,6 +25,7 @@ class SystemContact {
   void forget() { U_.reset(); }
 
   const contact::Settings& settings(std::size_t pair) const { return detectors_[pair].settings(); }
+  const contact::Pair& detector(std::size_t pair) const { return detectors_[pair]; }
   /// The following are those of the last evaluation. System has their docstrings.
   double depth_share() const;
   double residual_energy(std::size_t b) { return residual_contact_.energy(b); }
