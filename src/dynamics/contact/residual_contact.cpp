@@ -17,11 +17,13 @@ using Eigen::VectorXd;
 constexpr double kForceResidual = 1e-10;    // of contact forces against those of the static responses
 constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, where it falls no further
 constexpr double kSmallResidual = 1e-3;     // whose square is negligible
-constexpr double kJump = 0.02;       // of forces where a node passes from face to face, that has no solution
-constexpr double kFirstRate = 1e-3;  // by which a first change of forces is expected to fall
-constexpr int kFullTrials = 10;      // before they go half of the way, as nodes pass to and fro between faces
-constexpr int kMostTrials = 30;      // until they fit
-constexpr int kMostHalvings = 5;     // of the way to the next trial, while it would be worse
+constexpr double kJump = 0.02;  // of forces where a node passes from face to face, that has no solution
+constexpr double kForceTolerance = 1e-8;  // of contact forces without a penalty, as of all forces in balance
+constexpr double kFirstRate = 1e-3;       // by which a first change of forces is expected to fall
+constexpr double kBend = 0.1;     // and by this times itself, where points move and forces turn with it
+constexpr int kFullTrials = 10;   // before they go half of the way, as nodes pass to and fro between faces
+constexpr int kMostTrials = 30;   // until they fit
+constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
 
 // share_a a + share_b b
 NodalForces sum(const NodalForces& a, double share_a, const NodalForces& b, double share_b) {
@@ -199,7 +201,7 @@ std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState&
     unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R));
   }
   if (!unilateral.solve()) return {};
-  const bool slides_anew = unilateral.slides_anew();
+  const bool slides_anew = unilateral.slides_anew(), bends = unilateral.takes_turning_in();
   unilateral.set_forces(state.pair);
   double missing = 0, all = 0;
   for (std::size_t b = 0, i = 0; b < state.force.size(); ++b) {
@@ -211,9 +213,9 @@ std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState&
     const NodalForces& now = flexibility_[b]->forces();
     respond_to(b, loaded(share < 1 ? mean(next, now, share) : next, now.node));
   }
-  if (missing == 0) return Change{0, slides_anew};
+  if (missing == 0) return Change{0, slides_anew, bends};
   return Change{std::sqrt(missing) / std::max(std::sqrt(std::max(all, missing)), least_force(state)),
-                slides_anew};
+                slides_anew, bends};
 }
 
 // Of smaller forces no more is asked for: roundoff of positions changes them by the force residual. N.
@@ -236,9 +238,10 @@ void ResidualContact::solve_unilateral(ContactState& state, const std::function<
     if (!change) break;
     const double now = change->forces;
     // The next change of the forces is expected to fall as this one did.
-    const double left = now * (trial > 0 ? std::min(1.0, now / before) : kFirstRate);
+    const double first_rate = change->bends ? std::min(kFirstRate, kBend * now) : kFirstRate;
+    const double left = now * (trial > 0 ? std::min(1.0, now / before) : first_rate);
     const bool is_roundoff = trial > 0 && now < kRoundoffResidual && now > 0.1 * before;
-    settled = (left <= kForceResidual || is_roundoff) && !change->slides_anew;
+    settled = (left <= kForceTolerance || is_roundoff) && !change->slides_anew;
     before = now;
     if (!settled) detect();
   }

@@ -70,6 +70,7 @@ class ResidualContact {
   struct Change {
     double forces;     // as part of them
     bool slides_anew;  // does a node slide that stuck before, or stick that slid?
+    bool bends;        // is what is left of second order?
   };
   // Closes the gaps at unchanged closest points: sets the forces of the contacts and the static responses,
   // these by the given share of their change. Returns nothing where there is no solution.

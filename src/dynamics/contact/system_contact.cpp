@@ -90,6 +90,8 @@ void SystemContact::solve(const std::vector<contact::SurfaceMotion>& motion) {
     ++trial;
     detect(motion);
   });
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (!has_friction(p, contact::FrictionLaw::stick)) detectors_[p].set_forces(state_.pair[p].points);
 }
 
 // Sets the placements of the bodies; surfaces are undeformed at first.

@@ -204,7 +204,7 @@ bool UnilateralForces::solve() {
   constexpr double kTolerance = 1e-10;  // of the forces
   do_not_turn();
   Extrapolation extrapolation;
-  bool turns = true;
+  bool turns = turns_ = true;
   for (int round = 0; round < kMostRounds; ++round) {
     const std::optional<VectorXd> z = forces();
     if (!z) return false;
@@ -214,7 +214,7 @@ bool UnilateralForces::solve() {
     const VectorXd before = all_turned(), turned = turned_forces();
     turn(turned);
     if ((turned - before).cwiseAbs().maxCoeff() <= kTolerance * z_.cwiseAbs().maxCoeff()) break;
-    turns = round < kMostRounds - 2;
+    turns = turns_ = round < kMostRounds - 2;
     if (turns)
       turn(extrapolation.next(before, turned));
     else
@@ -261,7 +261,10 @@ void UnilateralForces::set_forces(std::vector<PairContacts>& pairs) const {
       const Vector3d change = moved.answered;
       point.F += point.F_p * (z_[contact.first] - point.p + change[0]);
       point.F.reshaped() -= point.W * moved.k_V;
+      if (point.p > 0) point.friction_power *= z_[contact.first] / point.p;
       point.p = z_[contact.first];
+      point.energy = 0.5 * point.c * point.p * point.p;
+      point.g_n += moved.way[0];
       if (point.tangential) {
         point.F.reshaped() += point.tangential->F_t *
                               (z_.segment<2>(contact.first + 1) - point.tangential->t + change.tail<2>());

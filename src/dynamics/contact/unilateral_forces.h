@@ -26,6 +26,9 @@ class UnilateralForces {
   bool solve();
   /// Does a contact slide that stuck in the forces found, or stick that slid?
   bool slides_anew() const;
+  /// Is what these forces leave of second order in their change? Not where directions stay as they were
+  /// found, or nodes stick.
+  bool takes_turning_in() const { return turns_ && !any_sticks_; }
   /// Gives the contacts, which are those of the constructor, their new forces.
   void set_forces(std::vector<PairContacts>& pairs) const;
   /// 3 n, N, BRF: change of the forces found on the i-th body added.
@@ -75,7 +78,7 @@ class UnilateralForces {
 
   std::vector<Contact> contacts_;
   std::vector<CoulombContact> laws_;  // of each contact
-  bool any_sticks_ = false;
+  bool any_sticks_ = false, turns_ = true;
   std::vector<Body> bodies_;
   std::vector<Displacement> moved_;  // of each contact, as far as forces are turned
   Eigen::MatrixXd C_;
