@@ -42,7 +42,7 @@ def shares(name, group):
     if "teeth/share" not in group:
         return
     share, tooth = group["teeth/share"][:], group["teeth/tooth"][:]
-    curves = [{"name": f"teeth {a} and {b}", "values": 100 * share[:, i]} for i, (a, b) in enumerate(tooth) if share[:, i].max() > NOTICEABLE]
+    curves = [{"name": f"teeth {a:.0f} and {b:.0f}", "values": 100 * share[:, i]} for i, (a, b) in enumerate(tooth) if share[:, i].max() > NOTICEABLE]
     if curves:
         yield chart(f"share-{name}".replace(":", "-"), f"Load sharing, {name.replace(':', ' on ')}", group["roll"][:], "share in %", curves)
 
