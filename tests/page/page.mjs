@@ -67,6 +67,9 @@ async function clickBody(page, name) {
   seen.picks.push(await picked(page));
 }
 
+/** What axe-core finds that keeps people out, as text. */
+const violations = (page) => page.evaluate(`${axe}; axe.run().then((found) => found.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => v.id + ": " + v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")))`);
+
 const page = await open(1280, 900);
 seen.firstPicture = await page.evaluate(() => performance.getEntriesByName("first picture")[0].startTime);
 seen.title = await page.title();
@@ -98,7 +101,7 @@ await page.locator("#play").click();
 seen.charts = await page.locator(".chart .uplot").count();
 await page.locator("th button").nth(2).click();
 seen.sorted = await page.locator("table.sortable").first().locator("tbody tr td:nth-child(3)").allTextContents();
-seen.violations = await page.evaluate(`${axe}; axe.run().then((found) => found.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => v.id + ": " + v.nodes.map((n) => n.html.slice(0, 120)).join(" | ")))`);
+seen.violations = await violations(page);
 seen.turn = await page.evaluate(() => new Promise((done) => {
   const { viewer } = window.report, start = performance.now();
   let frames = 0;
@@ -122,6 +125,7 @@ for (const width of [320, 390]) {
   await phone.setViewportSize({ width, height: 844 });
   seen.widths[width] = await phone.evaluate(() => document.documentElement.scrollWidth);
 }
+seen.violations.push(...(await violations(phone)));
 await phone.screenshot({ path: join(folder, "phone.png"), fullPage: true });
 await browser.close();
 console.log(JSON.stringify(seen));
