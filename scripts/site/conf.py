@@ -9,7 +9,7 @@ from citations import ROOT  # noqa: E402  (found through the line above)
 project = "elastogear"
 version = release = re.search(r"project\(elastogear VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.graphviz", "sphinx.ext.mathjax", "links", "equations",
-              "code_pages", "docstrings", "diagram"]
+              "code_pages", "docstrings", "diagram", "accessible"]
 highlight_language = "none"
 primary_domain = "cpp"
 add_module_names = False
