@@ -244,7 +244,7 @@ def flat(tree, prefix=""):
 
 def number_of(text):
     """A number with a unit or without in SI units, None where a text is none."""
-    found = re.fullmatch(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?: *(\D.*))?", text.strip())
+    found = re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?: *([^\d\s.].*))?", text.strip())
     factor = UNITS.get((found[2] or "").replace(" ", "")) if found else None
     return float(found[1]) * factor if factor else None
 

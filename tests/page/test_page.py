@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -15,7 +16,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCRIPTS = os.path.join(HERE, "..", "..", "scripts")
 sys.path.insert(0, SCRIPTS)
-from page import bundle, fields, pack  # noqa: E402  (found through the line above)
+from page import bundle, evaluation, fields, pack, texts  # noqa: E402  (found through the line above)
 
 SKIPPED = 77
 DRIVE = """drive: cylindrical
@@ -81,6 +82,23 @@ class Packing(unittest.TestCase):
     def unpacked(text, n):
         planes = np.frombuffer(__import__("zlib").decompress(__import__("base64").b64decode(text)), np.uint8).reshape(-1, n)
         return sum(plane.astype(np.int64) << 8 * i for i, plane in enumerate(planes))
+
+
+class Inputs(unittest.TestCase):
+    """A value is listed as it was given, and that of the run beside it where it is another one."""
+
+    def test_values_of_the_run(self):
+        def shown(value, used):
+            return texts.in_force(types.SimpleNamespace(options={"key": used}), "key", value)
+
+        for value, used in (("3 mm", "0.0030000000000000001"), ("60 N m", "60"), ("15 deg", "15"), ("90 deg", "1.5707963267948966"), ("auto", "auto"), ("1.2.3", "1.2.3")):
+            self.assertEqual(shown(value, used), value)
+        self.assertEqual(shown("3 mm", "0.004"), "0.004 in this run, 3 mm in the file")
+        self.assertEqual(shown("small", "tiny"), "tiny in this run, small in the file")
+
+    def test_figures_have_readable_units(self):
+        self.assertEqual([evaluation.in_words(*figure) for figure in ((1.2298e8, "Pa"), (0.99995, "1"), (0, "m"), (41, "1"), (-2.1e-5, "m"))],
+                         ["122.98 MPa", "0.99995", "0 m", "41", "-21 µm"])
 
 
 class Page(unittest.TestCase):
