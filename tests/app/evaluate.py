@@ -226,6 +226,22 @@ def check_in_time(drive):
     assert any("no orders" in note for note in figures.case["notes"]), figures.case["notes"]
 
 
+def check_prescribed(drive):
+    """The pinion turns as a table says, from where flanks touch on; the wheel bears the torque."""
+    time = np.linspace(0, 5e-3, 51)
+    np.savetxt("run_up.csv", np.stack([time, 200 * time + 2e4 * time**2], axis=1), delimiter=",")
+    drive.run("simulate", "drive.yaml", "-analysis", "dynamic", "-pinion_rotation_motion", "table,run_up.csv", "-speed", "200", "-ts_dt", "2e-5",
+              "-ts_max_time", "4.5e-3", "-output", "run_up.h5", *LAYER)
+    figures = drive.evaluate("-result", "run_up.h5", "-from", "1e-3")
+    t = figures["time"]
+    near("prescribed roll angle", abs(np.diff(figures["roll"] - (200 * t + 2e4 * t**2) * TEETH[0] / (2 * np.pi))).max(), 0, 1e-5)
+    with h5py.File("wheel.h5") as body:
+        wheel = T_1 * TEETH[1] / TEETH[0] + body["rigid/inertia"][2, 2] * 4e4 * TEETH[0] / TEETH[1]
+    near("torque on the wheel in a run-up, mean", -figures["torque/second_mean"], wheel, 0.05 * wheel)
+    speed = figures["by_pitch/speed"]
+    assert speed.size >= 1 and 200 + 4e4 * 1e-3 < speed[0] < 200 + 4e4 * 4.5e-3, speed
+
+
 def check_misuse(drive):
     drive.refusal("there is no such result", "evaluate", "drive.yaml", "-result", "nosuch.h5")
     drive.refusal("-from and -to", "evaluate", "drive.yaml", "-from", "0.1")
@@ -255,3 +271,4 @@ if __name__ == "__main__":
         check_face_load(d)
         check_cases(d)
         check_in_time(d)
+        check_prescribed(d)

@@ -211,6 +211,8 @@ void set_parts(Options& options, const Drive& drive, double sense) {
     if (first) part.torque = torque;
     if (last && !first && moves) part.torque = -torque / member.ratio;
     if (moves) part.omega_0 = speed * member.ratio;
+    // A prescribed motion takes no load and begins with its own speed.
+    if (moves && options.given(member.name + "_rotation_motion")) part.torque = part.omega_0 = 0;
     options.set_default(member.name + "_position", triple(member.position));
     const Bearings all = bearings(options, member);
     all.empty() ? set_joint(options, part) : set_bearings(options, part, all, torque / member.ratio);

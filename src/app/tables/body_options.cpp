@@ -75,9 +75,11 @@ const Rows<Setup> kBodyRows = {
     {"<body>_force", "N", "0", "along the axis: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]",
      [](auto& o, auto& name, auto& s) { s.translation.load = signal(o, name); }},
     {"<body>_rotation_motion", "rad", "",
-     "prescribed rotation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
+     "prescribed rotation, from the initial one on: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, "
+     "FILE.csv]"},
     {"<body>_translation_motion", "m", "",
-     "prescribed translation: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]"},
+     "prescribed translation, from the initial one on: [speed, VALUE], [spin_up, VALUE, DURATION] or [table, "
+     "FILE.csv]"},
     {"<body>_rotation_damping", in(&Setup::rotation, &Axis::damping), "N m s",
      "viscous damping about the axis"},
     {"<body>_rotation_friction", in(&Setup::rotation, &Axis::friction), "N m",

@@ -90,8 +90,10 @@ dynamics::Drive drive(const Options& options, const std::string& name, double s_
   if (words.size() == 3 && words[0] == "spin_up")
     return dynamics::spin_up_drive(s_0, number(name, words[1]), number(name, words[2]));
   if (words.size() == 2 && words[0] == "table") {
-    require(s_0 == 0, "option -", name, ": a table holds the coordinate itself, without an initial one");
-    return from_table(words[1], dynamics::table_drive);
+    return from_table(words[1], [&](std::vector<double> time, std::vector<double> value) {
+      for (double& s : value) s += s_0;
+      return dynamics::table_drive(std::move(time), std::move(value));
+    });
   }
   refuse(name, "[speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]");
 }
