@@ -48,6 +48,7 @@ run simulate slanted.yaml -roll 0.2
 
 for example in "$examples"/*.yaml; do
   run reduce "$example" -size tiny
+  ! grep "nothing used" log || exit 1
   run simulate "$example" -size tiny -roll 0.1
   run recover "$example" -size tiny
 done

@@ -24,11 +24,17 @@
 namespace elastogear::app {
 namespace {
 
-// Returns the text in `name` that the placeholder of `pattern` stands for; nullopt when `name` does not fit.
+// Returns the text in `name` that the first placeholder of `pattern` stands for, the least that fits where
+// there are two; nullopt when `name` does not fit.
 std::optional<std::string> placeholder(const std::string& pattern, const std::string& name) {
   const auto open = pattern.find('<');
   if (open == std::string::npos) return pattern == name ? std::optional<std::string>("") : std::nullopt;
   const std::string head = pattern.substr(0, open), tail = pattern.substr(pattern.find('>') + 1);
+  if (tail.find('<') != std::string::npos) {
+    for (std::size_t n = 1; name.starts_with(head) && head.size() + n < name.size(); ++n)
+      if (placeholder(tail, name.substr(head.size() + n))) return name.substr(head.size(), n);
+    return {};
+  }
   if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return {};
   return name.substr(head.size(), name.size() - head.size() - tail.size());
 }
