@@ -186,6 +186,7 @@ def check_cases(drive):
     drive.run("simulate", "loads.yaml", "-analysis", "sweep", "-sweep_positions", "8")
     text = drive.run("evaluate", "loads.yaml", "-output", "cases.h5")
     assert text.count("pinion:wheel") == 3, text
+    assert "secant N/um" in text and "root MPa" in text, text
     with open("cases_cases.csv", encoding="utf-8") as table:
         rows = list(csv.DictReader(table))
     near("rows of the table of cases", len(rows), 3, 0)

@@ -1,5 +1,6 @@
 // The tables that evaluate prints on the terminal.
 
+#include <algorithm>
 #include <cstdio>
 
 #include "app/console/console.h"
@@ -129,6 +130,15 @@ void print_losses(const Reader& of) {
                                      of.in("force/largest", 1, "N"));
 }
 
+// Largest tension at the roots of both gears, MPa; a dash where none is known.
+std::string largest_tension(const std::vector<EvaluationItem>& items) {
+  double largest = 0;
+  for (const EvaluationItem& item : items)
+    if (item.path.starts_with("root/") && item.path.ends_with("/largest_tension"))
+      largest = std::max(largest, 1e-6 * item.value[0]);
+  return largest > 0 ? digits_of(largest, 5) : "-";
+}
+
 }  // namespace
 
 void print_figures(const CaseFigures& of) {
@@ -153,11 +163,12 @@ void print_cases(const std::vector<CaseFigures>& cases) {
   };
   constexpr Column kColumns[] = {
       {"TE mean um", "transmission_error/mean", 1e6}, {"TE p-p um", "transmission_error/peak_to_peak", 1e6},
+      {"secant N/um", "stiffness/secant_mean", 1e-6}, {"tangent N/um", "stiffness/tangent_mean", 1e-6},
       {"contact ratio", "teeth/contact_ratio", 1},    {"KHbeta", "line_load/KHbeta", 1},
       {"pressure MPa", "pressure/peak", 1e-6},        {"efficiency %", "losses/efficiency", 100}};
   std::printf("%-24s %-20s", "case", "pair");
   for (const Column& column : kColumns) std::printf(" %13s", column.title);
-  std::printf("\n");
+  std::printf(" %13s\n", "root MPa");
   for (const CaseFigures& of : cases)
     for (const PairFigures& pair : of.pairs) {
       std::printf("%-24s %-20s", of.of.name.c_str(), pair.pair.c_str());
@@ -165,7 +176,7 @@ void print_cases(const std::vector<CaseFigures>& cases) {
         const EvaluationItem* item = find_item(pair.items, column.path);
         item ? std::printf(" %13.5g", column.factor * item->value[0]) : std::printf(" %13s", "-");
       }
-      std::printf("\n");
+      std::printf(" %13s\n", largest_tension(pair.items).c_str());
     }
 }
 
