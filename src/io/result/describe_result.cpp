@@ -120,8 +120,9 @@ void describe_life(Out& out, const std::string& path) {
        read_vector(file, "/duty_cycle/revolutions").sum(), " revolutions of the first gear");
   for (const std::string& body : h5::members(file, "/")) {
     if (body == "duty_cycle" || body == "provenance") continue;
-    for (const std::string& set : h5::members(file, "/" + body)) {
-      const std::string group = "/" + body + "/" + set;
+    const std::string of_body = "/" + body;
+    for (const std::string& set : h5::members(file, of_body)) {
+      const std::string group = std::string(of_body).append("/").append(set);
       const Eigen::VectorXd damage = read_vector(file, group + "/damage");
       line(out, "damage of ", body, "/", set, ": ", counted(damage.size(), "node"), ", largest ",
            damage.maxCoeff(), " at node ", h5::number_attribute(file, group + "/critical", "node"));
