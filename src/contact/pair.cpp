@@ -236,7 +236,10 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
   if (!found) return {};
   ContactPoint& c = *found;
   v.rightCols<4>() = c.v.rightCols<4>();
-  spread_over_face(m.geometry, m.point.n_dir, m.open.gap, c);
+  if (m.crossing && !law.impact)
+    spread_crossing(m.geometry, *m.crossing, m.open, law.unilateral ? 0 : law.c_p, c);
+  else
+    spread_over_face(m.geometry, m.crossing ? 0 : m.point.n_dir, m.open.gap, c);
   c.v = v;
   c.slave_nodes = nodes;
   Eigen::Index nearest = 0;

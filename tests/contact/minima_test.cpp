@@ -241,5 +241,23 @@ TEST(GapMinima, have_the_smallest_gap_of_all_points_of_the_slave) {
     }
 }
 
+// Sides and faces of the slave that leave the master have their least gap short of its end.
+TEST(GapMinima, have_the_smallest_gap_where_the_slave_reaches_beyond_the_master) {
+  constexpr int kPerSide = 21;
+  constexpr double kGap = 1e-3, kBetween = 1e-5;  // m
+  for (double r_y : {2.0, 20.0})
+    for (double shift = 0.6; shift < 0.8; shift += 0.03) {
+      Two t = two(r_y, kGap);
+      t.a.r_WB.x() += shift;
+      t.a.r_WB.z() += kGap - smallest_gap(t, kPerSide);
+      Pair pair(t.slave, t.master, minima());
+      double least = 1;
+      for (const ContactPoint& c : pair.detect(t.a, t.b)) least = std::min(least, c.g_n);
+      const double brute = smallest_gap(t, kPerSide);
+      EXPECT_LT(least, brute + 1e-12) << r_y << " " << shift;
+      EXPECT_GT(least, brute - kBetween) << r_y << " " << shift;
+    }
+}
+
 }  // namespace
 }  // namespace elastogear::contact::minima_test

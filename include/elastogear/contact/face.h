@@ -41,6 +41,9 @@ Eigen::Vector2d extended_corner(const Face& face, int corner);
 /// Returns whether (u, v) lies on the face with its open sides moved outwards.
 bool inside(const Face& face, double u, double v);
 
+/// How far beyond an open side: 0 there, 1 where its extension ends.
+FaceFunction share_of_extension(const Face& face, int side, double u, double v);
+
 /// Factor of a contact force on the extensions: falls from 1 at the open side to 0 where they end, with a
 /// continuous slope. Eq. (6.2b).
 FaceFunction fade_factor(const Face& face, double u, double v);

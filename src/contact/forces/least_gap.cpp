@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "contact/forces/hermite.h"
 
@@ -14,6 +15,7 @@ using Eigen::Vector2d;
 constexpr int kSteps = 20;
 constexpr double kConverged = 1e-10;  // of local coordinates
 constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
+constexpr double kNearCut = 1e-5;     // of a side, from where it is looked for where it leaves the master
 constexpr double kApart = 1e-4;       // of a face, between minima that are not the same
 
 // A slave point that may be a minimum.
@@ -50,27 +52,113 @@ SideStart estimate(const SideGaps& side, int face) {
   return {known ? least_of_cubic(side.g, side.slope).s : 0.5, face};
 }
 
-// Newton's method for the slope of the gap, kept between places where it falls and rises.
-std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const SideStart& begin) {
-  double low = 0, high = 1, s = begin.s;
-  int start = begin.face;
-  for (int step = 0; step < kSteps; ++step) {
-    side.point.at = on_side(side.sides, side.side, s);
-    const std::optional<Trial> t = evaluate(field, side.point, start);
-    if (!t) return {};
-    start = t->over.projection.face;
-    const double slope = t->over.gap.n.dot(t->geometry.a.col(0)),
-                 curvature = gap_curvature(t->geometry, 1, t->over.gap)(0, 0);
+// The part of a side that a search is left with. Beyond an end that is cut no foot point was found.
+struct Bracket {
+  double low = 0, high = 1;
+  bool low_is_cut = false, high_is_cut = false;
+
+  double middle() const { return 0.5 * (low + high); }
+  void cut(double s, double from) {
+    (s > from ? high : low) = s;
+    (s > from ? high_is_cut : low_is_cut) = true;
+  }
+  void narrow(double s, double slope) {
     (slope > 0 ? high : low) = s;
-    double next = curvature > 0 ? s - slope / curvature : 0.5 * (low + high);
-    if (std::abs(next - s) < kConverged || high - low < kConverged || step + 1 == kSteps)
-      return t->over.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length
-                 ? std::optional(minimum(field, *t))
-                 : std::nullopt;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    s = next;
+    (slope > 0 ? high_is_cut : low_is_cut) = false;
+  }
+  void join_again() {
+    if (std::exchange(low_is_cut, false)) low = 0;
+    if (std::exchange(high_is_cut, false)) high = 1;
+  }
+  bool falls_to_cut(double slope) const { return slope > 0 ? low_is_cut : high_is_cut; }
+  bool is_left(double slope) const { return high - low > (falls_to_cut(slope) ? kNearCut : kConverged); }
+};
+
+// The open side of a master face that a point near it has crossed most of, of those that it is moved out by;
+// -1: there is none.
+int side_crossed(const Face& face, const Projection& w) {
+  int crossed = -1;
+  double most = 0;  // of the extension
+  for (int side = 0; side < face.sides; ++side) {
+    if (face.extension[side] == 0) continue;
+    const double share = share_of_extension(face, side, w.point.u, w.point.v).f;
+    if (share > most) crossed = side, most = share;
+  }
+  return crossed;
+}
+
+// The point at which an open side of the slave leaves the master, by Newton's method from a trial shortly
+// before. Nothing where the two sides run along each other.
+std::optional<Minimum> crossing(const GapField& field, const SideGaps& side, const Trial& before, double s) {
+  constexpr double kAcross = 0.1,
+                   kNear = 1e-3;  // sine of their angle; of the side, that the point may be off
+  constexpr double kMet = 1e-12;
+  Trial t = before;
+  const double from = s;
+  const Face face = face_of(field.master.surface, before.nearest.face);
+  const int crossed = side_crossed(face, before.nearest);
+  for (int step = 0; step < kSteps && crossed >= 0; ++step) {
+    const FaceFunction share = share_of_extension(face, crossed, t.nearest.point.u, t.nearest.point.v);
+    const Eigen::Vector3d gradient =
+        slave_kinematics(face, t.nearest, t.geometry.x).D.transpose() * share.f_a;
+    const double across = gradient.dot(t.geometry.a.col(0));
+    if (std::abs(across) < kAcross * gradient.norm() * t.geometry.a.col(0).norm()) return {};
+    const double way = (1 - share.f) / across;
+    if (std::abs(way) < kMet) {
+      Minimum m = minimum(field, t);
+      m.crossing = Crossing{share.f_a};
+      return m;
+    }
+    s += way;
+    if (std::abs(s - from) > kNear || s < 0 || s > 1) return {};
+    t.point.at = on_side(side.sides, side.side, s);
+    t.geometry = slave_geometry(field.slave, field.heights, t.point);
+    const auto w = extended_projection(face, t.geometry.x, t.nearest);
+    if (!w) return {};
+    t.nearest = *w;
   }
   return {};
+}
+
+bool is_below_ends(const SideGaps& side, const Trial& t) {
+  return t.over.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length;
+}
+
+// Newton's method for the slope of the gap, kept between places where it falls and rises, or that have no
+// foot point. A side leaves the master over an extension of that; elsewhere a foot point was missed from
+// afar.
+std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const SideStart& begin) {
+  constexpr int kMostSteps = 2 * kSteps;
+  Bracket left;
+  std::optional<Trial> last;
+  double s = begin.s, at = side.g[0] != kFarGap ? 0 : 1, slope = 0;  // of the last trial: at, slope
+  int start = begin.face;
+  for (int step = 0; step < kMostSteps && left.is_left(slope); ++step) {
+    side.point.at = on_side(side.sides, side.side, s);
+    std::optional<Trial> t = evaluate(field, side.point, start);
+    if (!t) {
+      left.cut(s, at);
+      s = left.middle();
+      continue;
+    }
+    at = s;
+    start = t->over.projection.face;
+    slope = t->over.gap.n.dot(t->geometry.a.col(0));
+    left.narrow(s, slope);
+    if (!left.is_left(slope) && !on_extension(t->nearest)) left.join_again();
+    last = std::move(t);
+    const double curvature = gap_curvature(last->geometry, 1, last->over.gap)(0, 0),
+                 next = curvature > 0 ? s - slope / curvature : left.middle();
+    if (std::abs(next - s) < kConverged) {
+      left = {};  // nothing is cut
+      break;
+    }
+    s = next > left.low && next < left.high ? next : left.middle();
+  }
+  if (!last || !is_below_ends(side, *last)) return {};
+  if (!left.falls_to_cut(slope)) return minimum(field, *last);
+  return field.slave.topology.is_open(side.point.face, side.side) ? crossing(field, side, *last, at)
+                                                                  : std::nullopt;
 }
 
 bool is_inside(int sides, const Vector2d& at) {
@@ -112,26 +200,34 @@ bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H, dou
   return product < line * most * most;
 }
 
-// Newton's method while it is held on the face. on_sides: m, the least gap known on the face's sides.
+// Newton's method while it is held on the face, half as far where that leads off the master. on_sides: m, the
+// least gap known on the face's sides.
 std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const FaceStart& start,
                                     double on_sides) {
   const int sides = side_count(field.slave.face, point.face);
   int face = start.face;
+  Vector2d way = Vector2d::Zero();
   point.at = start.at;
   for (int step = 0; step < kSteps; ++step) {
     const std::optional<Trial> t = evaluate(field, point, face);
-    if (!t) return {};
+    if (!t) {
+      if (step == 0) return {};
+      way /= 2;
+      point.at -= way;
+      continue;
+    }
     face = t->over.projection.face;
     const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
     const Eigen::Matrix2d H = gap_curvature(t->geometry, 2, t->over.gap);
-    const auto way = step_on_face(sides, point.at, slope, H);
-    if (!way || is_flat(t->geometry.a.leftCols<2>(), H, field.line)) return {};
-    if (way->cwiseAbs().maxCoeff() < kConverged) {
+    const auto newton = step_on_face(sides, point.at, slope, H);
+    if (!newton || is_flat(t->geometry.a.leftCols<2>(), H, field.line)) return {};
+    way = *newton;
+    if (way.cwiseAbs().maxCoeff() < kConverged) {
       const double length = t->geometry.a.colwise().norm().maxCoeff();
       const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;
       return is_minimum ? std::optional(minimum(field, *t)) : std::nullopt;
     }
-    point.at += *way;
+    point.at += way;
   }
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "contact/forces/slave_point.h"
@@ -29,6 +30,7 @@ struct Minimum {
   SlavePoint point;
   SlaveGeometry geometry;
   OpenPoint open;
+  std::optional<Crossing> crossing = {};  ///< of a point that is least as the side leaves the master
 };
 
 /// One side of a slave face with the gaps at its ends; kFarGap where they are beyond the limits.
@@ -47,7 +49,8 @@ struct FaceStart {
 };
 
 /// The minimum on the side and those over the master's faces beside it; none that differ from the ends by
-/// less than a millionth of the length. face: of the master, near the side.
+/// less than a millionth of the length. On open sides that is also the point at which a side leaves the
+/// master through an open side of that, where the gap falls up to there. face: of the master, near the side.
 std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side, int face);
 
 /// The minimum within the point's face and those over the master's faces beside it; none that differ by less

@@ -58,6 +58,57 @@ Eigen::Matrix<double, 24, 2> mixed_derivatives(const SlaveGeometry& s, const Sla
   return g_x_xi;
 }
 
+// Motion of the point along its directions by the nodes, -k V' dx.
+struct Following {
+  Eigen::Matrix<double, 24, 2> V;
+  Eigen::Matrix2d k;
+};
+
+void spread(const SlaveGeometry& s, int n_dir, const Following& following, ContactPoint& c) {
+  const SlaveRows S = carried(s);
+  const Eigen::Index n = c.W.cols(), all = n + n_dir;
+  FaceColumns W(24, all), V(24, all), V_dot = FaceColumns::Zero(24, all);
+  LocalStiffness k = LocalStiffness::Zero(all, all);
+  W.leftCols(n) = on_nodes(S, c.W);
+  V.leftCols(n) = on_nodes(S, c.V);
+  V_dot.leftCols(n) = on_nodes(S, c.V_dot);
+  k.topLeftCorner(n, n) = c.k;
+  for (int i = 0; i < n_dir; ++i) W.col(n + i) = force_along(s, S, i, c);
+  V.rightCols(n_dir) = following.V.leftCols(n_dir);
+  k.bottomRightCorner(n_dir, n_dir) = following.k.topLeftCorner(n_dir, n_dir);
+  c.W = W;
+  c.V = V;
+  c.V_dot = V_dot;
+  c.k = k;
+  for (LocalVectors* vectors : {&c.F, &c.F_p, &c.g_x})
+    if (vectors->cols() > 0) *vectors = vectors_on_nodes(S, *vectors);
+  c.slave_N = s.N;
+}
+
+// The force p (F_p - slope b_x) in place of p F_p, with its gap's gradient and tangent.
+void turn_along_side(double slope, const LocalRow& b_x, const LocalVectors& F_p, const LocalRow& g_x,
+                     double per_gap, ContactPoint& c) {
+  const LocalVectors along = slope * b_x.reshaped(3, 5);
+  const Eigen::Index n = c.W.cols();
+  LocalColumns W = LocalColumns::Zero(15, n + 2), V = W, V_dot = W;
+  LocalStiffness k = LocalStiffness::Zero(n + 2, n + 2);
+  W.leftCols(n) = c.W;
+  V.leftCols(n) = c.V;
+  if (c.V_dot.cols() > 0) V_dot.leftCols(n) = c.V_dot;
+  k.topLeftCorner(n, n) = c.k;
+  W.rightCols(2) << F_p.reshaped(), (F_p - along).reshaped();
+  V.rightCols(2) << g_x.transpose(), g_x.transpose() - along.reshaped();
+  k.diagonal().tail(2) << -per_gap, per_gap;
+  c.W = W;
+  c.V = V;
+  c.V_dot = V_dot;
+  c.k = k;
+  c.F -= c.p * along;
+  c.f = c.F.col(0);
+  for (LocalVectors* vectors : {&c.F_p, &c.g_x})
+    if (vectors->cols() > 0) *vectors -= along;
+}
+
 }  // namespace
 
 SlaveGeometry slave_geometry(const SurfaceView& slave, const Heights& heights, const SlavePoint& point) {
@@ -116,25 +167,30 @@ Eigen::Matrix2d gap_curvature(const SlaveGeometry& s, int n_dir, const GapBy<3>&
 
 // The point follows the nodes: docs/theory.md, Eq. (6.27).
 void spread_over_face(const SlaveGeometry& s, int n_dir, const Gap& gap, ContactPoint& c) {
-  const SlaveRows S = carried(s);
   const Eigen::Matrix2d curvature = gap_curvature(s, n_dir, {gap.g, gap.n, gap.n_x.leftCols<3>()});
-  const Eigen::Index n = c.W.cols(), all = n + n_dir;
-  FaceColumns W(24, all), V(24, all), V_dot = FaceColumns::Zero(24, all);
-  LocalStiffness k = LocalStiffness::Zero(all, all);
-  W.leftCols(n) = on_nodes(S, c.W);
-  V.leftCols(n) = on_nodes(S, c.V);
-  V_dot.leftCols(n) = on_nodes(S, c.V_dot);
-  k.topLeftCorner(n, n) = c.k;
-  for (int i = 0; i < n_dir; ++i) W.col(n + i) = force_along(s, S, i, c);
-  V.rightCols(n_dir) = mixed_derivatives(s, S, n_dir, gap).leftCols(n_dir);
-  k.bottomRightCorner(n_dir, n_dir) = curvature.topLeftCorner(n_dir, n_dir).inverse();
-  c.W = W;
-  c.V = V;
-  c.V_dot = V_dot;
-  c.k = k;
-  for (LocalVectors* vectors : {&c.F, &c.F_p, &c.g_x})
-    if (vectors->cols() > 0) *vectors = vectors_on_nodes(S, *vectors);
-  c.slave_N = s.N;
+  Following following{mixed_derivatives(s, carried(s), n_dir, gap), Eigen::Matrix2d::Identity()};
+  following.k.topLeftCorner(n_dir, n_dir) = curvature.topLeftCorner(n_dir, n_dir).inverse();
+  spread(s, n_dir, following, c);
+}
+
+LocalRow way_across(const Crossing& crossing, const ProjectionKinematics& kinematics) {
+  return crossing.outward.transpose() * kinematics.D;
+}
+
+// docs/theory.md, Eq. (6.27b).
+void spread_crossing(const SlaveGeometry& s, const Crossing& crossing, const OpenPoint& open, double per_gap,
+                     ContactPoint& c) {
+  const LocalRow b_x = way_across(crossing, open.kinematics);
+  const Eigen::Vector3d a = s.a.col(0);
+  const double across = b_x.head<3>().dot(a);
+  const LocalVectors F_p =
+      c.c > 0 ? c.F_p : LocalVectors((open.kinematics.G.transpose() * open.gap.direction).reshaped(3, 5));
+  const LocalRow g_x = c.c > 0 ? LocalRow(c.g_x.reshaped().transpose()) : open.gap.g_x;
+  turn_along_side(open.gap.n.dot(a) / across, b_x, F_p, g_x, c.c > 0 ? 1 / c.c : per_gap, c);
+  Following following{Eigen::Matrix<double, 24, 2>::Zero(), Eigen::Matrix2d::Identity()};
+  following.V.col(0) << carried(s).transpose() * b_x.head<3>().transpose(), b_x.tail<12>().transpose();
+  following.k(0, 0) = 1 / across;
+  spread(s, 1, following, c);
 }
 
 }  // namespace elastogear::contact

@@ -45,6 +45,19 @@ Eigen::Matrix2d gap_curvature(const SlaveGeometry& geometry, int n_dir, const Ga
 /// own face, which carry it, and the master's.
 Eigen::Matrix<double, 3, 24> on_nodes_of_faces(const SlaveGeometry& geometry, const Local3& by_point);
 
+/// The point of a side of the slave that is over the end of the master, with which it moves along its side.
+struct Crossing {
+  Eigen::Vector2d outward;  ///< gradient by the master's (u, v) of the way across that end
+};
+
+/// Change of the way across the end by the 15 local coordinates of the point itself.
+LocalRow way_across(const Crossing& crossing, const ProjectionKinematics& kinematics);
+
+/// As spread_over_face, of a point that is over the master's end: the gap there falls along both sides, and
+/// the force is normal to both. per_gap: N/m, of a contact with a penalty, else 0.
+void spread_crossing(const SlaveGeometry& geometry, const Crossing& crossing, const OpenPoint& open,
+                     double per_gap, ContactPoint& contact);
+
 /// From a contact of the point itself, with 15 local coordinates, to one of the four nodes of its face, which
 /// carry it. A point that moves with the least gap adds a column for each direction.
 void spread_over_face(const SlaveGeometry& geometry, int n_dir, const Gap& gap, ContactPoint& contact);

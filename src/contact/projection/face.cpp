@@ -28,12 +28,13 @@ Beyond beyond(int sides, int side) {
   return {-0.5, 0.5 * Eigen::Vector2d(outwards[side][0], outwards[side][1])};
 }
 
-// From 1 at t = 0 to 0 at t = 1.
-FaceFunction fall(double t, const Eigen::Vector2d& slope) {
+// From 1 at t = 0 to 0 at t = 1, of a linear t.
+FaceFunction fall(const FaceFunction& linear) {
+  const double t = linear.f;
   if (t <= 0) return {1};
   if (t >= 1) return {};
-  return {(1 - t) * (1 - t) * (1 + 2 * t), -6 * t * (1 - t) * slope,
-          (12 * t - 6) * (slope * slope.transpose())};
+  return {(1 - t) * (1 - t) * (1 + 2 * t), -6 * t * (1 - t) * linear.f_a,
+          (12 * t - 6) * (linear.f_a * linear.f_a.transpose())};
 }
 
 FaceFunction product(const FaceFunction& a, const FaceFunction& b) {
@@ -81,15 +82,16 @@ bool inside(const Face& face, double u, double v) {
   return u >= -1 - 2 * e[3] && u <= 1 + 2 * e[1] && v >= -1 - 2 * e[0] && v <= 1 + 2 * e[2];
 }
 
+FaceFunction share_of_extension(const Face& face, int side, double u, double v) {
+  const Beyond way = beyond(face.sides, side);
+  const Eigen::Vector2d slope = way.slope / face.extension[side];
+  return {way.offset / face.extension[side] + slope.dot(Eigen::Vector2d(u, v)), slope};
+}
+
 FaceFunction fade_factor(const Face& face, double u, double v) {
   FaceFunction fade{1};
-  for (int side = 0; side < face.sides; ++side) {
-    const double extension = face.extension[side];
-    if (extension == 0) continue;
-    const Beyond way = beyond(face.sides, side);
-    const Eigen::Vector2d slope = way.slope / extension;
-    fade = product(fade, fall(way.offset / extension + slope.dot(Eigen::Vector2d(u, v)), slope));
-  }
+  for (int side = 0; side < face.sides; ++side)
+    if (face.extension[side] > 0) fade = product(fade, fall(share_of_extension(face, side, u, v)));
   return fade;
 }
 
