@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "evaluation/sections.h"
 #include "evaluation/signal.h"
 
 namespace elastogear::evaluation {

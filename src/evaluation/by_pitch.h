@@ -1,10 +1,8 @@
 #pragma once
-// Figures of a run in time pitch by pitch, as over the speed of a run-up (docs/theory.md, section 10.5).
+// The pitches of a run in time, by which its figures are told over the speed (docs/theory.md, section 10.5).
 
+#include <Eigen/Core>
 #include <vector>
-
-#include "elastogear/evaluation/evaluate.h"
-#include "evaluation/items.h"
 
 namespace elastogear::evaluation {
 
@@ -15,8 +13,5 @@ struct PitchOfRun {
 /// The whole pitches of a run in which the drive's first gear turns on in one sense, each with at least four
 /// times; roll: pitches.
 std::vector<PitchOfRun> whole_pitches(const Eigen::VectorXd& roll);
-
-/// error: m, transmission error at all times.
-void add_pitches(const PairOfRun& pair, const Eigen::VectorXd& error, Items& items);
 
 }  // namespace elastogear::evaluation

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
-#include "evaluation/by_pitch.h"
 #include "evaluation/losses.h"
 #include "evaluation/sections.h"
 #include "evaluation/signal.h"

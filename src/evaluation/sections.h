@@ -13,5 +13,7 @@ void add_teeth(const PairOfRun& pair, Items& items);
 void add_line_load(const PairOfRun& pair, Items& items);
 void add_pressure(const PairOfRun& pair, Items& items);
 void add_roots(const PairOfRun& pair, Items& items);
+/// Of a run in time; error: m, transmission error at all times.
+void add_pitches(const PairOfRun& pair, const Eigen::VectorXd& error, Items& items);
 
 }  // namespace elastogear::evaluation

@@ -98,7 +98,8 @@ def check_elastic(drive):
     near("sum of shares", abs(figures["teeth/share"].sum(axis=1) - 1).max(), 0, 1e-12)
     near("sum of normal forces", figures["teeth/force"].sum(axis=1).mean(), force, 1e-4 * force)
     near("contact ratio", figures["teeth/contact_ratio"], 1.6, 0.15)  # 1.516 rigid, teeth meet earlier under load
-    near("line load over the width", np.trapz(figures["line_load/mean"], figures["line_load/z"]), force, 1e-6 * force)
+    normal_force = figures["teeth/force"].sum(axis=1).mean()  # a little less than forces where ends of teeth cross
+    near("line load over the width", np.trapz(figures["line_load/mean"], figures["line_load/z"]), normal_force, 1e-6 * force)
     near("torque on the wheel", -figures["torque/second_mean"], T_1 * TEETH[1] / TEETH[0], 1e-3 * T_1 * TEETH[1] / TEETH[0])
     near("efficiency without friction", figures["losses/efficiency"], 1, 1e-3)
     near("largest tension", figures["root/pinion/largest_tension"], figures["root/pinion/tension"].max(), 1e-3)
