@@ -15,11 +15,11 @@ namespace {
 void keep_all(Job& job) {
   Plan& plan = job.plan;
   const fem::Matrices matrices = assemble(job);
-  auto K = fem::gather_matrix(matrices.K, plan.dof), M = fem::gather_matrix(matrices.M, plan.dof);
+  const auto K = fem::gather_matrix(matrices.K, plan.dof), M = fem::gather_matrix(matrices.M, plan.dof);
   job.on_root([&] {
     set_full_basis(plan.body, plan.free_dof, plan.moments, plan.S);
-    plan.body.K_r = std::move(K);
-    plan.body.M_r = std::move(M);
+    plan.body.K_r = K;
+    plan.body.M_r = M;
     if (job.options.invariants == Invariants::full)
       plan.body.inertia.S_2 = unit_second_moments(scalar_mass(job), plan.free_dof);
   });

@@ -6,10 +6,10 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr std::array<double, 4> corner_xi{-1, 1, 1, -1}, corner_eta{-1, -1, 1, 1};
+constexpr std::array<double, 4> kCornerXi{-1, 1, 1, -1}, kCornerEta{-1, -1, 1, 1};
 
 Eigen::Vector2d corner_coordinates(int sides, int corner) {
-  if (sides == 4) return {corner_xi[corner], corner_eta[corner]};
+  if (sides == 4) return {kCornerXi[corner], kCornerEta[corner]};
   return {corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0};
 }
 
@@ -21,11 +21,11 @@ struct Beyond {
 
 Beyond beyond(int sides, int side) {
   if (sides == 3) {
-    constexpr std::array<std::array<double, 2>, 3> outwards{{{0, -1}, {1, 1}, {-1, 0}}};
-    return {side == 1 ? -1.0 : 0.0, {outwards[side][0], outwards[side][1]}};
+    constexpr std::array<std::array<double, 2>, 3> kOutwards{{{0, -1}, {1, 1}, {-1, 0}}};
+    return {side == 1 ? -1.0 : 0.0, {kOutwards[side][0], kOutwards[side][1]}};
   }
-  constexpr std::array<std::array<double, 2>, 4> outwards{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
-  return {-0.5, 0.5 * Eigen::Vector2d(outwards[side][0], outwards[side][1])};
+  constexpr std::array<std::array<double, 2>, 4> kOutwards{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+  return {-0.5, 0.5 * Eigen::Vector2d(kOutwards[side][0], kOutwards[side][1])};
 }
 
 // From 1 at t = 0 to 0 at t = 1, of a linear t.
@@ -67,7 +67,7 @@ Eigen::Vector2d extended_corner(const Face& face, int corner) {
   if (face.sides == 4) {  // even sides lie at eta = -+1, odd ones at xi = +-1
     const double along_xi = corner % 2 == 0 ? e_before : e_after;
     const double along_eta = corner % 2 == 0 ? e_after : e_before;
-    return {corner_xi[corner] * (1 + 2 * along_xi), corner_eta[corner] * (1 + 2 * along_eta)};
+    return {kCornerXi[corner] * (1 + 2 * along_xi), kCornerEta[corner] * (1 + 2 * along_eta)};
   }
   std::array<double, 3> weight;  // a side moved by e leaves its far corner the weight -e
   weight[corner] = 1 + e_after + e_before;
