@@ -23,7 +23,8 @@ std::string xml_attribute(const std::string& tag, const std::string& name) {
   return value;
 }
 
-// Where the tag that begins at `open` ends: at the first > that is not in an attribute's value.
+// The position of the > that ends the tag of XML which begins at `open`; one in an attribute's value does
+// not.
 std::size_t end_of_tag(const std::string& text, std::size_t open) {
   bool quoted = false;
   for (std::size_t i = open; i < text.size(); ++i) {

@@ -67,7 +67,8 @@ std::vector<int> steps_of(const Source& source, const EvaluateSettings& settings
   return steps;
 }
 
-// Where flanks touch at the roll angle 0 depends on the side.
+// Refuses a run whose side is not that of the drive file: the gears stand elsewhere at the roll angle 0 then,
+// and their transmission error would be that of the other flanks.
 void require_side(const Options& options, const Source& source) {
   const std::string of_run = given_in(source.header, "side"), here = options.text("side");
   require(of_run.empty() || of_run == here, source.path, ": is a run with side: ", of_run,
