@@ -4,9 +4,11 @@
     PYTHONPATH=build/release/python OPENBLAS_NUM_THREADS=1 studies/python_overhead.py [SIZE] [MODES] [STEPS]
 
 First a rigid body that spins, whose steps cost next to nothing, so that the cost of Python is seen by itself; then a
-pair of spur gears under torque, from rest. The time is that of the steps alone, the least of several runs.
+pair of spur gears under torque, from rest. The time is that of the steps alone, the least of several runs in random
+order.
 """
 import os
+import random
 import sys
 import tempfile
 import time
@@ -39,7 +41,7 @@ def measure(system, n, dt, repeats):
     """Processor time of a step, s, by the way of stepping."""
     times = {in_c: [], steps: [], steps_and_states: []}
     for _ in range(repeats):
-        for way, each in times.items():
+        for way, each in random.sample(list(times.items()), len(times)):
             simulation = system.simulation(ts_dt=dt, ts_max_time=n * dt)
             start = time.process_time()
             way(simulation)
@@ -57,7 +59,7 @@ def main():
     BODIES[:] = ["pinion", "wheel"]
     drive = eg.Drive({**SPUR, "size": size, "modes": int(modes)})
     drive.reduce()
-    of_drive = measure(drive, int(n), 1e-6, 5)
+    of_drive = measure(drive, int(n), 1e-6, 9)
     for way in [steps, steps_and_states]:
         cost = alone[way] - alone[in_c]
         print(f"{way.__name__}: {1e6 * cost:.2f} us a step by itself, {100 * cost / of_drive[in_c]:.3f} % of a step of "
