@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Report pages of runs that are larger than the run at hand, by which size and speed of the page are measured.
 
     studies/report_size.py subdivide|tile N TIMES INPUT [options of scripts/report.py]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Variants of misalignment and relief of a spur drive (the one of tests/app/micro_geometry.py), swept over 16 roll
 angles on the exact mesh with deviations of the contact, against meshes that were made with the deviations.
 
