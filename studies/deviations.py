@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
-import report
+from page import example as runs
 
 
 def table(title, head, rows):
@@ -32,7 +32,7 @@ def values(example):
     """At the time of the comparison: reduced, unreduced, and the deviation with its sign."""
     rows = []
     for label in example.labels:
-        for signal, value, reference, _ in report.read_csv(example.path(f"{label}_against_full_result_1.csv")):
+        for signal, value, reference, _ in runs.read_csv(example.path(f"{label}_against_full_result_1.csv")):
             if float(reference) == 0:  # nothing to hold a value against
                 continue
             rows.append([signal, label, f"{float(value):.5g}", f"{float(reference):.5g}",
@@ -47,7 +47,7 @@ def histories(example):
         path = example.path(f"{label}_against_full_result_2.csv")
         if os.path.exists(path):
             rows += [[row[0], label, *map(digits, row[1:2]), *(f"{float(cell):.5g}" for cell in row[2:])]
-                     for row in report.read_csv(path) if float(row[3])]
+                     for row in runs.read_csv(path) if float(row[3])]
     if rows:
         table("Forces and motion over time", ["signal", "run", "L2, %", "peak", "unreduced", "peak at, s", "unreduced, s"],
               sorted(rows, key=lambda row: row[0]))
@@ -55,7 +55,7 @@ def histories(example):
 
 def stresses(example, number, title):
     rows = [[row[0], label, *map(digits, row[1:])] for label in example.labels for row in example.deviations(label, number)]
-    table(title, ["nodes", "run", *report.MEASURES, "unreduced, MPa"], sorted(rows, key=lambda row: row[0].rsplit(" ", 1)[0]))
+    table(title, ["nodes", "run", *runs.MEASURES, "unreduced, MPa"], sorted(rows, key=lambda row: row[0].rsplit(" ", 1)[0]))
 
 
 def times(example):
@@ -69,14 +69,14 @@ def main():
     parser.add_argument("folder", help="out/examples/SIZE/EXAMPLE")
     parser.add_argument("--runs", type=lambda text: text.split(","), help="BASIS_MODES, separated by commas; default: all")
     options = parser.parse_args()
-    example = report.Example(os.path.basename(os.path.normpath(options.folder)), options.folder)
+    example = runs.Example(os.path.basename(os.path.normpath(options.folder)), options.folder)
     example.labels = options.runs or example.labels
     values(example)
     histories(example)
     stresses(example, 1, "Relative deviation of the stress, %")
     stresses(example, 2, "Deviation, % of the unreduced von Mises stress")
     if example.name == "rolling":
-        table("Transmission (exactly 20.5)", *report.transmission(example))
+        table("Transmission (exactly 20.5)", *runs.transmission(example))
     times(example)
 
 

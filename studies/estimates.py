@@ -12,17 +12,17 @@ import sys
 import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
-import report
+from page import example as runs
 
 NEGLIGIBLE = 0.01  # of the unreduced stress: an estimate below this may be larger than three times the error
 
 
 def errors(folder, wanted):
     """Rows (basis, estimated error, true error, both as shares of the unreduced stress) of the runs BASIS_MODES that are wanted."""
-    example = report.Example(os.path.basename(os.path.normpath(folder)), folder)
+    example = runs.Example(os.path.basename(os.path.normpath(folder)), folder)
     example.labels = [label for label in example.labels if label in wanted]
     return [(label.rsplit("_", 1)[0], peak.error / true.value, abs(peak.value - true.value) / true.value)
-            for label, _, _, peak, true in report.peaks(example)]
+            for label, _, _, peak, true in runs.peaks(example)]
 
 
 def table_row(name, rows):
