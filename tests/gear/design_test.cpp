@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "../message_of.h"
 #include "elastogear/base/error.h"
 #include "elastogear/gear/size.h"
 
@@ -98,6 +99,38 @@ TEST_P(DesignRefusal, names_the_value_and_what_is_allowed) {
     EXPECT_NE(std::string(error.what()).find(GetParam().message), std::string::npos) << error.what();
   }
 }
+
+struct Remedy {
+  const char* value;  // that the refusal names
+  std::function<void(Design&)> change;
+  double Design::*named;
+  double unit = 1;
+};
+void PrintTo(const Remedy& remedy, std::ostream* os) { *os << remedy.value; }
+
+class DesignRemedy : public testing::TestWithParam<Remedy> {};
+
+// What a refusal names is accepted.
+TEST_P(DesignRemedy, does) {
+  const Remedy& remedy = GetParam();
+  Design d;
+  remedy.change(d);
+  const std::string message = test::message_of([&] { derive(d); });
+  const std::string before = std::string("others kept: ") + remedy.value + " = ";
+  const auto at = message.find(before);
+  ASSERT_NE(at, std::string::npos) << message;
+  d.*remedy.named = std::stod(message.substr(at + before.size())) * remedy.unit;
+  EXPECT_NO_THROW(derive(d));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DesignRemedy,
+    testing::Values(
+        Remedy{"pressure_angle", [](Design& d) { d.alpha_n = 10 * kDegree; }, &Design::alpha_n, kDegree},
+        Remedy{"worm_fillet", [](Design& d) { d.worm_fillet = 1.6e-3; }, &Design::worm_fillet},
+        Remedy{"pressure_angle", [](Design& d) { d.worm_fillet = 0.2e-3; }, &Design::alpha_n, kDegree},
+        Remedy{"wheel_rack_tip", [](Design& d) { d.wheel_rack_tip = 1.5e-3; }, &Design::wheel_rack_tip},
+        Remedy{"addendum", [](Design& d) { d.addendum = 0.5e-3; }, &Design::addendum}));
 
 INSTANTIATE_TEST_SUITE_P(
     All, DesignRefusal,

@@ -8,6 +8,7 @@
 #include "elastogear/base/error.h"
 #include "gear/worm/hobbed_wheel.h"
 #include "gear/worm/profiles.h"
+#include "gear/worm/remedy.h"
 #include "gear/worm/thread_form.h"
 
 namespace elastogear::gear {
@@ -233,18 +234,11 @@ void mirror(Geometry& g) {
   };
 }
 
-}  // namespace
-
-Geometry derive(const Design& d) {
-  check_positive(d);
+Geometry toothing(const Design& d) {
   check_toothing(d);
-  check_forms(d);
-  const bool helical = d.wheel_form == WheelForm::helical;
   Geometry g = pitch_geometry(d);
-  check_shaft(d, g);
-  check_shoulders(d, g);
-  check_wheel(d, g);
   check_tip(d, 2 * psi(g.worm, g.worm.r_a) * g.worm.p, "worm");
+  const bool helical = d.wheel_form == WheelForm::helical;
   if (helical) derive_helical_wheel(d, g);
   g.worm.r_form = worm_form_radius(d, g);
   if (helical)
@@ -253,6 +247,28 @@ Geometry derive(const Design& d) {
     derive_hobbed(d, g);
   check_fillet(g.worm, "worm_fillet", d.worm_fillet);
   check_fillet(g.wheel, "wheel_rack_tip", d.wheel_rack_tip);
+  return g;
+}
+
+// Says what would do where the teeth cannot be made.
+Geometry toothing_or_remedy(const Design& d) {
+  try {
+    return toothing(d);
+  } catch (const Error& error) {
+    fail(error.what(), nearest_that_does(d, [](const Design& other) { toothing(other); }));
+  }
+}
+
+}  // namespace
+
+Geometry derive(const Design& d) {
+  check_positive(d);
+  check_toothing(d);
+  check_forms(d);
+  Geometry g = toothing_or_remedy(d);
+  check_shaft(d, g);
+  check_shoulders(d, g);
+  check_wheel(d, g);
   if (d.hand == Hand::left) mirror(g);
   return g;
 }
