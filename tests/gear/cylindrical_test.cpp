@@ -337,6 +337,18 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"cuts into the root of pinion; tip_diameter of at most 136.35",
                 [](auto& d) { d.gears[1].r_a = 68.4e-3; }, [](auto& d) { d.gears[1].r_a = 136.35e-3 / 2; }},
         Refusal{"contact ratio", [](auto& d) { d.gears[0].r_a = 28e-3, d.gears[1].r_a = 65.5e-3; }, {}},
+        Refusal{"profile_shift 0.59 of pinion and 0.05 of wheel would do",
+                [](auto& d) {
+                  d.gears = {gear("pinion", 11, 0.4397, 25e-3), gear("wheel", 42, -0.1028, 25e-3)};
+                  d.rack.h_fP = 1.4, d.rack.pr = 0.0914;
+                },
+                [](auto& d) { d.gears[0].x = 0.59, d.gears[1].x = 0.05; }},
+        Refusal{"rack_protuberance = 0.0916: its fillet leaves no flank; at most 0.076 would do",
+                [](auto& d) {
+                  d.gears = {gear("pinion", 22, 0.4471, 25e-3), gear("wheel", 29, 0.4832, 25e-3)};
+                  d.rack.h_fP = 1.4, d.rack.pr = 0.0916;
+                },
+                [](auto& d) { d.rack.pr = 0.076; }},
         Refusal{"fillet radius 0.6 does not fit, at most 0.47", [](auto& d) { d.rack.rho_fP = 0.6; },
                 [](auto& d) { d.rack.rho_fP = 0.47; }},
         Refusal{"pinion: bore = 50 mm: must be positive and at most",

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "elastogear/base/error.h"
 #include "gear/cylindrical/derivation.h"
@@ -72,30 +73,56 @@ CylindricalGeometry solved(const CylindricalDrive& d) {
 
 double contact_ratio(const PairGeometry& p) { return p.epsilon_alpha + p.epsilon_beta; }
 
-// "profile_shift of pinion of at least 0.31 would do", the nearest value in steps of a hundredth; empty where
-// none of either gear does.
+bool reaches_contact_ratio(const CylindricalDrive& d, std::size_t pair) {
+  try {
+    return contact_ratio(solved(d).pair[pair]) >= kLeastContactRatio;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+constexpr double kShiftStep = 0.01;
+constexpr int kShiftSteps = 100;
+
+// The profile shift of a gear, a number of steps from where it is.
+double shifted(const CylindricalDrive& d, int gear, int steps) {
+  return std::round(d.gears[static_cast<std::size_t>(gear)].x / kShiftStep + steps) * kShiftStep +
+         0.0;  // no -0
+}
+
+// "; profile_shift of pinion of at least 0.31 would do", the nearest value in steps of a hundredth; empty
+// where none of either gear does.
 std::string shift_that_would_do(const CylindricalDrive& d, std::size_t pair) {
-  constexpr int kSteps = 100;
-  constexpr double kStep = 0.01;
-  const auto does = [&](int gear, double x) {
-    CylindricalDrive other = d;
-    other.gears[static_cast<std::size_t>(gear)].x = x;
-    try {
-      return contact_ratio(solved(other).pair[pair]) >= kLeastContactRatio;
-    } catch (const Error&) {
-      return false;
-    }
-  };
-  for (int i = 1; i <= kSteps; ++i)
+  for (int i = 1; i <= kShiftSteps; ++i)
     for (int gear : {d.pairs[pair].first, d.pairs[pair].second})
       for (int sign : {1, -1}) {
-        const CylindricalGear& own = d.gears[static_cast<std::size_t>(gear)];
-        const double x = std::round(own.x / kStep + sign * i) * kStep + 0.0;  // no -0
-        if (!does(gear, x)) continue;
+        CylindricalDrive other = d;
+        CylindricalGear& own = other.gears[static_cast<std::size_t>(gear)];
+        own.x = shifted(d, gear, sign * i);
+        if (!reaches_contact_ratio(other, pair)) continue;
         std::ostringstream text;
-        text << "; profile_shift of " << own.name << (sign > 0 ? " of at least " : " of at most ") << x
+        text << "; profile_shift of " << own.name << (sign > 0 ? " of at least " : " of at most ") << own.x
              << " would do";
         return text.str();
+      }
+  return "";
+}
+
+// The same with both gears shifted, by as much or by opposite amounts.
+std::string shifts_that_would_do(const CylindricalDrive& d, std::size_t pair) {
+  for (int i = 1; i <= kShiftSteps; ++i)
+    for (int sign : {1, -1})
+      for (int mate : {-1, 1}) {
+        CylindricalDrive other = d;
+        std::ostringstream text;
+        text << "; profile_shift";
+        for (const auto& [gear, steps] :
+             {std::pair(d.pairs[pair].first, sign * i), std::pair(d.pairs[pair].second, sign * mate * i)}) {
+          CylindricalGear& own = other.gears[static_cast<std::size_t>(gear)];
+          own.x = shifted(d, gear, steps);
+          text << (gear == d.pairs[pair].first ? " " : " and ") << own.x << " of " << own.name;
+        }
+        if (reaches_contact_ratio(other, pair)) return text.str() + " would do";
       }
   return "";
 }
@@ -119,10 +146,11 @@ CylindricalGeometry derive(const CylindricalDrive& d) {
   for (std::size_t i = 0; i < d.pairs.size(); ++i) {
     if (contact_ratio(g.pair[i]) >= kLeastContactRatio) continue;
     const bool external = pair_sign(g.gear[d.pairs[i].first], g.gear[d.pairs[i].second]) > 0;
+    const std::string remedy = shift_that_would_do(d, i);
     fail("pair ", pair_name(d, d.pairs[i]), ": the contact ratio is ", contact_ratio(g.pair[i]),
          ", at least ", kLeastContactRatio, " is needed: take tips that reach deeper, a ",
          external ? "smaller" : "larger", " centre distance, or profile shifts with less undercut",
-         shift_that_would_do(d, i));
+         remedy.empty() ? shifts_that_would_do(d, i) : remedy);
   }
   return g;
 }

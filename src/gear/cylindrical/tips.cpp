@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "elastogear/base/error.h"
 #include "gear/cylindrical/derivation.h"
@@ -162,6 +163,22 @@ void check_tip_path(const CylindricalDrive& d, const CylindricalGeometry& g, int
        d.gears[own].name);
 }
 
+bool leaves_flank(const Form& f, const Toothing& t) { return f.r_form > 0 && f.r_form < t.r_a; }
+
+[[noreturn]] void refuse_protuberance(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
+  const auto leaves = [&](double pr) {
+    CylindricalDrive other = d;
+    other.rack.pr = pr;
+    return leaves_flank(form(generating_rack(other, g, i), g.gear[i]), g.gear[i]);
+  };
+  std::ostringstream remedy;
+  if (leaves(0))
+    remedy << "at most " << std::floor(largest(0, d.rack.pr, leaves) * 1e3) / 1e3 << " would do";
+  else
+    remedy << "a larger profile_shift or more teeth would do";
+  fail(d.gears[i].name, ": rack_protuberance = ", d.rack.pr, ": its fillet leaves no flank; ", remedy.str());
+}
+
 }  // namespace
 
 void shape_teeth(const CylindricalDrive& d, CylindricalGeometry& g) {
@@ -173,8 +190,7 @@ void shape_teeth(const CylindricalDrive& d, CylindricalGeometry& g) {
     if (d.gears[i].internal) continue;
     check_tip(d, d.gears[i].name, g.gear[i]);
     const Form f = form(generating_rack(d, g, i), g.gear[i]);
-    require(f.r_form > 0 && f.r_form < g.gear[i].r_a, d.gears[i].name, ": rack_protuberance = ", d.rack.pr,
-            ": its fillet leaves no flank; a smaller one, a larger profile_shift or more teeth would do");
+    if (!leaves_flank(f, g.gear[i])) refuse_protuberance(d, g, i);
     g.gear[i].r_form = f.r_form;
     g.undercut[i] = f.undercut;
   }
