@@ -181,7 +181,7 @@ def draw(path, natural, found):
             axes.plot(frequency[SETTLING:] / natural, 1e6 * span[SETTLING:], style, color=color, linewidth=1.2 if who == "elastic" else 1,
                       label=f"{who}, speed {name}")
     axes.set_xlabel(f"mesh frequency over {natural:.0f} Hz")
-    axes.set_ylabel("transmission error, peak to peak (um)")
+    axes.set_ylabel("transmission error, peak to peak (µm)")
     axes.set_ylim(bottom=0)
     axes.legend()
     axes.grid(alpha=0.3)
