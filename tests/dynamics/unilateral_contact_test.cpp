@@ -112,10 +112,10 @@ TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
 double change_by_another_look(System& system, double time, const Eigen::VectorXd& U) {
   const Eigen::VectorXd V = Eigen::VectorXd::Zero(U.size());
   const auto forces = [&](const Eigen::VectorXd& velocity) {
-    Eigen::Matrix3Xd f = Eigen::Matrix3Xd::Zero(3, 12);
+    Eigen::Matrix3Xd f = Eigen::Matrix3Xd::Zero(3, system.bodies()[1].node_area.size());
     const NodalForces& found = system.contacts(time, U, velocity).force[1];
     for (std::size_t i = 0; i < found.node.size(); ++i)
-      f.col(found.node[i] % 12) += found.f_B.col(static_cast<Eigen::Index>(i));
+      f.col(found.node[i]) = found.f_B.col(static_cast<Eigen::Index>(i));
     return f;
   };
   // Forces without friction do not depend on velocities, of which others have them looked for anew.
