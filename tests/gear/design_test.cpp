@@ -110,7 +110,7 @@ void PrintTo(const Remedy& remedy, std::ostream* os) { *os << remedy.value; }
 
 class DesignRemedy : public testing::TestWithParam<Remedy> {};
 
-// What a refusal names is accepted.
+// A refused design is accepted once it has the value that the refusal names.
 TEST_P(DesignRemedy, does) {
   const Remedy& remedy = GetParam();
   Design d;

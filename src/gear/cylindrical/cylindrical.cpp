@@ -108,7 +108,8 @@ std::string shift_that_would_do(const CylindricalDrive& d, std::size_t pair) {
   return "";
 }
 
-// The same with both gears shifted, by as much or by opposite amounts.
+// "; profile_shift 0.59 of pinion and 0.05 of wheel would do": both gears shifted from what they are, by the
+// same or by opposite amounts; empty where none does.
 std::string shifts_that_would_do(const CylindricalDrive& d, std::size_t pair) {
   for (int i = 1; i <= kShiftSteps; ++i)
     for (int sign : {1, -1})

@@ -1,5 +1,5 @@
 #pragma once
-// What to change in a worm drive that cannot be made.
+// The nearest value of a worm drive that cannot be made with which it can.
 
 #include <functional>
 #include <string>
