@@ -155,16 +155,36 @@ Vector2d on_face(const GapField& field, int f, int side, const Minimum& m) {
   return on_side(side_count(field.slave.face, f), side, s);
 }
 
-// The least of the minima on the sides of a face.
-FaceStart least_side(const GapField& field, int f, const std::map<int, std::vector<Minimum>>& on_sides) {
-  FaceStart start;
+bool is_nearer(const FaceStart& a, const FaceStart& b) { return a.g < b.g; }
+
+// The minima on the sides of a face, the least first.
+std::vector<FaceStart> places_on_sides(const GapField& field, int f,
+                                       const std::map<int, std::vector<Minimum>>& on_sides) {
+  std::vector<FaceStart> places;
   for (int side = 0; side < side_count(field.slave.face, f); ++side) {
     const auto minima = on_sides.find(field.slave.topology.edge(side, f));
     if (minima == on_sides.end()) continue;
     for (const Minimum& m : minima->second)
-      if (m.open.gap.g < start.g) start = {m.open.gap.g, on_face(field, f, side, m), m.open.projection.face};
+      places.push_back({m.open.gap.g, on_face(field, f, side, m), m.open.projection.face});
   }
-  return start;
+  std::stable_sort(places.begin(), places.end(), is_nearer);
+  return places;
+}
+
+// Where the search within a face begins, and begins again if it comes to no end: the estimated place, then
+// those known on its sides and the corner with the least gap. Nowhere if its gap is beyond the reach.
+std::vector<FaceStart> starts_within(const GapField& field, int f, const std::map<int, NodeGap>& nodes,
+                                     std::vector<FaceStart> known) {
+  if (const FaceStart corner = least_corner(field, f, nodes); corner.face >= 0)
+    known.insert(std::upper_bound(known.begin(), known.end(), corner, is_nearer), corner);
+  if (const auto estimated = estimate(field, f, nodes)) {
+    if (estimated->face < 0) return {};
+    known.insert(known.begin(), *estimated);
+    return known;
+  }
+  if (known.empty() || known[0].g - sag(field.reach, field.slave_side, f, known[0].face) >= field.reach.gap)
+    return {};
+  return known;
 }
 
 }  // namespace
@@ -182,19 +202,15 @@ std::vector<Minimum> gap_minima(const GapField& field, std::map<int, NodeGap> no
   for (const auto& [edge, all] : on_sides)
     for (const Minimum& m : all) take(m);
   for (int f : field.whole ? faces : std::vector<int>()) {
-    const FaceStart side = least_side(field, f, on_sides), corner = least_corner(field, f, nodes);
-    const FaceStart known = side.g < corner.g ? side : corner;
-    const FaceStart start =
-        estimate(field, f, nodes)
-            .value_or(known.g - sag(field.reach, field.slave_side, f, known.face) < field.reach.gap
-                          ? known
-                          : FaceStart{});
-    if (start.face < 0) continue;
+    const std::vector<FaceStart> sides = places_on_sides(field, f, on_sides);
+    const std::vector<FaceStart> starts = starts_within(field, f, nodes, sides);
+    if (starts.empty()) continue;
     SlavePoint point;
     point.number = n_nodes + topology.edge_sides.size() + f;
     point.face = f;
     point.n_dir = 2;
-    for (const Minimum& m : minima_within(field, point, start, side.g)) take(m);
+    for (const Minimum& m : minima_within(field, point, starts, sides.empty() ? kFar : sides.front().g))
+      take(m);
   }
   return minima;
 }

@@ -191,8 +191,7 @@ std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector
 
 // Returns whether the gap hardly grows along one direction of the face. The curvatures are those of H in the
 // metric of the face's tangents a. Where such a gap is least within the face is a matter of roundoff, or of
-// how the bodies deform; the
-// minima on the sides that the line of contact crosses stand for it.
+// how the bodies deform; the minima on the sides that the line of contact crosses stand for it.
 bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H, double line) {
   const Eigen::Matrix2d C = (a.transpose() * a).inverse() * H;
   const double mean = 0.5 * C.trace(), product = C.determinant();
@@ -200,10 +199,15 @@ bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H, dou
   return product < line * most * most;
 }
 
+// The end of a search within a face, which may have come to none.
+struct Search {
+  std::optional<Minimum> minimum;
+  bool ended = true;
+};
+
 // Newton's method while it is held on the face, half as far where that leads off the master. on_sides: m, the
 // least gap known on the face's sides.
-std::optional<Minimum> least_within(const GapField& field, SlavePoint point, const FaceStart& start,
-                                    double on_sides) {
+Search least_within(const GapField& field, SlavePoint point, const FaceStart& start, double on_sides) {
   const int sides = side_count(field.slave.face, point.face);
   int face = start.face;
   Vector2d way = Vector2d::Zero();
@@ -211,7 +215,7 @@ std::optional<Minimum> least_within(const GapField& field, SlavePoint point, con
   for (int step = 0; step < kSteps; ++step) {
     const std::optional<Trial> t = evaluate(field, point, face);
     if (!t) {
-      if (step == 0) return {};
+      if (step == 0) break;
       way /= 2;
       point.at -= way;
       continue;
@@ -220,16 +224,17 @@ std::optional<Minimum> least_within(const GapField& field, SlavePoint point, con
     const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
     const Eigen::Matrix2d H = gap_curvature(t->geometry, 2, t->over.gap);
     const auto newton = step_on_face(sides, point.at, slope, H);
-    if (!newton || is_flat(t->geometry.a.leftCols<2>(), H, field.line)) return {};
+    if (!newton) break;
     way = *newton;
+    if (is_flat(t->geometry.a.leftCols<2>(), H, field.line)) return {};
     if (way.cwiseAbs().maxCoeff() < kConverged) {
       const double length = t->geometry.a.colwise().norm().maxCoeff();
       const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;
-      return is_minimum ? std::optional(minimum(field, *t)) : std::nullopt;
+      return {is_minimum ? std::optional(minimum(field, *t)) : std::nullopt};
     }
     point.at += way;
   }
-  return {};
+  return {{}, false};
 }
 
 // A master face beyond a side near a foot point, and the way of the slave point over it, m.
@@ -296,16 +301,18 @@ std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side,
   return minima;
 }
 
-std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const FaceStart& start,
-                                   double on_sides) {
+std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point,
+                                   std::span<const FaceStart> starts, double on_sides) {
   std::vector<Minimum> minima;
-  const auto first = least_within(field, point, start, on_sides);
-  if (!first) return minima;
-  minima.push_back(*first);
+  Search first{{}, false};
+  for (auto start = starts.begin(); start != starts.end() && !first.ended; ++start)
+    first = least_within(field, point, *start, on_sides);
+  if (!first.minimum) return minima;
+  minima.push_back(*first.minimum);
   const int sides = side_count(field.slave.face, point.face);
   add_beside(field, minima, [&](const Eigen::VectorXd& step, int beyond) {
-    return least_within(field, point, {start.g, held_inside(sides, first->point.at + step), beyond},
-                        on_sides);
+    const Vector2d at = held_inside(sides, first.minimum->point.at + step);
+    return least_within(field, point, {0, at, beyond}, on_sides).minimum;
   });
   return minima;
 }

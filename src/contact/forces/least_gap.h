@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contact/forces/slave_point.h"
@@ -54,8 +55,9 @@ struct FaceStart {
 std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side, int face);
 
 /// The minimum within the point's face and those over the master's faces beside it; none that differ by less
-/// than a millionth of the face's length from the least gap on its sides, on_sides (m).
-std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point, const FaceStart& start,
-                                   double on_sides);
+/// than a millionth of the face's length from the least gap on its sides, on_sides (m). A start from which
+/// the search comes to no end is followed by the next.
+std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& point,
+                                   std::span<const FaceStart> starts, double on_sides);
 
 }  // namespace elastogear::contact
