@@ -19,7 +19,8 @@ constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, whe
 constexpr double kSmallResidual = 1e-3;     // whose square is negligible
 constexpr double kJump = 0.02;  // of forces where a node passes from face to face, that has no solution
 constexpr double kForceTolerance = 1e-8;  // of contact forces without a penalty, as of all forces in balance
-constexpr double kFirstRate = 1e-3;       // by which a first change of forces is expected to fall
+constexpr double kMovingTolerance = 1e-10;  // of those of points that move over faces, and turn with them
+constexpr double kFirstRate = 1e-3;         // by which a first change of forces is expected to fall
 constexpr double kBend = 0.1;     // and by this times itself, where points move and forces turn with it
 constexpr int kFullTrials = 10;   // before they go half of the way, as nodes pass to and fro between faces
 constexpr int kMostTrials = 30;   // until they fit
@@ -63,6 +64,18 @@ NodalForces loaded(const NodalForces& all, const std::vector<int>& before) {
 }
 
 NodalForces difference(const NodalForces& a, const NodalForces& b) { return sum(a, 1, b, -1); }
+
+// Forces of points of least gap turn as these move, far on flat gaps: Newton's method of the system, whose
+// tangent is that of settled points, needs them more exactly.
+double tolerance(const ContactState& state) {
+  const auto moves = [](const contact::ContactPoint& point) {
+    return point.n_slave() > 1 && point.area == 0;
+  };
+  const bool any = std::any_of(state.pair.begin(), state.pair.end(), [&](const PairContacts& pair) {
+    return std::any_of(pair.points.begin(), pair.points.end(), moves);
+  });
+  return any ? kMovingTolerance : kForceTolerance;
+}
 
 }  // namespace
 
@@ -241,7 +254,7 @@ void ResidualContact::solve_unilateral(ContactState& state, const std::function<
     const double first_rate = change->bends ? std::min(kFirstRate, kBend * now) : kFirstRate;
     const double left = now * (trial > 0 ? std::min(1.0, now / before) : first_rate);
     const bool is_roundoff = trial > 0 && now < kRoundoffResidual && now > 0.1 * before;
-    settled = (left <= kForceTolerance || is_roundoff) && !change->slides_anew;
+    settled = (left <= tolerance(state) || is_roundoff) && !change->slides_anew;
     before = now;
     if (!settled) detect();
   }
