@@ -11,6 +11,7 @@
 #include "contact/forces/gap_minima.h"
 #include "contact/history.h"
 #include "contact/impacts.h"
+#include "contact/kept_minima.h"
 #include "contact/projection/edges.h"
 #include "contact/projection/heights.h"
 #include "contact/reach.h"
@@ -130,7 +131,7 @@ struct Pair::Data {
   Tracker tracker;
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  // from the frame that contacts are found in
   std::vector<Minimum> minima[2] = {};                 // of the last look
-  std::map<int, Minimum> held[2] = {};                 // by number, those that are kept where they were
+  KeptMinima kept[2] = {};                             // since they were released
 
   static std::unique_ptr<Data> make(const Settings& given, const Settings& settings,
                                     std::array<Tracked, 2> both, std::array<Side, 2> side);
@@ -144,7 +145,6 @@ struct Pair::Data {
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
                                            const Projection& w, std::map<int, NodeGap>& gaps) const;
   std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, const Minimum& m) const;
-  void add_held(const GapField& field, std::vector<Minimum>& found) const;
   double stiffness(int slave_side, int point) const;
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);
@@ -249,25 +249,6 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
   return found;
 }
 
-// Adds the points held that are no minima now, at their last places.
-void Pair::Data::add_held(const GapField& field, std::vector<Minimum>& found) const {
-  const auto is_found = [&](int number) {
-    return std::any_of(found.begin(), found.end(),
-                       [&](const Minimum& m) { return m.point.number == number; });
-  };
-  for (const auto& [number, last] : held[field.slave_side]) {
-    if (is_found(number)) continue;
-    Minimum m{last.point, {}, {}};
-    m.point.n_dir = 0;
-    m.geometry = slave_geometry(field.slave, field.heights, m.point);
-    const auto w =
-        walk_to_projection(field.master.surface, m.geometry.x, reach.limits, last.open.projection.face);
-    if (!w) continue;
-    m.open = open_point(field.master, *w, m.geometry.x, field.offset);
-    found.push_back(m);
-  }
-}
-
 void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
                             std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0);
@@ -277,7 +258,7 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
   const GapField field{master,     slave,           side[slave_side].heights, reach,
                        slave_side, settings.offset, is_whole(slave_side),     line};
   minima[slave_side] = gap_minima(field, gaps);
-  if (!held[slave_side].empty()) add_held(field, minima[slave_side]);
+  add_kept(field, kept[slave_side], minima[slave_side]);
   for (const Minimum& m : minima[slave_side]) {
     auto found = contact(master, slave_side, m);
     if (!found) continue;
@@ -409,15 +390,12 @@ void Pair::set_forces(const std::vector<ContactPoint>& contacts) {
   contact::set_forces(data_->history, contacts, data_->R_WB.transpose());
 }
 
-void Pair::hold_minima(const std::vector<ContactPoint>& contacts) {
-  for (const ContactPoint& c : contacts)
-    for (const Minimum& m : data_->minima[c.slave_side])
-      if (c.p > 0 && m.point.number == c.slave_point)
-        data_->held[c.slave_side].insert_or_assign(c.slave_point, m);
+void Pair::keep_minima(const std::vector<ContactPoint>& contacts) {
+  for (int side : {0, 1}) keep_loaded(contacts, side, data_->minima[side], data_->kept[side]);
 }
 
 void Pair::release_minima() {
-  for (auto& held : data_->held) held.clear();
+  for (KeptMinima& kept : data_->kept) kept.clear();
 }
 
 // N/m, of a node, or for points between nodes the mean of all.

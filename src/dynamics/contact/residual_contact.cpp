@@ -22,8 +22,8 @@ constexpr double kForceTolerance = 1e-8;  // of contact forces without a penalty
 constexpr double kMovingTolerance = 1e-10;  // of those of points that move over faces, and turn with them
 constexpr double kFirstRate = 1e-3;         // by which a first change of forces is expected to fall
 constexpr double kBend = 0.1;     // and by this times itself, where points move and forces turn with it
-constexpr int kFullTrials = 10;   // before they go half of the way, as nodes pass to and fro between faces
-constexpr int kMostTrials = 30;   // until they fit
+constexpr int kFullTrials = 12;   // before they go half of the way, as nodes pass to and fro between faces
+constexpr int kMostTrials = 40;   // until they fit
 constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
 
 // share_a a + share_b b

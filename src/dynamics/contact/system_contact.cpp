@@ -9,7 +9,7 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr int kFreeTrials = 8;  // of contact forces before points that come and go are held
+constexpr int kFreeTrials = 3;  // of contact forces before points that come and go are kept
 
 std::vector<const model::ElasticBody*> elastic_bodies(const SystemModel& model) {
   std::vector<const model::ElasticBody*> bodies;
@@ -70,7 +70,8 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   forget();
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
-  for (contact::Pair& pair : detectors_) pair.release_minima();
+  if (time != time_)
+    for (contact::Pair& pair : detectors_) pair.release_minima();
   detect(motion);
   if (unilateral_ || residual_contact_.any()) solve(motion);
   U_ = U;
@@ -85,7 +86,7 @@ void SystemContact::solve(const std::vector<contact::SurfaceMotion>& motion) {
   residual_contact_.solve_unilateral(state_, [&] {
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       detectors_[p].set_forces(state_.pair[p].points);
-      if (trial >= kFreeTrials) detectors_[p].hold_minima(state_.pair[p].points);
+      if (trial >= kFreeTrials) detectors_[p].keep_minima(state_.pair[p].points);
     }
     ++trial;
     detect(motion);

@@ -1,0 +1,30 @@
+#pragma once
+// Points of least gap that come and go while contact forces are solved for: where lines of contact run over
+// faces that deform under the forces, a minimum that bears one may vanish by it. Such points stay where they
+// were, as further points that must not enter the master (docs/theory.md, section 6.12).
+
+#include <map>
+#include <vector>
+
+#include "contact/forces/least_gap.h"
+
+namespace elastogear::contact {
+
+/// A point that bore a force.
+struct KeptMinimum {
+  Minimum last = {};
+  bool stays = false;  ///< where it was: it has vanished, or jumped to another face of the master
+};
+
+/// Of one slave surface, by number; those that stay have numbers of their own.
+using KeptMinima = std::map<int, KeptMinimum>;
+
+/// Keeps those of `minima` that bear a force, p > 0, in `contacts` of the same slave side.
+void keep_loaded(const std::vector<ContactPoint>& contacts, int slave_side,
+                 const std::vector<Minimum>& minima, KeptMinima& kept);
+
+/// Adds the points that stay to the minima found, in place of minima of the same side or face of the slave
+/// over the same face of the master. Points that bore a force and are not found begin to stay.
+void add_kept(const GapField& field, KeptMinima& kept, std::vector<Minimum>& found);
+
+}  // namespace elastogear::contact
