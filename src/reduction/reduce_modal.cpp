@@ -39,7 +39,7 @@ Fingerprint fingerprint_of(const Job& job) {
                      static_cast<int>(o.invariants)})
     f.add(static_cast<double>(option));
   for (const auto& [name, value] : o.provenance)
-    if (asks_solver(name)) f.add(name + "=" + value);
+    if (asks_solver(name)) f.add(std::string(name).append("=").append(value));
   if (o.interval)
     for (double end : {o.interval->lower, o.interval->upper}) f.add(end);
   f.add_all(job.plan.moments.w_0);
@@ -68,13 +68,14 @@ void report_continued(Job& job, int checkpoints, int discarded, const std::strin
   report(job.progress, "continues after " + job.report.continued_after, 1);
 }
 
-bool needs_fields(const ReductionOptions& o) {
-  return o.store == Store::all || o.invariants == Invariants::full;
-}
+// Is something wanted of every pair of modes?
+bool needs_pairs(const ReductionOptions& o) { return o.invariants == Invariants::full; }
+
+bool needs_fields(const ReductionOptions& o) { return o.store == Store::all || needs_pairs(o); }
 
 // Precision of fields until the body file is written.
 io::Precision precision(const ReductionOptions& o) {
-  return o.invariants == Invariants::full ? io::Precision::float64 : o.precision;
+  return needs_pairs(o) ? io::Precision::float64 : o.precision;
 }
 
 // The numbers that the body keeps of a mode, and its field where that is needed too. Rank 0.
@@ -101,25 +102,29 @@ class ModalWriter {
         full_(job.options.store == Store::all),
         writer_(job.output, job.mesh.n_nodes(), full_ ? n_q : 0, job.options.precision) {
     allocate_modes(job.plan.body, n_q);
-    if (job.options.invariants == Invariants::full)
-      moments_.emplace(job.output + ".shapes", scalar_mass(job));
+    if (needs_pairs(job.options)) waiting_.emplace(job.output + ".shapes");
   }
   void add(int k, const ModeRecord& mode) {
     set_mode(job_.plan.body, k, mode.column);
     if (full_) writer_.write_mode(k, mode.phi);
-    if (moments_) moments_->add(mode.phi);
+    if (waiting_) waiting_->add(mode.phi);
   }
   void finish() {
-    if (moments_) job_.plan.body.inertia.S_2 = moments_->finish();
+    if (waiting_) set_pairs(*waiting_);
     model::validate(job_.plan.body, job_.output);
     writer_.finish(job_.plan.body, source_of(job_), {job_.report.residual, job_.report.orthogonality});
   }
 
  private:
+  void set_pairs(WaitingModes& modes) {
+    modes.close();
+    job_.plan.body.inertia.S_2 = second_moments(modes, scalar_mass(job_));
+  }
+
   Job& job_;
   bool full_;
   io::BodyWriter writer_;
-  std::optional<SecondMoments> moments_;
+  std::optional<WaitingModes> waiting_;
 };
 
 Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModeCheckpoints& checkpoints) {

@@ -3,72 +3,33 @@
 #include <algorithm>
 #include <array>
 
-#include "elastogear/io/checkpoint_store.h"
-
 namespace elastogear::reduction {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kBytes = 5e8;  // of a block of modes in memory, of which there are two
-constexpr const char *kPiece = "modes", *kArray = "phi";
 constexpr std::array<std::array<int, 2>, 6> kPairs = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
 // Some modes, n_nodes x columns for each direction.
 using Block = std::array<MatrixXd, 3>;
 
-Block read_block(const io::CheckpointReader& checkpoint, Index first, Index columns) {
+Block by_direction(const MatrixXd& Phi) {
   Block block;
-  for (Index k = 0; k < columns; ++k) {
-    const Eigen::VectorXd phi = checkpoint.read_row(kArray, static_cast<int>(first + k));
-    for (int a = 0; a < 3; ++a) {
-      block[a].conservativeResize(phi.size() / 3, columns);
-      block[a].col(k) = phi(Eigen::seqN(a, phi.size() / 3, 3));
-    }
-  }
+  for (int a = 0; a < 3; ++a) block[a] = Phi(Eigen::seqN(a, Phi.rows() / 3, 3), Eigen::all);
   return block;
 }
 
 }  // namespace
 
-struct SecondMoments::Data {
-  model::SparseRows M_s;
-  io::CheckpointStore store;
-  std::unique_ptr<io::CheckpointWriter> writer;
-  int n_q = 0;
-
-  ~Data() {
-    writer.reset();
-    store.clear();
-  }
-};
-
-SecondMoments::SecondMoments(const std::string& folder, model::SparseRows M_s)
-    : data_(new Data{std::move(M_s), io::CheckpointStore(folder, kPiece), {}}) {
-  data_->store.clear();  // of a run that was killed
-  data_->writer = std::make_unique<io::CheckpointWriter>(data_->store, kPiece);
-}
-
-SecondMoments::~SecondMoments() = default;
-
-void SecondMoments::add(const Eigen::VectorXd& phi) {
-  data_->writer->append(kArray, phi);
-  ++data_->n_q;
-}
-
-std::vector<model::BasisRows> SecondMoments::finish() {
-  Data& d = *data_;
-  d.writer->commit();
-  const io::CheckpointReader checkpoint(d.store, kPiece);
-  const Index n_q = d.n_q,
-              width = std::clamp<Index>(static_cast<Index>(kBytes / (24. * d.M_s.rows())), 1, n_q);
+std::vector<model::BasisRows> second_moments(const WaitingModes& modes, const model::SparseRows& M_s) {
+  const Index n_q = modes.size(), width = modes.block_width(3 * M_s.rows());
   std::vector<model::DenseRows> S(kPairs.size(), model::DenseRows(n_q, n_q));
   for (Index l = 0; l < n_q; l += width) {
-    Block mass_times = read_block(checkpoint, l, std::min(width, n_q - l));
-    for (MatrixXd& x : mass_times) x = (d.M_s * x).eval();
+    Block mass_times = by_direction(modes.block(l, std::min(width, n_q - l)));
+    for (MatrixXd& x : mass_times) x = (M_s * x).eval();
     for (Index k = 0; k < n_q; k += width) {
-      const Block phi = read_block(checkpoint, k, std::min(width, n_q - k));
+      const Block phi = by_direction(modes.block(k, std::min(width, n_q - k)));
       for (std::size_t i = 0; i < kPairs.size(); ++i) {
         const auto [a, b] = kPairs[i];
         S[i].block(k, l, phi[a].cols(), mass_times[b].cols()).noalias() = phi[a].transpose() * mass_times[b];

@@ -1,0 +1,31 @@
+#pragma once
+// Modes that wait on disk until all are known, for what needs every pair of them.
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+namespace elastogear::reduction {
+
+/// 24 n_nodes bytes a mode on disk.
+class WaitingModes {
+ public:
+  /// folder: of the waiting modes; must be of no other use, and goes in the end.
+  explicit WaitingModes(const std::string& folder);
+  ~WaitingModes();
+  /// phi: 3 n_nodes, node-major.
+  void add(const Eigen::VectorXd& phi);
+  /// To be called once, after the last mode.
+  void close();
+  Eigen::Index size() const;
+  /// Modes that fit into a block of memory of this size (at least one), for 3 n_nodes displacements.
+  Eigen::Index block_width(Eigen::Index n_dofs) const;
+  /// Columns first .. first + count - 1 of Phi, 3 n_nodes x count.
+  Eigen::MatrixXd block(Eigen::Index first, Eigen::Index count) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace elastogear::reduction
