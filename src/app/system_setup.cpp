@@ -13,8 +13,34 @@ namespace {
 
 using dynamics::Environment;
 
+const std::vector<std::string> kModuli = {"relaxing", "instantaneous", "long_term"};  // as in body::Moduli
+
+bool has_states_of_rest(const Options& options) { return options.text("analysis") != "dynamic"; }
+
+void read_moduli(const Options& options, const std::string& name, Environment& environment) {
+  if (has_states_of_rest(options)) environment.moduli = body::Moduli::instantaneous;
+  if (options.given(name)) environment.moduli = static_cast<body::Moduli>(options.choice(name, kModuli));
+  require(!has_states_of_rest(options) || environment.moduli != body::Moduli::relaxing, options.label(name),
+          " = 'relaxing': states of rest have no history; give instantaneous or long_term");
+}
+
+// What the moduli are where something relaxes.
+void print_moduli(const dynamics::SystemModel& system) {
+  std::string bodies;
+  for (const dynamics::SystemModel::Body& body : system.bodies)
+    if (!body.eq.body->relaxing.empty()) bodies += (bodies.empty() ? "" : ", ") + body.name;
+  if (!bodies.empty())
+    print_item("moduli", kModuli[static_cast<std::size_t>(system.environment.moduli)] + " (" + bodies + ")");
+}
+
 const Rows<Environment> kEnvironmentRows = {
     {"gravity", &Environment::gravity, "m/s^2", "acceleration of gravity in the world"},
+    {"moduli", "-", "",
+     "of viscoelastic materials: relaxing with time (analysis: dynamic only); instantaneous, as of loads put "
+     "on "
+     "just now; or long_term, after all relaxation (default: relaxing; of states of rest, analysis: static, "
+     "relax or sweep, instantaneous)",
+     read_moduli},
     {"inertia", &Environment::inertia, body::inertia_level_names(),
      "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "
      "its best affine field), or full (needs bodies reduced with -invariants full)"},
@@ -57,6 +83,7 @@ model::ResultHeader result_header(const Options& options, const dynamics::System
 }
 
 void print_laws(const Options& options, const dynamics::SystemModel& system) {
+  print_moduli(system);
   for (const dynamics::PairSetup& pair : system.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     print_item("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +

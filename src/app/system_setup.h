@@ -26,7 +26,8 @@ SystemSetup system_setup(const Options& options, KnownBodies& known);
 model::ResultHeader result_header(const Options& options, const dynamics::SystemModel& system,
                                   const KnownBodies& known);
 
-/// Prints the law of each pair, and warns of options without effect on it.
+/// Prints the moduli of viscoelastic bodies and the law of each pair, and warns of options without effect on
+/// it.
 void print_laws(const Options& options, const dynamics::SystemModel& system);
 
 }  // namespace elastogear::app

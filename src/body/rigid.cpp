@@ -31,6 +31,7 @@ void drop_elastic_coordinates(model::ElasticBody& body) {
   body.surface.Phi = model::DenseRows(model::row_count(body.surface.Phi), 0);
   body.stress = {};
   body.flexibility = {};
+  body.relaxing.clear();
   for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows(6, 0);
 }
 

@@ -51,6 +51,12 @@ UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J);
 /// Did it stop at the largest number of steps, before the end time?
 bool is_out_of_steps(TS ts);
 
+/// Message where a state of rest is looked for and materials relax with time.
+inline constexpr const char* kNoHistory =
+    "states of rest have no history: viscoelastic materials need their instantaneous or their long-term "
+    "moduli "
+    "there (option moduli)";
+
 /// Throws Error when surfaces of a pair lie inside each other at the start.
 void require_bodies_apart(System& system);
 RunSummary new_summary(const System& system);

@@ -229,6 +229,7 @@ Simulation::Simulation(System& system, TimeSettings settings, Observer observer,
   validate(d.settings);
   validate(d.checkpoints);
   if (!d.settings.relax && system.any_augmented()) system.begin_step(0, 1);
+  require(!d.settings.relax || !system.relaxes_in_time(), kNoHistory);
   require_tables_cover(system, d.settings.end_time);
   const bool anew = d.checkpoints.state.empty();
   if (anew) require_bodies_apart(system);

@@ -23,6 +23,17 @@ double stored(const model::Energies& energy) {
   return energy.kinetic + energy.elastic + energy.contact + energy.bushing;
 }
 
+// Internal variables, and the energy that the material keeps with them.
+void add_relaxation(const System& system, std::size_t b, const State& x, model::Snapshot& result) {
+  const model::ElasticBody& body = *system.bodies()[b].eq.body;
+  if (body.relaxing.empty()) return;
+  const body::RelaxationLaw& law = system.relaxation_law(b);
+  model::BodyState& state = result.bodies[b];
+  state.z = system.internal_variables(b, x);
+  state.w = state.z * law.g.transpose();
+  result.energy.elastic += body::relaxed_energy(body, law, state.q, state.z);
+}
+
 void add_markers(const System& system, const State& x, model::Snapshot& result) {
   const MarkerForces& forces = system.marker_forces();
   const std::vector<MovingBody> bodies = system.moving_bodies(x);
@@ -64,6 +75,7 @@ model::Snapshot snapshot(System& system, const State& x) {
     const body::Motion m = system.motion(b, x);
     result.bodies.push_back(body_state(m, contact.surface[b], contact.force[b]));
     result.bodies.back().joint_force = system.joint_force(b, x);
+    add_relaxation(system, b, x, result);
     result.energy.kinetic += body::kinetic_energy(system.bodies()[b].eq, m);
     result.energy.elastic += body::elastic_energy(system.bodies()[b].eq, m) + system.residual_energy(b);
   }
@@ -112,6 +124,16 @@ void EnergyLedger::enter_weight(const System& system, const model::Snapshot& now
   weight_ = weight;
 }
 
+void EnergyLedger::enter_relaxation(const System& system, std::size_t b, const model::BodyState& now) {
+  const model::ElasticBody& body = *system.bodies()[b].eq.body;
+  if (body.relaxing.empty()) return;
+  const model::BodyState& before = bodies_[b];
+  const double lost =
+      body::relaxation_loss(body, system.relaxation_law(b), {0, before.q, before.z}, {0, now.q, now.z});
+  relaxation_ += lost;
+  dissipated_ += lost;
+}
+
 void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
   if (bodies_.empty()) stored_0_ = stored(snapshot.energy);
   enter_weight(system, snapshot);
@@ -119,11 +141,13 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
     const System::Body& body = system.bodies()[b];
     const Eigen::VectorXd q_dot_m = 0.5 * (bodies_[b].q_dot + snapshot.bodies[b].q_dot);
     dissipated_ += (snapshot.time - time_) * body::dissipation(body.eq, q_dot_m);
+    enter_relaxation(system, b, snapshot.bodies[b]);
     enter_joint(body, snapshot.bodies[b], bodies_[b], {time_, snapshot.time});
   }
   enter_markers(system.marker_forces(), snapshot);
   snapshot.energy.dissipated = dissipated_ + system.contact_loss();
   snapshot.energy.work = work_;
+  snapshot.energy.relaxation = relaxation_;
   snapshot.energy.balance =
       stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
@@ -133,13 +157,14 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
 }
 
 void EnergyLedger::serialize(Archive& archive) {
-  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_, &time_}) archive(*x);
+  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_, &time_, &relaxation_}) archive(*x);
   archive.each(bodies_, [&](model::BodyState& body) {
     archive(body.r_WB);
     archive(body.R_WB);
     for (Eigen::VectorXd* x :
          {&body.s, &body.s_dot, &body.s_ddot, &body.q, &body.q_dot, &body.q_ddot, &body.joint_force})
       archive(*x);
+    archive(body.z);
   });
   archive.each(bushings_, [&](model::BushingState& b) {
     for (Eigen::Vector3d* x : {&b.displacement, &b.velocity, &b.angle, &b.rate, &b.force, &b.torque})

@@ -5,6 +5,7 @@
 
 #include "dynamics/contact/system_contact.h"
 #include "dynamics/integrator/low_rank_columns.h"
+#include "dynamics/system_relaxation.h"
 #include "elastogear/body/tangent.h"
 
 namespace elastogear::dynamics {
@@ -102,7 +103,9 @@ void keep_open(BodyTerms& terms, const std::vector<Eigen::Index>& open) {
 }  // namespace
 
 System::System(SystemModel model)
-    : model_(std::move(model)), contact_(std::make_unique<SystemContact>(model_)) {}
+    : model_(std::move(model)),
+      contact_(std::make_unique<SystemContact>(model_)),
+      relaxation_(std::make_unique<SystemRelaxation>(model_)) {}
 System::System(const std::vector<BodySetup>& bodies, const std::vector<PairSetup>& pairs,
                const Environment& environment, const MarkerSetups& markers)
     : System(make_system_model(bodies, pairs, environment, markers)) {}
@@ -170,15 +173,36 @@ double System::unclosed() const { return contact_->unclosed(); }
 void System::augment() { contact_->augment(); }
 void System::stiffen(double factor) { contact_->stiffen(factor); }
 void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_forces(pairs); }
-void System::begin_step(double dt, double alpha_f) { contact_->begin_step(dt, alpha_f); }
 bool System::change_closed() { return contact_->change_closed(); }
-void System::end_step(bool solved, double delivered) { contact_->end_step(solved, delivered); }
 bool System::had_impulse() const { return contact_->had_impulse(); }
 bool System::had_impulse_before() const { return contact_->had_impulse_before(); }
 double System::contact_loss() const { return contact_->loss(); }
 double System::residual_energy(std::size_t b) { return contact_->residual_energy(b); }
 
+void System::begin_step(double dt, double alpha_f) {
+  relaxation_->begin_step(dt, alpha_f);
+  if (any_augmented()) contact_->begin_step(dt, alpha_f);
+}
+
+void System::end_step(bool solved, double delivered) {
+  relaxation_->end_step();
+  if (any_augmented()) contact_->end_step(solved, delivered);
+}
+
+bool System::relaxes_in_time() const {
+  return relaxation_->any() && model_.environment.moduli == body::Moduli::relaxing;
+}
+
+const body::RelaxationLaw& System::relaxation_law(std::size_t b) const { return relaxation_->law(b); }
+
+Eigen::MatrixXd System::internal_variables(std::size_t b, const State& x) const {
+  const Eigen::VectorXd q = motion(b, x).q;
+  if (!relaxation_->of(b)) return Eigen::MatrixXd(q.size(), 0);
+  return relaxation_->internal_variables(b, x.time, q);
+}
+
 void System::accept(const State& x) {
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) relaxation_->accept(b, x.time, motion(b, x).q);
   contacts(x.time, x.U, x.V);
   contact_->accept();
 }
@@ -193,11 +217,20 @@ std::vector<MarkerForce> System::at_markers(const State& x) const {
   return all;
 }
 
+body::Force System::inner_force(std::size_t b, double time, const body::Motion& m) const {
+  const body::Equations& eq = model_.bodies[b].eq;
+  body::Force force = body::inner_force(eq, m);
+  if (!relaxation_->of(b)) return force;
+  const Eigen::MatrixXd z = relaxation_->internal_variables(b, time, m.q);
+  force.q -= body::relaxed_force(*eq.body, z * relaxation_->law(b).g.transpose());
+  return force;
+}
+
 body::Force System::balance(std::size_t b, const State& x, const MarkerForce& marker_force, Residual* r) {
   const Body& body = model_.bodies[b];
   const body::Motion m = motion(b, x);
   const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
-                    inner = body::inner_force(body.eq, m),
+                    inner = inner_force(b, x.time, m),
                     weight = body::gravity_force(body.eq, m, gravity(model_.environment, x.time)),
                     touch = contact_force(body.eq, contacts(x.time, x.U, x.V).force[b]);
   const Terms s{inertia.s,
@@ -267,6 +300,7 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     matrix.body.back().C.diagonal() += load_stiffness(model_.bodies[b], x.time, m, shift.v);
     add_geometric_stiffness(twists.back(), contact.force[b], matrix.body.back());
     matrix.body.back().R = contact_->flexibility_among(b, node);
+    if (relaxation_->of(b)) matrix.body.back().following = relaxation_->following(b, x.time);
   }
   set_contact_columns(twists, contact.pair, contact.surface, matrix);
   if (!model_.marker_forces.empty())
@@ -296,6 +330,7 @@ void System::serialize(Archive& archive) {
     archive(body.eq.joint.R_WB0);
   }
   contact_->serialize(archive);
+  relaxation_->serialize(archive);
 }
 
 }  // namespace elastogear::dynamics

@@ -217,8 +217,8 @@ std::vector<MovingBody> moving_bodies(const SystemModel& model, const State& x) 
 model::ResultHeader result_header(const SystemModel& model) {
   model::ResultHeader header;
   for (const SystemModel::Body& body : model.bodies)
-    header.bodies.push_back(
-        {body.name, "", body::joint_names()[static_cast<std::size_t>(body.eq.joint.type)]});
+    header.bodies.push_back({body.name, "", body::joint_names()[static_cast<std::size_t>(body.eq.joint.type)],
+                             !body.eq.body->relaxing.empty()});
   for (const PairSetup& pair : model.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     model::ResultHeader::Pair entry{

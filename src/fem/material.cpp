@@ -75,6 +75,15 @@ void validate_orthotropic(const model::Orthotropic& m, const std::string& region
   validate_orientation(m.orientation, region);
 }
 
+void validate_relaxation(const model::MaterialRegion& region) {
+  const model::Viscoelastic& viscoelastic = *region.material.viscoelastic;
+  model::validate(viscoelastic, label(region));
+  require(
+      !region.material.orthotropic || viscoelastic.has_constant_ratio(), label(region),
+      ": all moduli of an orthotropic material relax alike: give its Prony series by prony, not by prony_g "
+      "and prony_k");
+}
+
 }  // namespace
 
 Lame lame(const model::Material& material) {
@@ -86,6 +95,13 @@ Lame lame(const model::Material& material) {
 Elasticity elasticity(const model::Material& material) {
   if (!material.orthotropic) return lame(material);
   return Orthotropy{material_stiffness(*material.orthotropic), material.orthotropic->orientation};
+}
+
+Elasticity elasticity(const model::Material& material, model::ModulusPart part) {
+  if (part == model::ModulusPart::both) return elasticity(material);
+  const auto [lambda, mu] = lame(material);
+  if (part == model::ModulusPart::shear) return Lame{-2.0 / 3 * mu, mu};
+  return Lame{lambda + 2.0 / 3 * mu, 0};
 }
 
 Eigen::Matrix3d material_axes(const Orientation& o, const Eigen::Vector3d& x) {
@@ -129,8 +145,9 @@ Lame mean_lame(const model::Material& material) {
 void validate(const std::vector<model::MaterialRegion>& regions) {
   require(!regions.empty(), "no material given");
   for (const auto& region : regions) {
-    const auto& [E, nu, rho, orthotropic] = region.material;
+    const auto& [E, nu, rho, orthotropic, viscoelastic] = region.material;
     require(std::isfinite(rho) && rho > 0, label(region), ": rho = ", rho, " kg/m^3, must be positive");
+    if (viscoelastic) validate_relaxation(region);
     if (orthotropic) {
       validate_orthotropic(*orthotropic, label(region));
       continue;

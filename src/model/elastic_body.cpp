@@ -144,6 +144,24 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
   require(f.F.allFinite() && f.G.allFinite(), source, ": static responses are not finite");
 }
 
+void validate_relaxing(const ElasticBody& body, const std::string& source) {
+  const Eigen::Index n_q = body.n_q();
+  for (const RelaxingPart& part : body.relaxing) {
+    const std::string who = source + ": relaxing part of the cell set '" + part.cell_set + "'";
+    require(part.g.size() > 0 && part.tau.size() == part.g.size(), who,
+            ": each relative modulus needs a time");
+    require(part.g.allFinite() && (part.g.array() >= 0).all() && part.g.sum() < 1, who,
+            ": relative moduli must not be negative, and their sum stay below 1");
+    require(part.tau.allFinite() && (part.tau.array() > 0).all(), who, ": relaxation times must be positive");
+    require(part.K.rows() == n_q && part.K.cols() == n_q, who,
+            ": the stiffness is not square of size n_q = ", n_q);
+    const auto n_e = static_cast<int>(body.stress.node.size());
+    require(n_e == 0 || in_range(part.stress_node, n_e), who, " names a stress node outside 0..", n_e - 1);
+  }
+  require(body.relaxing.empty() || body.flexibility.empty(), source,
+          ": static responses to contact forces are those of an elastic body, this one relaxes");
+}
+
 }  // namespace
 
 Eigen::Index row_count(const BasisRows& rows) {
@@ -189,6 +207,7 @@ void validate(const ElasticBody& body, const std::string& source) {
   validate_stress(body.stress, n_q, source);
   validate_markers(body.markers, n_q, source);
   validate_flexibility(body, source);
+  validate_relaxing(body, source);
 }
 
 }  // namespace elastogear::model

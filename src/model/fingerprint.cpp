@@ -39,6 +39,12 @@ void add(Fingerprint& f, const Surface& surface) {
   add(f, surface.Phi);
 }
 
+void add(Fingerprint& f, const RelaxingPart& part) {
+  f.add_all(part.g);
+  f.add_all(part.tau);
+  add_sparse(f, part.K);
+}
+
 }  // namespace
 
 std::string fingerprint(const ElasticBody& body) {
@@ -55,6 +61,7 @@ std::string fingerprint(const ElasticBody& body) {
     f.add_all(marker.X);
     add(f, marker.Phi);
   }
+  for (const RelaxingPart& part : body.relaxing) add(f, part);
   return f.text();
 }
 

@@ -50,6 +50,8 @@ SIMULATE = [
     Case("table without variants", r"empty.csv: holds no variants", "{sweep} -torque 10 -variants empty.csv"),
     Case("table of variants in a wrong unit", r"seconds.csv, line 2 = '3 s': 's' is no unit of it", "{sweep} -torque 10 -variants seconds.csv"),
     Case("sweep without bodies", r"pinion.h5: there is no such file", "{sweep} -torque 10"),
+    Case("moduli that are none", r"moduli.*relaxing, instantaneous, long_term", "{single} -moduli glassy"),
+    Case("moduli that relax at rest", r"moduli.*no history", "{pull} -moduli relaxing"),
     Case("static without steps", r"static_steps.*at least 1", "{simulate} -analysis static -static_steps 0"),
     Case("zero axis", r"axis", "{simulate} -a_joint revolute -a_axis 0,0,0"),
     Case("axis of a joint without one", r"a_axis: a fixed joint has no axis", "{simulate} -a_axis 0,0,1"),

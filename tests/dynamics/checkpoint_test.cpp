@@ -12,14 +12,18 @@ namespace {
 
 // Residual flexibility of the box, with one law of contact or the other, without a penalty also over faces;
 // or impacts without both.
-enum class Residual { none, penalty, unilateral, faces, impacts };
+enum class Residual { none, penalty, unilateral, faces, impacts, relaxing };
 
-// flexible: with residual flexibility, of few modes.
-std::shared_ptr<const model::ElasticBody> soft_box(model::Basis basis, bool flexible) {
+// flexible: with residual flexibility, of few modes. relaxing: viscoelastic.
+std::shared_ptr<const model::ElasticBody> soft_box(model::Basis basis, bool flexible, bool relaxing) {
   test::BoxSpec box{.size = {1, 1, 1}, .cells = {2, 2, 2}, .material = {100, 0.3, 1}};
   box.held = [](const auto& X, int) { return X.x() == 0; };
-  return std::make_shared<model::ElasticBody>(flexible ? test::make_flexible_box(box, 5)
-                                                       : test::make_box(box, basis));
+  auto body = std::make_shared<model::ElasticBody>(flexible ? test::make_flexible_box(box, 5)
+                                                            : test::make_box(box, basis));
+  if (relaxing)
+    body->relaxing = {
+        {"", model::ModulusPart::both, Eigen::Vector2d(0.3, 0.2), Eigen::Vector2d(0.02, 1), body->K_r}};
+  return body;
 }
 
 // A soft box, held at one end, flies and tumbles against a rigid wall.
@@ -37,7 +41,10 @@ System impact(model::Basis basis, Residual residual = Residual::none) {
   const body::JointType joint =
       basis == model::Basis::full ? body::JointType::spherical : body::JointType::free;
   BodySetup box{.name = "box",
-                .body = soft_box(basis, residual != Residual::none && residual != Residual::impacts),
+                .body = soft_box(basis,
+                                 residual == Residual::penalty || residual == Residual::unilateral ||
+                                     residual == Residual::faces,
+                                 residual == Residual::relaxing),
                 .joint = {.type = joint},
                 .omega0 = {0, 0.3, 0.2}};
   if (joint == body::JointType::free) box.velocity0 = {0.3, 0.1, 0};
@@ -116,6 +123,14 @@ TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_over_faces_that_st
 
 TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_with_impacts) {
   expect_every_continuation_equal(model::Basis::modal, kSettings, Residual::impacts);
+}
+
+TEST(Checkpoint, continuation_equals_the_whole_run_to_the_bit_where_materials_relax) {
+  expect_every_continuation_equal(model::Basis::modal, kSettings, Residual::relaxing);
+  TimeSettings settings = kSettings;
+  settings.step_tolerance = 2e-7;
+  settings.output_dt = 0.003;
+  expect_every_continuation_equal(model::Basis::full, settings, Residual::relaxing);
 }
 
 TEST(Checkpoint, continuation_of_a_settling_run_equals_the_whole_one_to_the_bit) {

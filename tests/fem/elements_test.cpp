@@ -134,7 +134,7 @@ TEST_P(Elements, pass_the_patch_test_with_an_orthotropic_material) {
 }
 
 TEST_P(Elements, find_an_isotropic_material_written_as_an_orthotropic_one_the_same) {
-  const auto& [E, nu, rho, none] = test::kSteel;
+  const double E = test::kSteel.E, nu = test::kSteel.nu, rho = test::kSteel.rho;
   const auto all = [](double value) { return Eigen::Vector3d::Constant(value); };
   model::Material same{0, 0, rho, model::Orthotropic{all(E), all(nu), all(E / (2 * (1 + nu)))}};
   same.orthotropic->orientation.rotation << 0.3, -0.2, 0.5;

@@ -1,5 +1,6 @@
 #pragma once
-// The elastic block D = shift_a M_r + shift_v D_r + K_r of one body's effective matrix, its exact inverse,
+// The elastic block D = shift_a M_r + shift_v D_r + K_r - sum_p c_p K_p of one body's effective matrix, with
+// the shares c_p of the parts that relax (docs/theory.md, Eq. (3.24)), its exact inverse,
 // and the compliance E' D^-1 E that the joint and contact columns E see.
 
 #include <Eigen/Core>
@@ -46,7 +47,8 @@ class ElasticBlock {
   /// Is D^-1 exact but for roundoff? Otherwise what it is used for is a preconditioner.
   bool is_exact() const { return exact_; }
   /// Throws Error when D is not positive definite. Does nothing when the shifts are those in force.
-  void set_shifts(double shift_v, double shift_a);
+  /// following: c_p of each relaxing part of the body; empty: none follows.
+  void set_shifts(double shift_v, double shift_a, const Eigen::VectorXd& following = {});
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< D x
   Eigen::MatrixXd solve(const Eigen::MatrixXd& Y) const;     ///< D^-1 Y
   /// E' D^-1 E for the given nodes, from columns kept since the shifts last changed: n_e x n_e.
@@ -70,6 +72,7 @@ class ElasticBlock {
   Eigen::SparseMatrix<double> D_r_;
   BorderColumns columns_;
   double shift_v_ = std::numeric_limits<double>::quiet_NaN(), shift_a_ = shift_v_;  // none yet
+  Eigen::VectorXd following_;
   bool diagonal_ = false, exact_ = true;
   std::function<void()> pulse_;
   Eigen::VectorXd inverse_;  // of a diagonal D

@@ -32,6 +32,7 @@ struct BodyTerms {
   Eigen::MatrixXd R = {};                ///< 3 n x 3 n, m/N, residual flexibility of `node`; or empty
   Eigen::MatrixXd R_q, Q_s;  ///< n_s x n_q, n_q x n_s: of level full, see body/tangent.h, or empty
   Eigen::Matrix3d Gamma = Eigen::Matrix3d::Zero();
+  Eigen::VectorXd following = {};  ///< n_p, of the relaxing parts, see ElasticBlock; or empty
 };
 
 /// A body, how many of its joint coordinates are unknown, and the columns of its markers, see BorderColumns.

@@ -18,6 +18,7 @@ class Pair;
 namespace elastogear::dynamics {
 
 class SystemContact;
+class SystemRelaxation;
 
 /// F and, for each block (s then q of every body), the sum of the norms of the terms that it balances.
 struct Residual {
@@ -77,11 +78,17 @@ class System {
   void stiffen(double factor);
   /// Gives the contacts these forces back.
   void set_forces(const std::vector<PairContacts>& pairs);
-  /// Augmented law, of bodies in motion: begins the search for the forces of a step of dt (s), in which
-  /// velocities are alpha_f times those at its end; looks, once F = 0 is solved, which contacts close and
-  /// open (true: another set of them does); and ends it: the forces of the last evaluation, if they solved
-  /// the step, are those of all states until the next one begins; of an impulse the share `delivered` changes
-  /// the velocities at its end. dt = 0: at the start of a motion.
+  /// Do materials relax with time, see Environment::moduli?
+  bool relaxes_in_time() const;
+  /// z of a viscoelastic body at the state, n_q x n_z; of elastic bodies without columns.
+  Eigen::MatrixXd internal_variables(std::size_t b, const State& x) const;
+  const body::RelaxationLaw& relaxation_law(std::size_t b) const;
+  /// Begins and ends a step in which materials relax, and of the augmented law, of bodies in motion: begins
+  /// the search for the forces of a step of dt (s), in which velocities are alpha_f times those at its end;
+  /// looks, once F = 0 is solved, which contacts close and open (true: another set of them does); and ends
+  /// it: the forces of the last evaluation, if they solved the step, are those of all states until the next
+  /// one begins; of an impulse the share `delivered` changes the velocities at its end. dt = 0: at the start
+  /// of a motion.
   void begin_step(double dt, double alpha_f);
   bool change_closed();
   void end_step(bool solved, double delivered);
@@ -105,7 +112,8 @@ class System {
   /// Makes the present orientations those from which local rotation vectors count, and sets these to zero in
   /// U. True when a joint has one.
   bool rebase(Eigen::Ref<Eigen::VectorXd> U);
-  /// All that later evaluations take from earlier ones: re-based orientations, contact history.
+  /// All that later evaluations take from earlier ones: re-based orientations, contact history, internal
+  /// variables of materials.
   void serialize(Archive& archive);
 
  private:
@@ -113,12 +121,15 @@ class System {
   body::Motion sliding_motion(std::size_t b, const State& x) const;
   /// Generalised forces of all loads and bushings, one entry per body.
   std::vector<MarkerForce> at_markers(const State& x) const;
+  /// D_r q' + K_r q less what materials have relaxed.
+  body::Force inner_force(std::size_t b, double time, const body::Motion& m) const;
   /// Sum and norms of a body's terms: [F_s (n_s); F_q].
   body::Force balance(std::size_t b, const State& x, const MarkerForce& marker_force, Residual* r);
 
   SystemModel model_;
   std::vector<Eigen::VectorXd> sliding_ = {};  // rates of joint coordinates, by body; empty: those of V
   std::unique_ptr<SystemContact> contact_;
+  std::unique_ptr<SystemRelaxation> relaxation_;
 };
 
 }  // namespace elastogear::dynamics

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elastogear/body/equations.h"
+#include "elastogear/body/relaxation.h"
 #include "elastogear/contact/true_surface.h"
 #include "elastogear/contact/types.h"
 #include "elastogear/dynamics/axis.h"
@@ -38,6 +39,8 @@ struct Environment {
   body::InertiaLevel inertia = body::InertiaLevel::affine;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
   double gravity_rise = 0;  ///< s, from time 0 on, within which gravity grows from zero
+  body::Moduli moduli =
+      body::Moduli::relaxing;  ///< of viscoelastic materials; states of rest have no history
 };
 double gravity_share(const Environment& environment, double time);  ///< 0..1, of its gravity
 Eigen::Vector3d gravity(const Environment& environment, double time);

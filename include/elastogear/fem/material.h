@@ -30,6 +30,8 @@ struct Orthotropy {
 /// Elasticity as elements need it. Isotropic materials have shorter formulas of their own.
 using Elasticity = std::variant<Lame, Orthotropy>;
 Elasticity elasticity(const model::Material& material);
+/// The part of it by the shear or the bulk modulus alone. Error for these parts of an orthotropic material.
+Elasticity elasticity(const model::Material& material, model::ModulusPart part);
 
 /// The material's axes at the point x (m), as columns. On the axis of a cylindrical system axis 1 is any
 /// radius.
@@ -46,7 +48,7 @@ double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n,
 Lame mean_lame(const model::Material& material);
 
 /// Throws Error (naming the region) unless every region's density is positive and its elasticity positive
-/// definite (isotropic: E > 0, -1 < nu < 0.5).
+/// definite (isotropic: E > 0, -1 < nu < 0.5), and stays so while it relaxes.
 void validate(const std::vector<model::MaterialRegion>& regions);
 
 /// Index into `regions` of every cell. The region with the empty name takes the cells that no other names.

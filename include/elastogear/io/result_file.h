@@ -53,6 +53,7 @@ struct BodyHistory {
   Eigen::MatrixXd s, s_dot, s_ddot;  ///< n_s x n_t, joint coordinates
   Eigen::MatrixXd r_WB;              ///< 3 x n_t
   Eigen::MatrixXd R_WB;              ///< 9 x n_t, row-major rotation matrix
+  Eigen::MatrixXd w = {};  ///< n_q n_p x n_t, part by part, of viscoelastic bodies: model::BodyState
 };
 
 /// Histories of one pair, one column per output time. Forces on body b in the world frame, see
@@ -71,7 +72,8 @@ struct PairHistory {
 /// n_t each, J; see model::Energies.
 struct EnergyHistory {
   Eigen::VectorXd kinetic, elastic, contact, dissipated, work, balance;
-  Eigen::VectorXd bushing;  ///< zero in a run without bushings
+  Eigen::VectorXd bushing;     ///< zero in a run without bushings
+  Eigen::VectorXd relaxation;  ///< zero in a run without viscoelastic materials
 };
 
 /// Histories of one bushing, 3 x n_t each; see model::BushingState.

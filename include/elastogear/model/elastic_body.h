@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "elastogear/model/flexibility.h"
+#include "elastogear/model/viscoelastic.h"
 
 namespace elastogear::model {
 
@@ -82,6 +83,19 @@ struct Marker {
   BasisRows Phi = {};  ///< 6 x n_q: mean displacement, mean small rotation (rad); zero where it does not turn
 };
 
+/// A part of a body's stiffness that relaxes, that of one material region by both moduli or by one of them.
+/// The elastic force is K_r q - sum_p K sum_i g_i z_i with z_i' = (q - z_i)/tau_i: docs/theory.md, Eq.
+/// (2.19).
+struct RelaxingPart {
+  std::string cell_set;  ///< of the region; empty: all cells that no other region names
+  ModulusPart part = ModulusPart::both;
+  Eigen::VectorXd g;    ///< n_i, -, relative moduli
+  Eigen::VectorXd tau;  ///< n_i, s, relaxation times at the temperature of the region
+  Eigen::SparseMatrix<double> K =
+      {};                             ///< n_q x n_q, instantaneous stiffness of the part, in the units of K_r
+  std::vector<int> stress_node = {};  ///< evaluation nodes (local numbers) whose stress is that of the region
+};
+
 /// Displacements u = Phi q and the reduced matrices M_r, K_r: docs/theory.md, Eqs. (2.1) and (2.2).
 struct ElasticBody {
   std::string name;
@@ -89,13 +103,14 @@ struct ElasticBody {
   bool floating = false;  ///< nothing was restrained: the basis moves about a frame that no node carries
   Inertia inertia;
   Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending; empty for full
-  Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2)
+  Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2); K_r instantaneous
   double alpha = 0, beta = 0;            ///< 1/s, s: Rayleigh's part of D_r, alpha M_r + beta K_r
   Eigen::VectorXd zeta;                  ///< modal: n_q, ratios: D_r also has diag(2 zeta omega); or empty
   Surface surface;
   Stress stress;
   std::vector<Marker> markers;
   Flexibility flexibility = {};  ///< of a modal basis, when it was asked for; or empty. G stays in the file
+  std::vector<RelaxingPart> relaxing = {};        ///< of viscoelastic materials
   std::map<std::string, std::string> provenance;  ///< options in force, program and library versions
 
   Eigen::Index n_q() const { return K_r.rows(); }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "elastogear/model/viscoelastic.h"
+
 namespace elastogear::model {
 
 /// Directions of the material's axes 1, 2, 3 in the body frame.
@@ -29,13 +31,19 @@ struct Orthotropic {
   Orientation orientation = {};
 };
 
-/// Linear elasticity and density. E and nu hold for isotropic materials only.
+/// Linear elasticity and density. E and nu hold for isotropic materials only. The moduli of a viscoelastic
+/// material are its instantaneous ones.
 struct Material {
-  double E = 0;                                           ///< Pa, Young's modulus
-  double nu = 0;                                          ///< -, Poisson's ratio
-  double rho = 0;                                         ///< kg/m^3, density
-  std::optional<Orthotropic> orthotropic = std::nullopt;  ///< set: takes the place of E and nu
+  double E = 0;                                             ///< Pa, Young's modulus
+  double nu = 0;                                            ///< -, Poisson's ratio
+  double rho = 0;                                           ///< kg/m^3, density
+  std::optional<Orthotropic> orthotropic = std::nullopt;    ///< set: takes the place of E and nu
+  std::optional<Viscoelastic> viscoelastic = std::nullopt;  ///< set: the moduli relax
 };
+
+/// The material whose long-term moduli those of the given one are: with the instantaneous moduli of its Prony
+/// series, which must be valid. docs/theory.md, Eq. (1.10).
+Material from_long_term(Material material);
 
 /// A material and the cell set it fills; the empty name stands for all cells that no other region names.
 struct MaterialRegion {

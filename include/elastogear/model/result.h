@@ -29,6 +29,8 @@ struct BodyState {
   /// n_s, N or N m: of load, friction and drive along the joint coordinates
   Eigen::VectorXd joint_force = {};
   ContactForces contact = {};
+  Eigen::MatrixXd z = {};  ///< n_q x n_z, internal variables of viscoelastic materials (body/relaxation.h)
+  Eigen::MatrixXd w = {};  ///< n_q x n_p, what the relaxing parts have lost of q: sum_i g_pi z_i
 };
 
 /// One active contact of a pair.
@@ -92,6 +94,7 @@ struct Energies {
   double dissipated = 0, work = 0;               ///< J, since the start: by damping; by loads
   double balance = 0;                            ///< J, stored + dissipated - work - stored at the start
   double bushing = 0;                            ///< J, stored
+  double relaxation = 0;                         ///< J, of dissipated: by viscoelastic materials
 };
 
 struct Snapshot {
@@ -108,6 +111,7 @@ struct Snapshot {
 struct ResultHeader {
   struct Body {
     std::string name, file, joint;  ///< file: the body file as given by the user
+    bool relaxes = false;           ///< has viscoelastic materials; not read back
   };
   struct Pair {
     std::string name;                        ///< "worm:wheel"

@@ -63,6 +63,7 @@ void scale_by_load_factor(Environment& environment) { environment.gravity_rise =
 RunSummary solve_static(System& system, const StaticSettings& settings, const Observer& observer,
                         const Progress& progress, const std::function<bool()>& stop) {
   require(settings.steps >= 1, "load steps ", settings.steps, " must be at least 1");
+  require(!system.relaxes_in_time(), kNoHistory);
   require_bodies_apart(system);
   const auto start = Clock::now();
   Equilibrium at(system);

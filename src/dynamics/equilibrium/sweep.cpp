@@ -271,7 +271,9 @@ SweepSummary sweep(const SlowMotion& motion, const SweepSettings& settings, cons
   validate(motion, settings);
   const auto start = Clock::now();
   Leader leader{motion, settings, stop};
-  leader.summary.run = new_summary(system_at(motion, settings.positions.front()));
+  const System first = system_at(motion, settings.positions.front());
+  require(!first.relaxes_in_time(), kNoHistory);
+  leader.summary.run = new_summary(first);
   model::Snapshot found;
   double done = 0;
   try {

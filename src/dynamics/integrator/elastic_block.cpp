@@ -81,15 +81,22 @@ Eigen::MatrixXd BorderColumns::node_columns(const std::vector<int>& node) const 
 
 ElasticBlock::ElasticBlock(const body::Equations& eq, const Eigen::MatrixXd& markers)
     : body_(eq.body.get()), D_r_(eq.D_r), columns_(eq, markers), slot_(eq.body->surface.node.size(), -1) {
-  diagonal_ = is_diagonal(body_->M_r) && is_diagonal(body_->K_r);
+  diagonal_ = is_diagonal(body_->M_r) && is_diagonal(body_->K_r) &&
+              std::all_of(body_->relaxing.begin(), body_->relaxing.end(),
+                          [](const model::RelaxingPart& part) { return is_diagonal(part.K); });
   if (!diagonal_) make_solver();
 }
 
-void ElasticBlock::set_shifts(double shift_v, double shift_a) {
-  if (shift_v == shift_v_ && shift_a == shift_a_) return;
+void ElasticBlock::set_shifts(double shift_v, double shift_a, const Eigen::VectorXd& following) {
+  const bool same = following.size() == following_.size() && following == following_;
+  if (shift_v == shift_v_ && shift_a == shift_a_ && same) return;
+  following_ = following;
   shift_v_ = shift_v;
   shift_a_ = shift_a;
   D_ = shift_a * body_->M_r + shift_v * D_r_ + body_->K_r;
+  for (Eigen::Index p = 0; p < following.size(); ++p)
+    D_ -= Eigen::SparseMatrix<double, Eigen::RowMajor>(following[p] *
+                                                       body_->relaxing[static_cast<std::size_t>(p)].K);
   D_.makeCompressed();
   if (diagonal_) {
     inverse_ = D_.diagonal().cwiseInverse();
@@ -219,9 +226,15 @@ void ElasticBlock::serialize(Archive& archive) {
   std::vector<std::vector<int>> batches = batches_;
   archive(shift_v);
   archive(shift_a);
+  Eigen::VectorXd following = following_;
+  archive(following);
   archive(batches);
   if (!archive.is_loading() || std::isnan(shift_v)) return;
-  set_shifts(shift_v, shift_a);
+  const bool fits =
+      following.size() == 0 || following.size() == static_cast<Eigen::Index>(body_->relaxing.size());
+  require(fits, "body '", body_->name, "': the stored state has ", following.size(),
+          " relaxing parts, the body ", body_->relaxing.size());
+  set_shifts(shift_v, shift_a, following);
   for (const std::vector<int>& nodes : batches) {
     for (int node : nodes)
       require(node >= 0 && node < static_cast<int>(slot_.size()), "body '", body_->name,

@@ -75,7 +75,7 @@ void LowRankSolver::set(EffectiveMatrix A) {
   Eigen::MatrixXd small = Eigen::MatrixXd::Zero(n_s_ + r, n_s_ + r);
   small.bottomRightCorner(r, r).setIdentity();
   for (std::size_t b = 0; b < block_.size(); ++b) {
-    block_[b].set_shifts(A_.shift_v, A_.shift_a);
+    block_[b].set_shifts(A_.shift_v, A_.shift_a, A_.body[b].following);
     add_body(b, small);
   }
   require(small.allFinite(), "the effective matrix is not finite");

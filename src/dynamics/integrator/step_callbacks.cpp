@@ -147,7 +147,7 @@ PetscErrorCode post_step(TS ts) {
   return recover_dt(ts);
 }
 
-// Forces of impacts are found step by step.
+// Materials relax step by step, and forces of impacts are found so.
 PetscErrorCode pre_stage(TS ts, PetscReal) {
   Run* run = nullptr;
   PetscReal dt = 0, alpha_f = 0;
@@ -175,9 +175,11 @@ PetscErrorCode post_stage(TS ts, PetscReal, PetscInt, Vec*) {
   return guard(run->problem.pending, [&] { run->problem.system.end_step(reason > 0, gamma / alpha_m); });
 }
 
-void find_impacts(TS ts) {
+void follow_stages(const System& system, TS ts) {
+  if (!system.any_augmented() && !system.relaxes_in_time()) return;
   check(TSSetPreStage(ts, pre_stage));
   check(TSSetPostStage(ts, post_stage));
+  if (!system.any_augmented()) return;
   generalized_alpha_set_check(ts, [ts](bool* changed) { return check_stage(ts, changed); });
 }
 
@@ -218,7 +220,7 @@ UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J) {
   check(TS2SetSolution(ts, U, V));
   control_steps(run, ts);
   check(TSSetFromOptions(ts));
-  if (!run.settings.relax && run.problem.system.any_augmented()) find_impacts(ts);
+  if (!run.settings.relax) follow_stages(run.problem.system, ts);
   check(TSGetTimeStep(ts, &run.nominal_dt));
   require(run.nominal_dt > 0, "time step dt = ", run.nominal_dt, " s must be positive");
   return ts;

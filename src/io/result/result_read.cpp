@@ -136,6 +136,8 @@ BodyHistory read_body_history(const std::string& path, const std::string& body) 
   history.q = read("/q");
   history.q_dot = read("/q_velocity");
   history.q_ddot = read("/q_acceleration");
+  const std::string relaxed = "/bodies/" + body + kRelaxed;
+  if (h5::exists(file, relaxed)) history.w = read_columns(file, relaxed, {h5::kAny, h5::kAny});
   return history;
 }
 
@@ -198,10 +200,14 @@ EnergyHistory read_energies(const std::string& path) {
                        read("dissipated"),
                        read("work"),
                        read("balance"),
+                       {},
                        {}};
   energy.bushing = h5::exists(file, "/energy/bushing")
                        ? read("bushing")
                        : Eigen::VectorXd(Eigen::VectorXd::Zero(energy.kinetic.size()));
+  energy.relaxation = h5::exists(file, kRelaxationLoss)
+                          ? read_vector(file, kRelaxationLoss, time_count(file))
+                          : Eigen::VectorXd(Eigen::VectorXd::Zero(energy.kinetic.size()));
   return energy;
 }
 

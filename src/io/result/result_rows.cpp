@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/hdf5/schema.h"
 #include "io/result/contact_forces.h"
 
 namespace elastogear::io {
@@ -16,7 +17,8 @@ bool finite(const model::Snapshot& snapshot) {
   for (const auto& body : snapshot.bodies)
     good = good && body.r_WB.allFinite() && body.R_WB.allFinite() && body.s.allFinite() &&
            body.s_dot.allFinite() && body.s_ddot.allFinite() && body.q.allFinite() &&
-           body.q_dot.allFinite() && body.q_ddot.allFinite() && body.contact.f_B.allFinite();
+           body.q_dot.allFinite() && body.q_ddot.allFinite() && body.w.allFinite() &&
+           body.contact.f_B.allFinite();
   for (const auto& pair : snapshot.pairs)
     good = good && pair.force.allFinite() && pair.torque.allFinite() && std::isfinite(pair.penetration);
   for (const auto& bushing : snapshot.bushings)
@@ -66,6 +68,9 @@ void ResultRows::append_body(std::size_t index, const model::BodyState& body) {
   append(group + "/q", body.q, "as in the body file");
   append(group + "/q_velocity", body.q_dot, "as q, per s");
   append(group + "/q_acceleration", body.q_ddot, "as q, per s^2");
+  if (header_.bodies[index].relaxes)
+    series_at(group + kRelaxed, {{extent(body.w.cols()), extent(body.w.rows())}, "as q"})
+        .append(body.w.data());
   append_forces(group + kForces, body.contact);
   append_offset(group + kForces, count_.forces[index], body.contact.node.size());
 }
@@ -172,6 +177,9 @@ void ResultRows::append_energy(const model::Energies& energy) {
   append("/energy/work", energy.work, "J");
   append("/energy/balance", energy.balance, "J");
   if (!header_.bushings.empty()) append("/energy/bushing", energy.bushing, "J");
+  if (std::any_of(header_.bodies.begin(), header_.bodies.end(),
+                  [](const auto& body) { return body.relaxes; }))
+    append(kRelaxationLoss, energy.relaxation, "J");
 }
 
 void ResultRows::append_bushing(const std::string& group, const model::BushingState& bushing) {

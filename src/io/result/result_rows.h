@@ -11,7 +11,9 @@
 
 namespace elastogear::io {
 
-constexpr const char* kSide[2] = {"a", "b"};  ///< the two bodies of a pair, as groups of the file
+constexpr const char* kSide[2] = {"a", "b"};    ///< the two bodies of a pair, as groups of the file
+constexpr const char* kRelaxed = "/q_relaxed";  ///< of a viscoelastic body: model::BodyState::w
+constexpr const char* kRelaxationLoss = "/energy/relaxation";
 
 /// Rows of the histories that come before a part of them.
 struct RowCount {
