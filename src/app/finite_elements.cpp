@@ -22,8 +22,12 @@ Eigen::MatrixXd nodal_stress(const io::BodySource& source, const Eigen::VectorXd
   return fem::nodal_stress(source.mesh, source.regions, source.element, u);
 }
 
+std::vector<int> node_regions(const io::BodySource& source) {
+  return fem::stress_regions(source.mesh, source.regions);
+}
+
 }  // namespace
 
-recovery::FiniteElements finite_elements() { return {unreduced_response, nodal_stress}; }
+recovery::FiniteElements finite_elements() { return {unreduced_response, nodal_stress, node_regions}; }
 
 }  // namespace elastogear::app

@@ -77,6 +77,13 @@ model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<mode
   return S;
 }
 
+std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions) {
+  Averaging average = find_averaging(mesh, regions);
+  for (std::size_t node = 0; node < average.region.size(); ++node)
+    if (average.count[node] == 0) average.region[node] = -1;
+  return average.region;
+}
+
 Eigen::MatrixXd nodal_stress(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
                              model::Element element, const Eigen::VectorXd& u) {
   require(u.size() == 3 * mesh.n_nodes(), "displacement has ", u.size(), " entries, the mesh needs ",

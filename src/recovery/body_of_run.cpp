@@ -26,6 +26,9 @@ void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& bod
       "name the body file of the run by option -" + body.name + "_file, or run simulate with this one";
   require(elastic.n_q() == n_q, body.file, ": ", elastic.n_q(), " elastic coordinates, body '", body.name,
           "' of ", body.result, " has ", n_q, n_q == 0 ? " (it is rigid there)" : "", ": ", remedy);
+  require(body.history.w.rows() == n_q * static_cast<Eigen::Index>(elastic.relaxing.size()), body.file,
+          ": has ", elastic.relaxing.size(), " parts that relax, body '", body.name, "' of ", body.result,
+          " has others: ", remedy);
   require(body.identity.empty() || model::fingerprint(elastic) == body.identity, body.file,
           ": is not the body '", body.name, "' of ", body.result,
           ": mesh, material, restraint, surface, markers or basis differ, and its elastic coordinates mean "

@@ -23,6 +23,22 @@ struct Fields {
   }
 };
 
+// What the relaxing parts have lost, at the nodes of their regions. Eq. (4.10).
+void subtract_relaxed(const Fields& fields, const Eigen::MatrixXd& w, Eigen::MatrixXd& stress) {
+  if (w.cols() == 0) return;
+  const std::vector<int> node_region = fields.finite_elements.node_regions(fields.source);
+  const model::ElasticBody body = io::read_body(fields.body_file, io::BodyUse::motion);
+  for (std::size_t p = 0; p < body.relaxing.size(); ++p) {
+    const model::RelaxingPart& part = body.relaxing[p];
+    const Eigen::MatrixXd of_part = stress_of_part(
+        fields.stress(fields.displacement(w.col(static_cast<Eigen::Index>(p)), {})).reshaped(), part.part);
+    for (std::size_t node = 0; node < node_region.size(); ++node)
+      if (const int r = node_region[node]; r >= 0 && fields.source.regions[r].cell_set == part.cell_set)
+        stress.col(static_cast<Eigen::Index>(node)) -=
+            of_part.col(0).segment<6>(static_cast<Eigen::Index>(6 * node));
+  }
+}
+
 Eigen::VectorXd von_mises_at_nodes(const Eigen::MatrixXd& stress) {
   return von_mises(Eigen::MatrixXd(stress.reshaped()));
 }
@@ -43,7 +59,9 @@ void write_field(const std::string& path, const std::string& body_file, const io
                  const FieldState& state, const FiniteElements& finite_elements) {
   const Fields body{body_file, source, finite_elements};
   const Eigen::Matrix3Xd u_B = body.displacement(state.q, state.u_static);
-  const Eigen::MatrixXd stress = body.stress(u_B), tensors = stress.reshaped();
+  Eigen::MatrixXd stress = body.stress(u_B);
+  subtract_relaxed(body, state.w, stress);
+  const Eigen::MatrixXd tensors = stress.reshaped();
   const Eigen::VectorXd equivalent = von_mises_at_nodes(stress);
   auto placed = source.mesh;
   placed.X = (state.R_WB * placed.X).colwise() + state.r_WB;

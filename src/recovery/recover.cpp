@@ -52,7 +52,8 @@ RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool wi
                                const FiniteElements& finite_elements) {
   RecoveredBody body{std::move(run)};
   body.response = static_response_of_run(body.run, acceleration, finite_elements);
-  if (!body.response && with_error) body.reference = error_reference(body.run, finite_elements);
+  if (!body.response && with_error && !body.relaxes())
+    body.reference = error_reference(body.run, finite_elements);
   return body;
 }
 
@@ -62,9 +63,9 @@ io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elas
   const std::vector<int>& members = members_of(stress, set, body.run.file);
   std::vector<int> nodes;
   for (int member : members) nodes.push_back(stress.node[member]);
-  const Eigen::MatrixXd sigma_static =
-      body.response ? static_stress(*body.response, nodes) : Eigen::MatrixXd();
-  StressHistory h = stress_history(stress, members, body.q(), sigma_static);
+  Eigen::MatrixXd sigma_more = body.response ? static_stress(*body.response, nodes) : Eigen::MatrixXd();
+  if (!elastic.relaxing.empty()) sigma_more = -relaxed_stress(elastic, members, body.run.history.w);
+  StressHistory h = stress_history(stress, members, body.q(), sigma_more);
   io::StressSet recovered{body.run.name,
                           set,
                           std::move(h.node),
@@ -78,7 +79,10 @@ io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elas
 
 FieldState state_of_run(const BodyOfRun& body, Eigen::Index step) {
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(body.history.R_WB.col(step).data());
-  return {body.history.r_WB.col(step), R, body.history.q.col(step)};
+  FieldState state{body.history.r_WB.col(step), R, body.history.q.col(step)};
+  if (body.history.w.size() > 0)
+    state.w = body.history.w.col(step).reshaped(state.q.size(), body.history.w.rows() / state.q.size());
+  return state;
 }
 
 FieldState recovered_state(const RecoveredBody& body, Eigen::Index step, bool with_error) {

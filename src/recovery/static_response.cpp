@@ -93,7 +93,11 @@ bool is_stored(const StaticResponseOfRun& known_response) { return !known_respon
 
 std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration,
                                                             const FiniteElements& finite_elements) {
-  if (acceleration == Acceleration::never) return nullptr;
+  const bool relaxes = body.history.w.rows() > 0;
+  require(!relaxes || acceleration != Acceleration::always, body.file,
+          ": mode acceleration takes static responses of an elastic body, this one is viscoelastic; use "
+          "-mode_acceleration auto");
+  if (acceleration == Acceleration::never || relaxes) return nullptr;
   std::unique_ptr<StaticResponseOfRun> known_response = make_response(body, finite_elements);
   if (!known_response || (acceleration == Acceleration::automatic && !is_stored(*known_response)))
     return nullptr;

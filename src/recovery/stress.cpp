@@ -61,6 +61,42 @@ Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>
   return sigma;
 }
 
+Eigen::MatrixXd stress_of_part(Eigen::MatrixXd stress, model::ModulusPart part) {
+  if (part == model::ModulusPart::both) return stress;
+  for (Eigen::Index t = 0; t < stress.cols(); ++t)
+    for (Eigen::Index i = 0; i < stress.rows(); i += 6) {
+      auto normal = stress.col(t).segment<3>(i);
+      const double mean = normal.mean();
+      if (part == model::ModulusPart::shear) {
+        normal.array() -= mean;
+      } else {
+        normal.setConstant(mean);
+        stress.col(t).segment<3>(i + 3).setZero();
+      }
+    }
+  return stress;
+}
+
+Eigen::MatrixXd relaxed_stress(const model::ElasticBody& body, const std::vector<int>& members,
+                               const Eigen::MatrixXd& w) {
+  Eigen::MatrixXd relaxed = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(members.size()), w.cols());
+  for (std::size_t p = 0; p < body.relaxing.size(); ++p) {
+    const model::RelaxingPart& part = body.relaxing[p];
+    std::vector<int> own, place;  // members of the part's region, and their places
+    for (std::size_t i = 0; i < members.size(); ++i)
+      if (std::binary_search(part.stress_node.begin(), part.stress_node.end(), members[i])) {
+        own.push_back(members[i]);
+        place.push_back(static_cast<int>(i));
+      }
+    const Eigen::MatrixXd of_part = stress_of_part(
+        modal_stress(body.stress, own, w.middleRows(static_cast<Eigen::Index>(p) * body.n_q(), body.n_q())),
+        part.part);
+    for (std::size_t i = 0; i < place.size(); ++i)
+      relaxed.middleRows<6>(6 * place[i]) += of_part.middleRows<6>(6 * static_cast<Eigen::Index>(i));
+  }
+  return relaxed;
+}
+
 StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,
                              const Eigen::MatrixXd& q, const Eigen::MatrixXd& sigma_static) {
   StressHistory history;

@@ -21,6 +21,9 @@ namespace elastogear::fem {
 model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
                                   model::Element element, const std::vector<int>& nodes);
 
+/// Index into `regions` of the region whose stress each node of the mesh has; -1 outside all cells.
+std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
+
 /// Stress at all nodes for one displacement u (3 n_nodes, m, node-major): 6 x n_nodes, Pa, without forming S.
 /// Nodes outside all cells get 0.
 Eigen::MatrixXd nodal_stress(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,

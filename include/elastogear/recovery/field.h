@@ -24,6 +24,7 @@ struct FieldState {
   Eigen::Vector3d r_WB;
   Eigen::Matrix3d R_WB;
   Eigen::VectorXd q;
+  Eigen::MatrixXd w = {};         ///< n_q x n_p, of a viscoelastic body: model::BodyState
   Eigen::VectorXd u_static = {};  ///< 3 n_nodes, m, BRF, added to Phi q; empty: nothing
   std::vector<io::NodeField> more = {};
   std::optional<FieldReference> reference = {};  ///< none: no error is estimated

@@ -24,6 +24,9 @@ struct FiniteElements {
   std::function<UnreducedResponse(const io::BodySource& source, bool floating)> unreduced_response;
   /// Stress at all nodes, 6 x n_nodes, Pa, of displacements u (3 n_nodes, m, node-major).
   std::function<Eigen::MatrixXd(const io::BodySource& source, const Eigen::VectorXd& u)> nodal_stress;
+  /// Index into the source's regions of the region whose stress each node has; -1: none. Asked of
+  /// viscoelastic bodies.
+  std::function<std::vector<int>(const io::BodySource& source)> node_regions = {};
 };
 
 }  // namespace elastogear::recovery

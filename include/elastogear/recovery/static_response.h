@@ -29,8 +29,8 @@ struct StaticResponseOfRun {
 /// static responses to their loads.
 enum class Acceleration { never, automatic, always };
 /// Static response of a body over the run. Nothing for a body in its full basis, whose response is complete
-/// already, for one that was rigid in the run, and where mode acceleration is not asked for. Error where it
-/// is asked for always and no factor of K can serve.
+/// already, for one that was rigid in the run or is viscoelastic, and where mode acceleration is not asked
+/// for. Error where it is asked for always and the body is viscoelastic or no factor of K can serve.
 std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration,
                                                             const FiniteElements& finite_elements);
 

@@ -34,6 +34,14 @@ Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress);
 Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>& members,
                              const Eigen::MatrixXd& q);
 
+/// Stress that the relaxing parts of a viscoelastic body have lost at these nodes, 6 n x n_t, Pa; w: n_q n_p
+/// x n_t, model::BodyState::w part by part. To be subtracted from that of q. Eq. (4.10).
+Eigen::MatrixXd relaxed_stress(const model::ElasticBody& body, const std::vector<int>& members,
+                               const Eigen::MatrixXd& w);
+
+/// The part of stresses (6 n x n_t) that the shear or the bulk modulus makes: deviators or mean stresses.
+Eigen::MatrixXd stress_of_part(Eigen::MatrixXd stress, model::ModulusPart part);
+
 /// sigma(t) = Psi q(t) + sigma_static(t) at the evaluation nodes `members` (local numbers in stress.node);
 /// q: n_q x n_t; sigma_static: 6 n x n_t, Pa, or empty.
 StressHistory stress_history(const model::Stress& stress, const std::vector<int>& members,

@@ -25,6 +25,8 @@ constexpr double kTrusted = 0.05;  // of the peak
 
 // Advice for stresses whose estimated error is too large.
 std::string remedy(const recovery::RecoveredBody& body) {
+  if (body.relaxes())
+    return "the body is viscoelastic; compare with more modes (-modes), or with -basis full";
   const bool untouched = body.reference && body.reference->node.empty();
   if (!body.response && !untouched)
     return "reduce the body with -basis modal_residual, loaded wherever it is touched (option loaded; by "
