@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
+#include <sstream>
 
 #include "elastogear/base/text.h"
 #include "elastogear/io/body_file.h"
@@ -11,6 +13,7 @@
 #include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/quality.h"
 #include "io/body/body_schema.h"
+#include "io/body/relaxing_group.h"
 #include "io/describe_arrays.h"
 #include "io/describe_text.h"
 #include "io/hdf5/schema.h"
@@ -47,6 +50,22 @@ void describe_mesh(Out& out, const mesh::Mesh& mesh) {
   describe_sets(out, "face", mesh.face_sets);
 }
 
+void describe_viscoelastic(Out& out, const model::Material& material) {
+  if (!material.viscoelastic) return;
+  const auto& [g, k, tau, shift] = *material.viscoelastic;
+  const auto list = [](const std::vector<double>& values) {
+    return join(values, " ", [](double x) { return (std::ostringstream() << x).str(); });
+  };
+  const auto left = [](const std::vector<double>& relative) {
+    return 1 - std::accumulate(relative.begin(), relative.end(), 0.0);
+  };
+  line(out, "  viscoelastic, moduli above are instantaneous: g = (", list(g), "), k = (", list(k),
+       "), tau = (", list(tau), ") s; long-term shares of the moduli: shear ", left(g), ", bulk ", left(k));
+  if (shift.law != model::TemperatureShift::Law::none)
+    line(out, "  temperature shift ", shift_name(shift.law), ": at ", shift.T, " K times are ",
+         model::shift_factor(shift), " times those at ", shift.T_ref, " K");
+}
+
 void describe_materials(Out& out, const std::vector<model::MaterialRegion>& regions) {
   for (const auto& [cell_set, material] : regions) {
     const std::string of = "material of " + (cell_set.empty() ? "all other cells" : cell_set) + ": ";
@@ -57,6 +76,7 @@ void describe_materials(Out& out, const std::vector<model::MaterialRegion>& regi
     } else {
       line(out, of, "E = ", material.E, " Pa, nu = ", material.nu, ", rho = ", material.rho, " kg/m^3");
     }
+    describe_viscoelastic(out, material);
   }
 }
 

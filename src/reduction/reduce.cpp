@@ -22,6 +22,7 @@ void keep_all(Job& job) {
     plan.body.M_r = M;
     if (job.options.invariants == Invariants::full)
       plan.body.inertia.S_2 = unit_second_moments(scalar_mass(job), plan.free_dof);
+    set_relaxing_full(job);
   });
   job.finish_stage("gathering");
   job.on_root([&] {

@@ -74,6 +74,7 @@ void validate_ritz(const ReductionOptions& options) {
 void validate(const ReductionOptions& options) {
   if (options.ritz) validate_ritz(options);
   if (!options.imported || !options.regions.empty()) fem::validate(options.regions);
+  validate_relaxing(options);
   require(!options.floating || options.restrain.empty(), "a free body has no restrained sets");
   require(options.frame_origin.allFinite(), "the origin of the body frame (",
           options.frame_origin.transpose(), ") m must be finite");

@@ -1,6 +1,7 @@
 #pragma once
 // One reduction while it runs: what its stages hand on to each other. reduce_body.cpp reads, numbers and
-// places the body, reduce_modal.cpp finds its modes, reduce.cpp assembles and ends it.
+// places the body, reduce_modal.cpp finds its modes, reduce_relaxing.cpp what relaxes in it, reduce.cpp
+// assembles and ends it.
 
 #include <functional>
 #include <map>
@@ -34,6 +35,8 @@ struct Plan {
   model::SparseRows S;  // of stress, then of markers: see reduction/basis.h
   model::ElasticBody body;
 };
+
+class WaitingModes;
 
 struct Job {
   MPI_Comm comm;
@@ -83,5 +86,14 @@ io::BodySource source_of(const Job& job);
 
 /// Finds the modes and writes the body file. Collective.
 void reduce_modal(Job& job);
+
+/// Are there viscoelastic materials?
+bool relaxes(const ReductionOptions& options);
+/// Throws Error for what viscoelastic materials do not go with.
+void validate_relaxing(const ReductionOptions& options);
+/// Sets body.relaxing, after body.K_r, with the stiffness of the parts between closed modes. Rank 0.
+void set_relaxing(Job& job, const WaitingModes& modes);
+/// The same for the full basis.
+void set_relaxing_full(Job& job);
 
 }  // namespace elastogear::reduction

@@ -40,6 +40,7 @@ Fingerprint fingerprint_of(const Job& job) {
     f.add(static_cast<double>(option));
   for (const auto& [name, value] : o.provenance)
     if (asks_solver(name)) f.add(std::string(name).append("=").append(value));
+  if (relaxes(o)) f.add(std::string("relaxing"));
   if (o.interval)
     for (double end : {o.interval->lower, o.interval->upper}) f.add(end);
   f.add_all(job.plan.moments.w_0);
@@ -69,7 +70,7 @@ void report_continued(Job& job, int checkpoints, int discarded, const std::strin
 }
 
 // Is something wanted of every pair of modes?
-bool needs_pairs(const ReductionOptions& o) { return o.invariants == Invariants::full; }
+bool needs_pairs(const ReductionOptions& o) { return o.invariants == Invariants::full || relaxes(o); }
 
 bool needs_fields(const ReductionOptions& o) { return o.store == Store::all || needs_pairs(o); }
 
@@ -118,7 +119,9 @@ class ModalWriter {
  private:
   void set_pairs(WaitingModes& modes) {
     modes.close();
-    job_.plan.body.inertia.S_2 = second_moments(modes, scalar_mass(job_));
+    if (job_.options.invariants == Invariants::full)
+      job_.plan.body.inertia.S_2 = second_moments(modes, scalar_mass(job_));
+    set_relaxing(job_, modes);
   }
 
   Job& job_;

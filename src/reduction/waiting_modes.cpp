@@ -64,4 +64,17 @@ MatrixXd WaitingModes::block(Index first, Index count) const {
   return Phi;
 }
 
+MatrixXd project(const WaitingModes& modes, const model::SparseRows& K) {
+  const Index n_q = modes.size(), width = modes.block_width(K.rows());
+  MatrixXd K_r(n_q, n_q);
+  for (Index l = 0; l < n_q; l += width) {
+    const MatrixXd K_Phi = K * modes.block(l, std::min(width, n_q - l));
+    for (Index k = 0; k < n_q; k += width) {
+      const MatrixXd Phi = modes.block(k, std::min(width, n_q - k));
+      K_r.block(k, l, Phi.cols(), K_Phi.cols()).noalias() = Phi.transpose() * K_Phi;
+    }
+  }
+  return (K_r + K_r.transpose()) / 2;
+}
+
 }  // namespace elastogear::reduction

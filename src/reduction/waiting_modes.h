@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "elastogear/model/elastic_body.h"
+
 namespace elastogear::reduction {
 
 /// 24 n_nodes bytes a mode on disk.
@@ -27,5 +29,8 @@ class WaitingModes {
   struct Data;
   std::unique_ptr<Data> data_;
 };
+
+/// Phi' K Phi of closed modes, n_q x n_q, symmetric; K: 3 n_nodes square and symmetric. Memory: about 1 GB.
+Eigen::MatrixXd project(const WaitingModes& modes, const model::SparseRows& K);
 
 }  // namespace elastogear::reduction

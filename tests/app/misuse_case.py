@@ -35,6 +35,7 @@ COMMANDS = {
     "orthotropic": "{elastogear} reduce -mesh brick.inp -material_E1 40e9 -material_E2 10e9 -material_E3 10e9 -material_nu12 0.3 "
                    "-material_nu13 0.3 -material_nu23 0.4 -material_G12 5e9 -material_G13 5e9 -material_G23 4e9 "
                    "-material_rho 1900 -restrain FIX -basis modal -modes 5 -output kept.h5",
+    "polymer": "{reduce} -material_prony_tau 1e-3,10 -material_prony 0.3,0.2 -material_temperature_reference 293.15",
     "times": "-ts_dt 1e-7 -ts_max_time 1e-6 -output kept_run.h5",
     "single": "{elastogear} simulate -bodies a -a_file body.h5 {times}",
     "simulate": "{elastogear} simulate -bodies a,b -a_file body.h5 -b_file other.h5 -contact_pairs a:b {times}",

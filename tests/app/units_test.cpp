@@ -22,6 +22,9 @@ TEST(Units, convert_numbers_to_the_unit_of_an_option) {
   EXPECT_DOUBLE_EQ(converted("210 GPa", "Pa"), 210e9);
   EXPECT_DOUBLE_EQ(converted("-4000 N mm", "N m"), -4);
   EXPECT_DOUBLE_EQ(converted("30 rpm", "rad/s"), 3.14159265358979312);
+  EXPECT_DOUBLE_EQ(converted("-20 degC", "K"), 253.15);
+  EXPECT_DOUBLE_EQ(converted("300 K", "K"), 300);
+  EXPECT_DOUBLE_EQ(converted("80 kJ/mol", "J/mol"), 8e4);
 }
 
 TEST(Units, leave_plain_numbers_words_and_files_as_they_are) {

@@ -5,6 +5,8 @@
 #include "../fem/other_cells.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/io/describe.h"
+#include "elastogear/model/fingerprint.h"
 #include "sample_body.h"
 
 namespace elastogear::body_file_test {
@@ -165,6 +167,39 @@ TEST_F(BodyFile, gives_an_orthotropic_material_back) {
   }
 }
 
+TEST_F(BodyFile, gives_viscoelastic_materials_and_relaxing_parts_back) {
+  BodySource source = sample_source();
+  model::Viscoelastic series{{0.3, 0.2}, {0.1, 0}, {1e-3, 10}};
+  series.shift = {.law = model::TemperatureShift::Law::wlf, .C_1 = 17, .C_2 = 52, .T_ref = 300, .T = 320};
+  source.regions[1].material.viscoelastic = series;
+  model::ElasticBody body = sample_full_body();
+  body.relaxing = {{"even",
+                    model::ModulusPart::shear,
+                    Eigen::Vector2d(0.3, 0.2),
+                    Eigen::Vector2d(1e-3, 10),
+                    0.5 * body.K_r,
+                    {0}}};
+  BodyWriter(path, source.mesh.n_nodes(), 0).finish(body, source);
+  const model::ElasticBody read = read_body(path);
+  expect_equal(read, body);
+  ASSERT_EQ(read.relaxing.size(), 1u);
+  EXPECT_EQ(read.relaxing[0].cell_set, "even");
+  EXPECT_EQ(read.relaxing[0].part, model::ModulusPart::shear);
+  EXPECT_TRUE(read.relaxing[0].g == body.relaxing[0].g && read.relaxing[0].tau == body.relaxing[0].tau);
+  EXPECT_TRUE(equal_sparse(read.relaxing[0].K, body.relaxing[0].K));
+  EXPECT_EQ(read.relaxing[0].stress_node, body.relaxing[0].stress_node);
+  EXPECT_TRUE(read_body(path, BodyUse::motion).relaxing[0].stress_node.empty());
+  const auto regions = read_body_source(path).regions;
+  EXPECT_FALSE(regions[0].material.viscoelastic);
+  ASSERT_TRUE(regions[1].material.viscoelastic);
+  EXPECT_TRUE(regions[1].material.viscoelastic->g == series.g &&
+              regions[1].material.viscoelastic->k == series.k);
+  EXPECT_EQ(regions[1].material.viscoelastic->tau, series.tau);
+  EXPECT_EQ(model::shift_factor(regions[1].material.viscoelastic->shift), model::shift_factor(series.shift));
+  EXPECT_THAT(describe(path), HasSubstr("viscoelastic, moduli above are instantaneous: g = (0.3 0.2)"));
+  EXPECT_NE(model::fingerprint(read), model::fingerprint(sample_full_body()));
+}
+
 TEST_F(BodyFile, gives_cells_of_every_type_and_every_element_back) {
   const auto brick = test::brick({2, 2, 2}, {1, 1, 1});
   for (mesh::CellType type : test::all_cell_types())
@@ -307,12 +342,12 @@ TEST_F(BodyFile, of_another_version_is_an_error) {
   {
     const Opened opened(path);
     const hid_t version = H5Aopen(opened.file, "version", H5P_DEFAULT);
-    const int newer = 3;
+    const int newer = 4;
     H5Awrite(version, H5T_NATIVE_INT, &newer);
     H5Aclose(version);
   }
   EXPECT_THAT(message(path),
-              HasSubstr("has version 3 of the format 'elastogear body', this program reads versions 1 to 2"));
+              HasSubstr("has version 4 of the format 'elastogear body', this program reads versions 1 to 3"));
 }
 
 TEST_F(BodyFile, without_a_dataset_is_an_error_that_names_it) {

@@ -13,6 +13,10 @@ struct ElementFunctions {
   double (*smallest_jacobian)(const Eigen::Matrix3Xd& X);
   double (*volume)(const Eigen::Matrix3Xd& X);
   Eigen::MatrixXd (*stiffness)(const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element);
+  /// Stiffness by a part of the material's elasticity. Incompatible modes have the amplitudes that they have
+  /// with all of it, so that parts sum to the whole.
+  Eigen::MatrixXd (*stiffness_of_part)(const Eigen::Matrix3Xd& X, const Elasticity& material,
+                                       const Elasticity& part, model::Element element);
   Eigen::MatrixXd (*mass)(const Eigen::Matrix3Xd& X, double rho);  ///< scalar, n_nodes x n_nodes
   Eigen::MatrixXd (*stress)(const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element);
 };

@@ -12,12 +12,27 @@
 namespace elastogear::app {
 namespace {
 
-enum class Quantity { length, angle, time, mass, force, torque, pressure, speed, density, stiffness, wear };
+enum class Quantity {
+  length,
+  angle,
+  time,
+  mass,
+  force,
+  torque,
+  pressure,
+  speed,
+  density,
+  stiffness,
+  wear,
+  temperature,
+  molar_energy
+};
 
 struct Unit {
   const char* name;
   Quantity quantity;
-  double si;  // this many SI units
+  double si;        // this many SI units
+  double zero = 0;  // the value 0, in SI units
 };
 
 using enum Quantity;
@@ -64,7 +79,12 @@ constexpr Unit kUnits[] = {{"nm", length, 1e-9},
                            {"N/µm", stiffness, 1e6},
                            {"m^2/N", wear, 1},
                            {"mm^2/N", wear, 1e-6},
-                           {"mm^3/(N m)", wear, 1e-9}};
+                           {"mm^3/(N m)", wear, 1e-9},
+                           {"K", temperature, 1},
+                           {"degC", temperature, 1, 273.15},
+                           {"°C", temperature, 1, 273.15},
+                           {"J/mol", molar_energy, 1},
+                           {"kJ/mol", molar_energy, 1e3}};
 
 const Unit* find(const std::string& name) {
   const auto* unit =
@@ -90,7 +110,8 @@ std::string converted(const std::string& label, const std::string& text, const U
   require(unit && (!wanted || unit->quantity == wanted->quantity), label, " = '", word, "': '", name,
           "' is no unit of it", wanted ? ", write " + units_like(wanted->name) : "");
   char number[32];
-  std::snprintf(number, sizeof number, "%.17g", value * unit->si / (wanted ? wanted->si : 1));
+  const double si = value * unit->si + unit->zero;
+  std::snprintf(number, sizeof number, "%.17g", wanted ? (si - wanted->zero) / wanted->si : si);
   return number;
 }
 

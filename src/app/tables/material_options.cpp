@@ -4,11 +4,12 @@
 #include <set>
 
 #include "app/options/rows.h"
+#include "elastogear/base/error.h"
 
 namespace elastogear::app {
 namespace {
 
-using model::Material, model::Orientation, model::Orthotropic;
+using model::Material, model::Orientation, model::Orthotropic, model::TemperatureShift, model::Viscoelastic;
 
 // One number of a vector.
 auto component(Eigen::Vector3d Orthotropic::*vector, int i) {
@@ -50,9 +51,105 @@ const Rows<Orthotropic> kOrthotropic = {
      "rotation vector in these axes that turns them into the material's (a winding angle)"},
 };
 
+enum class Moduli { instantaneous, long_term };
+
+// A Prony series and the moduli that the elastic constants are.
+struct ViscoelasticInput {
+  Viscoelastic material = {};
+  std::vector<double> both = {};
+  Moduli moduli = Moduli::instantaneous;
+};
+
+auto shift(double TemperatureShift::*member) {
+  return [=](ViscoelasticInput& m) -> double& { return m.material.shift.*member; };
+}
+
+// Two numbers of the shift.
+auto two_numbers(double TemperatureShift::*first, double TemperatureShift::*second) {
+  return [=](const Options& options, const std::string& name, ViscoelasticInput& m) {
+    if (!options.given(name)) return;
+    const std::vector<double> numbers = options.numbers(name);
+    require(numbers.size() == 2, options.label(name), ": must be two numbers");
+    m.material.shift.*first = numbers[0];
+    m.material.shift.*second = numbers[1];
+  };
+}
+
+const Rows<ViscoelasticInput> kViscoelastic = {
+    {"<material>_prony_tau", in(&ViscoelasticInput::material, &Viscoelastic::tau), "s",
+     "viscoelastic: relaxation times of a Prony series, at the reference temperature"},
+    {"<material>_prony", &ViscoelasticInput::both, "-",
+     "relative moduli of its terms, shares of the instantaneous moduli, for shear and bulk together: "
+     "Poisson's "
+     "ratio is constant"},
+    {"<material>_prony_g", in(&ViscoelasticInput::material, &Viscoelastic::g), "-",
+     "in place of prony: relative shear moduli"},
+    {"<material>_prony_k", in(&ViscoelasticInput::material, &Viscoelastic::k), "-",
+     "in place of prony: relative bulk moduli (with prony_g alone: zeros)"},
+    {"<material>_moduli", &ViscoelasticInput::moduli, one_of("instantaneous", "long_term"),
+     "what E and nu, or E1 ... of a viscoelastic material are: instantaneous (glassy) or long_term "
+     "(relaxed)"},
+    {"<material>_wlf", "-", "",
+     "temperature shift of Williams, Landel and Ferry: C_1 (-) and C_2 (K) at the reference temperature",
+     two_numbers(&TemperatureShift::C_1, &TemperatureShift::C_2)},
+    {"<material>_activation_energy", shift(&TemperatureShift::E_a), "J/mol",
+     "temperature shift of Arrhenius: activation energy", kPositive | kDependent},
+    {"<material>_temperature_reference", shift(&TemperatureShift::T_ref), "K",
+     "temperature of the relaxation times prony_tau", kPositive | kDependent},
+    {"<material>_temperature", shift(&TemperatureShift::T), "K",
+     "temperature of the material (default: the reference temperature)", kPositive | kDependent},
+    {"<material>_temperature_range", "K", "",
+     "least and largest temperature for which the shift is known; others are refused",
+     two_numbers(&TemperatureShift::T_least, &TemperatureShift::T_most)},
+};
+
 bool given(const Options& options, const std::string& prefix, std::initializer_list<const char*> names) {
   return std::any_of(names.begin(), names.end(),
                      [&](const char* name) { return options.given(prefix + name); });
+}
+
+// The Prony series of both moduli from what is given.
+void set_moduli(const Options& options, const std::string& name, ViscoelasticInput& input) {
+  const bool apart = given(options, name + "_", {"prony_g", "prony_k"});
+  require(options.given(name + "_prony") != apart, "option -", name,
+          "_prony_tau needs the relative moduli of the series: -", name,
+          "_prony for shear and bulk together, or -", name, "_prony_g and -", name, "_prony_k");
+  Viscoelastic& m = input.material;
+  if (!apart) m.g = m.k = input.both;
+  for (std::vector<double>* relative : {&m.g, &m.k})
+    if (apart && relative->empty()) relative->assign(m.tau.size(), 0);
+}
+
+void set_shift(const Options& options, const std::string& name, TemperatureShift& shift) {
+  const bool wlf = options.given(name + "_wlf"), arrhenius = options.given(name + "_activation_energy");
+  require(!wlf || !arrhenius, "options -", name, "_wlf and -", name,
+          "_activation_energy: only one of them can be the temperature shift");
+  for (const char* key : {"_temperature", "_temperature_reference", "_temperature_range"})
+    require(wlf || arrhenius || !options.given(name + key), "option -", name, key,
+            " needs a temperature shift, -", name, "_wlf or -", name, "_activation_energy");
+  if (!wlf && !arrhenius) return;
+  require(options.given(name + "_temperature_reference"), "option -", name,
+          "_temperature_reference is missing: the temperature of -", name, "_prony_tau");
+  shift.law = wlf ? TemperatureShift::Law::wlf : TemperatureShift::Law::arrhenius;
+  if (!options.given(name + "_temperature")) shift.T = shift.T_ref;
+}
+
+bool is_viscoelastic(const Options& options, const std::string& name) {
+  if (options.given(name + "_prony_tau")) return true;
+  for (const Row<ViscoelasticInput>& row : kViscoelastic)
+    require(!options.given(with_word(row.spec.name, name)), "option -", with_word(row.spec.name, name),
+            " needs -", name, "_prony_tau, the relaxation times of a viscoelastic material");
+  return false;
+}
+
+Material relaxing(const Options& options, const std::string& name, Material material) {
+  ViscoelasticInput input;
+  read_rows(options, kViscoelastic, input, name);
+  set_moduli(options, name, input);
+  set_shift(options, name, input.material.shift);
+  model::validate(input.material, options.label(name + "_prony_tau"));
+  material.viscoelastic = input.material;
+  return input.moduli == Moduli::long_term ? model::from_long_term(material) : material;
 }
 
 // name: "material" or "material_<set>".
@@ -64,13 +161,20 @@ Material material(const Options& options, const std::string& name) {
     material.rho = options.positive(name + "_rho");
     read_rows(options, kOrthotropic, material.orthotropic.emplace(), name);
   }
-  return material;
+  return is_viscoelastic(options, name) ? relaxing(options, name, material) : material;
 }
 
 // All numbers of a material; visit(x) sees them in the same order for writing and reading.
 template <class Visit>
 void visit_numbers(model::Material& material, const Visit& visit) {
   for (double* x : {&material.E, &material.nu, &material.rho}) visit(*x);
+  if (material.viscoelastic) {
+    TemperatureShift& s = material.viscoelastic->shift;
+    for (double* x : {&s.C_1, &s.C_2, &s.E_a, &s.T_ref, &s.T, &s.T_least, &s.T_most}) visit(*x);
+    for (std::vector<double>* v :
+         {&material.viscoelastic->g, &material.viscoelastic->k, &material.viscoelastic->tau})
+      for (double& x : *v) visit(x);
+  }
   if (!material.orthotropic) return;
   model::Orthotropic& m = *material.orthotropic;
   model::Orientation& o = m.orientation;
@@ -81,6 +185,19 @@ void visit_numbers(model::Material& material, const Visit& visit) {
 // MPI's own errors end the program.
 void broadcast(MPI_Comm comm, int& value) { MPI_Bcast(&value, 1, MPI_INT, 0, comm); }
 
+// Number of terms, and the law.
+void broadcast_sizes(MPI_Comm comm, std::optional<Viscoelastic>& viscoelastic) {
+  int n = viscoelastic ? static_cast<int>(viscoelastic->tau.size()) : 0;
+  broadcast(comm, n);
+  if (n == 0) return;
+  if (!viscoelastic) viscoelastic.emplace();
+  for (std::vector<double>* v : {&viscoelastic->g, &viscoelastic->k, &viscoelastic->tau})
+    v->resize(static_cast<std::size_t>(n));
+  int law = static_cast<int>(viscoelastic->shift.law);
+  broadcast(comm, law);
+  viscoelastic->shift.law = static_cast<TemperatureShift::Law>(law);
+}
+
 void broadcast(MPI_Comm comm, model::MaterialRegion& region) {
   auto& [name, material] = region;
   int length = static_cast<int>(name.size()), orthotropic = material.orthotropic.has_value();
@@ -89,6 +206,7 @@ void broadcast(MPI_Comm comm, model::MaterialRegion& region) {
   MPI_Bcast(name.data(), length, MPI_CHAR, 0, comm);
   broadcast(comm, orthotropic);
   if (orthotropic && !material.orthotropic) material.orthotropic.emplace();
+  broadcast_sizes(comm, material.viscoelastic);
   visit_numbers(material, [comm](double& x) { MPI_Bcast(&x, 1, MPI_DOUBLE, 0, comm); });
   if (!orthotropic) return;
   auto& system = material.orthotropic->orientation.system;
@@ -102,7 +220,7 @@ void broadcast(MPI_Comm comm, model::MaterialRegion& region) {
 OptionTable material_table() {
   OptionTable table;
   for (const auto& [name, of] : {std::pair{"material", ""}, {"material_<set>", " (one cell set)"}})
-    for (OptionSpec spec : table_of(kIsotropic, kOrthotropic)) {
+    for (OptionSpec spec : table_of(kIsotropic, kOrthotropic, kViscoelastic)) {
       spec.name = with_word(spec.name, name);
       spec.help += of;
       table.push_back(spec);

@@ -14,6 +14,8 @@ constexpr ElementFunctions kHex8 = {
     [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element) -> Eigen::MatrixXd {
       return hex8::stiffness(X, material, element);
     },
+    [](const Eigen::Matrix3Xd& X, const Elasticity& material, const Elasticity& part, model::Element element)
+        -> Eigen::MatrixXd { return hex8::stiffness_of_part(X, material, part, element); },
     [](const Eigen::Matrix3Xd& X, double rho) -> Eigen::MatrixXd { return hex8::mass(X, rho); },
     [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element element) -> Eigen::MatrixXd {
       return hex8::stress(X, material, element);

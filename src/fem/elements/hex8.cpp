@@ -218,6 +218,18 @@ Stiffness stiffness(const Coordinates& X, const Elasticity& material, model::Ele
   return (K_e + K_e.transpose()) / 2;
 }
 
+Stiffness stiffness_of_part(const Coordinates& X, const Elasticity& material, const Elasticity& part,
+                            model::Element element) {
+  const FullStiffness K = full_stiffness(X, part, element);
+  if (element != model::Element::incompatible) return K.topLeftCorner<24, 24>();
+  Eigen::Matrix<double, 3 * kFunctions, 24> T;
+  T.topRows<24>().setIdentity();
+  T.bottomRows<9>() = condensation(full_stiffness(X, material, element));
+  const Eigen::Matrix<double, 3 * kFunctions, 24> KT = K * T;
+  const Stiffness K_e = T.transpose() * KT;
+  return (K_e + K_e.transpose()) / 2;
+}
+
 Mass mass(const Coordinates& X, double rho) {
   Mass M = Mass::Zero();
   for (const Sample& point : mass_points()) {

@@ -31,6 +31,11 @@ double smallest_jacobian(const Coordinates& X);
 /// Stiffness K_e of the cell, 2x2x2 Gauss points.
 Stiffness stiffness(const Coordinates& X, const Elasticity& material, model::Element element);
 
+/// Stiffness of the cell by a part of the material's elasticity, with the incompatible amplitudes of the
+/// whole material: parts sum to stiffness(). docs/theory.md, Eq. (1.13).
+Stiffness stiffness_of_part(const Coordinates& X, const Elasticity& material, const Elasticity& part,
+                            model::Element element);
+
 /// Consistent mass, 3x3x3 Gauss points: exact for every trilinear hexahedron.
 Mass mass(const Coordinates& X, double rho);
 

@@ -81,6 +81,9 @@ constexpr ElementFunctions kIsoparametric = {
     [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element) {
       return stiffness<n, n_points>(reference_cell(type), X, material);
     },
+    [](const Eigen::Matrix3Xd& X, const Elasticity&, const Elasticity& part, model::Element) {
+      return stiffness<n, n_points>(reference_cell(type), X, part);
+    },
     [](const Eigen::Matrix3Xd& X, double rho) { return mass(reference_cell(type), X, rho); },
     [](const Eigen::Matrix3Xd& X, const Elasticity& material, model::Element) {
       return stress<n>(reference_cell(type), X, material);

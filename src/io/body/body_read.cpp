@@ -4,6 +4,7 @@
 #include "io/body/basis_rows.h"
 #include "io/body/body_schema.h"
 #include "io/body/flexibility_group.h"
+#include "io/body/relaxing_group.h"
 #include "io/hdf5/checks.h"
 
 namespace elastogear::io {
@@ -79,7 +80,8 @@ model::Material read_material(const h5::File& file, const std::string& group) {
   const auto vector = [&](const char* name) -> Eigen::Vector3d {
     return Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, group + name, {3}).data());
   };
-  if (!h5::exists(file, group + "/G")) return {number("/E"), number("/nu"), number("/rho")};
+  const auto viscoelastic = read_viscoelastic(file, group);
+  if (!h5::exists(file, group + "/G")) return {number("/E"), number("/nu"), number("/rho"), {}, viscoelastic};
   model::Orthotropic m{vector("/E"), vector("/nu"), vector("/G"), {}};
   m.orientation.system = parse_system(file.path, h5::string_attribute(file, group, "orientation"));
   m.orientation.axis_1 = vector("/axis_1");
@@ -87,7 +89,7 @@ model::Material read_material(const h5::File& file, const std::string& group) {
   m.orientation.origin = vector("/origin");
   m.orientation.axis = vector("/axis");
   m.orientation.rotation = vector("/rotation");
-  return {0, 0, number("/rho"), m};
+  return {0, 0, number("/rho"), m, viscoelastic};
 }
 
 std::vector<model::MaterialRegion> read_materials(const h5::File& file) {
@@ -147,6 +149,7 @@ model::ElasticBody read_body(const std::string& path, BodyUse use) {
   if (use == BodyUse::all) body.stress = read_stress(file);
   body.markers = read_markers(file);
   body.flexibility = read_flexibility(file);
+  body.relaxing = read_relaxing(file, use == BodyUse::all);
   model::validate(body, path);
   return body;
 }

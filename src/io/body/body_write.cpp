@@ -6,6 +6,7 @@
 #include "io/body/basis_rows.h"
 #include "io/body/body_schema.h"
 #include "io/body/flexibility_group.h"
+#include "io/body/relaxing_group.h"
 #include "io/hdf5/checks.h"
 
 namespace elastogear::io {
@@ -93,6 +94,7 @@ void write_checks(const h5::File& file, const ModeChecks& checks) {
 // Datasets of E, nu, rho, and for orthotropic materials of the constants and the axes.
 void write_material(const h5::File& file, const std::string& group, const model::Material& material) {
   h5::write<double>(file, group + "/rho", view(material.rho), "kg/m^3");
+  if (material.viscoelastic) write_viscoelastic(file, group, *material.viscoelastic);
   if (!material.orthotropic) {
     h5::write<double>(file, group + "/E", view(material.E), "Pa");
     h5::write<double>(file, group + "/nu", view(material.nu), "1");
@@ -195,6 +197,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   write_stress(file, body.stress, unit);
   write_markers(file, body, unit);
   write_flexibility(file, body.flexibility);
+  write_relaxing(file, body, unit.K);
   h5::write<int>(file, "/reduced/free_dof", view(source.free_dof), "1");
   write_mesh(file, source.mesh);
   write_materials(file, source.regions);
