@@ -16,7 +16,8 @@ def cut(source, target, n):
             if isinstance(item, h5py.Group):
                 made = new.require_group(name)
             else:
-                axes = MODE_AXES.get(name, ())
+                is_part = name.startswith("relaxing/") and name.endswith("/K")
+                axes = (0, 1) if is_part else MODE_AXES.get(name, ())
                 made = new.create_dataset(name, data=item[tuple(slice(n) if i in axes else slice(None)
                                                                 for i in range(item.ndim))],
                                             dtype=item.dtype)

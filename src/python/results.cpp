@@ -181,6 +181,8 @@ struct Body {
   }
 
   py::array stress(const std::string& set, const py::object& q) const {
+    require(body->relaxing.empty(), path,
+            ": is viscoelastic, and its stress depends on its history: recover takes that from the result");
     const std::vector<int>& nodes = members(set);
     const py::array_t<double> x = numbers_of(q, 1, "q");
     require(x.size() == body->n_q(), "q: has ", x.size(), " numbers, the body has ", body->n_q(),

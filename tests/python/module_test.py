@@ -265,6 +265,18 @@ class BadInput(WithDrive):
         with self.assertRaisesRegex(eg.Error, "no set 'tip' of stress nodes; it has: root"):
             body.stress("tip", [0] * 4)
 
+    def test_stresses_of_a_polymer_depend_on_its_history(self):
+        corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        with open("cube.inp", "w", encoding="utf-8") as file:
+            file.write("*NODE\n" + "".join(f"{i + 1}, {x}, {y}, {z}\n" for i, (x, y, z) in enumerate(corners)))
+            file.write("*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*NSET, NSET=FIX\n1, 2, 3, 4\n*NSET, NSET=TOP\n5, 6, 7, 8\n")
+        material = {"E": 3e9, "nu": 0.4, "rho": 1100, "prony_tau": 1, "prony": 0.3}
+        done = command("reduce", "-mesh", "cube.inp", *[word for key, value in material.items() for word in (f"-material_{key}", str(value))],
+                       "-restrain", "FIX", "-stress_nodes", "TOP", "-basis", "modal", "-modes", "2", "-output", "cube.h5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with self.assertRaisesRegex(eg.Error, "cube.h5: is viscoelastic"):
+            eg.Body("cube.h5").stress("TOP", [1, 0])
+
     def test_options(self):
         for source, message in [({}, "option -drive is missing"), ({"drive": float("nan")}, "must be one of"),
                                 ({"drive": {1, 2}}, "numbers, texts, lists"), ({"drive": object()}, "numbers, texts"),
