@@ -253,7 +253,7 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
                             std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0);
   // Deformed facets have slopes of their own along a line of contact, which rigid ones have not.
-  constexpr double kRigidLine = 1e-3, kElasticLine = 1e-2;
+  constexpr double kRigidLine = 1e-3, kElasticLine = 5e-2;
   const double line = settings.law == ContactLaw::unilateral ? kElasticLine : kRigidLine;
   const GapField field{master,     slave,           side[slave_side].heights, reach,
                        slave_side, settings.offset, is_whole(slave_side),     line};
