@@ -19,7 +19,7 @@ recovery::UnreducedResponse unreduced_response(const io::BodySource& source, boo
 }
 
 Eigen::MatrixXd nodal_stress(const io::BodySource& source, const Eigen::VectorXd& u) {
-  return fem::nodal_stress(source.mesh, source.regions, source.element, u);
+  return fem::nodal_stress({source.mesh, source.regions, source.element}, u);
 }
 
 std::vector<int> node_regions(const io::BodySource& source) {

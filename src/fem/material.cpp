@@ -127,6 +127,15 @@ std::vector<Matrix6> elasticity_at(const Orthotropy& material, const Eigen::Matr
   return H;
 }
 
+Matrix6 elasticity_matrix(const model::Material& material, const Eigen::Vector3d& x) {
+  if (material.orthotropic) return elasticity_at(std::get<Orthotropy>(elasticity(material)), x).front();
+  const auto [lambda, mu] = lame(material);
+  Matrix6 H = Matrix6::Zero();
+  H.diagonal() << 2 * mu, 2 * mu, 2 * mu, mu, mu, mu;
+  H.topLeftCorner<3, 3>().array() += lambda;
+  return H;
+}
+
 double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n, const Eigen::Vector3d& x) {
   if (!material.orthotropic) return material.E;
   const auto H = elasticity_at(std::get<Orthotropy>(elasticity(material)), x);

@@ -1,9 +1,11 @@
 #include "elastogear/fem/stress.h"
 
 #include <limits>
+#include <optional>
 
 #include "elastogear/base/error.h"
 #include "elastogear/fem/element.h"
+#include "fem/surface/surface_stress.h"
 
 namespace elastogear::fem {
 namespace {
@@ -34,15 +36,14 @@ Eigen::MatrixXd element_stress(const mesh::Mesh& mesh, int cell, const model::Ma
   return functions.stress(cell_coordinates(mesh, cell), elasticity(material), element);
 }
 
-Eigen::VectorXd cell_displacement(const mesh::Mesh& mesh, int cell, const Eigen::VectorXd& u) {
-  const auto nodes = mesh.cells[cell];
+Eigen::VectorXd displacements(std::span<const int> nodes, const Eigen::VectorXd& u) {
   Eigen::VectorXd u_e(3 * nodes.size());
   for (std::size_t a = 0; a < nodes.size(); ++a)
     u_e.segment<3>(static_cast<Eigen::Index>(3 * a)) = u.segment<3>(3 * nodes[a]);
   return u_e;
 }
 
-// Adds the 6 rows of the cell's node `a` to the operator's rows 6 i ..
+// Adds 6 rows S_a for the displacements of some nodes to the operator's rows 6 i ..
 void add_rows(std::vector<Eigen::Triplet<double>>& entries, int i, std::span<const int> nodes,
               const Eigen::MatrixXd& S_a) {
   for (int row = 0; row < 6; ++row)
@@ -50,17 +51,45 @@ void add_rows(std::vector<Eigen::Triplet<double>>& entries, int i, std::span<con
       entries.emplace_back(6 * i + row, 3 * nodes[static_cast<std::size_t>(b / 3)] + b % 3, S_a(row, b));
 }
 
+// Recovery at free surfaces, where the body asks for it.
+class SurfaceRecovery {
+ public:
+  SurfaceRecovery(const StressedBody& body, const Averaging& average) : body_(body), average_(average) {
+    if (body.recovery.method == model::RecoveryMethod::surface)
+      surface_.emplace(body, average.region_of_cell);
+  }
+
+  /// Rows at a node of a cell; nothing where the mean is to be taken.
+  std::optional<SurfaceRows> operator()(int node) const {
+    if (!surface_) return {};
+    return surface_stress(*surface_, body_.mesh.X, body_.regions[average_.region[node]].material, node);
+  }
+
+ private:
+  const StressedBody& body_;
+  const Averaging& average_;
+  std::optional<FreeSurface> surface_;
+};
+
 }  // namespace
 
-model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
-                                  model::Element element, const std::vector<int>& nodes) {
-  const Averaging average = find_averaging(mesh, regions);
+model::SparseRows stress_operator(const StressedBody& body, const std::vector<int>& nodes) {
+  const mesh::Mesh& mesh = body.mesh;
+  const Averaging average = find_averaging(mesh, body.regions);
   std::vector<int> local(static_cast<std::size_t>(mesh.n_nodes()), -1);
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
     require(average.count[nodes[i]] > 0, "stress node ", nodes[i], " (counted from 0) belongs to no cell");
     local[nodes[i]] = i;
   }
   std::vector<Eigen::Triplet<double>> entries;
+  const SurfaceRecovery recover(body, average);
+  for (int node : nodes) {
+    if (local[node] < 0) continue;
+    if (const auto rows = recover(node)) {
+      add_rows(entries, local[node], rows->node, rows->S);
+      local[node] = -1;
+    }
+  }
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     Eigen::MatrixXd S_e;
     const auto cell_nodes = mesh.cells[cell];
@@ -68,7 +97,7 @@ model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<mode
       const int node = cell_nodes[a];
       if (local[node] < 0 || !average.counts(cell, node)) continue;
       if (S_e.size() == 0)
-        S_e = element_stress(mesh, cell, regions[average.region_of_cell[cell]].material, element);
+        S_e = element_stress(mesh, cell, body.regions[average.region_of_cell[cell]].material, body.element);
       add_rows(entries, local[node], cell_nodes, S_e.middleRows(6 * a, 6) / average.count[node]);
     }
   }
@@ -84,21 +113,25 @@ std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model:
   return average.region;
 }
 
-Eigen::MatrixXd nodal_stress(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
-                             model::Element element, const Eigen::VectorXd& u) {
+Eigen::MatrixXd nodal_stress(const StressedBody& body, const Eigen::VectorXd& u) {
+  const mesh::Mesh& mesh = body.mesh;
   require(u.size() == 3 * mesh.n_nodes(), "displacement has ", u.size(), " entries, the mesh needs ",
           3 * mesh.n_nodes());
-  const Averaging average = find_averaging(mesh, regions);
+  const Averaging average = find_averaging(mesh, body.regions);
   Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(6, mesh.n_nodes());
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const model::Material& material = regions[average.region_of_cell[cell]].material;
+    const model::Material& material = body.regions[average.region_of_cell[cell]].material;
     const Eigen::VectorXd s =
-        element_stress(mesh, cell, material, element) * cell_displacement(mesh, cell, u);
+        element_stress(mesh, cell, material, body.element) * displacements(mesh.cells[cell], u);
     const auto nodes = mesh.cells[cell];
     for (std::size_t a = 0; a < nodes.size(); ++a)
       if (average.counts(cell, nodes[a]))
         sigma.col(nodes[a]) += s.segment<6>(static_cast<Eigen::Index>(6 * a)) / average.count[nodes[a]];
   }
+  const SurfaceRecovery recover(body, average);
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    if (average.count[node] > 0)
+      if (const auto rows = recover(node)) sigma.col(node) = rows->S * displacements(rows->node, u);
   return sigma;
 }
 

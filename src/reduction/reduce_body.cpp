@@ -217,7 +217,7 @@ model::SparseRows field_operator(const Job& job) {
   const model::Stress& stress = job.plan.body.stress;
   const model::SparseRows Q = marker_operator(mesh, job.options.markers, job.options.marker_weights);
   if (stress.node.empty()) return Q;
-  const model::SparseRows S = fem::stress_operator(mesh, job.regions, job.options.element, stress.node);
+  const model::SparseRows S = fem::stress_operator({mesh, job.regions, job.options.element}, stress.node);
   model::SparseRows both(S.rows() + Q.rows(), S.cols());
   both.topRows(S.rows()) = S;
   both.bottomRows(Q.rows()) = Q;

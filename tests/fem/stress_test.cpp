@@ -29,7 +29,7 @@ TEST(StressOperator, shows_force_over_area_in_a_bar_under_tension) {
   const auto mesh = test::distorted(test::brick({6, 3, 3}, {1, 0.2, 0.3}), 0.02);
   const double F = 12e3, A = 0.2 * 0.3;
   for (Element element : {Element::plain, Element::incompatible}) {
-    const auto S = fem::stress_operator(mesh, test::kSteelBody, element, {5, 40, 111});
+    const auto S = fem::stress_operator({mesh, test::kSteelBody, element}, {5, 40, 111});
     const Eigen::VectorXd sigma = S * tension(mesh, F / A);
     for (int i = 0; i < 3; ++i) {
       Eigen::VectorXd expected = Eigen::VectorXd::Unit(6, 0) * F / A;
@@ -41,8 +41,8 @@ TEST(StressOperator, shows_force_over_area_in_a_bar_under_tension) {
 TEST(StressOperator, equals_the_whole_field) {
   const auto mesh = test::distorted(test::brick({3, 3, 2}, {1, 0.4, 0.3}), 0.02);
   const Eigen::VectorXd u = Eigen::VectorXd::Random(3 * mesh.n_nodes());
-  const auto S = fem::stress_operator(mesh, test::kSteelBody, Element::incompatible, all_nodes(mesh));
-  const Eigen::MatrixXd field = fem::nodal_stress(mesh, test::kSteelBody, Element::incompatible, u);
+  const auto S = fem::stress_operator({mesh, test::kSteelBody, Element::incompatible}, all_nodes(mesh));
+  const Eigen::MatrixXd field = fem::nodal_stress({mesh, test::kSteelBody, Element::incompatible}, u);
   EXPECT_LT((S * u - field.reshaped()).norm(), kRoundoff * field.norm());
 }
 
@@ -54,7 +54,7 @@ TEST(NodalStress, takes_one_region_only_at_an_interface) {
   for (bool steel_first : {true, false}) {
     std::vector<model::MaterialRegion> regions{{"", test::kSteel}, {"rim", soft}};
     if (!steel_first) std::swap(regions[0], regions[1]);
-    const Eigen::MatrixXd sigma = fem::nodal_stress(mesh, regions, Element::incompatible, u);
+    const Eigen::MatrixXd sigma = fem::nodal_stress({mesh, regions, Element::incompatible}, u);
     const double on_interface = steel_first ? 1e6 : 1e5, tolerance = kRoundoff * test::kSteel.E;
     for (int i = 0; i < mesh.n_nodes(); ++i) {
       const double x = mesh.X(0, i);
@@ -67,7 +67,7 @@ TEST(StressOperator, at_a_node_of_no_cell_is_an_error) {
   auto mesh = test::brick({2, 1, 1}, {2, 1, 1});
   mesh.X.conservativeResize(3, mesh.n_nodes() + 1);
   mesh.X.rightCols<1>().setZero();
-  EXPECT_THROW(fem::stress_operator(mesh, test::kSteelBody, Element::plain, {mesh.n_nodes() - 1}), Error);
+  EXPECT_THROW(fem::stress_operator({mesh, test::kSteelBody, Element::plain}, {mesh.n_nodes() - 1}), Error);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ FiniteElements finite_elements() {
                 [factor](const auto& loaded, const auto& nodes) { return factor->stress(loaded, nodes); }};
           },
           [](const io::BodySource& source, const Eigen::VectorXd& u) {
-            return fem::nodal_stress(source.mesh, source.regions, source.element, u);
+            return fem::nodal_stress({source.mesh, source.regions, source.element}, u);
           }};
 }
 

@@ -23,7 +23,7 @@ struct Example {
   Example() {
     body.surface.node = mesh.node_sets["zmax"];
     body.stress.node = mesh.node_sets["xmax"];
-    S = fem::stress_operator(mesh, test::kSteelBody, model::Element::incompatible, body.stress.node);
+    S = fem::stress_operator({mesh, test::kSteelBody, model::Element::incompatible}, body.stress.node);
   }
 };
 

@@ -78,7 +78,7 @@ TEST(Reduce, writes_a_body_that_fits_its_own_modes) {
   EXPECT_EQ(body.n_q(), 12);
   EXPECT_EQ(body.frequency, report.frequency);
   EXPECT_EQ(source.free_dof.size(), static_cast<std::size_t>(report.n_free));
-  const auto S = fem::stress_operator(mesh, options.regions, options.element, body.stress.node);
+  const auto S = fem::stress_operator({mesh, options.regions, options.element}, body.stress.node);
   for (int k = 0; k < 12; ++k) {
     const Eigen::VectorXd q = Eigen::VectorXd::Unit(12, k);
     const Eigen::Matrix3Xd u = io::read_displacement_field(output, q);

@@ -69,7 +69,7 @@ Eigen::MatrixXd our_stress(const mesh::Mesh& mesh, const Forces& forces, model::
   const auto system = test::assemble(mesh, {kHeld}, PETSC_COMM_SELF, test::kSteelBody, element);
   Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
   for (const auto& [node, value] : forces) f.segment<3>(3 * node) = value;
-  return fem::nodal_stress(mesh, test::kSteelBody, element, solve(system, f));
+  return fem::nodal_stress({mesh, test::kSteelBody, element}, solve(system, f));
 }
 
 std::vector<double> von_mises_at(const std::vector<int>& nodes, const Eigen::MatrixXd& stress) {

@@ -40,6 +40,9 @@ Eigen::Matrix3d material_axes(const model::Orientation& orientation, const Eigen
 /// H in the body frame at each of the points x, 3 x n, m. Eq. (1.8).
 std::vector<Matrix6> elasticity_at(const Orthotropy& material, const Eigen::Matrix3Xd& x);
 
+/// H in the body frame at the point x (m), Pa, of any material.
+Matrix6 elasticity_matrix(const model::Material& material, const Eigen::Vector3d& x);
+
 /// Young's modulus E_n in the direction n at the point x (m), Pa (section 1.3).
 double youngs_modulus(const model::Material& material, const Eigen::Vector3d& n, const Eigen::Vector3d& x);
 

@@ -1,7 +1,8 @@
 #pragma once
-// Nodal stress: the element's extrapolated stresses, averaged at each node.
+// Nodal stress: the element's extrapolated stresses, averaged at each node, or on free surfaces the stress
+// that the strains of the surface and its zero traction give (docs/theory.md, section 1.5).
 //
-// The value at a node is the plain (unweighted) mean over the adjacent cells of *one* material region. Across
+// The mean at a node is the plain (unweighted) mean over the adjacent cells of *one* material region. Across
 // an interface stress jumps, so regions are never mixed: a node on an interface takes the region that comes
 // first in the list of regions. Plain, because on hexahedra of unequal size a weight by volume would favour
 // the cell whose stress was sampled farther away.
@@ -10,23 +11,20 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "elastogear/mesh/mesh.h"
+#include "elastogear/fem/stressed_body.h"
 #include "elastogear/model/elastic_body.h"
-#include "elastogear/model/material.h"
 
 namespace elastogear::fem {
 
 /// S at the given nodes, 6 n_e x 3 n_nodes, Pa/m: rows 6 i .. 6 i + 5 are xx yy zz xy yz xz at nodes[i].
 /// Throws Error when a node belongs to no cell. docs/theory.md, Eq. (4.1).
-model::SparseRows stress_operator(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
-                                  model::Element element, const std::vector<int>& nodes);
+model::SparseRows stress_operator(const StressedBody& body, const std::vector<int>& nodes);
 
 /// Index into `regions` of the region whose stress each node of the mesh has; -1 outside all cells.
 std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
 
 /// Stress at all nodes for one displacement u (3 n_nodes, m, node-major): 6 x n_nodes, Pa, without forming S.
 /// Nodes outside all cells get 0.
-Eigen::MatrixXd nodal_stress(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
-                             model::Element element, const Eigen::VectorXd& u);
+Eigen::MatrixXd nodal_stress(const StressedBody& body, const Eigen::VectorXd& u);
 
 }  // namespace elastogear::fem

@@ -41,7 +41,7 @@ void add_stress_rows(const FlexibilityTask& task, const fem::MeshedBody& body,
     first.push_back(all[plan.stress.node(0, orbit)]);
   wanted.n_stress_rows = static_cast<int>(6 * first.size());
   if (first.empty()) return;
-  const model::SparseRows S = fem::stress_operator(body.mesh, body.regions, body.element, first);
+  const model::SparseRows S = fem::stress_operator({body.mesh, body.regions, body.element}, first);
   for (int row = 0; row < wanted.n_stress_rows; ++row)
     for (model::SparseRows::InnerIterator it(S, row); it; ++it) {
       const auto node = static_cast<std::size_t>(it.col() / 3);

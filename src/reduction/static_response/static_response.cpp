@@ -121,7 +121,7 @@ Eigen::VectorXd StaticResponse::displacement(const std::vector<int>& loaded, con
 Eigen::MatrixXd StaticResponse::stress(const std::vector<int>& loaded, const std::vector<int>& evaluated) {
   const io::BodySource& source = data_->source;
   const model::SparseRows S =
-      data_->in_rows(fem::stress_operator(source.mesh, source.regions, source.element, evaluated));
+      data_->in_rows(fem::stress_operator({source.mesh, source.regions, source.element}, evaluated));
   const auto n = 3 * static_cast<Eigen::Index>(loaded.size());
   Eigen::MatrixXd G(S.rows(), n);
   for (Eigen::Index begin = 0; begin < n; begin += kSolvedTogether) {
