@@ -4,6 +4,7 @@
 
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/static_response.h"
+#include "elastogear/reduction/stressed_body.h"
 
 namespace elastogear::app {
 namespace {
@@ -19,7 +20,7 @@ recovery::UnreducedResponse unreduced_response(const io::BodySource& source, boo
 }
 
 Eigen::MatrixXd nodal_stress(const io::BodySource& source, const Eigen::VectorXd& u) {
-  return fem::nodal_stress({source.mesh, source.regions, source.element}, u);
+  return fem::nodal_stress(reduction::stressed_body(source), u);
 }
 
 std::vector<int> node_regions(const io::BodySource& source) {

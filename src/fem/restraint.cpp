@@ -153,6 +153,12 @@ std::vector<int> free_dofs(const std::vector<mesh::Directions>& held) {
   return dofs;
 }
 
+std::vector<mesh::Directions> held_directions(const std::vector<int>& free_dof, int n_nodes) {
+  std::vector<mesh::Directions> held(static_cast<std::size_t>(n_nodes), mesh::kAllDirections);
+  for (int dof : free_dof) held[dof / 3] = static_cast<mesh::Directions>(held[dof / 3] & ~(1 << dof % 3));
+  return held;
+}
+
 void require_held(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& held) {
   const std::vector<int> part = connected_parts(mesh);
   std::map<int, std::vector<int>> nodes_of;

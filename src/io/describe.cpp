@@ -166,7 +166,11 @@ void describe_body(Out& out, const std::string& path) {
   line(out, "surface: ", counted(body.surface.node.size(), "node"), ", ",
        counted(body.surface.face.cols(), "face"), " in ", counted(body.surface.group_name.size(), "group"),
        groups.empty() ? "" : ":", groups);
-  line(out, "stress: ", counted(body.stress.node.size(), "node"));
+  line(out, "stress: ", counted(body.stress.node.size(), "node"), ", recovered by ",
+       recovery_name(source.recovery.method),
+       source.recovery.method == model::RecoveryMethod::surface
+           ? ", forces may act on " + counted(source.recovery.loaded.size(), "node")
+           : "");
   for (const model::Marker& marker : body.markers)
     line(out, "marker ", marker.name, ": (", marker.X.transpose().format(kRow), ") m",
          marker.turns ? "" : ", without rotation: its nodes lie on a line");

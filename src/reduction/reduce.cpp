@@ -92,8 +92,8 @@ fem::Matrices assemble(Job& job) {
 }
 
 io::BodySource source_of(const Job& job) {
-  return {job.mesh,          job.regions,       job.options.element,
-          job.plan.free_dof, job.report.checks, job.report.origin};
+  return {job.mesh,          job.regions,       job.options.element, job.plan.free_dof,
+          job.report.checks, job.report.origin, job.plan.recovery};
 }
 
 ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOptions& options,

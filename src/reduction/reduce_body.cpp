@@ -5,6 +5,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/base/sort_unique.h"
 #include "elastogear/fem/element.h"
 #include "elastogear/fem/elimination.h"
 #include "elastogear/fem/gather.h"
@@ -212,12 +213,28 @@ void require_on_body(const Job& job) {
       require(in_cell[node], "set '", set, "' of a marker or point mass: node ", node, " belongs to no cell");
 }
 
+// How stresses are recovered, with all nodes on which simulations may let forces act.
+model::StressRecovery make_recovery(const Job& job) {
+  const ReductionOptions& options = job.options;
+  model::StressRecovery recovery{options.stress_recovery, job.plan.body.surface.node};
+  if (recovery.method == model::RecoveryMethod::average) return {};
+  std::vector<std::string> sets = options.markers;
+  sets.insert(sets.end(), options.loaded.begin(), options.loaded.end());
+  for (const auto& [set, mass] : options.point_mass) sets.push_back(set);
+  for (const std::string& set : sets) {
+    const std::vector<int> nodes = mesh::named_nodes(job.mesh, set).node;
+    recovery.loaded.insert(recovery.loaded.end(), nodes.begin(), nodes.end());
+  }
+  sort_unique(recovery.loaded);
+  return recovery;
+}
+
 model::SparseRows field_operator(const Job& job) {
   const mesh::Mesh& mesh = job.mesh;
   const model::Stress& stress = job.plan.body.stress;
   const model::SparseRows Q = marker_operator(mesh, job.options.markers, job.options.marker_weights);
   if (stress.node.empty()) return Q;
-  const model::SparseRows S = fem::stress_operator({mesh, job.regions, job.options.element}, stress.node);
+  const model::SparseRows S = fem::stress_operator(stressed_body(job), stress.node);
   model::SparseRows both(S.rows() + Q.rows(), S.cols());
   both.topRows(S.rows()) = S;
   both.bottomRows(Q.rows()) = Q;
@@ -234,6 +251,7 @@ void prepare_on_root(Job& job) {
   }
   place_frame(job);
   plan.body = make_body(job.mesh, job.options, plan.moments);
+  plan.recovery = make_recovery(job);
   plan.S = field_operator(job);
   const PendingFile can_be_written(job.output);
 }
@@ -243,6 +261,11 @@ void prepare_on_root(Job& job) {
 void number(Job& job) {
   job.on_root([&] { number_on_root(job); });
   find_symmetry(job);
+}
+
+fem::StressedBody stressed_body(const Job& job) {
+  return {job.mesh, job.regions, job.options.element, job.plan.recovery,
+          fem::held_directions(job.plan.free_dof, job.mesh.n_nodes())};
 }
 
 std::map<int, double> point_masses(const Job& job) {

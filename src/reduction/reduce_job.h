@@ -11,6 +11,7 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/fem/assembly.h"
 #include "elastogear/fem/inertia.h"
+#include "elastogear/fem/stressed_body.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/partition.h"
@@ -31,6 +32,7 @@ struct Plan {
   fem::Matrices imported;           // on all ranks
   model::SparseRows imported_mass;  // its scalar mass, for full invariants
   std::vector<int> dof;             // displacement of every scalar row
+  model::StressRecovery recovery;
   fem::MassMoments moments;
   model::SparseRows S;  // of stress, then of markers: see reduction/basis.h
   model::ElasticBody body;
@@ -83,6 +85,8 @@ void prepare_body(Job& job);
 /// K and M of the whole body, assembled or as they were read; once. Collective.
 fem::Matrices assemble(Job& job);
 io::BodySource source_of(const Job& job);
+/// The body as its stresses are recovered. The job outlives it.
+fem::StressedBody stressed_body(const Job& job);
 
 /// Finds the modes and writes the body file. Collective.
 void reduce_modal(Job& job);

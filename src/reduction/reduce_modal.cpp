@@ -173,7 +173,8 @@ void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
 
 FlexibilityTask flexibility_task(const Job& job) {
   const model::ElasticBody& body = job.plan.body;
-  return {body.surface, body.stress.node, job.plan.S, job.mesh, job.plan.repetition, job.options.loaded};
+  return {body.surface,        body.stress.node,   job.plan.S,        job.mesh,
+          job.plan.repetition, job.options.loaded, stressed_body(job)};
 }
 
 // Says what the static responses will take before anything is solved. Collective.

@@ -121,6 +121,23 @@ TEST_F(BodyFile, gives_mesh_materials_and_free_dof_back) {
   EXPECT_EQ(b.regions[1].material.rho, 8800);
 }
 
+TEST_F(BodyFile, gives_the_recovery_of_stresses_back) {
+  write_full(path, sample_full_body());
+  EXPECT_EQ(read_body_source(path).recovery.method, model::RecoveryMethod::average);
+  BodySource source = sample_source();
+  for (const std::vector<int>& loaded : {std::vector<int>{}, {0, 3, 7}}) {
+    source.recovery = {model::RecoveryMethod::surface, loaded};
+    BodyWriter(path, source.mesh.n_nodes(), 0).finish(sample_full_body(), source);
+    const model::StressRecovery read = read_body_source(path).recovery;
+    EXPECT_EQ(read.method, model::RecoveryMethod::surface);
+    EXPECT_EQ(read.loaded, loaded);
+  }
+  for (const std::vector<int>& wrong : {std::vector<int>{3, 3}, {-1}, {source.mesh.n_nodes()}}) {
+    source.recovery.loaded = wrong;
+    EXPECT_THROW(BodyWriter(path, source.mesh.n_nodes(), 0).finish(sample_full_body(), source), Error);
+  }
+}
+
 TEST_F(BodyFile, gives_checks_back) {
   BodySource source = sample_source();
   source.checks = {{"a", "kg", "of each mode", Eigen::MatrixXd::Random(5, 3)},

@@ -86,6 +86,18 @@ TEST_F(Describe, body_files) {
             HasSubstr("tooth_01_left"), HasSubstr("material of even: E = 1.1e+11 Pa"), HasSubstr("root: 2")));
 }
 
+TEST_F(Describe, recovery_of_stresses) {
+  BodySource source = sample_source();
+  const auto describe_with = [&](const model::StressRecovery& recovery) {
+    source.recovery = recovery;
+    BodyWriter(path("worm.h5"), source.mesh.n_nodes(), 0).finish(sample_full_body(), source);
+    return describe(path("worm.h5"));
+  };
+  EXPECT_THAT(describe_with({}), HasSubstr("stress: 2 nodes, recovered by average\n"));
+  EXPECT_THAT(describe_with({model::RecoveryMethod::surface, {0, 1, 4}}),
+              HasSubstr("stress: 2 nodes, recovered by surface, forces may act on 3 nodes\n"));
+}
+
 TEST_F(Describe, checks_of_a_body) {
   BodySource source = sample_source();
   source.checks = {

@@ -17,6 +17,7 @@
 #include "elastogear/recovery/stress.h"
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
+#include "elastogear/reduction/stressed_body.h"
 
 namespace elastogear::recovery::recover_test {
 namespace {
@@ -34,7 +35,7 @@ FiniteElements finite_elements() {
                 [factor](const auto& loaded, const auto& nodes) { return factor->stress(loaded, nodes); }};
           },
           [](const io::BodySource& source, const Eigen::VectorXd& u) {
-            return fem::nodal_stress({source.mesh, source.regions, source.element}, u);
+            return fem::nodal_stress(reduction::stressed_body(source), u);
           }};
 }
 

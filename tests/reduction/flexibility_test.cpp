@@ -9,9 +9,11 @@
 #include "../fem/other_cells.h"
 #include "../mesh/disc.h"
 #include "elastogear/base/error.h"
+#include "elastogear/fem/stress.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
+#include "elastogear/reduction/stressed_body.h"
 
 namespace elastogear::flexibility_test {
 namespace {
@@ -37,6 +39,10 @@ mesh::Mesh disc_with_rim(int sectors = 5, int columns = 2) {
   std::sort(rim.begin(), rim.end());
   rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
   mesh.node_sets["few"] = {rim[1], rim[4], rim[17]};  // does not repeat
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    if (const double r = mesh.X.col(node).head<2>().norm(); mesh.X(2, node) > 0.39 && r > 0.2 && r < 0.5)
+      mesh.node_sets["inner"].push_back(node);  // without forces on them
+  mesh.node_sets["one"] = {mesh.node_sets["inner"].front()};
   return mesh;
 }
 
@@ -106,6 +112,38 @@ TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry
     EXPECT_EQ(body.flexibility.n_sectors, symmetry == reduction::Symmetry::none ? 1 : 5);
     expect_static_response(body);
   }
+}
+
+TEST_F(Flexibility, recovers_stresses_on_free_surfaces_as_its_modes_and_the_unreduced_body_do) {
+  for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none})
+    for (const std::vector<std::string>& markers : {std::vector<std::string>{"inner"}, {"one"}, {}}) {
+      reduction::ReductionOptions o = options(symmetry);
+      o.stress_nodes = {"few", "inner"};
+      o.stress_recovery = model::RecoveryMethod::surface;
+      o.markers = markers;
+      const model::ElasticBody body = reduce(o);
+      if (!is_root()) continue;
+      // A marker on one of them alone, where stresses are averaged, breaks the symmetry.
+      const bool repeats =
+          symmetry == reduction::Symmetry::automatic && markers != std::vector<std::string>{"one"};
+      EXPECT_EQ(body.flexibility.n_sectors, repeats ? 5 : 1);
+      expect_static_response(body);
+      const io::BodySource source = io::read_body_source(path_);
+      const Eigen::VectorXd q = Eigen::VectorXd::Random(body.n_q()),
+                            sigma = model::multiply(body.stress.Psi, q);
+      const Eigen::Matrix3Xd u = io::read_displacement_field(path_, q);
+      const Eigen::MatrixXd field = fem::nodal_stress(reduction::stressed_body(source), u.reshaped()),
+                            mean = fem::nodal_stress({source.mesh, source.regions, source.element},
+                                                     u.reshaped());
+      for (std::size_t e = 0; e < body.stress.node.size(); ++e) {
+        const int node = body.stress.node[e];
+        EXPECT_LT((sigma.segment<6>(static_cast<Eigen::Index>(6 * e)) - field.col(node)).norm(),
+                  1e-10 * field.norm());
+        const auto& loaded = source.recovery.loaded;
+        EXPECT_EQ((field.col(node) - mean.col(node)).norm() < 1e-10 * field.norm(),
+                  std::binary_search(loaded.begin(), loaded.end(), node));
+      }
+    }
 }
 
 // With two sectors the harmonic of the rigid motions across the axis is real, with more complex.

@@ -22,6 +22,10 @@ std::vector<bool> free_nodes(const mesh::Mesh& mesh, const std::vector<std::stri
 /// Numbers 3 node + direction of the free displacements, ascending.
 std::vector<int> free_dofs(const std::vector<mesh::Directions>& held);
 
+/// The directions in which each of n_nodes nodes is held when these are the numbers of the free
+/// displacements.
+std::vector<mesh::Directions> held_directions(const std::vector<int>& free_dof, int n_nodes);
+
 /// Throws Error unless every connected part of the mesh is held against all six rigid motions: naming a node
 /// of the part and the motions that are left to it. (Hinges inside a part are found by the factorisation.)
 void require_held(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& held);

@@ -11,6 +11,7 @@
 #include "elastogear/model/check.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
+#include "elastogear/model/stress_recovery.h"
 
 namespace elastogear::io {
 
@@ -23,6 +24,7 @@ struct BodySource {
   std::vector<model::Check> checks = {};  ///< of the reduction
   Eigen::Vector3d origin = {0, 0,
                             0};  ///< m, of the body frame in the coordinates of the mesh that was reduced
+  model::StressRecovery recovery = {};
 };
 
 /// Results of the checks of the modes; empty for a full basis.

@@ -7,6 +7,7 @@
 #include "elastogear/base/progress.h"
 #include "elastogear/fem/balance.h"
 #include "elastogear/fem/gather.h"
+#include "elastogear/fem/stressed_body.h"
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/mesh/repetition.h"
 #include "elastogear/model/elastic_body.h"
@@ -22,11 +23,12 @@ struct FlexibilityTask {
   const mesh::Mesh& mesh;
   const mesh::Repetition& repetition;
   const std::vector<std::string>& loaded;  ///< face sets that may be loaded; none: the whole surface
+  fem::StressedBody stressed;
 };
 
 /// Loaded nodes and their symmetry; F and G are empty yet. A node's images are loaded with it; where one is
-/// missing on the surface, symmetry is not used. Throws Error for unknown face
-/// sets and faces off the surface.
+/// missing on the surface, or stresses at images are recovered otherwise, symmetry is not used. Throws Error
+/// for unknown face sets and faces off the surface.
 model::Flexibility plan_flexibility(const FlexibilityTask& task);
 /// The n_r nodes of G, mesh numbers, ascending.
 std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibility& plan);

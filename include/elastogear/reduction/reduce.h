@@ -17,6 +17,7 @@
 #include "elastogear/model/damping.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
+#include "elastogear/model/stress_recovery.h"
 #include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/imported.h"
 #include "elastogear/reduction/interval.h"
@@ -47,7 +48,8 @@ struct ReductionOptions {
   Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise
   std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
   std::vector<std::string> stress_nodes = {};  ///< node sets, or face sets for their nodes
-  std::vector<std::string> markers = {};       ///< node or face sets, see reduction/marker.h
+  model::RecoveryMethod stress_recovery = model::RecoveryMethod::average;
+  std::vector<std::string> markers = {};  ///< node or face sets, see reduction/marker.h
   MarkerWeights marker_weights = MarkerWeights::equal;
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                      ///< modal only

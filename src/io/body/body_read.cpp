@@ -103,10 +103,16 @@ std::vector<model::MaterialRegion> read_materials(const h5::File& file) {
 
 std::vector<int> read_free_dof(const h5::File& file, Eigen::Index n_dof) {
   auto dof = h5::read<int>(file, "/reduced/free_dof", {h5::kAny});
-  const bool ascending = std::adjacent_find(dof.begin(), dof.end(), std::greater_equal<>()) == dof.end();
-  require(ascending && (dof.empty() || (dof.front() >= 0 && dof.back() < n_dof)), file.path,
-          ": /reduced/free_dof must ascend within 0..", n_dof - 1);
+  require(ascends_below(dof, n_dof), file.path, ": /reduced/free_dof must ascend within 0..", n_dof - 1);
   return dof;
+}
+
+model::StressRecovery read_recovery(const h5::File& file, Eigen::Index n_nodes) {
+  if (!h5::exists(file, kLoadedNodes)) return {};
+  auto loaded = h5::read<int>(file, kLoadedNodes, {h5::kAny});
+  require(ascends_below(loaded, n_nodes), file.path, ": ", kLoadedNodes, " must ascend within 0..",
+          n_nodes - 1);
+  return {model::RecoveryMethod::surface, std::move(loaded)};
 }
 
 Basis read_basis(const h5::File& file) {
@@ -163,6 +169,7 @@ BodySource read_body_source(const std::string& path) {
   source.free_dof = read_free_dof(file, 3 * source.mesh.X.cols());
   source.origin = Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, "/rigid/origin", {3}).data());
   source.checks = read_checks(file);
+  source.recovery = read_recovery(file, source.mesh.X.cols());
   return source;
 }
 

@@ -2,14 +2,27 @@
 // Words and units of the body file.
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "elastogear/base/error.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
+#include "elastogear/model/stress_recovery.h"
 
 namespace elastogear::io {
+
+/// Nodes on which forces may act. Present where stresses are recovered on free surfaces.
+inline constexpr const char* kLoadedNodes = "/stress/loaded";
+
+/// Do numbers ascend strictly within 0 .. n - 1?
+inline bool ascends_below(const std::vector<int>& numbers, Eigen::Index n) {
+  const bool ascending =
+      std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) == numbers.end();
+  return ascending && (numbers.empty() || (numbers.front() >= 0 && numbers.back() < n));
+}
 
 /// Units follow from those of q: m sqrt(kg) when mass-normalised (modal), m for the unit basis (full).
 struct BodyUnits {
@@ -51,6 +64,11 @@ inline model::Element parse_element(const std::string& path, const std::string& 
   require(found != std::end(kElementNames), path, ": unknown element '", name,
           "', allowed are incompatible, plain, bbar");
   return static_cast<model::Element>(found - std::begin(kElementNames));
+}
+
+// Names of the recovery methods, in the order of model::RecoveryMethod.
+inline std::string recovery_name(model::RecoveryMethod method) {
+  return method == model::RecoveryMethod::average ? "average" : "surface";
 }
 
 inline std::string system_name(model::Orientation::System system) {

@@ -47,10 +47,13 @@ void write_surface(const h5::File& file, const model::Surface& surface, const Bo
   write_rows(file, "/surface/Phi", surface.Phi, 3, unit.Phi);
 }
 
-void write_stress(const h5::File& file, const model::Stress& stress, const BodyUnits& unit) {
+void write_stress(const h5::File& file, const model::Stress& stress, const model::StressRecovery& recovery,
+                  const BodyUnits& unit) {
   h5::write<int>(file, "/stress/nodes", view(stress.node), "1");
   h5::write<double>(file, "/stress/X", view(stress.X), "m");
   write_rows(file, "/stress/Psi", stress.Psi, 6, unit.Psi);
+  if (recovery.method == model::RecoveryMethod::surface)
+    h5::write<int>(file, kLoadedNodes, view(recovery.loaded), "1");
   h5::make_group(file, "/stress/sets");
   for (const auto& [name, members] : stress.sets) {
     require_name(file, name);
@@ -128,9 +131,10 @@ void write_materials(const h5::File& file, const std::vector<model::MaterialRegi
 void check_source(const model::ElasticBody& body, const BodySource& source, const std::string& path) {
   mesh::validate(source.mesh, path);
   const auto& dof = source.free_dof;
-  const bool ascending = std::adjacent_find(dof.begin(), dof.end(), std::greater_equal<>()) == dof.end();
-  require(ascending && (dof.empty() || (dof.front() >= 0 && dof.back() < 3 * source.mesh.n_nodes())), path,
+  require(ascends_below(dof, 3 * source.mesh.n_nodes()), path,
           ": free degrees of freedom must ascend within 0..", 3 * source.mesh.n_nodes() - 1);
+  require(ascends_below(source.recovery.loaded, source.mesh.n_nodes()), path,
+          ": nodes on which forces may act must ascend within 0..", source.mesh.n_nodes() - 1);
   require(body.basis == Basis::modal || static_cast<Eigen::Index>(dof.size()) == body.n_q(), path,
           ": the full basis has ", body.n_q(), " coordinates and ", dof.size(), " free degrees of freedom");
 }
@@ -194,7 +198,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   write_reduced(file, body, unit);
   write_inertia(file, body.inertia, unit);
   write_surface(file, body.surface, unit);
-  write_stress(file, body.stress, unit);
+  write_stress(file, body.stress, source.recovery, unit);
   write_markers(file, body, unit);
   write_flexibility(file, body.flexibility);
   write_relaxing(file, body, unit.K);

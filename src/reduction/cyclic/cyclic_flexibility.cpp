@@ -33,15 +33,15 @@ struct Wanted {
 };
 
 // Adds the rows of the stress operator at one node of each orbit of the nodes of G.
-void add_stress_rows(const FlexibilityTask& task, const fem::MeshedBody& body,
-                     const fem::NodeOrbits& node_orbits, const model::Flexibility& plan, Wanted& wanted) {
+void add_stress_rows(const FlexibilityTask& task, const fem::NodeOrbits& node_orbits,
+                     const model::Flexibility& plan, Wanted& wanted) {
   const std::vector<int> all = stress_nodes(task, plan);
   std::vector<int> first;
   for (int orbit = 0; orbit < static_cast<int>(plan.stress.node.cols()); ++orbit)
     first.push_back(all[plan.stress.node(0, orbit)]);
   wanted.n_stress_rows = static_cast<int>(6 * first.size());
   if (first.empty()) return;
-  const model::SparseRows S = fem::stress_operator({body.mesh, body.regions, body.element}, first);
+  const model::SparseRows S = fem::stress_operator(task.stressed, first);
   for (int row = 0; row < wanted.n_stress_rows; ++row)
     for (model::SparseRows::InnerIterator it(S, row); it; ++it) {
       const auto node = static_cast<std::size_t>(it.col() / 3);
@@ -54,7 +54,7 @@ void add_stress_rows(const FlexibilityTask& task, const fem::MeshedBody& body,
     }
 }
 
-Wanted find_wanted(const FlexibilityTask& task, const fem::MeshedBody& body, const model::Flexibility& plan,
+Wanted find_wanted(const FlexibilityTask& task, const model::Flexibility& plan,
                    const fem::NodeOrbits& node_orbits) {
   Wanted wanted;
   for (Eigen::Index orbit = 0; orbit < plan.surface.node.cols(); ++orbit) {
@@ -62,7 +62,7 @@ Wanted find_wanted(const FlexibilityTask& task, const fem::MeshedBody& body, con
     wanted.surface_orbit.push_back(node_orbits.orbit[node]);
     wanted.surface_sector_index.push_back(node_orbits.sector_index[node]);
   }
-  add_stress_rows(task, body, node_orbits, plan, wanted);
+  add_stress_rows(task, node_orbits, plan, wanted);
   return wanted;
 }
 
@@ -217,7 +217,7 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
     flexibility = plan_flexibility(task);
     const fem::NodeOrbits node_orbits = fem::free_node_orbits(task.repetition, body.is_free);
     sector = fem::make_sector(body.mesh, task.repetition, body.region, node_orbits);
-    wanted = find_wanted(task, body, flexibility, node_orbits);
+    wanted = find_wanted(task, flexibility, node_orbits);
   });
   fem::broadcast(comm, sector);
   broadcast(comm, wanted);

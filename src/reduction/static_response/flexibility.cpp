@@ -57,6 +57,14 @@ std::vector<int> images_of(const std::vector<int>& nodes, const mesh::Repetition
   return all;
 }
 
+// Are stresses recovered alike at all images of a node? nodes: with all images, ascending.
+bool recovers_alike(const FlexibilityTask& task, const std::vector<int>& nodes) {
+  const std::vector<int>& loaded = task.stressed.recovery.loaded;
+  std::vector<int> both;
+  std::set_intersection(nodes.begin(), nodes.end(), loaded.begin(), loaded.end(), std::back_inserter(both));
+  return images_of(both, task.repetition) == both;
+}
+
 std::vector<int> positions(const std::vector<int>& nodes, const std::vector<int>& in) {
   std::vector<int> at;
   for (int node : nodes)
@@ -160,7 +168,7 @@ model::Flexibility plan_flexibility(const FlexibilityTask& task) {
                            rows = images_of(task.stress_node, task.repetition);
     const auto surface = find_images(mesh_numbers(task, all), task.repetition),
                stress = find_images(rows, task.repetition);
-    if (surface && stress)
+    if (surface && stress && recovers_alike(task, rows))
       return {task.repetition.turn.n_sectors,
               task.repetition.turn.axis,
               all,

@@ -9,6 +9,7 @@
 #include "elastogear/fem/material.h"
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
+#include "elastogear/reduction/stressed_body.h"
 #include "reduction/eigensolver/factorisation.h"
 #include "reduction/static_response/inertia_relief.h"
 
@@ -22,15 +23,8 @@ struct System {
   std::vector<int> dof;  // displacement of every row
 };
 
-std::vector<mesh::Directions> held_directions(const io::BodySource& source) {
-  std::vector<mesh::Directions> held(static_cast<std::size_t>(source.mesh.n_nodes()), mesh::kAllDirections);
-  for (int dof : source.free_dof)
-    held[dof / 3] = static_cast<mesh::Directions>(held[dof / 3] & ~(1 << dof % 3));
-  return held;
-}
-
 System assemble_serial(const io::BodySource& source) {
-  const std::vector<mesh::Directions> held = held_directions(source);
+  const std::vector<mesh::Directions> held = fem::held_directions(source.free_dof, source.mesh.n_nodes());
   const fem::RowNumbering rows =
       fem::number_rows(source.mesh, fem::free_nodes(held), std::vector<int>(source.mesh.cells.size(), 0), 1);
   const std::vector<int> region = fem::cell_regions(source.mesh, source.regions);
@@ -120,8 +114,7 @@ Eigen::VectorXd StaticResponse::displacement(const std::vector<int>& loaded, con
 
 Eigen::MatrixXd StaticResponse::stress(const std::vector<int>& loaded, const std::vector<int>& evaluated) {
   const io::BodySource& source = data_->source;
-  const model::SparseRows S =
-      data_->in_rows(fem::stress_operator({source.mesh, source.regions, source.element}, evaluated));
+  const model::SparseRows S = data_->in_rows(fem::stress_operator(stressed_body(source), evaluated));
   const auto n = 3 * static_cast<Eigen::Index>(loaded.size());
   Eigen::MatrixXd G(S.rows(), n);
   for (Eigen::Index begin = 0; begin < n; begin += kSolvedTogether) {
