@@ -52,6 +52,12 @@ void set_parts(Job& job, const std::function<Reduced(const model::SparseRows&)>&
   }
 }
 
+bool relaxes_apart(const ReductionOptions& options) {
+  return std::any_of(options.regions.begin(), options.regions.end(), [](const model::MaterialRegion& region) {
+    return region.material.viscoelastic && !region.material.viscoelastic->has_constant_ratio();
+  });
+}
+
 }  // namespace
 
 bool relaxes(const ReductionOptions& options) {
@@ -66,6 +72,10 @@ void validate_relaxing(const ReductionOptions& options) {
           "basis modal_residual: its static responses are those of an elastic body, and do not relax; with "
           "viscoelastic materials take -basis modal or another basis of vectors (krylov, craig_bampton, "
           "modal_attachment), or full");
+  require(
+      options.stress_recovery == model::RecoveryMethod::average || !relaxes_apart(options),
+      "stress_recovery surface: holds the ratio of shear and bulk modulus for constant, which relax apart "
+      "here (prony_g, prony_k); take -stress_recovery average");
   require(!options.imported,
           "viscoelastic materials need the stiffness of the mesh's own cells: leave option stiffness out");
 }
