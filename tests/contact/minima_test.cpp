@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numeric>
 
 #include "contact/forces/slave_point.h"
@@ -163,6 +164,41 @@ TEST(GapMinima, nodes_at_ends_that_are_nearly_aligned_touch) {
     std::erase_if(points, [](const ContactPoint& c) { return c.slave_side != 0; });
     EXPECT_EQ(points.size(), std::size_t(nodes)) << share;
   }
+}
+
+// Points that bore a force stay where they were when they are minima no more, once each, until they are
+// released.
+TEST(GapMinima, that_vanish_under_their_force_stay_until_they_are_released) {
+  constexpr double kMoved = 0.35;  // m, more than a face
+  const Two before = two(3, 1e-4);
+  Two after = before;
+  after.a.r_WB.x() += kMoved;
+  const auto is_at = [](const ContactPoint& place) {
+    return [place](const ContactPoint& c) {
+      return c.n_slave() == 4 && c.slave_nodes == place.slave_nodes &&
+             (c.slave_N - place.slave_N).norm() < 1e-9;
+    };
+  };
+  Pair pair(before.slave, before.master, minima());
+  std::vector<ContactPoint> points = found(pair, before, true);
+  std::erase_if(points, [&](const ContactPoint& c) {  // the master is a square of 1 m
+    const Matrix3Xd x = local_positions(after, c).reshaped(3, c.n_local());
+    return c.slave_side != 0 || (x.leftCols<4>() * c.slave_N).head<2>().cwiseAbs().maxCoeff() > 0.45;
+  });
+  ASSERT_GE(points.size(), 2u);
+  for (ContactPoint& c : points) c.p = kForce;
+  const auto count = [&](const Two& t, const ContactPoint& place) {
+    const std::vector<ContactPoint> now = pair.detect(t.a, t.b);
+    return std::count_if(now.begin(), now.end(), is_at(place));
+  };
+  for (const ContactPoint& point : points) EXPECT_EQ(count(after, point), 0) << point.slave_point;
+  pair.detect(before.a, before.b);
+  pair.keep_minima(points);
+  for (int i = 0; i < 2; ++i)
+    for (const ContactPoint& point : points) EXPECT_EQ(count(after, point), 1) << point.slave_point;
+  for (const ContactPoint& point : points) EXPECT_EQ(count(before, point), 1) << point.slave_point;
+  pair.release_minima();
+  for (const ContactPoint& point : points) EXPECT_EQ(count(after, point), 0) << point.slave_point;
 }
 
 // A node that slides over the faces of a pyramid, which was a plane before it was deformed, along their sides
