@@ -24,7 +24,7 @@ void read_moduli(const Options& options, const std::string& name, Environment& e
           " = 'relaxing': states of rest have no history; give instantaneous or long_term");
 }
 
-// What the moduli are where something relaxes.
+// Says whether the moduli of viscoelastic bodies relax, and otherwise which of them are taken.
 void print_moduli(const dynamics::SystemModel& system) {
   std::string bodies;
   for (const dynamics::SystemModel::Body& body : system.bodies)

@@ -131,7 +131,7 @@ struct Pair::Data {
   Tracker tracker;
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  // from the frame that contacts are found in
   std::vector<Minimum> minima[2] = {};                 // of the last look
-  KeptMinima kept[2] = {};                             // since they were released
+  KeptMinima kept[2] = {};                             // that bore a force since the last release
 
   static std::unique_ptr<Data> make(const Settings& given, const Settings& settings,
                                     std::array<Tracked, 2> both, std::array<Side, 2> side);

@@ -23,7 +23,8 @@ struct Fields {
   }
 };
 
-// What the relaxing parts have lost, at the nodes of their regions. Eq. (4.10).
+// Takes the stress that viscoelastic regions have relaxed from that at their nodes. docs/theory.md, Eq.
+// (4.10).
 void subtract_relaxed(const Fields& fields, const Eigen::MatrixXd& w, Eigen::MatrixXd& stress) {
   if (w.cols() == 0) return;
   const std::vector<int> node_region = fields.finite_elements.node_regions(fields.source);

@@ -118,7 +118,8 @@ TEST(SurfaceStress, has_no_traction_and_none_at_all_at_corners) {
   EXPECT_LT(sigma.col(0).norm(), kRoundoff * scale);
 }
 
-// Which nodes of a block differ from the mean under a random displacement.
+// The nodes of a block whose recovered stress differs from the mean of their cells, under random
+// displacements.
 std::vector<int> recovered(const fem::StressedBody& body) {
   const Eigen::VectorXd u = Eigen::VectorXd::Random(3 * body.mesh.n_nodes());
   const Eigen::MatrixXd found = fem::nodal_stress(body, u),

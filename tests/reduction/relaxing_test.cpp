@@ -140,7 +140,8 @@ TEST_F(Relaxing, one_region_with_a_constant_ratio_keeps_the_diagonal) {
   EXPECT_EQ((Eigen::MatrixXd(body.relaxing[0].K) - Eigen::MatrixXd(body.K_r)).norm(), 0);
 }
 
-// Of a body of two materials: the stiffness of one of them between modes, and the stress nodes that it has.
+// A body of two materials keeps the stiffness of one of them between its modes, and the stress nodes of its
+// region.
 TEST_F(Relaxing, part_of_a_body_in_modes_is_the_projection_of_the_full_one) {
   const std::vector<model::MaterialRegion> regions = {relaxing_region("left"), {"right", test::kSteel}};
   const model::ElasticBody modal = reduce(regions, model::Basis::modal);

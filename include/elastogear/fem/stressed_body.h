@@ -1,5 +1,5 @@
 #pragma once
-// What stresses at nodes are recovered from, besides the displacements.
+// A finite-element body with all that the recovery of its nodal stresses needs but the displacements.
 
 #include <vector>
 

@@ -171,8 +171,8 @@ std::vector<FaceStart> places_on_sides(const GapField& field, int f,
   return places;
 }
 
-// Where the search within a face begins, and begins again if it comes to no end: the estimated place, then
-// those known on its sides and the corner with the least gap. Nowhere if its gap is beyond the reach.
+// Starts of the search for the least gap within a face, to be tried one after the other: the estimated place,
+// the minima on its sides and the corner with the least gap. There is none if its gap is beyond the reach.
 std::vector<FaceStart> starts_within(const GapField& field, int f, const std::map<int, NodeGap>& nodes,
                                      std::vector<FaceStart> known) {
   if (const FaceStart corner = least_corner(field, f, nodes); corner.face >= 0)
