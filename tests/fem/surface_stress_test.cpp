@@ -1,6 +1,12 @@
 // Stresses recovered on free surfaces: where they are exact, and which nodes get them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "elastogear/fem/material.h"
 #include "elastogear/fem/stress.h"
 #include "other_cells.h"
 
