@@ -7,6 +7,8 @@
 namespace elastogear::dynamics {
 namespace {
 
+constexpr double kClosed = 1e-6;  // of the depth, that closed gaps may be open: bodies are nearly at rest
+
 double kinetic_energy(const System& system, const State& x) {
   double energy = 0;
   for (std::size_t b = 0; b < system.bodies().size(); ++b)
@@ -17,7 +19,7 @@ double kinetic_energy(const System& system, const State& x) {
 // Goes on with the forces found where their gaps are not yet closed.
 bool augmented(Run& run) {
   System& system = run.problem.system;
-  if (!system.any_augmented() || system.unclosed() <= System::kClosed) return false;
+  if (!system.any_augmented() || system.unclosed() <= kClosed) return false;
   system.augment();
   return true;
 }

@@ -71,7 +71,6 @@ class System {
   /// How far the gaps of the last evaluation are from closed, at most, over the depth of their pair; -.
   /// Augmented law; docs/theory.md, Eq. (6.31).
   double unclosed() const;
-  static constexpr double kClosed = 1e-6;  ///< of the depth, that closed gaps may be open
   /// Gives its contacts the forces found there, with which gaps close further in the next equilibrium.
   void augment();
   /// Multiplies the penalty stiffness by which gaps close.

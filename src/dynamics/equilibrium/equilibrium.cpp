@@ -23,6 +23,7 @@ constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
 constexpr double kRoundoff = 1e-15;     // of coordinates in rad and m: smaller changes are none
+constexpr double kClosed = 1e-8;        // of the depth, by which points that bear forces may be open
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -274,7 +275,7 @@ bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
     const ReadView u(U);
     system.contacts(at.factor, *u, at.zero);
     const double left = system.unclosed();
-    if (left <= System::kClosed) return true;
+    if (left <= kClosed) return true;
     if (round == kMostRounds) break;
     system.augment();
     if (left > kFall * before) system.stiffen(kStiffer);
