@@ -18,7 +18,7 @@ using Outlines = std::vector<std::vector<Vector2d>>;
 using Box = Eigen::AlignedBox2d;
 
 constexpr double kMm = 1e-3;
-constexpr double kColumn = 38, kName = 14.5;  // font sizes, of a column of numbers and of their names
+constexpr double kColumn = 39, kName = 16.5;  // font sizes, of a column of numbers and of their names
 constexpr const char* kFill[] = {"#9fc3e0", "#f0c48a", "#a8d5a2", "#d5b3d9"};
 
 // One view: of each member its outlines, mm, and the radii of circles about its axis.
