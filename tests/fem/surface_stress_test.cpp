@@ -1,6 +1,7 @@
 // Stresses recovered on free surfaces: where they are exact, and which nodes get them.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <set>
 #include <string>
