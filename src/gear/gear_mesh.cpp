@@ -6,6 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "gear/assembly.h"
+#include "gear/second_order.h"
 
 namespace elastogear::gear {
 namespace {
@@ -39,6 +40,7 @@ struct Sector {
 constexpr double kSamePlane = 1e-9;  // m, far below any layer
 
 void check(const std::string& name, const WheelCounts& n, int z) {
+  check_order(name, n.order);
   const double layers = n.web_layers + 2.0 * (n.face_layers + n.hub_layers);
   const double section = (2.0 * n.space + n.tooth) * (n.rim + n.ring + n.web + n.hub) +
                          static_cast<double>(n.tooth) * (n.fillet + n.flank);
@@ -77,16 +79,17 @@ std::vector<double> plane_positions(const Blank& blank, const WheelCounts& n) {
   return all;
 }
 
-// The columns of fillet and root land are the same in all planes.
+// The columns of fillet and root land are the same in all planes. order: see ToothGridCounts.
 std::vector<PlaneSection> sections(const std::function<Profile(double)>& profile,
-                                   const std::vector<double>& z, const WheelCounts& n) {
+                                   const std::vector<double>& z, const WheelCounts& n, int order) {
   ToothGridCounts counts{
       .tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim};
+  counts.order = order;
   std::vector<PlaneSection> all;
   for (double at : z) {
     const Profile p = profile(at);
     all.push_back({tooth_grid(p, counts), p.shift});
-    if (n.space > 1) counts.land = all[0].grid.half_pitch - all[0].grid.fillet_end;
+    if (n.space > 1) counts.land = (all[0].grid.half_pitch - all[0].grid.fillet_end) / order;
   }
   return all;
 }
@@ -165,17 +168,42 @@ void for_nodes(const Sector& s, const Numbering& n, Visit visit) {
         if (n.at(q, row, plane) >= 0) visit(q, row, plane);
 }
 
-Eigen::Matrix3Xd positions(const Sector& s, const Numbering& n, const Toothing& toothing) {
-  Eigen::Matrix3Xd X(3, n.count * toothing.z);
+// Where nodes are: on the grid of a sector with `order` points from node to node.
+struct Placement {
+  const Sector& fine;
+  const Toothing& toothing;
+  int order;
+
+  // Indices count points of the fine grid.
+  Eigen::Vector3d operator()(int tooth, int q, int row, int plane) const {
+    const Eigen::Vector2d x = polar_point(fine, q, row, plane);
+    const double theta = tooth_angle(toothing, tooth) + x[0] + fine.z[plane] / toothing.p;
+    return {x[1] * std::cos(theta), x[1] * std::sin(theta), fine.z[plane]};
+  }
+};
+
+Eigen::Matrix3Xd positions(const Sector& s, const Numbering& n, const Placement& at) {
+  Eigen::Matrix3Xd X(3, n.count * at.toothing.z);
   for_nodes(s, n, [&](int q, int row, int plane) {
-    const Eigen::Vector2d x = polar_point(s, q, row, plane);
-    for (int tooth = 0; tooth < toothing.z; ++tooth) {
-      const double theta = tooth_angle(toothing, tooth) + x[0] + s.z[plane] / toothing.p;
-      X.col(tooth * n.count + n.at(q, row, plane)) << x[1] * std::cos(theta), x[1] * std::sin(theta),
-          s.z[plane];
-    }
+    for (int tooth = 0; tooth < at.toothing.z; ++tooth)
+      X.col(tooth * n.count + n.at(q, row, plane)) =
+          at(tooth, at.order * q, at.order * row, at.order * plane);
   });
   return X;
+}
+
+// The ends of an edge differ by one in one of their indices. An edge between two sectors ends in the second
+// one's first column.
+Midside midside(const Sector& s, const Numbering& n, const Placement& at) {
+  std::vector<std::array<int, 3>> index(static_cast<std::size_t>(n.count));
+  for_nodes(s, n, [&](int q, int row, int plane) { index[n.at(q, row, plane)] = {q, row, plane}; });
+  return [=](int a, int b) {
+    const auto [q_a, row_a, plane_a] = index[a % n.count];
+    const auto [q_b, row_b, plane_b] = index[b % n.count];
+    const bool within = a / n.count == b / n.count, from_a = within || q_a > q_b;
+    const int tooth = (from_a ? a : b) / n.count, turned = within ? 0 : 2 * n.half_pitch;
+    return at(tooth, q_a + q_b + turned, row_a + row_b, plane_a + plane_b);
+  };
 }
 
 // Nodes of the fillet's surface: beside the tooth up to the flank, and on the strip's top down to the root
@@ -211,19 +239,48 @@ void add_cell(mesh::Mesh& mesh, const Sector& s, const Numbering& n, std::array<
   if (q == s.tooth_grid.half_tooth - 1) add_flank(mesh, faces[4], numbered("tooth", tooth, teeth), "left");
 }
 
-mesh::Mesh mesh_of(const std::string& name, const Sector& s, const Toothing& toothing) {
+mesh::Mesh mesh_of(const std::string& name, const Sector& s, const Placement& at) {
   const Numbering n = number_nodes(s);
+  const int teeth = at.toothing.z;
   mesh::Mesh mesh;
-  mesh.X = positions(s, n, toothing);
-  for (int tooth = 0; tooth < toothing.z; ++tooth)
+  mesh.X = positions(s, n, at);
+  for (int tooth = 0; tooth < teeth; ++tooth)
     for (int plane = 0; plane + 1 < s.planes(); ++plane)
       for (int q = -n.half_pitch; q < n.half_pitch; ++q)
         for (int row = 0; row < n.rows; ++row)
           if (has_cell(s, q, row, plane)) add_cell(mesh, s, n, {tooth, q, row, plane});
-  add_node_sets(mesh, s, n, toothing.z);
+  add_node_sets(mesh, s, n, teeth);
   sort_node_sets(mesh);
+  if (at.order == 2) mesh = second_order(mesh, midside(s, n, at), teeth);
   check_cells(mesh, name);
   return mesh;
+}
+
+// The counts of rows and layers between which a second-order mesh has none.
+WheelCounts with_points_between(WheelCounts n) {
+  for (int WheelCounts::*count :
+       {&WheelCounts::ring, &WheelCounts::web, &WheelCounts::hub, &WheelCounts::web_layers,
+        &WheelCounts::face_layers, &WheelCounts::hub_layers, &WheelCounts::rim})
+    n.*count *= 2;
+  return n;
+}
+
+// is_constant: the profile is the same at all z.
+mesh::Mesh make_mesh(const std::string& name, const Toothing& toothing,
+                     const std::function<Profile(double z)>& profile, bool is_constant, const Blank& blank,
+                     const WheelCounts& n) {
+  check(name, n, toothing.z);
+  const std::vector<double> ends{blank.face_width / -2};
+  if (n.order == 1) {
+    const std::vector<double> z = is_constant ? ends : plane_positions(blank, n);
+    const Sector s = sector(toothing, sections(profile, z, n, 1), blank, n);
+    return mesh_of(name, s, {s, toothing, 1});
+  }
+  const WheelCounts twice = with_points_between(n);
+  const std::vector<double> z = is_constant ? ends : plane_positions(blank, twice);
+  const Sector coarse = sector(toothing, sections(profile, ends, n, 1), blank, n);
+  const Sector fine = sector(toothing, sections(profile, z, n, 2), blank, twice);
+  return mesh_of(name, coarse, {fine, toothing, 2});
 }
 
 }  // namespace
@@ -231,17 +288,13 @@ mesh::Mesh mesh_of(const std::string& name, const Sector& s, const Toothing& too
 mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing,
                      const std::function<Profile(double z)>& profile, const Blank& blank,
                      const WheelCounts& counts) {
-  check(name, counts, toothing.z);
-  return mesh_of(name,
-                 sector(toothing, sections(profile, plane_positions(blank, counts), counts), blank, counts),
-                 toothing);
+  return make_mesh(name, toothing, profile, false, blank, counts);
 }
 
 mesh::Mesh gear_mesh(const std::string& name, const Toothing& toothing, const Profile& profile,
                      const Blank& blank, const WheelCounts& counts) {
-  check(name, counts, toothing.z);
-  const auto constant = [&](double) { return profile; };
-  return mesh_of(name, sector(toothing, sections(constant, {0}, counts), blank, counts), toothing);
+  return make_mesh(
+      name, toothing, [&](double) { return profile; }, true, blank, counts);
 }
 
 }  // namespace elastogear::gear

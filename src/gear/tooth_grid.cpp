@@ -37,6 +37,8 @@ Points equally_spaced(const Curve& curve, int n) {
   return points;
 }
 
+double graded(double t) { return t * (1 + kGrading * (1 - t)); }
+
 std::vector<double> uniform(int n) {
   std::vector<double> t;
   for (int i = 0; i <= n; ++i) t.push_back(static_cast<double>(i) / n);
@@ -69,9 +71,9 @@ Points sample(const Curve& curve, const std::vector<double>& parameters) {
   return points;
 }
 
-std::vector<double> graded_rows(int n) {
-  std::vector<double> t = uniform(n);
-  for (double& value : t) value = graded(value);
+std::vector<double> graded_rows(int n, int order) {
+  std::vector<double> t;
+  for (int i = 0; i <= n * order; ++i) t.push_back(graded_row(static_cast<double>(i) / order, n));
   return t;
 }
 
@@ -131,18 +133,33 @@ int fillet_columns(const Profile& p, const ToothGridCounts& n) {
                     std::max(1, n.space - 1));
 }
 
+// The point half way along the lower half of the fillet and the root land.
+Vector2d space_middle(const Profile& p) {
+  const double from = p.lateral(p.fillet(0)), fillet = (p.fillet(0) - p.fillet(0.5)).norm(),
+               land = (p.point(p.half_pitch, p.r_f) - p.fillet(0)).norm(), part = fillet / (fillet + land);
+  const auto top = [&](double t) {
+    return t < part ? p.fillet(0.5 * (1 - t / part))
+                    : p.point(std::lerp(from, p.half_pitch, (t - part) / (1 - part)), p.r_f);
+  };
+  return equally_spaced(top, 2)[1];
+}
+
 Points space_edge(const Profile& p, const ToothGridCounts& n) {
-  if (n.space == 1) return {p.fillet(0.5), p.point(p.half_pitch, p.r_f)};
-  const int fillet = fillet_columns(p, n);
-  return space_top(p, fillet, n.space - fillet);
+  if (n.space > 1) {
+    const int fillet = fillet_columns(p, n);
+    return space_top(p, n.order * fillet, n.order * (n.space - fillet));
+  }
+  Points ends{p.fillet(0.5), p.point(p.half_pitch, p.r_f)};
+  if (n.order == 2) ends.insert(ends.begin() + 1, space_middle(p));
+  return ends;
 }
 
 // Side of the tooth block: upper half of the fillet, then the flank, equally spaced in radius.
 Points tooth_side(const Profile& p, const ToothGridCounts& n) {
-  Points side = equally_spaced([&](double t) { return p.fillet(0.5 * (1 + t)); }, n.fillet);
+  Points side = equally_spaced([&](double t) { return p.fillet(0.5 * (1 + t)); }, n.order * n.fillet);
   side.back() = p.point(p.half_width(p.r_form), p.r_form);
-  for (int i = 1; i <= n.flank; ++i) {
-    const double r = std::lerp(p.r_form, p.r_a, static_cast<double>(i) / n.flank);
+  for (int i = 1; i <= n.order * n.flank; ++i) {
+    const double r = std::lerp(p.r_form, p.r_a, static_cast<double>(i) / (n.order * n.flank));
     side.push_back(p.point(p.half_width(r), r));
   }
   return side;
@@ -153,7 +170,7 @@ Points tooth_block(const Profile& p, const ToothGridCounts& n, const Points& bot
               .top = {},
               .left = {},
               .right = tooth_side(p, n),
-              .s = uniform(n.tooth / 2),
+              .s = uniform(n.order * (n.tooth / 2)),
               .t = {0}};
   const double tip = p.half_width(p.r_a);
   block.top = sample([&](double s) { return p.point(s * tip, p.r_a); }, block.s);
@@ -172,7 +189,10 @@ Points line(const Vector2d& from, const Vector2d& to, const std::vector<double>&
 
 }  // namespace
 
-double graded(double t) { return t * (1 + kGrading * (1 - t)); }
+double graded_row(double row, int n) {
+  const double below = std::floor(row);
+  return std::lerp(graded(below / n), graded((below + 1) / n), row - below);
+}
 
 Eigen::Vector2d ToothGrid::strip_point(int q, int row) const {
   const Vector2d x = strip[static_cast<std::size_t>(std::abs(q)) * static_cast<std::size_t>(ring + 1) +
@@ -187,9 +207,9 @@ Eigen::Vector2d ToothGrid::tooth_point(int q, int row) const {
 }
 
 ToothGrid tooth_grid(const Profile& p, const ToothGridCounts& n) {
-  const int half_tooth = n.tooth / 2, half_pitch = half_tooth + n.space;
+  const int half_tooth = n.order * (n.tooth / 2), space = n.order * n.space, half_pitch = half_tooth + space;
   const double divider = p.half_pitch * half_tooth / half_pitch;
-  const std::vector<double> rows = graded_rows(n.ring);
+  const std::vector<double> rows = graded_rows(n.ring, n.order);
   const Junction j = junction(p);
   const Points bottom = tooth_bottom(j, half_tooth), split = strip_divider(p, j, divider, rows);
   const Points below = interpolate({.bottom = inner_end(p, 0, divider, half_tooth),
@@ -199,21 +219,21 @@ ToothGrid tooth_grid(const Profile& p, const ToothGridCounts& n) {
                                     .s = uniform(half_tooth),
                                     .t = rows});
   const Points beside =
-      interpolate({.bottom = inner_end(p, divider, p.half_pitch, n.space),
+      interpolate({.bottom = inner_end(p, divider, p.half_pitch, space),
                    .top = space_edge(p, n),
                    .left = split,
                    .right = line(p.point(p.half_pitch, p.r_inner), p.point(p.half_pitch, p.r_f), rows),
-                   .s = uniform(n.space),
+                   .s = uniform(space),
                    .t = rows});
   ToothGrid grid{.half_tooth = half_tooth,
                  .half_pitch = half_pitch,
-                 .ring = n.ring,
-                 .fillet = n.fillet,
-                 .rows = n.fillet + n.flank,
-                 .fillet_end = half_tooth + (n.space == 1 ? 0 : fillet_columns(p, n)),
+                 .ring = n.order * n.ring,
+                 .fillet = n.order * n.fillet,
+                 .rows = n.order * (n.fillet + n.flank),
+                 .fillet_end = half_tooth + (n.space == 1 ? 0 : n.order * fillet_columns(p, n)),
                  .strip = below,
                  .tooth = tooth_block(p, n, bottom)};
-  grid.strip.insert(grid.strip.end(), beside.begin() + n.ring + 1, beside.end());
+  grid.strip.insert(grid.strip.end(), beside.begin() + grid.ring + 1, beside.end());
   return grid;
 }
 

@@ -11,12 +11,13 @@ namespace elastogear::gear {
 
 struct ToothGridCounts {
   int tooth, space, flank, fillet, ring;
-  int land = 0;  ///< columns of half a space beside the fillet; 0: its share of the length
+  int land = 0;   ///< columns of half a space beside the fillet; 0: its share of the length
+  int order = 1;  ///< 2: with a point between any two, where a second-order mesh has its midside nodes
 };
 
-/// Grid of one tooth and the two half spaces beside it, symmetric about the tooth's axis. Column q = 0 is the
-/// axis. Three blocks (tooth, strip below it, strip below the space) meet in the middle of the fillet at 60
-/// degrees.
+/// Grid of one tooth and the two half spaces beside it, symmetric about the tooth's axis. All counts are
+/// those of its points: twice those of the cells where it has points between. Column q = 0 is the axis. Three
+/// blocks (tooth, strip below it, strip below the space) meet in the middle of the fillet at 60 degrees.
 struct ToothGrid {
   int half_tooth = 0;                  ///< columns from the axis to the flank
   int half_pitch = 0;                  ///< columns from the axis to the middle of the space
@@ -33,7 +34,8 @@ struct ToothGrid {
 
 ToothGrid tooth_grid(const Profile& profile, const ToothGridCounts& counts);
 
-/// Rows of the strip get thinner towards the root: position of the fraction t in [0, 1] from the inner end.
-double graded(double t);
+/// Rows of the strip get thinner towards the root: position of row `row` of n as a part of the strip, 0 at
+/// the inner end. A row between two stands in their middle.
+double graded_row(double row, int n);
 
 }  // namespace elastogear::gear

@@ -96,6 +96,45 @@ Eigen::Matrix<double, 8, 1> gauss_jacobians(const Mesh& mesh, int cell) {
   return det;
 }
 
+// Signs of the reference coordinates of a node of hex20; 0: it is in the middle of an edge along that one.
+Eigen::Vector3d hex20_node(int node) {
+  const auto corner = [](int a) { return Eigen::Vector3d(kCorner[a][0], kCorner[a][1], kCorner[a][2]); };
+  if (node < 8) return corner(node);
+  const auto [a, b] = edges(CellType::hex20)[static_cast<std::size_t>(node) - 8];
+  return (corner(a) + corner(b)) / 2;
+}
+
+// Derivatives of the shape function of a node of hex20 by the reference coordinates.
+Eigen::Vector3d hex20_derivatives(int node, const Eigen::Vector3d& xi) {
+  const Eigen::Vector3d c = hex20_node(node);
+  Eigen::Vector3d f, d;  // factors of the function, each of one coordinate, and their derivatives
+  for (int i = 0; i < 3; ++i) {
+    f[i] = c[i] == 0 ? 1 - xi[i] * xi[i] : 1 + c[i] * xi[i];
+    d[i] = c[i] == 0 ? -2 * xi[i] : c[i];
+  }
+  const Eigen::Vector3d product(d[0] * f[1] * f[2], f[0] * d[1] * f[2], f[0] * f[1] * d[2]);
+  if (node >= 8) return product / 4;
+  return (product * (c.dot(xi) - 2) + f.prod() * c) / 8;
+}
+
+// Jacobians of hex20 at its 27 integration points.
+std::vector<Eigen::Matrix3d> hex20_jacobians(const Mesh& mesh, int cell) {
+  static const auto derivatives = [] {
+    std::vector<Eigen::Matrix<double, 20, 3>> all;
+    for (int g = 0; g < 27; ++g) {
+      const Eigen::Vector3i at(g % 3 - 1, g / 3 % 3 - 1, g / 9 - 1);
+      const Eigen::Vector3d xi = at.cast<double>() * std::sqrt(0.6);
+      auto& dN = all.emplace_back();
+      for (int node = 0; node < 20; ++node) dN.row(node) = hex20_derivatives(node, xi);
+    }
+    return all;
+  }();
+  const Eigen::Matrix<double, 3, 20> X = mesh.X(Eigen::all, mesh.cells[cell]);
+  std::vector<Eigen::Matrix3d> J;
+  for (const auto& dN : derivatives) J.emplace_back(X * dN);
+  return J;
+}
+
 // The smaller number; a NaN among them is kept.
 double smaller(double a, double b) { return b >= a ? a : b; }
 
@@ -109,6 +148,9 @@ double scaled_jacobian(const Mesh& mesh, int cell) {
     smallest = normalised_triple_product(jacobian(hex8_corners(mesh, cell), Eigen::Vector3d::Zero()));
   for (int a = 0; a < std::ssize(frame.neighbours); ++a)
     smallest = smaller(smallest, normalised_triple_product(corner_jacobian(mesh, cell, a)));
+  if (type == CellType::hex20)
+    for (const Eigen::Matrix3d& J : hex20_jacobians(mesh, cell))
+      smallest = smaller(smallest, normalised_triple_product(J));
   return smallest / frame.regular;
 }
 
@@ -120,6 +162,9 @@ double smallest_jacobian(const Mesh& mesh, int cell) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int a = 0; a < std::ssize(frames(mesh.cells.type[cell]).neighbours); ++a)
     smallest = smaller(smallest, corner_jacobian(mesh, cell, a).determinant());
+  if (mesh.cells.type[cell] == CellType::hex20)
+    for (const Eigen::Matrix3d& J : hex20_jacobians(mesh, cell))
+      smallest = smaller(smallest, J.determinant());
   return smallest;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
 #include "app/verbs/registry.h"
 #include "elastogear/base/error.h"
@@ -140,7 +141,7 @@ std::map<std::string, SharedMesh> drive_meshes(const Given& given) {
     std::map<std::string, SharedMesh> meshes;
     const gear::Size size = gear::size(options.text("size"));
     for (const app::DriveMember& member : app::read_drive(options).members)
-      meshes[member.name] = std::make_shared<Mesh>(member.mesh(size));
+      meshes[member.name] = std::make_shared<Mesh>(member.mesh(size, app::element_order(options)));
     return meshes;
   });
 }

@@ -32,6 +32,14 @@ for roll in 0 0.3 0.6 0.9; do
     -static_steps 1 -output rigid_$roll.h5
 done
 
+# Hexahedra of 20 nodes, whose midside nodes are on the exact flanks as well.
+second=(-pinion_file second_1.h5 -wheel_file second_2.h5)
+run mesh spur.yaml -element_order 2 -pinion_mesh second_1.msh -wheel_mesh second_2.msh -drawing second.svg
+grep -q "elements  *952" log && grep -q "nodes  *6188" log || { cat log; exit 1; }
+run reduce spur.yaml "${second[@]}" -element_order 2 -modes 2 -completeness false
+run simulate spur.yaml -roll 0.125 "${second[@]}" -output second.h5
+grep -q "flanks of pinion  *1360 faces, nodes within [0-9.]*e-1[0-9] m" log || { cat log; exit 1; }
+
 # At this angle points on the sides that the lines of contact cross come and go.
 cat >slanted.yaml <<'END'
 drive: cylindrical
@@ -138,7 +146,7 @@ def error_of_sum(path, m_n, z, T, beta):
 
 for path, *gear in (("spur_result.h5", 3e-3, 17, 300, 0), ("coast.h5", 3e-3, 17, 300, 0),
                     ("slanted_result.h5", 3e-3, 17, 300, np.radians(18)),
-                    ("internal_result.h5", 2e-3, 21, 60, 0)):
+                    ("second.h5", 3e-3, 17, 300, 0), ("internal_result.h5", 2e-3, 21, 60, 0)):
     error = error_of_sum(path, *gear)
     assert abs(error) < 2e-3, f"{path}: sum of normal forces {100 * error:.3f} % off"
 
@@ -228,6 +236,7 @@ refused "face_width = .* m would do" mesh "$examples/one_start_worm.yaml" -face_
 refused "is for a drive" mesh part.yaml -helix_angle 10
 refused "is for a single body" reduce spur.yaml -mesh other.msh
 refused "counts are for single bodies" mesh spur.yaml -wheel_count_flank 4
+refused "element_order = '3'" mesh spur.yaml -element_order 3
 refused "torque is missing" simulate spur.yaml -torque 0
 refused "'deg' is no unit of it" mesh spur.yaml -face_width "25 deg"
 refused "cutter_teeth: 25 would do" mesh "$examples/internal.yaml" -ring_cutter_teeth 71

@@ -43,6 +43,7 @@ inline void expect_conforming(const mesh::Mesh& mesh) {
   for (const mesh::Face& f : boundary)
     for (int i = 0; i < 4; ++i) {
       nodes.insert(f[i]);
+      if (f[i] == f[(i + 1) % 4]) continue;  // of a triangle
       ++edges[{f[i], f[(i + 1) % 4]}];
     }
   for (const auto& [edge, count] : edges) {

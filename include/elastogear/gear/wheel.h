@@ -21,6 +21,7 @@ struct WheelCounts {
   int web_layers = 2;   ///< axial layers across the web's width, or the face where there is no web
   int face_layers = 1;  ///< axial layers of the face on each side of the web
   int hub_layers = 1;   ///< axial layers of the hub on each side beyond the face
+  int order = 1;        ///< of the cells: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact surface)
 };
 
 WheelCounts wheel_counts(Size size);
@@ -28,8 +29,8 @@ WheelCounts wheel_counts(Size size);
 /// Mesh in the wheel frame. Face sets left, right, flanks, `tooth_<ii>_left`, `tooth_<ii>_right`; node sets
 /// bore, root, `root_<ii>` (nodes of the fillet surface); cell sets body and rim (from the rim radius on),
 /// disjoint. Teeth are numbered 01..z2 with as many digits as z2 has. Nodes and cells are numbered sector by
-/// sector: with n = n_nodes/z2, node i n + j is node j turned by 2 pi i/z2. Throws Error for designs that do
-/// not exist and counts that are not positive.
+/// sector: with n = n_nodes/z2, node i n + j is node j turned by 2 pi i/z2; midside nodes come last in each
+/// sector. Throws Error for designs that do not exist and counts that are not positive.
 mesh::Mesh wheel_mesh(const Design& design, const WheelCounts& counts);
 
 }  // namespace elastogear::gear

@@ -22,6 +22,7 @@ struct WormCounts {
   int ring = 2;    ///< rows from the bore to the root
   int turn = 24;   ///< sections per turn: a multiple of z1 (2 space + tooth), at least twice
   int shaft = 10;  ///< layers of each plain shaft end (each cone and seat gets at least one)
+  int order = 1;   ///< of the cells: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact surface)
 };
 
 /// Counts of a size for a worm with z1 starts (sections per turn follow from it).

@@ -264,8 +264,10 @@ Drive cylindrical_drive(const Options& options) {
     DriveMember member{.name = d.gears[i].name,
                        .toothing = g.gear[i],
                        .mesh =
-                           [=](gear::Size size) {
-                             return gear::cylindrical_mesh(d, g, k, gear::cylindrical_counts(d, g, k, size));
+                           [=](gear::Size size, int order) {
+                             gear::WheelCounts counts = gear::cylindrical_counts(d, g, k, size);
+                             counts.order = order;
+                             return gear::cylindrical_mesh(d, g, k, counts);
                            },
                        .held = g.gear[i].internal ? "outer" : "bore"};
     member.position.head<2>() = g.axis[i];

@@ -12,6 +12,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 const Rows<Design> kDesignRows = {
     {"part", "-", "", "worm or wheel"},
     {"size", "-", "tiny", "tiny, small, medium or paper; the counts below refine it"},
+    {"element_order", "-", "1",
+     "order of the hexahedra: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact flanks and fillets)"},
     {"mesh", "-", "", "mesh file to write, Gmsh 4.1 .msh or Abaqus .inp"},
     {"z1", &Design::z1, "-", "starts of the worm", kPositive},
     {"z2", &Design::z2, "-", "teeth of the wheel", kPositive},
@@ -66,6 +68,8 @@ const Rows<Design> kDesignRows = {
 }  // namespace
 
 const Rows<Design>& design_rows() { return kDesignRows; }
+
+int element_order(const Options& options) { return options.choice("element_order", {"1", "2"}) + 1; }
 
 bool is_worm(const Options& options) { return options.choice("part", {"worm", "wheel"}) == 0; }
 

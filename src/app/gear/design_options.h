@@ -6,8 +6,11 @@
 
 namespace elastogear::app {
 
-/// The rows of a gear::Design, with part, size and mesh, which are read elsewhere.
+/// The rows of a gear::Design, with part, size, element_order and mesh, which are read elsewhere.
 const Rows<gear::Design>& design_rows();
+
+/// The option element_order: 1 or 2.
+int element_order(const Options& options);
 
 /// Which of the two bodies is the option part?
 bool is_worm(const Options& options);

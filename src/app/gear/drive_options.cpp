@@ -43,7 +43,7 @@ const Rows<DriveChoices> kDriveRows = {
 
 // Rows of gear data for a single body, and those that all drives share.
 constexpr const char* kOfParts[] = {"part", "mesh"};
-constexpr const char* kShared[] = {"size",     "module",    "pressure_angle", "centre_distance",
+constexpr const char* kShared[] = {"size",     "element_order", "module", "pressure_angle", "centre_distance",
                                    "backlash", "face_width"};
 
 // Options of reduce that a drive sets itself for each gear.
@@ -108,7 +108,7 @@ OptionTable whole_drive_table() {
   for (OptionSpec spec : table_of(design_rows())) {
     if (holds(kOfParts, spec.name)) continue;
     spec.help = "drive: " + spec.help;
-    if (spec.name != "size") spec.default_value.clear();
+    if (spec.name != "size" && spec.name != "element_order") spec.default_value.clear();
     table.push_back(spec);
   }
   return table;

@@ -72,6 +72,7 @@ void print_mesh(const mesh::Mesh& mesh) {
 template <class Counts>
 Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) {
   read_rows(options, rows, counts);
+  counts.order = element_order(options);
   return counts;
 }
 
@@ -94,7 +95,7 @@ void mesh_drive(const Options& options) {
   std::vector<mesh::Mesh> meshes;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const OutputLock lock(paths[i]);
-    meshes.push_back(drive.members[i].mesh(size));
+    meshes.push_back(drive.members[i].mesh(size, element_order(options)));
     print_item("mesh of " + drive.members[i].name, "");
     print_mesh(meshes.back());
     mesh::write_mesh(paths[i], meshes.back());

@@ -13,6 +13,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
+#include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "app/tables/material_options.h"
@@ -239,7 +240,7 @@ void reduce_drive(const Options& options) {
   for (const DriveMember& member : drive.members) {
     print_item("body " + member.name, "");
     reduce_body(member_options(options, member), [&] {
-      Nodes nodes{.mesh = member.mesh(size), .report = {}};
+      Nodes nodes{.mesh = member.mesh(size, element_order(options)), .report = {}};
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));
       std::iota(nodes.report.node_number.begin(), nodes.report.node_number.end(), 1);
       return nodes;

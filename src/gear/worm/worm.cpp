@@ -6,6 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "gear/assembly.h"
+#include "gear/second_order.h"
 #include "gear/worm/worm_grid.h"
 
 namespace elastogear::gear {
@@ -15,16 +16,24 @@ namespace {
 struct Builder {
   WormGrid g;
   mesh::Mesh mesh;
-  std::vector<Eigen::Vector3d> X;
+  std::vector<Polar> place;  // of all nodes
+  std::vector<std::array<int, 5>> key;
   std::map<std::array<int, 5>, int> number;
 
   // A left-handed worm is the image of a right-handed one, its angles changed in sign.
   int hand() const { return g.design.hand == Hand::left ? -1 : 1; }
 
-  int node(const std::array<int, 5>& key, const Polar& x) {
-    const auto [at, is_new] = number.try_emplace(key, static_cast<int>(X.size()));
+  Eigen::Vector3d position(const Polar& x) const {
     const double theta = hand() * x.phi + g.geometry.worm.theta_1;
-    if (is_new) X.emplace_back(x.r * std::cos(theta), x.r * std::sin(theta), x.z);
+    return {x.r * std::cos(theta), x.r * std::sin(theta), x.z};
+  }
+
+  int node(const std::array<int, 5>& of_node, const Polar& x) {
+    const auto [at, is_new] = number.try_emplace(of_node, static_cast<int>(place.size()));
+    if (is_new) {
+      place.push_back(x);
+      key.push_back(of_node);
+    }
     return at->second;
   }
 };
@@ -103,6 +112,20 @@ void add_shaft(Builder& b, int end) {
         });
 }
 
+// Midside node of an edge. A node of the core beside one of a tooth is in the tooth's row 0.
+Polar midside(const Builder& b, int node_1, int node_2) {
+  std::array<int, 5> key_1 = b.key[node_1], key_2 = b.key[node_2];
+  if (key_2[0] == kTooth) std::swap(key_1, key_2);
+  if (key_1[0] == kTooth) {
+    const auto [part, thread, J, q, row] = key_1;
+    if (key_2[0] != kTooth) return tooth_position(b.g, thread, J, q, row - 0.5);
+    return tooth_position(b.g, thread, (J + key_2[2]) / 2.0, (q + key_2[3]) / 2.0, (row + key_2[4]) / 2.0);
+  }
+  if (key_1[0] == kCore && key_2[0] == kCore)
+    return core_midside(b.g, {key_1[1], key_1[2]}, key_1[3], {key_2[1], key_2[2]}, key_2[3]);
+  return middle(b.place[node_1], b.place[node_2]);
+}
+
 void add_root(Builder& b, int thread, int node) {
   b.mesh.node_sets["root"].push_back(node);
   b.mesh.node_sets[thread_name(b, "root", thread)].push_back(node);
@@ -150,16 +173,21 @@ WormCounts worm_counts(Size size, int z1) {
 }
 
 mesh::Mesh worm_mesh(const Design& design, const WormCounts& counts) {
-  Builder b{.g = worm_grid(design, counts), .mesh = {}, .X = {}, .number = {}};
+  Builder b{.g = worm_grid(design, counts), .mesh = {}, .place = {}, .key = {}, .number = {}};
   add_core(b);
   add_threads(b);
   for (int end : {0, 1}) add_shaft(b, end);
   add_root_set(b);
   add_seat_sets(b);
   sort_node_sets(b.mesh);
-  b.mesh.X = Eigen::Map<const Eigen::Matrix3Xd>(b.X.front().data(), 3, static_cast<Eigen::Index>(b.X.size()));
+  b.mesh.X.resize(3, static_cast<Eigen::Index>(b.place.size()));
+  for (std::size_t node = 0; node < b.place.size(); ++node)
+    b.mesh.X.col(static_cast<Eigen::Index>(node)) = b.position(b.place[node]);
   std::vector<int>& body = b.mesh.cell_sets["body"];
   for (int cell = 0; cell < b.mesh.cells.size(); ++cell) body.push_back(cell);
+  if (counts.order == 2)
+    b.mesh =
+        second_order(b.mesh, [&](int node_1, int node_2) { return b.position(midside(b, node_1, node_2)); });
   check_cells(b.mesh, "worm");
   return b.mesh;
 }

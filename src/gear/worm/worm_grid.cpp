@@ -6,6 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "gear/assembly.h"
+#include "gear/second_order.h"
 #include "gear/worm/profiles.h"
 
 namespace elastogear::gear {
@@ -20,6 +21,7 @@ constexpr double kSinkingLength = 0.5;  // of a pitch: the shaft's rings are fla
 constexpr double kFade = 0.06;          // of a turn: the tooth's footprint in the core ends within it
 
 void check(const WormCounts& n, const Design& d, double p_x) {
+  check_order("worm", n.order);
   const double section =
       (2.0 * n.space + n.tooth) * n.ring + static_cast<double>(n.tooth) * (n.fillet + n.flank);
   check_counts("worm", {n.tooth, n.space, n.flank, n.fillet, n.ring, n.shaft},
@@ -30,9 +32,9 @@ void check(const WormCounts& n, const Design& d, double p_x) {
           " must be a multiple, at least twice, of z1 (2 space + tooth) = ", columns);
 }
 
-double row_fraction(const WormGrid& g, int row) { return graded(static_cast<double>(row) / g.n.ring); }
+double row_fraction(const WormGrid& g, double row) { return graded_row(row, g.n.ring); }
 
-double row_radius(const WormGrid& g, int row, double r_outer) {
+double row_radius(const WormGrid& g, double row, double r_outer) {
   const double bore = g.design.worm_bore / 2;
   return bore + (r_outer - bore) * row_fraction(g, row);
 }
@@ -42,25 +44,30 @@ double tread_height(const WormGrid& g) { return g.helix.top_0 + (g.helix.m + 1.0
 
 // Near the bore the helices are steep. Towards the upper end the inner layers are made thinner (the whole
 // stack sinks towards the bore), which flattens them and so keeps the cells at the steps open.
-double sunk(const WormGrid& g, double height, int row) {
+double sunk(const WormGrid& g, double height, double row) {
   const double x = std::max(0.0, 1 - (tread_height(g) - height) / g.columns);
   return kSinking * g.geometry.p_x * (1 - row_fraction(g, row)) * x * x;
 }
 
 // 1 where tooth t stands on section j, falling to 0 within a part of a turn beyond its end.
-double tooth_weight(const WormGrid& g, int t, int j) {
-  const int beyond = std::abs(g.helix.m * t * g.columns + j) - g.half_thread;
+double tooth_weight(const WormGrid& g, int t, double j) {
+  const double beyond = std::abs(g.helix.m * t * g.columns + j) - g.half_thread;
   return std::clamp(1 - beyond / (kFade * g.n.turn), 0.0, 1.0);
 }
 
-Polar inner_position(const WormGrid& g, HelixNode node, int row) {
-  const int t = floor_div(node.k + g.tooth_grid.half_pitch, g.columns), q = node.k - t * g.columns;
-  const double weight = tooth_weight(g, t, node.j);
+// Index of a point of the tooth's grid, from that of a node or of the middle between two.
+int point_index(const WormGrid& g, double index) { return static_cast<int>(std::lround(g.n.order * index)); }
+
+// Of a node, or with halves of a midside node.
+Polar inner_position(const WormGrid& g, double k, double j, double row) {
+  const int t = static_cast<int>(std::floor((k + g.tooth_grid.half_pitch) / g.columns));
+  const double q = k - t * g.columns, weight = tooth_weight(g, t, j);
   const Eigen::Vector2d plain(q * g.layer, row_radius(g, row, g.geometry.worm.r_f));
-  const Eigen::Vector2d x = plain + weight * (g.tooth_grid.strip_point(q, row) - plain);
-  const double section = static_cast<double>(node.j) / g.helix.m;
-  return {2 * pi * node.j / g.n.turn,
-          x[0] + (t * g.columns + section) * g.layer - sunk(g, node.k + section, row), x[1]};
+  const Eigen::Vector2d x =
+      plain + weight * (g.points.strip_point(point_index(g, q), point_index(g, row)) - plain);
+  const double section = j / g.helix.m;
+  return {2 * pi * j / g.n.turn, x[0] + (t * g.columns + section) * g.layer - sunk(g, k + section, row),
+          x[1]};
 }
 
 // Position of a node at the rim; the nodes are equally spaced in angle.
@@ -106,6 +113,12 @@ std::vector<Ring> rings(const WormGrid& g, double seat_begin, double seat_end, d
   return all;
 }
 
+// Whether a node has its place by inner_position; the lower half mirrors the upper one.
+bool is_inner(const WormGrid& g, HelixNode node) {
+  const bool lower = node.k * g.helix.m + node.j < 0;
+  return kind(g.helix, lower ? canonical(g.helix, {-node.k, -node.j}) : node) == NodeKind::inner;
+}
+
 }  // namespace
 
 // The lower half is the upper one turned about the axis through tooth 1's centre.
@@ -122,12 +135,32 @@ Polar core_position(const WormGrid& g, HelixNode node, int row) {
     case NodeKind::inner:
       break;
   }
-  return inner_position(g, node, row);
+  return inner_position(g, node.k, node.j, row);
 }
 
-Polar tooth_position(const WormGrid& g, int thread, int J, int q, int row) {
-  const Eigen::Vector2d x = g.tooth_grid.tooth_point(q, row);
-  const double section = static_cast<double>(J) / g.helix.m;
+// Between nodes of the lower half and of the upper one both formulas agree. Places at the steps and treads
+// are not those of the formula; edges to them are on plain cylinders.
+Polar core_midside(const WormGrid& g, HelixNode a, int row_a, HelixNode b, int row_b) {
+  const Helix& h = g.helix;
+  for (int turn : {-1, 0, 1}) {
+    const HelixNode at{b.k + turn * h.K, b.j - turn * h.turn()};
+    if (std::abs(at.k - a.k) > 1 || std::abs(at.j - a.j) > 1) continue;
+    if (!is_inner(g, a) || !is_inner(g, b)) break;
+    const double k = (a.k + at.k) / 2.0, j = (a.j + at.j) / 2.0, row = (row_a + row_b) / 2.0;
+    if (k * h.m + j >= 0) return inner_position(g, k, j, row);
+    const Polar x = inner_position(g, -k, -j, row);
+    return {-x.phi, -x.z, x.r};
+  }
+  return middle(core_position(g, a, row_a), core_position(g, b, row_b));
+}
+
+Polar middle(const Polar& a, const Polar& b) {
+  return {a.phi + std::remainder(b.phi - a.phi, 2 * pi) / 2, (a.z + b.z) / 2, (a.r + b.r) / 2};
+}
+
+Polar tooth_position(const WormGrid& g, int thread, double J, double q, double row) {
+  const Eigen::Vector2d x = g.points.tooth_point(point_index(g, q), point_index(g, row));
+  const double section = J / g.helix.m;
   return {2 * pi * (J + g.helix.m * thread * g.columns) / g.n.turn, section * g.layer + x[0], x[1]};
 }
 
@@ -140,12 +173,21 @@ Polar shaft_position(const WormGrid& g, int end, int ring, int column, int row) 
 }
 
 WormGrid worm_grid(const Design& d, const WormCounts& n) {
-  WormGrid g{
-      .design = d, .geometry = derive(d), .n = n, .tooth_grid = {}, .helix = {}, .treads = {}, .shaft = {}};
+  WormGrid g{.design = d,
+             .geometry = derive(d),
+             .n = n,
+             .tooth_grid = {},
+             .points = {},
+             .helix = {},
+             .treads = {},
+             .shaft = {}};
   check(n, d, g.geometry.p_x);
-  g.tooth_grid =
-      tooth_grid(worm_profile(d, g.geometry),
-                 {.tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.ring});
+  ToothGridCounts counts{
+      .tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.ring};
+  const Profile profile = worm_profile(d, g.geometry);
+  g.tooth_grid = tooth_grid(profile, counts);
+  counts.order = n.order;
+  g.points = tooth_grid(profile, counts);
   g.columns = 2 * g.tooth_grid.half_pitch;
   g.layer = g.geometry.p_x / g.columns;
   g.helix.K = d.z1 * g.columns;

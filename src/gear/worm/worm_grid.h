@@ -24,6 +24,7 @@ struct WormGrid {
   Geometry geometry;
   WormCounts n;
   ToothGrid tooth_grid;
+  ToothGrid points;  // the same with n.order points from node to node
   Helix helix;
   int columns = 0;      // layers per axial pitch
   int half_thread = 0;  // sections from the middle of a thread to its end
@@ -35,11 +36,17 @@ struct WormGrid {
 /// Checks design and counts.
 WormGrid worm_grid(const Design& design, const WormCounts& counts);
 
+/// Mean of two places, of which the angle of the second may count other turns.
+Polar middle(const Polar& a, const Polar& b);
+
 /// Node of the helical core: row 0 on the bore, row n.ring on the surface or under the tooth.
 Polar core_position(const WormGrid& grid, HelixNode node, int row);
 
-/// Node of a thread's tooth block; J counts sections from the thread's middle.
-Polar tooth_position(const WormGrid& grid, int thread, int J, int q, int row);
+/// Midside node between two nodes of the core in the rows row_a and row_b, whose edge is in one cell.
+Polar core_midside(const WormGrid& grid, HelixNode a, int row_a, HelixNode b, int row_b);
+
+/// Node of a thread's tooth block, or with halves a midside node; J counts sections from the thread's middle.
+Polar tooth_position(const WormGrid& grid, int thread, double J, double q, double row);
 
 /// Node of the plain shaft on the -z (end 0) or +z (end 1) side; column 0 .. treads - 1, ring 0 on the
 /// treads.
