@@ -1,0 +1,234 @@
+// Stress at the roots of the reference worm drive on meshes of several sizes and orders, averaged and
+// recovered on the free surface:
+//
+//   drive_roots worm|wheel MESH ... [deck FILE]
+//
+// MESH is a size of elastogear mesh, times a factor of all counts (x) and one of the rows of fillets and, of
+// the wheel, the columns of spaces (f), with the order of the hexahedra: tiny, smallx2, smallf3:2. The load
+// is 1 kN along the normals of a flank, spread smoothly over its whole height and 12 mm of its length, which
+// the coarsest mesh resolves. The worm is held at its seats; of the wheel five teeth on their part of the
+// disc are taken, held at the bore and where they are cut. Printed are the largest von Mises and first
+// principal stress (MPa) at all nodes of the root that are not on a flank, and the largest and the root mean
+// square error of the stress tensor there as shares of the largest von Mises stress, beside what is recovered
+// on the last mesh, interpolated at the nodes. deck: the last mesh with its load as a deck for CalculiX is
+// written to FILE, with the largest stresses of the same nodes on its first line.
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/gear/design.h"
+#include "elastogear/gear/size.h"
+#include "elastogear/gear/wheel.h"
+#include "elastogear/gear/worm.h"
+#include "root_case.h"
+
+namespace {
+
+using namespace elastogear;
+using namespace root_stress;
+using Eigen::Vector3d;
+
+constexpr double kHalfLength = 6e-3;  // m, of the load along the flank
+constexpr double kRoot = 10e-3;       // m, from its middle to the ends of the worm's root that is looked at
+
+// SIZE[xTIMES][fFILLET][:ORDER]
+struct MeshChoice {
+  gear::Size size;
+  int times = 1, fillet = 1, order = 1;
+};
+
+// The number behind a letter; 1 without it.
+int number_behind(const std::string& word, char letter) {
+  const auto at = word.find(letter);
+  return at == std::string::npos ? 1 : std::stoi(word.substr(at + 1));
+}
+
+// The sizes have neither x nor f in their names.
+MeshChoice mesh_choice(const std::string& word) {
+  return {gear::size(word.substr(0, word.find_first_of("xf:"))), number_behind(word, 'x'),
+          number_behind(word, 'f'), number_behind(word, ':')};
+}
+
+gear::WormCounts worm_counts(const MeshChoice& choice) {
+  gear::WormCounts n = gear::worm_counts(choice.size);
+  for (int* count : {&n.tooth, &n.space, &n.flank, &n.fillet, &n.ring, &n.turn, &n.shaft})
+    *count *= choice.times;
+  n.fillet *= choice.fillet;
+  n.order = choice.order;
+  return n;
+}
+
+gear::WheelCounts wheel_counts(const MeshChoice& choice) {
+  gear::WheelCounts n = gear::wheel_counts(choice.size);
+  for (int* count : {&n.tooth, &n.space, &n.flank, &n.fillet, &n.rim, &n.ring, &n.web, &n.hub, &n.web_layers,
+                     &n.face_layers, &n.hub_layers})
+    *count *= choice.times;
+  n.fillet *= choice.fillet;
+  n.space *= choice.fillet;
+  n.order = choice.order;
+  return n;
+}
+
+// Five teeth around the first one, held where they are cut from the whole.
+void cut_sector(Case& c, int n_teeth) {
+  const int n_cells = c.mesh.cells.size() / n_teeth;
+  mesh::Cells cells;
+  std::set<int> kept, cut;
+  for (int cell = 0; cell < c.mesh.cells.size(); ++cell) {
+    const int tooth = cell / n_cells;
+    const bool keep = tooth <= 2 || tooth >= n_teeth - 2;
+    if (keep) cells.add(c.mesh.cells.type[cell], c.mesh.cells[cell]);
+    (keep ? kept : cut).insert(c.mesh.cells[cell].begin(), c.mesh.cells[cell].end());
+  }
+  std::set_intersection(kept.begin(), kept.end(), cut.begin(), cut.end(),
+                        std::back_inserter(c.mesh.node_sets["cut"]));
+  c.mesh.cells = std::move(cells);
+  std::erase_if(c.mesh.face_sets.at("flanks"), [&](const mesh::Face& face) {
+    return std::any_of(face.begin(), face.end(), [&](int node) { return !kept.contains(node); });
+  });
+  c.held.emplace_back("cut");
+}
+
+// The load's middle is at z = 0; on the worm its length counts around the axis.
+Case case_of(const std::string& body, const MeshChoice& choice) {
+  const gear::Design design;
+  const gear::Geometry geometry = gear::derive(design);
+  const bool worm = body == "worm";
+  Case c{worm ? gear::worm_mesh(design, worm_counts(choice)) : gear::wheel_mesh(design, wheel_counts(choice)),
+         {worm ? "seats" : "bore"},
+         worm ? "thread_1_left" : "tooth_01_left",
+         {},
+         {}};
+  const gear::Toothing t = worm ? geometry.worm : geometry.wheel;
+  const double along = worm ? t.r / t.p : 1, r_middle = (t.r_form + t.r_a) / 2,
+               half_height = std::abs(t.r_a - t.r_form) / 2;
+  c.intensity = [=](const Vector3d& X) {
+    return bump(X.head<2>().norm(), r_middle, half_height) * bump(along * X[2], 0, kHalfLength);
+  };
+  const std::string root = worm ? "root_1" : "root_01";
+  for (int node : c.mesh.node_sets.at(root)) {
+    if (std::abs(along * c.mesh.X(2, node)) < kRoot) c.root.push_back(node);
+  }
+  if (!worm) cut_sector(c, t.z);
+  return c;
+}
+
+// Stress of the reference at a point of the surface: the polynomial of degree 2 over the plane through the
+// nearest nodes that fits it best.
+Eigen::Matrix<double, 6, 1> interpolated(const Solution& reference, const Vector3d& x) {
+  constexpr int kNearest = 16;
+  std::vector<int> order(static_cast<std::size_t>(reference.X.cols()));
+  std::iota(order.begin(), order.end(), 0);
+  const Eigen::RowVectorXd distance = (reference.X.colwise() - x).colwise().norm();
+  std::partial_sort(order.begin(), order.begin() + kNearest, order.end(),
+                    [&](int a, int b) { return distance[a] < distance[b]; });
+  order.resize(kNearest);
+  if (distance[order[0]] < 1e-8) return reference.recovered.col(order[0]);
+  const Eigen::Matrix3Xd near = reference.X(Eigen::all, order).colwise() - x;
+  const Eigen::Matrix3d axes = Eigen::JacobiSVD<Eigen::Matrix3Xd>(near, Eigen::ComputeFullU).matrixU();
+  const double scale = distance[order.back()];
+  Eigen::MatrixXd P(kNearest, 6);
+  for (int i = 0; i < kNearest; ++i) {
+    const double u = axes.col(0).dot(near.col(i)) / scale, v = axes.col(1).dot(near.col(i)) / scale;
+    P.row(i) << 1, u, v, u * u, u * v, v * v;
+    P.row(i) *= std::exp(-4 * std::pow(distance[order[static_cast<std::size_t>(i)]] / scale, 2));
+  }
+  Eigen::MatrixXd value = reference.recovered(Eigen::all, order).transpose();
+  for (int i = 0; i < kNearest; ++i)
+    value.row(i) *= std::exp(-4 * std::pow(distance[order[static_cast<std::size_t>(i)]] / scale, 2));
+  return P.completeOrthogonalDecomposition().solve(value).row(0).transpose();
+}
+
+Eigen::MatrixXd interpolated(const Solution& reference, const Eigen::Matrix3Xd& X) {
+  Eigen::MatrixXd sigma(6, X.cols());
+  for (Eigen::Index i = 0; i < X.cols(); ++i) sigma.col(i) = interpolated(reference, Vector3d(X.col(i)));
+  return sigma;
+}
+
+// Nodes in ascending order, in lines of 8, counted from 1.
+void write_set(std::ofstream& file, const std::string& name, const std::vector<int>& nodes) {
+  file << "*NSET, NSET=" << name << "\n";
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    file << nodes[i] + 1 << (i % 8 == 7 || i + 1 == nodes.size() ? "\n" : ", ");
+}
+
+void write_deck(const std::string& path, const Case& c, const Solution& s) {
+  std::ofstream file(path);
+  file.precision(12);  // CalculiX reads 20 letters of a number
+  file << "** largest von Mises stress, averaged, recovered: " << largest(s.averaged).von_mises << " "
+       << largest(s.recovered).von_mises << "\n*NODE\n";
+  const std::set<int> used(c.mesh.cells.nodes.begin(), c.mesh.cells.nodes.end());
+  for (int n : used)
+    file << n + 1 << ", " << c.mesh.X(0, n) << ", " << c.mesh.X(1, n) << ", " << c.mesh.X(2, n) << "\n";
+  file << "*ELEMENT, TYPE=" << (c.mesh.cells.type[0] == mesh::CellType::hex20 ? "C3D20" : "C3D8I")
+       << ", ELSET=ALL\n";
+  for (int cell = 0; cell < c.mesh.cells.size(); ++cell) {
+    file << cell + 1;
+    const auto nodes = c.mesh.cells[cell];
+    for (std::size_t i = 0; i < nodes.size(); ++i) file << (i == 9 ? ",\n" : ", ") << nodes[i] + 1;
+    file << "\n";
+  }
+  write_set(file, "ROOT", s.node);
+  file << "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e9, 0.3\n*SOLID SECTION, ELSET=ALL, "
+          "MATERIAL=STEEL\n*BOUNDARY\n";
+  std::set<int> held;
+  for (const std::string& set : c.held)
+    for (int node : c.mesh.node_sets.at(set))
+      if (used.contains(node)) held.insert(node);
+  for (int node : held) file << node + 1 << ", 1, 3\n";
+  const std::vector<int> loaded = nodes_of(c.mesh, c.flank);
+  const Eigen::Matrix3Xd f = nodal_forces(c, loaded);
+  file << "*STEP\n*STATIC\n*CLOAD\n";
+  for (std::size_t i = 0; i < loaded.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      file << loaded[i] + 1 << ", " << k + 1 << ", " << f(k, static_cast<Eigen::Index>(i)) << "\n";
+  file << "*NODE FILE, NSET=ROOT\nU\n*EL FILE, NSET=ROOT\nS\n*END STEP\n";
+}
+
+void run(const std::vector<std::string>& words) {
+  const auto deck = std::find(words.begin(), words.end(), "deck");
+  std::vector<std::pair<Case, Solution>> solved;
+  for (auto word = words.begin() + 1; word != deck; ++word) {
+    Case c = case_of(words[0], mesh_choice(*word));
+    Solution s = solve(c);
+    print(*word, c.mesh, s);
+    std::printf("\n");
+    std::fflush(stdout);
+    if (deck != words.end() && word + 1 == deck) write_deck(deck[1], c, s);
+    solved.emplace_back(std::move(c), std::move(s));
+  }
+  const Solution& reference = solved.back().second;
+  const double scale = largest(reference.recovered).von_mises;
+  for (std::size_t i = 0; i + 1 < solved.size(); ++i) {
+    std::printf("%-10s", words[i + 1].c_str());
+    print_errors(solved[i].second, interpolated(reference, solved[i].second.X), scale);
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Session session(argc, argv);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 2)
+    return std::fprintf(stderr,
+                        "usage: drive_roots worm|wheel SIZE[xTIMES][fFILLET][:ORDER] ... [deck FILE]\n"),
+           2;
+  try {
+    run(words);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

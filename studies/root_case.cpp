@@ -1,0 +1,160 @@
+#include "root_case.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <set>
+
+#include "elastogear/fem/restraint.h"
+#include "elastogear/fem/stress.h"
+#include "elastogear/recovery/stress.h"
+#include "elastogear/reduction/static_response.h"
+#include "elastogear/reduction/stressed_body.h"
+
+namespace root_stress {
+
+using namespace elastogear;
+using Eigen::Vector3d;
+
+namespace {
+
+// Points of Gauss's rule of 3 points in each of kPieces equal pieces of [-1, 1], and their weights.
+constexpr int kPieces = 4;
+
+struct Rule {
+  std::vector<double> at, weight;
+};
+
+Rule rule() {
+  Rule all;
+  for (int piece = 0; piece < kPieces; ++piece)
+    for (int i = -1; i <= 1; ++i) {
+      all.at.push_back((2 * piece + 1 + i * std::sqrt(0.6)) / kPieces - 1);
+      all.weight.push_back((i == 0 ? 8. : 5.) / 9 / kPieces);
+    }
+  return all;
+}
+
+// Adds the forces of one face, a triangle or a bilinear quadrilateral.
+template <class Add>
+void add_face(const Case& c, const mesh::Face& face, const Rule& points, const Add& add) {
+  const Eigen::Matrix<double, 3, 4> X = c.mesh.X(Eigen::all, face);
+  for (std::size_t i = 0; i < points.at.size(); ++i)
+    for (std::size_t j = 0; j < points.at.size(); ++j) {
+      const double u = points.at[i], v = points.at[j];
+      const Eigen::Vector4d N =
+          Eigen::Vector4d((1 - u) * (1 - v), (1 + u) * (1 - v), (1 + u) * (1 + v), (1 - u) * (1 + v)) / 4;
+      const Vector3d x_u = X * Eigen::Vector4d(v - 1, 1 - v, 1 + v, -1 - v) / 4,
+                     x_v = X * Eigen::Vector4d(u - 1, -1 - u, 1 + u, 1 - u) / 4;
+      const Vector3d f = -points.weight[i] * points.weight[j] * c.intensity(X * N) * x_u.cross(x_v);
+      for (int k = 0; k < 4; ++k) add(face[k], N[k] * f);
+    }
+}
+
+}  // namespace
+
+double bump(double x, double middle, double half_width) {
+  const double t = (x - middle) / half_width;
+  return std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;
+}
+
+std::vector<int> nodes_of(const mesh::Mesh& mesh, const std::string& face_set) {
+  std::set<int> nodes;
+  for (const mesh::Face& face : mesh.face_sets.at(face_set)) nodes.insert(face.begin(), face.end());
+  return {nodes.begin(), nodes.end()};
+}
+
+Eigen::Matrix3Xd nodal_forces(const Case& c, const std::vector<int>& node) {
+  const Rule points = rule();
+  Eigen::Matrix3Xd f = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(node.size()));
+  for (const mesh::Face& face : c.mesh.face_sets.at(c.flank))
+    add_face(c, face, points, [&](int n, const Vector3d& part) {
+      f.col(std::lower_bound(node.begin(), node.end(), n) - node.begin()) += part;
+    });
+  return f * (c.load / f.rowwise().sum().norm());
+}
+
+Largest largest(const Eigen::MatrixXd& sigma) {
+  Largest result;
+  for (const auto s : sigma.colwise()) {
+    result.von_mises = std::max(result.von_mises, recovery::von_mises(recovery::StressVector(s)));
+    result.principal = std::max(result.principal, recovery::rankine(recovery::StressVector(s)));
+  }
+  return result;
+}
+
+Solution solve(const Case& c) {
+  io::BodySource source;
+  source.mesh = c.mesh;
+  source.regions = {{"", {210e9, 0.3, 7850}}};
+  source.free_dof = fem::free_dofs(fem::held_directions(c.mesh, c.held));
+  const std::vector<int> loaded = nodes_of(c.mesh, c.flank), flanks = nodes_of(c.mesh, "flanks");
+  source.recovery = {model::RecoveryMethod::surface, flanks};
+  const Eigen::VectorXd u = reduction::StaticResponse(source).displacement(loaded, nodal_forces(c, loaded));
+  std::vector<int> root;
+  std::set_difference(c.root.begin(), c.root.end(), flanks.begin(), flanks.end(), std::back_inserter(root));
+  fem::StressedBody body = reduction::stressed_body(source);
+  const Eigen::MatrixXd recovered = fem::nodal_stress(body, u);
+  body.recovery.method = model::RecoveryMethod::average;
+  const Eigen::MatrixXd averaged = fem::nodal_stress(body, u);
+  Solution s{root, c.mesh.X(Eigen::all, root), averaged(Eigen::all, root), recovered(Eigen::all, root)};
+  if (c.plane) s.X.row(2).setZero();
+  return s;
+}
+
+void print(const std::string& kind, const mesh::Mesh& mesh, const Solution& s) {
+  const std::size_t n_nodes = std::set<int>(mesh.cells.nodes.begin(), mesh.cells.nodes.end()).size();
+  const Largest averaged = largest(s.averaged), recovered = largest(s.recovered);
+  std::printf("%-6s %8zu nodes, averaged / recovered: von Mises %7.2f / %7.2f, principal %7.2f / %7.2f",
+              kind.c_str(), n_nodes, 1e-6 * averaged.von_mises, 1e-6 * recovered.von_mises,
+              1e-6 * averaged.principal, 1e-6 * recovered.principal);
+  Eigen::Index at = 0;
+  recovery::von_mises(Eigen::MatrixXd(s.recovered.reshaped(s.recovered.size(), 1))).col(0).maxCoeff(&at);
+  const Vector3d X = s.X.col(at);
+  std::printf(", at r %.2f mm, %.1f deg, z %.2f mm", 1e3 * X.head<2>().norm(),
+              std::atan2(X[1], X[0]) * 180 / M_PI, 1e3 * X[2]);
+}
+
+namespace {
+
+// Of positive numbers, ascending: how many are above `from`, in percent, and the median.
+void print_ratios(const char* what, std::vector<double> ratio, double from) {
+  if (ratio.empty()) return;
+  std::sort(ratio.begin(), ratio.end());
+  const auto above = std::count_if(ratio.begin(), ratio.end(), [&](double r) { return r > from; });
+  std::printf(", %s: %.0f %%, %.2f", what,
+              100. * static_cast<double>(above) / static_cast<double>(ratio.size()), ratio[ratio.size() / 2]);
+}
+
+// How well the von Mises stress of the difference of both tells the error of either's von Mises stress: at
+// how many nodes the error is below twice the estimate, and the median of estimate over error. At nodes with
+// a tenth of the largest stress.
+void print_estimates(const Solution& s, const Eigen::MatrixXd& exact, double scale) {
+  std::vector<double> of_averaged, of_recovered;
+  for (Eigen::Index i = 0; i < exact.cols(); ++i) {
+    const auto equivalent = [&](const Eigen::MatrixXd& sigma) {
+      return recovery::von_mises(recovery::StressVector(sigma.col(i)));
+    };
+    const double e = equivalent(s.recovered - s.averaged), truth = equivalent(exact);
+    if (truth < 0.1 * scale || e == 0) continue;
+    of_averaged.push_back(e / std::abs(equivalent(s.averaged) - truth));
+    of_recovered.push_back(e / std::abs(equivalent(s.recovered) - truth));
+  }
+  print_ratios("estimate of averaged holds at, median", of_averaged, 0.5);
+  print_ratios("of recovered", of_recovered, 0.5);
+}
+
+}  // namespace
+
+void print_errors(const Solution& s, const Eigen::MatrixXd& exact, double scale) {
+  for (const Eigen::MatrixXd* sigma : {&s.averaged, &s.recovered}) {
+    const Eigen::VectorXd error = (*sigma - exact).colwise().norm() / scale;
+    std::printf("%s %.1f %% (%.1f %%)", sigma == &s.averaged ? ", errors" : " /", 100 * error.maxCoeff(),
+                100 * std::sqrt(error.squaredNorm() / static_cast<double>(error.size())));
+  }
+  print_estimates(s, exact, scale);
+}
+
+}  // namespace root_stress

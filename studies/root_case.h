@@ -1,0 +1,53 @@
+#pragma once
+// Static loads on flanks and the stresses at roots, which studies share.
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "elastogear/mesh/mesh.h"
+
+namespace root_stress {
+
+/// A body with a load on one flank.
+struct Case {
+  elastogear::mesh::Mesh mesh;
+  std::vector<std::string> held;
+  std::string flank;      ///< face set that is loaded
+  std::vector<int> root;  ///< nodes at which the largest stress is looked for
+  std::function<double(const Eigen::Vector3d& X)> intensity;  ///< of the load, over the flank
+  bool plane = false;                                         ///< nothing depends on z
+  double load = 1000;                                         ///< N
+};
+
+/// 1 in the middle, 0 from half_width on, with smooth slopes.
+double bump(double x, double middle, double half_width);
+
+/// Nodes of a face set, ascending.
+std::vector<int> nodes_of(const elastogear::mesh::Mesh& mesh, const std::string& face_set);
+
+/// 3 x n, N, at these nodes, ascending: pressure in proportion to the intensity on the faces of the loaded
+/// flank, with the resultant of the case.
+Eigen::Matrix3Xd nodal_forces(const Case& c, const std::vector<int>& node);
+
+struct Largest {
+  double von_mises = 0, principal = 0;  ///< Pa
+};
+Largest largest(const Eigen::MatrixXd& sigma);
+
+/// Stresses at the root's nodes that are not on a flank.
+struct Solution {
+  std::vector<int> node;                ///< n, of the mesh
+  Eigen::Matrix3Xd X;                   ///< m
+  Eigen::MatrixXd averaged, recovered;  ///< 6 x n, Pa
+};
+Solution solve(const Case& c);
+
+void print(const std::string& kind, const elastogear::mesh::Mesh& mesh, const Solution& s);
+
+/// Errors of both stresses beside given ones at the same points, 6 x n, as shares of `scale` (Pa): the
+/// largest and the root mean square; and how well the difference of both tells that of the recovered ones.
+void print_errors(const Solution& s, const Eigen::MatrixXd& exact, double scale);
+
+}  // namespace root_stress
