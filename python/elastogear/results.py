@@ -149,6 +149,7 @@ class StressSet:
     rankine       (n_t, n), Pa, largest principal stress
     error         (n_t, n), Pa, estimated error of von_mises against the unreduced body, or None
     peak_error    (n_t,), Pa, of the largest von Mises stress of the set, or None
+    mesh_error    (n_t, n), Pa, estimated error of von_mises by the mesh, or None
     """
 
     body: str
@@ -160,6 +161,7 @@ class StressSet:
     rankine: Array
     error: Optional[Array]
     peak_error: Optional[Array]
+    mesh_error: Optional[Array]
 
     def __init__(self, values: dict[str, Any]) -> None:
         self.__dict__.update(values)

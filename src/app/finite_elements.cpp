@@ -1,6 +1,7 @@
 #include "app/finite_elements.h"
 
 #include <memory>
+#include <utility>
 
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/static_response.h"
@@ -27,8 +28,18 @@ std::vector<int> node_regions(const io::BodySource& source) {
   return fem::stress_regions(source.mesh, source.regions);
 }
 
+// Bodies whose stresses are means do not keep the nodes that are loaded.
+model::SparseRows recovery_difference(const io::BodySource& source, const std::vector<int>& loaded,
+                                      const std::vector<int>& nodes) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
+  return fem::recovery_difference(std::move(body), nodes);
+}
+
 }  // namespace
 
-recovery::FiniteElements finite_elements() { return {unreduced_response, nodal_stress, node_regions}; }
+recovery::FiniteElements finite_elements() {
+  return {unreduced_response, nodal_stress, node_regions, recovery_difference};
+}
 
 }  // namespace elastogear::app

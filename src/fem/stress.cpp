@@ -106,6 +106,15 @@ model::SparseRows stress_operator(const StressedBody& body, const std::vector<in
   return S;
 }
 
+model::SparseRows recovery_difference(StressedBody body, const std::vector<int>& nodes) {
+  body.recovery.method = model::RecoveryMethod::surface;
+  const model::SparseRows recovered = stress_operator(body, nodes);
+  body.recovery.method = model::RecoveryMethod::average;
+  model::SparseRows difference = recovered - stress_operator(body, nodes);
+  difference.prune(0.0);
+  return difference;
+}
+
 std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions) {
   Averaging average = find_averaging(mesh, regions);
   for (std::size_t node = 0; node < average.region.size(); ++node)

@@ -3,6 +3,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/recovery/stress.h"
 #include "recovery/error_estimate.h"
+#include "recovery/mesh_error.h"
 
 namespace elastogear::recovery {
 namespace {
@@ -54,6 +55,7 @@ RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool wi
   body.response = static_response_of_run(body.run, acceleration, finite_elements);
   if (!body.response && with_error && !body.relaxes())
     body.reference = error_reference(body.run, finite_elements);
+  body.finite_elements = finite_elements;
   return body;
 }
 
@@ -73,7 +75,10 @@ io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elas
                           std::move(h.von_mises),
                           std::move(h.rankine),
                           stress.X(Eigen::all, members)};
-  if (with_error) estimate_error(body, elastic, recovered);
+  if (with_error) {
+    estimate_error(body, elastic, recovered);
+    recovered.mesh_error = mesh_error(body, elastic, recovered);
+  }
   return recovered;
 }
 

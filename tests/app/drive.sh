@@ -26,6 +26,7 @@ run reduce spur.yaml
 run simulate spur.yaml -roll 0.125
 run recover spur.yaml
 grep -q "pinion root  *peak von Mises [1-9]" log || { cat log; exit 1; }
+grep -q "estimated error of the mesh [1-9].* MPa, [1-9]. %" log && grep -q "wheel root: too coarse a mesh" log || { cat log; exit 1; }
 run simulate spur.yaml -roll 0.125 -side coast -output coast.h5
 for roll in 0 0.3 0.6 0.9; do
   run simulate spur.yaml -roll $roll -torque "20 N m" -pinion_rigid true -wheel_rigid true -contact_law unilateral \

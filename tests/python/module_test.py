@@ -55,6 +55,7 @@ class Runs(WithDrive):
         self.assertAlmostEqual(result.time[-1], 1)
         root = stress["pinion", "root"]
         self.assertEqual(root.stress.shape, (*root.von_mises.shape, 6))
+        self.assertEqual(root.mesh_error.shape, root.von_mises.shape)
         np.testing.assert_allclose(eg.von_mises(root.stress[-1]), root.von_mises[-1])
         with open("dict.yaml", "w", encoding="utf-8") as file:
             json.dump(SPUR, file)

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
+#include <utility>
 
 #include "../fem/brick.h"
 #include "../mesh/box_mesh.h"
@@ -36,6 +37,12 @@ FiniteElements finite_elements() {
           },
           [](const io::BodySource& source, const Eigen::VectorXd& u) {
             return fem::nodal_stress(reduction::stressed_body(source), u);
+          },
+          {},
+          [](const io::BodySource& source, const auto& loaded, const auto& nodes) {
+            fem::StressedBody body = reduction::stressed_body(source);
+            body.recovery.loaded = loaded;
+            return fem::recovery_difference(std::move(body), nodes);
           }};
 }
 
@@ -119,6 +126,43 @@ TEST_F(Recover, of_the_full_basis_errs_by_nothing) {
   const io::StressSet set = recover_stress(recovered, body, "ymax", true);
   EXPECT_LT((set.stress - exact).norm(), kRoundoff * exact.norm());
   EXPECT_EQ(set.error.norm(), 0);
+}
+
+// Nodes that are loaded or held have no free surface.
+TEST_F(Recover, estimates_the_error_of_the_mesh_by_the_difference_of_two_recoveries) {
+  const model::ElasticBody full = reduce(model::Basis::full);
+  RecoveredBody recovered = prepare_recovery(write(full), Acceleration::automatic, true, finite_elements());
+  const io::StressSet set = recover_stress(recovered, full, "ymax", true);
+  ASSERT_EQ(set.mesh_error.rows(), set.von_mises.rows());
+  const io::BodySource source = io::read_body_source(file);
+  const Eigen::VectorXd u = io::read_displacement_field(file, at_rest(full)).reshaped();
+  fem::StressedBody body = reduction::stressed_body(source);
+  const Eigen::MatrixXd mean = fem::nodal_stress(body, u);
+  body.recovery = {model::RecoveryMethod::surface, full.surface.node};
+  const Eigen::MatrixXd difference = fem::nodal_stress(body, u) - mean;
+  int n_free = 0;
+  for (std::size_t i = 0; i < set.node.size(); ++i) {
+    const double expected = von_mises(StressVector(difference.col(set.node[i])));
+    const auto row = static_cast<Eigen::Index>(i);
+    if (expected == 0) {  // as large a part as at a node near by
+      EXPECT_GT(set.mesh_error(row, 0), 0);
+      continue;
+    }
+    EXPECT_NEAR(set.mesh_error(row, 0), expected, kRoundoff * mean.norm());
+    ++n_free;
+  }
+  EXPECT_GE(n_free, 8);
+}
+
+TEST_F(Recover, estimates_the_error_of_the_mesh_of_reduced_bodies_alike) {
+  const auto estimate = [&](const model::ElasticBody& body, Acceleration acceleration) {
+    RecoveredBody recovered = prepare_recovery(write(body), acceleration, true, finite_elements());
+    return recover_stress(recovered, body, "ymax", true).mesh_error;
+  };
+  const Eigen::MatrixXd exactly = estimate(reduce(model::Basis::full), Acceleration::automatic);
+  const Eigen::MatrixXd reduced = estimate(reduce(model::Basis::modal, true), Acceleration::automatic);
+  EXPECT_GT(reduced.norm(), 0.5 * exactly.norm());
+  EXPECT_LT(reduced.norm(), 2 * exactly.norm());
 }
 
 TEST_F(Recover, fields_of_contact_have_the_forces_in_the_world) {

@@ -20,6 +20,10 @@ namespace elastogear::fem {
 /// Throws Error when a node belongs to no cell. docs/theory.md, Eq. (4.1).
 model::SparseRows stress_operator(const StressedBody& body, const std::vector<int>& nodes);
 
+/// What recovery on free surfaces gives at nodes less the mean there, whichever of them the body takes: 6 n_e
+/// x 3 n_nodes, Pa/m; rows of zeros where no free surface is. docs/theory.md, Eq. (1.16).
+model::SparseRows recovery_difference(StressedBody body, const std::vector<int>& nodes);
+
 /// Index into `regions` of the region whose stress each node of the mesh has; -1 outside all cells.
 std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
 

@@ -2,6 +2,7 @@
 // The body file (HDF5, docs/file_format.md): written by reduction, read by dynamics and recovery.
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,5 +64,9 @@ bool has_full_modes(const std::string& path);
 /// Whole-body displacement Phi q, 3 x n_nodes, m, BRF. Streams /modes/Phi (modal) or scatters q (full). Error
 /// with the remedy when the modes are not stored in full.
 Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::VectorXd& q);
+/// Calls visit(k, phi) for each of the n_q modes of a modal basis, phi: 3 n_nodes, node-major; one mode is in
+/// memory at a time. Error with the remedy when the modes are not stored in full.
+void visit_modes(const std::string& path, Eigen::Index n_q,
+                 const std::function<void(Eigen::Index k, const Eigen::VectorXd& phi)>& visit);
 
 }  // namespace elastogear::io

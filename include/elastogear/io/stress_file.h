@@ -19,6 +19,8 @@ struct StressSet {
   /// n x n_t, Pa, estimated error of von_mises against the unreduced body on the same mesh; or empty
   Eigen::MatrixXd error = {};
   Eigen::VectorXd peak_error = {};  ///< n_t, Pa, of the set's largest von Mises stress; or empty
+  /// n x n_t, Pa, estimated error of von_mises by the mesh, against the continuum; or empty
+  Eigen::MatrixXd mesh_error = {};
 };
 
 struct StressFile {

@@ -27,6 +27,11 @@ struct FiniteElements {
   /// Index into the source's regions of the region whose stress each node has; -1: none. Asked of
   /// viscoelastic bodies.
   std::function<std::vector<int>(const io::BodySource& source)> node_regions = {};
+  /// Stresses at nodes as recovered on free surfaces less the means there, 6 n x 3 n_nodes, Pa/m; rows of
+  /// zeros at `loaded` nodes and where no free surface is.
+  std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& loaded,
+                                  const std::vector<int>& nodes)>
+      recovery_difference = {};
 };
 
 }  // namespace elastogear::recovery

@@ -16,6 +16,7 @@ struct RecoveredBody {
   BodyOfRun run;
   std::unique_ptr<StaticResponseOfRun> response = nullptr;   ///< of mode acceleration, when asked for
   std::unique_ptr<StaticResponseOfRun> reference = nullptr;  ///< of the error, where `response` is none
+  FiniteElements finite_elements = {};
 
   /// The coordinates to multiply modes with: their dynamic part where `response` adds the static one.
   const Eigen::MatrixXd& q() const { return response ? response->q : run.history.q; }

@@ -21,7 +21,8 @@ Position peak(const Eigen::MatrixXd& history) {
   return at;
 }
 
-constexpr double kTrusted = 0.05;  // of the peak
+constexpr double kTrusted = 0.05;     // of the peak
+constexpr double kTrustedMesh = 0.1;  // the same, of the mesh's error
 
 // Advice for stresses whose estimated error is too large.
 std::string remedy(const recovery::RecoveredBody& body) {
@@ -52,6 +53,20 @@ void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) 
     print_item("warning", set.body + " " + set.set + ": not to be trusted; " + remedy(body));
 }
 
+// The difference between two recoveries of the same displacements, at the largest stress.
+void print_mesh_error(const io::StressSet& set) {
+  if (set.mesh_error.size() == 0) return print_item("", "error of the mesh not estimated");
+  const auto [node, step] = peak(set.von_mises);
+  const double error = set.mesh_error(node, step),
+               share = error / std::max(set.von_mises(node, step), 1e-300);
+  print_item("", "estimated error of the mesh " + with_unit(1e-6 * error, "MPa") + ", " + percent(share));
+  if (share > kTrustedMesh)
+    print_item("warning",
+               set.body + " " + set.set +
+                   ": too coarse a mesh for this stress; take a finer one there, hexahedra of second order "
+                   "(-element_order 2), or reduce with -stress_recovery surface");
+}
+
 std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const Eigen::VectorXd& time) {
   const auto [node, step] = peak(history);
   return with_unit(1e-6 * history(node, step), "MPa") + " at node " + std::to_string(set.node[node]) + ", " +
@@ -65,6 +80,8 @@ void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, 
   columns.push_back({"von_mises" + suffix, "Pa", set.von_mises.row(node)});
   columns.push_back({"rankine" + suffix, "Pa", set.rankine.row(node)});
   if (set.error.size() > 0) columns.push_back({"error of von_mises" + suffix, "Pa", set.error.row(node)});
+  if (set.mesh_error.size() > 0)
+    columns.push_back({"error of von_mises by the mesh" + suffix, "Pa", set.mesh_error.row(node)});
 }
 
 }  // namespace
@@ -73,6 +90,7 @@ void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
                   const Eigen::VectorXd& time) {
   print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, time));
   print_error(body, set);
+  print_mesh_error(set);
   print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, time));
 }
 

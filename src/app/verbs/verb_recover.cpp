@@ -94,7 +94,7 @@ void write_stresses(const Options& options, const RecoverSettings& settings, Run
           "-stress_",
           run.bodies.front().run.name, " root");
   report(progress, "stresses", 1);
-  for (const auto& [body, response, reference] : run.bodies)
+  for (const auto& [body, response, reference, finite_elements] : run.bodies)
     if (const auto sets = settings.stress.find(body.name);
         !body.file.empty() && (sets == settings.stress.end() || sets->second.empty()))
       print_item("not recovered", body.name + ": -stress_" + body.name + " names no sets");
@@ -165,7 +165,7 @@ void protect_inputs(const Options& options, const RecoverSettings& settings, con
   for (const auto& [body, sets] : settings.stress)
     for (const std::string& set : sets) stresses.files.push_back(table_path(settings, body, set));
   std::vector<std::string> data = {run.result};
-  for (const auto& [body, response, reference] : run.bodies) {
+  for (const auto& [body, response, reference, finite_elements] : run.bodies) {
     data.push_back(body.file);
     const std::string base = settings.fields + "_" + body.name;
     for (std::size_t i = 0; i < n_fields; ++i) fields.files.push_back(field_path(base, i, n_fields));

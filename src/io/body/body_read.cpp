@@ -119,20 +119,21 @@ Basis read_basis(const h5::File& file) {
   return parse_basis(file.path, h5::string_attribute(file, "/", "basis"));
 }
 
-// Sum of modes; one mode in memory at a time.
-Eigen::VectorXd sum_modes(const h5::File& file, const Eigen::VectorXd& q) {
+using VisitMode = std::function<void(Eigen::Index k, const Eigen::VectorXd& phi)>;
+
+// Visits n_q modes; one mode in memory at a time.
+void visit_all_modes(const h5::File& file, Eigen::Index n_q, const VisitMode& visit) {
   require(h5::exists(file, "/modes/Phi"), file.path,
           ": holds the modes at surface and stress nodes only; reduce the body with -store all to recover "
           "whole fields");
   const h5::Shape shape = h5::shape(file, "/modes/Phi");
-  require(shape.size() == 3 && shape[0] == extent(q.size()) && shape[2] == 3, file.path,
-          ": /modes/Phi does not hold ", q.size(), " modes of n nodes x 3");
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * shape[1])), phi(u.size());
-  for (Eigen::Index k = 0; k < q.size(); ++k) {
-    h5::read_rows(file, "/modes/Phi", {extent(k), {1, shape[1], 3}}, phi.data());
-    u += q[k] * phi;
+  require(shape.size() == 3 && shape[0] == extent(n_q) && shape[2] == 3, file.path,
+          ": /modes/Phi does not hold ", n_q, " modes of n nodes x 3");
+  Eigen::VectorXd phi(static_cast<Eigen::Index>(3 * shape[1]));
+  for (hsize_t k = 0; k < shape[0]; ++k) {
+    h5::read_rows(file, "/modes/Phi", {k, {1, shape[1], 3}}, phi.data());
+    visit(static_cast<Eigen::Index>(k), phi);
   }
-  return u;
 }
 
 }  // namespace
@@ -187,8 +188,12 @@ Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::V
   const h5::File file = open_format(path, kBodyFormat);
   require(q.allFinite(), path, ": elastic coordinates are not finite");
   if (read_basis(file) == Basis::modal) {
-    const Eigen::VectorXd u = sum_modes(file, q);
-    return Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3);
+    Eigen::Matrix3Xd u;
+    visit_all_modes(file, q.size(), [&](Eigen::Index k, const Eigen::VectorXd& phi) {
+      if (k == 0) u.setZero(3, phi.size() / 3);
+      u.reshaped() += q[k] * phi;
+    });
+    return u;
   }
   const auto n_nodes = static_cast<Eigen::Index>(h5::shape(file, "/mesh/X").at(0));
   const std::vector<int> dof = read_free_dof(file, 3 * n_nodes);
@@ -197,6 +202,12 @@ Eigen::Matrix3Xd read_displacement_field(const std::string& path, const Eigen::V
   Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, n_nodes);
   for (std::size_t i = 0; i < dof.size(); ++i) u.data()[dof[i]] = q[static_cast<Eigen::Index>(i)];
   return u;
+}
+
+void visit_modes(const std::string& path, Eigen::Index n_q, const VisitMode& visit) {
+  const h5::File file = open_format(path, kBodyFormat);
+  require(read_basis(file) == Basis::modal, path, ": has the full basis, no modes");
+  visit_all_modes(file, n_q, visit);
 }
 
 }  // namespace elastogear::io
