@@ -1,14 +1,12 @@
 #include "reduction/eigensolver/krylov_basis.h"
 
-#include <slepcblaslapack.h>
-#include <slepcsys.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 #include <random>
 #include <utility>
 
+#include "reduction/dense_blas.h"
 #include "reduction/eigensolver/dense_eigenproblem.h"
 
 namespace elastogear::reduction {
@@ -16,7 +14,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Columns = Eigen::Ref<MatrixXd>;
 using ConstColumns = Eigen::Ref<const MatrixXd>;
 
 constexpr double kRoundoff = 1e-14;          // of the first block's norm: a direction below it is noise
@@ -25,22 +22,9 @@ constexpr double kWellConditioned = 1e-6;    // the same: dividing by its root l
 constexpr double kSmallCorrection = 1e-6;    // relative: what is left of it after the projection is roundoff
 constexpr int kMaxPasses = 5;
 
-// C := alpha op(A) B + beta C by BLAS.
-void gemm(bool transposed, double alpha, const ConstColumns& A, const ConstColumns& B, double beta,
-          Columns C) {
-  const auto m = static_cast<PetscBLASInt>(C.rows()), n = static_cast<PetscBLASInt>(C.cols()),
-             k = static_cast<PetscBLASInt>(B.rows());
-  const auto stride = [](const auto& X) {
-    return static_cast<PetscBLASInt>(std::max<Eigen::Index>(1, X.outerStride()));
-  };
-  const PetscBLASInt a = stride(A), b = stride(B), c = stride(C);
-  if (m == 0 || n == 0) return;
-  BLASgemm_(transposed ? "T" : "N", "N", &m, &n, &k, &alpha, A.data(), &a, B.data(), &b, &beta, C.data(), &c);
-}
-
 MatrixXd times(const ConstColumns& W, const MatrixXd& U) {
   MatrixXd product(W.rows(), U.cols());
-  gemm(false, 1, W, U, 0, product);
+  multiply(Op::plain, Op::plain, 1, W, U, 0, product);
   return product;
 }
 
@@ -137,7 +121,7 @@ MatrixXd sum(MPI_Comm comm, const MatrixXd& own) {
 
 MatrixXd inner(MPI_Comm comm, const ConstColumns& A, const ConstColumns& B) {
   MatrixXd own(A.cols(), B.cols());
-  gemm(true, 1, A, B, 0, own);
+  multiply(Op::transposed, Op::plain, 1, A, B, 0, own);
   return sum(comm, own);
 }
 
