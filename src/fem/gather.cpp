@@ -15,20 +15,6 @@ std::vector<int> ranks_of(const std::vector<int>& dof) {
   return number;
 }
 
-// The matrix with every row and column on rank 0.
-UniqueMat on_root(Mat A) {
-  const MPI_Comm comm = comm_of(A);
-  PetscMPIInt rank = 0;
-  PetscInt n = 0;
-  UniqueMat root;
-  UniqueIS all;
-  MPI_Comm_rank(comm, &rank);
-  check(MatGetSize(A, &n, nullptr));
-  check(ISCreateStride(comm, rank == 0 ? n : 0, 0, 1, all.out()));
-  check(MatCreateSubMatrix(A, all, all, MAT_INITIAL_MATRIX, root.out()));
-  return root;
-}
-
 }  // namespace
 
 std::vector<int> row_dofs(const RowNumbering& rows) {
@@ -67,6 +53,19 @@ void VectorGather::scatter(const Eigen::VectorXd& u, Vec v) const {
   check(VecRestoreArrayWrite(on_root_, &values));
   check(VecScatterBegin(scatter_, on_root_, v, INSERT_VALUES, SCATTER_REVERSE));
   check(VecScatterEnd(scatter_, on_root_, v, INSERT_VALUES, SCATTER_REVERSE));
+}
+
+UniqueMat on_root(Mat A) {
+  const MPI_Comm comm = comm_of(A);
+  PetscMPIInt rank = 0;
+  PetscInt n = 0;
+  UniqueMat root;
+  UniqueIS all;
+  MPI_Comm_rank(comm, &rank);
+  check(MatGetSize(A, &n, nullptr));
+  check(ISCreateStride(comm, rank == 0 ? n : 0, 0, 1, all.out()));
+  check(MatCreateSubMatrix(A, all, all, MAT_INITIAL_MATRIX, root.out()));
+  return root;
 }
 
 Eigen::SparseMatrix<double> gather_matrix(Mat A, const RowNumbering& rows) {

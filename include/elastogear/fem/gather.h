@@ -23,6 +23,8 @@ class VectorGather {
   Eigen::VectorXd operator()(Vec v) const;
   /// The way back: v := u at the free displacements; u (3 n_nodes) is read on rank 0.
   void scatter(const Eigen::VectorXd& u, Vec v) const;
+  /// Displacement of every scalar row, on rank 0.
+  const std::vector<int>& dof() const { return dof_; }
 
  private:
   UniqueScatter scatter_;
@@ -30,6 +32,9 @@ class VectorGather {
   std::vector<int> dof_;
   int n_dofs_;
 };
+
+/// The matrix with every row and column on rank 0. Collective.
+UniqueMat on_root(Mat A);
 
 /// The whole matrix on rank 0 over the free displacements in ascending order of 3 node + direction; empty
 /// elsewhere. For small bodies: it is as large as it sounds. Collective.

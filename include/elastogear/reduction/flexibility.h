@@ -36,7 +36,7 @@ std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibil
 /// Estimated cost of finding F and G, from the sizes alone; right within a factor of about two.
 struct StaticResponseCost {
   std::size_t n_nodes = 0;    ///< n_c, that may be loaded
-  std::size_t n_columns = 0;  ///< solutions: three for one node of each orbit, for each harmonic
+  std::size_t n_columns = 0;  ///< loads: three for one node of each orbit, for each harmonic
   double seconds = 0;         ///< on `n_ranks` ranks
   double bytes = 0;           ///< of all ranks together, at the same time
 };
@@ -44,17 +44,16 @@ struct StaticResponseCost {
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
                             int n_ranks);
 
-/// Flexibility of the plan with F and G. Factorises K once and solves for three forces on one node of each
-/// orbit, kBlock nodes at a time. Forces on a free body are balanced by inertia, and its static response is
-/// orthogonal to rigid motions (section 2.4). Collective; the result is on rank 0. Throws Error when the
-/// factorisation fails.
+/// Flexibility of the plan with F and G, for three forces on each node, by nested dissection of K on rank 0.
+/// Forces on a free body are balanced by inertia, and its static response is orthogonal to rigid motions
+/// (section 2.4). Collective; the result is on rank 0. Throws Error when K is not positive definite.
 model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSystem& system,
                                     const Progress& progress = {});
 
 /// Flexibility of the plan from one sector: u = sum_k P_k K_k^-1 P_k' f over the harmonics, with the rows P_k
-/// that unfold harmonic k (section 2.6). Each rank takes its share of the harmonics, one factor of a sector
-/// at a time. floating: a free body, whose rigid motions are in harmonics 0 and 1. Needs a plan that uses the
-/// symmetry. Collective; the result is on rank 0.
+/// that unfold harmonic k (section 2.6). Each rank takes its share of the harmonics, one at a time. floating:
+/// a free body, whose rigid motions are in harmonics 0 and 1. Needs a plan that uses the symmetry.
+/// Collective; the result is on rank 0.
 model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,
                                            const fem::MeshedBody& body, bool floating,
                                            const Progress& progress = {});

@@ -40,7 +40,7 @@ void print_cost(const reduction::StaticResponseCost& cost) {
       "name the face sets that contact may touch by option loaded to save time and memory";
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  print_item("static responses", std::to_string(cost.n_columns) + " solutions for " +
+  print_item("static responses", std::to_string(cost.n_columns) + " loads on " +
                                      std::to_string(cost.n_nodes) + " nodes that contact may touch: about " +
                                      duration(cost.seconds) + " and " + with_unit(1e-9 * cost.bytes, "GB"));
   require(cost.bytes < memory, "the static responses need about ", 1e-9 * cost.bytes,

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <numeric>
 
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/collectively.h"
@@ -12,13 +12,12 @@
 #include "elastogear/fem/sector_assembly.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/flexibility.h"
-#include "reduction/eigensolver/factorisation.h"
 #include "reduction/static_response/inertia_relief.h"
+#include "reduction/static_response/nested_response.h"
 
 namespace elastogear::reduction {
 namespace {
 
-constexpr Eigen::Index kBlock = 96;  // right-hand sides that go through the factor together
 constexpr const char* kStage = "static responses";
 
 using Eigen::MatrixXd;
@@ -96,8 +95,7 @@ class Unfolding {
 };
 
 // P_k at the first node of each orbit, displacements then stresses.
-Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const Wanted& wanted, const fem::Harmonic& harmonic,
-                                                     const fem::Sector& sector) {
+model::SparseRows rows_of(const Wanted& wanted, const fem::Harmonic& harmonic, const fem::Sector& sector) {
   const Unfolding unfolding(harmonic, sector);
   const int n_u = static_cast<int>(3 * wanted.surface_orbit.size());
   Triplets entries;
@@ -108,25 +106,56 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of(const Wanted& wanted, const
   for (std::size_t i = 0; i < wanted.row.size(); ++i)
     unfolding.add(n_u + wanted.row[i], wanted.orbit[i], wanted.sector_index[i],
                   wanted.value[i] * Eigen::Vector3d::Unit(wanted.direction[i]).transpose(), entries);
-  Eigen::SparseMatrix<double, Eigen::RowMajor> P(n_u + wanted.n_stress_rows, harmonic.size());
+  model::SparseRows P(n_u + wanted.n_stress_rows, harmonic.size());
   P.setFromTriplets(entries.begin(), entries.end());
   return P;
 }
 
-// A vector or, by its six components, a symmetric tensor turned by T.
-MatrixXd turning(const Eigen::Matrix3d& T, int components) {
-  if (components == 3) return T;
-  MatrixXd turn(6, 6);
+// Turns the six components of a symmetric tensor by T.
+Eigen::Matrix<double, 6, 6> tensor_turn(const Eigen::Matrix3d& T) {
+  Eigen::Matrix<double, 6, 6> turn;
   for (int j = 0; j < 6; ++j) turn.col(j) = six_entries(T * symmetric(Vector6::Unit(j)) * T.transpose());
   return turn;
 }
 
-// Adds what the orbits' nodes, turned by j sectors, get from their amplitudes: `components` rows of Y a node.
-void add_turned(const Eigen::Ref<const MatrixXd>& Y, const MatrixXd& turn, const model::Images& images, int j,
-                Eigen::Ref<Eigen::MatrixXf> responses) {
-  const Eigen::Index n = turn.rows();
-  for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit)
-    responses.middleRows(n * images.node(j, orbit), n) += (turn * Y.middleRows(n * orbit, n)).cast<float>();
+// Adds to these columns what the orbits' nodes, turned by j sectors, get from their amplitudes Y.
+template <int kComponents>
+void add_turned(const Eigen::Ref<const MatrixXd>& Y,
+                const Eigen::Matrix<double, kComponents, kComponents>& turn, const model::Images& images,
+                int j, const std::vector<int>& columns, Eigen::MatrixXf& responses) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto from = Y.col(static_cast<Eigen::Index>(i));
+    auto to = responses.col(columns[i]);
+    for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit)
+      to.segment<kComponents>(static_cast<Eigen::Index>(kComponents) * images.node(j, orbit)) +=
+          (turn * from.template segment<kComponents>(kComponents * orbit)).template cast<float>();
+  }
+}
+
+// Rows P_i with P_i z = P (i z).
+model::SparseRows times_i(const model::SparseRows& P, const fem::Harmonic& harmonic) {
+  Triplets entries;
+  std::vector<int> half(static_cast<std::size_t>(P.cols()));  // how far Im z of each coordinate is from Re z
+  for (std::size_t orbit = 0; orbit + 1 < harmonic.first.size(); ++orbit) {
+    const int first = harmonic.first[orbit], n = (harmonic.first[orbit + 1] - first) / 2;
+    for (int i = 0; i < n; ++i) half[first + i] = n, half[first + n + i] = -n;
+  }
+  for (int row = 0; row < P.outerSize(); ++row)
+    for (model::SparseRows::InnerIterator it(P, row); it; ++it) {
+      const int distance = half[it.col()];
+      entries.emplace_back(row, static_cast<int>(it.col()) + distance,
+                           distance > 0 ? -it.value() : it.value());
+    }
+  model::SparseRows P_i(P.rows(), P.cols());
+  P_i.setFromTriplets(entries.begin(), entries.end());
+  return P_i;
+}
+
+model::SparseRows below_each_other(const model::SparseRows& A, const model::SparseRows& B) {
+  model::SparseRows both(A.rows() + B.rows(), A.cols());
+  both.topRows(A.rows()) = A;
+  both.bottomRows(B.rows()) = B;
+  return both;
 }
 
 // One harmonic's part of all responses.
@@ -143,45 +172,43 @@ class HarmonicResponses {
   }
 
   void add(const fem::Matrices& matrices, model::Flexibility& flexibility) const {
-    std::optional<InertiaRelief> relief;
+    RigidFields rigid;
     UniqueMat grounded;
-    if (rigid_.cols() > 0) grounded = relief.emplace(matrices.M, rigid_).ground(matrices.K);
-    ShiftedFactor factor(relief ? grounded.get() : matrices.K.get(), matrices.M);
-    factor.factorise(0);
-    for (Eigen::Index first = 0; first < n_u_; first += kBlock) {
-      const Eigen::Index n = std::min(kBlock, n_u_ - first);
-      MatrixXd Z = MatrixXd(P_.middleRows(first, n)).transpose();
-      if (relief) relief->balance(Z);
-      factor.solve(Z);
-      if (relief) relief->release(Z);
-      enter(P_ * Z, harmonic_.real ? MatrixXd() : MatrixXd(P_ * fem::times_i(harmonic_, 0, Z)), first,
-            flexibility);
+    if (rigid_.cols() > 0) {
+      const InertiaRelief relief(matrices.M, rigid_);
+      grounded = relief.ground(matrices.K);
+      rigid = relief.fields();
     }
+    std::vector<int> loads(static_cast<std::size_t>(n_u_));
+    std::iota(loads.begin(), loads.end(), 0);
+    const NestedResponse response(grounded ? grounded.get() : matrices.K.get(),
+                                  harmonic_.real ? P_ : below_each_other(P_, times_i(P_, harmonic_)), loads,
+                                  rigid);
+    for (const std::vector<int>& group : response.groups()) enter(response(group), group, flexibility);
   }
 
  private:
-  // The field turned by j sectors has the amplitude z exp(2 pi i j k/Z).
-  void enter(const MatrixXd& Y, const MatrixXd& Y_i, Eigen::Index first,
-             model::Flexibility& flexibility) const {
-    const Eigen::Index n = Y.cols(), n_sigma = Y.rows() - n_u_;
+  // Y: of the fields z, below of the fields i z. The field turned by j sectors has the amplitude
+  // z exp(2 pi i j k/Z).
+  void enter(const MatrixXd& Y, const std::vector<int>& loads, model::Flexibility& flexibility) const {
+    const Eigen::Index n_rows = P_.rows();
     for (int j = 0; j < harmonic_.n_sectors; ++j) {
       const double alpha = 2 * std::numbers::pi / harmonic_.n_sectors,
                    phase =
                        alpha * static_cast<double>(static_cast<long>(j) * harmonic_.k % harmonic_.n_sectors);
-      MatrixXd Y_j = std::cos(phase) * Y;
-      if (!harmonic_.real) Y_j += std::sin(phase) * Y_i;
+      MatrixXd Y_j = std::cos(phase) * Y.topRows(n_rows);
+      if (!harmonic_.real) Y_j += std::sin(phase) * Y.bottomRows(n_rows);
       const Eigen::Matrix3d T = rotation_matrix(alpha * j * axis_);
-      add_turned(Y_j.topRows(n_u_), turning(T, 3), flexibility.surface, j,
-                 flexibility.F.middleCols(first, n));
-      if (n_sigma > 0)
-        add_turned(Y_j.bottomRows(n_sigma), turning(T, 6), flexibility.stress, j,
-                   flexibility.G.middleCols(first, n));
+      add_turned<3>(Y_j.topRows(n_u_), T, flexibility.surface, j, loads, flexibility.F);
+      if (n_rows > n_u_)
+        add_turned<6>(Y_j.bottomRows(n_rows - n_u_), tensor_turn(T), flexibility.stress, j, loads,
+                      flexibility.G);
     }
   }
 
   const fem::Harmonic& harmonic_;
   Eigen::Vector3d axis_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> P_;
+  model::SparseRows P_;
   MatrixXd rigid_;
   Eigen::Index n_u_ = 0;
 };

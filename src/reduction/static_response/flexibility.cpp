@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
-#include "reduction/eigensolver/factorisation.h"
 #include "reduction/static_response/inertia_relief.h"
+#include "reduction/static_response/nested_response.h"
 
 namespace elastogear::reduction {
 namespace {
 
-constexpr int kBlock = 32;  // loaded nodes whose 3 x 32 right-hand sides go through the factor together
 constexpr const char* kStage = "static responses";
 
 using Eigen::MatrixXd;
@@ -91,72 +91,71 @@ std::vector<int> mesh_numbers(const FlexibilityTask& task, const std::vector<int
   return numbers;
 }
 
-// Mesh numbers of the nodes on which the forces of each orbit act.
-std::vector<int> first_nodes(const FlexibilityTask& task, const model::Flexibility& flexibility) {
-  std::vector<int> nodes;
-  for (Eigen::Index orbit = 0; orbit < flexibility.surface.node.cols(); ++orbit)
-    nodes.push_back(task.surface.node[flexibility.node[flexibility.surface.node(0, orbit)]]);
-  return nodes;
+// The wanted rows of the displacements, first those of the loaded nodes, then those of the stress operator.
+// dof: displacement of each row of K.
+model::SparseRows wanted_rows(const FlexibilityTask& task, const model::Flexibility& flexibility,
+                              const std::vector<int>& dof) {
+  std::vector<int> row(static_cast<std::size_t>(task.mesh.X.size()), -1);
+  for (std::size_t i = 0; i < dof.size(); ++i) row[dof[i]] = static_cast<int>(i);
+  const int n_u = 3 * static_cast<int>(flexibility.node.size()),
+            n_sigma = 6 * static_cast<int>(task.stress_node.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n_u; ++i)
+    if (const int j = row[3 * task.surface.node[flexibility.node[i / 3]] + i % 3]; j >= 0)
+      entries.emplace_back(i, j, 1.0);
+  for (int i = 0; i < n_sigma; ++i)
+    for (model::SparseRows::InnerIterator it(task.S, i); it; ++it)
+      if (const int j = row[it.col()]; j >= 0) entries.emplace_back(n_u + i, j, it.value());
+  model::SparseRows P(n_u + n_sigma, static_cast<Eigen::Index>(dof.size()));
+  P.setFromTriplets(entries.begin(), entries.end());
+  return P;
 }
 
-// Enters the displacements (3 n_nodes) that one force causes as column j.
-void enter(const FlexibilityTask& task, const Eigen::VectorXd& u, Eigen::Index j,
-           model::Flexibility& flexibility) {
-  for (std::size_t i = 0; i < flexibility.node.size(); ++i)
-    flexibility.F.block<3, 1>(static_cast<Eigen::Index>(3 * i), j) =
-        u.segment<3>(3 * task.surface.node[flexibility.node[i]]).cast<float>();
-  if (flexibility.G.rows() > 0)
-    flexibility.G.col(j) = (task.S.topRows(flexibility.G.rows()) * u).cast<float>();
+// The rows of all ranks, one below the other, on rank 0.
+MatrixXd gather_rows(MPI_Comm comm, const MatrixXd& own) {
+  int rank = 0, size = 1, n_own = static_cast<int>(own.rows());
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  std::vector<int> n(size), first(size + 1, 0);
+  MPI_Gather(&n_own, 1, MPI_INT, n.data(), 1, MPI_INT, 0, comm);
+  for (int r = 0; r < size; ++r) first[r + 1] = first[r] + n[r];
+  MatrixXd all(first[size], own.cols());
+  for (Eigen::Index j = 0; j < own.cols(); ++j)
+    MPI_Gatherv(own.col(j).data(), n_own, MPI_DOUBLE, all.col(j).data(), n.data(), first.data(), MPI_DOUBLE,
+                0, comm);
+  return all;
 }
 
-// Static solutions of the whole body.
-class Solver {
- public:
-  explicit Solver(const ElasticSystem& system)
-      : gather_(system.gather),
-        relief_(system.rigid ? std::make_optional<InertiaRelief>(system.M, *system.rigid) : std::nullopt),
-        grounded_(relief_ ? relief_->ground(system.K) : UniqueMat()),
-        factor_(relief_ ? grounded_.get() : system.K, system.M) {
-    check(MatCreateVecs(system.K, vec_.out(), nullptr));
-    check(VecGetLocalSize(vec_, &n_own_));
-    factor_.factorise(0);
-  }
-
-  /// visit(j, u) for unit forces in direction j % 3 on node j / 3 of n_loads. force: 3 n_nodes zeros on rank
-  /// 0; node: mesh numbers, there.
-  template <class Visit>
-  void operator()(const int* node, int n_loads, Eigen::VectorXd& force, Visit&& visit) {
-    MatrixXd U(n_own_, 3 * n_loads);
-    for (int j = 0; j < U.cols(); ++j) {
-      if (node) force(3 * node[j / 3] + j % 3) = 1;
-      gather_.scatter(force, vec_);
-      if (node) force(3 * node[j / 3] + j % 3) = 0;
-      const PetscScalar* values = nullptr;
-      check(VecGetArrayRead(vec_, &values));
-      U.col(j) = Eigen::Map<const Eigen::VectorXd>(values, n_own_);
-      check(VecRestoreArrayRead(vec_, &values));
-    }
-    if (relief_) relief_->balance(U);
-    factor_.solve(U);
-    if (relief_) relief_->release(U);
-    for (int j = 0; j < U.cols(); ++j) {
-      PetscScalar* values = nullptr;
-      check(VecGetArrayWrite(vec_, &values));
-      std::copy(U.col(j).begin(), U.col(j).end(), values);
-      check(VecRestoreArrayWrite(vec_, &values));
-      const Eigen::VectorXd u = gather_(vec_);
-      if (node) visit(j, u);
-    }
-  }
-
- private:
-  const fem::VectorGather& gather_;
-  std::optional<InertiaRelief> relief_;  // of a free body
-  UniqueMat grounded_;
-  ShiftedFactor factor_;
-  UniqueVec vec_;
-  PetscInt n_own_ = 0;
+// The whole body on rank 0: what static responses need.
+struct RootSystem {
+  UniqueMat matrix = {};
+  Mat K = nullptr;  // sequential; of a free body grounded
+  RigidFields rigid = {};
 };
+
+RootSystem gather(const ElasticSystem& system) {
+  RootSystem root;
+  const MPI_Comm comm = comm_of(system.K);
+  UniqueMat grounded;
+  if (system.rigid) {
+    const InertiaRelief relief(system.M, *system.rigid);
+    grounded = relief.ground(system.K);
+    const RigidFields own = relief.fields();
+    root.rigid = {gather_rows(comm, own.R), gather_rows(comm, own.M_R)};
+  }
+  root.matrix = fem::on_root(grounded ? grounded.get() : system.K);
+  root.K = root.matrix;
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  if (size > 1) check(MatGetDiagonalBlock(root.matrix, &root.K));
+  return root;
+}
+
+// Enters the responses to these of the loads.
+void enter(const MatrixXd& responses, const std::vector<int>& loads, model::Flexibility& flexibility) {
+  flexibility.F(Eigen::all, loads) = responses.topRows(flexibility.F.rows()).cast<float>();
+  flexibility.G(Eigen::all, loads) = responses.bottomRows(flexibility.G.rows()).cast<float>();
+}
 
 }  // namespace
 
@@ -192,24 +191,26 @@ std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibil
 
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
                             int n_ranks) {
-  // Factors for a three-dimensional mesh after nested dissection (docs/performance.md): entries of the factor
-  // and flops of the factorisation; speed of a core with many right-hand sides.
-  constexpr double kEntries = 17, kFactorFlops = 8, kSpeed = 25e9, kSingle = 4, kDouble = 8;
-  const int Z = plan.n_sectors, n_factors = Z / 2 + 1;
-  const double n_orbits = static_cast<double>(plan.surface.node.cols()),
-               unknowns =
-                   static_cast<double>(n_free) / Z * (Z > 2 ? 2 : 1),  // real form of a complex harmonic
-      entries = kEntries * std::pow(unknowns, 4. / 3);
-  const double solved = 3 * n_orbits * n_factors,
-               flops = n_factors * kFactorFlops * unknowns * unknowns + solved * 4 * entries;
-  const double rows =
-      3. * static_cast<double>(plan.node.size()) + 6. * static_cast<double>(stress_nodes(task, plan).size());
+  // Flops of nested dissection of a three-dimensional mesh, and speed of a core (docs/performance.md):
+  // separators by the square of the unknowns; leaves by unknowns and by unknowns of a leaf and loads;
+  // products of wanted rows and loads by the size of the largest separator.
+  constexpr double kSeparatorFlops = 20, kLeafFlops = 0.8e6, kLoadFlops = 4e6, kLevels = 1, kSpeed = 30e9,
+                   kSingle = 4, kDouble = 8;
+  const int Z = plan.n_sectors, n_harmonics = Z / 2 + 1;
+  const double n_loads = 3 * static_cast<double>(plan.surface.node.cols()),
+               parts = Z > 2 ? 2 : 1,  // real form of a complex harmonic
+      unknowns = parts * static_cast<double>(n_free) / Z,
+               rows = 3. * static_cast<double>(plan.node.size()) +
+                      6. * static_cast<double>(stress_nodes(task, plan).size()),
+               wanted = parts * rows / Z, separator = std::pow(unknowns, 2. / 3);
+  const double flops = n_harmonics * (kSeparatorFlops * unknowns * unknowns + kLeafFlops * unknowns +
+                                      kLoadFlops * n_loads + 2 * kLevels * wanted * n_loads * separator);
+  const int at_work = std::min(n_ranks, n_harmonics);
   StaticResponseCost cost;
   cost.n_nodes = plan.node.size();
-  cost.n_columns = static_cast<std::size_t>(solved);
-  cost.seconds = flops / (kSpeed * n_ranks);
-  cost.bytes =
-      rows * 3 * n_orbits * kSingle * (Z > 1 ? n_ranks : 1) + entries * kDouble * (Z > 1 ? n_ranks : 1);
+  cost.n_columns = static_cast<std::size_t>(n_loads) * static_cast<std::size_t>(n_harmonics);
+  cost.seconds = flops / (kSpeed * at_work);
+  cost.bytes = (rows * n_loads * kSingle + 2 * wanted * separator * kDouble) * at_work;
   return cost;
 }
 
@@ -218,28 +219,26 @@ model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSy
   const MPI_Comm comm = comm_of(system.K);
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
+  const RootSystem root = gather(system);
   model::Flexibility flexibility;
-  std::vector<int> node;
-  Eigen::VectorXd force;
   collectively(comm, [&] {
     if (rank != 0) return;
     flexibility = plan_flexibility(task);
-    node = first_nodes(task, flexibility);
-    force.setZero(task.mesh.X.size());
-    flexibility.F.resize(3 * static_cast<Eigen::Index>(flexibility.node.size()),
-                         static_cast<Eigen::Index>(3 * node.size()));
-    flexibility.G.resize(6 * static_cast<Eigen::Index>(task.stress_node.size()), flexibility.F.cols());
+    const model::SparseRows P = wanted_rows(task, flexibility, system.gather.dof());
+    const auto n_u = static_cast<Eigen::Index>(3 * flexibility.node.size());
+    std::vector<int> loads(static_cast<std::size_t>(n_u));
+    std::iota(loads.begin(), loads.end(), 0);
+    const NestedResponse response(root.K, P, loads, root.rigid);
+    flexibility.F.resize(n_u, n_u);
+    flexibility.G.resize(P.rows() - n_u, n_u);
+    double done = 0;
+    for (const std::vector<int>& group : response.groups()) {
+      enter(response(group), group, flexibility);
+      done += static_cast<double>(group.size());
+      report(progress, kStage, done / static_cast<double>(n_u));
+    }
+    model::set_self(flexibility);
   });
-  int n_loads = static_cast<int>(node.size());
-  MPI_Bcast(&n_loads, 1, MPI_INT, 0, comm);
-  Solver solve(system);
-  for (int first = 0; first < n_loads; first += kBlock) {
-    const int n = std::min(kBlock, n_loads - first);
-    solve(rank == 0 ? node.data() + first : nullptr, n, force,
-          [&](int j, const Eigen::VectorXd& u) { enter(task, u, 3 * first + j, flexibility); });
-    report(progress, kStage, static_cast<double>(first + n) / n_loads);
-  }
-  if (rank == 0) model::set_self(flexibility);
   return flexibility;
 }
 

@@ -9,6 +9,12 @@
 
 namespace elastogear::reduction {
 
+/// Own rows of rigid motions R, orthonormal in the inner product of M, and of their inertia forces M R. Of a
+/// held body both are empty.
+struct RigidFields {
+  Eigen::MatrixXd R, M_R;
+};
+
 /// P = I - M R R', R the rigid motions, orthonormal in the inner product of M. Rows are those of K and M that
 /// this rank owns. Eq. (2.9).
 class InertiaRelief {
@@ -27,6 +33,8 @@ class InertiaRelief {
   /// just so stay without force when loads are balanced, and K u = f then is solved exactly, up to a rigid
   /// motion. Collective.
   UniqueMat ground(Mat K) const;
+
+  RigidFields fields() const { return {R_, M_R_}; }
 
  private:
   MPI_Comm comm_;

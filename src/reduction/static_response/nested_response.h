@@ -1,0 +1,61 @@
+#pragma once
+// Static responses where they are wanted, P K^-1 P', by nested dissection (docs/theory.md, Eq. (6.20a)).
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "elastogear/base/petsc.h"
+#include "elastogear/model/elastic_body.h"
+#include "reduction/static_response/inertia_relief.h"
+
+namespace elastogear::reduction {
+
+/// Parts of K are eliminated one after the other, from leaves to the root of the dissection. What is wanted
+/// of a part is kept as a dense matrix over its border, so that nothing is solved for at rows that nobody
+/// asks for.
+class NestedResponse {
+ public:
+  /// K: sequential, symmetric, positive definite; of a free body grounded (reduction::InertiaRelief), with
+  /// its rigid motions: loads then are balanced by inertia, and displacements are without rigid motion. P:
+  /// what is wanted of the displacements, a row each. loads: rows of P that are loads, too. Throws Error when
+  /// K is not positive definite.
+  NestedResponse(Mat K, const model::SparseRows& P, const std::vector<int>& loads,
+                 const RigidFields& rigid = {}, int largest_leaf = kLargestLeaf);
+
+  /// The loads in groups that go through the parts together.
+  const std::vector<std::vector<int>>& groups() const { return groups_; }
+  /// P K^-1 P(loads, :)': a column for each of these loads.
+  Eigen::MatrixXd operator()(const std::vector<int>& loads) const;
+
+ private:
+  static constexpr int kLargestLeaf = 4000;  // rows of K
+
+  // Adds up to P K^-1 P' over all parts: from a leaf `response` of all its rows to its loads, from a
+  // separator C C'.
+  struct Contribution {
+    std::vector<int> row;      // of P, ascending
+    std::vector<int> load;     // of a leaf: rows of P, ascending
+    Eigen::MatrixXd response;  // rows x loads
+    Eigen::MatrixXd C;         // of a separator: rows x its rows of K
+  };
+  // A part and all below it, eliminated.
+  struct Condensed {
+    std::vector<int> border;  // rows of K that are left, ascending
+    Eigen::MatrixXd S;        // Schur complement there
+    std::vector<int> row;     // of P, ascending
+    Eigen::MatrixXd E;        // P of these rows, by the displacements of the border
+  };
+  class Elimination;
+
+  Eigen::MatrixXd plain(const std::vector<int>& loads) const;
+  void balance(const model::SparseRows& P, const RigidFields& rigid);
+
+  Eigen::Index n_rows_;  // of P
+  std::vector<Contribution> contributions_;
+  std::vector<std::vector<int>> groups_;
+  Eigen::MatrixXd P_R_;    // of a free body: P R
+  Eigen::MatrixXd drift_;  // and P K^-1 M R without the rigid motion in it
+};
+
+}  // namespace elastogear::reduction
