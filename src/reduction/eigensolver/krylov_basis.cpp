@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-#include "reduction/dense_blas.h"
+#include "reduction/eigensolver/dense_blas.h"
 #include "reduction/eigensolver/dense_eigenproblem.h"
 
 namespace elastogear::reduction {

@@ -191,20 +191,16 @@ std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibil
 
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
                             int n_ranks) {
-  // Flops of nested dissection of a three-dimensional mesh, and speed of a core (docs/performance.md):
-  // separators by the square of the unknowns; leaves by unknowns and by unknowns of a leaf and loads;
-  // products of wanted rows and loads by the size of the largest separator.
-  constexpr double kSeparatorFlops = 20, kLeafFlops = 0.8e6, kLoadFlops = 4e6, kLevels = 1, kSpeed = 30e9,
-                   kSingle = 4, kDouble = 8;
+  constexpr double kSpeed = 30e9, kSingle = 4, kDouble = 8;  // flops of a core, bytes
   const int Z = plan.n_sectors, n_harmonics = Z / 2 + 1;
   const double n_loads = 3 * static_cast<double>(plan.surface.node.cols()),
                parts = Z > 2 ? 2 : 1,  // real form of a complex harmonic
       unknowns = parts * static_cast<double>(n_free) / Z,
                rows = 3. * static_cast<double>(plan.node.size()) +
                       6. * static_cast<double>(stress_nodes(task, plan).size()),
-               wanted = parts * rows / Z, separator = std::pow(unknowns, 2. / 3);
-  const double flops = n_harmonics * (kSeparatorFlops * unknowns * unknowns + kLeafFlops * unknowns +
-                                      kLoadFlops * n_loads + 2 * kLevels * wanted * n_loads * separator);
+               wanted = parts * rows / Z;
+  const auto [nested, whole] = response_flops(unknowns, wanted, n_loads);
+  const double flops = n_harmonics * std::min(nested, whole), separator = std::pow(unknowns, 2. / 3);
   const int at_work = std::min(n_ranks, n_harmonics);
   StaticResponseCost cost;
   cost.n_nodes = plan.node.size();

@@ -1,12 +1,13 @@
 #include "reduction/static_response/nested_response.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
 
 #include "elastogear/base/sort_unique.h"
-#include "reduction/dense_blas.h"
+#include "reduction/eigensolver/dense_blas.h"
 #include "reduction/eigensolver/factorisation.h"
 #include "reduction/static_response/dissection.h"
 #include "reduction/static_response/residual.h"
@@ -20,6 +21,7 @@ using ByColumn = Eigen::SparseMatrix<double>;
 using ByRow = model::SparseRows;
 
 constexpr Index kLeafColumns = 128;  // right-hand sides that go through a leaf's factor together
+constexpr int kLargestLeaf = 4000;   // rows of K, where there are separators
 constexpr std::size_t kGroup = 128;  // loads that go through the parts together
 
 // Rows of a sequential matrix without copies.
@@ -296,9 +298,25 @@ ByRow with_inertia(const ByRow& P, const MatrixXd& M_R) {
 
 }  // namespace
 
+// Nested: separators by the square of the unknowns, leaves by their rows and by the loads in them, products
+// of wanted rows and loads by the size of the largest separator. Whole: factor and solutions after nested
+// dissection (docs/performance.md).
+ResponseFlops response_flops(double unknowns, double wanted, double n_loads) {
+  constexpr double kSeparators = 20, kLeafRow = 0.8e6, kLeafLoad = 4e6, kEntries = 17, kFactor = 8;
+  const double squared = unknowns * unknowns;
+  return {kSeparators * squared + kLeafRow * unknowns + kLeafLoad * n_loads +
+              2 * wanted * n_loads * std::pow(unknowns, 2. / 3),
+          kFactor * squared + 4 * kEntries * std::pow(unknowns, 4. / 3) * n_loads};
+}
+
 NestedResponse::NestedResponse(Mat K, const ByRow& P, const std::vector<int>& loads, const RigidFields& rigid,
                                int largest_leaf)
     : n_rows_(P.rows() + rigid.M_R.cols()) {
+  if (largest_leaf == 0) {
+    const auto [nested, whole] = response_flops(static_cast<double>(P.cols()), static_cast<double>(P.rows()),
+                                                static_cast<double>(loads.size()));
+    largest_leaf = nested < whole ? kLargestLeaf : static_cast<int>(P.cols());
+  }
   std::vector<int> all = loads;
   for (Index i = P.rows(); i < n_rows_; ++i) all.push_back(static_cast<int>(i));
   contributions_ =

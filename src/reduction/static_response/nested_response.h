@@ -11,6 +11,14 @@
 
 namespace elastogear::reduction {
 
+/// Estimated flops of n_loads columns of P K^-1 P', right within a factor of about two for meshes in space.
+struct ResponseFlops {
+  double nested;  ///< part by part
+  double whole;   ///< by a factor of all of K and a solution for each load
+};
+/// unknowns: rows of K; wanted: rows of P.
+ResponseFlops response_flops(double unknowns, double wanted, double n_loads);
+
 /// Parts of K are eliminated one after the other, from leaves to the root of the dissection. What is wanted
 /// of a part is kept as a dense matrix over its border, so that nothing is solved for at rows that nobody
 /// asks for.
@@ -21,7 +29,7 @@ class NestedResponse {
   /// what is wanted of the displacements, a row each. loads: rows of P that are loads, too. Throws Error when
   /// K is not positive definite.
   NestedResponse(Mat K, const model::SparseRows& P, const std::vector<int>& loads,
-                 const RigidFields& rigid = {}, int largest_leaf = kLargestLeaf);
+                 const RigidFields& rigid = {}, int largest_leaf = 0);
 
   /// The loads in groups that go through the parts together.
   const std::vector<std::vector<int>>& groups() const { return groups_; }
@@ -29,8 +37,6 @@ class NestedResponse {
   Eigen::MatrixXd operator()(const std::vector<int>& loads) const;
 
  private:
-  static constexpr int kLargestLeaf = 4000;  // rows of K
-
   // Adds up to P K^-1 P' over all parts: from a leaf `response` of all its rows to its loads, from a
   // separator C C'.
   struct Contribution {

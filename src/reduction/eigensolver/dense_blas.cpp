@@ -1,7 +1,7 @@
-#include "reduction/dense_blas.h"
+#include "reduction/eigensolver/dense_blas.h"
 
+#include <petscsys.h>
 #include <slepcblaslapack.h>
-#include <slepcsys.h>
 
 #include <algorithm>
 
