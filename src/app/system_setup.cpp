@@ -20,8 +20,15 @@ bool has_states_of_rest(const Options& options) { return options.text("analysis"
 void read_moduli(const Options& options, const std::string& name, Environment& environment) {
   if (has_states_of_rest(options)) environment.moduli = body::Moduli::instantaneous;
   if (options.given(name)) environment.moduli = static_cast<body::Moduli>(options.choice(name, kModuli));
+  if (options.text("analysis") == "static" && options.given("time_under_load")) {
+    require(!options.given(name) || environment.moduli == body::Moduli::relaxing, options.label(name),
+            ": materials relax during the time_under_load; leave it out");
+    environment.moduli = body::Moduli::relaxing;
+    return;
+  }
   require(!has_states_of_rest(options) || environment.moduli != body::Moduli::relaxing, options.label(name),
-          " = 'relaxing': states of rest have no history; give instantaneous or long_term");
+          " = 'relaxing': states of rest have no history; give instantaneous or long_term, or a "
+          "time_under_load of analysis: static");
 }
 
 // Says whether the moduli of viscoelastic bodies relax, and otherwise which of them are taken.
@@ -36,10 +43,9 @@ void print_moduli(const dynamics::SystemModel& system) {
 const Rows<Environment> kEnvironmentRows = {
     {"gravity", &Environment::gravity, "m/s^2", "acceleration of gravity in the world"},
     {"moduli", "-", "",
-     "of viscoelastic materials: relaxing with time (analysis: dynamic only); instantaneous, as of loads put "
-     "on "
-     "just now; or long_term, after all relaxation (default: relaxing; of states of rest, analysis: static, "
-     "relax or sweep, instantaneous)",
+     "of viscoelastic materials: relaxing with time (analysis: dynamic, or static with time_under_load); "
+     "instantaneous, as of loads put on just now; or long_term, after all relaxation (default: relaxing; of "
+     "states of rest, analysis: static, relax or sweep, instantaneous)",
      read_moduli},
     {"inertia", &Environment::inertia, body::inertia_level_names(),
      "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "

@@ -1,5 +1,6 @@
 #include "elastogear/dynamics/simulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -202,6 +203,17 @@ RunSummary new_summary(const System& system) {
   return summary;
 }
 
+namespace {
+
+// Do bodies begin with a deformation, and what is left of contact forces? Then they touch, and the static
+// responses that keep their surfaces apart are not known yet.
+bool begins_deformed(const System& system) {
+  return std::any_of(system.bodies().begin(), system.bodies().end(),
+                     [](const System::Body& body) { return !body.relaxed.empty(); });
+}
+
+}  // namespace
+
 struct Simulation::Data {
   Data(System& system, TimeSettings time, Observer o, Progress p, Checkpoints c)
       : settings(std::move(time)),
@@ -232,7 +244,7 @@ Simulation::Simulation(System& system, TimeSettings settings, Observer observer,
   require(!d.settings.relax || !system.relaxes_in_time(), kNoHistory);
   require_tables_cover(system, d.settings.end_time);
   const bool anew = d.checkpoints.state.empty();
-  if (anew) require_bodies_apart(system);
+  if (anew && !begins_deformed(system)) require_bodies_apart(system);
   d.run.summary = new_summary(system);
   d.U = vector(system.initial_position());
   d.V = vector(system.initial_velocity());

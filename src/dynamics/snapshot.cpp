@@ -145,9 +145,11 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
     enter_joint(body, snapshot.bodies[b], bodies_[b], {time_, snapshot.time});
   }
   enter_markers(system.marker_forces(), snapshot);
-  snapshot.energy.dissipated = dissipated_ + system.contact_loss();
+  double crept = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) crept += system.residual_loss(b);
+  snapshot.energy.dissipated = dissipated_ + crept + system.contact_loss();
   snapshot.energy.work = work_;
-  snapshot.energy.relaxation = relaxation_;
+  snapshot.energy.relaxation = relaxation_ + crept;
   snapshot.energy.balance =
       stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;

@@ -157,7 +157,10 @@ contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstV
 const ContactState& System::contacts(double time, ConstVector U, ConstVector V) {
   if (const ContactState* known = contact_->known(time, U, V)) return *known;
   std::vector<contact::SurfaceMotion> motion;
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) motion.push_back(surface_motion(b, time, U, V));
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    motion.push_back(surface_motion(b, time, U, V));
+    if (contact_->creeps(b)) contact_->set_point(b, relaxation_->moduli(), relaxation_->point(b, time));
+  }
   return contact_->evaluate(time, U, V, motion);
 }
 
@@ -178,10 +181,23 @@ bool System::had_impulse() const { return contact_->had_impulse(); }
 bool System::had_impulse_before() const { return contact_->had_impulse_before(); }
 double System::contact_loss() const { return contact_->loss(); }
 double System::residual_energy(std::size_t b) { return contact_->residual_energy(b); }
+double System::residual_loss(std::size_t b) const { return contact_->residual_loss(b); }
 
 void System::begin_step(double dt, double alpha_f) {
   relaxation_->begin_step(dt, alpha_f);
+  if (relaxes_in_time()) contact_->forget();
   if (any_augmented()) contact_->begin_step(dt, alpha_f);
+}
+
+void System::let_relax(double dt) {
+  relaxation_->begin_step(dt, 1);
+  contact_->forget();
+}
+
+model::RelaxedState System::relaxed_state(std::size_t b) const {
+  model::RelaxedState state = relaxation_->relaxed_state(b);
+  contact_->get_creep(b, state);
+  return state;
 }
 
 void System::end_step(bool solved, double delivered) {
@@ -202,9 +218,10 @@ Eigen::MatrixXd System::internal_variables(std::size_t b, const State& x) const 
 }
 
 void System::accept(const State& x) {
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) relaxation_->accept(b, x.time, motion(b, x).q);
   contacts(x.time, x.U, x.V);
   contact_->accept();
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) relaxation_->accept(b, x.time, motion(b, x).q);
+  relaxation_->close_step();
 }
 
 std::vector<MarkerForce> System::at_markers(const State& x) const {

@@ -115,7 +115,19 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> initial_motion(const BodySetup& setu
   return {s, s_dot};
 }
 
+void validate_relaxed(const BodySetup& setup) {
+  const model::RelaxedState& state = setup.relaxed0;
+  if (state.empty()) return;
+  const body::RelaxationLaw law = body::relaxation_law(*setup.body);
+  require(state.q.size() == setup.body->n_q() && state.z.rows() == state.q.size() &&
+              state.z.cols() == state.tau.size() && state.tau == law.tau,
+          "body '", setup.name, "': begins with a deformation of ", state.q.size(), " coordinates and ",
+          state.tau.size(), " relaxation times, which are not those of the body (", setup.body->n_q(),
+          " and ", law.n_z(), "): reduced otherwise, or at another temperature");
+}
+
 void add_body(const BodySetup& setup, SystemModel& model) {
+  validate_relaxed(setup);
   validate_body(setup, model.bodies);
   const std::vector<Axis> axis = axes(setup);
   const auto [s, s_dot] = initial_motion(setup, body::coordinate_count(setup.joint.type));
@@ -124,11 +136,11 @@ void add_body(const BodySetup& setup, SystemModel& model) {
   model.bodies.push_back({setup.name,
                           body::make_equations(setup.body, setup.joint, model.environment.inertia),
                           model.U_0.size(), axis, open, false, node_groups(surface),
-                          contact::node_areas(surface.X, surface.face), setup.true_surface});
+                          contact::node_areas(surface.X, surface.face), setup.true_surface, setup.relaxed0});
   require_inertia(model.bodies.back());
   const Eigen::Index n_q = setup.body->n_q();
   append(model.U_0, s(open));
-  append(model.U_0, Eigen::VectorXd::Zero(n_q));
+  append(model.U_0, setup.relaxed0.empty() ? Eigen::VectorXd(Eigen::VectorXd::Zero(n_q)) : setup.relaxed0.q);
   append(model.V_0, s_dot(open));
   append(model.V_0, setup.q_dot0.size() ? setup.q_dot0 : Eigen::VectorXd::Zero(n_q));
 }

@@ -11,7 +11,8 @@ SystemRelaxation::SystemRelaxation(const SystemModel& model) : moduli_(model.env
     const Eigen::Index n_q = body.eq.n_q();
     Body own{body::relaxation_law(*body.eq.body), {}};
     own.last.q = model.U_0.segment(body.first + body.n_open(), n_q);
-    own.last.z = Eigen::MatrixXd::Zero(n_q, own.law.n_z());
+    own.last.z =
+        body.relaxed.empty() ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(n_q, own.law.n_z())) : body.relaxed.z;
     any_ = any_ || own.law.n_z() > 0;
     bodies_.push_back(std::move(own));
   }
@@ -60,8 +61,7 @@ Eigen::VectorXd SystemRelaxation::following(std::size_t b, double time) const {
 
 void SystemRelaxation::accept(std::size_t b, double time, const Eigen::VectorXd& q) {
   Body& body = bodies_[b];
-  if (body.law.n_z() == 0) return;
-  body.last.z = internal_variables(b, time, q);
+  if (body.law.n_z() > 0) body.last.z = internal_variables(b, time, q);
   body.last.q = q;
   body.last.time = time;
 }

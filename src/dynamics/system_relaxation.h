@@ -23,6 +23,14 @@ class SystemRelaxation {
   /// weight alpha_f of the new one; otherwise at the end of a step that begins at the last accepted state.
   void begin_step(double dt, double alpha_f);
   void end_step() { in_step_ = false; }
+  /// After a state has been accepted within a step, as at rest: states are at the start of the next one.
+  void close_step() {
+    if (in_step_) step_ = {0, 1};
+  }
+  /// The last accepted state of a body, without the creep of its residual displacement.
+  model::RelaxedState relaxed_state(std::size_t b) const {
+    return {bodies_[b].last.q, bodies_[b].law.tau, bodies_[b].last.z, {}, {}};
+  }
 
   /// z of the body at coordinates q, n_q x n_z.
   Eigen::MatrixXd internal_variables(std::size_t b, double time, const Eigen::VectorXd& q) const;
@@ -32,13 +40,15 @@ class SystemRelaxation {
   /// The elastic coordinates of the body have come to q.
   void accept(std::size_t b, double time, const Eigen::VectorXd& q);
   void serialize(Archive& archive);
+  body::Moduli moduli() const { return moduli_; }
+  /// Where the state at this time is in the step that begins at the last accepted one.
+  body::StepPoint point(std::size_t b, double time) const;
 
  private:
   struct Body {
     body::RelaxationLaw law;
     body::InternalState last;
   };
-  body::StepPoint point(std::size_t b, double time) const;
 
   std::vector<Body> bodies_;
   body::Moduli moduli_;

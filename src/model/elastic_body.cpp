@@ -138,10 +138,20 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
   require(f.self.size() == f.surface.node.cols() && f.self.allFinite() && (f.self.array() >= 0).all(), source,
           ": each loaded orbit needs the size of its own answer, finite and not negative");
   const Eigen::Index n_columns = 3 * f.surface.node.cols();
-  require((f.F.size() == 0 ? f.read_F != nullptr : f.F.rows() == 3 * n_c && f.F.cols() == n_columns) &&
-              (f.G.size() == 0 || (f.G.rows() == 6 * n_r && f.G.cols() == n_columns)),
-          source, ": F or G does not have a row for each node and a column for each force");
+  require(
+      (f.F.size() == 0 ? f.read_F != nullptr : f.F.rows() == 3 * n_c && f.F.cols() == n_columns) &&
+          (f.G.size() == 0 || (f.G.rows() == (f.has_long_term() ? 12 : 6) * n_r && f.G.cols() == n_columns)),
+      source, ": F or G does not have a row for each node and a column for each force");
   require(f.F.allFinite() && f.G.allFinite(), source, ": static responses are not finite");
+  require(f.creep >= -1 && f.creep < static_cast<int>(body.relaxing.size()), source,
+          ": the static responses creep by relaxing part ", f.creep, ", there are ", body.relaxing.size());
+  if (!f.has_long_term()) return;
+  require(f.self_long.size() == f.self.size() && f.self_long.allFinite() &&
+              (f.self_long.array() >= 0).all() &&
+              (f.F_long.size() == 0 ? f.read_F_long != nullptr
+                                    : f.F_long.rows() == 3 * n_c && f.F_long.cols() == n_columns) &&
+              f.F_long.allFinite(),
+          source, ": the static responses of the relaxed body do not fit those of the instantaneous one");
 }
 
 void validate_relaxing(const ElasticBody& body, const std::string& source) {
@@ -158,8 +168,6 @@ void validate_relaxing(const ElasticBody& body, const std::string& source) {
     const auto n_e = static_cast<int>(body.stress.node.size());
     require(n_e == 0 || in_range(part.stress_node, n_e), who, " names a stress node outside 0..", n_e - 1);
   }
-  require(body.relaxing.empty() || body.flexibility.empty(), source,
-          ": static responses to contact forces are those of an elastic body, this one relaxes");
 }
 
 }  // namespace

@@ -59,6 +59,11 @@ Eigen::MatrixXf displacement_columns(const Flexibility& flexibility, int orbit) 
                                   : flexibility.read_F(orbit);
 }
 
+Eigen::MatrixXf long_term_columns(const Flexibility& flexibility, int orbit) {
+  return flexibility.F_long.size() > 0 ? Eigen::MatrixXf(flexibility.F_long.middleCols<3>(3 * orbit))
+                                       : flexibility.read_F_long(orbit);
+}
+
 void set_self(Flexibility& flexibility) {
   const Eigen::Index n = flexibility.surface.node.cols();
   flexibility.self.resize(n);

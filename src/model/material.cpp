@@ -1,6 +1,7 @@
 #include "elastogear/model/material.h"
 
 #include <numeric>
+#include <utility>
 
 namespace elastogear::model {
 namespace {
@@ -10,24 +11,35 @@ double long_term_share(const std::vector<double>& relative) {
   return 1 - std::accumulate(relative.begin(), relative.end(), 0.0);
 }
 
+// The material with g times the shear modulus and k times the bulk modulus.
+Material scaled(Material material, double g, double k) {
+  if (material.orthotropic) {
+    material.orthotropic->E *= g;
+    material.orthotropic->G *= g;
+    return material;
+  }
+  if (g == k) {
+    material.E *= g;
+    return material;
+  }
+  const double G = g * material.E / (2 * (1 + material.nu)), K = k * material.E / (3 * (1 - 2 * material.nu));
+  material.E = 9 * K * G / (3 * K + G);
+  material.nu = (3 * K - 2 * G) / (2 * (3 * K + G));
+  return material;
+}
+
 }  // namespace
 
 Material from_long_term(Material material) {
   if (!material.viscoelastic) return material;
   const double g = long_term_share(material.viscoelastic->g), k = long_term_share(material.viscoelastic->k);
-  if (material.orthotropic) {
-    material.orthotropic->E /= g;
-    material.orthotropic->G /= g;
-    return material;
-  }
-  if (material.viscoelastic->has_constant_ratio()) {
-    material.E /= g;
-    return material;
-  }
-  const double G = material.E / (2 * (1 + material.nu)) / g, K = material.E / (3 * (1 - 2 * material.nu)) / k;
-  material.E = 9 * K * G / (3 * K + G);
-  material.nu = (3 * K - 2 * G) / (2 * (3 * K + G));
-  return material;
+  return scaled(std::move(material), 1 / g, 1 / k);
+}
+
+Material to_long_term(Material material) {
+  if (!material.viscoelastic) return material;
+  const double g = long_term_share(material.viscoelastic->g), k = long_term_share(material.viscoelastic->k);
+  return scaled(std::move(material), g, k);
 }
 
 }  // namespace elastogear::model

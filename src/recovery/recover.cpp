@@ -2,6 +2,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/recovery/stress.h"
+#include "recovery/crept_response.h"
 #include "recovery/error_estimate.h"
 #include "recovery/mesh_error.h"
 
@@ -37,7 +38,7 @@ void estimate_error(RecoveredBody& body, const model::ElasticBody& elastic, io::
     return;
   }
   const StaticResponseOfRun* const known = body.known();
-  if (!known) return;
+  if (!known || body.relaxes()) return;
   const std::vector<int>& members = elastic.stress.sets.at(set.set);
   const Eigen::MatrixXd q_s = body.run.history.q - known->q;
   auto error = reduction_error(
@@ -66,7 +67,12 @@ io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elas
   std::vector<int> nodes;
   for (int member : members) nodes.push_back(stress.node[member]);
   Eigen::MatrixXd sigma_more = body.response ? static_stress(*body.response, nodes) : Eigen::MatrixXd();
-  if (!elastic.relaxing.empty()) sigma_more = -relaxed_stress(elastic, members, body.run.history.w);
+  if (!elastic.relaxing.empty()) {  // Eqs. (4.10) to (4.12)
+    const Eigen::MatrixXd relaxed = relaxed_stress(elastic, members, body.run.history.w);
+    sigma_more = sigma_more.size() > 0 ? Eigen::MatrixXd(sigma_more - relaxed) : Eigen::MatrixXd(-relaxed);
+    if (body.response && body.response->crept)
+      sigma_more += crept_modal_stress(elastic, members, *body.response->crept);
+  }
   StressHistory h = stress_history(stress, members, body.q(), sigma_more);
   io::StressSet recovered{body.run.name,
                           set,
@@ -95,7 +101,7 @@ FieldState recovered_state(const RecoveredBody& body, Eigen::Index step, bool wi
   StaticResponseOfRun* const known = body.known();
   if (!known) return state;
   const Eigen::VectorXd u_static = static_displacement(*known, step), q_d = known->q.col(step);
-  if (with_error) {
+  if (with_error && !body.relaxes()) {
     const Eigen::VectorXd share = dynamic_share(known->body, {q_d, state.q - q_d});
     state.reference = {state.q, q_d, u_static, share[0]};
   }

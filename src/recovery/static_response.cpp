@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elastogear/base/error.h"
+#include "recovery/crept_response.h"
 #include "recovery/mode_acceleration.h"
 
 namespace elastogear::recovery {
@@ -46,22 +47,41 @@ const UnreducedResponse& unreduced(StaticResponseOfRun& known_response) {
   return *known_response.unreduced;
 }
 
-// 6 n x n_t, from the body file; one loaded node at a time.
+// 6 n x 3, Pa/N: stresses at mesh nodes by unit forces on the node at a position of the flexibility, given
+// the responses of its orbit.
+Eigen::MatrixXd stresses_of(const model::ElasticBody& body, int position, const std::vector<int>& nodes,
+                            const model::Columns3& columns) {
+  const std::vector<int>& known = body.stress.node;
+  Eigen::MatrixXd G(6 * static_cast<Eigen::Index>(nodes.size()), 3);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto e = std::lower_bound(known.begin(), known.end(), nodes[i]) - known.begin();
+    G.middleRows<6>(static_cast<Eigen::Index>(6 * i)) =
+        model::stress_response(body.flexibility, static_cast<int>(e), position, columns);
+  }
+  return G;
+}
+
+// 6 n x n_t, from the body file; one loaded node at a time. The rows of G are those of the instantaneous
+// body, then those of the relaxed one where that is stored.
 Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
-  const model::Flexibility& flexibility = known_response.body.flexibility;
-  const std::vector<int>& known = known_response.body.stress.node;
+  const model::ElasticBody& body = known_response.body;
+  const auto n_rows = static_cast<Eigen::Index>(6 * body.flexibility.stress.node.size());
+  const auto columns_of = [&](int position) {
+    return io::read_stress_responses(known_response.file, body.flexibility.surface.orbit[position]);
+  };
   Eigen::MatrixXd stress =
       Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), known_response.force.cols());
-  Eigen::MatrixXd G(stress.rows(), 3);
-  for (std::size_t b = 0; b < known_response.position.size(); ++b) {
-    const Eigen::MatrixXf columns =
-        io::read_stress_responses(known_response.file, flexibility.surface.orbit[known_response.position[b]]);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto e = std::lower_bound(known.begin(), known.end(), nodes[i]) - known.begin();
-      G.middleRows<6>(static_cast<Eigen::Index>(6 * i)) =
-          model::stress_response(flexibility, static_cast<int>(e), known_response.position[b], columns);
-    }
-    stress += G * known_response.force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+  for (std::size_t b = 0; b < known_response.position.size(); ++b)
+    stress += stresses_of(body, known_response.position[b], nodes, columns_of(known_response.position[b])) *
+              known_response.force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+  if (!known_response.crept) return stress;
+  const CreptResponse& crept = *known_response.crept;
+  for (std::size_t b = 0; b < crept.position.size(); ++b) {
+    const Eigen::MatrixXf columns = columns_of(crept.position[b]);
+    require(columns.rows() == 2 * n_rows, known_response.file, ": /flexibility/G lacks the relaxed body");
+    const Eigen::MatrixXf grown = columns.bottomRows(n_rows) - columns.topRows(n_rows);
+    stress += stresses_of(body, crept.position[b], nodes, grown) *
+              crept.force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
   }
   return stress;
 }
@@ -81,6 +101,7 @@ std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body,
   known_response->force = forces.force;
   known_response->file = body.file;
   known_response->finite_elements = finite_elements;
+  known_response->crept = crept_response(body, elastic, forces);
   elastic.surface.Phi = {};
   known_response->body = std::move(elastic);
   return known_response;
@@ -94,13 +115,14 @@ bool is_stored(const StaticResponseOfRun& known_response) { return !known_respon
 std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration,
                                                             const FiniteElements& finite_elements) {
   const bool relaxes = body.history.w.rows() > 0;
-  require(!relaxes || acceleration != Acceleration::always, body.file,
-          ": mode acceleration takes static responses of an elastic body, this one is viscoelastic; use "
-          "-mode_acceleration auto");
-  if (acceleration == Acceleration::never || relaxes) return nullptr;
+  if (acceleration == Acceleration::never) return nullptr;
   std::unique_ptr<StaticResponseOfRun> known_response = make_response(body, finite_elements);
   if (!known_response || (acceleration == Acceleration::automatic && !is_stored(*known_response)))
     return nullptr;
+  require(
+      !relaxes || is_stored(*known_response), body.file,
+      ": mode acceleration of a viscoelastic body takes the static responses in its file, which has none; "
+      "use -mode_acceleration auto, or reduce it with the basis modal_residual");
   const std::string obstacle = is_stored(*known_response) ? "" : obstacle_to_factor(known_response->body);
   require(obstacle.empty(), body.file, ": mode acceleration ", obstacle);
   return known_response;

@@ -99,5 +99,11 @@ void validate_relaxing(const ReductionOptions& options);
 void set_relaxing(Job& job, const WaitingModes& modes);
 /// The same for the full basis.
 void set_relaxing_full(Job& job);
+/// Relaxes all of the body in the same ratio? Rank 0.
+bool relaxes_alike(const Job& job);
+/// The relaxing part (index into body.relaxing) by whose times static responses to forces on these surface
+/// nodes creep; -1: the body is elastic. Throws Error where forces act on materials that relax differently.
+/// Rank 0.
+int creeping_part(const Job& job, const std::vector<int>& loaded);
 
 }  // namespace elastogear::reduction

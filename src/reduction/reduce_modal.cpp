@@ -4,6 +4,7 @@
 
 #include "elastogear/base/version.h"
 #include "elastogear/fem/gather.h"
+#include "elastogear/fem/stress.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/free_body.h"
@@ -194,16 +195,51 @@ bool flexibility_repeats(Job& job) {
   return repeats != 0;
 }
 
+// Static responses of the body with the present moduli of job.regions. Collective.
+model::Flexibility solve_flexibility(Job& job, const FlexibilityTask& task, const ElasticSystem& system) {
+  const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, job.options.element};
+  return flexibility_repeats(job)
+             ? find_cyclic_flexibility(job.comm, task, body, job.options.floating, job.progress)
+             : find_flexibility(task, system, job.progress);
+}
+
+// Adds the static responses of the relaxed body, Eqs. (2.21) and (4.12). Collective.
+void add_long_term(Job& job, const ElasticSystem& system, model::Flexibility& flexibility) {
+  const std::vector<model::MaterialRegion> instantaneous = job.regions;
+  for (model::MaterialRegion& region : job.regions) region.material = model::to_long_term(region.material);
+  const model::ElasticBody& body = job.plan.body;
+  model::SparseRows S;
+  job.on_root([&] {
+    if (!body.stress.node.empty()) S = fem::stress_operator(stressed_body(job), body.stress.node);
+  });
+  const FlexibilityTask task{body.surface,       body.stress.node,  S, job.mesh, job.plan.repetition,
+                             job.options.loaded, stressed_body(job)};
+  const fem::Matrices matrices = assemble(job);
+  model::Flexibility relaxed =
+      solve_flexibility(job, task, {matrices.K, matrices.M, system.gather, system.rigid});
+  job.regions = instantaneous;
+  if (job.rank != 0) return;
+  flexibility.F_long = std::move(relaxed.F);
+  flexibility.self_long = std::move(relaxed.self);
+  flexibility.G.conservativeResize(2 * relaxed.G.rows(), Eigen::NoChange);
+  flexibility.G.bottomRows(relaxed.G.rows()) = relaxed.G;
+}
+
 void add_flexibility(Job& job, const ElasticSystem& system) {
   if (!job.options.flexibility) return;
-  const FlexibilityTask task = flexibility_task(job);
-  const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, job.options.element};
-  model::Flexibility flexibility =
-      flexibility_repeats(job)
-          ? find_cyclic_flexibility(job.comm, task, body, job.options.floating, job.progress)
-          : find_flexibility(task, system, job.progress);
-  if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
+  model::Flexibility flexibility = solve_flexibility(job, flexibility_task(job), system);
   job.finish_stage("static responses");
+  int apart = 0;
+  job.on_root([&] {
+    if (relaxes(job.options)) flexibility.creep = creeping_part(job, flexibility.node);
+    apart = flexibility.creep >= 0 && !relaxes_alike(job);
+  });
+  MPI_Bcast(&apart, 1, MPI_INT, 0, job.comm);
+  if (apart != 0) {
+    add_long_term(job, system, flexibility);
+    job.finish_stage("static responses of the relaxed body");
+  }
+  if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
 }
 
 // From the matrices of the whole body.

@@ -52,6 +52,10 @@ void set_parts(Job& job, const std::function<Reduced(const model::SparseRows&)>&
   }
 }
 
+bool is_alike(const fem::RelaxingModuli& a, const fem::RelaxingModuli& b) {
+  return a.g == b.g && a.tau == b.tau;
+}
+
 bool relaxes_apart(const ReductionOptions& options) {
   return std::any_of(options.regions.begin(), options.regions.end(), [](const model::MaterialRegion& region) {
     return region.material.viscoelastic && !region.material.viscoelastic->has_constant_ratio();
@@ -68,16 +72,36 @@ bool relaxes(const ReductionOptions& options) {
 
 void validate_relaxing(const ReductionOptions& options) {
   if (!relaxes(options)) return;
-  require(!options.flexibility,
-          "basis modal_residual: its static responses are those of an elastic body, and do not relax; with "
-          "viscoelastic materials take -basis modal or another basis of vectors (krylov, craig_bampton, "
-          "modal_attachment), or full");
   require(
       options.stress_recovery == model::RecoveryMethod::average || !relaxes_apart(options),
       "stress_recovery surface: holds the ratio of shear and bulk modulus for constant, which relax apart "
       "here (prony_g, prony_k); take -stress_recovery average");
   require(!options.imported,
           "viscoelastic materials need the stiffness of the mesh's own cells: leave option stiffness out");
+}
+
+bool relaxes_alike(const Job& job) {
+  const std::vector<fem::RelaxingModuli> all = fem::relaxing_moduli(job.regions);
+  return all.size() == 1 && is_whole_body(job, all.front());
+}
+
+int creeping_part(const Job& job, const std::vector<int>& loaded) {
+  const std::vector<fem::RelaxingModuli> all = fem::relaxing_moduli(job.regions);
+  const std::vector<int> region = fem::stress_regions(job.mesh, job.regions);
+  int part = -1;
+  for (int node : loaded) {
+    const int own = region[job.plan.body.surface.node[node]];
+    const auto at =
+        std::find_if(all.begin(), all.end(), [&](const auto& moduli) { return moduli.region == own; });
+    if (at == all.end() || (part >= 0 && is_alike(*at, all[part]))) continue;
+    require(
+        part < 0, "basis modal_residual: contact forces act on the cell sets '",
+        job.regions[all[part].region].cell_set, "' and '", job.regions[own].cell_set,
+        "', whose materials relax differently; name the face sets of one of them by the option loaded, or "
+        "give both the same series and temperature");
+    part = static_cast<int>(at - all.begin());
+  }
+  return part < 0 && !all.empty() ? 0 : part;
 }
 
 void set_relaxing(Job& job, const WaitingModes& modes) {

@@ -38,7 +38,7 @@ REDUCE = [
     Case("temperature without a shift", r"needs a temperature shift", "{polymer} -material_temperature 300"),
     Case("temperature in a unit that is none", r"'F'.*K, degC", "{polymer} -material_wlf 17.44,51.6 -material_temperature 80F"),
     Case("free surfaces of moduli that relax apart", r"stress_recovery surface.*stress_recovery average", "{reduce} -material_prony_tau 1 -material_prony_g 0.3 -basis modal -stress_recovery surface"),
-    Case("static responses of a polymer", r"modal_residual.*-basis modal", "{reduce} -material_prony_tau 1 -material_prony 0.3 -basis modal_residual -surface TOP"),
+    Case("static responses of a polymer", r"", "{reduce} -material_prony_tau 1 -material_prony 0.3 -basis modal_residual -surface TOP", kind="good", leaves=r"kept\.h5"),
     Case("polymer", r"", "{polymer} -material_wlf 17.44,51.6 -material_temperature 60degC -material_moduli long_term", kind="good", leaves=r"kept\.h5"),
     Case("no material anywhere", r"material_E.*brick.inp.*SOLID SECTION", "{elastogear} reduce -mesh brick.inp -restrain FIX -output kept.h5"),
     Case("restraint in two directions", r"free to move along \(0 0 1\); hold more", "{elastogear} reduce -mesh partly.inp -unit mm -output kept.h5"),

@@ -239,18 +239,22 @@ model::ElasticBody in_modes(model::ElasticBody full, const MatrixXd& V, const Ei
   return full;
 }
 
-model::ElasticBody make_flexible_box(const BoxSpec& spec, int n_modes) {
-  const model::ElasticBody full = full_box(spec);
-  model::ElasticBody body = make_box(spec, model::Basis::modal, n_modes);
+void set_flexibility(model::ElasticBody& body, const MatrixXd& F) {
   const auto n = static_cast<int>(body.surface.node.size());
-  const MatrixXd Phi = std::get<model::SparseRows>(full.surface.Phi);
   model::Flexibility& flexibility = body.flexibility;
   flexibility.node.resize(n);
   std::iota(flexibility.node.begin(), flexibility.node.end(), 0);
   flexibility.surface = model::no_images(n);
   flexibility.stress = model::no_images(0);
-  flexibility.F = (Phi * MatrixXd(full.K_r).ldlt().solve(Phi.transpose())).cast<float>();
+  flexibility.F = F.cast<float>();
   model::set_self(flexibility);
+}
+
+model::ElasticBody make_flexible_box(const BoxSpec& spec, int n_modes) {
+  const model::ElasticBody full = full_box(spec);
+  model::ElasticBody body = make_box(spec, model::Basis::modal, n_modes);
+  const MatrixXd Phi = std::get<model::SparseRows>(full.surface.Phi);
+  set_flexibility(body, Phi * MatrixXd(full.K_r).ldlt().solve(Phi.transpose()));
   return body;
 }
 

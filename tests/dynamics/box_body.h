@@ -30,6 +30,9 @@ std::shared_ptr<model::ElasticBody> make_damped_box(const Eigen::Vector3d& corne
 /// A body of the full basis in the modes V of its K_r and M_r, mass-normalised, with the eigenvalues lambda.
 model::ElasticBody in_modes(model::ElasticBody full, const Eigen::MatrixXd& V, const Eigen::VectorXd& lambda);
 
+/// Gives a modal body the static responses F (3 n_s x 3 n_s, m/N) to forces on all surface nodes.
+void set_flexibility(model::ElasticBody& body, const Eigen::MatrixXd& F);
+
 /// The same modal box with its static responses to forces on all surface nodes; so held that K is regular.
 model::ElasticBody make_flexible_box(const BoxSpec& spec, int n_modes);
 

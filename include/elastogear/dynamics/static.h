@@ -8,6 +8,9 @@ namespace elastogear::dynamics {
 
 struct StaticSettings {
   int steps = 10;  ///< in which the load factor grows from 0 to 1; cut where Newton's method fails
+  /// s, for which materials relax under the whole load, put on at time 0; 0: not at all. What is observed
+  /// then has the time since in place of the load factor, and begins with the whole load.
+  double time_under_load = 0;
 };
 
 /// Loads, prescribed motions and gravity as functions of the load factor in place of the time: loads from

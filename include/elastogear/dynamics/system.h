@@ -91,6 +91,11 @@ class System {
   void begin_step(double dt, double alpha_f);
   bool change_closed();
   void end_step(bool solved, double delivered);
+  /// From here on states are those at rest at the end of a time dt (s) after the last accepted one, in which
+  /// materials relax. Only where they do with time.
+  void let_relax(double dt);
+  /// What a body remembers, with its deformation, of the last accepted state.
+  model::RelaxedState relaxed_state(std::size_t b) const;
   /// Was there an impulse in the last step, or the one before it? It lasts for a step only.
   bool had_impulse() const;
   bool had_impulse_before() const;
@@ -101,6 +106,8 @@ class System {
   double contact_loss() const;
   /// J, stored in the residual flexibility of a body by the contact forces of the last evaluation.
   double residual_energy(std::size_t b);
+  /// J, that has been taken by the creep of its residual displacement up to the last accepted state.
+  double residual_loss(std::size_t b) const;
   Residual residual(const State& x);
   /// shift.v dF/dV + shift.a dF/dA + dF/dU
   EffectiveMatrix effective_matrix(const State& x, const body::Shifts& shift);

@@ -12,6 +12,7 @@
 #include "elastogear/contact/types.h"
 #include "elastogear/dynamics/axis.h"
 #include "elastogear/dynamics/marker_forces.h"
+#include "elastogear/model/relaxed_state.h"
 #include "elastogear/model/result.h"
 
 namespace elastogear::dynamics {
@@ -25,6 +26,7 @@ struct BodySetup {
   Eigen::Vector3d velocity0 = Eigen::Vector3d::Zero();  ///< free: m/s, of the BRF's origin, in W
   Eigen::Vector3d omega0 = Eigen::Vector3d::Zero();     ///< free and spherical: rad/s, in the BRF
   Eigen::VectorXd q_dot0 = {};                          ///< n_q, initial elastic velocity; empty: zero
+  model::RelaxedState relaxed0 = {};  ///< deformation, and what is remembered of loads; empty: none
   std::shared_ptr<const contact::TrueSurface> true_surface = nullptr;  ///< null: nothing is known of it
 };
 
@@ -56,6 +58,7 @@ struct SystemModel {
     std::vector<int> node_group;     ///< face group of each surface node: that of its lowest face
     Eigen::VectorXd node_area;       ///< m^2, share of the surface of each of its nodes
     std::shared_ptr<const contact::TrueSurface> true_surface;  ///< may be null
+    model::RelaxedState relaxed;                               ///< at the start
 
     Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
   };

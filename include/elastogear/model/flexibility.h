@@ -35,10 +35,20 @@ struct Flexibility {
   std::vector<int> stress_row;  ///< n_e: which of them each evaluation node is
   Eigen::VectorXd self;         ///< n_orbits, m/N, |F(b, b)|
   Eigen::MatrixXf F;            ///< 3 n_c x 3 n_orbits, m/N, displacements of the n_c nodes; or empty, then
-  Eigen::MatrixXf G;            ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz; or empty
+  Eigen::MatrixXf G;  ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz; or empty. Below it, where
+                      ///< there is F_long, as many rows of the relaxed body
   std::function<Eigen::MatrixXf(int orbit)> read_F = {};  ///< ... reads the three columns of an orbit
+  /// Of a body that relaxes: which of its relaxing parts has the times by which what the modes leave out
+  /// creeps; -1: nothing of it does.
+  int creep = -1;
+  /// F of the relaxed body, and its `self`, as F and self above; or empty: all of the body relaxes in the
+  /// same ratio, and F over the long-term share is that.
+  Eigen::MatrixXf F_long = {};
+  std::function<Eigen::MatrixXf(int orbit)> read_F_long = {};
+  Eigen::VectorXd self_long = {};
 
   bool empty() const { return node.empty(); }
+  bool has_long_term() const { return self_long.size() > 0; }
 };
 
 /// Position of a surface node in flexibility.node; -1: forces on it are not provided for.
@@ -46,6 +56,8 @@ int find_loaded(const Flexibility& flexibility, int surface_node);
 
 /// The columns of F of one orbit, 3 n_c x 3.
 Eigen::MatrixXf displacement_columns(const Flexibility& flexibility, int orbit);
+/// Those of F_long.
+Eigen::MatrixXf long_term_columns(const Flexibility& flexibility, int orbit);
 /// Sets `self` from F.
 void set_self(Flexibility& flexibility);
 

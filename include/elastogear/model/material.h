@@ -44,6 +44,9 @@ struct Material {
 /// The material whose long-term moduli those of the given one are: with the instantaneous moduli of its Prony
 /// series, which must be valid. docs/theory.md, Eq. (1.10).
 Material from_long_term(Material material);
+/// The material whose instantaneous moduli are the long-term ones of this; its series stays. Elastic ones
+/// stay as they are.
+Material to_long_term(Material material);
 
 /// A material and the cell set it fills; the empty name stands for all cells that no other region names.
 struct MaterialRegion {

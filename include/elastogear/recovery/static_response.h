@@ -13,6 +13,13 @@
 
 namespace elastogear::recovery {
 
+/// What the response of a viscoelastic body of several materials has crept by: docs/theory.md, Eq. (4.12).
+struct CreptResponse {
+  std::vector<int> position;  ///< of the n nodes that have been loaded, in body.flexibility
+  Eigen::MatrixXd force;      ///< 3 n x n_t, N: chi
+  Eigen::MatrixXd q, q_long;  ///< n_q x n_t: the modes' response to chi, instantaneous and relaxed
+};
+
 struct StaticResponseOfRun {
   Eigen::MatrixXd q;          ///< n_q x n_t, without the static part
   std::vector<int> node;      ///< loaded nodes, mesh numbers
@@ -21,6 +28,7 @@ struct StaticResponseOfRun {
   model::ElasticBody body;    ///< what it holds, without the basis at the surface
   std::vector<int> position;  ///< of the loaded nodes in body.flexibility; empty unless it has them all
   FiniteElements finite_elements;
+  std::optional<CreptResponse> crept = {};          ///< where there is one
   std::optional<io::BodySource> source = {};        ///< read when it is needed:
   std::optional<UnreducedResponse> unreduced = {};  ///< by a factor of K
 };

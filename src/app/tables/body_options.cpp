@@ -160,6 +160,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name, 
     own.body = std::make_shared<model::ElasticBody>(std::move(body));
   }
   setup.body = own.body;
+  set_relaxed_state(options, setup);
   if (const std::string input = true_surface_input(options, name);
       !own.true_surface || own.true_surface_input != input) {
     own.true_surface = true_surface(options, name, setup.body->surface);

@@ -5,6 +5,7 @@
 #include "app/options/file_time.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
+#include "elastogear/io/relaxed_state.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/recovery/deviation.h"
 
@@ -20,7 +21,8 @@ struct InitialState {
 const Rows<InitialState> kStateRows = {
     {"initial_file", &InitialState::file, "-",
      "result file whose joint coordinates and (dynamic analysis) rates the bodies of the same names begin "
-     "with; elastic coordinates begin with zero"},
+     "with; elastic coordinates begin with zero, but after a time_under_load with those of its end, and "
+     "viscoelastic bodies with what they remember"},
     {"initial_time", "s", "last", "time in that file: a number or last",
      [](auto& o, auto& name, auto& state) { state.time = file_time(o, name); }},
 };
@@ -52,11 +54,20 @@ void require_state_is_used(const Options& options, const std::vector<dynamics::B
   }
   const auto known = io::read_result_header(file).bodies;
   const bool used = std::any_of(bodies.begin(), bodies.end(), [&](const auto& setup) {
+    if (!setup.relaxed0.empty()) return true;
     return setup.joint.type != body::JointType::fixed &&
            std::any_of(known.begin(), known.end(), [&](const auto& b) { return b.name == setup.name; });
   });
   require(used, "option -initial_file = '", file,
           "': none of the bodies that can move is in it, so that nothing would begin with its state");
+}
+
+void set_relaxed_state(const Options& options, dynamics::BodySetup& setup) {
+  const auto [file, wanted] = initial_state(options);
+  if (file.empty() || options.text("analysis") != "dynamic") return;
+  setup.relaxed0 = io::read_relaxed_state(file, setup.name);
+  require(setup.relaxed0.empty() || wanted == kLastTime, "option -initial_time: body '", setup.name,
+          "' begins with its deformation, which ", file, " has of the last time only");
 }
 
 void set_initial_state(const Options& options, dynamics::BodySetup& setup) {

@@ -16,6 +16,10 @@ OptionTable initial_state_table();
 /// has another number of coordinates or tumbles.
 void set_initial_state(const Options& options, dynamics::BodySetup& setup);
 
+/// The deformation of the body of `setup` and what it remembers of its loads in the last state of that file;
+/// nothing when it has none of it. Dynamic analyses only.
+void set_relaxed_state(const Options& options, dynamics::BodySetup& setup);
+
 /// Error when the file is given but no body takes its state, or its time is given without it.
 void require_state_is_used(const Options& options, const std::vector<dynamics::BodySetup>& bodies);
 

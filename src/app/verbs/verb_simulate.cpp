@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
 
 #include "app/console/advice.h"
@@ -25,6 +26,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/static.h"
+#include "elastogear/io/relaxed_state.h"
 
 namespace elastogear::app {
 namespace {
@@ -34,6 +36,7 @@ enum class Analysis { dynamic, equilibrium, relax, sweep };
 struct AnalysisSettings {
   Analysis kind = Analysis::dynamic;
   int static_steps = 10;
+  double time_under_load = 0;  // s
 };
 
 using dynamics::Environment, dynamics::TimeSettings;
@@ -48,6 +51,9 @@ const Rows<AnalysisSettings> kAnalysisRows = {
     {"static_steps", &AnalysisSettings::static_steps, "-",
      "load steps of a static analysis; sweep: at its first position (default: 10; sweep: 1)",
      kPositive | kDependent},
+    {"time_under_load", &AnalysisSettings::time_under_load, "s",
+     "static: viscoelastic materials relax for this time under the whole load (time in the result: since it "
+     "was put on); a dynamic run begins with the last state by initial_file; 0: they do not"},
 };
 
 const Rows<TimeSettings> kTimeRows = {
@@ -165,10 +171,10 @@ std::string step_text(const dynamics::StepInfo& step) {
 
 dynamics::Computation computation(const Options& options, dynamics::System& system) {
   if (analysis(options) == Analysis::equilibrium)
-    return [&system, steps = analysis_settings(options).static_steps](
-               const dynamics::Observer& observer, const dynamics::Checkpoints& checkpoints) {
-      return dynamics::solve_static(system, {steps}, guarded(system, observer), console_progress(),
-                                    checkpoints.stop);
+    return [&system, given = analysis_settings(options)](const dynamics::Observer& observer,
+                                                         const dynamics::Checkpoints& checkpoints) {
+      return dynamics::solve_static(system, {given.static_steps, given.time_under_load},
+                                    guarded(system, observer), console_progress(), checkpoints.stop);
     };
   TimeSettings time = time_settings(options);
   if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
@@ -178,6 +184,19 @@ dynamics::Computation computation(const Options& options, dynamics::System& syst
     return dynamics::simulate(system, time, guarded(system, observer, time.dt),
                               console_progress([info] { return step_text(*info); }), checkpoints);
   };
+}
+
+// The deformation of all bodies at the end of a run, with what viscoelastic ones remember, for a next one,
+// and that at its start.
+void add_relaxed_states(const std::string& output, const dynamics::System& system, bool at_end) {
+  std::map<std::string, model::RelaxedState> end, start;
+  for (std::size_t b = 0; b < system.bodies().size(); ++b) {
+    const dynamics::System::Body& body = system.bodies()[b];
+    if (at_end && body.eq.n_q() > 0) end[body.name] = system.relaxed_state(b);
+    if (!body.relaxed.empty()) start[body.name] = body.relaxed;
+  }
+  if (!end.empty()) io::add_relaxed_states(output, end);
+  if (!start.empty()) io::add_relaxed_states(output, start, io::kRelaxedStart);
 }
 
 // A drive file says what bodies there are and where.
@@ -202,6 +221,8 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   protect_inputs(options, {{"output", {output}}, {"sensor_csv", sensor_tables(options)}});
   const OutputLock lock(output);
   if (analysis(options) != Analysis::equilibrium) time_settings(options);
+  require(analysis(options) == Analysis::equilibrium || !options.given("time_under_load"),
+          options.label("time_under_load"), ": belongs to analysis: static");
   KnownBodies known;
   SystemSetup setup = system_setup(options, known);
   if (analysis(options) == Analysis::equilibrium) make_static(options, setup);
@@ -210,6 +231,7 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   const model::ResultHeader head = result_header(options, system.model(), known);
   print_laws(options, system.model());
   print_summary(options, keep(options, head, computation(options, system)));
+  add_relaxed_states(output, system, analysis_settings(options).time_under_load > 0);
   write_sensor_tables(options, head);
 }
 

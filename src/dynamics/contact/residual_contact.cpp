@@ -92,7 +92,7 @@ bool ResidualContact::any() const {
 contact::ResidualDisplacement ResidualContact::residual(std::size_t b) {
   if (!has_flexibility(b)) return {};
   ResidualFlexibility& R = *flexibility_[b];
-  return {[&R](int node) { return R.displacement(node); }, R.bound(R.forces()), change_[b]};
+  return {[&R](int node) { return R.displacement(node); }, R.bound(R.forces()) + R.lag_bound(), change_[b]};
 }
 
 void ResidualContact::seen() { std::fill(change_.begin(), change_.end(), 0); }
@@ -117,11 +117,12 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
   R.set_forces(forces);
 }
 
-// R f - w of the forces found and the static response in place.
+// R f - w of the forces found and the static response in place, beside what is left of former forces.
 VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& found, const MatrixXd& R) {
   VectorXd missing = R * found.f_B.reshaped();
   for (std::size_t i = 0; i < found.node.size(); ++i)
-    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) -= displacement(b, found.node[i]);
+    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) +=
+        flexibility_[b]->lag(found.node[i]) - displacement(b, found.node[i]);
   return missing;
 }
 
@@ -273,28 +274,36 @@ void ResidualContact::predict(double time) {
       respond_to(b, mean(last_.forces[b], before_.forces[b], share));
 }
 
+void ResidualContact::set_point(std::size_t b, body::Moduli moduli, const body::StepPoint& at) {
+  if (has_flexibility(b)) change_[b] += flexibility_[b]->set_point(moduli, at);
+}
+
 void ResidualContact::accept(double time) {
   before_ = std::move(last_);
   last_ = {time, {}};
   for (const auto& flexibility : flexibility_)
     last_.forces.push_back(flexibility ? flexibility->forces() : NodalForces{});
+  for (auto& flexibility : flexibility_)
+    if (flexibility) flexibility->accept();
 }
 
-double ResidualContact::energy(std::size_t b) {
-  if (!has_flexibility(b)) return 0;
-  ResidualFlexibility& R = *flexibility_[b];
-  double energy = 0;
-  for (std::size_t i = 0; i < R.forces().node.size(); ++i)
-    energy += 0.5 * R.forces().f_B.col(static_cast<Eigen::Index>(i)).dot(R.displacement(R.forces().node[i]));
-  return energy;
-}
+double ResidualContact::energy(std::size_t b) { return has_flexibility(b) ? flexibility_[b]->energy() : 0; }
+double ResidualContact::loss(std::size_t b) const { return has_flexibility(b) ? flexibility_[b]->loss() : 0; }
 
 double ResidualContact::work(const std::vector<NodalForces>& then, const std::vector<NodalForces>& now) {
   double work = 0;
   for (std::size_t b = 0; b < flexibility_.size() && !last_.forces.empty(); ++b) {
     if (!has_flexibility(b)) continue;
-    const NodalForces change = difference(flexibility_[b]->forces(), last_.forces[b]);
-    const NodalForces force = mean(then[b], now[b], 0.5), all = sum(change, 1, force, 0);
+    const NodalForces force = mean(then[b], now[b], 0.5);
+    if (flexibility_[b]->creeps()) {
+      for (std::size_t i = 0; i < force.node.size(); ++i)
+        work += flexibility_[b]
+                    ->change_since(last_.forces[b], force.node[i])
+                    .dot(force.f_B.col(static_cast<Eigen::Index>(i)));
+      continue;
+    }
+    const NodalForces change = difference(flexibility_[b]->forces(), last_.forces[b]),
+                      all = sum(change, 1, force, 0);
     const VectorXd dw = flexibility_[b]->among(all.node) * all.f_B.reshaped();
     work += dw.dot(sum(change, 0, force, 1).f_B.reshaped());
   }
@@ -308,9 +317,7 @@ void ResidualContact::serialize(Archive& archive) {
   };
   for (std::size_t b = 0; b < flexibility_.size(); ++b) {
     if (!has_flexibility(b)) continue;
-    NodalForces forces = flexibility_[b]->forces();
-    visit(forces);
-    if (archive.is_loading()) flexibility_[b]->set_forces(forces);
+    flexibility_[b]->serialize(archive);
   }
   for (Accepted* accepted : {&last_, &before_}) {
     archive(accepted->time);

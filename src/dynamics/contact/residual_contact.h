@@ -41,8 +41,21 @@ class ResidualContact {
   void predict(double time);
   /// Keeps the present forces as those of an accepted step at this time.
   void accept(double time);
+  /// Does the residual displacement of a body creep, whatever the moduli are?
+  bool creeps(std::size_t b) const { return has_flexibility(b) && flexibility_[b]->is_viscoelastic(); }
+  /// From here on its states are at this point of a step.
+  void set_point(std::size_t b, body::Moduli moduli, const body::StepPoint& at);
 
-  double energy(std::size_t b);  ///< J, f'R f / 2
+  /// Of the last accepted state.
+  void get_creep(std::size_t b, model::RelaxedState& state) const {
+    if (has_flexibility(b)) flexibility_[b]->get_history(state);
+  }
+  void set_creep(std::size_t b, const model::RelaxedState& state) {
+    if (has_flexibility(b)) flexibility_[b]->set_history(state);
+  }
+
+  double energy(std::size_t b);      ///< J, f'R f / 2 of an elastic body
+  double loss(std::size_t b) const;  ///< J, taken by creep up to the last accepted state
   /// J, work of forces on the contact nodes through the change of the static responses since the last
   /// accepted state: the mean of the forces then and now, of each body, times that change.
   double work(const std::vector<NodalForces>& then, const std::vector<NodalForces>& now);

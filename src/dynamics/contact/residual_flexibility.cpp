@@ -1,10 +1,17 @@
 #include "dynamics/contact/residual_flexibility.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/sort_unique.h"
 
 namespace elastogear::dynamics {
+using body::CreepState;
+
 namespace {
 
 constexpr std::size_t kMostBlocks = 4'000'000;  // that are kept: 288 MB
@@ -33,20 +40,39 @@ Eigen::Matrix3d product(const double* A, const double* B, Eigen::Index n) {
 
 ResidualFlexibility::ResidualFlexibility(const model::ElasticBody& body)
     : body_(&body),
-      largest_(body.flexibility.empty() ? 0 : body.flexibility.self.maxCoeff()),
-      rows_(body.surface.node.size()) {}
+      law_(body::creep_law(body)),
+      rows_(body.surface.node.size()),
+      fields_(body.surface.node.size()) {
+  const model::Flexibility& flexibility = body.flexibility;
+  if (flexibility.empty()) return;
+  largest_ = largest_D_ = flexibility.self.maxCoeff();
+  if (!law_.creeps()) return;
+  const double long_term = law_.long_term();
+  if (relaxes_alike()) {
+    largest_ *= 1 + long_term;
+    return;
+  }
+  largest_D_ = flexibility.self_long.maxCoeff() / long_term;
+  largest_ = std::max(largest_, flexibility.self_long.maxCoeff());
+  K_long_inverse_ =
+      body::long_term_stiffness(body).llt().solve(Eigen::MatrixXd::Identity(body.n_q(), body.n_q()));
+}
 
 int ResidualFlexibility::number(int node) {
   const auto [at, is_new] = number_of_.emplace(node, -1);
   if (!is_new) return at->second;
-  const int position = model::find_loaded(body_->flexibility, node);
+  const model::Flexibility& flexibility = body_->flexibility;
+  const int position = model::find_loaded(flexibility, node);
   if (position < 0) return -1;
   at->second = static_cast<int>(loaded_.size());
-  const int orbit = body_->flexibility.surface.orbit[position];
-  if (!columns_.contains(orbit)) columns_[orbit] = model::displacement_columns(body_->flexibility, orbit);
+  const int orbit = flexibility.surface.orbit[position];
+  if (!columns_.contains(orbit)) columns_[orbit] = model::displacement_columns(flexibility, orbit);
+  const auto Phi = modes(*body_).middleRows<3>(3 * node);
   loaded_.push_back(
-      {position, &columns_.at(orbit),
-       modes(*body_).middleRows<3>(3 * node) * body_->K_r.diagonal().cwiseInverse().asDiagonal()});
+      {position, {&columns_.at(orbit), Phi * body_->K_r.diagonal().cwiseInverse().asDiagonal()}, {}});
+  if (relaxes_alike() || !law_.creeps()) return at->second;
+  if (!long_columns_.contains(orbit)) long_columns_[orbit] = model::long_term_columns(flexibility, orbit);
+  loaded_.back().long_term = {&long_columns_.at(orbit), Phi * K_long_inverse_};
   return at->second;
 }
 
@@ -58,20 +84,34 @@ ResidualFlexibility::Row& ResidualFlexibility::row(int node) {
     for (Row& row : rows_) row = Row();
   }
   n_rows_ += R.empty();
-  R.resize(loaded_.size(), Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  const Eigen::Matrix3d unknown = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  R.resize(loaded_.size(), unknown);
+  if (law_.creeps() && !relaxes_alike()) rows_[node].D.resize(loaded_.size(), unknown);
   return rows_[node];
 }
 
-// Block R(a, b) of the node with this number. It is the same to the bit whenever it is computed.
+Eigen::Matrix3d ResidualFlexibility::residual(int a, const Response& b, int position_b) const {
+  const int position = model::find_loaded(body_->flexibility, a);
+  if (position < 0) return Eigen::Matrix3d::Zero();
+  return model::displacement_response(body_->flexibility, position, position_b, *b.F) -
+         product(modes(*body_).row(3 * a).data(), b.Phi_over_K.data(), b.Phi_over_K.cols());
+}
+
+// Block R_0(a, b) of the node with this number. It is the same to the bit whenever it is computed.
 const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
   Eigen::Matrix3d& R = row.R[number];
-  if (!std::isnan(R(0, 0))) return R;
-  const int position = model::find_loaded(body_->flexibility, a);
-  if (position < 0) return R = Eigen::Matrix3d::Zero();
-  const auto& [b, F, Phi_over_Lambda] = loaded_[number];
-  R = model::displacement_response(body_->flexibility, position, b, *F);
-  R -= product(modes(*body_).row(3 * a).data(), Phi_over_Lambda.data(), Phi_over_Lambda.cols());
+  if (std::isnan(R(0, 0))) R = residual(a, loaded_[number].response, loaded_[number].position);
   return R;
+}
+
+// Block D(a, b). Eq. (2.21).
+const Eigen::Matrix3d& ResidualFlexibility::creep_block(Row& row, int a, int number) {
+  if (relaxes_alike()) return block(row, a, number);
+  Eigen::Matrix3d& D = row.D[number];
+  if (std::isnan(D(0, 0)))
+    D = (residual(a, *loaded_[number].long_term, loaded_[number].position) - block(row, a, number)) /
+        law_.long_term();
+  return D;
 }
 
 void ResidualFlexibility::set_forces(const NodalForces& forces) {
@@ -86,22 +126,66 @@ void ResidualFlexibility::set_forces(const NodalForces& forces) {
 // Copies the blocks of one row into contiguous memory, because all nodes that may touch are asked for at
 // every stage.
 void ResidualFlexibility::pack(Row& row, int a) {
+  const bool apart = law_.creeps() && !relaxes_alike();
   row.packed.setZero(3, 3 * static_cast<Eigen::Index>(numbers_.size()));
-  for (std::size_t i = 0; i < numbers_.size(); ++i)
-    if (numbers_[i] >= 0)
-      row.packed.middleCols<3>(static_cast<Eigen::Index>(3 * i)) = block(row, a, numbers_[i]);
+  if (apart) row.packed_D = row.packed;
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    if (numbers_[i] < 0) continue;
+    const auto column = static_cast<Eigen::Index>(3 * i);
+    row.packed.middleCols<3>(column) = block(row, a, numbers_[i]);
+    if (apart) row.packed_D.middleCols<3>(column) = creep_block(row, a, numbers_[i]);
+  }
   row.packed_at = n_changes_;
 }
 
-Eigen::Vector3d ResidualFlexibility::displacement(int node) {
-  if (numbers_.empty()) return Eigen::Vector3d::Zero();
+ResidualFlexibility::Displaced ResidualFlexibility::displaced(int node) {
+  if (numbers_.empty()) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Row& known = row(node);
   if (known.packed_at != n_changes_) pack(known, node);
   const Eigen::Map<const Eigen::VectorXd> f(forces_.f_B.data(), forces_.f_B.size());
-  return {known.packed.row(0).dot(f), known.packed.row(1).dot(f), known.packed.row(2).dot(f)};
+  const auto times_f = [&](const ThreeRows& A) {
+    return Eigen::Vector3d(A.row(0).dot(f), A.row(1).dot(f), A.row(2).dot(f));
+  };
+  const Eigen::Vector3d by_R = times_f(known.packed);
+  return {by_R, law_.creeps() && !relaxes_alike() ? times_f(known.packed_D) : by_R};
 }
 
-// |R(a, :) f|^2 <= |R(a, a)| f'R f, because R is positive semidefinite, and |R(a, a)| <= |F(a, a)|.
+// Eq. (6.34).
+Eigen::Vector3d ResidualFlexibility::displacement(int node) {
+  const auto [by_R, by_D] = displaced(node);
+  if (!law_.creeps()) return by_R;
+  return by_R + law_.at_once() * by_D + lag(node);
+}
+
+Eigen::Vector3d ResidualFlexibility::lag(int node) {
+  return creeps() && !history_.empty() ? law_.lag(field(node)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+// D times the history, at a node that had no part in it yet.
+CreepState ResidualFlexibility::sum_of_history(int node) {
+  CreepState sum = CreepState::Zero(3, law_.n_columns());
+  for (const auto& [b, crept] : history_) number(b);
+  Row& own = row(node);
+  for (const auto& [b, crept] : history_)
+    if (const int i = number(b); i >= 0) sum += creep_block(own, node, i) * crept.force;
+  return sum;
+}
+
+CreepState& ResidualFlexibility::field(int node) {
+  CreepState& field = fields_[node];
+  if (field.cols() > 0) return field;
+  field = sum_of_history(node);
+  known_.push_back(node);
+  return field;
+}
+
+Eigen::Vector3d ResidualFlexibility::present_force(int node) const {
+  const auto at = std::lower_bound(forces_.node.begin(), forces_.node.end(), node);
+  if (at == forces_.node.end() || *at != node) return Eigen::Vector3d::Zero();
+  return forces_.f_B.col(at - forces_.node.begin());
+}
+
+// |R(a, :) f|^2 <= |R(a, a)| f'R f, because R is positive semidefinite.
 double ResidualFlexibility::bound(const NodalForces& forces) {
   const std::vector<int>& known = among_[0].node;
   if (!std::includes(known.begin(), known.end(), forces.node.begin(), forces.node.end())) among(forces.node);
@@ -125,12 +209,137 @@ const Eigen::MatrixXd& ResidualFlexibility::among(const std::vector<int>& node) 
   R.setZero(3 * n, 3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     Row& known = row(node[i]);
-    for (Eigen::Index j = 0; j <= i; ++j)
-      if (numbers[j] >= 0) R.block<3, 3>(3 * i, 3 * j) = block(known, node[i], numbers[j]);
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      if (numbers[j] < 0) continue;
+      R.block<3, 3>(3 * i, 3 * j) = block(known, node[i], numbers[j]);
+      if (law_.at_once() != 0)
+        R.block<3, 3>(3 * i, 3 * j) += law_.at_once() * creep_block(known, node[i], numbers[j]);
+    }
     for (Eigen::Index j = 0; j < i; ++j)
       R.block<3, 3>(3 * j, 3 * i) = R.block<3, 3>(3 * i, 3 * j).transpose();
   }
   return R;
+}
+
+// The bounds are those of a positive semidefinite D; that of a body which relaxes in different ratios is so
+// but for what the modes make up for, and magnitudes are summed up.
+double ResidualFlexibility::set_point(body::Moduli moduli, const body::StepPoint& at) {
+  if (!law_.creeps()) return 0;
+  const double before = law_.at_once();
+  law_.set_point(moduli, at);
+  moduli_ = moduli;
+  const double grown = std::abs(law_.at_once() - before);
+  if (grown > 0) among_ = {};
+  double all = 0, change = 0;
+  for (auto& [node, crept] : history_) {
+    const Eigen::Vector3d lag = law_.lag(crept.force), displaced = law_.lag(field(node));
+    all += std::abs(lag.dot(displaced));
+    change += std::abs((lag - crept.lag).dot(displaced - crept.displaced_lag));
+    crept.lag = lag;
+    crept.displaced_lag = displaced;
+  }
+  lag_bound_ = std::sqrt(largest_D_ * all);
+  const double at_once = grown > 0 ? grown * std::max(1.0, largest_D_ / largest_) * bound(forces_) : 0;
+  return std::sqrt(largest_D_ * change) + at_once;
+}
+
+void ResidualFlexibility::accept() {
+  if (!creeps()) return;
+  const CreepState zero = CreepState::Zero(3, law_.n_columns());
+  for (int node : forces_.node) history_.emplace(node, Crept{zero, zero.col(0), zero.col(0)});
+  for (const auto& [node, crept] : history_) field(node);
+  std::vector<CreepState> fields;
+  for (int node : known_) fields.push_back(law_.state(fields_[node], displaced(node).by_D));
+  std::vector<CreepState> before;
+  for (std::size_t i = 0; i < known_.size(); ++i)
+    before.push_back(std::exchange(fields_[known_[i]], std::move(fields[i])));
+  std::unordered_map<int, const CreepState*> field_before;
+  for (std::size_t i = 0; i < known_.size(); ++i) field_before[known_[i]] = &before[i];
+  for (auto& [node, crept] : history_) {
+    const CreepState then = std::exchange(crept.force, law_.state(crept.force, present_force(node)));
+    loss_ += law_.loss({then, crept.force}, {*field_before.at(node), fields_[node]});
+  }
+  set_point(moduli_, {0, 1});
+}
+
+Eigen::Vector3d ResidualFlexibility::change_since(const NodalForces& then, int node) {
+  Eigen::Vector3d before = field(node).col(0);
+  std::vector<int> numbers;
+  for (int b : then.node) numbers.push_back(number(b));
+  Row& own = row(node);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers[i] < 0) continue;
+    before += (block(own, node, numbers[i]) - creep_block(own, node, numbers[i])) *
+              then.f_B.col(static_cast<Eigen::Index>(i));
+  }
+  return displacement(node) - before;
+}
+
+double ResidualFlexibility::energy() {
+  double twice = 0;
+  if (!creeps()) {
+    for (std::size_t i = 0; i < forces_.node.size(); ++i)
+      twice += forces_.f_B.col(static_cast<Eigen::Index>(i)).dot(displacement(forces_.node[i]));
+    return 0.5 * twice;
+  }
+  std::vector<int> nodes = forces_.node;
+  for (const auto& [node, crept] : history_) nodes.push_back(node);
+  sort_unique(nodes);
+  for (int node : nodes) {
+    const auto at = history_.find(node);
+    const Eigen::Vector3d f = present_force(node);
+    const auto [by_R, by_D] = displaced(node);
+    const CreepState force = law_.state(at == history_.end() ? CreepState() : at->second.force, f);
+    twice += law_.twice_energy(force, law_.state(field(node), by_D)) + f.dot(by_R - by_D);
+  }
+  return 0.5 * twice;
+}
+
+void ResidualFlexibility::get_history(model::RelaxedState& state) const {
+  state.node.clear();
+  state.force.resize(3, law_.n_columns() * static_cast<Eigen::Index>(history_.size()));
+  for (const auto& [node, crept] : history_) {
+    state.force.middleCols(law_.n_columns() * static_cast<Eigen::Index>(state.node.size()),
+                           law_.n_columns()) = crept.force;
+    state.node.push_back(node);
+  }
+}
+
+void ResidualFlexibility::set_history(const model::RelaxedState& state) {
+  if (state.node.empty() || !law_.creeps()) return;
+  const Eigen::Index n = law_.n_columns(), n_nodes = static_cast<Eigen::Index>(state.node.size());
+  require(state.force.rows() == 3 && state.force.cols() == n * n_nodes && state.force.allFinite() &&
+              std::is_sorted(state.node.begin(), state.node.end()) && state.node.front() >= 0 &&
+              state.node.back() < static_cast<int>(rows_.size()),
+          "body '", body_->name, "': the history of its contact forces is not one of this body");
+  history_.clear();
+  for (Eigen::Index i = 0; i < n_nodes; ++i)
+    history_[state.node[static_cast<std::size_t>(i)]] = {state.force.middleCols(n * i, n),
+                                                         Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+}
+
+void ResidualFlexibility::serialize(Archive& archive) {
+  NodalForces forces = forces_;
+  archive(forces.node);
+  archive(forces.f_B);
+  if (archive.is_loading()) set_forces(forces);
+  if (!law_.creeps()) return;
+  std::vector<int> nodes;
+  for (const auto& [node, crept] : history_) nodes.push_back(node);
+  if (archive.is_loading()) {
+    history_.clear();
+    fields_.assign(fields_.size(), {});
+  }
+  archive(nodes);
+  archive(known_);
+  archive(loss_);
+  for (int node : nodes) {
+    Crept& crept = history_[node];
+    archive(crept.force);
+    archive(crept.lag);
+    archive(crept.displaced_lag);
+  }
+  for (int node : known_) archive(fields_[node]);
 }
 
 }  // namespace elastogear::dynamics

@@ -1,19 +1,27 @@
 #pragma once
-// Residual flexibility R = F - Phi_c Lambda^-1 Phi_c' of one modal body: what the modes leave out of its
-// static response to contact forces (docs/theory.md, Eq. (6.20)).
+// Residual flexibility R = F - Phi_c K_r^-1 Phi_c' of one modal body: what the modes leave out of its static
+// response to contact forces (docs/theory.md, Eq. (6.20)), and how that creeps where the body is viscoelastic
+// (section 2.9).
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "elastogear/base/archive.h"
+#include "elastogear/body/creep.h"
 #include "elastogear/dynamics/contact_loads.h"
 #include "elastogear/model/elastic_body.h"
+#include "elastogear/model/relaxed_state.h"
 
 namespace elastogear::dynamics {
 
 /// Blocks of R are computed when they are first asked for, and kept. For nodes that the body's flexibility
-/// does not provide for R = 0: forces there deform the modes alone. Nodes are those of the surface.
+/// does not provide for R = 0: forces there deform the modes alone. Nodes are those of the surface. The
+/// residual displacement is w = R f of an elastic body; of a viscoelastic one it has a history, which the
+/// nodes keep that have been loaded, and R is what forces add to it within the step.
 class ResidualFlexibility {
  public:
   /// The body must outlive this.
@@ -22,41 +30,90 @@ class ResidualFlexibility {
   /// The forces that displacement, largest and change refer to; x_B is not read.
   void set_forces(const NodalForces& forces);
   const NodalForces& forces() const { return forces_; }
-  Eigen::Vector3d displacement(int node);      ///< m, BRF: sum_b R(node, b) f_b
+  Eigen::Vector3d displacement(int node);  ///< m, BRF: w of the node
+  /// m, BRF: what is left of w without forces; zero for an elastic body.
+  Eigen::Vector3d lag(int node);
   double largest() const { return largest_; }  ///< m/N, bound of |R(b, b)|
-  double bound(const NodalForces& forces);     ///< m, no node is displaced farther by these forces
+  double bound(const NodalForces& forces);     ///< m, no node is displaced farther by these forces at once
+  double lag_bound() const { return lag_bound_; }  ///< m, no node has a larger lag
   /// R among the given nodes: 3 n x 3 n, m/N, symmetric. The reference is valid until other nodes are asked
   /// for.
   const Eigen::MatrixXd& among(const std::vector<int>& node);
 
+  bool is_viscoelastic() const { return law_.creeps(); }
+  /// Does w have a history?
+  bool creeps() const { return law_.creeps() && moduli_ == body::Moduli::relaxing; }
+  /// From here on states are at this point of a step. Returns the largest change of w by that, m.
+  double set_point(body::Moduli moduli, const body::StepPoint& at);
+  /// The forces in place are those at the end of the step: it becomes the start of the next one.
+  void accept();
+  /// Change of w of a node since the last accepted state, in which these were the forces, m; where it creeps.
+  Eigen::Vector3d change_since(const NodalForces& then, int node);
+  double energy();                       ///< J, stored by the forces in place. Eq. (3.28)
+  double loss() const { return loss_; }  ///< J, that the material has taken up to the last accepted state
+  /// The forces and their history.
+  void serialize(Archive& archive);
+  /// The history alone, of the last accepted state.
+  void get_history(model::RelaxedState& state) const;
+  /// Begins with it. Throws Error where it is not one of this body.
+  void set_history(const model::RelaxedState& state);
+
  private:
   using Columns = Eigen::Matrix<float, Eigen::Dynamic, 3>;
-  struct Loaded {
-    int position;      // in the flexibility
+  using ThreeRows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+  struct Response {    // of the body with one set of moduli to a node
     const Columns* F;  // of its orbit
-    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> Phi_over_Lambda;
+    ThreeRows Phi_over_K;
   };
-  struct Row {                       // of one node a
-    std::vector<Eigen::Matrix3d> R;  // R(a, b) by the number of b; not yet known: NaN
-    Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> packed = {};  // of the nodes of forces_,
-    long packed_at = -1;                                                    // when n_changes_ was this
+  struct Loaded {
+    int position;  // in the flexibility
+    Response response;
+    std::optional<Response> long_term;
+  };
+  struct Row {                             // of one node a
+    std::vector<Eigen::Matrix3d> R;        // R_0(a, b) by the number of b; not yet known: NaN
+    std::vector<Eigen::Matrix3d> D = {};   // D(a, b), where that is not R_0
+    ThreeRows packed = {}, packed_D = {};  // of the nodes of forces_,
+    long packed_at = -1;                   // when n_changes_ was this
+  };
+  struct Crept {  // of a node that has been loaded
+    body::CreepState force;
+    Eigen::Vector3d lag, displaced_lag;  // when the point of the step was set last
+  };
+  struct Displaced {  // of a node, by the forces in place
+    Eigen::Vector3d by_R, by_D;
   };
 
+  bool relaxes_alike() const { return !body_->flexibility.has_long_term(); }
   int number(int node);
+  Eigen::Matrix3d residual(int a, const Response& b, int position_b) const;
   const Eigen::Matrix3d& block(Row& row, int a, int number);
+  const Eigen::Matrix3d& creep_block(Row& row, int a, int number);
   void pack(Row& row, int a);
   Row& row(int node);
+  Displaced displaced(int node);
+  body::CreepState& field(int node);
+  body::CreepState sum_of_history(int node);
+  Eigen::Vector3d present_force(int node) const;
 
   const model::ElasticBody* body_;
-  double largest_ = 0;  // m/N, of |F(b, b)|
+  body::CreepLaw law_;
+  Eigen::MatrixXd K_long_inverse_ = {};  // of the reduced body after all relaxation, where that is needed
+  body::Moduli moduli_ = body::Moduli::relaxing;
+  double largest_ = 0, largest_D_ = 0;  // m/N, of |R(b, b)|, of |D(b, b)|
+  double lag_bound_ = 0, loss_ = 0;
   NodalForces forces_;
   std::vector<int> numbers_;                  // of the nodes of forces_
   long n_changes_ = 0;                        // of these nodes
   std::unordered_map<int, int> number_of_;    // node -> number among those that were loaded so far, -1: R = 0
   std::unordered_map<int, Columns> columns_;  // of F, by orbit: images share them
-  std::vector<Loaded> loaded_;                // these
-  std::vector<Row> rows_;                     // of each node of the surface, empty before it is asked for
+  std::unordered_map<int, Columns> long_columns_;
+  std::vector<Loaded> loaded_;  // these
+  std::vector<Row> rows_;       // of each node of the surface, empty before it is asked for
   std::size_t n_rows_ = 0;
+  std::map<int, Crept> history_;          // by node
+  std::vector<body::CreepState> fields_;  // D times the history, at each node of the surface; empty: unknown
+  std::vector<int> known_;                // nodes whose field is known
   struct Among {
     std::vector<int> node = {};
     Eigen::MatrixXd R = {};

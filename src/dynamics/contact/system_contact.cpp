@@ -41,6 +41,8 @@ SystemContact::SystemContact(const SystemModel& model)
     for (int side : {0, 1}) detectors_.back().set_masses(side, node_masses(*(side == 0 ? a : b).eq.body));
   }
   unilateral_ = is_unilateral();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    residual_contact_.set_creep(b, model.bodies[b].relaxed);
 }
 
 // Tells whether forces are solved for together with static responses. All pairs of bodies with residual

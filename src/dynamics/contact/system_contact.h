@@ -29,6 +29,14 @@ class SystemContact {
   /// The following are those of the last evaluation. System has their docstrings.
   double depth_share() const;
   double residual_energy(std::size_t b) { return residual_contact_.energy(b); }
+  double residual_loss(std::size_t b) const { return residual_contact_.loss(b); }
+  /// Does the residual displacement of a body creep? It is then evaluated at this point of a step.
+  bool creeps(std::size_t b) const { return residual_contact_.creeps(b); }
+  void set_point(std::size_t b, body::Moduli moduli, const body::StepPoint& at) {
+    residual_contact_.set_point(b, moduli, at);
+  }
+  /// Adds what the residual displacement of a body remembers.
+  void get_creep(std::size_t b, model::RelaxedState& state) const { residual_contact_.get_creep(b, state); }
   Eigen::MatrixXd flexibility_among(std::size_t b, const std::vector<int>& node) {
     return residual_contact_.among(b, node);
   }

@@ -1,6 +1,9 @@
 #include "elastogear/dynamics/static.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "dynamics/equilibrium/equilibrium.h"
 #include "dynamics/run.h"
@@ -10,26 +13,89 @@
 namespace elastogear::dynamics {
 namespace {
 
-// Equilibria up to load factor 1; false: stopped before.
-bool follow(Equilibrium& at, LoadPath& path, RunSummary& summary, const Observer& observer,
-            const Progress& progress) {
+// What becomes of each equilibrium.
+struct Found {
   EnergyLedger ledger;
-  const Sanity sanity(at.problem.system);
-  UniqueMat J;
-  const UniqueSNES snes = make_snes(at, J);
-  while (path.reached < 1) {
-    try {
-      if (!advance(at, snes, path, summary)) continue;
-    } catch (const Interrupted&) {
-      return false;
-    }
+  Sanity sanity;
+  RunSummary& summary;
+  const Observer& observer;
+
+  // time: in place of the load factor, by which the ledger knows the loads.
+  void enter(Equilibrium& at, const LoadPath& path, double time, bool is_observed) {
     at.problem.system.accept(at.state(path.good));
     model::Snapshot found = snapshot(at.problem.system, at.state(path.good));
     sanity.require_small(found);
     ledger.enter(at.problem.system, found);
+    found.time = time;
+    if (!is_observed) return;
     update(summary, found);
     if (observer) observer(found);
-    report(progress, "static", path.reached);
+  }
+};
+
+// Ends of the time steps in which materials relax for this time (s), equally far apart on a logarithmic axis.
+std::vector<double> relaxing_times(const System& system, double whole) {
+  constexpr double kPerDecade = 12, kFirst = 0.01;  // of the shortest relaxation time
+  double shortest = whole;
+  for (std::size_t b = 0; b < system.bodies().size(); ++b)
+    for (double tau : system.relaxation_law(b).tau) shortest = std::min(shortest, tau);
+  std::vector<double> times;
+  for (int i = 0;; ++i) {
+    times.push_back(kFirst * shortest * std::pow(10, i / kPerDecade));
+    if (times.back() >= whole) break;
+  }
+  times.back() = whole;
+  return times;
+}
+
+struct Span {
+  double& reached;  // s
+  double end;
+};
+
+// Relaxes to the end, or as far as there is an equilibrium: steps are halved where contact changes much.
+void relax_once(Equilibrium& at, SNES snes, LoadPath& path, Span span, Found& to) {
+  constexpr int kMostHalvings = 6;
+  double step = span.end - span.reached;
+  for (int halvings = 0;; ++halvings, step /= 2) {
+    at.problem.system.let_relax(step);
+    if (find_equilibrium(at, snes, path.U, to.summary)) break;
+    ++to.summary.rejected_steps;
+    require(halvings < kMostHalvings, "no equilibrium found ", span.reached + step,
+            " s after the load was put on: ", trouble_of(at));
+    assign(path.U, path.good);
+    if (!path.pairs.empty()) at.problem.system.set_forces(path.pairs);
+  }
+  span.reached = step == span.end - span.reached ? span.end : span.reached + step;
+  ++to.summary.steps;
+  path.good = *ReadView(path.U);
+  path.pairs = at.problem.system.contacts(at.factor, path.good, at.zero).pair;
+  to.enter(at, path, span.reached, true);
+}
+
+// Equilibria up to load factor 1, then with time; false: stopped before.
+bool follow(Equilibrium& at, LoadPath& path, const StaticSettings& settings, Found& to,
+            const Progress& progress) {
+  System& system = at.problem.system;
+  UniqueMat J;
+  const UniqueSNES snes = make_snes(at, J);
+  const bool relaxes = settings.time_under_load > 0;
+  try {
+    if (relaxes) system.let_relax(0);
+    while (path.reached < 1) {
+      if (!advance(at, snes, path, to.summary)) continue;
+      to.enter(at, path, relaxes ? 0 : path.reached, !relaxes || path.reached == 1);
+      report(progress, "static", path.reached);
+    }
+    if (!relaxes) return true;
+    double reached = 0;
+    for (double end : relaxing_times(system, settings.time_under_load))
+      while (reached < end) {
+        relax_once(at, snes, path, {reached, end}, to);
+        report(progress, "relaxing", reached / settings.time_under_load);
+      }
+  } catch (const Interrupted&) {
+    return false;
   }
   return true;
 }
@@ -63,15 +129,21 @@ void scale_by_load_factor(Environment& environment) { environment.gravity_rise =
 RunSummary solve_static(System& system, const StaticSettings& settings, const Observer& observer,
                         const Progress& progress, const std::function<bool()>& stop) {
   require(settings.steps >= 1, "load steps ", settings.steps, " must be at least 1");
-  require(!system.relaxes_in_time(), kNoHistory);
+  const double under_load = settings.time_under_load;
+  require(std::isfinite(under_load) && under_load >= 0, "time under load ", under_load,
+          " s must be finite and not negative");
+  require(under_load > 0 || !system.relaxes_in_time(), kNoHistory);
+  require(under_load == 0 || system.relaxes_in_time(), "time under load ", under_load,
+          " s: no material of the bodies relaxes with time");
   require_bodies_apart(system);
   const auto start = Clock::now();
   Equilibrium at(system);
   let_stop(at, stop);
   RunSummary summary = new_summary(system);
   LoadPath path(system, settings.steps);
-  summary.complete = follow(at, path, summary, observer, progress);
-  summary.time = std::max(0.0, path.reached);
+  Found found{{}, Sanity(system), summary, observer};
+  summary.complete = follow(at, path, settings, found, progress);
+  summary.time = under_load > 0 ? under_load : std::max(0.0, path.reached);
   summary.wall_time = seconds_since(start);
   return summary;
 }

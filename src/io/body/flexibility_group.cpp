@@ -1,7 +1,11 @@
 #include "io/body/flexibility_group.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <vector>
+
+#include "elastogear/base/error.h"
 
 #include "elastogear/io/body_file.h"
 #include "io/hdf5/schema.h"
@@ -47,6 +51,28 @@ Eigen::MatrixXf read_columns(const h5::File& file, const std::string& name, hsiz
   return A.cast<float>();
 }
 
+// A number of the group that files may lack.
+int number_or(const h5::File& file, const std::string& name, int missing) {
+  if (!h5::has_attribute(file, kGroup, name)) return missing;
+  const std::vector<int> numbers = h5::int_attribute(file, kGroup, name);
+  require(numbers.size() == 1, file.path, ": ", kGroup, ": attribute ", name, " must be one number");
+  return numbers.front();
+}
+
+// Reads the columns of an orbit when they are asked for. The file is kept open: one that takes its place
+// while a run reads on is another body's.
+std::function<Eigen::MatrixXf(int)> reader(const std::shared_ptr<const h5::File>& body,
+                                           const std::string& name, const model::Flexibility& flexibility) {
+  const auto n_orbits = static_cast<hsize_t>(flexibility.surface.node.cols());
+  require(h5::shape(*body, kGroup + name) == h5::Shape{3 * n_orbits, 3 * flexibility.node.size()}, body->path,
+          ": ", kGroup, name, " must have a row for each force and a column for each displacement");
+  return [body, name](int orbit) {
+    const Eigen::MatrixXf F = read_columns(*body, name, static_cast<hsize_t>(3 * orbit), 3);
+    require(F.allFinite(), body->path, ": ", kGroup, name, " is not finite");
+    return F;
+  };
+}
+
 }  // namespace
 
 void write_flexibility(const h5::File& file, const model::Flexibility& flexibility) {
@@ -61,6 +87,10 @@ void write_flexibility(const h5::File& file, const model::Flexibility& flexibili
   h5::write<double>(file, kGroup + "/self", view(flexibility.self), "m/N");
   write_columns(file, "/F", flexibility.F, "m/N");
   write_columns(file, "/G", flexibility.G, "Pa/N");
+  if (flexibility.creep >= 0) h5::set_attribute(file, kGroup, "creep", flexibility.creep);
+  if (!flexibility.has_long_term()) return;
+  h5::write<double>(file, kGroup + "/self_long", view(flexibility.self_long), "m/N");
+  write_columns(file, "/F_long", flexibility.F_long, "m/N");
 }
 
 model::Flexibility read_flexibility(const h5::File& file) {
@@ -76,15 +106,12 @@ model::Flexibility read_flexibility(const h5::File& file) {
   flexibility.stress_row = h5::read<int>(file, kGroup + "/stress/row", {h5::kAny});
   const auto n_orbits = static_cast<hsize_t>(flexibility.surface.node.cols());
   flexibility.self = read_vector(file, kGroup + "/self", n_orbits);
-  require(h5::shape(file, kGroup + "/F") == h5::Shape{3 * n_orbits, 3 * flexibility.node.size()}, file.path,
-          ": ", kGroup, "/F must have a row for each force and a column for each displacement");
-  // Kept open: a file that takes its place while a run reads on is another body's.
-  flexibility.read_F =
-      [body = std::make_shared<const h5::File>(open_format(file.path, kBodyFormat))](int orbit) {
-        const Eigen::MatrixXf F = read_columns(*body, "/F", static_cast<hsize_t>(3 * orbit), 3);
-        require(F.allFinite(), body->path, ": ", kGroup, "/F is not finite");
-        return F;
-      };
+  const auto body = std::make_shared<const h5::File>(open_format(file.path, kBodyFormat));
+  flexibility.read_F = reader(body, "/F", flexibility);
+  flexibility.creep = number_or(file, "creep", -1);
+  if (!h5::exists(file, kGroup + "/F_long")) return flexibility;
+  flexibility.self_long = read_vector(file, kGroup + "/self_long", n_orbits);
+  flexibility.read_F_long = reader(body, "/F_long", flexibility);
   return flexibility;
 }
 

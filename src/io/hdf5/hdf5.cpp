@@ -62,6 +62,13 @@ File open(const std::string& path) {
   return file;
 }
 
+File open_to_add(const std::string& path) {
+  silence();
+  File file{path, Id(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT))};
+  if (file.id < 0) fail_to_write(path, "cannot be opened to add to it");
+  return file;
+}
+
 void close(File& file) {
   check_written(H5Fflush(file.id, H5F_SCOPE_LOCAL) >= 0, file, "/");
   file.id = Id();

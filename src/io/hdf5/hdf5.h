@@ -45,6 +45,8 @@ struct File {
 File create(const std::string& path, const std::string& temporary);
 /// Existing file, read only. Error when it is missing, truncated or no HDF5 file.
 File open(const std::string& path);
+/// Existing file, to which objects are added; what is there stays.
+File open_to_add(const std::string& path);
 /// WriteFailure when something could not be written.
 void close(File& file);
 

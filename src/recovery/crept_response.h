@@ -1,0 +1,20 @@
+#pragma once
+// What the static response of a viscoelastic body of several materials has crept by (docs/theory.md, section
+// 4.5).
+
+#include "elastogear/recovery/static_response.h"
+
+namespace elastogear::recovery {
+
+/// chi = (psi - f) (1 - g)/g of the loaded nodes at each output time, of forces that are linear in between,
+/// and the coordinates K_r^-1 Phi' chi of the instantaneous and those of the relaxed body. Nothing for a body
+/// that relaxes in one ratio everywhere. forces: of the body's surface.
+std::optional<CreptResponse> crept_response(const BodyOfRun& body, const model::ElasticBody& elastic,
+                                            const model::ForceHistory& forces);
+
+/// 6 n x n_t, Pa: the stress by which the modes' part of it is to be added, at these evaluation nodes (local
+/// numbers).
+Eigen::MatrixXd crept_modal_stress(const model::ElasticBody& elastic, const std::vector<int>& members,
+                                   const CreptResponse& crept);
+
+}  // namespace elastogear::recovery
