@@ -1,8 +1,11 @@
 #include "app/tables/material_options.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
+#include "app/console/console.h"
+#include "app/master_curve.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 
@@ -57,6 +60,7 @@ enum class Moduli { instantaneous, long_term };
 struct ViscoelasticInput {
   Viscoelastic material = {};
   std::vector<double> both = {};
+  std::string curve = {};  // its file; empty: none
   Moduli moduli = Moduli::instantaneous;
 };
 
@@ -86,6 +90,11 @@ const Rows<ViscoelasticInput> kViscoelastic = {
      "in place of prony: relative shear moduli"},
     {"<material>_prony_k", in(&ViscoelasticInput::material, &Viscoelastic::k), "-",
      "in place of prony: relative bulk moduli (with prony_g alone: zeros)"},
+    {"<material>_master_curve", &ViscoelasticInput::curve, "-",
+     "in place of prony: a CSV file with the columns time [s],modulus [MPa] of a relaxation test, or "
+     "frequency [Hz],storage [MPa],loss [MPa] of a vibration, of Young's modulus at the reference "
+     "temperature; "
+     "fitted with the times prony_tau, by default one a decade; gives E as well where that is not given"},
     {"<material>_moduli", &ViscoelasticInput::moduli, one_of("instantaneous", "long_term"),
      "what E and nu, or E1 ... of a viscoelastic material are: instantaneous (glassy) or long_term "
      "(relaxed)"},
@@ -108,9 +117,54 @@ bool given(const Options& options, const std::string& prefix, std::initializer_l
                      [&](const char* name) { return options.given(prefix + name); });
 }
 
+// The Prony series that fits the master curve of a material.
+model::PronyFit fitted(const Options& options, const std::string& name) {
+  const std::string file = options.text(name + "_master_curve");
+  const model::MasterCurve curve = read_master_curve(file);
+  const std::vector<double> tau =
+      options.given(name + "_prony_tau") ? options.numbers(name + "_prony_tau") : model::decade_times(curve);
+  for (double t : tau)
+    require(t > 0, "option -", name, "_prony_tau: relaxation time ", t, " s must be positive");
+  model::PronyFit fit = model::fit_prony(curve, tau);
+  require(!fit.g.empty(), file, ": the modulus does not relax, no term of a Prony series has a share of it");
+  return fit;
+}
+
+void print_fit(const std::string& name, const model::PronyFit& fit) {
+  const auto percent = [](double share) { return with_unit(100 * share, "%"); };
+  double left = 1;
+  for (double g : fit.g) left -= g;
+  print_item(name, "fit of the master curve by " + std::to_string(fit.g.size()) + " terms: deviation " +
+                       percent(fit.rms) + " (root mean square), at most " + percent(fit.largest));
+  print_item("", "instantaneous modulus " + with_unit(fit.E_0, "Pa") + ", long-term share " + percent(left));
+}
+
+// Young's modulus from the master curve, where it is not given.
+Options with_modulus(const Options& options, const std::string& name) {
+  if (!options.given(name + "_master_curve")) return options;
+  const model::PronyFit fit = fitted(options, name);
+  print_fit(name, fit);
+  Options with = options;
+  if (!given(options, name + "_", {"E", "E1", "E2", "E3"})) {
+    require(!options.given(name + "_moduli"), "option -", name, "_moduli: E comes from the master curve");
+    char E[32];
+    std::snprintf(E, sizeof E, "%.17g", fit.E_0);
+    with.set_default(name + "_E", E);
+  }
+  return with;
+}
+
 // The Prony series of both moduli from what is given.
 void set_moduli(const Options& options, const std::string& name, ViscoelasticInput& input) {
   const bool apart = given(options, name + "_", {"prony_g", "prony_k"});
+  if (!input.curve.empty()) {
+    require(!apart && !options.given(name + "_prony"), "option -", name,
+            "_master_curve: gives the relative moduli; leave -", name, "_prony out");
+    const model::PronyFit fit = fitted(options, name);
+    input.material.g = input.material.k = fit.g;
+    input.material.tau = fit.tau;
+    return;
+  }
   require(options.given(name + "_prony") != apart, "option -", name,
           "_prony_tau needs the relative moduli of the series: -", name,
           "_prony for shear and bulk together, or -", name, "_prony_g and -", name, "_prony_k");
@@ -135,7 +189,7 @@ void set_shift(const Options& options, const std::string& name, TemperatureShift
 }
 
 bool is_viscoelastic(const Options& options, const std::string& name) {
-  if (options.given(name + "_prony_tau")) return true;
+  if (options.given(name + "_prony_tau") || options.given(name + "_master_curve")) return true;
   for (const Row<ViscoelasticInput>& row : kViscoelastic)
     require(!options.given(with_word(row.spec.name, name)), "option -", with_word(row.spec.name, name),
             " needs -", name, "_prony_tau, the relaxation times of a viscoelastic material");
@@ -147,13 +201,15 @@ Material relaxing(const Options& options, const std::string& name, Material mate
   read_rows(options, kViscoelastic, input, name);
   set_moduli(options, name, input);
   set_shift(options, name, input.material.shift);
-  model::validate(input.material, options.label(name + "_prony_tau"));
+  model::validate(input.material,
+                  options.label(name + (input.curve.empty() ? "_prony_tau" : "_master_curve")));
   material.viscoelastic = input.material;
   return input.moduli == Moduli::long_term ? model::from_long_term(material) : material;
 }
 
 // name: "material" or "material_<set>".
-Material material(const Options& options, const std::string& name) {
+Material material(const Options& given_options, const std::string& name) {
+  const Options options = with_modulus(given_options, name);
   Material material;
   if (!given(options, name + "_", {"E1", "E2", "E3"})) {
     read_rows(options, kIsotropic, material, name);
