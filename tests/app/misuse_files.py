@@ -57,7 +57,7 @@ def meshes(folder):
         "curve.csv": "time [s],modulus [GPa]\n0.01,200\n1,180\n100,150\n",
         "no_units.csv": "time [s],modulus\n1,2\n",
         "negative_modulus.csv": "time [s],modulus [Pa]\n1,2\n2,-2\n",
-        "word.csv": "time [s],modulus [Pa]\n1,2\n2,soft\n",
+        "soft_curve.csv": "time [s],modulus [Pa]\n1,2\n2,soft\n",
         "no_cells.inp": good[:good.index("*ELEMENT")],
         "empty.inp": "",
         "folded.inp": good.replace("3, 9, 10, 11, 12, 13, 14, 15, 16", "3, 9, 10, 11, 12, 14, 13, 15, 16"),

@@ -42,7 +42,7 @@ REDUCE = [
     Case("master curve that is none", r"nosuch.csv: the master curve cannot be read", "{reduce} -material_master_curve nosuch.csv"),
     Case("master curve without units", r"no_units.csv: heading 'modulus' lacks its unit", "{reduce} -material_master_curve no_units.csv"),
     Case("master curve with a negative modulus", r"negative_modulus.csv: modulus -2", "{reduce} -material_master_curve negative_modulus.csv"),
-    Case("master curve with a word", r"word.csv, line 3: 'soft' is not a number", "{reduce} -material_master_curve word.csv"),
+    Case("master curve with a word", r"soft_curve.csv, line 3: 'soft' is not a number", "{reduce} -material_master_curve soft_curve.csv"),
     Case("master curve and its terms", r"master_curve: gives the relative moduli", "{reduce} -material_master_curve curve.csv -material_prony 0.3 -material_prony_tau 1"),
     Case("master curve", r"", "{reduce} -material_master_curve curve.csv -basis modal", kind="good", leaves=r"kept\.h5"),
     Case("polymer", r"", "{polymer} -material_wlf 17.44,51.6 -material_temperature 60degC -material_moduli long_term", kind="good", leaves=r"kept\.h5"),

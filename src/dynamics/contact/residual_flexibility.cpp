@@ -146,8 +146,8 @@ ResidualFlexibility::Displaced ResidualFlexibility::displaced(int node) {
   const auto times_f = [&](const ThreeRows& A) {
     return Eigen::Vector3d(A.row(0).dot(f), A.row(1).dot(f), A.row(2).dot(f));
   };
-  const Eigen::Vector3d by_R = times_f(known.packed);
-  return {by_R, law_.creeps() && !relaxes_alike() ? times_f(known.packed_D) : by_R};
+  const Eigen::Vector3d instantaneous = times_f(known.packed);
+  return {instantaneous, law_.creeps() && !relaxes_alike() ? times_f(known.packed_D) : instantaneous};
 }
 
 // Eq. (6.34).
