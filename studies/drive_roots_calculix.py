@@ -11,26 +11,7 @@ import argparse
 import os
 import subprocess
 
-import numpy as np
-
-
-def stresses(path):
-    """Rows xx yy zz xy yz zx (Pa) by node, of the last STRESS block of a .frd file."""
-    rows, inside = {}, False
-    with open(path, encoding="latin-1") as file:
-        for line in file:
-            if line.startswith(" -4"):
-                inside = line.split()[1] == "STRESS"
-            elif line.startswith(" -3"):
-                inside = False
-            elif inside and line.startswith(" -1"):
-                rows[int(line[3:13])] = [float(line[13 + 12 * i:25 + 12 * i]) for i in range(6)]
-    return rows
-
-
-def von_mises(s):
-    xx, yy, zz, xy, yz, zx = np.asarray(s).T
-    return np.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy ** 2 + yz ** 2 + zx ** 2))
+from calculix import read_stress
 
 
 def main():
@@ -45,10 +26,10 @@ def main():
     subprocess.run([os.path.abspath(args.study), args.body, args.mesh, "deck", deck + ".inp"], cwd=args.out, check=True)
     with open(os.path.join(args.out, deck + ".log"), "w", encoding="utf-8") as log:
         subprocess.run(["ccx", deck], cwd=args.out, stdout=log, check=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
-    found = stresses(os.path.join(args.out, deck + ".frd"))
+    found = read_stress(os.path.join(args.out, deck + ".frd"))
     with open(os.path.join(args.out, deck + ".inp"), encoding="utf-8") as file:
         averaged, recovered = (float(word) for word in file.readline().split(":")[1].split())
-    largest = von_mises(list(found.values())).max()
+    largest = max(found.values())
     print(f"{args.body} {args.mesh}: von Mises {1e-6 * averaged:.2f} MPa averaged, {1e-6 * recovered:.2f} MPa recovered, "
           f"{1e-6 * largest:.2f} MPa by CalculiX, averaged")
 
