@@ -168,7 +168,8 @@ void for_nodes(const Sector& s, const Numbering& n, Visit visit) {
         if (n.at(q, row, plane) >= 0) visit(q, row, plane);
 }
 
-// Where nodes are: on the grid of a sector with `order` points from node to node.
+// Places the nodes of a gear on the grid of a sector, which has `order` intervals from one corner node to the
+// next.
 struct Placement {
   const Sector& fine;
   const Toothing& toothing;

@@ -1,6 +1,6 @@
 #pragma once
-// What the static response of a viscoelastic body of several materials has crept by (docs/theory.md, section
-// 4.5).
+// The part of static responses that comes by creep, in viscoelastic bodies of several materials
+// (docs/theory.md, section 4.5).
 
 #include "elastogear/recovery/static_response.h"
 

@@ -13,8 +13,8 @@ namespace {
 
 using model::SparseRows;
 
-// Of each node of the set the nearest one whose stress the free surface gives, itself first; -1: there is
-// none.
+// For each node of a set, with places X (3 x n, m), the nearest node whose stress is recovered on the free
+// surface: a node itself if its own stress is; -1 where no node's is.
 std::vector<int> nearest_on_surface(const SparseRows& difference, const Eigen::Matrix3Xd& X) {
   std::vector<int> on_surface;
   for (int i = 0; i < X.cols(); ++i)

@@ -1,6 +1,6 @@
 #pragma once
-// What a viscoelastic body remembers of its loads, with its deformation: a run may end and another one begin
-// with it (docs/theory.md, sections 2.8 and 2.9).
+// The state in which a viscoelastic body ends one run and begins another: its deformation and the internal
+// variables of its relaxation (docs/theory.md, sections 2.8 and 2.9).
 
 #include <Eigen/Core>
 #include <vector>

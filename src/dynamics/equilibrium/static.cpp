@@ -13,7 +13,7 @@
 namespace elastogear::dynamics {
 namespace {
 
-// What becomes of each equilibrium.
+// Takes each equilibrium that a static analysis finds: its energies, checks and summary.
 struct Found {
   EnergyLedger ledger;
   Sanity sanity;

@@ -58,7 +58,7 @@ double tooth_weight(const WormGrid& g, int t, double j) {
 // Index of a point of the tooth's grid, from that of a node or of the middle between two.
 int point_index(const WormGrid& g, double index) { return static_cast<int>(std::lround(g.n.order * index)); }
 
-// Of a node, or with halves of a midside node.
+// The place of a node of the worm by its indices k, j and its row; halves of them belong to midside nodes.
 Polar inner_position(const WormGrid& g, double k, double j, double row) {
   const int t = static_cast<int>(std::floor((k + g.tooth_grid.half_pitch) / g.columns));
   const double q = k - t * g.columns, weight = tooth_weight(g, t, j);
@@ -113,7 +113,7 @@ std::vector<Ring> rings(const WormGrid& g, double seat_begin, double seat_end, d
   return all;
 }
 
-// Whether a node has its place by inner_position; the lower half mirrors the upper one.
+// Tells whether inner_position gives the place of a node. The lower half of the worm mirrors the upper one.
 bool is_inner(const WormGrid& g, HelixNode node) {
   const bool lower = node.k * g.helix.m + node.j < 0;
   return kind(g.helix, lower ? canonical(g.helix, {-node.k, -node.j}) : node) == NodeKind::inner;

@@ -216,7 +216,8 @@ class NestedResponse::Elimination {
     return a;
   }
 
-  // What a separator and the border around it have in common, before the separator is eliminated.
+  // Schur complements S and right-hand sides E of a separator I and the border B around it, before the
+  // separator is eliminated.
   struct Front {
     MatrixXd S_II, S_BI, S_BB, E_I, E_B;
   };
