@@ -19,7 +19,6 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <iterator>
 #include <numeric>
 #include <set>
 #include <string>
@@ -79,26 +78,6 @@ gear::WheelCounts wheel_counts(const MeshChoice& choice) {
   return n;
 }
 
-// Five teeth around the first one, held where they are cut from the whole.
-void cut_sector(Case& c, int n_teeth) {
-  const int n_cells = c.mesh.cells.size() / n_teeth;
-  mesh::Cells cells;
-  std::set<int> kept, cut;
-  for (int cell = 0; cell < c.mesh.cells.size(); ++cell) {
-    const int tooth = cell / n_cells;
-    const bool keep = tooth <= 2 || tooth >= n_teeth - 2;
-    if (keep) cells.add(c.mesh.cells.type[cell], c.mesh.cells[cell]);
-    (keep ? kept : cut).insert(c.mesh.cells[cell].begin(), c.mesh.cells[cell].end());
-  }
-  std::set_intersection(kept.begin(), kept.end(), cut.begin(), cut.end(),
-                        std::back_inserter(c.mesh.node_sets["cut"]));
-  c.mesh.cells = std::move(cells);
-  std::erase_if(c.mesh.face_sets.at("flanks"), [&](const mesh::Face& face) {
-    return std::any_of(face.begin(), face.end(), [&](int node) { return !kept.contains(node); });
-  });
-  c.held.emplace_back("cut");
-}
-
 // The load's middle is at z = 0; on the worm its length counts around the axis.
 Case case_of(const std::string& body, const MeshChoice& choice) {
   const gear::Design design;
@@ -119,7 +98,7 @@ Case case_of(const std::string& body, const MeshChoice& choice) {
   for (int node : c.mesh.node_sets.at(root)) {
     if (std::abs(along * c.mesh.X(2, node)) < kRoot) c.root.push_back(node);
   }
-  if (!worm) cut_sector(c, t.z);
+  if (!worm) cut_teeth(c, t.z, 2);
   return c;
 }
 

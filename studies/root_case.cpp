@@ -55,6 +55,25 @@ void add_face(const Case& c, const mesh::Face& face, const Rule& points, const A
 
 }  // namespace
 
+void cut_teeth(Case& c, int n_teeth, int beside) {
+  const int n_cells = c.mesh.cells.size() / n_teeth;
+  mesh::Cells cells;
+  std::set<int> kept, cut;
+  for (int cell = 0; cell < c.mesh.cells.size(); ++cell) {
+    const int tooth = cell / n_cells;
+    const bool keep = tooth <= beside || tooth >= n_teeth - beside;
+    if (keep) cells.add(c.mesh.cells.type[cell], c.mesh.cells[cell]);
+    (keep ? kept : cut).insert(c.mesh.cells[cell].begin(), c.mesh.cells[cell].end());
+  }
+  std::set_intersection(kept.begin(), kept.end(), cut.begin(), cut.end(),
+                        std::back_inserter(c.mesh.node_sets["cut"]));
+  c.mesh.cells = std::move(cells);
+  std::erase_if(c.mesh.face_sets.at("flanks"), [&](const mesh::Face& face) {
+    return std::any_of(face.begin(), face.end(), [&](int node) { return !kept.contains(node); });
+  });
+  c.held.emplace_back("cut");
+}
+
 double bump(double x, double middle, double half_width) {
   const double t = (x - middle) / half_width;
   return std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;

@@ -21,6 +21,10 @@ struct Case {
   double load = 1000;                                         ///< N
 };
 
+/// Leaves the first of n_teeth equal sectors of cells and `beside` ones on either side of it, with the loaded
+/// faces there. They are held where they are cut from the whole, node set "cut".
+void cut_teeth(Case& c, int n_teeth, int beside);
+
 /// 1 in the middle, 0 from half_width on, with smooth slopes.
 double bump(double x, double middle, double half_width);
 

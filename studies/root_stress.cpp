@@ -15,8 +15,6 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
-#include <iterator>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -126,22 +124,8 @@ Case plane_pinion(int times) {
 // The loaded tooth, its neighbours and the disc below them, held where they are cut from the whole.
 Case pinion_in_space(int times) {
   Case c = pinion(c14(), counts_of(times, 6 * times), false);
-  const int n_teeth = 16, n_cells = c.mesh.cells.size() / n_teeth;
-  mesh::Cells cells;
-  std::set<int> kept, cut;
-  for (int cell = 0; cell < c.mesh.cells.size(); ++cell) {
-    const int tooth = cell / n_cells;
-    const bool keep = tooth <= 1 || tooth == n_teeth - 1;
-    if (keep) cells.add(mesh::CellType::hex8, c.mesh.cells[cell]);
-    (keep ? kept : cut).insert(c.mesh.cells[cell].begin(), c.mesh.cells[cell].end());
-  }
-  std::set_intersection(kept.begin(), kept.end(), cut.begin(), cut.end(),
-                        std::back_inserter(c.mesh.node_sets["cut"]));
-  c.mesh.cells = std::move(cells);
-  std::erase_if(c.mesh.face_sets.at("flanks"), [&](const mesh::Face& face) {
-    return std::any_of(face.begin(), face.end(), [&](int node) { return !kept.contains(node); });
-  });
-  c.held = {"bore", "cut"};
+  c.held = {"bore"};
+  cut_teeth(c, 16, 1);
   return c;
 }
 
