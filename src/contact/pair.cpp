@@ -252,11 +252,8 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
 void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
                             std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0);
-  // Deformed facets have slopes of their own along a line of contact, which rigid ones have not.
-  constexpr double kRigidLine = 1e-3, kElasticLine = 5e-2;
-  const double line = settings.law == ContactLaw::unilateral ? kElasticLine : kRigidLine;
   const GapField field{master,     slave,           side[slave_side].heights, reach,
-                       slave_side, settings.offset, is_whole(slave_side),     line};
+                       slave_side, settings.offset, is_whole(slave_side)};
   minima[slave_side] = gap_minima(field, gaps);
   add_kept(field, kept[slave_side], minima[slave_side]);
   for (const Minimum& m : minima[slave_side]) {

@@ -189,14 +189,15 @@ std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector
   return Vector2d(next - at);
 }
 
-// Returns whether the gap hardly grows along one direction of the face. The curvatures are those of H in the
-// metric of the face's tangents a. Where such a gap is least within the face is a matter of roundoff, or of
-// how the bodies deform; the minima on the sides that the line of contact crosses stand for it.
-bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H, double line) {
+// Returns whether the gap does not grow along one direction of the face. The curvatures are those of H in the
+// metric of the face's tangents a. Where such a gap is least within the face is a matter of roundoff; the
+// minima on the sides that the line of contact crosses stand for it.
+bool is_flat(const Eigen::Matrix<double, 3, 2>& a, const Eigen::Matrix2d& H) {
+  constexpr double kLine = 1e-6;  // ratio of the curvatures
   const Eigen::Matrix2d C = (a.transpose() * a).inverse() * H;
   const double mean = 0.5 * C.trace(), product = C.determinant();
   const double most = mean + std::sqrt(std::max(0.0, mean * mean - product));
-  return product < line * most * most;
+  return product < kLine * most * most;
 }
 
 // The end of a search within a face, which may have come to none.
@@ -226,7 +227,7 @@ Search least_within(const GapField& field, SlavePoint point, const FaceStart& st
     const auto newton = step_on_face(sides, point.at, slope, H);
     if (!newton) break;
     way = *newton;
-    if (is_flat(t->geometry.a.leftCols<2>(), H, field.line)) return {};
+    if (is_flat(t->geometry.a.leftCols<2>(), H)) return {};
     if (way.cwiseAbs().maxCoeff() < kConverged) {
       const double length = t->geometry.a.colwise().norm().maxCoeff();
       const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;

@@ -24,7 +24,6 @@ struct GapField {
   int slave_side = 0;
   double offset = 0;  ///< m, added to every gap
   bool whole = true;  ///< the whole surface; otherwise its boundary alone
-  double line = 0;    ///< -, ratio of the gap's curvatures below which the surfaces meet along a line
 };
 
 struct Minimum {
