@@ -1,5 +1,7 @@
 #include "dynamics/contact/unilateral_forces.h"
 
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -44,8 +46,14 @@ UnilateralForces::UnilateralForces(const std::vector<PairContacts>& pairs) {
 
 void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const VectorXd& missing) {
   const MatrixXd& R = compliant.R;
-  Body body{{}, &R, missing, VectorXd::Zero(R.rows()), VectorXd::Zero(R.rows())};
   const Eigen::Matrix3d R_BW = compliant.R_WB.transpose();
+  Body body{{},
+            &R,
+            R_BW,
+            missing,
+            MatrixXd::Zero(R.rows(), C_.cols()),
+            VectorXd::Zero(R.rows()),
+            VectorXd::Zero(R.rows())};
   body.touches.reserve(4 * contacts_.size());
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const contact::ContactPoint& point = *contacts_[c].point;
@@ -58,7 +66,8 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
                   R_BW * point.F_p.col(i),
                   R_BW * point.g_x.col(i),
                   R_BW * point.W.middleRows<3>(3 * i),
-                  R_BW * point.V.middleRows<3>(3 * i)};
+                  R_BW * point.V.middleRows<3>(3 * i),
+                  i};
       if (point.tangential) {
         touch.F_z.conservativeResize(3, 3);
         touch.y_x.conservativeResize(3, 3);
@@ -68,14 +77,14 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
       body.touches.push_back(std::move(touch));
     }
   }
-  MatrixXd response = MatrixXd::Zero(R.rows(), C_.cols());  // R L_p
-  for (const Touch& t : body.touches)                       // a few columns at a time, which need no blocks
-    response.middleCols(contacts_[t.contact].first, t.F_z.cols()) +=
+  for (const Touch& t : body.touches)  // a few columns at a time, which need no blocks
+    body.response.middleCols(contacts_[t.contact].first, t.F_z.cols()) +=
         R.middleCols<3>(t.row).lazyProduct(t.F_z);
-  const VectorXd left = missing - response * z_found_;
+  const VectorXd left = missing - body.response * z_found_;
   for (const Touch& t : body.touches) {
     const Contact& contact = contacts_[t.contact];
-    C_.middleRows(contact.first, contact.n) += t.y_x.transpose().lazyProduct(response.middleRows<3>(t.row));
+    C_.middleRows(contact.first, contact.n) +=
+        t.y_x.transpose().lazyProduct(body.response.middleRows<3>(t.row));
     q_.segment(contact.first, contact.n) += t.y_x.transpose() * left.segment<3>(t.row);
   }
   bodies_.push_back(std::move(body));
@@ -105,14 +114,13 @@ std::vector<bool> UnilateralForces::likely() const {
 
 // The forces that close the present gaps. A node that comes to slide has the coefficient of that, and may
 // make others slide.
-std::optional<VectorXd> UnilateralForces::forces() {
-  const VectorXd q = gaps();
-  if (!any_sticks_) return solve_complementarity(C_, q, likely());
+std::optional<VectorXd> UnilateralForces::forces(const MatrixXd& C, const VectorXd& q) {
+  if (!any_sticks_) return solve_complementarity(C, q, likely());
   for (std::size_t c = 0; c < laws_.size(); ++c)
     if (laws_[c].sticks) laws_[c].mu = contacts_[c].point->tangential->mu_static;
   std::optional<VectorXd> z = z_;
   for (bool changed = true; changed && z;) {
-    z = solve_coulomb(C_, q, laws_, *z);
+    z = solve_coulomb(C, q, laws_, *z);
     changed = false;
     for (std::size_t c = 0; z && c < laws_.size(); ++c) {
       if (!slides(laws_[c], *z)) continue;
@@ -197,29 +205,144 @@ void UnilateralForces::do_not_turn() {
 }
 
 // Forces turn, and points move, while gaps close: both are brought together by turns, with the extrapolation
-// of D. G. Anderson (J. ACM 12, 1965, 547-560). At an edge forces may turn by any angle; there the directions
-// stay those that were found.
-bool UnilateralForces::solve() {
-  constexpr int kMostRounds = 25;
+// of D. G. Anderson (J. ACM 12, 1965, 547-560). Returns whether they come to rest.
+bool UnilateralForces::turn_step_by_step() {
+  constexpr int kMostRounds = 24;
   constexpr double kTolerance = 1e-10;  // of the forces
-  do_not_turn();
   Extrapolation extrapolation;
-  bool turns = turns_ = true;
   for (int round = 0; round < kMostRounds; ++round) {
-    const std::optional<VectorXd> z = forces();
+    const std::optional<VectorXd> z = forces(C_, gaps());
     if (!z) return false;
     z_ = *z;
     set_changes();
-    if (z_.size() == 0 || bodies_.empty() || !turns) break;
+    if (z_.size() == 0 || bodies_.empty()) return true;
     const VectorXd before = all_turned(), turned = turned_forces();
     turn(turned);
-    if ((turned - before).cwiseAbs().maxCoeff() <= kTolerance * z_.cwiseAbs().maxCoeff()) break;
-    turns = turns_ = round < kMostRounds - 2;
-    if (turns)
-      turn(extrapolation.next(before, turned));
-    else
-      do_not_turn();
+    if ((turned - before).cwiseAbs().maxCoeff() <= kTolerance * z_.cwiseAbs().maxCoeff()) return true;
+    turn(extrapolation.next(before, turned));
   }
+  return false;
+}
+
+// W k V' takes p and t for those of a penalty 1 / c, K. What they make up for, A y_x' with A by gap and u, is
+// taken out of V: dF = -W k V_turn' dx at unchanged p and t, with W k (V - V_turn)' = F_z A y_x'.
+void UnilateralForces::let_turn(Contact& contact) {
+  const contact::ContactPoint& point = *contact.point;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, 3> F_z(point.W.rows(), contact.n),
+      y_x(point.W.rows(), contact.n);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> A(contact.n, contact.n);
+  A.setZero();
+  A(0, 0) = 1 / point.c;
+  F_z.col(0) = point.F_p.reshaped();
+  y_x.col(0) = point.g_x.reshaped();
+  if (point.tangential) {
+    const contact::TangentialForce& f = *point.tangential;
+    A.bottomRightCorner<2, 2>() = f.K;
+    if (f.slides) A.bottomLeftCorner<2, 1>() = f.t / (point.p * point.c);
+    F_z.rightCols<2>() = f.F_t;
+    y_x.rightCols<2>() = f.u_x;
+  }
+  contact.W_k = point.W * point.k;
+  const MatrixXd b = MatrixXd(contact.W_k).colPivHouseholderQr().solve(F_z * A);
+  contact.V_turn = point.V - y_x * b.transpose();
+  contact.n_turns = point.k.rows();
+}
+
+// The displacements u of the contacts that turn, and the forces z, are linear in each other: u = a + B z +
+// M u, y = q + C z + D u: docs/theory.md, Eq. (6.25a).
+std::optional<UnilateralForces::Turning> UnilateralForces::turning() const {
+  Index n = 0;
+  for (const Contact& contact : contacts_) n += contact.n_turns;
+  Turning t{C_, MatrixXd::Zero(n, z_.size()), q_, VectorXd::Zero(n)};
+  if (n == 0) return t;
+  MatrixXd I_M = MatrixXd::Identity(n, n), D = MatrixXd::Zero(z_.size(), n);
+  for (const Body& body : bodies_) {
+    MatrixXd R_T = MatrixXd::Zero(body.R->rows(), n);
+    for (const Touch& touch : body.touches)
+      if (const Contact& c = contacts_[touch.contact]; c.n_turns > 0)
+        R_T.middleCols(c.turn, c.n_turns) -=
+            body.R->middleCols<3>(touch.row).lazyProduct(body.R_BW * c.W_k.middleRows<3>(3 * touch.local));
+    for (const Touch& touch : body.touches) {
+      const Contact& c = contacts_[touch.contact];
+      D.middleRows(c.first, c.n) += touch.y_x.transpose().lazyProduct(R_T.middleRows<3>(touch.row));
+      if (c.n_turns == 0) continue;
+      const Rows V = body.R_BW * c.V_turn.middleRows<3>(3 * touch.local);
+      I_M.middleRows(c.turn, c.n_turns) -= V.transpose().lazyProduct(R_T.middleRows<3>(touch.row));
+      t.B.middleRows(c.turn, c.n_turns) += V.transpose().lazyProduct(body.response.middleRows<3>(touch.row));
+      t.a.segment(c.turn, c.n_turns) += V.transpose() * body.missing.segment<3>(touch.row);
+    }
+  }
+  const Eigen::PartialPivLU<MatrixXd> lu(I_M);
+  t.B = lu.solve(t.B).eval();
+  t.a = lu.solve(t.a).eval();
+  if (!t.B.allFinite() || !t.a.allFinite()) return {};
+  t.a -= t.B * z_found_;
+  t.C += D * t.B;
+  t.q += D * t.a;
+  return t;
+}
+
+// Leaves the directions as they are of forces that end, and where they would change far beyond their size, as
+// at edges, to which they may point from anywhere. Returns whether there are any.
+bool UnilateralForces::leave_out(const VectorXd& z, const VectorXd& u) {
+  constexpr double kFar = 2;  // of the force
+  bool any = false;
+  for (Contact& c : contacts_) {
+    if (c.n_turns == 0) continue;
+    const double turned = (c.W_k * u.segment(c.turn, c.n_turns)).norm();
+    if (z[c.first] > 0 && turned <= kFar * std::max(z[c.first], c.point->p)) continue;
+    c.n_turns = 0;
+    any = true;
+  }
+  return any;
+}
+
+// The same in one solution, where points move so far on flat gaps that turns by turns do not come to rest.
+bool UnilateralForces::turn_at_once() {
+  constexpr int kMostRounds = 5;
+  for (Contact& contact : contacts_)
+    if (contact.point->p > 0) let_turn(contact);
+  for (int round = 0; round < kMostRounds; ++round) {
+    Index n = 0;
+    for (Contact& contact : contacts_) {
+      contact.turn = n;
+      n += contact.n_turns;
+    }
+    const std::optional<Turning> turning = this->turning();
+    const std::optional<VectorXd> z = turning ? forces(turning->C, turning->q) : std::nullopt;
+    if (!z) return false;
+    const VectorXd u = turning->a + turning->B * *z;
+    if (leave_out(*z, u)) continue;
+    z_ = *z;
+    for (Body& body : bodies_) {
+      body.turned.setZero();
+      for (const Touch& t : body.touches)
+        if (const Contact& c = contacts_[t.contact]; c.n_turns > 0)
+          body.turned.segment<3>(t.row) -=
+              body.R_BW * (c.W_k.middleRows<3>(3 * t.local) * u.segment(c.turn, c.n_turns));
+    }
+    return true;
+  }
+  return false;
+}
+
+// Where neither way leads to an end the directions stay those that were found.
+bool UnilateralForces::solve() {
+  do_not_turn();
+  turns_ = turn_step_by_step();
+  if (turns_) return true;
+  if (turn_at_once()) {
+    turns_ = std::all_of(contacts_.begin(), contacts_.end(),
+                         [](const Contact& c) { return c.point->p == 0 || c.n_turns > 0; });
+    set_changes();
+    set_moved();
+    return true;
+  }
+  do_not_turn();
+  const std::optional<VectorXd> z = forces(C_, q_);
+  if (!z) return false;
+  z_ = *z;
+  set_changes();
   return true;
 }
 

@@ -40,18 +40,23 @@ class UnilateralForces {
   struct Contact {
     const contact::ContactPoint* point;
     const PairContacts* pair;
-    Eigen::Index first, n;  // of its forces p, t
+    Eigen::Index first, n;                        // of its forces p, t
+    Eigen::Index turn = 0, n_turns = 0;           // of its displacements by which its force turns, V_turn' dx
+    contact::LocalColumns W_k = {}, V_turn = {};  // dF = -W_k V_turn' dx at unchanged p and t
   };
   struct Touch {  // of a contact and a node, in the frame of the node's body
     std::size_t contact;
     Eigen::Index row;
     Vectors F_z, y_x;  // change of the force with p and t, gradients of the gap and of u
     Rows W, V;
+    int local;  // number of the node among those of the contact
   };
   struct Body {
     std::vector<Touch> touches;
     const Eigen::MatrixXd* R;
+    Eigen::Matrix3d R_BW;
     Eigen::VectorXd missing;
+    Eigen::MatrixXd response;     // R L_p
     Eigen::VectorXd turned = {};  // N, change of the forces at unchanged p and t: their directions turn
     Eigen::VectorXd change = {};
   };
@@ -67,7 +72,7 @@ class UnilateralForces {
     return z.segment(contact.first, contact.n);
   }
   std::vector<bool> likely() const;
-  std::optional<Eigen::VectorXd> forces();
+  std::optional<Eigen::VectorXd> forces(const Eigen::MatrixXd& C, const Eigen::VectorXd& q);
   Eigen::VectorXd gaps() const;
   void set_changes();
   void set_moved();
@@ -75,6 +80,16 @@ class UnilateralForces {
   Eigen::VectorXd all_turned() const;
   void turn(const Eigen::VectorXd& all);
   void do_not_turn();
+  bool turn_step_by_step();
+  // Complementarity of y = q + C z, and the displacements a + B z by which forces turn: Eq. (6.25a).
+  struct Turning {
+    Eigen::MatrixXd C, B;
+    Eigen::VectorXd q, a;
+  };
+  static void let_turn(Contact& contact);
+  std::optional<Turning> turning() const;
+  bool leave_out(const Eigen::VectorXd& z, const Eigen::VectorXd& u);
+  bool turn_at_once();
 
   std::vector<Contact> contacts_;
   std::vector<CoulombContact> laws_;  // of each contact
