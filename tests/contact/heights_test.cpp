@@ -29,7 +29,8 @@ Heights random_heights(test::Random& random, int sides = 4) {
   Heights heights{{FaceHeights{}}};
   for (double& c : heights.face[0].C.reshaped()) c = random.uniform(-1, 1);
   if (sides == 4)
-    heights.face[0].stretch = {random.uniform(0, 1) < 0.5, random.uniform(-0.5, 0.5), random.uniform(0, 0.3)};
+    heights.face[0].stretch = {random.uniform(0, 1) < 0.5, random.uniform(-0.5, 0.5), random.uniform(0, 0.3),
+                               random.uniform(0, 0.5)};
   return heights;
 }
 
@@ -93,11 +94,34 @@ TEST(Heights, have_the_derivatives_of_their_values_beyond_the_sides_too) {
 TEST(Heights, go_on_as_a_parabola_beyond_the_sides) {
   test::Random random(2);
   Heights heights = random_heights(random);
-  heights.face[0].stretch.bulge = 0;
+  heights.face[0].stretch.bulge = heights.face[0].stretch.fall = 0;
   const FaceFunction end = height(heights, 4, 0, 1, 0.3);
   for (double beyond : {0.1, 0.4, 1.0})
     EXPECT_NEAR(height(heights, 4, 0, 1 + beyond, 0.3).f,
                 end.f + beyond * end.f_a[0] + 0.5 * beyond * beyond * end.f_ab(0, 0), 1e-10);
+}
+
+// Before the line that bends into the face nothing changes, and it is crossed without a kink.
+TEST(Heights, fall_away_beyond_the_line_that_they_begin_at) {
+  test::Random random(4);
+  constexpr double kFall = 0.2, kBulge = 0.1;
+  Heights falling = random_heights(random);
+  for (double amount : {0.5, -0.5}) {
+    falling.face[0].stretch = {0, amount, kBulge, kFall};
+    Heights going_on = falling;
+    going_on.face[0].stretch.fall = 0;
+    const double side = amount > 0 ? -1 : 1, v = 0.3;
+    const double half = kBulge / 2 * (1 - v * v), begin = side * (1 - half) / (1 + half);
+    const auto at = [&](const Heights& heights, double u) { return height(heights, 4, 0, u, v); };
+    for (double within : {0.0, 0.5, 1.9})
+      EXPECT_NEAR(at(falling, begin - side * within).f, at(going_on, begin - side * within).f, kRoundoff);
+    const FaceFunction end = at(going_on, begin);
+    for (double beyond : {1e-6, 0.02, 0.1, 0.5}) {
+      const double tangent = end.f + side * beyond * end.f_a[0], way = (1 + half) * beyond;
+      EXPECT_NEAR(at(falling, begin + side * beyond).f, tangent - kFall * (std::hypot(way, 1e-3) - 1e-3),
+                  1e-10);
+    }
+  }
 }
 
 TEST(Heights, stay_within_their_bounds_and_reach_them) {
@@ -164,6 +188,8 @@ TEST(Heights, of_another_surface_are_refused) {
   EXPECT_THROW(exact(s, {.height = {{Eigen::VectorXd::Zero(5)}}}), Error);
   EXPECT_THROW(exact(s, {.height = {{right.value * NAN}}}), Error);
   EXPECT_THROW(exact(s, {.height = {{right.value, Stretch{.amount = 1}}}}), Error);
+  EXPECT_THROW(exact(s, {.height = {{right.value, Stretch{.amount = 0.5, .fall = -1}}}}), Error);
+  EXPECT_THROW(exact(s, {.height = {{right.value, Stretch{.fall = 1}}}}), Error);
   EXPECT_THROW(exact(s, {.deviation = Eigen::Vector3d::Zero()}), Error);
   EXPECT_THROW(exact(s, {.deviation = Eigen::Vector4d::Constant(NAN)}), Error);
 }

@@ -188,8 +188,8 @@ TEST(Fillet, is_what_the_rack_leaves_that_rolls_by) {
   expect_swept_fillet(c14(), 0);
   expect_swept_fillet(helical(), 1);
   expect_swept_fillet(undercut(), 0);
-  EXPECT_TRUE(derive(undercut()).undercut[0]);
-  EXPECT_FALSE(derive(undercut()).undercut[1]);
+  EXPECT_TRUE(derive(undercut()).gear[0].undercut);
+  EXPECT_FALSE(derive(undercut()).gear[1].undercut);
 }
 
 // Teeth that are cut for grinding; the root of the wheel is inside its base circle or outside.
@@ -266,7 +266,7 @@ TEST(CylindricalMesh, of_200_random_designs_has_good_cells) {
     }
     if (g.pair[0].epsilon_alpha < 1.1 || !has_tips_of(0.2, d, g)) continue;
     ++possible;
-    undercut += g.undercut[0];
+    undercut += g.gear[0].undercut;
     for (int i : {0, 1}) {
       SCOPED_TRACE(std::to_string(g.gear[i].z) + " teeth, x = " + std::to_string(d.gears[i].x));
       expect_good_cells(cylindrical_mesh(d, g, i, cylindrical_counts(d, g, i, Size::tiny)));

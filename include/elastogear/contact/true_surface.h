@@ -15,6 +15,7 @@ struct Stretch {
   int along = 0;      ///< 0: u, 1: v
   double amount = 0;  ///< between -1 and 1; > 0: finest at the side -1, < 0: at the side 1
   double bulge = 0;   ///< 0 to 1, by which the line that the heights begin at there bends into the face
+  double fall = 0;    ///< m, of heights in half a face beyond that line, Eq. (6.19d); 0: they go on
 };
 
 /// Heights of an exact surface over one face.

@@ -91,7 +91,6 @@ struct CylindricalGeometry {
   double p_bn = 0;                    ///< m, normal base pitch
   std::vector<Toothing> gear;         ///< r_start: the one nearest to the root of all its pairs
   std::vector<double> s_n;            ///< m, normal tooth thickness at the pitch cylinder
-  std::vector<char> undercut;         ///< whether the fillet cuts the involute, as a protuberance always does
   std::vector<PinionCutter> cutter;   ///< of internal gears, complete
   std::vector<Blank> blank;           ///< complete
   std::vector<Eigen::Vector2d> axis;  ///< m, in the world

@@ -30,6 +30,7 @@ struct Toothing {
   double r_f = 0;         ///< m, root radius
   double r_b = 0;         ///< m, base radius; 0: the flanks are no involutes
   double r_form = 0;      ///< m, radius where the flank ends and the fillet begins
+  bool undercut = false;  ///< whether the fillet cuts the involute at r_form, as a protuberance always does
   double r_start = 0;     ///< m, radius on the path of contact that is nearest to the root
   double alpha_t = 0;     ///< rad, transverse pressure angle
   double beta_b = 0;      ///< rad, base helix angle

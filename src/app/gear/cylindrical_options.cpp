@@ -217,7 +217,7 @@ Facts member_facts(const CylindricalDrive& d, const CylindricalGeometry& g, int 
   Facts facts = {
       {"teeth", std::to_string(t.z) + (t.internal      ? ", internal"
                                        : d.rack.pr > 0 ? ", undercut by protuberance"
-                                       : g.undercut[i] ? ", undercut"
+                                       : t.undercut    ? ", undercut"
                                                        : "")},
       {"profile shift", with_unit(d.gears[i].x, "")},
       {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)},

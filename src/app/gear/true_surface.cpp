@@ -101,7 +101,8 @@ struct Heights {
 // An involute is a smooth function of its roll angle, and its radius one of the square of that: over a face
 // near the base circle heights are polynomials of a coordinate that is linear in the roll angle, Eq. (6.19b).
 // Sides across the profile are chords of a helix, whose middle has a smaller radius: the bulge is where the
-// face has that of its corners, Eq. (6.19c).
+// face has that of its corners, Eq. (6.19c). An undercut flank ends there, at an edge that the fillet falls
+// away from.
 contact::Stretch stretch_by_roll(const model::Surface& surface, int f, const gear::Toothing& toothing) {
   static constexpr double kMost = 0.9;        // keeps derivatives with (u, v) finite on the base circle
   static constexpr double kMostBulge = 0.25;  // of half a face
@@ -122,6 +123,8 @@ contact::Stretch stretch_by_roll(const model::Surface& surface, int f, const gea
     const double sag = (corner(fine).norm() + corner(fine + 1).norm()) / 2 - middle(fine);
     const double half = std::clamp(sag / std::abs(middle(coarse) - middle(fine)), 0.0, kMostBulge);
     stretch = {k, std::clamp(amount, -kMost, kMost), 2 * half / (1 - half)};
+    if (toothing.undercut && corner(fine).norm() < toothing.r_form + kOnFlank)
+      stretch.fall = std::abs(middle(coarse) - middle(fine)) / 2;
   }
   return stretch;
 }

@@ -40,23 +40,29 @@ double stretched(double stretch, double a) {
   return (2 * a + stretch) / (root + 1);
 }
 
+// The side, at -1 or 1 of the stretched coordinate, where the stretch is finest.
+double fine_side(const Stretch& stretch) { return stretch.amount > 0 ? -1 : 1; }
+
+// Returns whether heights go on as straight lines, and fall, beyond an end, -1 or 1, of that coordinate.
+bool falls_beyond(const Stretch& stretch, double end) {
+  return stretch.fall > 0 && end == fine_side(stretch);
+}
+
 // The Chebyshev polynomials of the stretched coordinate and their derivatives with a; beyond |a| = 1 each one
-// goes on as its parabola there.
-Chebyshev chebyshev(double stretch, double a) {
-  const double end = std::clamp(a, -1.0, 1.0), beyond = a - end, t = stretched(stretch, end);
-  const double t_a = 1 / (1 + stretch * t), t_aa = -stretch * t_a * t_a * t_a;
+// goes on as its parabola there, or where heights fall as its tangent.
+Chebyshev chebyshev(const Stretch& stretch, double a) {
+  const double end = std::clamp(a, -1.0, 1.0), beyond = a - end, t = stretched(stretch.amount, end);
+  const double t_a = 1 / (1 + stretch.amount * t), t_aa = -stretch.amount * t_a * t_a * t_a;
   Chebyshev c = chebyshev(t);
   c.T_tt = t_a * t_a * c.T_tt + t_aa * c.T_t;
   c.T_t *= t_a;
   if (beyond != 0) {
+    if (falls_beyond(stretch, end)) c.T_tt.setZero();
     c.T += beyond * (c.T_t + 0.5 * beyond * c.T_tt);
     c.T_t += beyond * c.T_tt;
   }
   return c;
 }
-
-// The side, at -1 or 1 of the stretched coordinate, where the stretch is finest.
-double fine_side(const Stretch& stretch) { return stretch.amount > 0 ? -1 : 1; }
 
 // The coordinate that is stretched, as a function of both with its derivatives, Eq. (6.19c).
 FaceFunction bent(const Stretch& stretch, const Eigen::Vector2d& at) {
@@ -69,6 +75,17 @@ FaceFunction bent(const Stretch& stretch, const Eigen::Vector2d& at) {
   p.f_ab(0, 1) = p.f_ab(1, 0) = -beta * across;
   p.f_ab(1 - k, 1 - k) = -beta * from;
   return p;
+}
+
+// How far heights fall beyond the line that they begin at, Eq. (6.19d). begin: bent(stretch, ...).
+FaceFunction fall_beyond(const Stretch& stretch, const FaceFunction& begin) {
+  constexpr double kRounded = 1e-3;  // of half a face, of the edge there
+  const double side = fine_side(stretch), beyond = side * begin.f - 1;
+  if (stretch.fall == 0 || beyond <= 0) return {};
+  const double root = std::hypot(beyond, kRounded), slope = stretch.fall * beyond / root * side;
+  const double curvature = stretch.fall * kRounded * kRounded / (root * root * root);
+  return {stretch.fall * (root - kRounded), slope * begin.f_a,
+          curvature * begin.f_a * begin.f_a.transpose() + slope * begin.f_ab};
 }
 
 // (u, v) where heights of a face are known.
@@ -152,6 +169,9 @@ void require_fits(const TrueSurface& known, const SurfaceView& surface) {
             "contact: face ", f, " with ", sides, " sides has the stretch ", stretch.amount, " along ",
             stretch.along, " and the bulge ", stretch.bulge,
             "; must be between -1 and 1 along 0 or 1, and 0 to 1, on quadrilaterals");
+    require(stretch.fall == 0 || (stretch.amount != 0 && stretch.fall > 0 && std::isfinite(stretch.fall)),
+            "contact: face ", f, " with the stretch ", stretch.amount, " has the fall ", stretch.fall,
+            " m; must be above 0, of a stretched face");
   }
 }
 
@@ -175,20 +195,21 @@ FaceFunction sum_of(const HeightCoefficients& C, const Chebyshev& a, const Cheby
 
 FaceFunction polynomial(const FaceHeights& heights, int sides, double u, double v) {
   if (sides == 3) {
-    FaceFunction h = sum_of(heights.C, chebyshev(0, 2 * u - 1), chebyshev(0, 2 * v - 1));
+    FaceFunction h = sum_of(heights.C, chebyshev(Stretch{}, 2 * u - 1), chebyshev(Stretch{}, 2 * v - 1));
     h.f_a *= 2;
     h.f_ab *= 4;
     return h;
   }
   const int k = heights.stretch.along;
   const FaceFunction p = bent(heights.stretch, {u, v});
-  const Chebyshev along = chebyshev(heights.stretch.amount, p.f), across = chebyshev(0, k == 0 ? v : u);
+  const Chebyshev along = chebyshev(heights.stretch, p.f), across = chebyshev(Stretch{}, k == 0 ? v : u);
   FaceFunction h = k == 0 ? sum_of(heights.C, along, across) : sum_of(heights.C, across, along);
   Eigen::Matrix2d J = Eigen::Matrix2d::Identity();  // of the bent coordinates
   J.row(k) = p.f_a.transpose();
   h.f_ab = (J.transpose() * h.f_ab * J + h.f_a[k] * p.f_ab).eval();
   h.f_a = (J.transpose() * h.f_a).eval();
-  return h;
+  const FaceFunction fall = fall_beyond(heights.stretch, p);
+  return {h.f - fall.f, h.f_a - fall.f_a, h.f_ab - fall.f_ab};
 }
 
 // The length of the gradient of (6.19) on the surface itself: a height over the distance along its normal.
@@ -227,12 +248,14 @@ struct Piece {
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kP, 1> weight;
 };
 
-// The range between the sides, where |T_i| <= 1, and beyond each of them the parabola as far as `beyond`.
-std::vector<Piece> pieces(double stretch, double beyond) {
+// The range between the sides, where |T_i| <= 1, and beyond each of them the parabola or tangent as far as
+// `beyond`.
+std::vector<Piece> pieces(const Stretch& stretch, double beyond) {
   std::vector<Piece> all{{HeightCoefficients::Identity(), Terms::Ones()}};
   if (beyond <= 0) return all;
   for (double end : {-1.0, 1.0}) {
-    const Chebyshev c = chebyshev(stretch, end);
+    Chebyshev c = chebyshev(stretch, end);
+    if (falls_beyond(stretch, end)) c.T_tt.setZero();
     Eigen::Matrix<double, 3, kP> terms;
     terms << c.T.transpose(), c.T_t.transpose(), c.T_tt.transpose();
     all.push_back({terms, Eigen::Vector3d(1, beyond, 0.5 * beyond * beyond)});
@@ -313,20 +336,23 @@ FaceFunction height(const Heights& heights, int sides, int f, double u, double v
 
 double largest_height(const Heights& heights, double extension) {
   const double beyond = 2 * extension;
-  const std::vector<Piece> across = pieces(0, beyond);
+  const std::vector<Piece> across = pieces({}, beyond);
   std::vector<Piece> along = across;  // of the last stretch
   Stretch last;
   double largest = 0;
   for (const auto& [C, stretch] : heights.face) {
-    if (stretch.amount != last.amount || stretch.bulge != last.bulge) {
-      along = pieces(stretch.amount, beyond + stretch.bulge * (1 + beyond / 2));
+    const double beyond_begin = beyond + stretch.bulge * (1 + beyond / 2);
+    if (stretch.amount != last.amount || stretch.bulge != last.bulge || stretch.fall != last.fall) {
+      along = pieces(stretch, beyond_begin);
       last = stretch;
     }
+    const double fall = stretch.fall * beyond_begin;
     for (const Piece& a : stretch.along == 0 ? along : across) {
       const Eigen::Matrix<double, Eigen::Dynamic, kP, 0, kP, kP> a_C = a.terms.lazyProduct(C);
       for (const Piece& b : stretch.along == 0 ? across : along)
         largest = std::max(
-            largest, a.weight.dot(a_C.lazyProduct(b.terms.transpose()).cwiseAbs().lazyProduct(b.weight)));
+            largest,
+            fall + a.weight.dot(a_C.lazyProduct(b.terms.transpose()).cwiseAbs().lazyProduct(b.weight)));
     }
   }
   return largest;

@@ -38,7 +38,8 @@ struct Heights {
 Heights make_heights(const SurfaceView& undeformed, ContactSurface kind, double feature_angle,
                      const TrueSurface& known);
 
-/// Height h(u, v) along the normal of face f, m. Beyond the sides it goes on as a parabola.
+/// Height h(u, v) along the normal of face f, m. Beyond the sides it goes on as a parabola, less the fall
+/// there.
 FaceFunction height(const Heights& heights, int sides, int f, double u, double v);
 
 /// Bound of |h| over all faces with their sides moved outwards by `extension` shares of the face's length, m.

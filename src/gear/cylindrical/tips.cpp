@@ -184,7 +184,6 @@ bool leaves_flank(const Form& f, const Toothing& t) { return f.r_form > 0 && f.r
 void shape_teeth(const CylindricalDrive& d, CylindricalGeometry& g) {
   const int n = static_cast<int>(d.gears.size());
   g.cutter.resize(d.gears.size());
-  g.undercut.assign(d.gears.size(), 0);
   shorten_to_clearance(d, g);
   for (int i = 0; i < n; ++i) {
     if (d.gears[i].internal) continue;
@@ -192,7 +191,7 @@ void shape_teeth(const CylindricalDrive& d, CylindricalGeometry& g) {
     const Form f = form(generating_rack(d, g, i), g.gear[i]);
     if (!leaves_flank(f, g.gear[i])) refuse_protuberance(d, g, i);
     g.gear[i].r_form = f.r_form;
-    g.undercut[i] = f.undercut;
+    g.gear[i].undercut = f.undercut;
   }
   shorten_to_form(d, g, true);
   for (int i = 0; i < n; ++i) {
