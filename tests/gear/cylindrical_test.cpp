@@ -343,6 +343,11 @@ INSTANTIATE_TEST_SUITE_P(
                   d.rack.h_fP = 1.4, d.rack.pr = 0.0914;
                 },
                 [](auto& d) { d.gears[0].x = 0.59, d.gears[1].x = 0.05; }},
+        Refusal{"profile_shift 0.37 of pinion and 0.87 of wheel would do",
+                [](auto& d) {
+                  d.gears = {gear("pinion", 6, -0.06, 25e-3), gear("wheel", 116, -0.33, 25e-3)};
+                },
+                [](auto& d) { d.gears[0].x = 0.37, d.gears[1].x = 0.87; }},
         Refusal{"rack_protuberance = 0.0916: its fillet leaves no flank; at most 0.076 would do",
                 [](auto& d) {
                   d.gears = {gear("pinion", 22, 0.4471, 25e-3), gear("wheel", 29, 0.4832, 25e-3)};

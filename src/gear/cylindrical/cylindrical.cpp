@@ -1,9 +1,12 @@
 #include "elastogear/gear/cylindrical.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <optional>
 #include <sstream>
-#include <utility>
 
 #include "elastogear/base/error.h"
 #include "gear/cylindrical/derivation.h"
@@ -108,24 +111,64 @@ std::string shift_that_would_do(const CylindricalDrive& d, std::size_t pair) {
   return "";
 }
 
-// "; profile_shift 0.59 of pinion and 0.05 of wheel would do": both gears shifted from what they are, by the
-// same or by opposite amounts; empty where none does.
-std::string shifts_that_would_do(const CylindricalDrive& d, std::size_t pair) {
+// Both gears of a pair, shifted by numbers of steps from where they are.
+CylindricalDrive with_shifts(const CylindricalDrive& d, std::size_t pair, const std::array<int, 2>& steps) {
+  CylindricalDrive other = d;
+  const std::array<int, 2> gear{d.pairs[pair].first, d.pairs[pair].second};
+  for (std::size_t k : {0, 1})
+    other.gears[static_cast<std::size_t>(gear[k])].x = shifted(d, gear[k], steps[k]);
+  return other;
+}
+
+// Both gears shifted by the same or by opposite amounts.
+std::optional<CylindricalDrive> equal_shifts(const CylindricalDrive& d, std::size_t pair) {
   for (int i = 1; i <= kShiftSteps; ++i)
     for (int sign : {1, -1})
       for (int mate : {-1, 1}) {
-        CylindricalDrive other = d;
-        std::ostringstream text;
-        text << "; profile_shift";
-        for (const auto& [gear, steps] :
-             {std::pair(d.pairs[pair].first, sign * i), std::pair(d.pairs[pair].second, sign * mate * i)}) {
-          CylindricalGear& own = other.gears[static_cast<std::size_t>(gear)];
-          own.x = shifted(d, gear, steps);
-          text << (gear == d.pairs[pair].first ? " " : " and ") << own.x << " of " << own.name;
-        }
-        if (reaches_contact_ratio(other, pair)) return text.str() + " would do";
+        const CylindricalDrive other = with_shifts(d, pair, {sign * i, sign * mate * i});
+        if (reaches_contact_ratio(other, pair)) return other;
       }
-  return "";
+  return {};
+}
+
+// Both gears shifted by any amounts in steps of a tenth, of which the larger one is as small as it can be,
+// and then both or one taken back by hundredths.
+std::optional<CylindricalDrive> any_shifts(const CylindricalDrive& d, std::size_t pair) {
+  constexpr int kCoarse = 10, kMost = 15;  // steps; coarse ones
+  const auto does = [&](const std::array<int, 2>& steps) {
+    return reaches_contact_ratio(with_shifts(d, pair, steps), pair);
+  };
+  const auto taken_back = [&](std::array<int, 2> steps) {
+    constexpr std::array<std::array<int, 2>, 3> kWays{{{1, 1}, {1, 0}, {0, 1}}};
+    const auto back = [&](const std::array<int, 2>& way) {
+      std::array<int, 2> next = steps;
+      for (std::size_t k : {0, 1}) next[k] -= std::clamp(next[k], -way[k], way[k]);
+      if (next == steps || !does(next)) return false;
+      steps = next;
+      return true;
+    };
+    for (bool moved = true; moved;) moved = std::any_of(kWays.begin(), kWays.end(), back);
+    return with_shifts(d, pair, steps);
+  };
+  for (int most = 1; most <= kMost; ++most)
+    for (int i = -most; i <= most; ++i)
+      for (int j = -most; j <= most; ++j)
+        if (std::max(std::abs(i), std::abs(j)) == most && does({kCoarse * i, kCoarse * j}))
+          return taken_back({kCoarse * i, kCoarse * j});
+  return {};
+}
+
+// "; profile_shift 0.59 of pinion and 0.05 of wheel would do"; empty where none does.
+std::string shifts_that_would_do(const CylindricalDrive& d, std::size_t pair) {
+  std::optional<CylindricalDrive> other = equal_shifts(d, pair);
+  if (!other) other = any_shifts(d, pair);
+  if (!other) return "";
+  const CylindricalGear &first = other->gears[static_cast<std::size_t>(d.pairs[pair].first)],
+                        &second = other->gears[static_cast<std::size_t>(d.pairs[pair].second)];
+  std::ostringstream text;
+  text << "; profile_shift " << first.x << " of " << first.name << " and " << second.x << " of "
+       << second.name << " would do";
+  return text.str();
 }
 
 }  // namespace
