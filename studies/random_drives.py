@@ -10,11 +10,14 @@ modules. Worm: 1 to 6 starts, 20 to 124 teeth, diameter quotient 7 to 14, pressu
 Each stands at eight roll angles over a pitch under a torque that gives 2 MPa times module and face width as tangential force. Its
 transmission error is how far the first gear is from where exact rigid flanks touch, times its base radius (worm: times z1/z2 and the
 wheel's pitch radius); it holds where that is below 0.2 um at every angle. Refused designs are counted by their reasons; where the
-message names a value that would do, the drive with it must not be refused for that reason again, and 0.1 % beyond it (profile
-shifts: 0.02) must be.
+message names a value that would do, the drive with it must not be refused for that reason again, and a little beyond it (tip diameters
+0.1 %, profile shifts 0.02, values of worm drives 1.5 %) must be.
+
+--numbers 17 40 takes the drives from the 17th to the 40th that are drawn, in place of as many as --designs asks for.
 """
 import argparse
 import collections
+import math
 import os
 import re
 import shutil
@@ -119,25 +122,68 @@ def refusal(numbers, options, name):
         return str(why)
 
 
-# Pattern of gear and value, key, unit, and the step to what is beyond the value: a share of it, or a number.
-REMEDIES = ((r"(?P<gear>pinion|wheel):.*tip_diameter (?:of at most|below) (?P<value>[\d.e+-]+)", "tip_diameter", " mm",
-             lambda value: 1e-3 * value),
-            (r"profile_shift of (?P<gear>pinion|wheel) of at least (?P<value>[\d.e+-]+) would", "profile_shift", "", lambda _: -0.02),
-            (r"profile_shift of (?P<gear>pinion|wheel) of at most (?P<value>[\d.e+-]+) would", "profile_shift", "", lambda _: 0.02))
+def of_gears(numbers, key, unit, **values):
+    changed = {gear: {**numbers[gear], key: f"{value:.9g}{unit}"} for gear, value in values.items()}
+    return {**numbers, **changed}
+
+
+# Each of these takes what a message names and returns the drive with it, and drives a little beyond it, one of which must be refused
+# for the same cause.
+
+def tip_diameter(numbers, gear, value):
+    value = float(value)
+    return (of_gears(numbers, "tip_diameter", " mm", **{gear: value * (1 - 1e-6)}),
+            [of_gears(numbers, "tip_diameter", " mm", **{gear: value * (1 + 1e-3)})])
+
+
+def least_shift(numbers, gear, value, away=-0.02):
+    return (of_gears(numbers, "profile_shift", "", **{gear: float(value)}),
+            [of_gears(numbers, "profile_shift", "", **{gear: float(value) + away})])
+
+
+def largest_shift(numbers, gear, value):
+    return least_shift(numbers, gear, value, 0.02)
+
+
+def two_shifts(numbers, *values_and_gears):
+    shift = {gear: float(value) for value, gear in zip(values_and_gears[::2], values_and_gears[1::2])}
+    back = {gear: x - np.copysign(0.02, x - numbers[gear]["profile_shift"]) for gear, x in shift.items()}
+    return of_gears(numbers, "profile_shift", "", **shift), [of_gears(numbers, "profile_shift", "", **back)]
+
+
+def sum_of_shifts(numbers, value):
+    def with_sum(total):
+        return of_gears(numbers, "profile_shift", "", pinion=total - numbers["wheel"]["profile_shift"])
+    return with_sum(float(value) + 1e-5), [with_sum(float(value) - 1e-3)]
+
+
+def of_worm_drive(numbers, key, value, unit):
+    def with_value(value):
+        return {**numbers, key: f"{value * (1e3 if unit == 'm' else 1):.9g} {'mm' if unit == 'm' else unit}"}
+    value = float(value)
+    return with_value(value), [with_value(value * 0.985), with_value(value * 1.015)]
+
+
+NUMBER = r"(-?[\d.]+(?:e[+-]?\d+)?)"
+REMEDIES = ((rf"(pinion|wheel):.*tip_diameter (?:of at most|below) {NUMBER}", tip_diameter),
+            (rf"profile_shift of (pinion|wheel) of at least {NUMBER} would", least_shift),
+            (rf"profile_shift of (pinion|wheel) of at most {NUMBER} would", largest_shift),
+            (rf"profile_shift {NUMBER} of (pinion|wheel) and {NUMBER} of (pinion|wheel) would", two_shifts),
+            (rf"their sum must be above {NUMBER}", sum_of_shifts),
+            (rf"the nearest value that does, all others kept: (\w+) = {NUMBER} (m|deg)", of_worm_drive))
 
 
 def remedied(numbers, message, options, name):
     """Whether the value that a message names is the nearest one that would do; None where it names none."""
-    for pattern, key, unit, step in REMEDIES:
+    for pattern, remedy in REMEDIES:
         found = re.search(pattern, message)
         if not found:
             continue
-        gear, value = found["gear"], float(found["value"])
+        mended, beyond = remedy(numbers, *found.groups())
 
-        def again(other):
-            changed = {**numbers, gear: {**numbers[gear], key: f"{other:.9g}{unit}"}}
+        def again(changed):
             return cause(refusal(changed, options, name)) == cause(message)
-        return not again(value - 1e-3 * step(value)) and again(value + step(value))
+        return not again(mended) and any(again(other) for other in beyond)
     return None
 
 
@@ -150,8 +196,8 @@ class Tally:
         return self.held + len(self.failed)
 
 
-def try_design(kind, random, number, options, tally):
-    numbers, radius, m = {"cylindrical": cylindrical, "worm": worm}[kind](random)
+def try_design(kind, drawn, number, options, tally):
+    numbers, radius, m = drawn
     name = f"{kind}_{number}"
     start = time.monotonic()
     drive = drive_of(numbers, options, name)
@@ -188,8 +234,9 @@ def try_design(kind, random, number, options, tally):
 
 
 def report(kind, tally):
-    print(f"{kind}: {tally.held} of {tally.count()} hold; transmission error, median {1e6 * np.nanmedian(tally.largest):.4f} um; "
-          f"{np.median(tally.seconds):.1f} s a design, {max(tally.seconds):.1f} s the longest")
+    if tally.count() > 0:
+        print(f"{kind}: {tally.held} of {tally.count()} hold; transmission error, median {1e6 * np.nanmedian(tally.largest):.4f} um; "
+              f"{np.median(tally.seconds):.1f} s a design, {max(tally.seconds):.1f} s the longest")
     print(f"{kind}: refused or passed over: {sum(tally.refused.values())}")
     for why, count in tally.refused.most_common():
         print(f"  {count:5d}  {why}")
@@ -203,13 +250,17 @@ def main():
     parser.add_argument("--elastogear", required=True)
     parser.add_argument("--out", required=True)
     parser.add_argument("--designs", type=int, default=200, help="possible ones")
+    parser.add_argument("--numbers", type=int, nargs=2, metavar=("FIRST", "LAST"))
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     for kind in options.kinds:
         random, tally, number = np.random.default_rng(options.seed), Tally(), 0
-        while tally.count() < options.designs:
+        first, last = options.numbers or (1, math.inf)
+        while number < last and (options.numbers or tally.count() < options.designs):
             number += 1
-            try_design(kind, random, number, options, tally)
+            drawn = {"cylindrical": cylindrical, "worm": worm}[kind](random)
+            if number >= first:
+                try_design(kind, drawn, number, options, tally)
         report(kind, tally)
 
 
