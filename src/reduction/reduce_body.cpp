@@ -216,7 +216,7 @@ void require_on_body(const Job& job) {
 // How stresses are recovered, with all nodes on which simulations may let forces act.
 model::StressRecovery make_recovery(const Job& job) {
   const ReductionOptions& options = job.options;
-  model::StressRecovery recovery{options.stress_recovery, job.plan.body.surface.node};
+  model::StressRecovery recovery{recovery_method(options), job.plan.body.surface.node};
   if (recovery.method == model::RecoveryMethod::average) return {};
   std::vector<std::string> sets = options.markers;
   sets.insert(sets.end(), options.loaded.begin(), options.loaded.end());

@@ -95,6 +95,8 @@ void reduce_modal(Job& job);
 bool relaxes(const ReductionOptions& options);
 /// Throws Error for what viscoelastic materials do not go with.
 void validate_relaxing(const ReductionOptions& options);
+/// The method that the options choose or, automatically, the materials allow.
+model::RecoveryMethod recovery_method(const ReductionOptions& options);
 /// Sets body.relaxing, after body.K_r, with the stiffness of the parts between closed modes. Rank 0.
 void set_relaxing(Job& job, const WaitingModes& modes);
 /// The same for the full basis.

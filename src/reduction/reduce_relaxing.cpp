@@ -73,11 +73,17 @@ bool relaxes(const ReductionOptions& options) {
 void validate_relaxing(const ReductionOptions& options) {
   if (!relaxes(options)) return;
   require(
-      options.stress_recovery == model::RecoveryMethod::average || !relaxes_apart(options),
+      options.stress_recovery != RecoveryChoice::surface || !relaxes_apart(options),
       "stress_recovery surface: holds the ratio of shear and bulk modulus for constant, which relax apart "
       "here (prony_g, prony_k); take -stress_recovery average");
   require(!options.imported,
           "viscoelastic materials need the stiffness of the mesh's own cells: leave option stiffness out");
+}
+
+model::RecoveryMethod recovery_method(const ReductionOptions& options) {
+  const bool averages = options.stress_recovery == RecoveryChoice::average ||
+                        (options.stress_recovery == RecoveryChoice::automatic && relaxes_apart(options));
+  return averages ? model::RecoveryMethod::average : model::RecoveryMethod::surface;
 }
 
 bool relaxes_alike(const Job& job) {

@@ -55,7 +55,7 @@ REDUCE = [
     Case("point mass of nothing", r"point_mass_FIX.*positive", "{reduce} -point_mass_FIX 0"),
     Case("marker on an unknown set", r"NOSUCH", "{reduce} -markers NOSUCH"),
     Case("marker weights that are none", r"marker_weights.*equal, area", "{reduce} -marker_weights mass"),
-    Case("stress recovery that is none", r"stress_recovery.*average, surface", "{reduce} -stress_recovery nodal"),
+    Case("stress recovery that is none", r"stress_recovery.*auto, average, surface", "{reduce} -stress_recovery nodal"),
     Case("invariants that are none", r"invariants.*linear, full", "{reduce} -invariants all"),
     Case("basis that is none", r"basis.*modal_residual, full, modal_attachment, krylov, craig_bampton", "{reduce} -basis best"),
     Case("attachment modes of no node", r"modal_attachment needs.*loaded", "{reduce} -basis modal_attachment"),

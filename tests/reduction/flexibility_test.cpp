@@ -119,7 +119,7 @@ TEST_F(Flexibility, recovers_stresses_on_free_surfaces_as_its_modes_and_the_unre
     for (const std::vector<std::string>& markers : {std::vector<std::string>{"inner"}, {"one"}, {}}) {
       reduction::ReductionOptions o = options(symmetry);
       o.stress_nodes = {"few", "inner"};
-      o.stress_recovery = model::RecoveryMethod::surface;
+      o.stress_recovery = reduction::RecoveryChoice::surface;
       o.markers = markers;
       const model::ElasticBody body = reduce(o);
       if (!is_root()) continue;

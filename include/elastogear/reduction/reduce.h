@@ -17,7 +17,6 @@
 #include "elastogear/model/damping.h"
 #include "elastogear/model/elastic_body.h"
 #include "elastogear/model/material.h"
-#include "elastogear/model/stress_recovery.h"
 #include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/imported.h"
 #include "elastogear/reduction/interval.h"
@@ -37,6 +36,10 @@ enum class Invariants { linear, full };
 /// body.
 enum class Symmetry { automatic, none };
 
+/// Stresses at nodes: means of the cells, or from the strains of free surfaces (model::RecoveryMethod).
+/// automatic: of free surfaces, but means where shear and bulk modulus relax apart.
+enum class RecoveryChoice { automatic, average, surface };
+
 struct ReductionOptions {
   std::string name = {};                            ///< of the body
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
@@ -48,7 +51,7 @@ struct ReductionOptions {
   Eigen::Vector3d frame_origin = {0, 0, 0};    ///< m, of the body frame in the mesh's coordinates otherwise
   std::vector<std::string> surface = {};       ///< face sets, see reduction/surface.h
   std::vector<std::string> stress_nodes = {};  ///< node sets, or face sets for their nodes
-  model::RecoveryMethod stress_recovery = model::RecoveryMethod::average;
+  RecoveryChoice stress_recovery = RecoveryChoice::automatic;
   std::vector<std::string> markers = {};  ///< node or face sets, see reduction/marker.h
   MarkerWeights marker_weights = MarkerWeights::equal;
   model::Basis basis = model::Basis::modal;

@@ -51,12 +51,11 @@ const Rows<ReductionOptions> kReduceRows = {
     {"surface", &ReductionOptions::surface, "-", "face sets of the contact surface"},
     {"stress_nodes", &ReductionOptions::stress_nodes, "-",
      "node sets, or face sets for their nodes, at which stress modes are stored"},
-    {"stress_recovery", &ReductionOptions::stress_recovery, one_of("average", "surface"),
-     "stresses at nodes: average (mean of what the cells there extrapolate), or surface (on surfaces where "
-     "no "
-     "force can act, all but surface, loaded, markers, point_mass_<set> and what is held, from the strains "
-     "of "
-     "the surface and its zero traction: errs less in fillets)"},
+    {"stress_recovery", &ReductionOptions::stress_recovery, one_of("auto", "average", "surface"),
+     "stresses at nodes: surface (on surfaces where no force can act, all but surface, loaded, markers, "
+     "point_mass_<set> and what is held, from the strains of the surface and its zero traction: errs less "
+     "in fillets), average (mean of what the cells there extrapolate), or auto (surface; average where "
+     "prony_g and prony_k differ)"},
     {"markers", &ReductionOptions::markers, "-",
      "node sets or face sets whose mean motion is stored, for loads, bushings and sensors of simulate (which "
      "always has the body frame); also single nodes by their numbers in the mesh file, [tip, 4711]"},
