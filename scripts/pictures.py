@@ -158,7 +158,7 @@ def stress_label(stress, end):
 def error_label(surface, stress):
     """The estimated error of the largest stress, when the field has one."""
     names = [surface.GetPointData().GetArrayName(i) for i in range(surface.GetPointData().GetNumberOfArrays())]
-    found = [name for name in names if name and name.startswith("error_of_von_mises")]
+    found = [name for name in names if name and name.startswith("error_of_von_mises [")]
     if not found:
         return "; error not estimated"
     error = vtk_to_numpy(surface.GetPointData().GetArray(found[0]))[int(stress.argmax())] / 1e6

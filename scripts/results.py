@@ -104,11 +104,12 @@ class NodeStress:
 
 TRUSTED = 0.05  # of the peak: above this estimated error a stress is not to be trusted
 WELL_TRUSTED = 0.02  # of the peak: up to this one needs no second look
+TRUSTED_MESH, WELL_TRUSTED_MESH = 0.1, 0.05  # the same of the mesh's error, which is a bound of it in most places
 
 
 class Peak:
-    """Largest von Mises stress of an evaluated node set: value (Pa), step, row of the node, and the estimated error of the
-    reduction (Pa; None: not estimated)."""
+    """Largest von Mises stress of an evaluated node set: value (Pa), step, row of the node, and the estimated errors of the
+    reduction, of the mesh (docs/theory.md, section 1.7) and of both together (Pa; None: not estimated)."""
 
     def __init__(self, group, steps=slice(None)):
         von_mises = group["von_mises"][steps]
@@ -116,6 +117,16 @@ class Peak:
         self.value = float(von_mises[step, self.row])
         self.step = int(np.arange(group["von_mises"].shape[0])[steps][step])
         self.error = float(group["peak_error"][self.step]) if "peak_error" in group else None
+        self.mesh_error = float(group["mesh_error"][self.step, self.row]) if "mesh_error" in group else None
+        known = self.error is not None and self.mesh_error is not None
+        self.whole_error = self.error + self.mesh_error if known else None
+
+    def trust_mesh(self):
+        """The estimated error of the mesh in words."""
+        if self.mesh_error is None:
+            return "error of the mesh not estimated"
+        doubt = ": too coarse a mesh for this stress" if self.mesh_error > TRUSTED_MESH * self.value else ""
+        return f"estimated error of the mesh {self.mesh_error / 1e6:.3g} MPa ({100 * self.mesh_error / max(self.value, 1e-300):.2g} %){doubt}"
 
     def trust(self):
         """The estimated error in words."""

@@ -49,6 +49,14 @@ def contact_forces(case):
         yield chart(f"force-{number}", f"Contact force, {name.replace(':', ' on ')}", case.time, f"force in {unit}", curves)
 
 
+def whole_error(group):
+    """Estimated error of a set's largest stress over time, Pa: of the reduction, and of the mesh at its node where that is known."""
+    error = group["peak_error"][:]
+    if "mesh_error" in group:
+        error = error + np.take_along_axis(group["mesh_error"][:], group["von_mises"][:].argmax(axis=1)[:, None], axis=1)[:, 0]
+    return error
+
+
 def stresses(case):
     """Largest von Mises stress of each set, with the band of its estimated error."""
     curves, bands = [], []
@@ -58,7 +66,7 @@ def stresses(case):
     for i, (_, _, group, _) in enumerate(case.peaks):
         if "peak_error" not in group:
             continue
-        error = group["peak_error"][:] / 1e6
+        error = whole_error(group) / 1e6
         bands.append((len(curves), len(curves) + 1))
         curves += [{"name": "", "values": curves[i]["values"] + error, "band": True},
                    {"name": "", "values": np.maximum(curves[i]["values"] - error, 0), "band": True}]

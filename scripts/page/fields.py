@@ -7,7 +7,7 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-FIELDS = {"von_mises": 1, "rankine": 1, "error_of_von_mises": 1, "contact_traction": 3}  # components
+FIELDS = {"von_mises": 1, "rankine": 1, "error_of_von_mises": 1, "error_of_von_mises_by_mesh": 1, "contact_traction": 3}  # components
 
 
 class Surface:

@@ -121,7 +121,7 @@ def size_of(packed):
     return len(packed) if isinstance(packed, str) else 0
 
 
-FINEST = {"von_mises": 4095, "rankine": 4095, "error_of_von_mises": 255, "contact_traction": 1023}
+FINEST = {"von_mises": 4095, "rankine": 4095, "error_of_von_mises": 255, "error_of_von_mises_by_mesh": 255, "contact_traction": 1023}
 
 
 def pack(surfaces, most):

@@ -48,6 +48,19 @@ def trust(value, error):
     return "good" if error <= results.WELL_TRUSTED * abs(value) else "fair"
 
 
+def trust_mesh(peak):
+    """The light of a peak by the estimated error of its mesh."""
+    if peak.mesh_error is None or peak.mesh_error > results.TRUSTED_MESH * peak.value:
+        return "bad"
+    return "good" if peak.mesh_error <= results.WELL_TRUSTED_MESH * peak.value else "fair"
+
+
+def trust_both(peak):
+    """The worse light of reduction and mesh; of the reduction alone where the mesh's error is not estimated."""
+    of_reduction = trust(peak.value, peak.error)
+    return of_reduction if peak.mesh_error is None else worst([of_reduction, trust_mesh(peak)])
+
+
 def worst(kinds):
     return max(kinds, key=list(LIGHTS).index, default="bad")
 
@@ -159,6 +172,10 @@ def balance(case):
     return float(np.abs(energy["balance"][:]).max()) / whole if whole > 0 else None
 
 
+def of_size(body, meshes):
+    return f" ({meshes[body]})" if body in meshes else ""
+
+
 def checks(case, meshes):
     """Rows (light, what, figure) of all that can be told of how sure the answer is."""
     rows = []
@@ -172,19 +189,26 @@ def checks(case, meshes):
         rows.append((kind, "Energy", f"balance off by at most {100 * off:.2g} %"))
     if not case.result.attrs.get("complete", 1):
         rows.append(("bad", "Stopped", "the run did not reach its end"))
-    if meshes:
-        rows.append(("fair", "Mesh", f"its error is not estimated, repeat with a finer one ({'; '.join(f'{body}: {size}' for body, size in meshes.items())})"))
+    for body, name, _, peak in case.peaks:
+        if peak.mesh_error is not None:
+            doubt = ", too coarse for this stress" if trust_mesh(peak) == "bad" else ""
+            share = f"off by an estimated {100 * peak.mesh_error / max(peak.value, 1e-300):.2g} %{doubt}"
+            rows.append((trust_mesh(peak), "Mesh", f"{body} {name.replace('_', ' ')}, {share}{of_size(body, meshes)}"))
+    known = {body for body, _, _, peak in case.peaks if peak.mesh_error is not None}
+    others = "; ".join(f"{body}: {size}" for body, size in meshes.items() if body not in known)
+    if others:
+        rows.append(("fair", "Mesh", f"its error is not estimated, repeat with a finer one ({others})"))
     return rows
 
 
 def cards(case):
     """The answer: the largest stress of each set, and the largest contact force."""
     for body, name, group, peak in sorted(case.peaks, key=lambda entry: -entry[3].value):
-        kind, node = trust(peak.value, peak.error), int(group["nodes"][peak.row])
+        kind, node = trust_both(peak), int(group["nodes"][peak.row])
         place = f"node {node}" + (f", {case.axis.at(case.time[peak.step])}" if len(case.time) > 1 else "")
         visit = escape(f'{{"body": "{body}", "node": {node}, "time": {case.time[peak.step]!r}}}')
         yield (f'<li class="card"><h3>{escape(body)}, {escape(name.replace("_", " "))}</h3>'
-               f'<p class="figure">{plus_minus(peak.value, peak.error)} <span class="unit">MPa</span></p><p>largest von Mises stress, {light(kind)}</p>'
+               f'<p class="figure">{plus_minus(peak.value, peak.error if peak.whole_error is None else peak.whole_error)} <span class="unit">MPa</span></p><p>largest von Mises stress, {light(kind)}</p>'
                f'<p class="where">{escape(place)} <button type="button" data-visit="{visit}">Show</button></p></li>')
     for name, pair in case.result["contact"].items():
         force = results.total_force(pair)
@@ -193,6 +217,15 @@ def cards(case):
         more = f"contact pressure up to {mega(pressure)} MPa" if pressure > 0 else ""
         yield (f'<li class="card"><h3>Contact {escape(name.replace(":", " on "))}</h3><p class="figure">{force[step]:.4g} <span class="unit">N</span></p>'
                f'<p>largest contact force</p><p>{more}</p><p class="where">{escape(case.axis.at(case.time[step])) if len(case.time) > 1 else ""}</p></li>')
+
+
+def error_note(case):
+    """What stands after ±."""
+    if any(peak.whole_error is not None for _, _, _, peak in case.peaks):
+        return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh, and that of the mesh, the difference between "
+                "two recoveries of the stress, together; the table has both. It does not cover the law of contact.")
+    return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh. It covers neither the mesh nor the law of "
+            "contact.")
 
 
 def summary(case, meshes):
@@ -204,18 +237,17 @@ def summary(case, meshes):
     return (f'<section aria-labelledby="asked" class="summary"><p id="asked" class="asked">{escape(question(case))}</p>'
             f'<ul class="cards">{"".join(cards(case))}</ul>'
             f'<div class="verdict {overall}"><h2>How sure</h2>{missing}<ul class="checks">{listed}</ul>'
-            f'<p class="note">After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh. It covers neither the mesh nor the '
-            f"law of contact.</p></div></section>")
+            f'<p class="note">{error_note(case)}</p></div></section>')
 
 
 def stress_table(case):
     rows = []
     for body, name, group, peak in case.peaks:
         tension = group["rankine"][:]
-        rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), (mega(peak.error, 2) if peak.error is not None else "–", peak.error or 0),
-                     light(trust(peak.value, peak.error)), str(int(group["nodes"][peak.row])),
+        errors = [(mega(error, 2) if error is not None else "–", error or 0) for error in (peak.error, peak.mesh_error, peak.whole_error)]
+        rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), *errors, light(trust_both(peak)), str(int(group["nodes"][peak.row])),
                      case.axis.cell(case.time[peak.step]), (mega(float(tension.max())), float(tension.max()))])
-    return table(["body", "node set", "von Mises in MPa", "± in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
+    return table(["body", "node set", "von Mises in MPa", "± of the reduction", "± of the mesh", "± of both in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
 
 
 def contact_table(case):

@@ -36,10 +36,20 @@ model::SparseRows recovery_difference(const io::BodySource& source, const std::v
   return fem::recovery_difference(std::move(body), nodes);
 }
 
+Eigen::MatrixXd stress_difference(const io::BodySource& source, const std::vector<int>& loaded,
+                                  const Eigen::VectorXd& u) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
+  body.recovery.method = model::RecoveryMethod::surface;
+  const Eigen::MatrixXd recovered = fem::nodal_stress(body, u);
+  body.recovery.method = model::RecoveryMethod::average;
+  return recovered - fem::nodal_stress(body, u);
+}
+
 }  // namespace
 
 recovery::FiniteElements finite_elements() {
-  return {unreduced_response, nodal_stress, node_regions, recovery_difference};
+  return {unreduced_response, nodal_stress, node_regions, recovery_difference, stress_difference};
 }
 
 }  // namespace elastogear::app

@@ -44,12 +44,16 @@ StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, co
         largest = std::max(largest, stress(i, step));
         if (stress(i, step) <= peak.value) continue;
         row = i;
-        peak = {stress(i, step), -1, tooth[k], set.node[static_cast<std::size_t>(i)], static_cast<int>(step)};
+        peak = {.value = stress(i, step),
+                .tooth = tooth[k],
+                .node = set.node[static_cast<std::size_t>(i)],
+                .step = static_cast<int>(step)};
       }
       history(step, static_cast<Eigen::Index>(k)) = largest;
     }
   }
   if (set.error.size() > 0) peak.error = set.error(row, peak.step);
+  if (set.mesh_error.size() > 0) peak.mesh_error = set.mesh_error(row, peak.step);
   return peak;
 }
 

@@ -80,6 +80,9 @@ void add_peak(const io::StressSet& set, const StressPeak& peak, const Eigen::Vec
   if (set.error.size() > 0)
     items.number(path + "_error", "Pa", "estimated error of the reduction of von Mises stress there",
                  peak.error);
+  if (set.mesh_error.size() > 0)
+    items.number(path + "_mesh_error", "Pa", "estimated error of von Mises stress there by the mesh",
+                 peak.mesh_error);
 }
 
 void add_way(const RootStress& stress, const std::string& path, Items& items) {

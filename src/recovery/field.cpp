@@ -2,6 +2,7 @@
 
 #include "elastogear/recovery/stress.h"
 #include "recovery/error_estimate.h"
+#include "recovery/mesh_error.h"
 
 namespace elastogear::recovery {
 
@@ -54,6 +55,14 @@ Eigen::VectorXd estimated_error(const Fields& fields, const FieldReference& refe
       reference.share);
 }
 
+// Eq. (1.16), of displacements u.
+Eigen::VectorXd estimated_mesh_error(const Fields& fields, const std::vector<int>& touched,
+                                     const Eigen::Matrix3Xd& u, const Eigen::VectorXd& found) {
+  const Eigen::MatrixXd difference =
+      fields.finite_elements.stress_difference(fields.source, touched, u.reshaped());
+  return mesh_error_field(von_mises_at_nodes(difference), found);
+}
+
 }  // namespace
 
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
@@ -73,6 +82,9 @@ void write_field(const std::string& path, const std::string& body_file, const io
   if (state.reference)
     fields.push_back(
         {"error_of_von_mises [Pa]", estimated_error(body, *state.reference, equivalent).transpose()});
+  if (state.touched)
+    fields.push_back({"error_of_von_mises_by_mesh [Pa]",
+                      estimated_mesh_error(body, *state.touched, u_B, equivalent).transpose()});
   fields.insert(fields.end(), state.more.begin(), state.more.end());
   io::write_vtu(path, placed, fields);
 }

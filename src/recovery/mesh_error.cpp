@@ -1,6 +1,7 @@
 #include "recovery/mesh_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -74,13 +75,17 @@ Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, c
 
 }  // namespace
 
+bool tells_mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic) {
+  return body.run.history.q.rows() == elastic.n_q() && !body.relaxes() &&
+         !elastic.provenance.contains("option_stiffness");
+}
+
 Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic,
                            const io::StressSet& set) {
   const std::string& file = body.run.file;
   const bool modal = elastic.basis == model::Basis::modal;
-  const bool is_elastic = body.run.history.q.rows() == elastic.n_q() && !body.relaxes();
-  if (!is_elastic || set.node.empty() || set.von_mises.cols() == 0) return {};
-  if (elastic.provenance.contains("option_stiffness") || (modal && !io::has_full_modes(file))) return {};
+  if (!tells_mesh_error(body, elastic) || set.node.empty() || set.von_mises.cols() == 0) return {};
+  if (modal && !io::has_full_modes(file)) return {};
   const io::BodySource source = io::read_body_source(file);
   const SparseRows difference =
       body.finite_elements.recovery_difference(source, elastic.surface.node, set.node);
@@ -96,6 +101,13 @@ Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& 
       error.row(i) = parts.share[j] * set.von_mises.row(i);
   }
   return error;
+}
+
+Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises) {
+  const Eigen::ArrayXd is_free = (difference.array() > 0).cast<double>();
+  const double of_stress = (is_free * von_mises.array()).matrix().squaredNorm(),
+               share = of_stress > 0 ? std::sqrt(difference.squaredNorm() / of_stress) : 0;
+  return difference.array() + (1 - is_free) * share * von_mises.array();
 }
 
 }  // namespace elastogear::recovery

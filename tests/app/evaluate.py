@@ -82,7 +82,7 @@ def near(what, value, expected, allowed):
 def check_elastic(drive):
     drive.sweep(16)
     text = drive.run("evaluate", "drive.yaml")
-    for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "KHbeta", "root of pinion, tension", "efficiency"):
+    for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "KHbeta", "root of pinion, tension", ", by the mesh ", "efficiency"):
         assert word in text, f"'{word}' is not printed"
     figures = Figures("drive_evaluation")
     with h5py.File("drive_result.h5") as result:
@@ -105,6 +105,7 @@ def check_elastic(drive):
     near("largest tension", figures["root/pinion/largest_tension"], figures["root/pinion/tension"].max(), 1e-3)
     near("KHbeta in JSON", figures.in_json("line_load/KHbeta"), figures["line_load/KHbeta"], 1e-12)
     assert figures["root/pinion/largest_tension_error"] < 0.05 * figures["root/pinion/largest_tension"]
+    assert 0 < figures["root/pinion/largest_tension_mesh_error"] < 2 * figures["root/pinion/largest_tension"]
     with open("drive_evaluation_pinion_wheel.csv", encoding="utf-8") as table:
         rows = list(csv.DictReader(table))
     near("rows of the table", len(rows), len(roll), 0)

@@ -19,6 +19,7 @@
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
+#include "recovery/mesh_error.h"
 
 namespace elastogear::recovery::recover_test {
 namespace {
@@ -163,6 +164,12 @@ TEST_F(Recover, estimates_the_error_of_the_mesh_of_reduced_bodies_alike) {
   const Eigen::MatrixXd reduced = estimate(reduce(model::Basis::modal, true), Acceleration::automatic);
   EXPECT_GT(reduced.norm(), 0.5 * exactly.norm());
   EXPECT_LT(reduced.norm(), 2 * exactly.norm());
+}
+
+TEST(MeshErrorField, takes_the_share_of_free_surfaces_elsewhere) {
+  const Eigen::Vector3d error = mesh_error_field(Eigen::Vector3d(1, 0, 2), Eigen::Vector3d(10, 5, 20));
+  EXPECT_LT((error - Eigen::Vector3d(1, 0.5, 2)).norm(), 1e-14);
+  EXPECT_EQ(mesh_error_field(Eigen::Vector2d::Zero(), Eigen::Vector2d(3, 4)).norm(), 0);
 }
 
 TEST_F(Recover, fields_of_contact_have_the_forces_in_the_world) {

@@ -148,11 +148,13 @@ class Scripts(unittest.TestCase):
             group = file["worm/root"]
             group["error"] = share * group["von_mises"][:]
             group["peak_error"] = group["error"][:].max(axis=1)
+            group["mesh_error"] = 0.2 * group["von_mises"][:]
         return self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5").stdout
 
     def test_a_stress_has_its_estimated_error_beside_it(self):
         text = self.summary_with_error(0.01)
         self.assertIn("estimated error 1.73 MPa (1 %)", text)
+        self.assertIn("estimated error of the mesh 34.6 MPa (20 %): too coarse a mesh for this stress", text)
         self.assertNotIn("not to be trusted", text)
 
     def test_a_stress_with_a_large_estimated_error_is_not_to_be_trusted(self):

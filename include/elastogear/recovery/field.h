@@ -27,11 +27,13 @@ struct FieldState {
   Eigen::MatrixXd w = {};         ///< n_q x n_p, of a viscoelastic body: model::BodyState
   Eigen::VectorXd u_static = {};  ///< 3 n_nodes, m, BRF, added to Phi q; empty: nothing
   std::vector<io::NodeField> more = {};
-  std::optional<FieldReference> reference = {};  ///< none: no error is estimated
+  std::optional<FieldReference> reference = {};  ///< none: no error of the reduction is estimated
+  std::optional<std::vector<int>> touched =
+      {};  ///< mesh numbers of the contact surface's nodes; none: no error of the mesh is estimated
 };
 
 /// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),
-/// von_mises, its estimated error, rankine and the fields in `more`. `body_file` gives Phi, and `source` is
+/// von_mises, its estimated errors, rankine and the fields in `more`. `body_file` gives Phi, and `source` is
 /// read from it.
 void write_field(const std::string& path, const std::string& body_file, const io::BodySource& source,
                  const FieldState& state, const FiniteElements& finite_elements);

@@ -32,6 +32,11 @@ struct FiniteElements {
   std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& loaded,
                                   const std::vector<int>& nodes)>
       recovery_difference = {};
+  /// The same at all nodes for displacements u: 6 x n_nodes, Pa; zero at `loaded` nodes and where no free
+  /// surface is.
+  std::function<Eigen::MatrixXd(const io::BodySource& source, const std::vector<int>& loaded,
+                                const Eigen::VectorXd& u)>
+      stress_difference = {};
 };
 
 }  // namespace elastogear::recovery

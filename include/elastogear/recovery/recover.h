@@ -37,6 +37,10 @@ RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool wi
 io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elastic, const std::string& set,
                              bool with_error);
 
+/// Can the error of the mesh be told from the body's displacements? Not where it is viscoelastic, or comes
+/// from matrices.
+bool tells_mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic);
+
 /// Placement and coordinates at one output time, without static responses.
 FieldState state_of_run(const BodyOfRun& body, Eigen::Index step);
 /// State for a field, with the whole body's static response in place of that of the modes when it was asked

@@ -97,12 +97,14 @@ void print_roots(const Reader& of) {
     if (!item.path.starts_with("root/") || !item.path.ends_with("/largest_tension")) continue;
     const std::string path = item.path.substr(0, item.path.rfind('/'));
     const auto peak = [&](const std::string& name) {
-      const bool error = of.has(path + name + "_error");
+      const bool error = of.has(path + name + "_error"), mesh_error = of.has(path + name + "_mesh_error");
       return of.in(path + name, 1e-6, "MPa") + " at node " + whole(of, path + name + "_node") + " of tooth " +
              whole(of, path + name + "_tooth") + ", roll angle " +
              of.in(path + name + "_roll", 1, "pitches") +
              (error ? ", estimated error " + of.in(path + name + "_error", 1e-6, "MPa")
-                    : std::string(", error not estimated: not to be trusted"));
+                    : std::string(", error not estimated: not to be trusted")) +
+             (mesh_error ? ", by the mesh " + of.in(path + name + "_mesh_error", 1e-6, "MPa")
+                         : std::string(", error of the mesh not estimated"));
     };
     const std::string gear = path.substr(5);
     print_item("root of " + gear + ", tension", peak("/largest_tension"));

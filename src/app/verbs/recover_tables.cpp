@@ -53,18 +53,24 @@ void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) 
     print_item("warning", set.body + " " + set.set + ": not to be trusted; " + remedy(body));
 }
 
-// The difference between two recoveries of the same displacements, at the largest stress.
+// The difference between two recoveries of the same displacements, at the largest stress, and the sum of both
+// errors.
 void print_mesh_error(const io::StressSet& set) {
   if (set.mesh_error.size() == 0) return print_item("", "error of the mesh not estimated");
   const auto [node, step] = peak(set.von_mises);
   const double error = set.mesh_error(node, step),
                share = error / std::max(set.von_mises(node, step), 1e-300);
   print_item("", "estimated error of the mesh " + with_unit(1e-6 * error, "MPa") + ", " + percent(share));
+  if (set.error.size() > 0) {
+    const double both = error + set.peak_error[step];
+    print_item("", "of both together " + with_unit(1e-6 * both, "MPa") + ", " +
+                       percent(both / std::max(set.von_mises(node, step), 1e-300)));
+  }
   if (share > kTrustedMesh)
     print_item("warning",
                set.body + " " + set.set +
-                   ": too coarse a mesh for this stress; take a finer one there, hexahedra of second order "
-                   "(-element_order 2), or reduce with -stress_recovery surface");
+                   ": too coarse a mesh for this stress; take a finer one there or hexahedra of second order "
+                   "(-element_order 2)");
 }
 
 std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const Eigen::VectorXd& time) {

@@ -139,7 +139,9 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
     if (body.file.empty()) continue;  // rigid, without a mesh
     const double before = share(run.bodies, recovered), each = 1.0 / static_cast<double>(run.bodies.size());
     const io::BodySource source = io::read_body_source(body.file);
-    const model::Surface surface = read_elastic_body(body).surface;
+    const model::ElasticBody elastic = read_elastic_body(body);
+    const model::Surface& surface = elastic.surface;
+    const bool tells_mesh = settings.error_estimate && tells_mesh_error(recovered, elastic);
     const recovery::BodyContact contact = recovery::read_body_contact(run.result, body.name, surface);
     const std::string base = settings.fields + "_" + body.name;
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -147,6 +149,7 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
       const std::string path = field_path(base, i, steps.size());
       recovery::FieldState state = recovered_state(recovered, steps[i], settings.error_estimate);
       state.more = contact_fields(contact, steps[i], state.R_WB, surface, source.mesh.X.cols());
+      if (tells_mesh) state.touched = surface.node;
       write_field(path, body.file, source, state, finite_elements());
       series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string(),
                         static_cast<int>(&recovered - run.bodies.data()), body.name});

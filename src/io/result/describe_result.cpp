@@ -52,6 +52,14 @@ void describe_error(Out& out, const StressSet& set, double peak, Eigen::Index st
        set.error.maxCoeff(), " Pa at one node");
 }
 
+// The same of the mesh, see docs/theory.md, section 1.7.
+void describe_mesh_error(Out& out, const StressSet& set, Eigen::Index node, Eigen::Index step) {
+  if (set.mesh_error.size() == 0) return line(out, "  estimated error of the mesh: none in the file");
+  const double error = set.mesh_error(node, step), peak = set.von_mises(node, step);
+  line(out, "  estimated error of the mesh: ", error, " Pa of the peak (", peak > 0 ? 100 * error / peak : 0,
+       " %), at most ", set.mesh_error.maxCoeff(), " Pa at one node");
+}
+
 void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& time) {
   require(time.size() > 0, path, ": holds no times");
   line(out, "times: ", time.size(), " from ", time[0], " to ", time[time.size() - 1], " s");
@@ -107,6 +115,7 @@ void describe_stress(Out& out, const std::string& path) {
     const double peak = set.von_mises.maxCoeff(&node, &step);
     line(out, "  peak von Mises: ", peak, " Pa at node ", set.node[node], ", t = ", history.time[step], " s");
     describe_error(out, set, peak, step);
+    describe_mesh_error(out, set, node, step);
     const double tension = set.rankine.maxCoeff(&node, &step);
     line(out, "  peak Rankine: ", tension, " Pa at node ", set.node[node], ", t = ", history.time[step],
          " s");
