@@ -3,15 +3,16 @@
 //
 //   drive_roots worm|wheel MESH ... [deck FILE]
 //
-// MESH is a size of elastogear mesh, times a factor of all counts (x) and one of the rows of fillets and, of
-// the wheel, the columns of spaces (f), with the order of the hexahedra: tiny, smallx2, smallf3:2. The load
-// is 1 kN along the normals of a flank, spread smoothly over its whole height and 12 mm of its length, which
-// the coarsest mesh resolves. The worm is held at its seats; of the wheel five teeth on their part of the
-// disc are taken, held at the bore and where they are cut. Printed are the largest von Mises and first
-// principal stress (MPa) at all nodes of the root that are not on a flank, and the largest and the root mean
-// square error of the stress tensor there as shares of the largest von Mises stress, beside what is recovered
-// on the last mesh, interpolated at the nodes. deck: the last mesh with its load as a deck for CalculiX is
-// written to FILE, with the largest stresses of the same nodes on its first line.
+// MESH is a size of elastogear mesh, times a factor of all counts (x), with counts and growths of its own
+// and, behind a colon, the order of the hexahedra: tiny, smallx2, small,fillet=3,growth=2:2. thread is the
+// length of the worm's thread in mm. The load is 1 kN along the normals of a flank, spread smoothly over its
+// whole height and 12 mm of its length, which the coarsest mesh resolves. The worm is held at its seats; of
+// the wheel five teeth on their part of the disc are taken, held at the bore and where they are cut. Printed
+// are the largest von Mises and first principal stress (MPa) at all nodes of the root that are not on a
+// flank, and the largest and the root mean square error of the stress tensor there as shares of the largest
+// von Mises stress, beside what is recovered on the last mesh, interpolated at the nodes. deck: the last mesh
+// with its load as a deck for CalculiX is written to FILE, with the largest stresses of the same nodes on its
+// first line.
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -19,8 +20,10 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <map>
 #include <numeric>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -37,53 +40,80 @@ using namespace elastogear;
 using namespace root_stress;
 using Eigen::Vector3d;
 
+constexpr const char* kThread = "thread";
 constexpr double kHalfLength = 6e-3;  // m, of the load along the flank
 constexpr double kRoot = 10e-3;       // m, from its middle to the ends of the worm's root that is looked at
 
-// SIZE[xTIMES][fFILLET][:ORDER]
+// SIZE[xTIMES][,COUNT=N ...][:ORDER]
 struct MeshChoice {
   gear::Size size;
-  int times = 1, fillet = 1, order = 1;
+  int times = 1, order = 1;
+  std::map<std::string, double> counts;
 };
 
-// The number behind a letter; 1 without it.
-int number_behind(const std::string& word, char letter) {
-  const auto at = word.find(letter);
-  return at == std::string::npos ? 1 : std::stoi(word.substr(at + 1));
-}
-
-// The sizes have neither x nor f in their names.
 MeshChoice mesh_choice(const std::string& word) {
-  return {gear::size(word.substr(0, word.find_first_of("xf:"))), number_behind(word, 'x'),
-          number_behind(word, 'f'), number_behind(word, ':')};
+  std::istringstream body(word.substr(0, word.find(':')));
+  std::string part;
+  std::getline(body, part, ',');
+  const auto x = part.find('x');
+  MeshChoice choice{gear::size(part.substr(0, x)),
+                    x == std::string::npos ? 1 : std::stoi(part.substr(x + 1)),
+                    word.find(':') == std::string::npos ? 1 : std::stoi(word.substr(word.find(':') + 1)),
+                    {}};
+  while (std::getline(body, part, ',')) {
+    const auto at = part.find('=');
+    choice.counts[part.substr(0, at)] = std::stod(part.substr(at + 1));
+  }
+  return choice;
 }
 
-gear::WormCounts worm_counts(const MeshChoice& choice) {
-  gear::WormCounts n = gear::worm_counts(choice.size);
-  for (int* count : {&n.tooth, &n.space, &n.flank, &n.fillet, &n.ring, &n.turn, &n.shaft})
-    *count *= choice.times;
-  n.fillet *= choice.fillet;
-  n.order = choice.order;
-  return n;
-}
+template <class Counts, class Value>
+using Members = std::map<std::string, Value Counts::*>;
 
-gear::WheelCounts wheel_counts(const MeshChoice& choice) {
-  gear::WheelCounts n = gear::wheel_counts(choice.size);
-  for (int* count : {&n.tooth, &n.space, &n.flank, &n.fillet, &n.rim, &n.ring, &n.web, &n.hub, &n.web_layers,
-                     &n.face_layers, &n.hub_layers})
-    *count *= choice.times;
-  n.fillet *= choice.fillet;
-  n.space *= choice.fillet;
+const Members<gear::WormCounts, int> kWormCounts = {
+    {"tooth", &gear::WormCounts::tooth}, {"space", &gear::WormCounts::space},
+    {"flank", &gear::WormCounts::flank}, {"fillet", &gear::WormCounts::fillet},
+    {"ring", &gear::WormCounts::ring},   {"turn", &gear::WormCounts::turn},
+    {"shaft", &gear::WormCounts::shaft}};
+const Members<gear::WheelCounts, int> kWheelCounts = {{"tooth", &gear::WheelCounts::tooth},
+                                                      {"space", &gear::WheelCounts::space},
+                                                      {"flank", &gear::WheelCounts::flank},
+                                                      {"fillet", &gear::WheelCounts::fillet},
+                                                      {"rim", &gear::WheelCounts::rim},
+                                                      {"ring", &gear::WheelCounts::ring},
+                                                      {"web", &gear::WheelCounts::web},
+                                                      {"hub", &gear::WheelCounts::hub},
+                                                      {"web_layers", &gear::WheelCounts::web_layers},
+                                                      {"face_layers", &gear::WheelCounts::face_layers},
+                                                      {"hub_layers", &gear::WheelCounts::hub_layers}};
+
+template <class Counts>
+Counts counts_of(const MeshChoice& choice, Counts n, const Members<Counts, int>& members) {
+  for (const auto& [name, count] : members) n.*count *= choice.times;
+  for (const auto& [name, value] : choice.counts) {
+    if (name == "growth")
+      n.growth = value;
+    else if (name == "tooth_growth")
+      n.tooth_growth = value;
+    else if (name != kThread)
+      n.*members.at(name) = static_cast<int>(value);
+  }
   n.order = choice.order;
   return n;
 }
 
 // The load's middle is at z = 0; on the worm its length counts around the axis.
 Case case_of(const std::string& body, const MeshChoice& choice) {
-  const gear::Design design;
+  gear::Design design;
+  if (const auto thread = choice.counts.find(kThread); thread != choice.counts.end())
+    design.thread_length = 1e-3 * thread->second;
   const gear::Geometry geometry = gear::derive(design);
   const bool worm = body == "worm";
-  Case c{worm ? gear::worm_mesh(design, worm_counts(choice)) : gear::wheel_mesh(design, wheel_counts(choice)),
+  Case c{worm ? gear::worm_mesh(
+                    design,
+                    counts_of(choice, gear::worm_counts(choice.size, design.z1, choice.order), kWormCounts))
+              : gear::wheel_mesh(
+                    design, counts_of(choice, gear::wheel_counts(choice.size, choice.order), kWheelCounts)),
          {worm ? "seats" : "bore"},
          worm ? "thread_1_left" : "tooth_01_left",
          {},
@@ -202,7 +232,7 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 2)
     return std::fprintf(stderr,
-                        "usage: drive_roots worm|wheel SIZE[xTIMES][fFILLET][:ORDER] ... [deck FILE]\n"),
+                        "usage: drive_roots worm|wheel SIZE[xTIMES][,COUNT=N ...][:ORDER] ... [deck FILE]\n"),
            2;
   try {
     run(words);

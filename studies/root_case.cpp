@@ -37,20 +37,58 @@ Rule rule() {
   return all;
 }
 
-// Adds the forces of one face, a triangle or a bilinear quadrilateral.
+constexpr double kCornerAt[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+
+// Columns: shape functions of a side's 4 corners, or of its 8 nodes, at (u, v), and their derivatives by u
+// and v.
+Eigen::MatrixX3d shape_functions(std::size_t nodes, double u, double v) {
+  Eigen::MatrixX3d N(nodes, 3);
+  for (int i = 0; i < 4; ++i) {
+    const double a = kCornerAt[i][0], b = kCornerAt[i][1], x = 1 + a * u, y = 1 + b * v;
+    if (nodes == 4) {
+      N.row(i) << x * y / 4, a * y / 4, b * x / 4;
+      continue;
+    }
+    const double z = x + y - 3;
+    N.row(i) << x * y * z / 4, a * y * (z + x) / 4, b * x * (z + y) / 4;
+    const bool along_u = i % 2 == 0;  // the midside node behind corner i
+    const double c = along_u ? b : a, w = along_u ? u : v, far = 1 + c * (along_u ? v : u);
+    const double by_w = -w * far, across = c * (1 - w * w) / 2;
+    N.row(4 + i) << (1 - w * w) * far / 2, along_u ? by_w : across, along_u ? across : by_w;
+  }
+  return N;
+}
+
+// Adds the forces of one side of a cell by its own shape functions. nodes: 4, of a triangle the third one
+// twice, or 8.
 template <class Add>
-void add_face(const Case& c, const mesh::Face& face, const Rule& points, const Add& add) {
-  const Eigen::Matrix<double, 3, 4> X = c.mesh.X(Eigen::all, face);
+void add_side(const Case& c, const std::vector<int>& nodes, const Rule& points, const Add& add) {
+  const Eigen::Matrix3Xd X = c.mesh.X(Eigen::all, nodes);
   for (std::size_t i = 0; i < points.at.size(); ++i)
     for (std::size_t j = 0; j < points.at.size(); ++j) {
-      const double u = points.at[i], v = points.at[j];
-      const Eigen::Vector4d N =
-          Eigen::Vector4d((1 - u) * (1 - v), (1 + u) * (1 - v), (1 + u) * (1 + v), (1 - u) * (1 + v)) / 4;
-      const Vector3d x_u = X * Eigen::Vector4d(v - 1, 1 - v, 1 + v, -1 - v) / 4,
-                     x_v = X * Eigen::Vector4d(u - 1, -1 - u, 1 + u, 1 - u) / 4;
-      const Vector3d f = -points.weight[i] * points.weight[j] * c.intensity(X * N) * x_u.cross(x_v);
-      for (int k = 0; k < 4; ++k) add(face[k], N[k] * f);
+      const Eigen::MatrixX3d N = shape_functions(nodes.size(), points.at[i], points.at[j]);
+      const Eigen::Matrix3d x = X * N;  // place and both tangents
+      const Vector3d f = -points.weight[i] * points.weight[j] * c.intensity(x.col(0)) *
+                         Vector3d(x.col(1)).cross(Vector3d(x.col(2)));
+      for (std::size_t k = 0; k < nodes.size(); ++k) add(nodes[k], N(static_cast<Eigen::Index>(k), 0) * f);
     }
+}
+
+// The sides of cells on a set of faces: those of 8 nodes whole, others as faces.
+std::vector<std::vector<int>> loaded_sides(const mesh::Mesh& mesh, const std::vector<mesh::Face>& faces) {
+  std::set<mesh::Face> keys;
+  for (const mesh::Face& face : faces) keys.insert(mesh::face_key(face));
+  std::vector<std::vector<int>> sides;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell)
+    for (const auto& side : mesh::cell_side_nodes(mesh.cells.type[cell], mesh.cells[cell])) {
+      const std::vector<mesh::Face> parts = mesh::side_faces(side);
+      if (!keys.contains(mesh::face_key(parts[0]))) continue;
+      if (side.size() == 8)
+        sides.push_back(side);
+      else
+        for (const mesh::Face& part : parts) sides.emplace_back(part.begin(), part.end());
+    }
+  return sides;
 }
 
 }  // namespace
@@ -88,8 +126,8 @@ std::vector<int> nodes_of(const mesh::Mesh& mesh, const std::string& face_set) {
 Eigen::Matrix3Xd nodal_forces(const Case& c, const std::vector<int>& node) {
   const Rule points = rule();
   Eigen::Matrix3Xd f = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(node.size()));
-  for (const mesh::Face& face : c.mesh.face_sets.at(c.flank))
-    add_face(c, face, points, [&](int n, const Vector3d& part) {
+  for (const auto& side : loaded_sides(c.mesh, c.mesh.face_sets.at(c.flank)))
+    add_side(c, side, points, [&](int n, const Vector3d& part) {
       f.col(std::lower_bound(node.begin(), node.end(), n) - node.begin()) += part;
     });
   return f * (c.load / f.rowwise().sum().norm());

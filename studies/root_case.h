@@ -31,8 +31,8 @@ double bump(double x, double middle, double half_width);
 /// Nodes of a face set, ascending.
 std::vector<int> nodes_of(const elastogear::mesh::Mesh& mesh, const std::string& face_set);
 
-/// 3 x n, N, at these nodes, ascending: pressure in proportion to the intensity on the faces of the loaded
-/// flank, with the resultant of the case.
+/// 3 x n, N, at these nodes, ascending: pressure in proportion to the intensity on the loaded flank, by the
+/// shape functions of the cells' sides, with the resultant of the case.
 Eigen::Matrix3Xd nodal_forces(const Case& c, const std::vector<int>& node);
 
 struct Largest {

@@ -31,6 +31,13 @@ void check_counts(const std::string& body, std::initializer_list<int> counts, do
           " are allowed");
 }
 
+void check_growth(const std::string& body, std::initializer_list<double> growth) {
+  constexpr double kMost = 10;
+  for (double g : growth)
+    require(g == 0 || (g >= 1 && g <= kMost), "the ", body, "'s cells grow by ", g,
+            ": must be 0 (nearly equal cells) or 1 to ", kMost);
+}
+
 void check_cells(const mesh::Mesh& mesh, const std::string& body) {
   const auto folded = mesh::first_inverted_cell(mesh);
   const mesh::Quality quality = mesh::quality(mesh);

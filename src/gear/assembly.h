@@ -19,6 +19,9 @@ void add_flank(mesh::Mesh& mesh, const mesh::Face& face, const std::string& toot
 /// Throws Error when a count is not within 1..1000, or when about `cells` cells are too many for one mesh.
 void check_counts(const std::string& body, std::initializer_list<int> counts, double cells);
 
+/// Throws Error for growths of cells other than 0 and from 1 to 10. body: the gear's name.
+void check_growth(const std::string& body, std::initializer_list<double> growth);
+
 /// Throws Error, naming the place, when a cell is folded or its scaled Jacobian is below 0.25: the design
 /// passes its checks, but not at these counts.
 void check_cells(const mesh::Mesh& mesh, const std::string& body);

@@ -48,6 +48,7 @@ void check(const std::string& name, const WheelCounts& n, int z) {
                {n.tooth, n.space, n.flank, n.fillet, n.rim, n.ring, n.web, n.hub, n.web_layers, n.face_layers,
                 n.hub_layers},
                z * layers * section);
+  check_growth(name, {n.growth, n.tooth_growth});
   require(n.tooth % 2 == 0, "the ", name, "'s count tooth = ", n.tooth, " must be even");
 }
 
@@ -85,6 +86,8 @@ std::vector<PlaneSection> sections(const std::function<Profile(double)>& profile
   ToothGridCounts counts{
       .tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.rim};
   counts.order = order;
+  counts.growth = n.growth;
+  counts.tooth_growth = n.tooth_growth;
   std::vector<PlaneSection> all;
   for (double at : z) {
     const Profile p = profile(at);

@@ -37,7 +37,13 @@ Points equally_spaced(const Curve& curve, int n) {
   return points;
 }
 
-double graded(double t) { return t * (1 + kGrading * (1 - t)); }
+// Position of line `line` of n, 0 to 1: each step is `growth` times the next; see graded_row.
+double graded(double line, int n, double growth) {
+  const double t = line / n;
+  if (growth == 0) return t * (1 + kGrading * (1 - t));
+  if (growth == 1) return t;
+  return (1 - std::pow(growth, -line)) / (1 - std::pow(growth, -n));
+}
 
 std::vector<double> uniform(int n) {
   std::vector<double> t;
@@ -71,10 +77,16 @@ Points sample(const Curve& curve, const std::vector<double>& parameters) {
   return points;
 }
 
-std::vector<double> graded_rows(int n, int order) {
+std::vector<double> graded_rows(int n, const ToothGridCounts& counts, double growth) {
   std::vector<double> t;
-  for (int i = 0; i <= n * order; ++i) t.push_back(graded_row(static_cast<double>(i) / order, n));
+  for (int i = 0; i <= n * counts.order; ++i)
+    t.push_back(graded_row(static_cast<double>(i) / counts.order, n, growth));
   return t;
+}
+
+// Columns across half a tooth get thinner towards the flank; without a growth they are equal.
+std::vector<double> tooth_columns(const ToothGridCounts& n) {
+  return graded_rows(n.tooth / 2, n, n.tooth_growth == 0 ? 1 : n.tooth_growth);
 }
 
 // The middle of the fillet, where the blocks meet, and the directions of the two inner edges that leave it.
@@ -88,12 +100,12 @@ Junction junction(const Profile& p) {
 }
 
 // Parabola from the tooth's axis, where it is level, to the junction.
-Points tooth_bottom(const Junction& j, int n) {
+Points tooth_bottom(const Junction& j, const std::vector<double>& columns) {
   const double drop = j.x[0] * j.to_axis[1] / std::abs(j.to_axis[0]) / 2;
   const Vector2d axis(0, j.x[1] + drop), control(j.x[0] / 2, axis[1]);
   return sample(
       [&](double t) { return Vector2d((1 - t) * (1 - t) * axis + 2 * t * (1 - t) * control + t * t * j.x); },
-      uniform(n));
+      columns);
 }
 
 // Hermite curve from the inner end, which it leaves at right angles, to the junction.
@@ -166,12 +178,8 @@ Points tooth_side(const Profile& p, const ToothGridCounts& n) {
 }
 
 Points tooth_block(const Profile& p, const ToothGridCounts& n, const Points& bottom) {
-  Block block{.bottom = bottom,
-              .top = {},
-              .left = {},
-              .right = tooth_side(p, n),
-              .s = uniform(n.order * (n.tooth / 2)),
-              .t = {0}};
+  Block block{
+      .bottom = bottom, .top = {}, .left = {}, .right = tooth_side(p, n), .s = tooth_columns(n), .t = {0}};
   const double tip = p.half_width(p.r_a);
   block.top = sample([&](double s) { return p.point(s * tip, p.r_a); }, block.s);
   for (std::size_t j = 1; j < block.right.size(); ++j)
@@ -189,9 +197,9 @@ Points line(const Vector2d& from, const Vector2d& to, const std::vector<double>&
 
 }  // namespace
 
-double graded_row(double row, int n) {
+double graded_row(double row, int n, double growth) {
   const double below = std::floor(row);
-  return std::lerp(graded(below / n), graded((below + 1) / n), row - below);
+  return std::lerp(graded(below, n, growth), graded(below + 1, n, growth), row - below);
 }
 
 Eigen::Vector2d ToothGrid::strip_point(int q, int row) const {
@@ -209,14 +217,14 @@ Eigen::Vector2d ToothGrid::tooth_point(int q, int row) const {
 ToothGrid tooth_grid(const Profile& p, const ToothGridCounts& n) {
   const int half_tooth = n.order * (n.tooth / 2), space = n.order * n.space, half_pitch = half_tooth + space;
   const double divider = p.half_pitch * half_tooth / half_pitch;
-  const std::vector<double> rows = graded_rows(n.ring, n.order);
+  const std::vector<double> rows = graded_rows(n.ring, n, n.growth), columns = tooth_columns(n);
   const Junction j = junction(p);
-  const Points bottom = tooth_bottom(j, half_tooth), split = strip_divider(p, j, divider, rows);
+  const Points bottom = tooth_bottom(j, columns), split = strip_divider(p, j, divider, rows);
   const Points below = interpolate({.bottom = inner_end(p, 0, divider, half_tooth),
                                     .top = bottom,
                                     .left = line(p.point(0, p.r_inner), bottom.front(), rows),
                                     .right = split,
-                                    .s = uniform(half_tooth),
+                                    .s = columns,
                                     .t = rows});
   const Points beside =
       interpolate({.bottom = inner_end(p, divider, p.half_pitch, space),

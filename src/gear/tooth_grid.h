@@ -11,8 +11,11 @@ namespace elastogear::gear {
 
 struct ToothGridCounts {
   int tooth, space, flank, fillet, ring;
-  int land = 0;   ///< columns of half a space beside the fillet; 0: its share of the length
-  int order = 1;  ///< 2: with a point between any two, where a second-order mesh has its midside nodes
+  int land = 0;       ///< columns of half a space beside the fillet; 0: its share of the length
+  int order = 1;      ///< 2: with a point between any two, where a second-order mesh has its midside nodes
+  double growth = 0;  ///< of the strip's rows, see graded_row
+  double tooth_growth =
+      0;  ///< the same of the columns across half a tooth, towards its middle; 0: equal ones
 };
 
 /// Grid of one tooth and the two half spaces beside it, symmetric about the tooth's axis. All counts are
@@ -35,7 +38,8 @@ struct ToothGrid {
 ToothGrid tooth_grid(const Profile& profile, const ToothGridCounts& counts);
 
 /// Rows of the strip get thinner towards the root: position of row `row` of n as a part of the strip, 0 at
-/// the inner end. A row between two stands in their middle.
-double graded_row(double row, int n);
+/// the inner end. Each row is `growth` times as thick as the next one outwards; 0: linearly thinner, the last
+/// 0.4 times thinner than the mean of many. A row between two stands in their middle.
+double graded_row(double row, int n, double growth);
 
 }  // namespace elastogear::gear

@@ -5,11 +5,15 @@
 
 #include "elastogear/base/error.h"
 #include "gear/gear_mesh.h"
+#include "gear/second_order.h"
 #include "gear/worm/hobbed_wheel.h"
 #include "gear/worm/profiles.h"
 
 namespace elastogear::gear {
-WheelCounts wheel_counts(Size size) {
+namespace {
+
+// Of cells of 8 nodes.
+WheelCounts equal_counts(Size size) {
   switch (size) {
     case Size::tiny:
       return {};
@@ -51,6 +55,43 @@ WheelCounts wheel_counts(Size size) {
               .hub_layers = 3};
   }
   fail("unknown mesh size ", static_cast<int>(size));
+}
+
+// Of cells of 20 nodes. Below the fillet they are as deep as they are long, and grow inwards from there.
+WheelCounts graded_counts(Size size) {
+  WheelCounts n{.tooth = 4,
+                .space = 2,
+                .flank = 3,
+                .fillet = 2,
+                .rim = 3,
+                .web = 2,
+                .web_layers = 4,
+                .face_layers = 2,
+                .order = 2,
+                .growth = 3,
+                .tooth_growth = 4};
+  if (size == Size::tiny) {
+    n.space = n.web = n.face_layers = 1;
+    n.flank = n.rim = n.web_layers = 2;
+    n.growth = 4;
+  }
+  if (size >= Size::medium) {
+    n.tooth = 6;
+    n.rim = 4;
+    n.tooth_growth = 3;
+  }
+  if (size == Size::paper) {
+    n.space = n.fillet = n.face_layers = 3;
+    n.web_layers = 6;
+  }
+  return n;
+}
+
+}  // namespace
+
+WheelCounts wheel_counts(Size size, int order) {
+  check_order("wheel", order);
+  return order == 2 ? graded_counts(size) : equal_counts(size);
 }
 
 namespace {

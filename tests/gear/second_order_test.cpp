@@ -14,15 +14,11 @@ namespace elastogear::gear::second_order_test {
 namespace {
 
 mesh::Mesh quadratic_worm(const Design& d, Size size = Size::tiny) {
-  WormCounts n = worm_counts(size, d.z1);
-  n.order = 2;
-  return worm_mesh(d, n);
+  return worm_mesh(d, worm_counts(size, d.z1, 2));
 }
 
 mesh::Mesh quadratic_wheel(const Design& d, Size size = Size::tiny) {
-  WheelCounts n = wheel_counts(size);
-  n.order = 2;
-  return wheel_mesh(d, n);
+  return wheel_mesh(d, wheel_counts(size, 2));
 }
 
 // The Euler characteristic that is asked of the boundary counts the pieces that the sides are cut into.
@@ -43,6 +39,42 @@ TEST(SecondOrderMesh, is_conforming_with_good_cells_and_nodes_on_the_flanks) {
   expect_flank(worm, "thread_1_right", g.worm, 0, -1);
   expect_flank(wheel, "tooth_41_left", g.wheel, 40, 1);
   expect_flank(wheel, "tooth_01_right", g.wheel, 0, -1);
+}
+
+// The sizes and numbers of nodes of docs/validation.md, section 36; the paper's meshes have 90,082 and
+// 468,587.
+TEST(SecondOrderMesh, of_larger_sizes_has_good_cells_and_at_most_the_papers_nodes) {
+  for (Size size : {Size::small, Size::medium, Size::paper}) {
+    const mesh::Mesh worm = quadratic_worm({}, size), wheel = quadratic_wheel({}, size);
+    expect_good_cells(worm);
+    expect_good_cells(wheel);
+    EXPECT_LE(worm.n_nodes(), size == Size::paper ? 116466 : 90082);
+    EXPECT_LE(wheel.n_nodes(), 468587);
+  }
+}
+
+TEST(SecondOrderMesh, has_rows_that_grow_from_the_root_inwards) {
+  WheelCounts n = wheel_counts(Size::tiny, 2);
+  n.growth = 3;
+  const Design d;
+  const mesh::Mesh mesh = wheel_mesh(d, n);
+  const double r_f = derive(d).wheel.r_f, rim = d.rim_diameter / 2;
+  const Toothing t = derive(d).wheel;
+  double above_rim = r_f;  // radius of the first node above the rim, in the middle of a space
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    const Eigen::Vector3d x = mesh.X.col(node);
+    const double r = x.head<2>().norm(), pitch = 2 * std::numbers::pi / t.z;
+    const double beside = std::remainder(std::atan2(x[1], x[0]) - t.theta_1 - pitch / 2, pitch);
+    if (r > rim + 1e-6 && std::abs(x[2]) < 1e-9 && std::abs(beside) < 1e-6)
+      above_rim = std::min(above_rim, r);
+  }
+  // The midside node of the inner of two rows, three times as thick as the outer one.
+  EXPECT_NEAR(above_rim, rim + 0.75 * (r_f - rim) / 2, 1e-6 * (r_f - rim));
+  n.growth = 0.5;
+  EXPECT_THROW(wheel_mesh(d, n), Error);
+  n.growth = 3;
+  n.tooth_growth = 11;
+  EXPECT_THROW(wheel_mesh(d, n), Error);
 }
 
 TEST(SecondOrderMesh, of_other_drives_is_as_good) {
@@ -72,9 +104,7 @@ TEST(SecondOrderMesh, of_other_drives_is_as_good) {
   pair.pairs = {{.first = 0, .second = 1}};
   const CylindricalGeometry g = derive(pair);
   for (int i : {0, 1}) {
-    WheelCounts n = cylindrical_counts(pair, g, i, Size::tiny);
-    n.order = 2;
-    const mesh::Mesh mesh = cylindrical_mesh(pair, g, i, n);
+    const mesh::Mesh mesh = cylindrical_mesh(pair, g, i, cylindrical_counts(pair, g, i, Size::tiny, 2));
     expect_good_mesh(mesh);
     expect_flank(mesh, "tooth_01_left", g.gear[i], 0, 1);
   }
@@ -122,7 +152,8 @@ TEST(SecondOrderMesh, has_its_root_nodes_on_the_fillets) {
 
 // A set holds the midside nodes of its edges: the set of one root has two strips of them along the face.
 TEST(SecondOrderMesh, has_its_midside_nodes_in_the_sets) {
-  WheelCounts n = wheel_counts(Size::small);
+  WheelCounts n = wheel_counts(Size::small, 2);
+  n.order = 1;
   const mesh::Mesh linear = wheel_mesh({}, n), mesh = quadratic_wheel({}, Size::small);
   const int layers = n.web_layers + 2 * n.face_layers;
   const int strips = 2 * (n.fillet + 1);  // edges from plane to plane, up the fillets and on their other half

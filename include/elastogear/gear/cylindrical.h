@@ -110,9 +110,9 @@ CylindricalGeometry derive(const CylindricalDrive& drive);
 std::vector<double> angles(const CylindricalDrive& drive, const CylindricalGeometry& geometry, double roll,
                            bool drive_side = true);
 
-/// Element counts of gear i for a size, by its width and its body.
+/// Element counts of gear i for a size and cells of an order, by its width and its body.
 WheelCounts cylindrical_counts(const CylindricalDrive& drive, const CylindricalGeometry& geometry, int i,
-                               Size size);
+                               Size size, int order = 1);
 
 /// Mesh of gear i; sets and numbering as those of wheel_mesh.
 mesh::Mesh cylindrical_mesh(const CylindricalDrive& drive, const CylindricalGeometry& geometry, int i,

@@ -10,21 +10,24 @@ namespace elastogear::gear {
 
 /// Element counts of one sector of the wheel.
 struct WheelCounts {
-  int tooth = 2;        ///< columns across the tooth, even
-  int space = 1;        ///< columns across half a space
-  int flank = 2;        ///< rows up the flank
-  int fillet = 1;       ///< rows up the tooth's half of the fillet
-  int rim = 1;          ///< rows from the rim radius to the root
-  int ring = 1;         ///< rows across the ring
-  int web = 1;          ///< rows across the web
-  int hub = 1;          ///< rows across the hub
-  int web_layers = 2;   ///< axial layers across the web's width, or the face where there is no web
-  int face_layers = 1;  ///< axial layers of the face on each side of the web
-  int hub_layers = 1;   ///< axial layers of the hub on each side beyond the face
-  int order = 1;        ///< of the cells: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact surface)
+  int tooth = 2;            ///< columns across the tooth, even
+  int space = 1;            ///< columns across half a space
+  int flank = 2;            ///< rows up the flank
+  int fillet = 1;           ///< rows up the tooth's half of the fillet
+  int rim = 1;              ///< rows from the rim radius to the root
+  int ring = 1;             ///< rows across the ring
+  int web = 1;              ///< rows across the web
+  int hub = 1;              ///< rows across the hub
+  int web_layers = 2;       ///< axial layers across the web's width, or the face where there is no web
+  int face_layers = 1;      ///< axial layers of the face on each side of the web
+  int hub_layers = 1;       ///< axial layers of the hub on each side beyond the face
+  int order = 1;            ///< of the cells: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact surface)
+  double growth = 0;        ///< of rows from the root inwards, each to the one before; 0: nearly equal rows
+  double tooth_growth = 0;  ///< of columns from the flank to the middle of the tooth; 0: equal ones
 };
 
-WheelCounts wheel_counts(Size size);
+/// Counts of a size for cells of an order: those of 20 nodes are graded towards the fillets.
+WheelCounts wheel_counts(Size size, int order = 1);
 
 /// Mesh in the wheel frame. Face sets left, right, flanks, `tooth_<ii>_left`, `tooth_<ii>_right`; node sets
 /// bore, root, `root_<ii>` (nodes of the fillet surface); cell sets body and rim (from the rim radius on),

@@ -15,18 +15,21 @@ namespace elastogear::gear {
 
 /// Element counts of the worm.
 struct WormCounts {
-  int tooth = 2;   ///< columns across the tooth, even
-  int space = 1;   ///< columns across half a space
-  int flank = 2;   ///< rows up the flank
-  int fillet = 1;  ///< rows up the tooth's half of the fillet
-  int ring = 2;    ///< rows from the bore to the root
-  int turn = 24;   ///< sections per turn: a multiple of z1 (2 space + tooth), at least twice
-  int shaft = 10;  ///< layers of each plain shaft end (each cone and seat gets at least one)
-  int order = 1;   ///< of the cells: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact surface)
+  int tooth = 2;            ///< columns across the tooth, even
+  int space = 1;            ///< columns across half a space
+  int flank = 2;            ///< rows up the flank
+  int fillet = 1;           ///< rows up the tooth's half of the fillet
+  int ring = 2;             ///< rows from the bore to the root
+  int turn = 24;            ///< sections per turn: a multiple of z1 (2 space + tooth), at least twice
+  int shaft = 10;           ///< layers of each plain shaft end (each cone and seat gets at least one)
+  int order = 1;            ///< of the cells: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact surface)
+  double growth = 0;        ///< of rows from the root inwards, each to the one before; 0: nearly equal rows
+  double tooth_growth = 0;  ///< of columns from the flank to the middle of the tooth; 0: equal ones
 };
 
-/// Counts of a size for a worm with z1 starts (sections per turn follow from it).
-WormCounts worm_counts(Size size, int z1 = Design{}.z1);
+/// Counts of a size for a worm with z1 starts (sections per turn follow from it) and cells of an order: those
+/// of 20 nodes are graded towards the fillets.
+WormCounts worm_counts(Size size, int z1 = Design{}.z1, int order = 1);
 
 /// Mesh in the worm frame. Face sets left, right, flanks, `thread_<i>_left`, `thread_<i>_right`; node sets
 /// seats, seat_1, seat_2, root, `root_<i>` (nodes of the fillet surface); cell set body. Threads are

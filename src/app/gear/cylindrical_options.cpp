@@ -265,9 +265,8 @@ Drive cylindrical_drive(const Options& options) {
                        .toothing = g.gear[i],
                        .mesh =
                            [=](gear::Size size, int order) {
-                             gear::WheelCounts counts = gear::cylindrical_counts(d, g, k, size);
-                             counts.order = order;
-                             return gear::cylindrical_mesh(d, g, k, counts);
+                             return gear::cylindrical_mesh(d, g, k,
+                                                           gear::cylindrical_counts(d, g, k, size, order));
                            },
                        .held = g.gear[i].internal ? "outer" : "bore"};
     member.position.head<2>() = g.axis[i];

@@ -22,13 +22,14 @@ struct DriveMember {
   std::string name;
   gear::Toothing toothing;
   std::function<mesh::Mesh(gear::Size, int order)> mesh;  ///< order: of the hexahedra, 1 or 2
-  std::string held;                                       ///< node set that carries the body frame
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();     ///< m, of the body frame's origin in the world
-  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< rad, rotation vector from body frame to world
-  double angle = 0;                                       ///< rad, about the axis, then
-  double ratio = 1;                                       ///< -, its speed over that of the first member
-  double width = 0;                                       ///< m, of its teeth, symmetric about z = 0
-  std::optional<gear::FlankDeviations> deviations = {};   ///< of its flanks; nothing: they are exact
+  bool is_worm = false;                                  ///< its stresses are those of a worm, not of a wheel
+  std::string held;                                      ///< node set that carries the body frame
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< m, of the body frame's origin in the world
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();    ///< rad, rotation vector from body frame to world
+  double angle = 0;                                      ///< rad, about the axis, then
+  double ratio = 1;                                      ///< -, its speed over that of the first member
+  double width = 0;                                      ///< m, of its teeth, symmetric about z = 0
+  std::optional<gear::FlankDeviations> deviations = {};  ///< of its flanks; nothing: they are exact
 };
 
 struct DrivePair {

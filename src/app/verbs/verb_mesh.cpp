@@ -1,5 +1,6 @@
 // elastogear mesh: gear data -> volume mesh.
 
+#include <algorithm>
 #include <numbers>
 
 #include "app/console/console.h"
@@ -7,6 +8,7 @@
 #include "app/gear/design_options.h"
 #include "app/gear/drawing.h"
 #include "app/gear/drive_options.h"
+#include "app/gear/mesh_accuracy.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
@@ -33,6 +35,11 @@ const Rows<WormCounts> kWormCounts = {
     {"worm_count_turn", &WormCounts::turn, "-", "worm: sections per turn, a multiple of z1 (2 space + tooth)",
      kDependent},
     {"worm_count_shaft", &WormCounts::shaft, "-", "worm: layers of each plain shaft end", kDependent},
+    {"worm_growth", &WormCounts::growth, "-",
+     "worm: how much thicker each row from the root inwards is than the one before, 1 to 10; 0: nearly equal",
+     kDependent},
+    {"worm_tooth_growth", &WormCounts::tooth_growth, "-",
+     "worm: the same of columns from the flanks to the middle of the tooth", kDependent},
 };
 const Rows<WheelCounts> kWheelCounts = {
     {"wheel_count_tooth", &WheelCounts::tooth, "-", "wheel: columns across the tooth, even", kDependent},
@@ -50,6 +57,12 @@ const Rows<WheelCounts> kWheelCounts = {
      "wheel: axial layers of the face beside the web", kDependent},
     {"wheel_count_hub_layers", &WheelCounts::hub_layers, "-",
      "wheel: axial layers of the hub beyond the face", kDependent},
+    {"wheel_growth", &WheelCounts::growth, "-",
+     "wheel: how much thicker each row from the root inwards is than the one before, 1 to 10; 0: nearly "
+     "equal",
+     kDependent},
+    {"wheel_tooth_growth", &WheelCounts::tooth_growth, "-",
+     "wheel: the same of columns from the flanks to the middle of the tooth", kDependent},
 };
 
 void print_toothing(const gear::Geometry& g, const gear::Toothing& t) {
@@ -72,7 +85,6 @@ void print_mesh(const mesh::Mesh& mesh) {
 template <class Counts>
 Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) {
   read_rows(options, rows, counts);
-  counts.order = element_order(options);
   return counts;
 }
 
@@ -98,6 +110,8 @@ void mesh_drive(const Options& options) {
     meshes.push_back(drive.members[i].mesh(size, element_order(options)));
     print_item("mesh of " + drive.members[i].name, "");
     print_mesh(meshes.back());
+    print_item("stress on such meshes",
+               root_accuracy(drive.members[i].is_worm, size, element_order(options)));
     mesh::write_mesh(paths[i], meshes.back());
     print_item("written", paths[i]);
   }
@@ -118,11 +132,15 @@ void run_mesh(const Options& given, const std::vector<std::string>&) {
   read_rows(options, design_rows(), d);
   const gear::Size size = gear::size(options.text("size"));
   const gear::Geometry geometry = gear::derive(d);
-  const mesh::Mesh mesh = worm
-                              ? gear::worm_mesh(d, refined(gear::worm_counts(size), kWormCounts, options))
-                              : gear::wheel_mesh(d, refined(gear::wheel_counts(size), kWheelCounts, options));
+  const int order = element_order(options);
+  const mesh::Mesh mesh =
+      worm ? gear::worm_mesh(d, refined(gear::worm_counts(size, d.z1, order), kWormCounts, options))
+           : gear::wheel_mesh(d, refined(gear::wheel_counts(size, order), kWheelCounts, options));
   print_toothing(geometry, worm ? geometry.worm : geometry.wheel);
   print_mesh(mesh);
+  const OptionTable counts = table_of(kWormCounts, kWheelCounts);
+  if (std::none_of(counts.begin(), counts.end(), [&](const auto& spec) { return options.given(spec.name); }))
+    print_item("stress on such meshes", root_accuracy(worm, size, order));
   mesh::write_mesh(path, mesh);
   print_item("written", path);
 }

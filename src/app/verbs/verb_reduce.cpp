@@ -15,6 +15,7 @@
 #include "app/console/plausibility.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
+#include "app/gear/mesh_accuracy.h"
 #include "app/options/rows.h"
 #include "app/tables/material_options.h"
 #include "app/tables/reduce_options.h"
@@ -239,6 +240,7 @@ void reduce_drive(const Options& options) {
   print_drive(drive);
   for (const DriveMember& member : drive.members) {
     print_item("body " + member.name, "");
+    print_item("stress on such meshes", root_accuracy(member.is_worm, size, element_order(options)));
     reduce_body(member_options(options, member), [&] {
       Nodes nodes{.mesh = member.mesh(size, element_order(options)), .report = {}};
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));

@@ -24,9 +24,10 @@ Profile tooth_profile(const CylindricalDrive& d, const CylindricalGeometry& g, i
                             : generated_profile(generating_rack(d, g, i), g.gear[i], r_inner);
 }
 
-WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeometry& g, int i, Size size) {
+WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeometry& g, int i, Size size,
+                               int order) {
   constexpr double kWidth = 8;  // modules, which the layers of a size are for
-  WheelCounts n = wheel_counts(size);
+  WheelCounts n = wheel_counts(size, order);
   const Blank& b = g.blank[i];
   const double total = (n.web_layers + 2 * n.face_layers) * b.face_width / (kWidth * d.m_n);
   const int layers = std::max(2, static_cast<int>(std::lround(total)));

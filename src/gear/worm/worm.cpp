@@ -156,10 +156,8 @@ void add_seat_sets(Builder& b) {
     }
 }
 
-}  // namespace
-
-WormCounts worm_counts(Size size, int z1) {
-  require(z1 >= 1, "z1 = ", z1, ": the worm needs at least 1 start");
+// Of cells of 8 nodes, for two starts.
+WormCounts equal_counts(Size size) {
   WormCounts n;
   if (size == Size::small)
     n = {.tooth = 4, .space = 3, .flank = 7, .fillet = 2, .ring = 3, .turn = 40, .shaft = 18};
@@ -167,6 +165,33 @@ WormCounts worm_counts(Size size, int z1) {
     n = {.tooth = 6, .space = 3, .flank = 7, .fillet = 2, .ring = 3, .turn = 48, .shaft = 22};
   if (size == Size::paper)
     n = {.tooth = 8, .space = 4, .flank = 14, .fillet = 3, .ring = 5, .turn = 64, .shaft = 36};
+  return n;
+}
+
+// Of cells of 20 nodes. Below the fillet they are as deep as they are long, and grow inwards from there.
+WormCounts graded_counts(Size size) {
+  WormCounts n{.tooth = 4, .order = 2, .growth = 4, .tooth_growth = 4};
+  if (size >= Size::small) {
+    n.space = n.fillet = 2;
+    n.flank = n.ring = 3;
+    n.turn = 32;
+    n.growth = 3;
+  }
+  if (size >= Size::medium) {
+    n.tooth = 6;
+    n.turn = 40;
+    n.tooth_growth = 3;
+  }
+  if (size == Size::paper) n.flank = n.ring = 4;
+  return n;
+}
+
+}  // namespace
+
+WormCounts worm_counts(Size size, int z1, int order) {
+  require(z1 >= 1, "z1 = ", z1, ": the worm needs at least 1 start");
+  check_order("worm", order);
+  WormCounts n = order == 2 ? graded_counts(size) : equal_counts(size);
   const int columns = z1 * (2 * n.space + n.tooth);
   n.turn = columns * std::max(2L, std::lround(static_cast<double>(n.turn) / columns));
   return n;

@@ -26,13 +26,14 @@ void check(const WormCounts& n, const Design& d, double p_x) {
       (2.0 * n.space + n.tooth) * n.ring + static_cast<double>(n.tooth) * (n.fillet + n.flank);
   check_counts("worm", {n.tooth, n.space, n.flank, n.fillet, n.ring, n.shaft},
                n.turn * (section * (d.thread_length / p_x + 2) + 2.0 * n.shaft * n.ring));
+  check_growth("worm", {n.growth, n.tooth_growth});
   require(n.tooth % 2 == 0, "the worm's count tooth = ", n.tooth, " must be even");
   const int columns = d.z1 * (2 * n.space + n.tooth);
   require(n.turn >= 2 * columns && n.turn % columns == 0, "the worm's count turn = ", n.turn,
           " must be a multiple, at least twice, of z1 (2 space + tooth) = ", columns);
 }
 
-double row_fraction(const WormGrid& g, double row) { return graded_row(row, g.n.ring); }
+double row_fraction(const WormGrid& g, double row) { return graded_row(row, g.n.ring, g.n.growth); }
 
 double row_radius(const WormGrid& g, double row, double r_outer) {
   const double bore = g.design.worm_bore / 2;
@@ -184,6 +185,8 @@ WormGrid worm_grid(const Design& d, const WormCounts& n) {
   check(n, d, g.geometry.p_x);
   ToothGridCounts counts{
       .tooth = n.tooth, .space = n.space, .flank = n.flank, .fillet = n.fillet, .ring = n.ring};
+  counts.growth = n.growth;
+  counts.tooth_growth = n.tooth_growth;
   const Profile profile = worm_profile(d, g.geometry);
   g.tooth_grid = tooth_grid(profile, counts);
   counts.order = n.order;

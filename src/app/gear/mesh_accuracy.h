@@ -1,0 +1,14 @@
+#pragma once
+// How far stresses on a mesh of a size are from those of the continuum.
+
+#include <string>
+
+#include "elastogear/gear/size.h"
+
+namespace elastogear::app {
+
+/// The error of the largest von Mises stress at the root of the reference worm, or of its wheel, on the mesh
+/// of a size and order, as a line for the console (docs/validation.md, section 36).
+std::string root_accuracy(bool is_worm, gear::Size size, int order);
+
+}  // namespace elastogear::app
