@@ -19,7 +19,7 @@ std::vector<mesh::Face> add_hex(mesh::Mesh& mesh, const std::array<int, 8>& node
 }
 
 void add_flank(mesh::Mesh& mesh, const mesh::Face& face, const std::string& tooth, const std::string& side) {
-  for (const std::string& name : {std::string("flanks"), side, tooth + "_" + side})
+  for (const std::string& name : {std::string("flanks"), side, std::string(tooth).append("_").append(side)})
     mesh.face_sets[name].push_back(face);
 }
 

@@ -79,4 +79,11 @@ StressError reduction_error(const model::ElasticBody& body, const std::vector<in
   return error;
 }
 
+Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises) {
+  const Eigen::ArrayXd is_free = (difference.array() > 0).cast<double>();
+  const double of_stress = (is_free * von_mises.array()).matrix().squaredNorm(),
+               share = of_stress > 0 ? std::sqrt(difference.squaredNorm() / of_stress) : 0;
+  return difference.array() + (1 - is_free) * share * von_mises.array();
+}
+
 }  // namespace elastogear::recovery

@@ -47,4 +47,9 @@ struct StressError {
 StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);
 
+/// Estimated error of a whole field by the mesh at one time, Pa, at all nodes. difference: von Mises stress
+/// of Eq. (1.16), 0 where no free surface is, inside the body and on flanks; there the error is the share of
+/// the root mean squares of all other nodes in the von Mises stress.
+Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises);
+
 }  // namespace elastogear::recovery

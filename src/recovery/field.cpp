@@ -2,7 +2,6 @@
 
 #include "elastogear/recovery/stress.h"
 #include "recovery/error_estimate.h"
-#include "recovery/mesh_error.h"
 
 namespace elastogear::recovery {
 

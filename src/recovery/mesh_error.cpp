@@ -36,7 +36,7 @@ constexpr Eigen::Index kTimesInMemory = 64;  // output times whose tensors are i
 struct Parts {
   Eigen::MatrixXd difference;  // n x n_t, of the two recoveries of the modes' displacements
   Eigen::MatrixXd more;        // n x n_t, of what the set has beside the stress of the modes
-  Eigen::VectorXd share;       // n, eta of Eq. (1.17)
+  Eigen::VectorXd share;       // n, eta of Eq. (1.17), at most 1
 };
 
 Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, const io::StressSet& set,
@@ -69,7 +69,9 @@ Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, c
         von_mises(Eigen::MatrixXd(set.stress.middleCols(begin, count) - stress));
     square += von_mises(stress).rowwise().squaredNorm();
   }
-  parts.share = (parts.difference.rowwise().squaredNorm().array() / square.array().max(1e-300)).sqrt();
+  // Recovered stresses vanish at corners of three free surfaces.
+  const Eigen::ArrayXd off = parts.difference.rowwise().squaredNorm();
+  parts.share = (off / square.array().max(off).max(1e-300)).sqrt();
   return parts;
 }
 
@@ -101,13 +103,6 @@ Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& 
       error.row(i) = parts.share[j] * set.von_mises.row(i);
   }
   return error;
-}
-
-Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises) {
-  const Eigen::ArrayXd is_free = (difference.array() > 0).cast<double>();
-  const double of_stress = (is_free * von_mises.array()).matrix().squaredNorm(),
-               share = of_stress > 0 ? std::sqrt(difference.squaredNorm() / of_stress) : 0;
-  return difference.array() + (1 - is_free) * share * von_mises.array();
 }
 
 }  // namespace elastogear::recovery

@@ -15,9 +15,4 @@ namespace elastogear::recovery {
 Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic,
                            const io::StressSet& set);
 
-/// The same of a whole field at one time, Pa, at all nodes. difference: von Mises stress of Eq. (1.16), 0
-/// where no free surface is, inside the body and on flanks; there the error is the share of the root mean
-/// squares of all other nodes in the von Mises stress.
-Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises);
-
 }  // namespace elastogear::recovery

@@ -1,5 +1,7 @@
 // What must hold for worm and wheel at every size.
 #include <functional>
+#include <numbers>
+#include <random>
 
 #include "elastogear/base/error.h"
 #include "elastogear/gear/wheel.h"

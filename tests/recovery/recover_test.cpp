@@ -19,7 +19,7 @@
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
-#include "recovery/mesh_error.h"
+#include "recovery/error_estimate.h"
 
 namespace elastogear::recovery::recover_test {
 namespace {
@@ -138,6 +138,7 @@ TEST_F(Recover, estimates_the_error_of_the_mesh_by_the_difference_of_two_recover
   const io::BodySource source = io::read_body_source(file);
   const Eigen::VectorXd u = io::read_displacement_field(file, at_rest(full)).reshaped();
   fem::StressedBody body = reduction::stressed_body(source);
+  body.recovery.method = model::RecoveryMethod::average;
   const Eigen::MatrixXd mean = fem::nodal_stress(body, u);
   body.recovery = {model::RecoveryMethod::surface, full.surface.node};
   const Eigen::MatrixXd difference = fem::nodal_stress(body, u) - mean;

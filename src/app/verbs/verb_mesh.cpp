@@ -4,11 +4,11 @@
 #include <numbers>
 
 #include "app/console/console.h"
+#include "app/console/mesh_accuracy.h"
 #include "app/console/outputs.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drawing.h"
 #include "app/gear/drive_options.h"
-#include "app/gear/mesh_accuracy.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"

@@ -11,11 +11,11 @@
 
 #include "app/console/blas_advice.h"
 #include "app/console/console.h"
+#include "app/console/mesh_accuracy.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
-#include "app/gear/mesh_accuracy.h"
 #include "app/options/rows.h"
 #include "app/tables/material_options.h"
 #include "app/tables/reduce_options.h"

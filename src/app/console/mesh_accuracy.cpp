@@ -1,4 +1,4 @@
-#include "app/gear/mesh_accuracy.h"
+#include "app/console/mesh_accuracy.h"
 
 namespace elastogear::app {
 namespace {
