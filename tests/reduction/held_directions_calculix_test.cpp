@@ -47,6 +47,7 @@ TEST_F(InCalculix, the_static_answers_to_contact_forces_are_the_same) {
   o.flexibility = true;
   o.surface = {"ymax"};
   o.stress_nodes = {"zmax"};
+  o.stress_recovery = reduction::RecoveryChoice::average;  // as CalculiX does
   reduction::reduce(MPI_COMM_SELF, mesh, o, path_);
   const model::ElasticBody body = io::read_body(path_);
   const int at = static_cast<int>(body.surface.node.size() / 2);
