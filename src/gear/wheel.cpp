@@ -12,7 +12,7 @@
 namespace elastogear::gear {
 namespace {
 
-// Of cells of 8 nodes.
+// Counts of a mesh of 8-node hexahedra.
 WheelCounts equal_counts(Size size) {
   switch (size) {
     case Size::tiny:
@@ -57,7 +57,7 @@ WheelCounts equal_counts(Size size) {
   fail("unknown mesh size ", static_cast<int>(size));
 }
 
-// Of cells of 20 nodes. Below the fillet they are as deep as they are long, and grow inwards from there.
+// Counts of a mesh of 20-node hexahedra, which below the fillet are as deep as they are long and grow inwards.
 WheelCounts graded_counts(Size size) {
   WheelCounts n{.tooth = 4,
                 .space = 2,

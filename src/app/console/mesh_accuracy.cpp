@@ -3,7 +3,8 @@
 namespace elastogear::app {
 namespace {
 
-// Of orders 1 and 2 and the sizes tiny, small, medium and paper, with stresses recovered on the free surface.
+// Error of the largest stress at a root, recovered on the free surface: a row for meshes of order 1 and 2, a
+// column for the sizes tiny, small, medium and paper.
 constexpr const char* kWorm[2][4] = {{"23 % low", "21 % low", "15 % low", "11 % low"},
                                      {"within 2 %", "within 2 %", "within 2 %", "within 2 %"}};
 constexpr const char* kWheel[2][4] = {{"48 % low", "30 % low", "20 % low", "8 % low"},

@@ -156,7 +156,7 @@ void add_seat_sets(Builder& b) {
     }
 }
 
-// Of cells of 8 nodes, for two starts.
+// Counts of a mesh of 8-node hexahedra for a worm of two starts.
 WormCounts equal_counts(Size size) {
   WormCounts n;
   if (size == Size::small)
@@ -168,7 +168,7 @@ WormCounts equal_counts(Size size) {
   return n;
 }
 
-// Of cells of 20 nodes. Below the fillet they are as deep as they are long, and grow inwards from there.
+// Counts of a mesh of 20-node hexahedra, which below the fillet are as deep as they are long and grow inwards.
 WormCounts graded_counts(Size size) {
   WormCounts n{.tooth = 4, .order = 2, .growth = 4, .tooth_growth = 4};
   if (size >= Size::small) {

@@ -52,7 +52,7 @@ void describe_error(Out& out, const StressSet& set, double peak, Eigen::Index st
        set.error.maxCoeff(), " Pa at one node");
 }
 
-// The same of the mesh, see docs/theory.md, section 1.7.
+// The estimated error that the mesh makes in the largest stress: docs/theory.md, section 1.7.
 void describe_mesh_error(Out& out, const StressSet& set, Eigen::Index node, Eigen::Index step) {
   if (set.mesh_error.size() == 0) return line(out, "  estimated error of the mesh: none in the file");
   const double error = set.mesh_error(node, step), peak = set.von_mises(node, step);
