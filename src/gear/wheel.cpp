@@ -57,7 +57,8 @@ WheelCounts equal_counts(Size size) {
   fail("unknown mesh size ", static_cast<int>(size));
 }
 
-// Counts of a mesh of 20-node hexahedra, which below the fillet are as deep as they are long and grow inwards.
+// Counts of a mesh of 20-node hexahedra, which below the fillet are as deep as they are long and grow
+// inwards.
 WheelCounts graded_counts(Size size) {
   WheelCounts n{.tooth = 4,
                 .space = 2,

@@ -297,8 +297,8 @@ bool UnilateralForces::leave_out(const VectorXd& z, const VectorXd& u) {
   return any;
 }
 
-// Finds forces and the displacements by which they turn in one linear solution. Points may move so far on flat
-// gaps that substitution of one in the other does not come to rest.
+// Finds forces and the displacements by which they turn in one linear solution. Points may move so far on
+// flat gaps that substitution of one in the other does not come to rest.
 bool UnilateralForces::turn_at_once() {
   constexpr int kMostRounds = 5;
   for (Contact& contact : contacts_)
@@ -327,8 +327,8 @@ bool UnilateralForces::turn_at_once() {
   return false;
 }
 
-// Forces turn as gaps close. Where that is not found, by substitution or in one solution, their directions stay
-// those that the contacts were detected with.
+// Forces turn as gaps close. Where that is not found, by substitution or in one solution, their directions
+// stay those that the contacts were detected with.
 bool UnilateralForces::solve() {
   do_not_turn();
   turns_ = turn_step_by_step();

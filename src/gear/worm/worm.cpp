@@ -168,7 +168,8 @@ WormCounts equal_counts(Size size) {
   return n;
 }
 
-// Counts of a mesh of 20-node hexahedra, which below the fillet are as deep as they are long and grow inwards.
+// Counts of a mesh of 20-node hexahedra, which below the fillet are as deep as they are long and grow
+// inwards.
 WormCounts graded_counts(Size size) {
   WormCounts n{.tooth = 4, .order = 2, .growth = 4, .tooth_growth = 4};
   if (size >= Size::small) {
