@@ -13,9 +13,9 @@ constexpr const char* kWheel[2][4] = {{"48 % low", "30 % low", "20 % low", "8 % 
 }  // namespace
 
 std::string root_accuracy(bool is_worm, gear::Size size, int order) {
-  const char* accuracy = (is_worm ? kWorm : kWheel)[order - 1][static_cast<int>(size)];
-  return accuracy +
-         std::string(is_worm ? " at the root of the reference worm" : " at the root of the reference wheel");
+  std::string accuracy = (is_worm ? kWorm : kWheel)[order - 1][static_cast<int>(size)];
+  accuracy += is_worm ? " at the root of the reference worm" : " at the root of the reference wheel";
+  return accuracy;
 }
 
 }  // namespace elastogear::app

@@ -24,56 +24,6 @@
 namespace elastogear::app {
 namespace {
 
-// Returns the text in `name` that the first placeholder of `pattern` stands for, the least that fits where
-// there are two; nullopt when `name` does not fit.
-std::optional<std::string> placeholder(const std::string& pattern, const std::string& name) {
-  const auto open = pattern.find('<');
-  if (open == std::string::npos) return pattern == name ? std::optional<std::string>("") : std::nullopt;
-  const std::string head = pattern.substr(0, open), tail = pattern.substr(pattern.find('>') + 1);
-  if (tail.find('<') != std::string::npos) {
-    for (std::size_t n = 1; name.starts_with(head) && head.size() + n < name.size(); ++n)
-      if (placeholder(tail, name.substr(head.size() + n))) return name.substr(head.size(), n);
-    return {};
-  }
-  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return {};
-  return name.substr(head.size(), name.size() - head.size() - tail.size());
-}
-
-// The row whose placeholder stands for the least, so that "<gear>_pitch_deviation" goes before
-// "<body>_deviation". Null where the table has none of this name.
-const OptionSpec* find_spec(const OptionTable& table, const std::string& name) {
-  const OptionSpec* found = nullptr;
-  std::size_t least = 0;
-  for (const OptionSpec& spec : table) {
-    const auto word = placeholder(spec.name, name);
-    if (!word || (found && word->size() >= least)) continue;
-    found = &spec;
-    least = word->size();
-  }
-  return found;
-}
-
-bool has(const OptionTable& table, const std::string& name) { return find_spec(table, name); }
-
-// Tables with "<body>_x" written out for each value of "body".
-OptionTable expand(const OptionTable& table, const PlaceholderValues& values) {
-  OptionTable result;
-  for (const OptionSpec& spec : table) {
-    const auto open = spec.name.find('<'), close = spec.name.find('>');
-    const auto found =
-        open == std::string::npos ? values.end() : values.find(spec.name.substr(open + 1, close - open - 1));
-    if (found == values.end()) {
-      result.push_back(spec);
-      continue;
-    }
-    for (const std::string& value : found->second) {
-      result.push_back(spec);
-      result.back().name.replace(open, close - open + 1, value);
-    }
-  }
-  return result;
-}
-
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -101,12 +51,12 @@ std::map<std::string, std::string> options_in_database() {
   return options;
 }
 
-// "-modes (number of modes)"; of equally near ones the program's own comes first.
 // Options by the names of earlier versions.
 const std::map<std::string, std::string> kRenamed = {
     {"contact_crease", "contact_feature_angle"},
     {"contact_smooth", "contact_surface: facets, smooth or exact"}};
 
+// "-modes (number of modes)"; of equally near ones the program's own comes first.
 std::string nearest_option(const std::string& name, const OptionTable& own) {
   const OptionSpec* best = nullptr;
   for (const OptionSpec& spec : own)
@@ -388,16 +338,6 @@ std::map<std::string, std::string> Options::provenance() const {
   all["slepc_version"] = slepc;
   all["verb"] = verb_;
   return all;
-}
-
-std::string help_text(const OptionTable& table) {
-  std::ostringstream out;
-  for (const OptionSpec& s : table) {
-    if (s.help.empty()) continue;  // another option's help names it
-    out << "  -" << s.name << (s.unit == "-" ? "" : " [" + s.unit + "]") << "\n      " << s.help
-        << (s.default_value.empty() ? "" : " (default: " + s.default_value + ")") << "\n";
-  }
-  return out.str();
 }
 
 }  // namespace elastogear::app

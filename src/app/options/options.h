@@ -7,21 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/options/option_table.h"
+
 namespace elastogear::app {
-
-/// One option. A name may hold one placeholder, "<body>_file": it stands for any of the names the option list
-/// `placeholder_values` gives (verbs with named bodies), or for any word.
-struct OptionSpec {
-  std::string name;
-  std::string unit;           ///< "m", "rad/s", "-" for words and counts
-  std::string default_value;  ///< as the user would write it; empty: no default
-  std::string help;           ///< empty: that of another option names it
-};
-
-using OptionTable = std::vector<OptionSpec>;
-
-/// Values that a placeholder, such as "body", may stand for.
-using PlaceholderValues = std::map<std::string, std::vector<std::string>>;
 
 /// A text of YAML that a program gives in place of a file. Its name stands in messages about its form.
 struct OptionText {
@@ -112,8 +100,5 @@ class Options {
   std::map<std::string, std::string> place_;  // of given_in_files_: "file.yaml, line 3"
   std::vector<std::string> files_;
 };
-
-/// The table as text: option, unit, default, meaning.
-std::string help_text(const OptionTable& table);
 
 }  // namespace elastogear::app
