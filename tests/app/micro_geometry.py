@@ -107,7 +107,7 @@ class Drive:
 
     def rigid_error(self, roll, *options):
         return self.transmission_error(roll, "-torque", "1 N m", "-pinion_rigid", "true", "-wheel_rigid", "true",
-                                       "-contact_law", "unilateral", "-static_steps", "1", *options)
+                                       "-static_steps", "1", *options)
 
 
 def near(what, value, expected, allowed):

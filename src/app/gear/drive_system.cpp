@@ -219,6 +219,15 @@ void set_parts(Options& options, const Drive& drive, double sense) {
   }
 }
 
+// Exact flanks meet where their gap is least, between the nodes of the coarsest mesh, and do not enter each
+// other there; bodies without residual flexibility do not either. What belongs to a penalty asks for one.
+bool asks_for_penalty(const Options& options) {
+  if (options.text("contact_law") != "auto") return options.text("contact_law") == "penalty";
+  for (const char* name : {"contact_stiffness", "contact_damping", "contact_hysteresis"})
+    if (options.given(name)) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::string> bearing_names(const Options& options, const DriveMember& member) {
@@ -241,8 +250,10 @@ Options with_system(Options options, const Drive& drive) {
   options.set_default("bodies", bodies);
   options.set_default("contact_pairs", pairs);
   options.set_default("contact_surface", "exact");
-  // Exact flanks meet where their gap is least, between the nodes of the coarsest mesh.
-  if (!options.given("contact_two_pass")) options.set_default("contact_points", "minima");
+  if (!options.given("contact_two_pass") && !asks_for_penalty(options)) {
+    options.set_default("contact_points", "minima");
+    if (options.text("contact_law") == "auto") options.set("contact_law", "unilateral");
+  }
   options.set_default("analysis", "static");
   options.set_default("output", drive_stem(options) + "_result.h5");
   set_parts(options, drive, options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1);
