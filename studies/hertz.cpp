@@ -23,6 +23,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/static.h"
+#include "elastogear/evaluation/hertz.h"
 #include "elastogear/gear/design.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/recovery/stress.h"
@@ -82,34 +83,17 @@ Matrix3d curvature(const Flank& flank) {
 
 // ---- Hertz
 
-// Of surfaces with the gap x'Q x / 2 (K. L. Johnson, Contact Mechanics, section 4.2).
-struct Hertz {
+struct Hertz : evaluation::HertzEllipse {
   Vector3d along, across;  // of the major and the minor axis
-  double A;                // 1/m, gap A x^2 along the major axis
-  double k, K, E;          // b / a and the complete elliptic integrals
-  double E_star = kE / (1 - kNu * kNu) / 2;
-
-  double a(double F) const {  // m, half the major axis
-    return std::cbrt(3 * F * (K - E) / (2 * kPi * E_star * (1 - k * k) * A));
-  }
-  double pressure(double F) const { return 3 * F / (2 * kPi * k * a(F) * a(F)); }  // Pa, largest
-  double approach(double F) const { return pressure(F) * k * a(F) * K / E_star; }  // m
 };
 
+// Of surfaces with the gap x'Q x / 2.
 Hertz hertz(const Matrix3d& Q, const Vector3d& n) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(Q);
-  const double ratio = axes.eigenvalues()[2] / axes.eigenvalues()[1];
-  Hertz h{
-      axes.eigenvectors().col(1), n.cross(axes.eigenvectors().col(1)), axes.eigenvalues()[1] / 2, 0, 0, 0};
-  double low = 1e-3, high = 1 - 1e-6;
-  while (high - low > 1e-12) {
-    h.k = (low + high) / 2;
-    const double e = std::sqrt(1 - h.k * h.k);
-    h.K = std::comp_ellint_1(e);
-    h.E = std::comp_ellint_2(e);
-    ((h.E / (h.k * h.k) - h.K) / (h.K - h.E) > ratio ? low : high) = h.k;
-  }
-  return h;
+  const Vector3d along = axes.eigenvectors().col(1);
+  return {evaluation::hertz_ellipse(axes.eigenvalues()[1] / 2, axes.eigenvalues()[2] / 2,
+                                    kE / (1 - kNu * kNu) / 2),
+          along, n.cross(along)};
 }
 
 // ---- blocks

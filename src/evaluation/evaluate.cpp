@@ -135,6 +135,7 @@ PairEvaluation evaluate(const PairOfRun& pair) {
   add_teeth(pair, items);
   add_line_load(pair, items);
   add_pressure(pair, items);
+  add_hertz(pair, items);
   add_losses(pair, losses, items);
   add_dynamics(pair, items);
   if (in_time(pair)) add_pitches(pair, evaluation.error, items);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elastogear/evaluation/hertz.h"
 #include "evaluation/line_load.h"
 #include "evaluation/pattern.h"
 #include "evaluation/root_stress.h"
@@ -125,6 +126,17 @@ void add_line_load(const PairOfRun& pair, Items& items) {
   items.table("line_load/value", "N/m", "normal force of all pairs of teeth per width", load.value);
   items.curve("line_load/mean", "N/m", "the same in the mean over the run", mean_line_load(load));
   items.number("line_load/KHbeta", "1", "largest over mean line load, in the mean over the run", factor);
+}
+
+void add_hertz(const PairOfRun& pair, Items& items) {
+  const auto hertz = hertz_pressure(pair);
+  if (!hertz || !(hertz->peak > 0)) return;
+  items.curve("pressure/hertz", "Pa", "largest contact pressure by H. Hertz under the forces of the run",
+              hertz->largest);
+  items.number("pressure/hertz_peak", "Pa", "its largest value", hertz->peak);
+  items.number("pressure/hertz_peak_roll", "1", "roll angle of it, pitches", pair.roll[hertz->step]);
+  items.number("pressure/hertz_half_width", "m", "half the patch's width there, by H. Hertz",
+               hertz->half_width);
 }
 
 void add_pressure(const PairOfRun& pair, Items& items) {

@@ -11,6 +11,8 @@ inline std::array<const Gear*, 2> both(const PairOfRun& pair) { return {&pair.ge
 
 void add_teeth(const PairOfRun& pair, Items& items);
 void add_line_load(const PairOfRun& pair, Items& items);
+/// Pressures by Hertz, where they can be told.
+void add_hertz(const PairOfRun& pair, Items& items);
 void add_pressure(const PairOfRun& pair, Items& items);
 void add_roots(const PairOfRun& pair, Items& items);
 /// Of a run in time; error: m, transmission error at all times.

@@ -1,5 +1,6 @@
 #include "elastogear/gear/flank.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -13,6 +14,7 @@ constexpr double kRoundoff = 1e-14;  // of the distance from the axis
 constexpr double kSolved = 1e-12;    // the same, of flanks that are found by iterations themselves
 constexpr double kLeastCosine = 0.5;
 constexpr int kNewtonSteps = 20;
+constexpr double kCurvatureStep = 1e-3;  // of the tooth's height
 
 }  // namespace
 
@@ -39,6 +41,17 @@ Eigen::Vector3d flank_normal(const Toothing& t, const Flank& flank, const Eigen:
   const Eigen::Vector3d radial(x[0] / r, x[1] / r, 0), around(-radial[1], radial[0], 0);
   const double d_z = 1 / t.p + half.d_z;
   return (flank.side * (around / r - d_z * Eigen::Vector3d::UnitZ()) - half.d_r * radial).normalized();
+}
+
+Eigen::Matrix3d flank_curvature(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {
+  const double step = kCurvatureStep * std::abs(t.r_a - t.r_f);
+  const Eigen::Vector3d n = flank_normal(t, flank, x), across = n.unitOrthogonal();
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& along : {across, Eigen::Vector3d(n.cross(across))})
+    S += (flank_normal(t, flank, x + step * along) - flank_normal(t, flank, x - step * along)) / (2 * step) *
+         along.transpose();
+  const Eigen::Matrix3d tangential = Eigen::Matrix3d::Identity() - n * n.transpose();
+  return tangential * (S + S.transpose()) / 2 * tangential;
 }
 
 double flank_distance_along(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x,

@@ -82,7 +82,7 @@ def near(what, value, expected, allowed):
 def check_elastic(drive):
     drive.sweep(16)
     text = drive.run("evaluate", "drive.yaml")
-    for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "KHbeta", "root of pinion, tension", ", by the mesh ", "efficiency"):
+    for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "KHbeta", "by H. Hertz", "root of pinion, tension", ", by the mesh ", "efficiency"):
         assert word in text, f"'{word}' is not printed"
     figures = Figures("drive_evaluation")
     with h5py.File("drive_result.h5") as result:
@@ -104,6 +104,12 @@ def check_elastic(drive):
     near("efficiency without friction", figures["losses/efficiency"], 1, 1e-3)
     near("largest tension", figures["root/pinion/largest_tension"], figures["root/pinion/tension"].max(), 1e-3)
     near("KHbeta in JSON", figures.in_json("line_load/KHbeta"), figures["line_load/KHbeta"], 1e-12)
+    at_peak = figures["pressure/hertz"].argmax()
+    near("peak of Hertz's pressure", figures["pressure/hertz"][at_peak], figures["pressure/hertz_peak"], 1)
+    load = np.pi / 2 * figures["pressure/hertz_peak"] * figures["pressure/hertz_half_width"]  # N/m, behind p_0 and b
+    mean_load = figures["teeth/force"][at_peak].max() / WIDTH
+    near("line load behind Hertz's pressure", load, 1.05 * mean_load, 0.05 * mean_load)
+    assert figures["pressure/hertz_peak"] > 5 * figures["pressure/peak"], "faces are far wider than the patch"
     assert figures["root/pinion/largest_tension_error"] < 0.05 * figures["root/pinion/largest_tension"]
     assert 0 < figures["root/pinion/largest_tension_mesh_error"] < 2 * figures["root/pinion/largest_tension"]
     with open("drive_evaluation_pinion_wheel.csv", encoding="utf-8") as table:

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace elastogear::gear::flank_test {
@@ -40,6 +41,21 @@ TEST(Flank, normal_is_the_gradient_of_the_distance) {
         EXPECT_NEAR(flank_normal(t, flank, x)[i],
                     (distance(x + h * Vector3d::Unit(i)) - distance(x - h * Vector3d::Unit(i))) / (2 * h),
                     1e-6);
+    }
+}
+
+// Involute helicoids are developable: no curvature along their generators, cos(beta_b) / sqrt(r^2 - r_b^2)
+// across.
+TEST(Flank, curvature_of_involute_helicoids_is_that_of_developable_surfaces) {
+  const Geometry g = derive(Design{});
+  for (const Toothing& t : {g.worm, g.wheel})
+    for (int side : {-1, 1}) {
+      const Flank flank{1, side};
+      const Vector3d x = point(t, flank, t.r, 1e-3), n = flank_normal(t, flank, x);
+      const Eigen::Matrix3d S = flank_curvature(t, flank, x);
+      const Vector3d across = n.cross(Vector3d::UnitZ() - n[2] * n).normalized();
+      const double kappa = std::cos(t.beta_b) / std::sqrt(t.r * t.r - t.r_b * t.r_b);
+      EXPECT_LT((S - kappa * across * across.transpose()).norm(), 1e-5 * kappa);
     }
 }
 

@@ -25,7 +25,8 @@ struct PairOfRun {
   Eigen::Matrix3Xd force, torque;  ///< 3 x n_t, N, N m about the world origin, on the second gear, world
   bool friction = true;            ///< do contact forces have friction in them?
   int slave_side = 0;              ///< which gear's nodes come into contact
-  Eigen::VectorXd unloaded = {};   ///< n_t, m, transmission error without load; empty: not known
+  std::array<double, 2> compliance = {};  ///< 1/Pa, (1 - nu^2) / E behind the flanks; 0: not known
+  Eigen::VectorXd unloaded = {};          ///< n_t, m, transmission error without load; empty: not known
   std::array<std::optional<io::StressSet>, 2> root = {};  ///< stresses at the roots of both gears
 };
 

@@ -25,6 +25,10 @@ std::optional<Flank> flank_of(const Toothing& toothing, const std::string& group
 /// Outward unit normal of the surface of constant flank_distance through x (body frame, m).
 Eigen::Vector3d flank_normal(const Toothing& toothing, const Flank& flank, const Eigen::Vector3d& x);
 
+/// Normal curvatures of that surface, 1/m: the symmetric tensor S with n(x + t) = n + S t for small tangents
+/// t, by central differences of the normal. > 0: convex.
+Eigen::Matrix3d flank_curvature(const Toothing& toothing, const Flank& flank, const Eigen::Vector3d& x);
+
 /// Distance from x along the unit direction n to the flank, m, by Newton's method; NaN where it does not meet
 /// the flank near x: where n turns by more than 60 degrees against the flank's normal on the way.
 double flank_distance_along(const Toothing& toothing, const Flank& flank, const Eigen::Vector3d& x,

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "app/evaluate/flank_material.h"
 #include "app/finite_elements.h"
 #include "app/gear/drive_options.h"
 #include "app/gear/misalignment.h"
@@ -173,6 +174,7 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
     flanks[g] = evaluation::flanks(pair.gear[g].toothing, elastic_body(of, bodies, source, name).surface);
     require_teeth(flanks[g], pair.gear[g], file_of_body(of, source, name));
     pair.gear[g].layers = evaluation::node_layers(flanks[g]);
+    pair.compliance[g] = bodies.compliance(file_of_body(of, source, name));
   }
   pair.roll = rolls(of, source);
   pair.first_teeth = of.drive.members.front().toothing.z;
@@ -276,12 +278,18 @@ const model::ElasticBody& Bodies::get(const std::string& file, const std::string
                                       const std::string& result, const std::string& identity) {
   std::unique_ptr<Known>& known = known_[file];
   if (!known) {
-    known = std::make_unique<Known>(Known{io::read_body(file), {}});
+    known = std::make_unique<Known>(Known{io::read_body(file), {}, {}});
     known->identity = model::fingerprint(known->body);
   }
   require(identity.empty() || identity == known->identity, file, ": is not the body '", body, "' of ", result,
           ": name the body file of the run by option -", body, "_file, or run simulate with this one");
   return known->body;
+}
+
+double Bodies::compliance(const std::string& file) {
+  Known& known = *known_.at(file);
+  if (!known.compliance) known.compliance = surface_compliance(file, known.body.surface);
+  return *known.compliance;
 }
 
 CaseRun read_case_run(const DriveOfRun& of, Bodies& bodies, const std::string& result,

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,14 @@ class Bodies {
   /// Reads the file where it has not been read. Throws Error when it is not the body of the run.
   const model::ElasticBody& get(const std::string& file, const std::string& body, const std::string& result,
                                 const std::string& identity);
+  /// 1/Pa, surface_compliance of a file that has been read.
+  double compliance(const std::string& file);
 
  private:
   struct Known {
     model::ElasticBody body;
     std::string identity;
+    std::optional<double> compliance = {};
   };
   std::map<std::string, std::unique_ptr<Known>> known_;
 };

@@ -90,6 +90,10 @@ void print_pressure(const Reader& of, const std::string& pair) {
   print_item("largest contact pressure", of.in("pressure/peak", 1e-6, "MPa") + ", roll angle " +
                                              of.in("pressure/peak_roll", 1, "pitches"));
   print_item("", place_on(of, pair.substr(0, pair.find(':'))));
+  if (of.has("pressure/hertz_peak"))
+    print_item("", "by H. Hertz " + of.in("pressure/hertz_peak", 1e-6, "MPa") + ", roll angle " +
+                       of.in("pressure/hertz_peak_roll", 1, "pitches") + ", on " +
+                       of.in("pressure/hertz_half_width", 1e3, "mm") + " of half width");
 }
 
 void print_roots(const Reader& of) {
@@ -167,7 +171,8 @@ void print_cases(const std::vector<CaseFigures>& cases) {
       {"TE mean um", "transmission_error/mean", 1e6}, {"TE p-p um", "transmission_error/peak_to_peak", 1e6},
       {"secant N/um", "stiffness/secant_mean", 1e-6}, {"tangent N/um", "stiffness/tangent_mean", 1e-6},
       {"contact ratio", "teeth/contact_ratio", 1},    {"KHbeta", "line_load/KHbeta", 1},
-      {"pressure MPa", "pressure/peak", 1e-6},        {"efficiency %", "losses/efficiency", 100}};
+      {"pressure MPa", "pressure/peak", 1e-6},        {"Hertz MPa", "pressure/hertz_peak", 1e-6},
+      {"efficiency %", "losses/efficiency", 100}};
   std::printf("%-24s %-20s", "case", "pair");
   for (const Column& column : kColumns) std::printf(" %13s", column.title);
   std::printf(" %13s\n", "root MPa");

@@ -68,6 +68,7 @@ std::vector<CsvColumn> over_roll(const Items& items) {
       {"torque/second", "torque on the second gear"},
       {"force/value", "contact force"},
       {"pressure/largest", "largest pressure"},
+      {"pressure/hertz", "largest pressure by Hertz"},
       {"losses/sliding_speed", "sliding speed"},
       {"losses/pv", "pressure times sliding speed"},
       {"losses/friction_power", "friction power"},

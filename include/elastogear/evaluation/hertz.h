@@ -1,0 +1,44 @@
+#pragma once
+// Flank pressure by H. Hertz under the forces of a run: what a mesh shows whose faces are wider than the
+// patch of contact are means over the faces (docs/theory.md, sections 6.10 and 10.6).
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "elastogear/evaluation/evaluate.h"
+
+namespace elastogear::evaluation {
+
+/// Line contact of a load per length w (N/m) where the gap is kappa x^2 / 2 (1/m): Eq. (10.12).
+struct HertzLine {
+  double pressure = 0;    ///< Pa, largest
+  double half_width = 0;  ///< m
+};
+HertzLine hertz_line(double w, double kappa, double E_star);
+
+/// Point contact where the gap is A x^2 + B y^2, 0 < A <= B: Eq. (6.23).
+struct HertzEllipse {
+  double A, E_star;  // 1/m, Pa
+  double k, K, E;    // b / a and the complete elliptic integrals
+
+  double a(double F) const;         ///< m, half the major axis under the force F (N)
+  double pressure(double F) const;  ///< Pa, largest
+  double approach(double F) const;  ///< m, of distant points
+};
+HertzEllipse hertz_ellipse(double A, double B, double E_star);
+
+/// 1/m, the relative curvature Q of two flanks that touch, in the world: the gap is x'Q x / 2.
+Eigen::Matrix3d relative_curvature(const PairOfRun& pair, const FlankContact& contact, std::size_t step);
+
+struct HertzPressure {
+  Eigen::VectorXd largest;  ///< n_t, Pa; 0 where nothing bears
+  double peak = 0;          ///< Pa, largest of all
+  Eigen::Index step = 0;    ///< of it
+  double half_width = 0;    ///< m, of the patch there
+};
+/// Of parallel axes, line contact under the line load of each pair of teeth; of crossed ones, point contact
+/// under the force of each pair. Nothing where the bodies' elasticity is not known, and where axes cross and
+/// flanks touch along lines, as those of enveloping wheels do, or along more than half the face.
+std::optional<HertzPressure> hertz_pressure(const PairOfRun& pair);
+
+}  // namespace elastogear::evaluation

@@ -1,0 +1,147 @@
+#include "elastogear/evaluation/hertz.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "evaluation/line_load.h"
+#include "evaluation/sections.h"
+
+namespace elastogear::evaluation {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kLeastAxes = 0.02;  // b / a, below which flanks touch along a line
+
+// Contacts of one pair of teeth at one time.
+using Pairs = std::map<std::array<int, 2>, std::vector<const FlankContact*>>;
+
+Pairs pairs_of(const std::vector<FlankContact>& contacts) {
+  Pairs pairs;
+  for (const FlankContact& c : contacts)
+    if (c.normal_force > 0) pairs[{c.flank[0].tooth, c.flank[1].tooth}].push_back(&c);
+  return pairs;
+}
+
+// Principal relative curvatures in the tangent plane, 1/m, and the direction of the smaller one.
+struct Curvatures {
+  double least, largest;
+  Eigen::Vector3d along;
+};
+
+Curvatures curvatures(const Eigen::Matrix3d& Q, const Eigen::Vector3d& n) {
+  const Eigen::Vector3d u = n.unitOrthogonal(), v = n.cross(u);
+  Eigen::Matrix<double, 3, 2> T;
+  T << u, v;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(T.transpose() * Q * T);
+  return {axes.eigenvalues()[0], axes.eigenvalues()[1], T * axes.eigenvectors().col(0)};
+}
+
+// Of one pair of teeth on parallel axes: the largest over the stations along the face.
+HertzLine line_contact(const PairOfRun& pair, const std::vector<const FlankContact*>& contacts,
+                       const Eigen::VectorXd& stations, double E_star, std::size_t step) {
+  const auto n = static_cast<Eigen::Index>(contacts.size());
+  Eigen::VectorXd z(n), force(n), per_length(n), curved(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const FlankContact& c = *contacts[static_cast<std::size_t>(i)];
+    const Curvatures at = curvatures(relative_curvature(pair, c, step), c.n);
+    z[i] = c.x_B[1][2];
+    force[i] = c.normal_force;
+    per_length[i] = c.normal_force * std::abs(at.along.dot(pair.gear[1].axis(step)));
+    curved[i] = c.normal_force * at.largest;
+  }
+  const Eigen::VectorXd load = line_load(stations, z, force), w = line_load(stations, z, per_length),
+                        kappa = line_load(stations, z, curved);
+  HertzLine largest;
+  for (Eigen::Index i = 0; i < load.size(); ++i) {
+    if (!(load[i] > 0)) continue;
+    const HertzLine here = hertz_line(w[i], kappa[i] / load[i], E_star);
+    if (here.pressure > largest.pressure) largest = here;
+  }
+  return largest;
+}
+
+// Of one pair of teeth on crossed axes: the force of all contacts on the curvatures between them.
+std::optional<HertzLine> point_contact(const PairOfRun& pair,
+                                       const std::vector<const FlankContact*>& contacts, double E_star,
+                                       std::size_t step) {
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  double F = 0;
+  for (const FlankContact* c : contacts) {
+    Q += c->normal_force * relative_curvature(pair, *c, step);
+    n += c->normal_force * c->n;
+    F += c->normal_force;
+  }
+  const Curvatures at = curvatures(Q / F, n.normalized());
+  if (!(at.least > 0)) return {};
+  const HertzEllipse ellipse = hertz_ellipse(at.least / 2, at.largest / 2, E_star);
+  if (ellipse.k < kLeastAxes || ellipse.a(F) > common_width(pair) / 2) return {};
+  return HertzLine{ellipse.pressure(F), ellipse.k * ellipse.a(F)};
+}
+
+}  // namespace
+
+HertzLine hertz_line(double w, double kappa, double E_star) {
+  const double b = std::sqrt(4 * w / (pi * E_star * kappa));
+  return {2 * w / (pi * b), b};
+}
+
+double HertzEllipse::a(double F) const {
+  return std::cbrt(3 * F * (K - E) / (2 * pi * E_star * (1 - k * k) * A));
+}
+
+double HertzEllipse::pressure(double F) const { return 3 * F / (2 * pi * k * a(F) * a(F)); }
+
+double HertzEllipse::approach(double F) const { return pressure(F) * k * a(F) * K / E_star; }
+
+HertzEllipse hertz_ellipse(double A, double B, double E_star) {
+  HertzEllipse h{A, E_star, 0, 0, 0};
+  double low = 1e-3, high = 1 - 1e-6;
+  while (high - low > 1e-12) {
+    h.k = (low + high) / 2;
+    const double e = std::sqrt(1 - h.k * h.k);
+    h.K = std::comp_ellint_1(e);
+    h.E = std::comp_ellint_2(e);
+    ((h.E / (h.k * h.k) - h.K) / (h.K - h.E) > B / A ? low : high) = h.k;
+  }
+  return h;
+}
+
+Eigen::Matrix3d relative_curvature(const PairOfRun& pair, const FlankContact& c, std::size_t step) {
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
+  for (std::size_t g : {0, 1}) {
+    const Gear& gear = pair.gear[g];
+    const Eigen::Matrix3d& R = gear.rotation[step];
+    Q += R * gear::flank_curvature(gear.toothing, c.flank[g], c.x_B[g]) * R.transpose();
+  }
+  return Q;
+}
+
+std::optional<HertzPressure> hertz_pressure(const PairOfRun& pair) {
+  if (!(pair.compliance[0] > 0) || !(pair.compliance[1] > 0)) return {};
+  const double E_star = 1 / (pair.compliance[0] + pair.compliance[1]);
+  const bool parallel = transmission(pair.gear[0], pair.gear[1], pair.sense).parallel;
+  const Eigen::VectorXd z = stations(both(pair), pair.slave_side);
+  HertzPressure found{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(pair.contacts.size()))};
+  for (std::size_t step = 0; step < pair.contacts.size(); ++step)
+    for (const auto& [teeth, contacts] : pairs_of(pair.contacts[step])) {
+      const std::optional<HertzLine> here = parallel ? line_contact(pair, contacts, z, E_star, step)
+                                                     : point_contact(pair, contacts, E_star, step);
+      if (!here || !std::isfinite(here->pressure)) return {};
+      const auto i = static_cast<Eigen::Index>(step);
+      found.largest[i] = std::max(found.largest[i], here->pressure);
+      if (here->pressure <= found.peak) continue;
+      found.peak = here->pressure;
+      found.step = i;
+      found.half_width = here->half_width;
+    }
+  return found;
+}
+
+}  // namespace elastogear::evaluation

@@ -1,0 +1,119 @@
+#include "elastogear/evaluation/hertz.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "elastogear/base/error.h"
+#include "rigid_drives.h"
+
+namespace elastogear::evaluation::hertz_test {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kCompliance = (1 - 0.09) / 206e9;
+
+// Contact at a point x_W (m) of the flanks that pass through it when both gears are turned a little, the
+// first one's on side `side`; force N.
+FlankContact contact_at(const test::RollingPair& pair, const Eigen::Vector3d& x_W, int side, double force) {
+  FlankContact c;
+  c.x_W = x_W;
+  c.normal_force = force;
+  const auto normal = [&](std::size_t g, int of_side) -> Eigen::Vector3d {
+    const Gear& gear = pair.gear[g];
+    c.x_B[g] = gear.rotation[0].transpose() * (x_W - gear.position[0]);
+    c.flank[g] = {0, of_side};
+    return gear.rotation[0] * gear::flank_normal(gear.toothing, c.flank[g], c.x_B[g]);
+  };
+  c.n = normal(0, side);
+  const double left = normal(1, 1).dot(c.n), right = normal(1, -1).dot(c.n);
+  c.flank[1].side = left < right ? 1 : -1;
+  return c;
+}
+
+PairOfRun run_of(const test::RollingPair& pair) {
+  PairOfRun run;
+  run.gear = {pair.gear[0], pair.gear[1]};
+  run.roll = pair.roll.head(1);
+  run.compliance = {kCompliance, kCompliance};
+  return run;
+}
+
+// The pressure of the C14 gears of the FZG at the pitch point: 5912.1 N over 14 mm, 1347.3 MPa.
+TEST(HertzLine, of_the_c14_gears_at_the_pitch_point) {
+  const double alpha = 20 * pi / 180, r_b[] = {36e-3 * std::cos(alpha), 54e-3 * std::cos(alpha)};
+  const double working = std::acos((r_b[0] + r_b[1]) / 91.5e-3);
+  const double kappa = 1 / (r_b[0] * std::tan(working)) + 1 / (r_b[1] * std::tan(working));
+  const HertzLine line = hertz_line(5912.1 / 14e-3, kappa, 1 / (2 * kCompliance));
+  EXPECT_NEAR(line.pressure, 1347.3e6, 0.1e6);
+  EXPECT_NEAR(line.half_width, 0.1995e-3, 1e-7);
+}
+
+TEST(HertzEllipse, of_nearly_equal_curvatures_is_that_of_a_sphere) {
+  constexpr double kR = 0.01, kForce = 100, kE = 1e11;
+  const HertzEllipse h = hertz_ellipse(0.5 / kR, 0.5001 / kR, kE);
+  const double a = std::cbrt(3 * kForce * kR / (4 * kE));
+  EXPECT_NEAR(h.a(kForce), a, 1e-3 * a);
+  EXPECT_NEAR(h.pressure(kForce), 1.5 * kForce / (pi * a * a), 1e-3 * h.pressure(kForce));
+  EXPECT_NEAR(h.approach(kForce), a * a / kR, 1e-3 * a * a / kR);
+}
+
+TEST(HertzEllipse, that_is_long_has_the_pressure_of_its_line_load) {
+  constexpr double kE = 1e11, kForce = 1000, kA = 0.01, kB = 100;
+  const HertzEllipse h = hertz_ellipse(kA, kB, kE);
+  const double w = h.pressure(kForce) * pi / 2 * h.k * h.a(kForce);  // at the middle
+  EXPECT_NEAR(hertz_line(w, 2 * kB, kE).pressure, h.pressure(kForce), 1e-3 * h.pressure(kForce));
+}
+
+// Radii of curvature of involutes on the line of action: their sum is its length between the base circles.
+TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
+  const test::RollingPair pair = test::spur_pair();
+  PairOfRun run = run_of(pair);
+  const double r[] = {pair.gear[0].toothing.r_b, pair.gear[1].toothing.r_b};
+  const double a = (pair.gear[1].position[0] - pair.gear[0].position[0]).norm();
+  const double working = std::acos((r[0] + r[1]) / a);
+  const Eigen::Vector3d pitch_point =
+      pair.gear[0].position[0] + Eigen::Vector3d(a * r[0] / (r[0] + r[1]), 0, 0);
+  constexpr double kForce = 5000;
+  std::vector<FlankContact> contacts;
+  const Eigen::VectorXd& z = pair.gear[0].layers;
+  const auto n = static_cast<double>(z.size() - 1);
+  for (double at : z) {
+    const bool is_end = at == z[0] || at == z[z.size() - 1];
+    contacts.push_back(
+        contact_at(pair, pitch_point + Eigen::Vector3d(0, 0, at), 1, kForce / n * (is_end ? 0.5 : 1)));
+  }
+  run.contacts = {contacts};
+  const auto found = hertz_pressure(run);
+  ASSERT_TRUE(found);
+  const double kappa = (1 / r[0] + 1 / r[1]) / std::tan(working);
+  const HertzLine right = hertz_line(kForce / 25e-3, kappa, 1 / (2 * kCompliance));
+  EXPECT_NEAR(found->peak, right.pressure, 1e-4 * right.pressure);
+  EXPECT_NEAR(found->half_width, right.half_width, 1e-4 * right.half_width);
+  EXPECT_EQ(found->largest[0], found->peak);
+}
+
+TEST(HertzPressure, is_not_told_without_the_bodies_elasticity) {
+  PairOfRun run = run_of(test::spur_pair());
+  run.contacts.resize(1);
+  run.compliance[1] = 0;
+  EXPECT_FALSE(hertz_pressure(run));
+}
+
+// Involute helicoids on crossed axes at the pitch point: 14.28 and 11.82 mm across their generators, b/a =
+// 0.330; 50 N between bodies of 210 GPa have 798 MPa.
+TEST(HertzPressure, of_the_steering_worm_at_the_pitch_point) {
+  const test::RollingPair pair = test::worm_pair();
+  PairOfRun run = run_of(pair);
+  run.compliance = {0.91 / 210e9, 0.91 / 210e9};
+  const Eigen::Vector3d pitch_point(0, pair.gear[1].toothing.r, 0);
+  run.contacts = {{contact_at(pair, pitch_point, 1, 50)}};
+  const auto found = hertz_pressure(run);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->peak, 798e6, 8e6);
+}
+
+}  // namespace
+}  // namespace elastogear::evaluation::hertz_test
