@@ -103,7 +103,7 @@ fem::Matrices read_and_assemble() {
   const fem::MeshPart share = fem::distribute(PETSC_COMM_WORLD, mesh, region, rows);
   print_cells(share, mesh.cells.size());
   const Time start;
-  fem::Matrices matrices = fem::assemble(PETSC_COMM_WORLD, share, kSteel, model::Element::incompatible);
+  fem::Matrices matrices = fem::assemble(PETSC_COMM_WORLD, share, kSteel, {});
   print_span("assembly", start);
   return matrices;
 }

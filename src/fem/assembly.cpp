@@ -4,6 +4,7 @@
 
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/fem/element.h"
+#include "fem/elements/cell_mass.h"
 #include "fem/spd_matrix.h"
 
 namespace elastogear::fem {
@@ -52,15 +53,6 @@ void find_rows(const MeshPart& part, int cell, CellRows& rows) {
   }
 }
 
-// M_e (x) I_3, docs/theory.md, Eq. (1.3).
-Eigen::MatrixXd in_three_directions(const Eigen::MatrixXd& M_e) {
-  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(3 * M_e.rows(), 3 * M_e.cols());
-  for (Eigen::Index b = 0; b < M_e.cols(); ++b)
-    for (Eigen::Index a = 0; a < M_e.rows(); ++a)
-      M.block<3, 3>(3 * a, 3 * b).diagonal().setConstant(M_e(a, b));
-  return M;
-}
-
 // Both matrices are symmetric, so that Eigen's column order serves as PETSc's row order.
 void add(Mat A, const CellRows& rows, const Eigen::MatrixXd& A_e) {
   const auto n = static_cast<PetscInt>(rows.row.size());
@@ -70,7 +62,7 @@ void add(Mat A, const CellRows& rows, const Eigen::MatrixXd& A_e) {
 }  // namespace
 
 Matrices assemble(MPI_Comm comm, const MeshPart& part, const std::vector<model::MaterialRegion>& regions,
-                  model::Element element, const Progress& progress) {
+                  const model::Formulation& formulation, const Progress& progress) {
   constexpr int kReportEvery = 4096;
   const BlockCounts counts = count_blocks(part);
   Matrices matrices{create_spd_matrix(comm, 3, counts), create_spd_matrix(comm, 3, counts)};
@@ -84,8 +76,10 @@ Matrices assemble(MPI_Comm comm, const MeshPart& part, const std::vector<model::
     const int region = part.region[cell];
     const Eigen::Matrix3Xd X = cell_coordinates(part.mesh, cell);
     find_rows(part, cell, rows);
-    add(matrices.K, rows, functions.stiffness(X, elasticities[region], element));
-    add(matrices.M, rows, in_three_directions(functions.mass(X, regions[region].material.rho)));
+    add(matrices.K, rows, functions.stiffness(X, elasticities[region], formulation.element));
+    add(matrices.M, rows,
+        mass_matrix(cell_mass(part.mesh.cells.type[cell], X, regions[region].material.rho,
+                              elasticities[region], formulation)));
   }
   finish_assembly(matrices.K);
   finish_assembly(matrices.M);

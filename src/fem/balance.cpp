@@ -1,6 +1,7 @@
 #include "elastogear/fem/balance.h"
 
 #include "elastogear/fem/element.h"
+#include "fem/elements/cell_mass.h"
 
 namespace elastogear::fem {
 namespace {
@@ -14,8 +15,10 @@ MatrixXd rows_of_cell(const MatrixXd& u, std::span<const int> nodes) {
   return rows;
 }
 
-// Inertia forces (M_s (x) I_3) u.
-MatrixXd inertia_forces(const MatrixXd& M_s, const MatrixXd& u) {
+// Inertia forces M_e u, without M_e where this is M_s (x) I_3.
+MatrixXd inertia_forces(const CellMass& mass, const MatrixXd& u) {
+  if (mass.has_modes()) return mass_matrix(mass) * u;
+  const MatrixXd& M_s = mass.scalar;
   MatrixXd f(u.rows(), u.cols());
   for (Eigen::Index j = 0; j < u.cols(); ++j)
     f.col(j).reshaped(3, M_s.rows()) = u.col(j).reshaped(3, M_s.rows()) * M_s;
@@ -32,8 +35,11 @@ Eigen::VectorXd residual(const MeshedBody& body, const MatrixXd& u, const Eigen:
     const Eigen::Matrix3Xd X = cell_coordinates(body.mesh, cell);
     const auto nodes = body.mesh.cells[cell];
     const MatrixXd u_e = rows_of_cell(u, nodes);
-    const MatrixXd elastic = functions.stiffness(X, elasticity(material), body.element) * u_e;
-    const MatrixXd inertial = inertia_forces(functions.mass(X, material.rho), u_e) * lambda.asDiagonal();
+    const Elasticity elastic_moduli = elasticity(material);
+    const MatrixXd elastic = functions.stiffness(X, elastic_moduli, body.formulation.element) * u_e;
+    const CellMass mass =
+        cell_mass(body.mesh.cells.type[cell], X, material.rho, elastic_moduli, body.formulation);
+    const MatrixXd inertial = inertia_forces(mass, u_e) * lambda.asDiagonal();
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (!body.is_free[nodes[a]]) continue;
       const auto at = 3 * static_cast<Eigen::Index>(a);

@@ -4,6 +4,7 @@
 
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/fem/element.h"
+#include "fem/elements/cell_mass.h"
 #include "fem/spd_matrix.h"
 
 namespace elastogear::fem {
@@ -105,6 +106,21 @@ MatrixXd project(const CellBasis& basis, const Block& block) {
   return A;
 }
 
+// The cell's matrix A_e, 3 n_nodes square, over the harmonic's coordinates.
+MatrixXd project_blocks(const CellBasis& basis, const MatrixXd& A_e) {
+  return project(basis, [&](std::size_t a, std::size_t b) {
+    const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
+    return projected(*basis.Q[a], A_e.block<3, 3>(3 * i, 3 * j), *basis.Q[b]);
+  });
+}
+
+// The same of M_s (x) I_3.
+MatrixXd project_scalar(const Harmonic& harmonic, const CellBasis& basis, const MatrixXd& M_s) {
+  return project(basis, [&](std::size_t a, std::size_t b) -> MatrixXd {
+    return M_s(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * overlap(harmonic, basis, a, b);
+  });
+}
+
 // Symmetric, so that Eigen's column order serves as PETSc's row order.
 void add(Mat A, const CellBasis& basis, const MatrixXd& A_e) {
   const auto n = static_cast<PetscInt>(basis.row.size());
@@ -122,7 +138,7 @@ std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector) {
 }
 
 Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
-                  const std::vector<model::MaterialRegion>& regions, model::Element element) {
+                  const std::vector<model::MaterialRegion>& regions, const model::Formulation& formulation) {
   const Rows rows = count_entries(comm, sector, harmonic);
   Matrices matrices{create_spd_matrix(comm, 1, rows.count), create_spd_matrix(comm, 1, rows.count)};
   for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
@@ -133,17 +149,14 @@ Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
     const model::Material& material = regions[sector.region[cell]].material;
     const Eigen::Matrix3Xd X = cell_coordinates(sector.mesh, cell);
     const double weight = sector.weight[cell];
-    const MatrixXd K_e = weight * functions.stiffness(X, elasticity(material), element);
-    const MatrixXd M_e = weight * functions.mass(X, material.rho);
-    const auto stiffness = [&](std::size_t a, std::size_t b) {
-      const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
-      return projected(*basis.Q[a], K_e.block<3, 3>(3 * i, 3 * j), *basis.Q[b]);
-    };
-    const auto mass = [&](std::size_t a, std::size_t b) -> MatrixXd {
-      return M_e(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * overlap(harmonic, basis, a, b);
-    };
-    add(matrices.K, basis, project(basis, stiffness));
-    add(matrices.M, basis, project(basis, mass));
+    const Elasticity elastic = elasticity(material);
+    const MatrixXd K_e = weight * functions.stiffness(X, elastic, formulation.element);
+    add(matrices.K, basis, project_blocks(basis, K_e));
+    CellMass mass = cell_mass(sector.mesh.cells.type[cell], X, material.rho, elastic, formulation);
+    mass.scalar *= weight;
+    add(matrices.M, basis,
+        mass.has_modes() ? project_blocks(basis, mass_matrix(mass))
+                         : project_scalar(harmonic, basis, mass.scalar));
   }
   finish_assembly(matrices.K);
   finish_assembly(matrices.M);

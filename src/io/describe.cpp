@@ -158,7 +158,8 @@ void describe_body(Out& out, const std::string& path) {
   describe_inertia(out, body.inertia);
   line(out, "restraint: ", body.floating ? "none, a free body" : describe_restraint(source));
   line(out, "body frame: origin at (", source.origin.transpose(), ") m of the mesh that was reduced");
-  line(out, "element of hex8 cells: ", element_name(source.element), ", ",
+  line(out, "element of hex8 cells: ", element_name(source.element),
+       source.element_mass == model::ElementMass::condensed ? " (mass condensed), " : ", ",
        counted(source.free_dof.size(), "free degree"), " of freedom");
   describe_materials(out, source.regions);
   std::string groups;

@@ -91,7 +91,7 @@ void set_modal_matrices(model::ElasticBody& body, const Eigen::VectorXd& eigenva
 void set_full_basis(model::ElasticBody& body, const std::vector<int>& free_dof,
                     const fem::MassMoments& moments, const model::SparseRows& S) {
   body.basis = model::Basis::full;
-  const Eigen::Index n_dofs = 3 * moments.w_0.size();
+  const Eigen::Index n_dofs = 3 * moments.n_nodes();
   const auto Phi = unit_columns(free_dof, n_dofs);
   body.surface.Phi = model::SparseRows(node_rows(body.surface.node, n_dofs) * Phi);
   const model::SparseRows rows = S * Phi;
@@ -103,11 +103,11 @@ void set_full_basis(model::ElasticBody& body, const std::vector<int>& free_dof,
   }
   resize_coupling(body.inertia, Phi.cols());
   for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
-    const int node = free_dof[static_cast<std::size_t>(j)] / 3, d = free_dof[static_cast<std::size_t>(j)] % 3;
-    const Eigen::Vector3d e = Eigen::Vector3d::Unit(d), w_1 = moments.w_1.col(node);
-    body.inertia.C_l.row(j) = moments.w_0(node) * e;
-    body.inertia.C_r.row(j) = w_1.cross(e);
-    for (int a = 0; a < 3; ++a) body.inertia.S_1(3 * a + d, j) = w_1(a);
+    const int dof = free_dof[static_cast<std::size_t>(j)];
+    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> S_1 = fem::first_moment(moments, dof);
+    body.inertia.C_l.row(j) = fem::translational_coupling(moments, dof);
+    body.inertia.C_r.row(j) = fem::rotational_coupling(S_1);
+    body.inertia.S_1.col(j) = S_1.reshaped<Eigen::RowMajor>();
   }
 }
 

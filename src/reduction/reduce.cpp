@@ -21,7 +21,7 @@ void keep_all(Job& job) {
     plan.body.K_r = K;
     plan.body.M_r = M;
     if (job.options.invariants == Invariants::full)
-      plan.body.inertia.S_2 = unit_second_moments(scalar_mass(job), plan.free_dof);
+      plan.body.inertia.S_2 = unit_second_moments(field_mass(job), plan.free_dof);
     set_relaxing_full(job);
   });
   job.finish_stage("gathering");
@@ -61,7 +61,7 @@ fem::Matrices assemble_cells(Job& job) {
   });
   const fem::MeshPart share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
   job.finish_stage("partition");
-  fem::Matrices matrices = fem::assemble(job.comm, share, job.regions, job.options.element, job.progress);
+  fem::Matrices matrices = fem::assemble(job.comm, share, job.regions, formulation(job), job.progress);
   int single = job.rank == 0 && mesh::has_single_directions(plan.held);
   MPI_Bcast(&single, 1, MPI_INT, 0, job.comm);
   if (single) fem::eliminate(plan.held, matrices, plan.dof);
@@ -92,8 +92,14 @@ fem::Matrices assemble(Job& job) {
 }
 
 io::BodySource source_of(const Job& job) {
-  return {job.mesh,          job.regions,       job.options.element, job.plan.free_dof,
-          job.report.checks, job.report.origin, job.plan.recovery};
+  return {.mesh = job.mesh,
+          .regions = job.regions,
+          .element = job.options.element,
+          .element_mass = job.options.element_mass,
+          .free_dof = job.plan.free_dof,
+          .checks = job.report.checks,
+          .origin = job.report.origin,
+          .recovery = job.plan.recovery};
 }
 
 ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOptions& options,

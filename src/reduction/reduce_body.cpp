@@ -72,10 +72,21 @@ void validate_ritz(const ReductionOptions& options) {
             " Hz, must be finite and not negative");
 }
 
+void validate_mass(const ReductionOptions& options) {
+  if (options.element_mass == model::ElementMass::compatible) return;
+  require(!options.imported, "element_mass condensed is of the mesh's own cells: the mass comes from ",
+          options.imported->mass, ", leave one of the options element_mass and mass out");
+  require(
+      options.element == model::Element::incompatible,
+      "element_mass condensed belongs to incompatible modes: take -element incompatible, or -element_mass "
+      "compatible");
+}
+
 void validate(const ReductionOptions& options) {
   if (options.ritz) validate_ritz(options);
   if (!options.imported || !options.regions.empty()) fem::validate(options.regions);
   validate_relaxing(options);
+  validate_mass(options);
   require(!options.floating || options.restrain.empty(), "a free body has no restrained sets");
   require(options.frame_origin.allFinite(), "the origin of the body frame (",
           options.frame_origin.transpose(), ") m must be finite");
@@ -192,7 +203,7 @@ void place_frame(Job& job) {
   job.mesh.X.colwise() -= origin;
   job.plan.repetition.turn.point -= origin;
   move_materials(job, origin);
-  moments.w_1 -= origin * moments.w_0.transpose();
+  fem::move_origin(moments, origin);
   job.report.origin = origin;
 }
 
@@ -244,7 +255,7 @@ model::SparseRows field_operator(const Job& job) {
 void prepare_on_root(Job& job) {
   require_on_body(job);
   Plan& plan = job.plan;
-  if (plan.moments.w_0.size() == 0) plan.moments = fem::mass_moments(job.mesh, job.regions);
+  if (plan.moments.w_0.size() == 0) plan.moments = fem::mass_moments(job.mesh, job.regions, formulation(job));
   for (const auto& [node, mass] : point_masses(job)) {
     plan.moments.w_0[node] += mass;
     plan.moments.w_1.col(node) += mass * job.mesh.X.col(node);
@@ -278,12 +289,14 @@ std::map<int, double> point_masses(const Job& job) {
   return masses;
 }
 
-model::SparseRows scalar_mass(const Job& job) {
-  model::SparseRows M_s =
-      job.options.imported ? job.plan.imported_mass : fem::scalar_mass(job.mesh, job.regions);
-  for (const auto& [node, mass] : point_masses(job)) M_s.coeffRef(node, node) += mass;
-  return M_s;
+fem::FieldMass field_mass(const Job& job) {
+  fem::FieldMass all = job.options.imported ? fem::FieldMass{job.plan.imported_mass}
+                                            : fem::field_mass(job.mesh, job.regions, formulation(job));
+  for (const auto& [node, mass] : point_masses(job)) all.M_s.coeffRef(node, node) += mass;
+  return all;
 }
+
+model::Formulation formulation(const Job& job) { return {job.options.element, job.options.element_mass}; }
 
 void read_matrices(Job& job) {
   Plan& plan = job.plan;

@@ -77,10 +77,13 @@ void number(Job& job);
 void read_matrices(Job& job);
 /// Point masses, kg, of every node that has some. Rank 0.
 std::map<int, double> point_masses(const Job& job);
-/// The scalar mass of all nodes, point masses included. Rank 0.
-model::SparseRows scalar_mass(const Job& job);
+/// The mass between the displacements of all nodes and modes, point masses included. Rank 0.
+fem::FieldMass field_mass(const Job& job);
 /// Moves all coordinates into the body frame and makes what needs no solution. Collective.
 void prepare_body(Job& job);
+
+/// How the job's cells are computed.
+model::Formulation formulation(const Job& job);
 
 /// K and M of the whole body, assembled or as they were read; once. Collective.
 fem::Matrices assemble(Job& job);

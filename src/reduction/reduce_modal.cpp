@@ -46,6 +46,7 @@ Fingerprint fingerprint_of(const Job& job) {
     for (double end : {o.interval->lower, o.interval->upper}) f.add(end);
   f.add_all(job.plan.moments.w_0);
   f.add_all(job.plan.moments.w_1.reshaped());
+  f.add_all(job.plan.moments.modes.reshaped());
   f.add_all(job.plan.body.surface.node);
   f.add_all(job.plan.body.stress.node);
   for (const model::Marker& marker : job.plan.body.markers) f.add_all(marker.X);
@@ -121,7 +122,7 @@ class ModalWriter {
   void set_pairs(WaitingModes& modes) {
     modes.close();
     if (job_.options.invariants == Invariants::full)
-      job_.plan.body.inertia.S_2 = second_moments(modes, scalar_mass(job_));
+      job_.plan.body.inertia.S_2 = second_moments(modes, field_mass(job_));
     set_relaxing(job_, modes);
   }
 
@@ -197,7 +198,7 @@ bool flexibility_repeats(Job& job) {
 
 // Static responses of the body with the present moduli of job.regions. Collective.
 model::Flexibility solve_flexibility(Job& job, const FlexibilityTask& task, const ElasticSystem& system) {
-  const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, job.options.element};
+  const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, formulation(job)};
   return flexibility_repeats(job)
              ? find_cyclic_flexibility(job.comm, task, body, job.options.floating, job.progress)
              : find_flexibility(task, system, job.progress);
@@ -215,8 +216,11 @@ void add_long_term(Job& job, const ElasticSystem& system, model::Flexibility& fl
   const FlexibilityTask task{body.surface,       body.stress.node,  S, job.mesh, job.plan.repetition,
                              job.options.loaded, stressed_body(job)};
   const fem::Matrices matrices = assemble(job);
-  model::Flexibility relaxed =
-      solve_flexibility(job, task, {matrices.K, matrices.M, system.gather, system.rigid});
+  // A free body is relieved by the mass of its modes, with the amplitudes of the instantaneous moduli.
+  const ElasticSystem relaxed_system{matrices.K, system.M, system.gather, system.rigid};
+  const bool relieved = job.options.floating && job.options.element_mass == model::ElementMass::condensed;
+  model::Flexibility relaxed = relieved ? find_flexibility(task, relaxed_system, job.progress)
+                                        : solve_flexibility(job, task, relaxed_system);
   job.regions = instantaneous;
   if (job.rank != 0) return;
   flexibility.F_long = std::move(relaxed.F);
@@ -286,6 +290,7 @@ std::string fingerprint_of_sectors(Job& job) {
     f.add_all(job.plan.region);
     for (const model::MaterialRegion& region : job.regions) add(f, region.material);
     f.add(static_cast<double>(job.options.element));
+    f.add(static_cast<double>(job.options.element_mass));
   });
   return f.text();
 }
@@ -308,7 +313,7 @@ void check_sectors(Job& job) {
 void reduce_sectors(Job& job) {
   HarmonicCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
   const Plan& plan = job.plan;
-  const fem::MeshedBody body{job.mesh, job.regions, plan.region, plan.is_free, job.options.element};
+  const fem::MeshedBody body{job.mesh, job.regions, plan.region, plan.is_free, formulation(job)};
   std::optional<ModalWriter> writer;
   CyclicOptions options;
   options.eigen = eigen_options(job.options);

@@ -4,18 +4,18 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "elastogear/fem/inertia.h"
 #include "elastogear/model/elastic_body.h"
 #include "reduction/waiting_modes.h"
 
 namespace elastogear::reduction {
 
-/// S^ab of closed modes for ab = 11 22 33 12 23 13, n_q x n_q each, in 12 n_nodes n_q^2 operations. M_s:
-/// fem::scalar_mass. Memory: about 1 GB, and the 6 n_q x n_q results.
-std::vector<model::BasisRows> second_moments(const WaitingModes& modes, const model::SparseRows& M_s);
+/// S^ab of closed modes for ab = 11 22 33 12 23 13, n_q x n_q each, in 12 n n_q^2 operations for the n fields
+/// of the mass. Memory: about 1 GB, and the 6 n_q x n_q results.
+std::vector<model::BasisRows> second_moments(const WaitingModes& modes, const fem::FieldMass& mass);
 
-/// Second moments of the unit basis: the entries of M_s between directions a and b of the free displacements,
-/// sparse.
-std::vector<model::BasisRows> unit_second_moments(const model::SparseRows& M_s,
+/// Second moments of the unit basis: the mass between directions a and b of the free displacements, sparse.
+std::vector<model::BasisRows> unit_second_moments(const fem::FieldMass& mass,
                                                   const std::vector<int>& free_dof);
 
 }  // namespace elastogear::reduction

@@ -27,7 +27,7 @@ Eigen::Vector3d exact(const Eigen::Vector3d& X) {
 
 // Root of the mean square error at the nodes, weighted by their mass.
 double error(const Mesh& mesh, model::Element element) {
-  const auto system = test::assemble(mesh, {}, PETSC_COMM_SELF, test::kSteelBody, element);
+  const auto system = test::assemble(mesh, {}, PETSC_COMM_SELF, test::kSteelBody, {element});
   const Eigen::SparseMatrix<double> K = fem::gather_matrix(system.matrices.K, system.rows);
   Eigen::VectorXd u(3 * mesh.n_nodes()), held = Eigen::VectorXd::Zero(u.size());
   for (int i = 0; i < mesh.n_nodes(); ++i) u.segment<3>(3 * i) = exact(mesh.X.col(i));

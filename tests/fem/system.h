@@ -17,7 +17,7 @@ struct System {
 inline System assemble(const mesh::Mesh& mesh, const std::vector<std::string>& restrained,
                        MPI_Comm comm = PETSC_COMM_WORLD,
                        const std::vector<model::MaterialRegion>& regions = kSteelBody,
-                       model::Element element = model::Element::incompatible) {
+                       const model::Formulation& formulation = {}) {
   int size = 1;
   MPI_Comm_size(comm, &size);
   std::vector<int> part;
@@ -25,7 +25,7 @@ inline System assemble(const mesh::Mesh& mesh, const std::vector<std::string>& r
   System system;
   system.rows = fem::number_rows(mesh, fem::free_nodes(mesh, restrained), part, size);
   const auto share = fem::distribute(comm, mesh, fem::cell_regions(mesh, regions), system.rows);
-  system.matrices = fem::assemble(comm, share, regions, element);
+  system.matrices = fem::assemble(comm, share, regions, formulation);
   return system;
 }
 

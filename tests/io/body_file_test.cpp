@@ -113,6 +113,7 @@ TEST_F(BodyFile, gives_mesh_materials_and_free_dof_back) {
   EXPECT_TRUE(mesh::equal(a.mesh, b.mesh));
   EXPECT_EQ(a.free_dof, b.free_dof);
   EXPECT_EQ(a.element, b.element);
+  EXPECT_EQ(a.element_mass, b.element_mass);
   ASSERT_EQ(b.regions.size(), 2u);
   EXPECT_EQ(b.regions[0].cell_set, "");
   EXPECT_EQ(b.regions[1].cell_set, "even");

@@ -11,6 +11,7 @@ inline BodySource sample_source() {
   source.mesh = mesh::box_mesh_with_sets({2, 1, 1});
   source.regions = {{"", {2.1e11, 0.3, 7850}}, {"even", {1.1e11, 0.34, 8800}}};
   source.element = model::Element::plain;
+  source.element_mass = model::ElementMass::condensed;
   for (int dof = 12; dof < 3 * source.mesh.n_nodes(); ++dof) source.free_dof.push_back(dof);
   return source;
 }

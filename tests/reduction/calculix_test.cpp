@@ -80,7 +80,8 @@ void compare(const Comparison& c) {
   if (!test::calculix_is_installed()) GTEST_SKIP() << "ccx is not installed";
   const auto expected =
       test::calculix_frequencies({c.mesh, c.material, {c.restrained}, c.calculix_element}, c.n_modes);
-  const auto system = test::assemble(c.mesh, {c.restrained}, PETSC_COMM_SELF, {{"", c.material}}, c.element);
+  const auto system =
+      test::assemble(c.mesh, {c.restrained}, PETSC_COMM_SELF, {{"", c.material}}, {c.element});
   if (c.mass_rule) assemble_calculix_mass(c.mesh, *c.mass_rule, system.rows, system.matrices.M);
   reduction::EigenOptions options;
   options.n_modes = c.n_modes;

@@ -66,7 +66,7 @@ Eigen::VectorXd solve(const test::System& system, const Eigen::VectorXd& f) {
 }
 
 Eigen::MatrixXd our_stress(const mesh::Mesh& mesh, const Forces& forces, model::Element element) {
-  const auto system = test::assemble(mesh, {kHeld}, PETSC_COMM_SELF, test::kSteelBody, element);
+  const auto system = test::assemble(mesh, {kHeld}, PETSC_COMM_SELF, test::kSteelBody, {element});
   Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
   for (const auto& [node, value] : forces) f.segment<3>(3 * node) = value;
   return fem::nodal_stress({mesh, test::kSteelBody, element}, solve(system, f));

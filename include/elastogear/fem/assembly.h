@@ -19,6 +19,6 @@ struct Matrices {
 /// Restraint by elimination: restrained displacements have no rows. Collective. The part's regions index
 /// `regions`; Jacobians must be positive (require_positive_jacobians).
 Matrices assemble(MPI_Comm comm, const MeshPart& part, const std::vector<model::MaterialRegion>& regions,
-                  model::Element element, const Progress& progress = {});
+                  const model::Formulation& formulation, const Progress& progress = {});
 
 }  // namespace elastogear::fem

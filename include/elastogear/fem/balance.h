@@ -15,7 +15,7 @@ struct MeshedBody {
   const std::vector<model::MaterialRegion>& regions;
   const std::vector<int>& region;    ///< of each cell, index into regions
   const std::vector<bool>& is_free;  ///< of each node
-  model::Element element;
+  model::Formulation formulation;
 };
 
 /// For each column of u (3 n_nodes x n, m) with its lambda (rad^2/s^2) the norm of the forces K u - lambda M

@@ -15,6 +15,6 @@ std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector);
 /// harmonic that is not real is double: z and i z. Collective; needs no communication.
 /// docs/theory.md, Eq. (2.11).
 Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
-                  const std::vector<model::MaterialRegion>& regions, model::Element element);
+                  const std::vector<model::MaterialRegion>& regions, const model::Formulation& formulation);
 
 }  // namespace elastogear::fem

@@ -21,6 +21,7 @@ struct BodySource {
   mesh::Mesh mesh;
   std::vector<model::MaterialRegion> regions;
   model::Element element = model::Element::incompatible;
+  model::ElementMass element_mass = model::ElementMass::compatible;
   std::vector<int> free_dof;  ///< n_free, ascending: dof 3 node + direction that is not restrained
   std::vector<model::Check> checks = {};  ///< of the reduction
   Eigen::Vector3d origin = {0, 0,

@@ -58,4 +58,14 @@ struct MaterialRegion {
 /// the mean dilatation of Hughes (1980). Other cells have one formulation each.
 enum class Element { incompatible, plain, bbar };
 
+/// Shape functions in the mass of incompatible hex8: those of the nodes alone, or with the incompatible modes
+/// that the static condensation of the stiffness adds to them. docs/theory.md, Eq. (1.5b).
+enum class ElementMass { compatible, condensed };
+
+/// How the stiffness and the mass of cells are computed.
+struct Formulation {
+  Element element = Element::incompatible;
+  ElementMass mass = ElementMass::compatible;
+};
+
 }  // namespace elastogear::model

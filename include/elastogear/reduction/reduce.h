@@ -44,6 +44,7 @@ struct ReductionOptions {
   std::string name = {};                            ///< of the body
   std::vector<model::MaterialRegion> regions = {};  ///< the empty cell set: all cells no other region names
   model::Element element = model::Element::incompatible;
+  model::ElementMass element_mass = model::ElementMass::compatible;  ///< of incompatible hex8
   std::vector<std::string> restrain = {};      ///< node or face sets, "left:xy" in these directions only
   std::optional<ImportedFiles> imported = {};  ///< K and M from files; a mesh without cells will do
   bool floating = false;                       ///< a free body: `restrain` stays empty, free-free modes

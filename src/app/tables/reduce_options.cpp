@@ -23,6 +23,9 @@ const Rows<ReductionOptions> kMeshRows = {
     {"output", "-", "", "body file to write (HDF5)"},
     {"element", &ReductionOptions::element, one_of("incompatible", "plain", "bbar"),
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
+    {"element_mass", &ReductionOptions::element_mass, one_of("compatible", "condensed"),
+     "mass of incompatible 8-node hexahedra: compatible (of the shape functions of their nodes) or condensed "
+     "(of their incompatible modes too, which the stiffness condenses: upper frequencies err less)"},
     {"restrain", "-", "",
      "node sets or face sets whose nodes are held and carry the body frame, in all directions or, with :x, "
      ":yz, ... behind the name, in these only: [bore, symmetry:z, left:xy]; none: a free body, free-free "

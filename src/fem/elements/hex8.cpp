@@ -16,7 +16,6 @@ using Derivatives = Eigen::Matrix<double, 8, 3>;
 constexpr int kModes = 3;  // incompatible functions, each in three directions
 constexpr int kFunctions = 8 + kModes;
 using Gradients = Eigen::Matrix<double, 3, kFunctions>;
-using Condensation = Eigen::Matrix<double, 9, 24>;
 
 // Corner k of the reference cube [-1, 1]^3, in the mesh's node order.
 Point corner(int k) {
@@ -101,9 +100,9 @@ Weighted weighted_gradients(const Coordinates& X) {
 
 // Amplitudes of the incompatible modes per nodal displacement: a = -K_aa^-1 K_au u.
 template <class Matrix>
-Condensation condensation(const Matrix& K) {
+Amplitudes condensation(const Matrix& K) {
   const Eigen::Matrix<double, 9, 9> K_aa = K.template bottomRightCorner<9, 9>();
-  const Condensation K_au = K.template bottomLeftCorner<9, 24>();
+  const Amplitudes K_au = K.template bottomLeftCorner<9, 24>();
   return -K_aa.ldlt().solve(K_au);
 }
 
@@ -239,8 +238,23 @@ Mass mass(const Coordinates& X, double rho) {
   return M;
 }
 
+MassWithModes mass_with_modes(const Coordinates& X, double rho) {
+  MassWithModes M = MassWithModes::Zero();
+  for (const Sample& point : mass_points()) {
+    const double det = Eigen::Matrix3d(X * point.dN).determinant();
+    Eigen::Matrix<double, kFunctions, 1> f;
+    f << point.N, 1 - point.xi.array().square();
+    M += rho * det * point.weight * f * f.transpose();
+  }
+  return M;
+}
+
+Amplitudes incompatible_amplitudes(const Coordinates& X, const Elasticity& material) {
+  return condensation(full_stiffness(X, material, model::Element::incompatible));
+}
+
 StressOperator stress(const Coordinates& X, const Elasticity& material, model::Element element) {
-  Condensation C = Condensation::Zero();
+  Amplitudes C = Amplitudes::Zero();
   if (element == model::Element::incompatible) C = condensation(full_stiffness(X, material, element));
   const auto sigma = std::visit([&](const auto& m) { return point_stresses(X, m, element); }, material);
   StressOperator S = StressOperator::Zero();

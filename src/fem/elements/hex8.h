@@ -5,7 +5,7 @@
 // with the corrected gradient grad P = (det J_0/det J) J_0^-T dP/dxi (J_0: Jacobian at the centre) of R. L.
 // Taylor, P. J. Beresford, E. L. Wilson, "A non-conforming element for stress analysis", Int. J. Numer. Meth.
 // Eng. 10 (1976) 1211-1219: it integrates to zero over the cell, so the patch test is passed on any shape.
-// The modes are condensed statically and carry no mass.
+// The modes are condensed statically. Their mass is left out by mass(), and is in mass_with_modes().
 //
 // B-bar: the dilatation is its mean over the cell, so that nearly incompressible bodies do not lock; T. J. R.
 // Hughes, "Generalization of selective integration procedures to anisotropic and nonlinear media", Int. J.
@@ -22,6 +22,8 @@ namespace elastogear::fem::hex8 {
 using Coordinates = Eigen::Matrix<double, 3, 8>;       ///< m, one column per node
 using Stiffness = Eigen::Matrix<double, 24, 24>;       ///< N/m
 using Mass = Eigen::Matrix<double, 8, 8>;              ///< kg, scalar: the element's mass is Mass (x) I_3
+using MassWithModes = Eigen::Matrix<double, 11, 11>;   ///< kg, of the shape functions, then of P_1, P_2, P_3
+using Amplitudes = Eigen::Matrix<double, 9, 24>;       ///< -, row 3 k + d: of P_(k+1) in direction d
 using StressOperator = Eigen::Matrix<double, 48, 24>;  ///< Pa/m, 6 rows per node
 
 /// Smallest determinant of the Jacobian (m^3) over the centre and all points of both quadratures. Every
@@ -38,6 +40,14 @@ Stiffness stiffness_of_part(const Coordinates& X, const Elasticity& material, co
 
 /// Consistent mass, 3x3x3 Gauss points: exact for every trilinear hexahedron.
 Mass mass(const Coordinates& X, double rho);
+
+/// Consistent mass of the shape functions and the incompatible modes, 3x3x3 Gauss points: exact for every
+/// trilinear hexahedron but for the products of two modes, which are exact on parallelepipeds.
+MassWithModes mass_with_modes(const Coordinates& X, double rho);
+
+/// Amplitudes of the incompatible modes per nodal displacement by static condensation: zero for every rigid
+/// motion. docs/theory.md, Eq. (1.5a).
+Amplitudes incompatible_amplitudes(const Coordinates& X, const Elasticity& material);
 
 /// Stress at the 2x2x2 Gauss points, incompatible part included, extrapolated trilinearly to the nodes.
 StressOperator stress(const Coordinates& X, const Elasticity& material, model::Element element);

@@ -167,6 +167,8 @@ BodySource read_body_source(const std::string& path) {
   source.mesh = read_mesh(file);
   source.regions = read_materials(file);
   source.element = parse_element(path, h5::string_attribute(file, "/", "element"));
+  if (h5::has_attribute(file, "/", kElementMass))
+    source.element_mass = parse_element_mass(path, h5::string_attribute(file, "/", kElementMass));
   source.free_dof = read_free_dof(file, 3 * source.mesh.X.cols());
   source.origin = Eigen::Map<const Eigen::Vector3d>(h5::read<double>(file, "/rigid/origin", {3}).data());
   source.checks = read_checks(file);

@@ -66,6 +66,19 @@ inline model::Element parse_element(const std::string& path, const std::string& 
   return static_cast<model::Element>(found - std::begin(kElementNames));
 }
 
+/// Attribute of the file: whether the mass of incompatible hex8 has their modes. Files without it do not.
+inline constexpr const char* kElementMass = "element_mass";
+
+inline std::string element_mass_name(model::ElementMass mass) {
+  return mass == model::ElementMass::compatible ? "compatible" : "condensed";
+}
+inline model::ElementMass parse_element_mass(const std::string& path, const std::string& name) {
+  if (name == "compatible") return model::ElementMass::compatible;
+  require(name == "condensed", path, ": unknown element_mass '", name,
+          "', allowed are compatible, condensed");
+  return model::ElementMass::condensed;
+}
+
 // Names of the recovery methods, in the order of model::RecoveryMethod.
 inline std::string recovery_name(model::RecoveryMethod method) {
   return method == model::RecoveryMethod::average ? "average" : "surface";

@@ -79,7 +79,7 @@ struct Search {
   }
   bool mine(int k) const { return group_of(k) == group->index && harmonics[k].size() > 0; }
   fem::Matrices assemble(int k) const {
-    return fem::assemble(group->comm, sector, harmonics[k], body.body.regions, body.body.element);
+    return fem::assemble(group->comm, sector, harmonics[k], body.body.regions, body.body.formulation);
   }
 };
 

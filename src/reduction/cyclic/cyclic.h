@@ -16,7 +16,7 @@ namespace elastogear::reduction {
 using FieldSink = std::function<void(int index, const Eigen::VectorXd& phi)>;
 
 struct CyclicBody {
-  fem::MeshedBody body;  ///< regions and element on all ranks, the rest on rank 0
+  fem::MeshedBody body;  ///< regions and formulation on all ranks, the rest on rank 0
   const mesh::Repetition& repetition;
 };
 

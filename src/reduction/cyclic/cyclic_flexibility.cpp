@@ -258,7 +258,7 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
       const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
       if (harmonic.size() == 0) continue;
       const fem::Matrices matrices =
-          fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.element);
+          fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.formulation);
       HarmonicResponses(harmonic, sector, wanted, floating ? fem::rigid_fields(harmonic, sector) : MatrixXd())
           .add(matrices, flexibility);
       report(progress, kStage, std::min(1.0, static_cast<double>(k + size) / n_harmonics));

@@ -25,15 +25,10 @@ UniqueKSP mass_solver(Mat M) {
 }
 
 // M S at all nodes for one of the six rigid fields; rotations are about c.
-Eigen::VectorXd momentum(const fem::MassMoments& moments, const Eigen::Vector3d& c, int direction) {
+Eigen::VectorXd rigid_momentum(const fem::MassMoments& moments, const Eigen::Vector3d& c, int direction) {
   const Eigen::Vector3d e = Eigen::Vector3d::Unit(direction % 3);
-  Eigen::VectorXd p(3 * moments.w_0.size());
-  for (Eigen::Index i = 0; i < moments.w_0.size(); ++i) {
-    const double w = moments.w_0(i);
-    const Eigen::Vector3d w_c = moments.w_1.col(i) - w * c;
-    p.segment<3>(3 * i) = direction < 3 ? Eigen::Vector3d(w * e) : Eigen::Vector3d(e.cross(w_c));
-  }
-  return p;
+  if (direction < 3) return fem::momentum(moments, e, Eigen::Vector3d::Zero());
+  return fem::momentum(moments, -e.cross(c), e);
 }
 
 }  // namespace
@@ -64,7 +59,7 @@ SixDirections mobile_masses(Mat M, const fem::VectorGather& gather, const fem::M
   SixDirections masses;
   for (int direction = 0; direction < 6; ++direction) {
     PetscScalar product = 0;
-    gather.scatter(momentum(moments, c, direction), p);
+    gather.scatter(rigid_momentum(moments, c, direction), p);
     check(KSPSolve(ksp, p, v));
     check(VecDot(p, v, &product));
     masses(direction) = product;

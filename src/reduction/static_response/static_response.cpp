@@ -29,7 +29,8 @@ System assemble_serial(const io::BodySource& source) {
       fem::number_rows(source.mesh, fem::free_nodes(held), std::vector<int>(source.mesh.cells.size(), 0), 1);
   const std::vector<int> region = fem::cell_regions(source.mesh, source.regions);
   const fem::MeshPart share = fem::distribute(PETSC_COMM_SELF, source.mesh, region, rows);
-  System system{fem::assemble(PETSC_COMM_SELF, share, source.regions, source.element), fem::row_dofs(rows)};
+  System system{fem::assemble(PETSC_COMM_SELF, share, source.regions, {source.element, source.element_mass}),
+                fem::row_dofs(rows)};
   if (mesh::has_single_directions(held)) fem::eliminate(held, system.matrices, system.dof);
   return system;
 }
