@@ -135,7 +135,7 @@ Case case_of(const std::string& body, const MeshChoice& choice) {
 // Stress of the reference at a point of the surface: the polynomial of degree 2 over the plane through the
 // nearest nodes that fits it best.
 Eigen::Matrix<double, 6, 1> interpolated(const Solution& reference, const Vector3d& x) {
-  constexpr int kNearest = 16;
+  constexpr int kNearest = 30;  // in more than two rows, where these are wider apart than their nodes
   std::vector<int> order(static_cast<std::size_t>(reference.X.cols()));
   std::iota(order.begin(), order.end(), 0);
   const Eigen::RowVectorXd distance = (reference.X.colwise() - x).colwise().norm();

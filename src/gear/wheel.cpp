@@ -64,7 +64,7 @@ WheelCounts graded_counts(Size size) {
                 .space = 2,
                 .flank = 3,
                 .fillet = 2,
-                .rim = 3,
+                .rim = 4,
                 .web = 2,
                 .web_layers = 4,
                 .face_layers = 2,
@@ -78,12 +78,13 @@ WheelCounts graded_counts(Size size) {
   }
   if (size >= Size::medium) {
     n.tooth = 6;
-    n.rim = 4;
     n.tooth_growth = 3;
   }
   if (size == Size::paper) {
-    n.space = n.fillet = n.face_layers = 3;
+    n.space = n.face_layers = 3;
+    n.fillet = 4;
     n.web_layers = 6;
+    n.growth = 2;
   }
   return n;
 }

@@ -183,7 +183,10 @@ WormCounts graded_counts(Size size) {
     n.turn = 40;
     n.tooth_growth = 3;
   }
-  if (size == Size::paper) n.flank = n.ring = 4;
+  if (size == Size::paper) {
+    n.flank = n.ring = 4;
+    n.fillet = 3;
+  }
   return n;
 }
 
