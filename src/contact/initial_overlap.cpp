@@ -76,9 +76,7 @@ InitialOverlap initial_overlap(const Pair& pair, const SurfaceState& state_a, co
   deep.two_pass = true;
   deep.points = SlavePoints::nodes;
   deep.k = 6;  // for one search trees that are built quickly are better than tight ones
-  // Where surfaces cross, one of the nodes next to the crossing is no deeper than a face's diagonal. Farther
-  // behind a thin tooth there may be the next one, which is apart.
-  deep.depth = std::max(settings.depth, std::numbers::sqrt2 * result.face_size);
+  deep.depth = std::max(settings.depth, 2 * result.face_size);
   for (const ContactPoint& contact : Pair(pair, deep).detect(state_a, state_b)) {
     if (-contact.g_n <= result.penetration) continue;
     result.penetration = -contact.g_n;

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "elastogear/base/error.h"
-#include "elastogear/contact/topology.h"
 #include "surfaces.h"
 
 namespace elastogear::contact::initial_overlap_test {
@@ -54,24 +51,6 @@ TEST(InitialOverlap, of_open_flanks_that_cross_is_refused) {
       Error);
   EXPECT_NO_THROW(
       require_apart(initial_overlap(flank, other, {}, at(flank), at(other, {0, 0, 0.01})), "a:b"));
-}
-
-// The flank of the next tooth is seen through a thin one where that ends on its other side.
-TEST(InitialOverlap, of_a_flank_behind_a_thin_tooth_is_none) {
-  const model::Surface flank = test::plane(8, 8), behind = test::flipped(flank);
-  const double size = face_size(flank.X, flank.face);
-  EXPECT_EQ(initial_overlap(flank, behind, {}, at(flank), at(behind, {0, 0, -1.9 * size})).penetration, 0);
-}
-
-TEST(InitialOverlap, of_flanks_that_cross_steeply_is_refused) {
-  const model::Surface flank = test::plane(8, 8), other = test::flipped(flank);
-  for (double turn : {0.3, 0.6, 0.9, 1.2})
-    for (double part : {0.3, 0.4, 0.5, 0.6, 0.7})  // that is above the flank
-      EXPECT_THROW(require_apart(initial_overlap(flank, other, {}, at(flank),
-                                                 at(other, {0.1, 0, part * std::sin(turn)}, {0, turn, 0})),
-                                 "a:b"),
-                   Error)
-          << turn << " " << part;
 }
 
 TEST(InitialOverlap, counts_what_stands_out_of_the_facets) {

@@ -1,11 +1,11 @@
 #pragma once
 // Finds surfaces that overlap more at the start than facets and tolerances explain.
 //
-// The search finds (1) penetrations of the nodes of either surface, searched a face's diagonal deep
-// and by the same rule as contact itself, so that neither the far side of a tooth nor the tooth behind it is
-// taken for one; surfaces that cross, at any angle, have nodes no deeper than that; (2) a part of one surface
-// that lies wholly inside the other, when that other is closed (winding number). It does not find a part
-// wholly inside the body of an open surface and further than the search depth from it.
+// The search finds (1) penetrations of the nodes of either surface, searched twice a face size deep and by
+// the same rule as contact itself, so that the far side of a tooth is not taken for one; surfaces that cross,
+// at any angle, have nodes at all small depths; (2) a part of one surface that lies wholly inside the other,
+// when that other is closed (winding number). It does not find a part wholly inside the body of an open
+// surface and further than the search depth from it.
 
 #include <array>
 #include <string>
