@@ -59,7 +59,8 @@ FieldMass field_mass(const mesh::Mesh& mesh, const std::vector<model::MaterialRe
     for (int a = 0; a < M_e.scalar.rows(); ++a)
       for (int b = 0; b < M_e.scalar.cols(); ++b) mass.emplace_back(field[a], field[b], M_e.scalar(a, b));
   });
-  FieldMass result{model::SparseRows(n, n), {}};
+  FieldMass result;
+  result.M_s.resize(n, n);
   result.M_s.setFromTriplets(mass.begin(), mass.end());
   if (amplitudes.empty()) return result;
   result.T.resize(3 * (n - mesh.n_nodes()), 3 * mesh.n_nodes());

@@ -250,8 +250,8 @@ Options with_system(Options options, const Drive& drive) {
   options.set_default("bodies", bodies);
   options.set_default("contact_pairs", pairs);
   options.set_default("contact_surface", "exact");
-  if (!options.given("contact_two_pass") && !asks_for_penalty(options)) {
-    options.set_default("contact_points", "minima");
+  if (!options.given("contact_two_pass") && !options.given("contact_points") && !asks_for_penalty(options)) {
+    options.set("contact_points", "minima");
     if (options.text("contact_law") == "auto") options.set("contact_law", "unilateral");
   }
   options.set_default("analysis", "static");
