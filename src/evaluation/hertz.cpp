@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "evaluation/line_load.h"
-#include "evaluation/sections.h"
 
 namespace elastogear::evaluation {
 namespace {
@@ -43,16 +42,17 @@ Curvatures curvatures(const Eigen::Matrix3d& Q, const Eigen::Vector3d& n) {
 }
 
 // Of one pair of teeth on parallel axes: the largest over the stations along the face.
-HertzLine line_contact(const PairOfRun& pair, const std::vector<const FlankContact*>& contacts,
-                       const Eigen::VectorXd& stations, double E_star, std::size_t step) {
+HertzLine line_contact(const std::array<const Gear*, 2>& gear,
+                       const std::vector<const FlankContact*>& contacts, const Eigen::VectorXd& stations,
+                       double E_star, std::size_t step) {
   const auto n = static_cast<Eigen::Index>(contacts.size());
   Eigen::VectorXd z(n), force(n), per_length(n), curved(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const FlankContact& c = *contacts[static_cast<std::size_t>(i)];
-    const Curvatures at = curvatures(relative_curvature(pair, c, step), c.n);
+    const Curvatures at = curvatures(relative_curvature(gear, c, step), c.n);
     z[i] = c.x_B[1][2];
     force[i] = c.normal_force;
-    per_length[i] = c.normal_force * std::abs(at.along.dot(pair.gear[1].axis(step)));
+    per_length[i] = c.normal_force * std::abs(at.along.dot(gear[1]->axis(step)));
     curved[i] = c.normal_force * at.largest;
   }
   const Eigen::VectorXd load = line_load(stations, z, force), w = line_load(stations, z, per_length),
@@ -67,21 +67,21 @@ HertzLine line_contact(const PairOfRun& pair, const std::vector<const FlankConta
 }
 
 // Of one pair of teeth on crossed axes: the force of all contacts on the curvatures between them.
-std::optional<HertzLine> point_contact(const PairOfRun& pair,
+std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
                                        const std::vector<const FlankContact*>& contacts, double E_star,
                                        std::size_t step) {
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
   Eigen::Vector3d n = Eigen::Vector3d::Zero();
   double F = 0;
   for (const FlankContact* c : contacts) {
-    Q += c->normal_force * relative_curvature(pair, *c, step);
+    Q += c->normal_force * relative_curvature(gear, *c, step);
     n += c->normal_force * c->n;
     F += c->normal_force;
   }
   const Curvatures at = curvatures(Q / F, n.normalized());
   if (!(at.least > 0)) return {};
   const HertzEllipse ellipse = hertz_ellipse(at.least / 2, at.largest / 2, E_star);
-  if (ellipse.k < kLeastAxes || ellipse.a(F) > common_width(pair) / 2) return {};
+  if (ellipse.k < kLeastAxes || ellipse.a(F) > std::min(gear[0]->width, gear[1]->width) / 2) return {};
   return HertzLine{ellipse.pressure(F), ellipse.k * ellipse.a(F)};
 }
 
@@ -113,26 +113,25 @@ HertzEllipse hertz_ellipse(double A, double B, double E_star) {
   return h;
 }
 
-Eigen::Matrix3d relative_curvature(const PairOfRun& pair, const FlankContact& c, std::size_t step) {
+Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const FlankContact& c,
+                                   std::size_t step) {
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
   for (std::size_t g : {0, 1}) {
-    const Gear& gear = pair.gear[g];
-    const Eigen::Matrix3d& R = gear.rotation[step];
-    Q += R * gear::flank_curvature(gear.toothing, c.flank[g], c.x_B[g]) * R.transpose();
+    const Eigen::Matrix3d& R = gear[g]->rotation[step];
+    Q += R * gear::flank_curvature(gear[g]->toothing, c.flank[g], c.x_B[g]) * R.transpose();
   }
   return Q;
 }
 
-std::optional<HertzPressure> hertz_pressure(const PairOfRun& pair) {
-  if (!(pair.compliance[0] > 0) || !(pair.compliance[1] > 0)) return {};
-  const double E_star = 1 / (pair.compliance[0] + pair.compliance[1]);
-  const bool parallel = transmission(pair.gear[0], pair.gear[1], pair.sense).parallel;
-  const Eigen::VectorXd z = stations(both(pair), pair.slave_side);
-  HertzPressure found{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(pair.contacts.size()))};
-  for (std::size_t step = 0; step < pair.contacts.size(); ++step)
-    for (const auto& [teeth, contacts] : pairs_of(pair.contacts[step])) {
-      const std::optional<HertzLine> here = parallel ? line_contact(pair, contacts, z, E_star, step)
-                                                     : point_contact(pair, contacts, E_star, step);
+std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& gear,
+                                            const ContactHistory& contacts, int slave_side, double E_star) {
+  const bool parallel = transmission(*gear[0], *gear[1], 1).parallel;
+  const Eigen::VectorXd z = stations(gear, slave_side);
+  HertzPressure found{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()))};
+  for (std::size_t step = 0; step < contacts.size(); ++step)
+    for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
+      const std::optional<HertzLine> here = parallel ? line_contact(gear, of_pair, z, E_star, step)
+                                                     : point_contact(gear, of_pair, E_star, step);
       if (!here || !std::isfinite(here->pressure)) return {};
       const auto i = static_cast<Eigen::Index>(step);
       found.largest[i] = std::max(found.largest[i], here->pressure);

@@ -129,7 +129,9 @@ void add_line_load(const PairOfRun& pair, Items& items) {
 }
 
 void add_hertz(const PairOfRun& pair, Items& items) {
-  const auto hertz = hertz_pressure(pair);
+  if (!(pair.compliance[0] > 0) || !(pair.compliance[1] > 0)) return;
+  const double E_star = 1 / (pair.compliance[0] + pair.compliance[1]);
+  const auto hertz = hertz_pressure(both(pair), pair.contacts, pair.slave_side, E_star);
   if (!hertz || !(hertz->peak > 0)) return;
   items.curve("pressure/hertz", "Pa", "largest contact pressure by H. Hertz under the forces of the run",
               hertz->largest);

@@ -33,14 +33,6 @@ FlankContact contact_at(const test::RollingPair& pair, const Eigen::Vector3d& x_
   return c;
 }
 
-PairOfRun run_of(const test::RollingPair& pair) {
-  PairOfRun run;
-  run.gear = {pair.gear[0], pair.gear[1]};
-  run.roll = pair.roll.head(1);
-  run.compliance = {kCompliance, kCompliance};
-  return run;
-}
-
 // The pressure of the C14 gears of the FZG at the pitch point: 5912.1 N over 14 mm, 1347.3 MPa.
 TEST(HertzLine, of_the_c14_gears_at_the_pitch_point) {
   const double alpha = 20 * pi / 180, r_b[] = {36e-3 * std::cos(alpha), 54e-3 * std::cos(alpha)};
@@ -70,7 +62,6 @@ TEST(HertzEllipse, that_is_long_has_the_pressure_of_its_line_load) {
 // Radii of curvature of involutes on the line of action: their sum is its length between the base circles.
 TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
   const test::RollingPair pair = test::spur_pair();
-  PairOfRun run = run_of(pair);
   const double r[] = {pair.gear[0].toothing.r_b, pair.gear[1].toothing.r_b};
   const double a = (pair.gear[1].position[0] - pair.gear[0].position[0]).norm();
   const double working = std::acos((r[0] + r[1]) / a);
@@ -85,8 +76,7 @@ TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
     contacts.push_back(
         contact_at(pair, pitch_point + Eigen::Vector3d(0, 0, at), 1, kForce / n * (is_end ? 0.5 : 1)));
   }
-  run.contacts = {contacts};
-  const auto found = hertz_pressure(run);
+  const auto found = hertz_pressure(pair.both(), {contacts}, 0, 1 / (2 * kCompliance));
   ASSERT_TRUE(found);
   const double kappa = (1 / r[0] + 1 / r[1]) / std::tan(working);
   const HertzLine right = hertz_line(kForce / 25e-3, kappa, 1 / (2 * kCompliance));
@@ -95,22 +85,13 @@ TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
   EXPECT_EQ(found->largest[0], found->peak);
 }
 
-TEST(HertzPressure, is_not_told_without_the_bodies_elasticity) {
-  PairOfRun run = run_of(test::spur_pair());
-  run.contacts.resize(1);
-  run.compliance[1] = 0;
-  EXPECT_FALSE(hertz_pressure(run));
-}
-
 // Involute helicoids on crossed axes at the pitch point: 14.28 and 11.82 mm across their generators, b/a =
 // 0.330; 50 N between bodies of 210 GPa have 798 MPa.
 TEST(HertzPressure, of_the_steering_worm_at_the_pitch_point) {
   const test::RollingPair pair = test::worm_pair();
-  PairOfRun run = run_of(pair);
-  run.compliance = {0.91 / 210e9, 0.91 / 210e9};
   const Eigen::Vector3d pitch_point(0, pair.gear[1].toothing.r, 0);
-  run.contacts = {{contact_at(pair, pitch_point, 1, 50)}};
-  const auto found = hertz_pressure(run);
+  const ContactHistory contacts = {{contact_at(pair, pitch_point, 1, 50)}};
+  const auto found = hertz_pressure(pair.both(), contacts, 1, 210e9 / 0.91 / 2);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->peak, 798e6, 8e6);
 }

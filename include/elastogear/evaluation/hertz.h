@@ -3,9 +3,10 @@
 // patch of contact are means over the faces (docs/theory.md, sections 6.10 and 10.6).
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
-#include "elastogear/evaluation/evaluate.h"
+#include "elastogear/evaluation/contact.h"
 
 namespace elastogear::evaluation {
 
@@ -28,7 +29,8 @@ struct HertzEllipse {
 HertzEllipse hertz_ellipse(double A, double B, double E_star);
 
 /// 1/m, the relative curvature Q of two flanks that touch, in the world: the gap is x'Q x / 2.
-Eigen::Matrix3d relative_curvature(const PairOfRun& pair, const FlankContact& contact, std::size_t step);
+Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const FlankContact& contact,
+                                   std::size_t step);
 
 struct HertzPressure {
   Eigen::VectorXd largest;  ///< n_t, Pa; 0 where nothing bears
@@ -37,8 +39,10 @@ struct HertzPressure {
   double half_width = 0;    ///< m, of the patch there
 };
 /// Of parallel axes, line contact under the line load of each pair of teeth; of crossed ones, point contact
-/// under the force of each pair. Nothing where the bodies' elasticity is not known, and where axes cross and
-/// flanks touch along lines, as those of enveloping wheels do, or along more than half the face.
-std::optional<HertzPressure> hertz_pressure(const PairOfRun& pair);
+/// under the force of each pair. Nothing where axes cross and flanks touch along lines, as those of
+/// enveloping wheels do, or along more than half the face. slave_side: which gear's nodes come into contact;
+/// E_star: Pa.
+std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& gear,
+                                            const ContactHistory& contacts, int slave_side, double E_star);
 
 }  // namespace elastogear::evaluation
