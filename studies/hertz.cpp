@@ -87,7 +87,7 @@ struct Hertz : evaluation::HertzEllipse {
   Vector3d along, across;  // of the major and the minor axis
 };
 
-// Of surfaces with the gap x'Q x / 2.
+// Hertz's ellipse of two surfaces with the gap x'Q x / 2 and the common normal n.
 Hertz hertz(const Matrix3d& Q, const Vector3d& n) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(Q);
   const Vector3d along = axes.eigenvectors().col(1);

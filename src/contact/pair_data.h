@@ -1,6 +1,6 @@
 #pragma once
-// What a contact pair keeps, and how it finds its contacts: pass by pass at nodes and points of least gap, or
-// integrated over faces.
+// The data of a contact pair, and the functions that find its contacts: at nodes and points of least gap of
+// each slave in its own pass, or integrated over the faces of one slave.
 
 #include <array>
 #include <map>

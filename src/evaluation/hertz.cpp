@@ -41,7 +41,7 @@ Curvatures curvatures(const Eigen::Matrix3d& Q, const Eigen::Vector3d& n) {
   return {axes.eigenvalues()[0], axes.eigenvalues()[1], T * axes.eigenvectors().col(0)};
 }
 
-// Of one pair of teeth on parallel axes: the largest over the stations along the face.
+// Line contact of one pair of teeth on parallel axes, at the station of the face with the largest pressure.
 HertzLine line_contact(const std::array<const Gear*, 2>& gear,
                        const std::vector<const FlankContact*>& contacts, const Eigen::VectorXd& stations,
                        double E_star, std::size_t step) {
@@ -66,7 +66,8 @@ HertzLine line_contact(const std::array<const Gear*, 2>& gear,
   return largest;
 }
 
-// Of one pair of teeth on crossed axes: the force of all contacts on the curvatures between them.
+// Point contact of one pair of teeth on crossed axes, under the force of all its contacts and with their mean
+// curvature.
 std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
                                        const std::vector<const FlankContact*>& contacts, double E_star,
                                        std::size_t step) {

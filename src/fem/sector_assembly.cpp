@@ -114,7 +114,7 @@ MatrixXd project_blocks(const CellBasis& basis, const MatrixXd& A_e) {
   });
 }
 
-// The same of M_s (x) I_3.
+// Projection of the matrix M_s (x) I_3 of a cell on a harmonic.
 MatrixXd project_scalar(const Harmonic& harmonic, const CellBasis& basis, const MatrixXd& M_s) {
   return project(basis, [&](std::size_t a, std::size_t b) -> MatrixXd {
     return M_s(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * overlap(harmonic, basis, a, b);

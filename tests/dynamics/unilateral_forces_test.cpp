@@ -49,7 +49,7 @@ MatrixXd at_nodes(const ContactPoint& c, const MatrixXd& columns, int n_rows) {
   return all;
 }
 
-// Of symmetric compliance, each node's on its own but for a tenth; m/N.
+// A body of symmetric compliance (m/N): each node gives way on its own, but for a tenth.
 MatrixXd compliance(int n) {
   return kCompliance * (0.9 * MatrixXd::Identity(n, n) + MatrixXd::Constant(n, n, 0.1 / n));
 }
