@@ -127,7 +127,7 @@ def plot_pattern(pair, name, folder):
     axes.set_facecolor("#f4f4f4")
     axes.grid(False)
     image = axes.pcolormesh(1e3 * cell_edges(group["z"][:]), 1e3 * cell_edges(group[coordinate][:]), pressure, cmap=HEAT, vmin=0)
-    figure.colorbar(image, label="largest contact pressure in MPa")
+    figure.colorbar(image, label="contact pressure, means over the faces, in MPa")
     axes.set(xlabel="along the axis in mm", ylabel=f"{coordinate.replace('_', ' ')} in mm",
              title=f"Contact pattern: {name.replace('_', ', ')} flanks, {100 * group['covered'][()]:.0f} % touched")
     save(figure, folder, f"pattern_{name}")
