@@ -258,9 +258,9 @@ def peaks(example):
 
 def peak_section(example):
     """Largest von Mises stress of each set with its estimated error, beside the unreduced bodies."""
-    rows = [[f"{label}, {body} {name.replace('_', ' ')}", f"{peak.value / 1e6:.1f}", peak.trust(), peak.trust_mesh(), f"{true.value / 1e6:.1f}",
+    rows = [[f"{label}, {body} {name.replace('_', ' ')}", f"{peak.value / 1e6:.1f}", peak.trust(), peak.trust_mesh(), peak.trust_contact(), f"{true.value / 1e6:.1f}",
              f"{abs(peak.value - true.value) / 1e6:.2g}"] for label, body, name, peak, true in peaks(example)]
-    head = ["", "peak in MPa", "estimated error of the reduction", "of the mesh", "unreduced in MPa", "true error in MPa"]
+    head = ["", "peak in MPa", "estimated error of the reduction", "of the mesh", "of the contact", "unreduced in MPa", "true error in MPa"]
     return "<h2>Largest von Mises stress</h2>" + table(head, rows)
 
 

@@ -48,17 +48,17 @@ def trust(value, error):
     return "good" if error <= results.WELL_TRUSTED * abs(value) else "fair"
 
 
-def trust_mesh(peak):
-    """The light of a peak by the estimated error of its mesh."""
-    if peak.mesh_error is None or peak.mesh_error > results.TRUSTED_MESH * peak.value:
+def trust_mesh(peak, error):
+    """The light of a peak by its estimated error of the mesh or of the contact's resolution."""
+    if error is None or error > results.TRUSTED_MESH * peak.value:
         return "bad"
-    return "good" if peak.mesh_error <= results.WELL_TRUSTED_MESH * peak.value else "fair"
+    return "good" if error <= results.WELL_TRUSTED_MESH * peak.value else "fair"
 
 
-def trust_both(peak):
-    """The worse light of reduction and mesh; of the reduction alone where the mesh's error is not estimated."""
-    of_reduction = trust(peak.value, peak.error)
-    return of_reduction if peak.mesh_error is None else worst([of_reduction, trust_mesh(peak)])
+def trust_all(peak):
+    """The worst light of reduction, mesh and contact, as far as their errors are estimated; that of the reduction always."""
+    others = [trust_mesh(peak, error) for error in (peak.mesh_error, peak.contact_error) if error is not None]
+    return worst([trust(peak.value, peak.error), *others])
 
 
 def worst(kinds):
@@ -191,9 +191,15 @@ def checks(case, meshes):
         rows.append(("bad", "Stopped", "the run did not reach its end"))
     for body, name, _, peak in case.peaks:
         if peak.mesh_error is not None:
-            doubt = ", too coarse for this stress" if trust_mesh(peak) == "bad" else ""
+            light_of_mesh = trust_mesh(peak, peak.mesh_error)
+            doubt = ", too coarse for this stress" if light_of_mesh == "bad" else ""
             share = f"off by an estimated {100 * peak.mesh_error / max(peak.value, 1e-300):.2g} %{doubt}"
-            rows.append((trust_mesh(peak), "Mesh", f"{body} {name.replace('_', ' ')}, {share}{of_size(body, meshes)}"))
+            rows.append((light_of_mesh, "Mesh", f"{body} {name.replace('_', ' ')}, {share}{of_size(body, meshes)}"))
+        if peak.contact_error is not None:
+            light_of_contact = trust_mesh(peak, peak.contact_error)
+            doubt = ", the stress beside a contact" if light_of_contact == "bad" else ""
+            share = f"off by an estimated {100 * peak.contact_error / max(peak.value, 1e-300):.2g} %{doubt}"
+            rows.append((light_of_contact, "Contact", f"{body} {name.replace('_', ' ')}, {share}"))
     known = {body for body, _, _, peak in case.peaks if peak.mesh_error is not None}
     others = "; ".join(f"{body}: {size}" for body, size in meshes.items() if body not in known)
     if others:
@@ -204,7 +210,7 @@ def checks(case, meshes):
 def cards(case):
     """The answer: the largest stress of each set, and the largest contact force."""
     for body, name, group, peak in sorted(case.peaks, key=lambda entry: -entry[3].value):
-        kind, node = trust_both(peak), int(group["nodes"][peak.row])
+        kind, node = trust_all(peak), int(group["nodes"][peak.row])
         place = f"node {node}" + (f", {case.axis.at(case.time[peak.step])}" if len(case.time) > 1 else "")
         visit = escape(f'{{"body": "{body}", "node": {node}, "time": {case.time[peak.step]!r}}}')
         yield (f'<li class="card"><h3>{escape(body)}, {escape(name.replace("_", " "))}</h3>'
@@ -222,8 +228,9 @@ def cards(case):
 def error_note(case):
     """What stands after ±."""
     if any(peak.whole_error is not None for _, _, _, peak in case.peaks):
-        return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh, and that of the mesh, the difference between "
-                "two recoveries of the stress, together; the table has both. It does not cover the law of contact.")
+        return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh, that of the mesh, the difference between "
+                "two recoveries of the stress, and that of the contact's resolution, the stress of forces spread over the next nodes, together; the table has all "
+                "three. It does not cover the law of contact.")
     return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh. It covers neither the mesh nor the law of "
             "contact.")
 
@@ -244,10 +251,10 @@ def stress_table(case):
     rows = []
     for body, name, group, peak in case.peaks:
         tension = group["rankine"][:]
-        errors = [(mega(error, 2) if error is not None else "–", error or 0) for error in (peak.error, peak.mesh_error, peak.whole_error)]
-        rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), *errors, light(trust_both(peak)), str(int(group["nodes"][peak.row])),
+        errors = [(mega(error, 2) if error is not None else "–", error or 0) for error in (peak.error, peak.mesh_error, peak.contact_error, peak.whole_error)]
+        rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), *errors, light(trust_all(peak)), str(int(group["nodes"][peak.row])),
                      case.axis.cell(case.time[peak.step]), (mega(float(tension.max())), float(tension.max()))])
-    return table(["body", "node set", "von Mises in MPa", "± of the reduction", "± of the mesh", "± of both in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
+    return table(["body", "node set", "von Mises in MPa", "± of the reduction", "± of the mesh", "± of the contact", "± of all in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
 
 
 def contact_table(case):

@@ -66,6 +66,23 @@ HertzLine line_contact(const std::array<const Gear*, 2>& gear,
   return largest;
 }
 
+// Whether a patch of this half width reaches beyond the end of a flank, by the mean of its contacts' radii.
+bool crosses_end(const std::array<const Gear*, 2>& gear, const std::vector<const FlankContact*>& contacts,
+                 double half_width) {
+  for (std::size_t g : {0, 1}) {
+    double radius = 0, force = 0;
+    for (const FlankContact* c : contacts) {
+      radius += c->normal_force * c->x_B[g].head<2>().norm();
+      force += c->normal_force;
+    }
+    const gear::Toothing& t = gear[g]->toothing;
+    const double to_fillet = t.sign() * (radius / force - t.r_form),
+                 to_tip = t.sign() * (t.r_a - radius / force);
+    if (std::min(to_fillet, to_tip) < half_width) return true;
+  }
+  return false;
+}
+
 // Point contact of one pair of teeth on crossed axes, under the force of all its contacts and with their mean
 // curvature.
 std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
@@ -83,7 +100,9 @@ std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
   if (!(at.least > 0)) return {};
   const HertzEllipse ellipse = hertz_ellipse(at.least / 2, at.largest / 2, E_star);
   if (ellipse.k < kLeastAxes || ellipse.a(F) > std::min(gear[0]->width, gear[1]->width) / 2) return {};
-  return HertzLine{ellipse.pressure(F), ellipse.k * ellipse.a(F)};
+  const HertzLine found{ellipse.pressure(F), ellipse.k * ellipse.a(F)};
+  if (!std::isfinite(found.pressure) || crosses_end(gear, contacts, found.half_width)) return {};
+  return found;
 }
 
 }  // namespace
@@ -129,11 +148,16 @@ std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& ge
   const bool parallel = transmission(*gear[0], *gear[1], 1).parallel;
   const Eigen::VectorXd z = stations(gear, slave_side);
   HertzPressure found{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()))};
+  int n_pairs = 0, n_left_out = 0;
   for (std::size_t step = 0; step < contacts.size(); ++step)
     for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
       const std::optional<HertzLine> here = parallel ? line_contact(gear, of_pair, z, E_star, step)
                                                      : point_contact(gear, of_pair, E_star, step);
-      if (!here || !std::isfinite(here->pressure)) return {};
+      ++n_pairs;
+      if (!here || !std::isfinite(here->pressure)) {
+        ++n_left_out;
+        continue;
+      }
       const auto i = static_cast<Eigen::Index>(step);
       found.largest[i] = std::max(found.largest[i], here->pressure);
       if (here->pressure <= found.peak) continue;
@@ -141,6 +165,8 @@ std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& ge
       found.step = i;
       found.half_width = here->half_width;
     }
+  if (n_left_out == n_pairs) return {};
+  found.left_out = static_cast<double>(n_left_out) / n_pairs;
   return found;
 }
 

@@ -17,10 +17,10 @@ struct ToothStress {
   double von_mises = 0;  ///< Pa, at the copies of its node
 };
 
-/// A largest stress: value and estimated errors of the reduction and of the mesh (Pa; < 0: not estimated),
-/// tooth (0-based), mesh node, time.
+/// A largest stress: value and estimated errors of the reduction, of the mesh and of the contact's resolution
+/// (Pa; < 0: not estimated), tooth (0-based), mesh node, time.
 struct StressPeak {
-  double value = 0, error = -1, mesh_error = -1;
+  double value = 0, error = -1, mesh_error = -1, contact_error = -1;
   int tooth = 0, node = 0, step = 0;
 };
 

@@ -84,6 +84,9 @@ void add_peak(const io::StressSet& set, const StressPeak& peak, const Eigen::Vec
   if (set.mesh_error.size() > 0)
     items.number(path + "_mesh_error", "Pa", "estimated error of von Mises stress there by the mesh",
                  peak.mesh_error);
+  if (set.contact_error.size() > 0)
+    items.number(path + "_contact_error", "Pa",
+                 "estimated error of von Mises stress there by the contact's resolution", peak.contact_error);
 }
 
 void add_way(const RootStress& stress, const std::string& path, Items& items) {
@@ -139,6 +142,8 @@ void add_hertz(const PairOfRun& pair, Items& items) {
   items.number("pressure/hertz_peak_roll", "1", "roll angle of it, pitches", pair.roll[hertz->step]);
   items.number("pressure/hertz_half_width", "m", "half the patch's width there, by H. Hertz",
                hertz->half_width);
+  items.number("pressure/hertz_left_out", "1",
+               "share of the pairs of teeth of all times whose patch has no such figure", hertz->left_out);
 }
 
 void add_pressure(const PairOfRun& pair, Items& items) {

@@ -2,6 +2,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/recovery/stress.h"
+#include "recovery/contact_error.h"
 #include "recovery/crept_response.h"
 #include "recovery/error_estimate.h"
 #include "recovery/mesh_error.h"
@@ -84,6 +85,7 @@ io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elas
   if (with_error) {
     estimate_error(body, elastic, recovered);
     recovered.mesh_error = mesh_error(body, elastic, recovered);
+    if (body.known() && !body.relaxes()) recovered.contact_error = contact_error(*body.known(), nodes);
   }
   return recovered;
 }

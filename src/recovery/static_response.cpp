@@ -61,23 +61,24 @@ Eigen::MatrixXd stresses_of(const model::ElasticBody& body, int position, const 
   return G;
 }
 
-// 6 n x n_t, from the body file; one loaded node at a time. The rows of G are those of the instantaneous
-// body, then those of the relaxed one where that is stored.
-Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
+// Responses of the stresses to unit forces on the node at a position of the flexibility. The rows of G are
+// those of the instantaneous body, then those of the relaxed one where that is stored.
+Eigen::MatrixXf columns_of(const StaticResponseOfRun& known_response, int position) {
+  return io::read_stress_responses(known_response.file,
+                                   known_response.body.flexibility.surface.orbit[position]);
+}
+
+// 6 n x n_t, from the body file, of a body that may have crept.
+Eigen::MatrixXd whole_stored_stress(const StaticResponseOfRun& known_response,
+                                    const std::vector<int>& nodes) {
   const model::ElasticBody& body = known_response.body;
   const auto n_rows = static_cast<Eigen::Index>(6 * body.flexibility.stress.node.size());
-  const auto columns_of = [&](int position) {
-    return io::read_stress_responses(known_response.file, body.flexibility.surface.orbit[position]);
-  };
   Eigen::MatrixXd stress =
-      Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), known_response.force.cols());
-  for (std::size_t b = 0; b < known_response.position.size(); ++b)
-    stress += stresses_of(body, known_response.position[b], nodes, columns_of(known_response.position[b])) *
-              known_response.force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+      stored_stress(known_response, known_response.position, known_response.force, nodes);
   if (!known_response.crept) return stress;
   const CreptResponse& crept = *known_response.crept;
   for (std::size_t b = 0; b < crept.position.size(); ++b) {
-    const Eigen::MatrixXf columns = columns_of(crept.position[b]);
+    const Eigen::MatrixXf columns = columns_of(known_response, crept.position[b]);
     require(columns.rows() == 2 * n_rows, known_response.file, ": /flexibility/G lacks the relaxed body");
     const Eigen::MatrixXf grown = columns.bottomRows(n_rows) - columns.topRows(n_rows);
     stress += stresses_of(body, crept.position[b], nodes, grown) *
@@ -112,6 +113,16 @@ bool is_stored(const StaticResponseOfRun& known_response) { return !known_respon
 
 }  // namespace
 
+Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& positions,
+                              const Eigen::MatrixXd& force, const std::vector<int>& nodes) {
+  Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), force.cols());
+  for (std::size_t b = 0; b < positions.size(); ++b)
+    stress +=
+        stresses_of(known_response.body, positions[b], nodes, columns_of(known_response, positions[b])) *
+        force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+  return stress;
+}
+
 std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration,
                                                             const FiniteElements& finite_elements) {
   const bool relaxes = body.history.w.rows() > 0;
@@ -139,7 +150,7 @@ std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
 
 Eigen::MatrixXd static_stress(StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
   if (known_response.node.empty()) return {};
-  if (!known_response.position.empty()) return stored_stress(known_response, nodes);
+  if (!known_response.position.empty()) return whole_stored_stress(known_response, nodes);
   return unreduced(known_response).stress(known_response.node, nodes) * known_response.force;
 }
 

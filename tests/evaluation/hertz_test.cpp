@@ -96,5 +96,21 @@ TEST(HertzPressure, of_the_steering_worm_at_the_pitch_point) {
   EXPECT_NEAR(found->peak, 798e6, 8e6);
 }
 
+// A patch that reaches beyond the tip of the wheel is not Hertz's.
+TEST(HertzPressure, leaves_out_patches_at_the_ends_of_flanks) {
+  const test::RollingPair pair = test::worm_pair();
+  const gear::Toothing& wheel = pair.gear[1].toothing;
+  const FlankContact inside = contact_at(pair, Eigen::Vector3d(0, wheel.r, 0), 1, 50);
+  FlankContact at_tip = contact_at(pair, Eigen::Vector3d(0, wheel.r_a - 1e-6, 0), 1, 50);
+  at_tip.flank[0].tooth = at_tip.flank[1].tooth = inside.flank[0].tooth + 1;
+  EXPECT_FALSE(hertz_pressure(pair.both(), {{at_tip}}, 1, 210e9 / 0.91 / 2));
+  const auto one = hertz_pressure(pair.both(), {{inside}}, 1, 210e9 / 0.91 / 2);
+  const auto both = hertz_pressure(pair.both(), {{inside, at_tip}}, 1, 210e9 / 0.91 / 2);
+  ASSERT_TRUE(one && both);
+  EXPECT_EQ(both->peak, one->peak);
+  EXPECT_EQ(one->left_out, 0);
+  EXPECT_EQ(both->left_out, 0.5);
+}
+
 }  // namespace
 }  // namespace elastogear::evaluation::hertz_test

@@ -19,6 +19,7 @@
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
+#include "recovery/contact_error.h"
 #include "recovery/error_estimate.h"
 
 namespace elastogear::recovery::recover_test {
@@ -165,6 +166,39 @@ TEST_F(Recover, estimates_the_error_of_the_mesh_of_reduced_bodies_alike) {
   const Eigen::MatrixXd reduced = estimate(reduce(model::Basis::modal, true), Acceleration::automatic);
   EXPECT_GT(reduced.norm(), 0.5 * exactly.norm());
   EXPECT_LT(reduced.norm(), 2 * exactly.norm());
+}
+
+// Every force spread over the nodes of the faces around it, by the unreduced body.
+TEST_F(Recover, estimates_the_error_of_the_contact_by_spread_forces) {
+  const model::ElasticBody body = reduce(model::Basis::modal, true);
+  RecoveredBody recovered = prepare_recovery(write(body), Acceleration::automatic, true, finite_elements());
+  const io::StressSet set = recover_stress(recovered, body, "ymax", true);
+  const model::Surface& surface = body.surface;
+  const model::ContactForces at = forces(body);
+  Eigen::Matrix3Xd change = Eigen::Matrix3Xd::Zero(3, surface.X.cols());
+  for (std::size_t i = 0; i < at.node.size(); ++i) {
+    std::vector<std::vector<int>> faces;
+    for (const auto face : surface.face.colwise())
+      if ((face.array() == at.node[i]).any()) faces.emplace_back(face.begin(), face.end());
+    const Spread to = spread(surface.X, faces, at.node[i],
+                             std::vector<char>(static_cast<std::size_t>(surface.X.cols()), 1));
+    const Eigen::Vector3d f = at.f_B.col(static_cast<Eigen::Index>(i));
+    change(Eigen::all, to.node) += f * to.weight.transpose();
+    change.col(at.node[i]) -= f;
+  }
+  const Eigen::VectorXd stress =
+      reduction::StaticResponse(io::read_body_source(file)).stress(surface.node, set.node) *
+      change.reshaped();
+  const Eigen::MatrixXd expected = von_mises(Eigen::MatrixXd(stress));
+  ASSERT_GT(expected.maxCoeff(), 0.01 * set.von_mises.maxCoeff());
+  EXPECT_LT((set.contact_error - expected).norm(), kSinglePrecision * set.von_mises.norm());
+}
+
+// Without static responses in the body file it is not told.
+TEST_F(Recover, tells_no_error_of_the_contact_by_modes_alone) {
+  const model::ElasticBody body = reduce(model::Basis::modal);
+  RecoveredBody recovered = prepare_recovery(write(body), Acceleration::always, true, finite_elements());
+  EXPECT_EQ(recover_stress(recovered, body, "ymax", true).contact_error.size(), 0);
 }
 
 TEST(MeshErrorField, takes_the_share_of_free_surfaces_elsewhere) {

@@ -37,10 +37,12 @@ struct HertzPressure {
   double peak = 0;          ///< Pa, largest of all
   Eigen::Index step = 0;    ///< of it
   double half_width = 0;    ///< m, of the patch there
+  double left_out = 0;      ///< -, share of the pairs of teeth of all times that it does not tell of
 };
 /// Of parallel axes, line contact under the line load of each pair of teeth; of crossed ones, point contact
-/// under the force of each pair. Nothing where axes cross and flanks touch along lines, as those of
-/// enveloping wheels do, or along more than half the face. slave_side: which gear's nodes come into contact;
+/// under the force of each pair. It leaves out pairs on crossed axes that touch along lines, as those of
+/// enveloping wheels do, or along more than half the face, and patches that reach beyond the end of a flank.
+/// Nothing where that leaves none. slave_side: which gear's nodes come into contact;
 /// E_star: Pa.
 std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& gear,
                                             const ContactHistory& contacts, int slave_side, double E_star);

@@ -21,6 +21,8 @@ struct StressSet {
   Eigen::VectorXd peak_error = {};  ///< n_t, Pa, of the set's largest von Mises stress; or empty
   /// n x n_t, Pa, estimated error of von_mises by the mesh, against the continuum; or empty
   Eigen::MatrixXd mesh_error = {};
+  /// n x n_t, Pa, estimated error of von_mises by the place of contact forces within faces; or empty
+  Eigen::MatrixXd contact_error = {};
 };
 
 struct StressFile {

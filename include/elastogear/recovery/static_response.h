@@ -51,6 +51,10 @@ std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
 /// Stress of the static response at mesh nodes, 6 n x n_t, Pa: from the body file, or by a factor of K when
 /// the file holds no static responses. Empty when no force acts.
 Eigen::MatrixXd static_stress(StaticResponseOfRun& known_response, const std::vector<int>& nodes);
+/// Stress at mesh nodes, 6 n x n_t, Pa, by forces (3 n x n_t, N, body frame) on nodes at these positions of
+/// the flexibility, from the instantaneous responses in the body file.
+Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& positions,
+                              const Eigen::MatrixXd& force, const std::vector<int>& nodes);
 /// Displacement of the static response at one output time, 3 n_nodes, m; takes a factor of K. Empty when no
 /// force acts.
 Eigen::VectorXd static_displacement(StaticResponseOfRun& known_response, Eigen::Index step);

@@ -93,7 +93,8 @@ void print_pressure(const Reader& of, const std::string& pair) {
   if (of.has("pressure/hertz_peak"))
     print_item("", "by H. Hertz " + of.in("pressure/hertz_peak", 1e-6, "MPa") + ", roll angle " +
                        of.in("pressure/hertz_peak_roll", 1, "pitches") + ", on " +
-                       of.in("pressure/hertz_half_width", 1e3, "mm") + " of half width");
+                       of.in("pressure/hertz_half_width", 1e3, "mm") + " of half width; without " +
+                       of.in("pressure/hertz_left_out", 100, "%") + " of the contacts, at ends of flanks");
 }
 
 void print_roots(const Reader& of) {
@@ -101,14 +102,18 @@ void print_roots(const Reader& of) {
     if (!item.path.starts_with("root/") || !item.path.ends_with("/largest_tension")) continue;
     const std::string path = item.path.substr(0, item.path.rfind('/'));
     const auto peak = [&](const std::string& name) {
-      const bool error = of.has(path + name + "_error"), mesh_error = of.has(path + name + "_mesh_error");
+      const bool error = of.has(path + name + "_error"), mesh_error = of.has(path + name + "_mesh_error"),
+                 contact_error = of.has(path + name + "_contact_error");
       return of.in(path + name, 1e-6, "MPa") + " at node " + whole(of, path + name + "_node") + " of tooth " +
              whole(of, path + name + "_tooth") + ", roll angle " +
              of.in(path + name + "_roll", 1, "pitches") +
              (error ? ", estimated error " + of.in(path + name + "_error", 1e-6, "MPa")
                     : std::string(", error not estimated: not to be trusted")) +
              (mesh_error ? ", by the mesh " + of.in(path + name + "_mesh_error", 1e-6, "MPa")
-                         : std::string(", error of the mesh not estimated"));
+                         : std::string(", error of the mesh not estimated")) +
+             (contact_error
+                  ? ", by the contact's resolution " + of.in(path + name + "_contact_error", 1e-6, "MPa")
+                  : std::string(", that of the contact's resolution not estimated"));
     };
     const std::string gear = path.substr(5);
     print_item("root of " + gear + ", tension", peak("/largest_tension"));

@@ -53,24 +53,41 @@ void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) 
     print_item("warning", set.body + " " + set.set + ": not to be trusted; " + remedy(body));
 }
 
-// The difference between two recoveries of the same displacements, at the largest stress, and the sum of both
-// errors.
+// The difference between two recoveries of the same displacements, at the largest stress.
 void print_mesh_error(const io::StressSet& set) {
   if (set.mesh_error.size() == 0) return print_item("", "error of the mesh not estimated");
   const auto [node, step] = peak(set.von_mises);
   const double error = set.mesh_error(node, step),
                share = error / std::max(set.von_mises(node, step), 1e-300);
   print_item("", "estimated error of the mesh " + with_unit(1e-6 * error, "MPa") + ", " + percent(share));
-  if (set.error.size() > 0) {
-    const double both = error + set.peak_error[step];
-    print_item("", "of both together " + with_unit(1e-6 * both, "MPa") + ", " +
-                       percent(both / std::max(set.von_mises(node, step), 1e-300)));
-  }
   if (share > kTrustedMesh)
     print_item("warning",
                set.body + " " + set.set +
                    ": too coarse a mesh for this stress; take a finer one there or hexahedra of second order "
                    "(-element_order 2)");
+}
+
+// What the place of contact forces within faces changes, at the largest stress.
+void print_contact_error(const io::StressSet& set) {
+  if (set.contact_error.size() == 0) return print_item("", "error of the contact's resolution not estimated");
+  const auto [node, step] = peak(set.von_mises);
+  const double error = set.contact_error(node, step),
+               share = error / std::max(set.von_mises(node, step), 1e-300);
+  print_item("", "estimated error of the contact's resolution " + with_unit(1e-6 * error, "MPa") + ", " +
+                     percent(share));
+  if (share > kTrustedMesh)
+    print_item("warning", set.body + " " + set.set +
+                              ": this stress lies beside a contact, and faces there are too wide for it");
+}
+
+// The sum of the estimates that there are, at the largest stress.
+void print_whole_error(const io::StressSet& set) {
+  if (set.error.size() == 0 || set.mesh_error.size() == 0) return;
+  const auto [node, step] = peak(set.von_mises);
+  const double whole = set.peak_error[step] + set.mesh_error(node, step) +
+                       (set.contact_error.size() > 0 ? set.contact_error(node, step) : 0);
+  print_item("", "all together " + with_unit(1e-6 * whole, "MPa") + ", " +
+                     percent(whole / std::max(set.von_mises(node, step), 1e-300)));
 }
 
 std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const Eigen::VectorXd& time) {
@@ -88,6 +105,8 @@ void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, 
   if (set.error.size() > 0) columns.push_back({"error of von_mises" + suffix, "Pa", set.error.row(node)});
   if (set.mesh_error.size() > 0)
     columns.push_back({"error of von_mises by the mesh" + suffix, "Pa", set.mesh_error.row(node)});
+  if (set.contact_error.size() > 0)
+    columns.push_back({"error of von_mises by contact" + suffix, "Pa", set.contact_error.row(node)});
 }
 
 }  // namespace
@@ -97,6 +116,8 @@ void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
   print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, time));
   print_error(body, set);
   print_mesh_error(set);
+  print_contact_error(set);
+  print_whole_error(set);
   print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, time));
 }
 

@@ -52,12 +52,13 @@ void describe_error(Out& out, const StressSet& set, double peak, Eigen::Index st
        set.error.maxCoeff(), " Pa at one node");
 }
 
-// The estimated error that the mesh makes in the largest stress: docs/theory.md, section 1.7.
-void describe_mesh_error(Out& out, const StressSet& set, Eigen::Index node, Eigen::Index step) {
-  if (set.mesh_error.size() == 0) return line(out, "  estimated error of the mesh: none in the file");
-  const double error = set.mesh_error(node, step), peak = set.von_mises(node, step);
-  line(out, "  estimated error of the mesh: ", error, " Pa of the peak (", peak > 0 ? 100 * error / peak : 0,
-       " %), at most ", set.mesh_error.maxCoeff(), " Pa at one node");
+// The estimated error by `cause` in the largest stress: docs/theory.md, sections 1.7 and 4.6.
+void describe_error_by(Out& out, const char* cause, const StressSet& set, const Eigen::MatrixXd& error_by,
+                       Eigen::Index node, Eigen::Index step) {
+  if (error_by.size() == 0) return line(out, "  estimated error of ", cause, ": none in the file");
+  const double error = error_by(node, step), peak = set.von_mises(node, step);
+  line(out, "  estimated error of ", cause, ": ", error, " Pa of the peak (",
+       peak > 0 ? 100 * error / peak : 0, " %), at most ", error_by.maxCoeff(), " Pa at one node");
 }
 
 void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& time) {
@@ -115,7 +116,8 @@ void describe_stress(Out& out, const std::string& path) {
     const double peak = set.von_mises.maxCoeff(&node, &step);
     line(out, "  peak von Mises: ", peak, " Pa at node ", set.node[node], ", t = ", history.time[step], " s");
     describe_error(out, set, peak, step);
-    describe_mesh_error(out, set, node, step);
+    describe_error_by(out, "the mesh", set, set.mesh_error, node, step);
+    describe_error_by(out, "the contact's resolution", set, set.contact_error, node, step);
     const double tension = set.rankine.maxCoeff(&node, &step);
     line(out, "  peak Rankine: ", tension, " Pa at node ", set.node[node], ", t = ", history.time[step],
          " s");

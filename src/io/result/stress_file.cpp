@@ -1,5 +1,7 @@
 #include "elastogear/io/stress_file.h"
 
+#include <utility>
+
 #include "elastogear/base/file.h"
 #include "io/hdf5/schema.h"
 
@@ -20,11 +22,13 @@ void check(const h5::File& file, const StressSet& set, Eigen::Index n_t) {
               (set.error.rows() == n && set.error.cols() == n_t && set.peak_error.size() == n_t),
           file.path, ": estimated errors of ", set.body, "/", set.set, " do not have ", n, " nodes and ", n_t,
           " times");
-  require(set.mesh_error.size() == 0 || (set.mesh_error.rows() == n && set.mesh_error.cols() == n_t),
-          file.path, ": estimated errors of the mesh of ", set.body, "/", set.set, " do not have ", n,
-          " nodes and ", n_t, " times");
+  for (const auto& [error, by] : {std::pair{&set.mesh_error, "the mesh"}, {&set.contact_error, "contact"}})
+    require(error->size() == 0 || (error->rows() == n && error->cols() == n_t), file.path,
+            ": estimated errors by ", by, " of ", set.body, "/", set.set, " do not have ", n, " nodes and ",
+            n_t, " times");
   require(set.stress.allFinite() && set.von_mises.allFinite() && set.rankine.allFinite() &&
-              set.error.allFinite() && set.peak_error.allFinite() && set.mesh_error.allFinite(),
+              set.error.allFinite() && set.peak_error.allFinite() && set.mesh_error.allFinite() &&
+              set.contact_error.allFinite(),
           file.path, ": stresses of ", set.body, "/", set.set, " are not finite");
 }
 
@@ -43,6 +47,8 @@ void write_set(const h5::File& file, const StressSet& set) {
   }
   if (set.mesh_error.size() > 0)
     h5::write<double>(file, group + "/mesh_error", {{n_t, n}, set.mesh_error.data()}, "Pa");
+  if (set.contact_error.size() > 0)
+    h5::write<double>(file, group + "/contact_error", {{n_t, n}, set.contact_error.data()}, "Pa");
   h5::set_attribute(file, group, "frame", "body");
 }
 
@@ -59,8 +65,10 @@ StressSet read_set(const h5::File& file, const std::string& body, const std::str
   set.von_mises = columns(h5::read<double>(file, group + "/von_mises", {extent(n_t), n}), n_t);
   set.rankine = columns(h5::read<double>(file, group + "/rankine", {extent(n_t), n}), n_t);
   if (h5::exists(file, group + "/X")) set.X = read_points(file, group + "/X");
-  if (h5::exists(file, group + "/mesh_error"))
-    set.mesh_error = columns(h5::read<double>(file, group + "/mesh_error", {extent(n_t), n}), n_t);
+  for (const auto& [error, dataset] :
+       {std::pair{&set.mesh_error, "/mesh_error"}, {&set.contact_error, "/contact_error"}})
+    if (h5::exists(file, group + dataset))
+      *error = columns(h5::read<double>(file, group + dataset, {extent(n_t), n}), n_t);
   if (h5::exists(file, group + "/error")) {
     set.error = columns(h5::read<double>(file, group + "/error", {extent(n_t), n}), n_t);
     set.peak_error = read_vector(file, group + "/peak_error", extent(n_t));
