@@ -7,24 +7,29 @@ The worm stands where the static analysis full.h5 ended, undeformed, on a rigid 
 torque; the wheel's held nodes are held. Elements are C3D8I (incompatible modes) or, of bodies reduced with -element plain,
 C3D8, which is the same as ours on all shapes. Contact has a pressure in proportion to the depth, --contact of faces (surface
 to surface), or of the worm's nodes with the wheel's faces, as ours is with -contact_two_pass false; or our own contact forces
-act on the nodes, and both bodies are held. Writes turn_in.inp, runs `ccx turn_in`, reads reaction forces, those of each pair
-of areas and nodal stresses, and prints them beside ours.
+act on the nodes, and both bodies are held. Hexahedra of 20 nodes are C3D20. Writes turn_in.inp, runs `ccx turn_in`, reads
+reaction forces, those of each pair of areas and nodal stresses, and prints them beside ours. turn_in.h5 is the result with
+CalculiX's displacements in place of ours: `elastogear recover` makes stresses of them as it does of its own.
 """
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 
+import h5py
 import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "scripts"))
 import results
 
-# Corners of the sides S1..S6 of an 8-node hexahedron, in the numbering of Abaqus.
+# Corners of the sides S1..S6 of a hexahedron, in the numbering of Abaqus, and their midside nodes.
 SIDES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
+MIDSIDES = ((8, 9, 10, 11), (15, 14, 13, 12), (16, 12, 17, 8), (17, 13, 18, 9), (18, 14, 19, 10), (19, 15, 16, 11))
 BODIES = ("worm", "wheel")
 ELEMENTS = {"incompatible": "C3D8I", "plain": "C3D8"}
-PER_LINE = 8
+NODES = {0: 8, 1: 20}  # of a cell by its type
+PER_LINE = 11
 # Pa, of nodes far outside: CalculiX rounds the corner of the law of nodes over TENSION / stiffness (its manual asks for some
 # thousandth of the largest pressure), without which its iterations jump to and fro.
 TENSION = 4e6
@@ -36,11 +41,14 @@ class Part:
     def __init__(self, path, state, areas, offset):
         with results.open_file(path, "body") as file:
             self.X = file["mesh/X"][:] @ state["R"].T + state["r"]
-            self.cells = file["mesh/cell_nodes"][:].reshape(-1, 8)
-            if "stress/loaded" in file:
-                sys.exit(f"{path}: its stresses come from free surfaces, CalculiX's are means: reduce it with -stress_recovery average")
-            self.element = ELEMENTS[results.text(file.attrs["element"])]
-            free, directions = np.unique(file["reduced/free_dof"][:] // 3, return_counts=True)
+            kinds = np.unique(file["mesh/cell_type"][:])
+            if len(kinds) > 1 or kinds[0] not in NODES:
+                sys.exit(f"{path}: this script knows bodies of hexahedra of 8 or of 20 nodes only")
+            self.cells = file["mesh/cell_nodes"][:].reshape(-1, NODES[kinds[0]])
+            self.averages = "stress/loaded" not in file
+            self.element = "C3D20" if kinds[0] == 1 else ELEMENTS[results.text(file.attrs["element"])]
+            self.free_dof = file["reduced/free_dof"][:]
+            free, directions = np.unique(self.free_dof // 3, return_counts=True)
             if (directions != 3).any():
                 sys.exit(f"{path}: some nodes are held in single directions, this script knows nodes that are held wholly only")
             self.held = np.setdiff1d(np.arange(len(self.X)), free)
@@ -71,9 +79,16 @@ def mates(worm, wheel, pairs):
 
 
 def element_sides(cells, faces):
-    wanted = {tuple(sorted(face)) for face in faces}
-    return [(cell, side) for side, corners in enumerate(SIDES)
-            for cell, nodes in enumerate(np.sort(cells[:, corners], axis=1)) if tuple(nodes) in wanted]
+    """Sides of cells that are faces, or are made up of faces where cells are of second order."""
+    on_faces = np.zeros(cells.max() + 1, dtype=bool)
+    on_faces[np.ravel(faces)] = True
+    sides = []
+    for side, corners in enumerate(SIDES):
+        local = corners + (MIDSIDES[side] if cells.shape[1] == 20 else ())
+        for cell in np.flatnonzero(on_faces[cells[:, corners]].all(axis=1)):
+            if np.isin(faces, cells[cell, local]).all(axis=1).any():
+                sides.append((int(cell), side))
+    return sides
 
 
 def last_states(path):
@@ -127,7 +142,8 @@ def write_part(file, name, part, first_cell):
         file.write(f"{part.offset + i + 1}, {x[0]:.12e}, {x[1]:.12e}, {x[2]:.12e}\n")
     file.write(f"*ELEMENT, TYPE={part.element}, ELSET=E{name}\n")
     for i, cell in enumerate(part.cells):
-        file.write(f"{first_cell + i}, " + ", ".join(str(part.offset + node + 1) for node in cell) + "\n")
+        words = [str(first_cell + i)] + [str(part.offset + node + 1) for node in cell]
+        file.write(", ".join(words[:PER_LINE]) + "".join(",\n" + ", ".join(words[at:at + PER_LINE]) for at in range(PER_LINE, len(words), PER_LINE)) + "\n")
     file.write(f"*MATERIAL, NAME=M{name}\n*ELASTIC\n{part.material[0]:.9g}, {part.material[1]:.9g}\n")
     file.write(f"*SOLID SECTION, ELSET=E{name}, MATERIAL=M{name}\n")
     file.write(f"*NSET, NSET=HELD{name}\n" + listed(part.offset + part.held + 1))
@@ -179,7 +195,7 @@ def write_turning(file, parts, loads, pairs, options):
     file.write(f"*END STEP\n*STEP, INC=200\n*STATIC\n{options.increment:g}, 1.\n{change['ADD']}*BOUNDARY, OP=NEW\nHELDwheel, 1, 3\n{turning - 1}, 1, 3\n{turning}, 2, 3\n"
                f"*CLOAD, OP=NEW\n{turning}, 1, {options.torque * np.sign(worm.axis[0]):.9g}\n"
                "*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY, FREQUENCY=1000\nRF\n"
-               "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n")
+               "*NODE PRINT, NSET=TURN, FREQUENCY=1000\nU\n*NODE FILE, FREQUENCY=1000\nU\n*EL FILE, FREQUENCY=1000\nS\n")
     if options.contact == "faces":  # of nodes ccx 2.20 crashes at this card
         file.writelines(f"*CONTACT PRINT, SLAVE={a}, MASTER={b}, FREQUENCY=1000\nCF\n" for a, b in map(surface_names, pairs))
     file.write("*END STEP\n")
@@ -197,23 +213,40 @@ def write_deck(path, parts, loads, pairs, options):
             return write_turning(file, parts, loads, pairs, options)
         file.write("*BOUNDARY\nHELDworm, 1, 3\nHELDwheel, 1, 3\n*STEP\n*STATIC\n*CLOAD\n")
         write_forces(file, parts, loads)
-        file.write("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY\nRF\n*EL FILE\nS\n*END STEP\n")
+        file.write("*NODE PRINT, NSET=HELDwheel, TOTALS=ONLY\nRF\n*NODE FILE\nU\n*EL FILE\nS\n*END STEP\n")
+
+
+def read_field(path, name, n_components):
+    """Nodal values of the last state in a .frd file: {node: components}."""
+    values, reading = {}, False
+    with open(path, encoding="ascii", errors="replace") as file:
+        for line in file:
+            if line.startswith(" -4"):
+                reading = line.split()[1] == name
+            elif line.startswith(" -3"):
+                reading = False
+            elif reading and line.startswith(" -1"):
+                values[int(line[3:13])] = [float(line[13 + 12 * i:25 + 12 * i]) for i in range(n_components)]
+    return values
 
 
 def read_stress(path):
     """Nodal von Mises stress of the last state in a .frd file: {node: Pa}."""
-    stress, reading = {}, False
-    with open(path, encoding="ascii", errors="replace") as file:
-        for line in file:
-            if line.startswith(" -4"):
-                reading = line.split()[1] == "STRESS"
-            elif line.startswith(" -3"):
-                reading = False
-            elif reading and line.startswith(" -1"):
-                xx, yy, zz, xy, yz, zx = (float(line[13 + 12 * i:25 + 12 * i]) for i in range(6))
-                stress[int(line[3:13])] = np.sqrt(((xx - yy)**2 + (yy - zz)**2 + (zz - xx)**2) / 2
-                                                  + 3 * (xy**2 + yz**2 + zx**2))
-    return stress
+    return {node: np.sqrt(((xx - yy)**2 + (yy - zz)**2 + (zz - xx)**2) / 2 + 3 * (xy**2 + yz**2 + zx**2))
+            for node, (xx, yy, zz, xy, yz, zx) in read_field(path, "STRESS", 6).items()}
+
+
+def write_displaced(path, result, job, parts, turn):
+    """The result file `result` with CalculiX's displacements at its end, those of the worm without the angle by which it turned."""
+    displacement = read_field(job + ".frd", "DISP", 3)
+    shutil.copy(result, path)
+    with h5py.File(path, "r+") as file:
+        for body, part in zip(BODIES, parts):
+            state = file["bodies/" + body]
+            u = np.array([displacement[part.offset + node + 1] for node in range(len(part.X))])
+            if body == "worm":
+                u -= np.cross([turn or 0, 0, 0], part.X - state["position"][-1])
+            state["q"][-1] = (u @ state["rotation"][-1]).ravel()[part.free_dof]
 
 
 def read_prints(path):
@@ -263,6 +296,9 @@ def compare(options, worm, wheel, pairs, job):
             print(f"{' - '.join(areas) + ', N':<40}{np.linalg.norm(force):>14.6g}")
     if turn is not None:
         print(f"turn of the worm from our equilibrium: {turn:.3e} rad")
+    if not (worm.averages and wheel.averages):
+        print("stresses of the bodies come from free surfaces, CalculiX's are means: recover those of its displacements from turn_in.h5")
+        return
     with results.open_file(options.stress, "stress") as file:
         for body, part in (("worm", worm), ("wheel", wheel)):
             group = file[body]["root"]
@@ -298,6 +334,7 @@ def main():
         with open(job + ".log", "w", encoding="utf-8") as log:
             subprocess.run(["ccx", "turn_in"], cwd=options.out, stdout=log, stderr=subprocess.STDOUT, check=True)
     compare(options, worm, wheel, pairs, job)
+    write_displaced(job + ".h5", options.result, job, (worm, wheel), read_prints(job + ".dat")[1])
 
 
 if __name__ == "__main__":
