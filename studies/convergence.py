@@ -2,8 +2,8 @@
 """Deviation from the unreduced bodies against the number of modes, for each basis: one figure and one table of the examples
 that scripts/example has run with several bases and mode numbers.
 
-    scripts/example impact  --size small --bases modal,modal_residual --modes 10,25,50,100,200
-    scripts/example turn_in --size small --bases modal,modal_residual --modes 10,25,50,100,200
+    scripts/example impact  --size small --law penalty --bases modal,modal_residual --modes 10,25,50,100,200
+    scripts/example turn_in --size small --law penalty --bases modal,modal_residual --modes 10,25,50,100,200
     studies/convergence.py out/examples/small --out convergence.svg --table convergence.md
 """
 import argparse

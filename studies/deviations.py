@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Prints the tables of docs/examples.md, in Markdown: runs of scripts/example beside the unreduced bodies.
 
-    scripts/example turn_in --size small --modes 100,500,1000,2000
+    scripts/example turn_in --size small --bases modal --law penalty --modes 100,500,1000,2000
     studies/deviations.py out/examples/small/turn_in [--runs modal_100,modal_500]
 """
 import argparse

@@ -3,7 +3,7 @@
 by the number of modes, in the static state of the turn-in, beside the deviation under the forces of their own; a table and a
 figure (equal forces: lines, forces of their own: dotted).
 
-    scripts/example turn_in --size small --modes 100,500,1000,2000
+    scripts/example turn_in --size small --bases modal --law penalty --modes 100,500,1000,2000
     studies/same_forces.py out/examples/small [--modes 100 500 1000 2000] [--figure same_forces.svg]
 
 At rest the elastic coordinates of the unreduced body give the forces on its nodes, f = K_r q, and those the coordinates of the

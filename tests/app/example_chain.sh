@@ -9,7 +9,7 @@ elastogear=$(realpath "$1")
 repository=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-/usr/bin/python3 -B "$repository/scripts/example" turn_in --size tiny --modes 10,60 --elastogear "$elastogear" --out "$work" >"$work/out" 2>&1 ||
+/usr/bin/python3 -B "$repository/scripts/example" turn_in --size tiny --bases modal --law penalty --modes 10,60 --elastogear "$elastogear" --out "$work" >"$work/out" 2>&1 ||
   { tail -20 "$work/out"; exit 1; }
 /usr/bin/python3 -B "$repository/scripts/report.py" turn_in "$work/turn_in" >"$work/out" 2>&1 || { tail -20 "$work/out"; exit 1; }
 cd "$work/turn_in"
