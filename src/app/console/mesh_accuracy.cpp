@@ -10,12 +10,22 @@ constexpr const char* kWorm[2][4] = {{"22 % low", "21 % low", "14 % low", "11 % 
 constexpr const char* kWheel[2][4] = {{"48 % low", "30 % low", "20 % low", "8 % low"},
                                       {"9 % low", "within 1 %", "within 1 %", "within 1 %"}};
 
+// Error of the secant mesh stiffness of the reference drive, rows and columns as above.
+constexpr const char* kStiffness[2][4] = {{"26 % high", "6 % high", "within 2 %", "not measured"},
+                                          {"12 % high", "3 % high", "within 2 %", "not measured"}};
+constexpr const char* kHertz = "within 2 %";  // of all sizes
+
 }  // namespace
 
 std::string root_accuracy(bool is_worm, gear::Size size, int order) {
   std::string accuracy = (is_worm ? kWorm : kWheel)[order - 1][static_cast<int>(size)];
   accuracy += is_worm ? " at the root of the reference worm" : " at the root of the reference wheel";
   return accuracy;
+}
+
+std::string drive_accuracy(gear::Size size, int order) {
+  return std::string("mesh stiffness ") + kStiffness[order - 1][static_cast<int>(size)] +
+         ", flank pressure by H. Hertz " + kHertz + " on the reference worm drive";
 }
 
 }  // namespace elastogear::app

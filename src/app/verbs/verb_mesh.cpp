@@ -115,6 +115,7 @@ void mesh_drive(const Options& options) {
     mesh::write_mesh(paths[i], meshes.back());
     print_item("written", paths[i]);
   }
+  print_item("the drive on such meshes", drive_accuracy(size, element_order(options)));
   const OutputLock lock(drawing);
   write_drawing(drawing, join(options.files()), drive, meshes);
   print_item("drawing", drawing);

@@ -238,6 +238,7 @@ void reduce_drive(const Options& options) {
   const Drive drive = read_drive(options);
   const gear::Size size = gear::size(options.text("size"));
   print_drive(drive);
+  print_item("the drive on such meshes", drive_accuracy(size, element_order(options)));
   for (const DriveMember& member : drive.members) {
     print_item("body " + member.name, "");
     print_item("stress on such meshes", root_accuracy(member.is_worm, size, element_order(options)));
