@@ -156,13 +156,15 @@ def stress_label(stress, end):
 
 
 def error_label(surface, stress):
-    """The estimated error of the largest stress, when the field has one."""
+    """The estimated errors of the largest stress, when the field has them."""
     names = [surface.GetPointData().GetArrayName(i) for i in range(surface.GetPointData().GetNumberOfArrays())]
-    found = [name for name in names if name and name.startswith("error_of_von_mises [")]
-    if not found:
-        return "; error not estimated"
-    error = vtk_to_numpy(surface.GetPointData().GetArray(found[0]))[int(stress.argmax())] / 1e6
-    return f"; estimated error there {error:.2g}" + (", not to be trusted" if error > results.TRUSTED * stress.max() else "")
+    errors = {}
+    for by, start, trusted in (("reduction", "error_of_von_mises [", results.TRUSTED), ("mesh", "error_of_von_mises_by_mesh [", results.TRUSTED_MESH)):
+        found = [name for name in names if name and name.startswith(start)]
+        if found:
+            error = vtk_to_numpy(surface.GetPointData().GetArray(found[0]))[int(stress.argmax())] / 1e6
+            errors[by] = f"by the {by} {error:.2g}" + (", not to be trusted" if error > trusted * stress.max() else "")
+    return "; estimated error there " + ", ".join(errors.values()) if errors else "; error not estimated"
 
 
 def draw_stress(options):

@@ -20,10 +20,15 @@ def table(title, head, rows):
         print("| " + " | ".join(map(str, cells)) + " |")
 
 
+MOST = 1e4  # %: larger deviations are those of a value that vanishes
+
+
 def digits(text):
-    """Three significant digits; a dash for what is not a number."""
+    """Three significant digits; a dash for what is not a number, or beside nothing."""
     value = float(text)
     if not np.isfinite(value):
+        return "-"
+    if abs(value) > MOST:
         return "-"
     return f"{value:.0f}" if abs(value) >= 100 else f"{value:.3g}"
 

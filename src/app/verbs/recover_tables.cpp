@@ -38,7 +38,7 @@ std::string remedy(const recovery::RecoveredBody& body) {
 
 std::string percent(double share) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  std::snprintf(text, sizeof text, share < 1 ? "%.2g %%" : "%.0f %%", 100 * share);
   return text;
 }
 
@@ -53,31 +53,13 @@ void print_error(const recovery::RecoveredBody& body, const io::StressSet& set) 
     print_item("warning", set.body + " " + set.set + ": not to be trusted; " + remedy(body));
 }
 
-// The difference between two recoveries of the same displacements, at the largest stress.
-void print_mesh_error(const io::StressSet& set) {
-  if (set.mesh_error.size() == 0) return print_item("", "error of the mesh not estimated");
+// Estimated error of the largest stress by one cause.
+void print_error_by(const std::string& cause, const io::StressSet& set, const Eigen::MatrixXd& error_by) {
+  if (error_by.size() == 0) return print_item("", "error of " + cause + " not estimated");
   const auto [node, step] = peak(set.von_mises);
-  const double error = set.mesh_error(node, step),
-               share = error / std::max(set.von_mises(node, step), 1e-300);
-  print_item("", "estimated error of the mesh " + with_unit(1e-6 * error, "MPa") + ", " + percent(share));
-  if (share > kTrustedMesh)
-    print_item("warning",
-               set.body + " " + set.set +
-                   ": too coarse a mesh for this stress; take a finer one there or hexahedra of second order "
-                   "(-element_order 2)");
-}
-
-// What the place of contact forces within faces changes, at the largest stress.
-void print_contact_error(const io::StressSet& set) {
-  if (set.contact_error.size() == 0) return print_item("", "error of the contact's resolution not estimated");
-  const auto [node, step] = peak(set.von_mises);
-  const double error = set.contact_error(node, step),
-               share = error / std::max(set.von_mises(node, step), 1e-300);
-  print_item("", "estimated error of the contact's resolution " + with_unit(1e-6 * error, "MPa") + ", " +
-                     percent(share));
-  if (share > kTrustedMesh)
-    print_item("warning", set.body + " " + set.set +
-                              ": this stress lies beside a contact, and faces there are too wide for it");
+  const double error = error_by(node, step);
+  print_item("", "estimated error of " + cause + " " + with_unit(1e-6 * error, "MPa") + ", " +
+                     percent(error / std::max(set.von_mises(node, step), 1e-300)));
 }
 
 // The sum of the estimates that there are, at the largest stress.
@@ -88,6 +70,25 @@ void print_whole_error(const io::StressSet& set) {
                        (set.contact_error.size() > 0 ? set.contact_error(node, step) : 0);
   print_item("", "all together " + with_unit(1e-6 * whole, "MPa") + ", " +
                      percent(whole / std::max(set.von_mises(node, step), 1e-300)));
+}
+
+void warn_above(const io::StressSet& set, const Eigen::MatrixXd& error_by, const std::string& warning) {
+  if (error_by.size() == 0) return;
+  const auto [node, step] = peak(set.von_mises);
+  if (error_by(node, step) > kTrustedMesh * set.von_mises(node, step))
+    print_item("warning", set.body + " " + set.set + ": " + warning);
+}
+
+void print_mesh_and_contact(const io::StressSet& set) {
+  print_error_by("the mesh", set, set.mesh_error);
+  print_error_by("the contact's resolution", set, set.contact_error);
+  print_whole_error(set);
+  warn_above(set, set.mesh_error,
+             "too coarse a mesh for this stress; take a finer one there or hexahedra of second order "
+             "(-element_order 2)");
+  warn_above(set, set.contact_error,
+             "this stress lies beside a contact that faces there are too wide to resolve; take those of the "
+             "root's other nodes, or a finer mesh there");
 }
 
 std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const Eigen::VectorXd& time) {
@@ -115,9 +116,7 @@ void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
                   const Eigen::VectorXd& time) {
   print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, time));
   print_error(body, set);
-  print_mesh_error(set);
-  print_contact_error(set);
-  print_whole_error(set);
+  print_mesh_and_contact(set);
   print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, time));
 }
 
