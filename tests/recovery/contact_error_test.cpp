@@ -22,7 +22,8 @@ struct Grid {
   Grid() {
     for (int n = 0; n < 9; ++n) {
       const double angle = (n % 3 - 1) / 5.0;
-      X.col(n) << 5 * std::sin(angle), n / 3, 5 * std::cos(angle);
+      const int row = n / 3;
+      X.col(n) << 5 * std::sin(angle), row, 5 * std::cos(angle);
     }
     for (int n : {0, 1, 3, 4}) face.push_back({n, n + 1, n + 3, n + 4});
   }
