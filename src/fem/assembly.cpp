@@ -67,8 +67,8 @@ Matrices assemble(MPI_Comm comm, const MeshPart& part, const std::vector<model::
   const BlockCounts counts = count_blocks(part);
   Matrices matrices{create_spd_matrix(comm, 3, counts), create_spd_matrix(comm, 3, counts)};
   const int n_cells = part.mesh.cells.size();
-  std::vector<Elasticity> elasticities;
-  for (const auto& region : regions) elasticities.push_back(elasticity(region.material));
+  std::vector<CellModuli> moduli;
+  for (const auto& region : regions) moduli.emplace_back(region.material);
   CellRows rows;
   for (int cell = 0; cell < n_cells; ++cell) {
     if (cell % kReportEvery == 0) report(progress, "assembly", static_cast<double>(cell) / n_cells);
@@ -76,10 +76,10 @@ Matrices assemble(MPI_Comm comm, const MeshPart& part, const std::vector<model::
     const int region = part.region[cell];
     const Eigen::Matrix3Xd X = cell_coordinates(part.mesh, cell);
     find_rows(part, cell, rows);
-    add(matrices.K, rows, functions.stiffness(X, elasticities[region], formulation.element));
+    add(matrices.K, rows, cell_stiffness(functions, X, moduli[region], formulation.element));
     add(matrices.M, rows,
         mass_matrix(cell_mass(part.mesh.cells.type[cell], X, regions[region].material.rho,
-                              elasticities[region], formulation)));
+                              moduli[region].elastic, formulation)));
   }
   finish_assembly(matrices.K);
   finish_assembly(matrices.M);

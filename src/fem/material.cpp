@@ -104,6 +104,18 @@ Elasticity elasticity(const model::Material& material, model::ModulusPart part) 
   return Lame{lambda + 2.0 / 3 * mu, 0};
 }
 
+Elasticity relaxed_elasticity(const model::Material& material) {
+  const auto [shear, bulk] = material.relaxed;
+  if (material.orthotropic) {
+    require(shear == bulk, "all moduli of an orthotropic material relax alike");
+    return Orthotropy{(1 - shear) * material_stiffness(*material.orthotropic),
+                      material.orthotropic->orientation};
+  }
+  const auto [lambda, mu] = lame(material);
+  const double kappa = (1 - bulk) * (lambda + 2.0 / 3 * mu);
+  return Lame{kappa - 2.0 / 3 * (1 - shear) * mu, (1 - shear) * mu};
+}
+
 Eigen::Matrix3d material_axes(const Orientation& o, const Eigen::Vector3d& x) {
   const Eigen::Matrix3d turned = rotation_matrix(o.rotation);
   if (o.system == Orientation::System::rectangular) return rectangular_axes(o.axis_1, o.axis_2) * turned;
@@ -154,7 +166,7 @@ Lame mean_lame(const model::Material& material) {
 void validate(const std::vector<model::MaterialRegion>& regions) {
   require(!regions.empty(), "no material given");
   for (const auto& region : regions) {
-    const auto& [E, nu, rho, orthotropic, viscoelastic] = region.material;
+    const auto& [E, nu, rho, orthotropic, viscoelastic, relaxed] = region.material;
     require(std::isfinite(rho) && rho > 0, label(region), ": rho = ", rho, " kg/m^3, must be positive");
     if (viscoelastic) validate_relaxation(region);
     if (orthotropic) {

@@ -149,10 +149,10 @@ Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
     const model::Material& material = regions[sector.region[cell]].material;
     const Eigen::Matrix3Xd X = cell_coordinates(sector.mesh, cell);
     const double weight = sector.weight[cell];
-    const Elasticity elastic = elasticity(material);
-    const MatrixXd K_e = weight * functions.stiffness(X, elastic, formulation.element);
+    const CellModuli moduli(material);
+    const MatrixXd K_e = weight * cell_stiffness(functions, X, moduli, formulation.element);
     add(matrices.K, basis, project_blocks(basis, K_e));
-    CellMass mass = cell_mass(sector.mesh.cells.type[cell], X, material.rho, elastic, formulation);
+    CellMass mass = cell_mass(sector.mesh.cells.type[cell], X, material.rho, moduli.elastic, formulation);
     mass.scalar *= weight;
     add(matrices.M, basis,
         mass.has_modes() ? project_blocks(basis, mass_matrix(mass))

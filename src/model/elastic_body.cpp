@@ -122,6 +122,29 @@ void validate_markers(const std::vector<Marker>& markers, Eigen::Index n_q, cons
   }
 }
 
+void validate_relaxed_responses(const ElasticBody& body, const std::string& source) {
+  const Flexibility& f = body.flexibility;
+  const auto n_c = static_cast<Eigen::Index>(f.node.size()),
+             n_p = static_cast<Eigen::Index>(body.relaxing.size()),
+             n_s = static_cast<Eigen::Index>(f.relaxed.size());
+  require(f.creep >= -1 && f.creep < n_p, source, ": the static responses creep by relaxing part ", f.creep,
+          ", there are ", n_p);
+  if (n_s == 0) return;
+  require(f.creep < 0 && f.law.rows() == n_s && f.law.cols() == n_p && (f.law.array() >= 0).all() &&
+              (f.law.rowwise().sum().array() <= 1 + kUnit).all(),
+          source, ": the laws by which static responses creep are not those of ", n_s, " relaxed states and ",
+          n_p, " relaxing parts");
+  for (const RelaxedResponse& relaxed : f.relaxed)
+    require(relaxed.share.size() == n_p && (relaxed.share.array() >= 0).all() &&
+                (relaxed.share.array() < 1).all() && relaxed.self.size() == f.self.size() &&
+                relaxed.self.allFinite() && (relaxed.self.array() >= 0).all() &&
+                (relaxed.F.size() == 0
+                     ? relaxed.read_F != nullptr
+                     : relaxed.F.rows() == 3 * n_c && relaxed.F.cols() == 3 * f.surface.node.cols()) &&
+                relaxed.F.allFinite(),
+            source, ": the static responses of a relaxed state do not fit those of the instantaneous body");
+}
+
 void validate_flexibility(const ElasticBody& body, const std::string& source) {
   const Flexibility& f = body.flexibility;
   if (f.empty()) return;
@@ -137,21 +160,13 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
           source, ": the symmetry of the flexibility does not fit the body");
   require(f.self.size() == f.surface.node.cols() && f.self.allFinite() && (f.self.array() >= 0).all(), source,
           ": each loaded orbit needs the size of its own answer, finite and not negative");
-  const Eigen::Index n_columns = 3 * f.surface.node.cols();
-  require(
-      (f.F.size() == 0 ? f.read_F != nullptr : f.F.rows() == 3 * n_c && f.F.cols() == n_columns) &&
-          (f.G.size() == 0 || (f.G.rows() == (f.has_long_term() ? 12 : 6) * n_r && f.G.cols() == n_columns)),
-      source, ": F or G does not have a row for each node and a column for each force");
+  const Eigen::Index n_columns = 3 * f.surface.node.cols(),
+                     n_states = 1 + static_cast<Eigen::Index>(f.relaxed.size());
+  require((f.F.size() == 0 ? f.read_F != nullptr : f.F.rows() == 3 * n_c && f.F.cols() == n_columns) &&
+              (f.G.size() == 0 || (f.G.rows() == 6 * n_r * n_states && f.G.cols() == n_columns)),
+          source, ": F or G does not have a row for each node and a column for each force");
   require(f.F.allFinite() && f.G.allFinite(), source, ": static responses are not finite");
-  require(f.creep >= -1 && f.creep < static_cast<int>(body.relaxing.size()), source,
-          ": the static responses creep by relaxing part ", f.creep, ", there are ", body.relaxing.size());
-  if (!f.has_long_term()) return;
-  require(f.self_long.size() == f.self.size() && f.self_long.allFinite() &&
-              (f.self_long.array() >= 0).all() &&
-              (f.F_long.size() == 0 ? f.read_F_long != nullptr
-                                    : f.F_long.rows() == 3 * n_c && f.F_long.cols() == n_columns) &&
-              f.F_long.allFinite(),
-          source, ": the static responses of the relaxed body do not fit those of the instantaneous one");
+  validate_relaxed_responses(body, source);
 }
 
 void validate_relaxing(const ElasticBody& body, const std::string& source) {

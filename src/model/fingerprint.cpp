@@ -57,7 +57,7 @@ std::string fingerprint(const ElasticBody& body) {
   f.add_all(body.zeta);
   f.add_all(body.flexibility.node);
   f.add_all(body.flexibility.self);
-  f.add_all(body.flexibility.self_long);
+  for (const RelaxedResponse& relaxed : body.flexibility.relaxed) f.add_all(relaxed.self);
   for (const Marker& marker : body.markers) {
     f.add_all(marker.X);
     add(f, marker.Phi);

@@ -59,9 +59,8 @@ Eigen::MatrixXf displacement_columns(const Flexibility& flexibility, int orbit) 
                                   : flexibility.read_F(orbit);
 }
 
-Eigen::MatrixXf long_term_columns(const Flexibility& flexibility, int orbit) {
-  return flexibility.F_long.size() > 0 ? Eigen::MatrixXf(flexibility.F_long.middleCols<3>(3 * orbit))
-                                       : flexibility.read_F_long(orbit);
+Eigen::MatrixXf displacement_columns(const RelaxedResponse& relaxed, int orbit) {
+  return relaxed.F.size() > 0 ? Eigen::MatrixXf(relaxed.F.middleCols<3>(3 * orbit)) : relaxed.read_F(orbit);
 }
 
 void set_self(Flexibility& flexibility) {

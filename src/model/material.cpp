@@ -36,10 +36,4 @@ Material from_long_term(Material material) {
   return scaled(std::move(material), 1 / g, 1 / k);
 }
 
-Material to_long_term(Material material) {
-  if (!material.viscoelastic) return material;
-  const double g = long_term_share(material.viscoelastic->g), k = long_term_share(material.viscoelastic->k);
-  return scaled(std::move(material), g, k);
-}
-
 }  // namespace elastogear::model

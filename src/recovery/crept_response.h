@@ -6,9 +6,9 @@
 
 namespace elastogear::recovery {
 
-/// chi = (psi - f) (1 - g)/g of the loaded nodes at each output time, of forces that are linear in between,
-/// and the coordinates K_r^-1 Phi' chi of the instantaneous and those of the relaxed body. Nothing for a body
-/// that relaxes in one ratio everywhere. forces: of the body's surface.
+/// chi_k of the loaded nodes at each output time, of forces that are linear in between, and the coordinates
+/// K_r^-1 Phi' chi_k of the instantaneous body and those of the state, Eq. (4.12). Nothing for a body that
+/// relaxes in one ratio everywhere. forces: of the body's surface.
 std::optional<CreptResponse> crept_response(const BodyOfRun& body, const model::ElasticBody& elastic,
                                             const model::ForceHistory& forces);
 

@@ -62,7 +62,7 @@ Eigen::MatrixXd stresses_of(const model::ElasticBody& body, int position, const 
 }
 
 // Responses of the stresses to unit forces on the node at a position of the flexibility. The rows of G are
-// those of the instantaneous body, then those of the relaxed one where that is stored.
+// those of the instantaneous body, then those of its relaxed states.
 Eigen::MatrixXf columns_of(const StaticResponseOfRun& known_response, int position) {
   return io::read_stress_responses(known_response.file,
                                    known_response.body.flexibility.surface.orbit[position]);
@@ -77,12 +77,17 @@ Eigen::MatrixXd whole_stored_stress(const StaticResponseOfRun& known_response,
       stored_stress(known_response, known_response.position, known_response.force, nodes);
   if (!known_response.crept) return stress;
   const CreptResponse& crept = *known_response.crept;
+  const auto n_states = static_cast<Eigen::Index>(crept.states.size());
   for (std::size_t b = 0; b < crept.position.size(); ++b) {
     const Eigen::MatrixXf columns = columns_of(known_response, crept.position[b]);
-    require(columns.rows() == 2 * n_rows, known_response.file, ": /flexibility/G lacks the relaxed body");
-    const Eigen::MatrixXf grown = columns.bottomRows(n_rows) - columns.topRows(n_rows);
-    stress += stresses_of(body, crept.position[b], nodes, grown) *
-              crept.force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+    require(columns.rows() == (1 + n_states) * n_rows, known_response.file,
+            ": /flexibility/G lacks the relaxed states");
+    for (Eigen::Index k = 0; k < n_states; ++k) {
+      const Eigen::MatrixXf grown = columns.middleRows((1 + k) * n_rows, n_rows) - columns.topRows(n_rows);
+      stress +=
+          stresses_of(body, crept.position[b], nodes, grown) *
+          crept.states[static_cast<std::size_t>(k)].force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+    }
   }
   return stress;
 }

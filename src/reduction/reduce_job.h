@@ -17,6 +17,7 @@
 #include "elastogear/mesh/partition.h"
 #include "elastogear/mesh/repetition.h"
 #include "elastogear/reduction/reduce.h"
+#include "reduction/static_response/relaxed_states.h"
 
 namespace elastogear::reduction {
 
@@ -106,9 +107,11 @@ void set_relaxing(Job& job, const WaitingModes& modes);
 void set_relaxing_full(Job& job);
 /// Relaxes all of the body in the same ratio? Rank 0.
 bool relaxes_alike(const Job& job);
-/// The relaxing part (index into body.relaxing) by whose times static responses to forces on these surface
-/// nodes creep; -1: the body is elastic. Throws Error where forces act on materials that relax differently.
-/// Rank 0.
-int creeping_part(const Job& job, const std::vector<int>& loaded);
+/// The states of relaxation in which static responses of the body are found; the same on all ranks.
+RelaxedStates relaxed_states(const Job& job);
+/// Sets what of the moduli is gone, from the shares of the relaxing parts.
+void set_relaxed(std::vector<model::MaterialRegion>& regions, const Eigen::VectorXd& share);
+/// Takes the relaxed stress out of G, 6 rows of instantaneous stress for each mesh node. Rank 0.
+void relax_stresses(const Job& job, const std::vector<int>& nodes, Eigen::MatrixXf& G);
 
 }  // namespace elastogear::reduction

@@ -179,12 +179,21 @@ FlexibilityTask flexibility_task(const Job& job) {
           job.plan.repetition, job.options.loaded, stressed_body(job)};
 }
 
+// Each state of relaxation takes as long, and what it has found stays in memory.
+void add_states(StaticResponseCost& cost, int n_states) {
+  cost.n_states = n_states;
+  cost.seconds *= 1 + n_states;
+  cost.bytes += n_states * cost.kept_bytes;
+}
+
 // Says what the static responses will take before anything is solved. Collective.
 void announce_flexibility(Job& job) {
   if (!job.options.flexibility || !job.options.announce) return;
   job.on_root([&] {
     const FlexibilityTask task = flexibility_task(job);
-    job.options.announce(forecast(task, plan_flexibility(task), job.plan.free_dof.size(), job.size));
+    StaticResponseCost cost = forecast(task, plan_flexibility(task), job.plan.free_dof.size(), job.size);
+    if (relaxes(job.options) && !relaxes_alike(job)) add_states(cost, relaxed_states(job).size());
+    job.options.announce(cost);
   });
 }
 
@@ -204,44 +213,46 @@ model::Flexibility solve_flexibility(Job& job, const FlexibilityTask& task, cons
              : find_flexibility(task, system, job.progress);
 }
 
-// Adds the static responses of the relaxed body, Eqs. (2.21) and (4.12). Collective.
-void add_long_term(Job& job, const ElasticSystem& system, model::Flexibility& flexibility) {
+// Adds the static responses of one state of relaxation, Eqs. (2.21) and (4.12), with the amplitudes of
+// incompatible modes and the mass of the instantaneous moduli. Collective.
+void add_relaxed(Job& job, const ElasticSystem& system, const Eigen::VectorXd& share,
+                 model::Flexibility& flexibility) {
   const std::vector<model::MaterialRegion> instantaneous = job.regions;
-  for (model::MaterialRegion& region : job.regions) region.material = model::to_long_term(region.material);
-  const model::ElasticBody& body = job.plan.body;
-  model::SparseRows S;
-  job.on_root([&] {
-    if (!body.stress.node.empty()) S = fem::stress_operator(stressed_body(job), body.stress.node);
-  });
-  const FlexibilityTask task{body.surface,       body.stress.node,  S, job.mesh, job.plan.repetition,
-                             job.options.loaded, stressed_body(job)};
-  const fem::Matrices matrices = assemble(job);
-  // A free body is relieved by the mass of its modes, with the amplitudes of the instantaneous moduli.
+  set_relaxed(job.regions, share);
+  const FlexibilityTask task = flexibility_task(job);
+  fem::Matrices matrices;
+  if (!flexibility_repeats(job)) matrices = assemble(job);
   const ElasticSystem relaxed_system{matrices.K, system.M, system.gather, system.rigid};
-  const bool relieved = job.options.floating && job.options.element_mass == model::ElementMass::condensed;
-  model::Flexibility relaxed = relieved ? find_flexibility(task, relaxed_system, job.progress)
-                                        : solve_flexibility(job, task, relaxed_system);
+  model::Flexibility relaxed = solve_flexibility(job, task, relaxed_system);
+  job.on_root([&] {
+    relax_stresses(job, stress_nodes(task, relaxed), relaxed.G);
+    flexibility.relaxed.push_back({share, std::move(relaxed.self), std::move(relaxed.F)});
+    const Eigen::Index above = flexibility.G.rows();
+    flexibility.G.conservativeResize(above + relaxed.G.rows(), Eigen::NoChange);
+    flexibility.G.bottomRows(relaxed.G.rows()) = relaxed.G;
+  });
   job.regions = instantaneous;
-  if (job.rank != 0) return;
-  flexibility.F_long = std::move(relaxed.F);
-  flexibility.self_long = std::move(relaxed.self);
-  flexibility.G.conservativeResize(2 * relaxed.G.rows(), Eigen::NoChange);
-  flexibility.G.bottomRows(relaxed.G.rows()) = relaxed.G;
+}
+
+// Does the body relax in different ratios? Collective.
+bool relaxes_in_ratios(Job& job) {
+  int apart = 0;
+  job.on_root([&] { apart = relaxes(job.options) && !relaxes_alike(job); });
+  MPI_Bcast(&apart, 1, MPI_INT, 0, job.comm);
+  return apart != 0;
 }
 
 void add_flexibility(Job& job, const ElasticSystem& system) {
   if (!job.options.flexibility) return;
   model::Flexibility flexibility = solve_flexibility(job, flexibility_task(job), system);
   job.finish_stage("static responses");
-  int apart = 0;
-  job.on_root([&] {
-    if (relaxes(job.options)) flexibility.creep = creeping_part(job, flexibility.node);
-    apart = flexibility.creep >= 0 && !relaxes_alike(job);
-  });
-  MPI_Bcast(&apart, 1, MPI_INT, 0, job.comm);
-  if (apart != 0) {
-    add_long_term(job, system, flexibility);
-    job.finish_stage("static responses of the relaxed body");
+  if (relaxes_in_ratios(job)) {
+    const RelaxedStates states = relaxed_states(job);
+    flexibility.law = states.law;
+    for (int k = 0; k < states.size(); ++k) add_relaxed(job, system, states.share.col(k), flexibility);
+    job.finish_stage("static responses of relaxed states");
+  } else if (relaxes(job.options)) {
+    flexibility.creep = 0;
   }
   if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
 }

@@ -52,10 +52,6 @@ void set_parts(Job& job, const std::function<Reduced(const model::SparseRows&)>&
   }
 }
 
-bool is_alike(const fem::RelaxingModuli& a, const fem::RelaxingModuli& b) {
-  return a.g == b.g && a.tau == b.tau;
-}
-
 bool relaxes_apart(const ReductionOptions& options) {
   return std::any_of(options.regions.begin(), options.regions.end(), [](const model::MaterialRegion& region) {
     return region.material.viscoelastic && !region.material.viscoelastic->has_constant_ratio();
@@ -71,6 +67,8 @@ bool relaxes(const ReductionOptions& options) {
 }
 
 void validate_relaxing(const ReductionOptions& options) {
+  require(options.relaxed_states >= 0 && options.relaxed_states <= kMostRelaxedStates,
+          "relaxed_states = ", options.relaxed_states, ", must be at most ", kMostRelaxedStates);
   if (!relaxes(options)) return;
   require(
       options.stress_recovery != RecoveryChoice::surface || !relaxes_apart(options),
@@ -88,26 +86,36 @@ model::RecoveryMethod recovery_method(const ReductionOptions& options) {
 
 bool relaxes_alike(const Job& job) {
   const std::vector<fem::RelaxingModuli> all = fem::relaxing_moduli(job.regions);
-  return all.size() == 1 && is_whole_body(job, all.front());
+  std::vector<bool> alike(job.regions.size(), false);
+  for (const fem::RelaxingModuli& moduli : all)
+    alike[moduli.region] =
+        moduli.part == model::ModulusPart::both && moduli.g == all.front().g && moduli.tau == all.front().tau;
+  const std::vector<int>& region = job.plan.region;
+  return std::all_of(region.begin(), region.end(), [&](int r) { return alike[r]; });
 }
 
-int creeping_part(const Job& job, const std::vector<int>& loaded) {
-  const std::vector<fem::RelaxingModuli> all = fem::relaxing_moduli(job.regions);
-  const std::vector<int> region = fem::stress_regions(job.mesh, job.regions);
-  int part = -1;
-  for (int node : loaded) {
-    const int own = region[job.plan.body.surface.node[node]];
-    const auto at =
-        std::find_if(all.begin(), all.end(), [&](const auto& moduli) { return moduli.region == own; });
-    if (at == all.end() || (part >= 0 && is_alike(*at, all[part]))) continue;
-    require(
-        part < 0, "basis modal_residual: contact forces act on the cell sets '",
-        job.regions[all[part].region].cell_set, "' and '", job.regions[own].cell_set,
-        "', whose materials relax differently; name the face sets of one of them by the option loaded, or "
-        "give both the same series and temperature");
-    part = static_cast<int>(at - all.begin());
+RelaxedStates relaxed_states(const Job& job) {
+  return choose_relaxed_states(fem::relaxing_moduli(job.regions), job.options.relaxed_states);
+}
+
+void set_relaxed(std::vector<model::MaterialRegion>& regions, const Eigen::VectorXd& share) {
+  const std::vector<fem::RelaxingModuli> parts = fem::relaxing_moduli(regions);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    model::ModuliShares& relaxed = regions[parts[p].region].material.relaxed;
+    if (parts[p].part != model::ModulusPart::bulk) relaxed.shear = share[static_cast<Eigen::Index>(p)];
+    if (parts[p].part != model::ModulusPart::shear) relaxed.bulk = share[static_cast<Eigen::Index>(p)];
   }
-  return part < 0 && !all.empty() ? 0 : part;
+}
+
+void relax_stresses(const Job& job, const std::vector<int>& nodes, Eigen::MatrixXf& G) {
+  const std::vector<int> region = fem::stress_regions(job.mesh, job.regions);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto [shear, bulk] = job.regions[region[nodes[i]]].material.relaxed;
+    auto stress = G.middleRows<6>(6 * static_cast<Eigen::Index>(i));
+    const Eigen::RowVectorXf mean = stress.topRows<3>().colwise().mean();
+    stress *= static_cast<float>(1 - shear);
+    stress.topRows<3>().rowwise() += static_cast<float>(shear - bulk) * mean;
+  }
 }
 
 void set_relaxing(Job& job, const WaitingModes& modes) {

@@ -39,6 +39,8 @@ REDUCE = [
     Case("temperature in a unit that is none", r"'F'.*K, degC", "{polymer} -material_wlf 17.44,51.6 -material_temperature 80F"),
     Case("free surfaces of moduli that relax apart", r"stress_recovery surface.*stress_recovery average", "{reduce} -material_prony_tau 1 -material_prony_g 0.3 -basis modal -stress_recovery surface"),
     Case("static responses of a polymer", r"", "{reduce} -material_prony_tau 1 -material_prony 0.3 -basis modal_residual -surface TOP", kind="good", leaves=r"kept\.h5"),
+    Case("no relaxed state", r"relaxed_states.*0", "{reduce} -relaxed_states 0"),
+    Case("too many relaxed states", r"relaxed_states = 9, must be at most 8", "{reduce} -relaxed_states 9"),
     Case("master curve that is none", r"nosuch.csv: the master curve cannot be read", "{reduce} -material_master_curve nosuch.csv"),
     Case("master curve without units", r"no_units.csv: heading 'modulus' lacks its unit", "{reduce} -material_master_curve no_units.csv"),
     Case("master curve with a negative modulus", r"negative_modulus.csv: modulus -2", "{reduce} -material_master_curve negative_modulus.csv"),

@@ -360,12 +360,12 @@ TEST_F(BodyFile, of_another_version_is_an_error) {
   {
     const Opened opened(path);
     const hid_t version = H5Aopen(opened.file, "version", H5P_DEFAULT);
-    const int newer = 4;
+    const int newer = 5;
     H5Awrite(version, H5T_NATIVE_INT, &newer);
     H5Aclose(version);
   }
   EXPECT_THAT(message(path),
-              HasSubstr("has version 4 of the format 'elastogear body', this program reads versions 1 to 3"));
+              HasSubstr("has version 5 of the format 'elastogear body', this program reads versions 1 to 4"));
 }
 
 TEST_F(BodyFile, without_a_dataset_is_an_error_that_names_it) {

@@ -81,7 +81,7 @@ TEST_F(Describe, body_files) {
   write_modal(path("worm.h5"), sample_modal_body(), sample_modes());
   EXPECT_THAT(
       describe(path("worm.h5")),
-      AllOf(HasSubstr("format: elastogear body, version 3"), HasSubstr("mass: 0.333333"),
+      AllOf(HasSubstr("format: elastogear body, version 4"), HasSubstr("mass: 0.333333"),
             HasSubstr("frequencies: 333.333 to 9000 Hz"), HasSubstr("3 elastic coordinates"),
             HasSubstr("tooth_01_left"), HasSubstr("material of even: E = 1.1e+11 Pa"), HasSubstr("root: 2")));
 }

@@ -2,6 +2,7 @@
 // The table of elements: what assembly and stress recovery need of each cell type.
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "elastogear/fem/material.h"
 
@@ -23,6 +24,16 @@ struct ElementFunctions {
 
 /// The functions of a cell type; Error when there is no element for it.
 const ElementFunctions& element_functions(mesh::CellType type);
+
+/// Moduli by which the stiffness of cells of one material is computed.
+struct CellModuli {
+  explicit CellModuli(const model::Material& material);
+  Elasticity elastic;                 ///< instantaneous, by which incompatible modes have their amplitudes
+  std::optional<Elasticity> relaxed;  ///< where some share of them is gone
+};
+/// Stiffness of a cell with what is left of the moduli; a sum of the parts of Eq. (1.13).
+Eigen::MatrixXd cell_stiffness(const ElementFunctions& functions, const Eigen::Matrix3Xd& X,
+                               const CellModuli& moduli, model::Element element);
 
 /// Coordinates of a cell's nodes, 3 x n_nodes.
 Eigen::Matrix3Xd cell_coordinates(const mesh::Mesh& mesh, int cell);

@@ -33,6 +33,10 @@ Elasticity elasticity(const model::Material& material);
 /// The part of it by the shear or the bulk modulus alone. Error for these parts of an orthotropic material.
 Elasticity elasticity(const model::Material& material, model::ModulusPart part);
 
+/// What is left of it without the shares material.relaxed. Error where these differ in an orthotropic
+/// material.
+Elasticity relaxed_elasticity(const model::Material& material);
+
 /// The material's axes at the point x (m), as columns. On the axis of a cylindrical system axis 1 is any
 /// radius.
 Eigen::Matrix3d material_axes(const model::Orientation& orientation, const Eigen::Vector3d& x);

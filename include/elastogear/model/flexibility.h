@@ -25,6 +25,15 @@ Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_
 /// Images of n nodes that are no copies of each other.
 Images no_images(int n);
 
+/// F of the body with a share of its moduli relaxed, one of the states between which static responses are
+/// interpolated (docs/theory.md, Eq. (2.21)).
+struct RelaxedResponse {
+  Eigen::VectorXd share;  ///< n_p, gamma_p: which share of each relaxing part is gone
+  Eigen::VectorXd self;   ///< n_orbits, m/N, as that of Flexibility
+  Eigen::MatrixXf F = {};
+  std::function<Eigen::MatrixXf(int orbit)> read_F = {};
+};
+
 /// Body frame. Forces act on the first node of each orbit, along x, y, z.
 struct Flexibility {
   int n_sectors = 1;
@@ -35,20 +44,16 @@ struct Flexibility {
   std::vector<int> stress_row;  ///< n_e: which of them each evaluation node is
   Eigen::VectorXd self;         ///< n_orbits, m/N, |F(b, b)|
   Eigen::MatrixXf F;            ///< 3 n_c x 3 n_orbits, m/N, displacements of the n_c nodes; or empty, then
-  Eigen::MatrixXf G;  ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz; or empty. Below it, where
-                      ///< there is F_long, as many rows of the relaxed body
+  Eigen::MatrixXf G;            ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz; or empty. Below it as
+                                ///< many rows of each of the relaxed states
   std::function<Eigen::MatrixXf(int orbit)> read_F = {};  ///< ... reads the three columns of an orbit
-  /// Of a body that relaxes: which of its relaxing parts has the times by which what the modes leave out
-  /// creeps; -1: nothing of it does.
+  /// Of a body that relaxes in one ratio everywhere: its relaxing part, by whose series what the modes leave
+  /// out creeps; otherwise -1.
   int creep = -1;
-  /// F of the relaxed body, and its `self`, as F and self above; or empty: all of the body relaxes in the
-  /// same ratio, and F over the long-term share is that.
-  Eigen::MatrixXf F_long = {};
-  std::function<Eigen::MatrixXf(int orbit)> read_F_long = {};
-  Eigen::VectorXd self_long = {};
+  std::vector<RelaxedResponse> relaxed = {};  ///< n_s states of a body that relaxes in different ratios,
+  Eigen::MatrixXd law = {};                   ///< n_s x n_p, and mu_jp of the laws between them. Eq. (2.22)
 
   bool empty() const { return node.empty(); }
-  bool has_long_term() const { return self_long.size() > 0; }
 };
 
 /// Position of a surface node in flexibility.node; -1: forces on it are not provided for.
@@ -56,8 +61,8 @@ int find_loaded(const Flexibility& flexibility, int surface_node);
 
 /// The columns of F of one orbit, 3 n_c x 3.
 Eigen::MatrixXf displacement_columns(const Flexibility& flexibility, int orbit);
-/// Those of F_long.
-Eigen::MatrixXf long_term_columns(const Flexibility& flexibility, int orbit);
+/// Those of a relaxed state.
+Eigen::MatrixXf displacement_columns(const RelaxedResponse& relaxed, int orbit);
 /// Sets `self` from F.
 void set_self(Flexibility& flexibility);
 

@@ -31,6 +31,13 @@ struct Orthotropic {
   Orientation orientation = {};
 };
 
+/// Shares of shear and bulk modulus, 0 to 1.
+struct ModuliShares {
+  double shear = 0, bulk = 0;
+
+  bool empty() const { return shear == 0 && bulk == 0; }
+};
+
 /// Linear elasticity and density. E and nu hold for isotropic materials only. The moduli of a viscoelastic
 /// material are its instantaneous ones.
 struct Material {
@@ -39,14 +46,12 @@ struct Material {
   double rho = 0;                                           ///< kg/m^3, density
   std::optional<Orthotropic> orthotropic = std::nullopt;    ///< set: takes the place of E and nu
   std::optional<Viscoelastic> viscoelastic = std::nullopt;  ///< set: the moduli relax
+  ModuliShares relaxed = {};  ///< what of the moduli is gone in the stiffness of cells, which alone reads it
 };
 
 /// The material whose long-term moduli those of the given one are: with the instantaneous moduli of its Prony
 /// series, which must be valid. docs/theory.md, Eq. (1.10).
 Material from_long_term(Material material);
-/// The material whose instantaneous moduli are the long-term ones of this; its series stays. Elastic ones
-/// stay as they are.
-Material to_long_term(Material material);
 
 /// A material and the cell set it fills; the empty name stands for all cells that no other region names.
 struct MaterialRegion {

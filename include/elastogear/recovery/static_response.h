@@ -13,11 +13,15 @@
 
 namespace elastogear::recovery {
 
-/// What the response of a viscoelastic body of several materials has crept by: docs/theory.md, Eq. (4.12).
+/// Forces to which a viscoelastic body of several materials responds as one of its relaxed states:
+/// docs/theory.md, Eq. (4.12).
+struct CreptForces {
+  Eigen::MatrixXd force;         ///< 3 n x n_t, N: chi_k of the n nodes that have been loaded
+  Eigen::MatrixXd q, q_relaxed;  ///< n_q x n_t: the modes' response to chi_k, instantaneous and of the state
+};
 struct CreptResponse {
-  std::vector<int> position;  ///< of the n nodes that have been loaded, in body.flexibility
-  Eigen::MatrixXd force;      ///< 3 n x n_t, N: chi
-  Eigen::MatrixXd q, q_long;  ///< n_q x n_t: the modes' response to chi, instantaneous and relaxed
+  std::vector<int> position;        ///< of the loaded nodes in body.flexibility
+  std::vector<CreptForces> states;  ///< of each of the relaxed states there
 };
 
 struct StaticResponseOfRun {

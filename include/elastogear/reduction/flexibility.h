@@ -39,6 +39,8 @@ struct StaticResponseCost {
   std::size_t n_columns = 0;  ///< loads: three for one node of each orbit, for each harmonic
   double seconds = 0;         ///< on `n_ranks` ranks
   double bytes = 0;           ///< of all ranks together, at the same time
+  double kept_bytes = 0;      ///< of them, of F and G
+  int n_states = 0;           ///< states of relaxation besides
 };
 /// n_free: free displacements of the whole body.
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,

@@ -28,6 +28,13 @@ const Rows<ReductionOptions> kBasisRows = {
      "face sets that contact forces may act on. modal_residual, modal_attachment: three static solutions "
      "for each node (modal_residual: or one of its images); craig_bampton: the interface; krylov: the "
      "loads (default: all of surface; modal_attachment has none)"},
+    {"relaxed_states", "-", "auto",
+     "modal_residual, bodies of several materials of which one relaxes: in how many states of relaxation "
+     "static responses are found, beside the instantaneous one (1 to 8; auto: as many as 1 % of any response "
+     "takes; each takes one more factorisation and as much memory)",
+     [](auto& options, auto& name, auto& o) {
+       if (options.text(name) != "auto") o.relaxed_states = options.count(name, 1);
+     }},
 };
 
 const Rows<RitzOptions> kRitzRows = {

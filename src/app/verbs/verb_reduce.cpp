@@ -44,6 +44,8 @@ void print_cost(const reduction::StaticResponseCost& cost) {
   print_item("static responses", std::to_string(cost.n_columns) + " loads on " +
                                      std::to_string(cost.n_nodes) + " nodes that contact may touch: about " +
                                      duration(cost.seconds) + " and " + with_unit(1e-9 * cost.bytes, "GB"));
+  if (cost.n_states > 0)
+    print_item("relaxed states", std::to_string(cost.n_states) + ", of as many static responses each");
   require(cost.bytes < memory, "the static responses need about ", 1e-9 * cost.bytes,
           " GB, this machine has ", 1e-9 * memory, " GB: ", remedy);
   if (cost.seconds > kLong || cost.bytes > kMuch) print_item("advice", remedy);

@@ -40,22 +40,28 @@ Eigen::Matrix3d product(const double* A, const double* B, Eigen::Index n) {
 
 ResidualFlexibility::ResidualFlexibility(const model::ElasticBody& body)
     : body_(&body),
-      law_(body::creep_law(body)),
+      laws_(body::creep_laws(body)),
       rows_(body.surface.node.size()),
       fields_(body.surface.node.size()) {
   const model::Flexibility& flexibility = body.flexibility;
   if (flexibility.empty()) return;
-  largest_ = largest_D_ = flexibility.self.maxCoeff();
-  if (!law_.creeps()) return;
-  const double long_term = law_.long_term();
-  if (relaxes_alike()) {
-    largest_ *= 1 + long_term;
-    return;
-  }
-  largest_D_ = flexibility.self_long.maxCoeff() / long_term;
-  largest_ = std::max(largest_, flexibility.self_long.maxCoeff());
-  K_long_inverse_ =
-      body::long_term_stiffness(body).llt().solve(Eigen::MatrixXd::Identity(body.n_q(), body.n_q()));
+  set_bounds();
+  if (relaxes_alike()) return;
+  C_ = body::creep_coefficients(flexibility);
+  for (const model::RelaxedResponse& relaxed : flexibility.relaxed)
+    states_.push_back({body::relaxed_stiffness(body, relaxed.share)
+                           .llt()
+                           .solve(Eigen::MatrixXd::Identity(body.n_q(), body.n_q()))});
+}
+
+// The static response grows as the body relaxes: the largest is that of a state.
+void ResidualFlexibility::set_bounds() {
+  const model::Flexibility& flexibility = body_->flexibility;
+  largest_ = largest_R_0_ = flexibility.self.maxCoeff();
+  if (!laws_.creeps()) return;
+  if (relaxes_alike()) largest_ *= 1 + laws_[0].long_term();
+  for (const model::RelaxedResponse& relaxed : flexibility.relaxed)
+    largest_ = std::max(largest_, relaxed.self.maxCoeff());
 }
 
 int ResidualFlexibility::number(int node) {
@@ -70,23 +76,24 @@ int ResidualFlexibility::number(int node) {
   const auto Phi = modes(*body_).middleRows<3>(3 * node);
   loaded_.push_back(
       {position, {&columns_.at(orbit), Phi * body_->K_r.diagonal().cwiseInverse().asDiagonal()}, {}});
-  if (relaxes_alike() || !law_.creeps()) return at->second;
-  if (!long_columns_.contains(orbit)) long_columns_[orbit] = model::long_term_columns(flexibility, orbit);
-  loaded_.back().long_term = {&long_columns_.at(orbit), Phi * K_long_inverse_};
+  for (std::size_t k = 0; k < states_.size(); ++k) {
+    auto& [K_inverse, columns] = states_[k];
+    if (!columns.contains(orbit)) columns[orbit] = model::displacement_columns(flexibility.relaxed[k], orbit);
+    loaded_.back().relaxed.push_back({&columns.at(orbit), Phi * K_inverse});
+  }
   return at->second;
 }
 
 ResidualFlexibility::Row& ResidualFlexibility::row(int node) {
   std::vector<Eigen::Matrix3d>& R = rows_[node].R;
   if (R.size() == loaded_.size()) return rows_[node];
-  if (n_rows_ * loaded_.size() > kMostBlocks) {
+  if (n_rows_ * loaded_.size() * (1 + states_.size()) > kMostBlocks) {
     n_rows_ = 0;
     for (Row& row : rows_) row = Row();
   }
   n_rows_ += R.empty();
-  const Eigen::Matrix3d unknown = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  R.resize(loaded_.size(), unknown);
-  if (law_.creeps() && !relaxes_alike()) rows_[node].D.resize(loaded_.size(), unknown);
+  R.resize(loaded_.size(), Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  if (!relaxes_alike()) rows_[node].D.resize(loaded_.size());
   return rows_[node];
 }
 
@@ -104,14 +111,27 @@ const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
   return R;
 }
 
-// Block D(a, b). Eq. (2.21).
-const Eigen::Matrix3d& ResidualFlexibility::creep_block(Row& row, int a, int number) {
-  if (relaxes_alike()) return block(row, a, number);
-  Eigen::Matrix3d& D = row.D[number];
-  if (std::isnan(D(0, 0)))
-    D = (residual(a, *loaded_[number].long_term, loaded_[number].position) - block(row, a, number)) /
-        law_.long_term();
+// Blocks D_j(a, b) of a body that relaxes in different ratios. Eq. (2.23).
+const ResidualFlexibility::Blocks& ResidualFlexibility::creep_blocks(Row& row, int a, int number) {
+  Blocks& D = row.D[number];
+  if (D.cols() > 0) return D;
+  const Eigen::Matrix3d R_0 = block(row, a, number);
+  D.setZero(3, 3 * laws_.size());
+  for (std::size_t k = 0; k < states_.size(); ++k) {
+    const Eigen::Matrix3d grown = residual(a, loaded_[number].relaxed[k], loaded_[number].position) - R_0;
+    for (Eigen::Index j = 0; j < laws_.size(); ++j)
+      D.middleCols<3>(3 * j) += C_(static_cast<Eigen::Index>(k) + 1, j + 1) * grown;
+  }
   return D;
+}
+
+// Block of what forces add to R_0 within the step. Eq. (6.34).
+Eigen::Matrix3d ResidualFlexibility::at_once(Row& row, int a, int number) {
+  if (relaxes_alike()) return laws_[0].at_once() * block(row, a, number);
+  const Blocks& D = creep_blocks(row, a, number);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (Eigen::Index j = 0; j < laws_.size(); ++j) sum += laws_[j].at_once() * D.middleCols<3>(3 * j);
+  return sum;
 }
 
 void ResidualFlexibility::set_forces(const NodalForces& forces) {
@@ -126,48 +146,75 @@ void ResidualFlexibility::set_forces(const NodalForces& forces) {
 // Copies the blocks of one row into contiguous memory, because all nodes that may touch are asked for at
 // every stage.
 void ResidualFlexibility::pack(Row& row, int a) {
-  const bool apart = law_.creeps() && !relaxes_alike();
   row.packed.setZero(3, 3 * static_cast<Eigen::Index>(numbers_.size()));
-  if (apart) row.packed_D = row.packed;
+  if (!relaxes_alike()) row.packed_D.assign(static_cast<std::size_t>(laws_.size()), row.packed);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     if (numbers_[i] < 0) continue;
     const auto column = static_cast<Eigen::Index>(3 * i);
     row.packed.middleCols<3>(column) = block(row, a, numbers_[i]);
-    if (apart) row.packed_D.middleCols<3>(column) = creep_block(row, a, numbers_[i]);
+    for (std::size_t j = 0; j < row.packed_D.size(); ++j)
+      row.packed_D[j].middleCols<3>(column) =
+          creep_blocks(row, a, numbers_[i]).middleCols<3>(3 * static_cast<Eigen::Index>(j));
   }
   row.packed_at = n_changes_;
 }
 
 ResidualFlexibility::Displaced ResidualFlexibility::displaced(int node) {
-  if (numbers_.empty()) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Displaced by{Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, laws_.size())};
+  if (numbers_.empty()) return by;
   Row& known = row(node);
   if (known.packed_at != n_changes_) pack(known, node);
   const Eigen::Map<const Eigen::VectorXd> f(forces_.f_B.data(), forces_.f_B.size());
   const auto times_f = [&](const ThreeRows& A) {
     return Eigen::Vector3d(A.row(0).dot(f), A.row(1).dot(f), A.row(2).dot(f));
   };
-  const Eigen::Vector3d instantaneous = times_f(known.packed);
-  return {instantaneous, law_.creeps() && !relaxes_alike() ? times_f(known.packed_D) : instantaneous};
+  by.by_R = times_f(known.packed);
+  if (relaxes_alike()) by.by_D.colwise() = by.by_R;
+  for (std::size_t j = 0; j < known.packed_D.size(); ++j)
+    by.by_D.col(static_cast<Eigen::Index>(j)) = times_f(known.packed_D[j]);
+  return by;
 }
 
 // Eq. (6.34).
 Eigen::Vector3d ResidualFlexibility::displacement(int node) {
   const auto [by_R, by_D] = displaced(node);
-  if (!law_.creeps()) return by_R;
-  return by_R + law_.at_once() * by_D + lag(node);
+  if (!laws_.creeps()) return by_R;
+  Eigen::Vector3d w = by_R;
+  for (Eigen::Index j = 0; j < laws_.size(); ++j) w += laws_[j].at_once() * by_D.col(j);
+  return w + lag(node);
 }
 
 Eigen::Vector3d ResidualFlexibility::lag(int node) {
-  return creeps() && !history_.empty() ? law_.lag(field(node)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return creeps() && !history_.empty() ? laws_.lag(field(node)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-// D times the history, at a node that had no part in it yet.
+// D_j times a state of forces on the node with this number.
+CreepState ResidualFlexibility::displaced_by(Row& row, int a, int number, const CreepState& force) {
+  if (relaxes_alike()) return block(row, a, number) * force;
+  const Blocks& D = creep_blocks(row, a, number);
+  CreepState displaced(3, force.cols());
+  const Eigen::Index n = force.cols() / laws_.size();
+  for (Eigen::Index j = 0; j < laws_.size(); ++j)
+    displaced.middleCols(j * n, n) = D.middleCols<3>(3 * j) * force.middleCols(j * n, n);
+  return displaced;
+}
+
+// R_0 - sum_j D_j, of what stays as it is.
+Eigen::Matrix3d ResidualFlexibility::never_creeping(Row& row, int a, int number) {
+  if (relaxes_alike()) return Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d rest = block(row, a, number);
+  const Blocks& D = creep_blocks(row, a, number);
+  for (Eigen::Index j = 0; j < laws_.size(); ++j) rest -= D.middleCols<3>(3 * j);
+  return rest;
+}
+
+// D_j times the history, at a node that had no part in it yet.
 CreepState ResidualFlexibility::sum_of_history(int node) {
-  CreepState sum = CreepState::Zero(3, law_.n_columns());
+  CreepState sum = CreepState::Zero(3, laws_.n_columns());
   for (const auto& [b, crept] : history_) number(b);
   Row& own = row(node);
   for (const auto& [b, crept] : history_)
-    if (const int i = number(b); i >= 0) sum += creep_block(own, node, i) * crept.force;
+    if (const int i = number(b); i >= 0) sum += displaced_by(own, node, i, crept.force);
   return sum;
 }
 
@@ -212,8 +259,7 @@ const Eigen::MatrixXd& ResidualFlexibility::among(const std::vector<int>& node) 
     for (Eigen::Index j = 0; j <= i; ++j) {
       if (numbers[j] < 0) continue;
       R.block<3, 3>(3 * i, 3 * j) = block(known, node[i], numbers[j]);
-      if (law_.at_once() != 0)
-        R.block<3, 3>(3 * i, 3 * j) += law_.at_once() * creep_block(known, node[i], numbers[j]);
+      if (laws_.creeps()) R.block<3, 3>(3 * i, 3 * j) += at_once(known, node[i], numbers[j]);
     }
     for (Eigen::Index j = 0; j < i; ++j)
       R.block<3, 3>(3 * j, 3 * i) = R.block<3, 3>(3 * i, 3 * j).transpose();
@@ -221,56 +267,68 @@ const Eigen::MatrixXd& ResidualFlexibility::among(const std::vector<int>& node) 
   return R;
 }
 
-// The bounds are those of a positive semidefinite D; that of a body which relaxes in different ratios is so
-// but for what the modes make up for, and magnitudes are summed up.
+// How much larger the factor of a law has become by which forces act at once; of all laws the largest.
+double ResidualFlexibility::growth(const Eigen::VectorXd& before) const {
+  double most = 0;
+  for (Eigen::Index j = 0; j < laws_.size(); ++j)
+    most = std::max(most, std::abs(laws_[j].at_once() - before[j]));
+  return most;
+}
+
+// |D(a, :) h|^2 <= |D(a, a)| h'D h in a body that relaxes in one ratio, whose D = R_0 is positive
+// semidefinite. In others the D_j are not: twice the largest lag of the nodes that have been loaded stands
+// for it, because what modes leave out is largest under the forces.
 double ResidualFlexibility::set_point(body::Moduli moduli, const body::StepPoint& at) {
-  if (!law_.creeps()) return 0;
-  const double before = law_.at_once();
-  law_.set_point(moduli, at);
+  constexpr double kElsewhere = 2;
+  if (!laws_.creeps()) return 0;
+  Eigen::VectorXd before(laws_.size());
+  for (Eigen::Index j = 0; j < laws_.size(); ++j) before[j] = laws_[j].at_once();
+  laws_.set_point(moduli, at);
   moduli_ = moduli;
-  const double grown = std::abs(law_.at_once() - before);
+  const double grown = growth(before);
   if (grown > 0) among_ = {};
-  double all = 0, change = 0;
+  double all = 0, change = 0, largest_lag = 0, largest_change = 0;
   for (auto& [node, crept] : history_) {
-    const Eigen::Vector3d lag = law_.lag(crept.force), displaced = law_.lag(field(node));
+    const Eigen::Vector3d lag = laws_.lag(crept.force), displaced = laws_.lag(field(node));
     all += std::abs(lag.dot(displaced));
     change += std::abs((lag - crept.lag).dot(displaced - crept.displaced_lag));
+    largest_lag = std::max(largest_lag, displaced.norm());
+    largest_change = std::max(largest_change, (displaced - crept.displaced_lag).norm());
     crept.lag = lag;
     crept.displaced_lag = displaced;
   }
-  lag_bound_ = std::sqrt(largest_D_ * all);
-  const double at_once = grown > 0 ? grown * std::max(1.0, largest_D_ / largest_) * bound(forces_) : 0;
-  return std::sqrt(largest_D_ * change) + at_once;
+  const double at_once = grown > 0 ? grown * std::max(1.0, largest_R_0_ / largest_) * bound(forces_) : 0;
+  lag_bound_ = relaxes_alike() ? std::sqrt(largest_R_0_ * all) : kElsewhere * largest_lag;
+  return (relaxes_alike() ? std::sqrt(largest_R_0_ * change) : kElsewhere * largest_change) + at_once;
 }
 
 void ResidualFlexibility::accept() {
   if (!creeps()) return;
-  const CreepState zero = CreepState::Zero(3, law_.n_columns());
+  const CreepState zero = CreepState::Zero(3, laws_.n_columns());
   for (int node : forces_.node) history_.emplace(node, Crept{zero, zero.col(0), zero.col(0)});
   for (const auto& [node, crept] : history_) field(node);
   std::vector<CreepState> fields;
-  for (int node : known_) fields.push_back(law_.state(fields_[node], displaced(node).by_D));
+  for (int node : known_) fields.push_back(laws_.displaced_state(fields_[node], displaced(node).by_D));
   std::vector<CreepState> before;
   for (std::size_t i = 0; i < known_.size(); ++i)
     before.push_back(std::exchange(fields_[known_[i]], std::move(fields[i])));
   std::unordered_map<int, const CreepState*> field_before;
   for (std::size_t i = 0; i < known_.size(); ++i) field_before[known_[i]] = &before[i];
   for (auto& [node, crept] : history_) {
-    const CreepState then = std::exchange(crept.force, law_.state(crept.force, present_force(node)));
-    loss_ += law_.loss({then, crept.force}, {*field_before.at(node), fields_[node]});
+    const CreepState then = std::exchange(crept.force, laws_.state(crept.force, present_force(node)));
+    loss_ += laws_.loss({then, crept.force}, {*field_before.at(node), fields_[node]});
   }
   set_point(moduli_, {0, 1});
 }
 
 Eigen::Vector3d ResidualFlexibility::change_since(const NodalForces& then, int node) {
-  Eigen::Vector3d before = field(node).col(0);
+  Eigen::Vector3d before = laws_.sum(field(node));
   std::vector<int> numbers;
   for (int b : then.node) numbers.push_back(number(b));
   Row& own = row(node);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (numbers[i] < 0) continue;
-    before += (block(own, node, numbers[i]) - creep_block(own, node, numbers[i])) *
-              then.f_B.col(static_cast<Eigen::Index>(i));
+    before += never_creeping(own, node, numbers[i]) * then.f_B.col(static_cast<Eigen::Index>(i));
   }
   return displacement(node) - before;
 }
@@ -289,25 +347,26 @@ double ResidualFlexibility::energy() {
     const auto at = history_.find(node);
     const Eigen::Vector3d f = present_force(node);
     const auto [by_R, by_D] = displaced(node);
-    const CreepState force = law_.state(at == history_.end() ? CreepState() : at->second.force, f);
-    twice += law_.twice_energy(force, law_.state(field(node), by_D)) + f.dot(by_R - by_D);
+    const CreepState force = laws_.state(at == history_.end() ? CreepState() : at->second.force, f);
+    twice += laws_.twice_energy(force, laws_.displaced_state(field(node), by_D)) +
+             f.dot(by_R - by_D.rowwise().sum());
   }
   return 0.5 * twice;
 }
 
 void ResidualFlexibility::get_history(model::RelaxedState& state) const {
   state.node.clear();
-  state.force.resize(3, law_.n_columns() * static_cast<Eigen::Index>(history_.size()));
+  state.force.resize(3, laws_.n_columns() * static_cast<Eigen::Index>(history_.size()));
   for (const auto& [node, crept] : history_) {
-    state.force.middleCols(law_.n_columns() * static_cast<Eigen::Index>(state.node.size()),
-                           law_.n_columns()) = crept.force;
+    state.force.middleCols(laws_.n_columns() * static_cast<Eigen::Index>(state.node.size()),
+                           laws_.n_columns()) = crept.force;
     state.node.push_back(node);
   }
 }
 
 void ResidualFlexibility::set_history(const model::RelaxedState& state) {
-  if (state.node.empty() || !law_.creeps()) return;
-  const Eigen::Index n = law_.n_columns(), n_nodes = static_cast<Eigen::Index>(state.node.size());
+  if (state.node.empty() || !laws_.creeps()) return;
+  const Eigen::Index n = laws_.n_columns(), n_nodes = static_cast<Eigen::Index>(state.node.size());
   require(state.force.rows() == 3 && state.force.cols() == n * n_nodes && state.force.allFinite() &&
               std::is_sorted(state.node.begin(), state.node.end()) && state.node.front() >= 0 &&
               state.node.back() < static_cast<int>(rows_.size()),
@@ -323,7 +382,7 @@ void ResidualFlexibility::serialize(Archive& archive) {
   archive(forces.node);
   archive(forces.f_B);
   if (archive.is_loading()) set_forces(forces);
-  if (!law_.creeps()) return;
+  if (!laws_.creeps()) return;
   std::vector<int> nodes;
   for (const auto& [node, crept] : history_) nodes.push_back(node);
   if (archive.is_loading()) {

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
-#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -35,14 +34,14 @@ class ResidualFlexibility {
   Eigen::Vector3d lag(int node);
   double largest() const { return largest_; }  ///< m/N, bound of |R(b, b)|
   double bound(const NodalForces& forces);     ///< m, no node is displaced farther by these forces at once
-  double lag_bound() const { return lag_bound_; }  ///< m, no node has a larger lag
+  double lag_bound() const { return lag_bound_; }  ///< m, no node that has been loaded lags farther
   /// R among the given nodes: 3 n x 3 n, m/N, symmetric. The reference is valid until other nodes are asked
   /// for.
   const Eigen::MatrixXd& among(const std::vector<int>& node);
 
-  bool is_viscoelastic() const { return law_.creeps(); }
+  bool is_viscoelastic() const { return laws_.creeps(); }
   /// Does w have a history?
-  bool creeps() const { return law_.creeps() && moduli_ == body::Moduli::relaxing; }
+  bool creeps() const { return laws_.creeps() && moduli_ == body::Moduli::relaxing; }
   /// From here on states are at this point of a step. Returns the largest change of w by that, m.
   double set_point(body::Moduli moduli, const body::StepPoint& at);
   /// The forces in place are those at the end of the step: it becomes the start of the next one.
@@ -68,27 +67,39 @@ class ResidualFlexibility {
   struct Loaded {
     int position;  // in the flexibility
     Response response;
-    std::optional<Response> long_term;
+    std::vector<Response> relaxed;  // of each state
   };
-  struct Row {                             // of one node a
-    std::vector<Eigen::Matrix3d> R;        // R_0(a, b) by the number of b; not yet known: NaN
-    std::vector<Eigen::Matrix3d> D = {};   // D(a, b), where that is not R_0
-    ThreeRows packed = {}, packed_D = {};  // of the nodes of forces_,
+  using Blocks = Eigen::Matrix3Xd;   // 3 x 3 n, side by side
+  struct Row {                       // of one node a
+    std::vector<Eigen::Matrix3d> R;  // R_0(a, b) by the number of b; not yet known: NaN
+    std::vector<Blocks> D = {};      // D_j(a, b) of all laws, where that is not R_0; not yet known: empty
+    ThreeRows packed = {};           // of the nodes of forces_,
+    std::vector<ThreeRows> packed_D = {};  // by law,
     long packed_at = -1;                   // when n_changes_ was this
+  };
+  struct RelaxedState {
+    Eigen::MatrixXd K_inverse;  // of the reduced body
+    std::unordered_map<int, Columns> columns = {};
   };
   struct Crept {  // of a node that has been loaded
     body::CreepState force;
     Eigen::Vector3d lag, displaced_lag;  // when the point of the step was set last
   };
   struct Displaced {  // of a node, by the forces in place
-    Eigen::Vector3d by_R, by_D;
+    Eigen::Vector3d by_R;
+    Eigen::Matrix3Xd by_D;  // 3 x n_laws
   };
 
-  bool relaxes_alike() const { return !body_->flexibility.has_long_term(); }
+  bool relaxes_alike() const { return body_->flexibility.relaxed.empty(); }
+  void set_bounds();
+  double growth(const Eigen::VectorXd& before) const;
   int number(int node);
   Eigen::Matrix3d residual(int a, const Response& b, int position_b) const;
   const Eigen::Matrix3d& block(Row& row, int a, int number);
-  const Eigen::Matrix3d& creep_block(Row& row, int a, int number);
+  const Blocks& creep_blocks(Row& row, int a, int number);
+  Eigen::Matrix3d at_once(Row& row, int a, int number);
+  Eigen::Matrix3d never_creeping(Row& row, int a, int number);
+  body::CreepState displaced_by(Row& row, int a, int number, const body::CreepState& force);
   void pack(Row& row, int a);
   Row& row(int node);
   Displaced displaced(int node);
@@ -97,23 +108,24 @@ class ResidualFlexibility {
   Eigen::Vector3d present_force(int node) const;
 
   const model::ElasticBody* body_;
-  body::CreepLaw law_;
-  Eigen::MatrixXd K_long_inverse_ = {};  // of the reduced body after all relaxation, where that is needed
+  body::CreepLaws laws_;
+  Eigen::MatrixXd C_ = {};                 // where the body relaxes in different ratios. Eq. (2.23)
+  std::vector<RelaxedState> states_ = {};  // of it
   body::Moduli moduli_ = body::Moduli::relaxing;
-  double largest_ = 0, largest_D_ = 0;  // m/N, of |R(b, b)|, of |D(b, b)|
+  double largest_ = 0, largest_R_0_ = 0;  // m/N, of |R(b, b)|, of |R_0(b, b)|
   double lag_bound_ = 0, loss_ = 0;
   NodalForces forces_;
   std::vector<int> numbers_;                  // of the nodes of forces_
   long n_changes_ = 0;                        // of these nodes
   std::unordered_map<int, int> number_of_;    // node -> number among those that were loaded so far, -1: R = 0
   std::unordered_map<int, Columns> columns_;  // of F, by orbit: images share them
-  std::unordered_map<int, Columns> long_columns_;
-  std::vector<Loaded> loaded_;  // these
-  std::vector<Row> rows_;       // of each node of the surface, empty before it is asked for
+  std::vector<Loaded> loaded_;                // these
+  std::vector<Row> rows_;                     // of each node of the surface, empty before it is asked for
   std::size_t n_rows_ = 0;
-  std::map<int, Crept> history_;          // by node
-  std::vector<body::CreepState> fields_;  // D times the history, at each node of the surface; empty: unknown
-  std::vector<int> known_;                // nodes whose field is known
+  std::map<int, Crept> history_;  // by node
+  std::vector<body::CreepState>
+      fields_;              // D_j times the history, at each node of the surface; empty: unknown
+  std::vector<int> known_;  // nodes whose field is known
   struct Among {
     std::vector<int> node = {};
     Eigen::MatrixXd R = {};

@@ -44,6 +44,16 @@ const ElementFunctions& element_functions(mesh::CellType type) {
   fail("no element for cell type ", static_cast<int>(type));
 }
 
+CellModuli::CellModuli(const model::Material& material) : elastic(elasticity(material)) {
+  if (!material.relaxed.empty()) relaxed = relaxed_elasticity(material);
+}
+
+Eigen::MatrixXd cell_stiffness(const ElementFunctions& functions, const Eigen::Matrix3Xd& X,
+                               const CellModuli& moduli, model::Element element) {
+  return moduli.relaxed ? functions.stiffness_of_part(X, moduli.elastic, *moduli.relaxed, element)
+                        : functions.stiffness(X, moduli.elastic, element);
+}
+
 Eigen::Matrix3Xd cell_coordinates(const mesh::Mesh& mesh, int cell) {
   const auto nodes = mesh.cells[cell];
   Eigen::Matrix3Xd X(3, nodes.size());

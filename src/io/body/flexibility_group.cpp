@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "elastogear/base/error.h"
@@ -67,10 +69,45 @@ std::function<Eigen::MatrixXf(int)> reader(const std::shared_ptr<const h5::File>
   require(h5::shape(*body, kGroup + name) == h5::Shape{3 * n_orbits, 3 * flexibility.node.size()}, body->path,
           ": ", kGroup, name, " must have a row for each force and a column for each displacement");
   return [body, name](int orbit) {
-    const Eigen::MatrixXf F = read_columns(*body, name, static_cast<hsize_t>(3 * orbit), 3);
+    const Eigen::MatrixXf F = read_columns(*body, name, 3 * static_cast<hsize_t>(orbit), 3);
     require(F.allFinite(), body->path, ": ", kGroup, name, " is not finite");
     return F;
   };
+}
+
+void write_relaxed(const h5::File& file, const model::Flexibility& flexibility) {
+  if (flexibility.relaxed.empty()) return;
+  const model::DenseRows law = flexibility.law;
+  h5::write<double>(file, kGroup + "/law", {{extent(law.rows()), extent(law.cols())}, law.data()}, "1");
+  h5::make_group(file, kGroup + "/relaxed");
+  for (std::size_t i = 0; i < flexibility.relaxed.size(); ++i) {
+    const model::RelaxedResponse& relaxed = flexibility.relaxed[i];
+    const std::string name = "/relaxed/" + std::to_string(i);
+    h5::make_group(file, kGroup + name);
+    h5::write<double>(file, kGroup + name + "/share", view(relaxed.share), "1");
+    h5::write<double>(file, kGroup + name + "/self", view(relaxed.self), "m/N");
+    write_columns(file, name + "/F", relaxed.F, "m/N");
+  }
+}
+
+void read_relaxed(const h5::File& file, const std::shared_ptr<const h5::File>& body,
+                  model::Flexibility& flexibility) {
+  require(!h5::exists(file, kGroup + "/F_long"), file.path,
+          ": holds static responses of the relaxed body alone, as programs before version 4 of body files "
+          "wrote them: reduce the body again");
+  if (!h5::exists(file, kGroup + "/law")) return;
+  const h5::Shape shape = h5::shape(file, kGroup + "/law");
+  require(shape.size() == 2, file.path, ": ", kGroup, "/law must have two dimensions");
+  const std::vector<double> law = h5::read<double>(file, kGroup + "/law", {shape[0], shape[1]});
+  flexibility.law = Eigen::Map<const model::DenseRows>(law.data(), static_cast<Eigen::Index>(shape[0]),
+                                                       static_cast<Eigen::Index>(shape[1]));
+  for (std::size_t i = 0; h5::exists(file, kGroup + "/relaxed/" + std::to_string(i)); ++i) {
+    const std::string name = "/relaxed/" + std::to_string(i);
+    model::RelaxedResponse relaxed{read_vector(file, kGroup + name + "/share"),
+                                   read_vector(file, kGroup + name + "/self")};
+    relaxed.read_F = reader(body, name + "/F", flexibility);
+    flexibility.relaxed.push_back(std::move(relaxed));
+  }
 }
 
 }  // namespace
@@ -88,9 +125,7 @@ void write_flexibility(const h5::File& file, const model::Flexibility& flexibili
   write_columns(file, "/F", flexibility.F, "m/N");
   write_columns(file, "/G", flexibility.G, "Pa/N");
   if (flexibility.creep >= 0) h5::set_attribute(file, kGroup, "creep", flexibility.creep);
-  if (!flexibility.has_long_term()) return;
-  h5::write<double>(file, kGroup + "/self_long", view(flexibility.self_long), "m/N");
-  write_columns(file, "/F_long", flexibility.F_long, "m/N");
+  write_relaxed(file, flexibility);
 }
 
 model::Flexibility read_flexibility(const h5::File& file) {
@@ -109,15 +144,13 @@ model::Flexibility read_flexibility(const h5::File& file) {
   const auto body = std::make_shared<const h5::File>(open_format(file.path, kBodyFormat));
   flexibility.read_F = reader(body, "/F", flexibility);
   flexibility.creep = number_or(file, "creep", -1);
-  if (!h5::exists(file, kGroup + "/F_long")) return flexibility;
-  flexibility.self_long = read_vector(file, kGroup + "/self_long", n_orbits);
-  flexibility.read_F_long = reader(body, "/F_long", flexibility);
+  read_relaxed(file, body, flexibility);
   return flexibility;
 }
 
 Eigen::MatrixXf read_stress_responses(const std::string& path, int orbit) {
   const h5::File file = open_format(path, kBodyFormat);
-  return read_columns(file, "/G", static_cast<hsize_t>(3 * orbit), 3);
+  return read_columns(file, "/G", 3 * static_cast<hsize_t>(orbit), 3);
 }
 
 }  // namespace elastogear::io

@@ -10,12 +10,12 @@ namespace elastogear::io {
 
 /// A kind of file: its name, the version that is written, and the oldest one that is read. Version 2 has
 /// checksums and text of fixed length, version 3 of a result the contact forces at nodes, version 3 of a body
-/// the relaxing parts of viscoelastic materials.
+/// the relaxing parts of viscoelastic materials, version 4 static responses of its relaxed states.
 struct Format {
   const char* name;
   int version = 2, oldest = 1;
 };
-constexpr Format kBodyFormat{"elastogear body", 3}, kStressFormat{"elastogear stress"};
+constexpr Format kBodyFormat{"elastogear body", 4}, kStressFormat{"elastogear stress"};
 constexpr Format kResultFormat{"elastogear result", 3}, kLifeFormat{"elastogear life"},
     kWearFormat{"elastogear wear"};
 constexpr Format kEvaluationFormat{"elastogear evaluation", 2, 2};

@@ -206,7 +206,8 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
   cost.n_nodes = plan.node.size();
   cost.n_columns = static_cast<std::size_t>(n_loads) * static_cast<std::size_t>(n_harmonics);
   cost.seconds = flops / (kSpeed * at_work);
-  cost.bytes = (rows * n_loads * kSingle + 2 * wanted * separator * kDouble) * at_work;
+  cost.kept_bytes = rows * n_loads * kSingle;
+  cost.bytes = (cost.kept_bytes + 2 * wanted * separator * kDouble) * at_work;
   return cost;
 }
 
