@@ -121,10 +121,16 @@ bool is_stored(const StaticResponseOfRun& known_response) { return !known_respon
 Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& positions,
                               const Eigen::MatrixXd& force, const std::vector<int>& nodes) {
   Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), force.cols());
-  for (std::size_t b = 0; b < positions.size(); ++b)
-    stress +=
+  for (std::size_t b = 0; b < positions.size(); ++b) {
+    const auto f = force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+    std::vector<Eigen::Index> loaded;  // times: a node bears at few of a long run
+    for (Eigen::Index t = 0; t < f.cols(); ++t)
+      if (!f.col(t).isZero(0)) loaded.push_back(t);
+    if (loaded.empty()) continue;
+    stress(Eigen::all, loaded) +=
         stresses_of(known_response.body, positions[b], nodes, columns_of(known_response, positions[b])) *
-        force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+        f(Eigen::all, loaded);
+  }
   return stress;
 }
 
