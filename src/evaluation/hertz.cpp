@@ -66,7 +66,8 @@ HertzLine line_contact(const std::array<const Gear*, 2>& gear,
   return largest;
 }
 
-// Whether a patch of this half width reaches beyond the end of a flank, by the mean of its contacts' radii.
+// True where the patch of one pair of teeth, with its half width in m, reaches beyond the tip or the form
+// radius of either gear. The radius of the patch is the mean of the contacts' by their forces.
 bool crosses_end(const std::array<const Gear*, 2>& gear, const std::vector<const FlankContact*>& contacts,
                  double half_width) {
   for (std::size_t g : {0, 1}) {

@@ -37,6 +37,38 @@ std::vector<std::vector<int>> sides_at_nodes(const std::vector<std::vector<int>>
   return at;
 }
 
+// Which nodes of the surface have static responses in the body file; 0 or 1.
+std::vector<char> loadable(const model::ElasticBody& body) {
+  std::vector<char> may_bear(body.surface.node.size(), 0);
+  for (int node : body.flexibility.node) may_bear[static_cast<std::size_t>(node)] = 1;
+  return may_bear;
+}
+
+// Delta f by the position of a node in the flexibility, 3 x n_t, N.
+std::map<int, Eigen::Matrix3Xd> change_of_forces(const StaticResponseOfRun& known_response) {
+  const model::ElasticBody& body = known_response.body;
+  const auto sides = sides_of(body.surface);
+  const auto at = sides_at_nodes(sides, body.surface.node.size());
+  const std::vector<char> may_bear = loadable(body);
+  const Eigen::Index n_t = known_response.force.cols();
+  std::map<int, Eigen::Matrix3Xd> change;
+  for (std::size_t b = 0; b < known_response.position.size(); ++b) {
+    const auto f = known_response.force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
+    const auto add = [&](int position, double weight) {
+      change.try_emplace(position, Eigen::Matrix3Xd::Zero(3, n_t)).first->second += weight * f;
+    };
+    const int position = known_response.position[b], node = body.flexibility.node[position];
+    std::vector<std::vector<int>> around;
+    for (int side : at[static_cast<std::size_t>(node)])
+      around.push_back(sides[static_cast<std::size_t>(side)]);
+    const Spread to = spread(body.surface.X, around, node, may_bear);
+    for (std::size_t i = 0; i < to.node.size(); ++i)
+      add(model::find_loaded(body.flexibility, to.node[i]), to.weight[static_cast<Eigen::Index>(i)]);
+    add(position, -1);
+  }
+  return change;
+}
+
 }  // namespace
 
 Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
@@ -58,31 +90,10 @@ Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& si
 }
 
 Eigen::MatrixXd contact_error(const StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
-  const model::ElasticBody& body = known_response.body;
   if (known_response.position.empty() || nodes.empty()) return {};
-  const auto sides = sides_of(body.surface);
-  const auto at = sides_at_nodes(sides, body.surface.node.size());
-  std::vector<char> may_bear(body.surface.node.size(), 0);
-  for (int node : body.flexibility.node) may_bear[static_cast<std::size_t>(node)] = 1;
-  std::map<int, Eigen::Matrix3Xd> change;  // by the position in the flexibility: N, of all times
-  const Eigen::Index n_t = known_response.force.cols();
-  const auto add = [&](int position, double weight, Eigen::Index loaded) {
-    const auto [entry, is_new] = change.try_emplace(position, Eigen::Matrix3Xd::Zero(3, n_t));
-    entry->second += weight * known_response.force.middleRows(3 * loaded, 3);
-  };
-  for (std::size_t b = 0; b < known_response.position.size(); ++b) {
-    const int position = known_response.position[b], node = body.flexibility.node[position];
-    std::vector<std::vector<int>> around;
-    for (int side : at[static_cast<std::size_t>(node)])
-      around.push_back(sides[static_cast<std::size_t>(side)]);
-    const Spread to = spread(body.surface.X, around, node, may_bear);
-    for (std::size_t i = 0; i < to.node.size(); ++i)
-      add(model::find_loaded(body.flexibility, to.node[i]), to.weight[static_cast<Eigen::Index>(i)],
-          static_cast<Eigen::Index>(b));
-    add(position, -1, static_cast<Eigen::Index>(b));
-  }
+  const std::map<int, Eigen::Matrix3Xd> change = change_of_forces(known_response);
   std::vector<int> positions;
-  Eigen::MatrixXd force(3 * static_cast<Eigen::Index>(change.size()), n_t);
+  Eigen::MatrixXd force(3 * static_cast<Eigen::Index>(change.size()), known_response.force.cols());
   for (const auto& [position, f] : change) {
     force.middleRows(3 * static_cast<Eigen::Index>(positions.size()), 3) = f;
     positions.push_back(position);

@@ -10,7 +10,7 @@
 
 namespace elastogear::recovery {
 
-/// n x n, -: how the force on a node of the contact surface is spread over n nodes around it, by Eq. (4.13).
+/// How the force on a node of the contact surface is spread over n nodes around it. Eq. (4.13).
 struct Spread {
   std::vector<int> node;   ///< n, local numbers of surface nodes
   Eigen::VectorXd weight;  ///< n, sums to 1, with its centre at the node

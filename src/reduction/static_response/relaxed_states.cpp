@@ -84,7 +84,8 @@ MatrixXd energy_shares(Index n_series) {
   return all;
 }
 
-// What the choice looks at: laws over the path, and the laws and points that are chosen.
+// Empirical interpolation of the family of laws 1/(1 - mu.gamma) over the path from the instantaneous to the
+// relaxed body: all laws at all points of the path, and which laws and points have been chosen.
 struct Choice {
   MatrixXd gamma, mu, L;  // L: of each law at each point of the path
   std::vector<Index> law = {0}, point = {0};
