@@ -1,6 +1,7 @@
 #include "elastogear/contact/pair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "contact/faces/face_contacts.h"
@@ -55,6 +56,21 @@ void soften_without_response(Side& slave, const Side& master) {
   if (slave.responds.empty() || master.responds.empty() || any(master.responds)) return;
   for (std::size_t node = 0; node < slave.law.size(); ++node)
     if (!slave.responds[node]) slave.law[node].compliance = 1;
+}
+
+// Marks the nodes out of which the surface stands by more than roundoff.
+std::vector<bool> standing_out(const Tracked& tracked, const Heights& heights) {
+  constexpr double kRoundoff = 1e-12;  // m
+  const Topology& topology = tracked.topology;
+  std::vector<bool> result(static_cast<std::size_t>(topology.node_corners.size()), false);
+  for (int node = 0; node < topology.node_corners.size() && !heights.empty(); ++node) {
+    if (topology.node_corners[node].empty()) continue;
+    const int corner = topology.node_corners[node][0], f = corner / 4;
+    const int sides = side_count(tracked.surface->face, f);
+    const Eigen::Vector2d at = on_side(sides, corner % 4, 0);
+    result[static_cast<std::size_t>(node)] = std::abs(height(heights, sides, f, at[0], at[1]).f) > kRoundoff;
+  }
+  return result;
 }
 
 // The smooth surface behind facets, which are as curved as that where faces are held; none elsewhere.
@@ -147,6 +163,7 @@ void Pair::accept(const std::vector<ContactPoint>& contacts) {
 std::unique_ptr<Pair::Data> Pair::Data::make(const Settings& given, const Settings& settings,
                                              std::array<Tracked, 2> both, std::array<Side, 2> side) {
   for (int i : {0, 1}) soften_without_response(side[i], side[1 - i]);
+  for (int i : {0, 1}) side[i].stands_out = standing_out(both[i], side[i].heights);
   std::array<Heights, 2> curved;
   for (int i : {0, 1}) curved[i] = behind_facets(both[i], side[i], settings);
   const auto heights = [&](int i) { return curved[i].empty() ? &side[i].heights : &curved[i]; };

@@ -54,7 +54,8 @@ Law Pair::Data::law(const OnSlave& at, int master_face) const {
 
 // How far the slave's own surface stands out of a node: deviations, where both surfaces are met.
 Eigen::Vector3d Pair::Data::node_height(int slave_side, const SurfaceView& slave, int node) const {
-  if (settings.points == SlavePoints::nodes) return Eigen::Vector3d::Zero();
+  if (settings.points == SlavePoints::nodes || !side[slave_side].stands_out[static_cast<std::size_t>(node)])
+    return Eigen::Vector3d::Zero();
   const int corner = slave.topology.node_corners[node][0];
   SlavePoint point;
   point.face = corner / 4;
@@ -64,8 +65,7 @@ Eigen::Vector3d Pair::Data::node_height(int slave_side, const SurfaceView& slave
 
 // Contact of a node; its gap goes to `gaps` where minima are sought.
 std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, const PlacedNode& slave,
-                                                     const Projection& w,
-                                                     std::map<int, NodeGap>& gaps) const {
+                                                     const Projection& w, std::map<int, NodeGap>& gaps) {
   const int slave_side = slave.side, node = slave.node;
   const Law law =
       this->law({slave_side, node, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)}, w.face);
@@ -88,8 +88,7 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
       law);
 }
 
-std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int slave_side,
-                                                const Minimum& m) const {
+std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int slave_side, const Minimum& m) {
   const Eigen::Vector4i nodes = surface(slave_side).face.col(m.point.face);
   const Eigen::Vector4d& N = m.geometry.N;
   const Law law = this->law({slave_side, m.point.number, nodes, N}, m.open.projection.face);
@@ -133,10 +132,7 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
 std::optional<Projection> Pair::Data::project(const MasterSide& master, const SurfaceView& slave,
                                               const PlacedNode& placed, std::span<const int> faces) {
   const SlaveNode q{placed.x,
-                    [this, &placed] {
-                      tracker.place_around(placed.side, placed.node);
-                      return node_normal(tracker.view(placed.side, 0), placed.node);
-                    },
+                    [this, &placed] { return node_normal(tracker.view(placed.side, 0), placed.node); },
                     [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
   int& last_face = history[placed.side].last_face[placed.node];
@@ -167,7 +163,7 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
   history[slave_side].open.clear();
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
-    const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
+    const PlacedNode placed{slave_side, node, slave.at(node) + node_height(slave_side, slave, node)};
     const auto projection = project(master, slave, placed, near.faces(i));
     if (!projection || is_left_to_slave(slave_side, surface, *projection)) continue;
     auto found = node_contact(master, placed, *projection, gaps);
@@ -189,7 +185,7 @@ std::map<int, NodeGap> Pair::Data::node_gaps(int slave_side, const MasterSide& m
   for (std::size_t i = 0; i < near.slave.size(); ++i) {
     const int node = near.slave[i];
     const std::span<const int> around = slave.topology.node_corners[node];
-    const PlacedNode placed{slave_side, node, slave.x.col(node) + node_height(slave_side, slave, node)};
+    const PlacedNode placed{slave_side, node, slave.at(node) + node_height(slave_side, slave, node)};
     const auto projection = project(master, slave, placed, near.faces(i));
     if (!projection) continue;
     const PointGap over = point_gap(master, *projection, placed.x, settings.offset);

@@ -21,10 +21,11 @@
 namespace elastogear::contact {
 
 struct Side {
-  std::vector<Law> law;        // of each node as slave
-  Heights heights;             // over its faces
-  std::vector<bool> responds;  // of each node: has it a static response? Empty: all have
-  Eigen::VectorXd area;        // m^2, of each node, undeformed; of contact integrated over faces
+  std::vector<Law> law;               // of each node as slave
+  Heights heights;                    // over its faces
+  std::vector<bool> responds;         // of each node: has it a static response? Empty: all have
+  Eigen::VectorXd area;               // m^2, of each node, undeformed; of contact integrated over faces
+  std::vector<bool> stands_out = {};  // of each node: does the surface stand out of it, as deviations do?
 };
 
 // A point of the slave: its number, and its place between nodes, or at one.
@@ -67,8 +68,8 @@ struct Pair::Data {
   Law law(const OnSlave& at, int master_face) const;
   Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
-                                           const Projection& w, std::map<int, NodeGap>& gaps) const;
-  std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, const Minimum& m) const;
+                                           const Projection& w, std::map<int, NodeGap>& gaps);
+  std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, const Minimum& m);
   double stiffness(int slave_side, int point) const;
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);

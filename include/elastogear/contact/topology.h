@@ -38,12 +38,27 @@ int side_count(const Eigen::Matrix4Xi& face, int f);
 /// face: 4 x n_f node numbers in 0 .. n_nodes-1.
 Topology topology(const Eigen::Matrix4Xi& face, int n_nodes);
 
+/// Finds the positions of nodes where they are asked for.
+class NodePlacer {
+ public:
+  /// Position of a node of one of two surfaces (side 0 or 1), m.
+  virtual const Eigen::Matrix3Xd& placed(int side, int node) = 0;
+
+ protected:
+  ~NodePlacer() = default;
+};
+
 /// A surface in one configuration.
 struct SurfaceView {
   const Eigen::Matrix4Xi& face;
   const Topology& topology;
-  const Eigen::Matrix3Xd& x;  ///< 3 x n_nodes, m
-  double extension = 0;       ///< by which open sides are moved outwards, part of the face's length
+  const Eigen::Matrix3Xd& x;     ///< 3 x n_nodes, m; with a placer of those nodes that were asked for
+  double extension = 0;          ///< by which open sides are moved outwards, part of the face's length
+  NodePlacer* placer = nullptr;  ///< null: all nodes are placed
+  int side = 0;                  ///< of the placer
+
+  /// Position of a node, m.
+  auto at(int node) const { return placer ? placer->placed(side, node).col(node) : x.col(node); }
 };
 
 Face face_of(const SurfaceView& surface, int f);

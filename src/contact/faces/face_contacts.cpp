@@ -81,7 +81,7 @@ SideWeights weights_on(const SurfaceView& surface, const SecondOrder::Sides& sid
                        const Eigen::Vector2d& at) {
   if (sides.cols() == 0) return {};
   return side_weights(sides.col(f), face_of(surface, f), surface.face.col(f), at,
-                      [&](int node) { return Eigen::Vector3d(surface.x.col(node)); });
+                      [&](int node) { return Eigen::Vector3d(surface.at(node)); });
 }
 
 // By how much the gap over curved sides differs from that over their faces, m.
@@ -120,7 +120,7 @@ std::vector<SlaveFace> slave_faces(const GapField& field, const SecondOrder& sec
     if (starts.empty()) continue;
     for (int node : field.slave.face.col(f)) {
       if (nearest.contains(node)) continue;
-      const auto w = walk_to_projection(field.master.surface, field.slave.x.col(node), any, starts.front());
+      const auto w = walk_to_projection(field.master.surface, field.slave.at(node), any, starts.front());
       nearest[node].nearest = w ? w->face : starts.front();
       starts.push_back(nearest[node].nearest);
     }

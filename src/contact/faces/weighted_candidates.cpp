@@ -35,7 +35,7 @@ FaceGaps face_gaps(const GapField& field, int f, const std::map<int, NodeGap>& n
   const Eigen::Matrix4Xi& face = field.slave.face;
   const int sides = side_count(face, f);
   FaceGaps gaps;
-  const auto x = [&](int corner) { return field.slave.x.col(face(corner, f)); };
+  const auto x = [&](int corner) { return field.slave.at(face(corner, f)); };
   gaps.area = 0.5 * (x(2) - x(0)).cross(x(sides - 1) - x(1)).norm();
   for (int c = 0; c < sides; ++c) {
     const auto node = nodes.find(face(c, f));

@@ -115,7 +115,7 @@ void add_corners(const GapField& field, const std::vector<int>& faces, std::map<
     for (int c = 0; c < side_count(field.slave.face, f) && start.face >= 0; ++c) {
       const int node = field.slave.face(c, f);
       if (nodes.contains(node)) continue;
-      const Eigen::Vector3d x = field.slave.x.col(node);
+      const Eigen::Vector3d x = field.slave.at(node);
       const auto w = walk_to_projection(field.master.surface, x, any, start.face);
       if (!w) continue;
       const PointGap over = point_gap(field.master, *w, x, field.offset);

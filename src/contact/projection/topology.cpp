@@ -57,7 +57,7 @@ Face face_of(const SurfaceView& surface, int f) {
   Face result;
   result.sides = side_count(surface.face, f);
   for (int i = 0; i < 4; ++i) {
-    result.x[i] = surface.x.col(surface.face(i, f));
+    result.x[i] = surface.at(surface.face(i, f));
     result.extension[i] = surface.topology.is_open(f, i) ? surface.extension : 0;
   }
   return result;
@@ -68,7 +68,7 @@ Eigen::Vector3d node_normal(const SurfaceView& surface, int node) {
   for (int entry : surface.topology.node_corners[node]) {
     const int f = entry / 4, corner = entry % 4, sides = side_count(surface.face, f);
     const auto along = [&](int other) {
-      return Eigen::Vector3d(surface.x.col(surface.face(other % sides, f)) - surface.x.col(node));
+      return Eigen::Vector3d(surface.at(surface.face(other % sides, f)) - surface.at(node));
     };
     const Eigen::Vector3d a = along(corner + 1), b = along(corner + sides - 1), n = a.cross(b);
     const double size = n.norm(), roundoff = 1e-14;  // of a face that is degenerate there

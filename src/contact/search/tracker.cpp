@@ -85,8 +85,9 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
                                extension_reach(view(1, settings.extension)));
 }
 
-SurfaceView Tracker::view(int i, double extension) const {
-  return {side_[i].surface->face, side_[i].topology, configuration_.x[i], extension};
+SurfaceView Tracker::view(int i, double extension) {
+  return {
+      side_[i].surface->face, side_[i].topology, configuration_.x[i], extension, now_[0] ? this : nullptr, i};
 }
 
 void Tracker::place(const SurfaceState& a, const SurfaceState& b) {
@@ -146,29 +147,32 @@ void Tracker::place_node(int i, int node) {
   configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(configuration_.R * x_B + configuration_.r) : x_B;
 }
 
+const Eigen::Matrix3Xd& Tracker::placed(int i, int node) {
+  place_node(i, node);
+  return configuration_.x[i];
+}
+
+// Places a node and all nodes of the faces around it.
 void Tracker::place_around(int i, int node) {
-  if (!now_[0] || look_[i].around[node] == n_looks_) return;
+  if (look_[i].around[node] == n_looks_) return;
   look_[i].around[node] = n_looks_;
   place_node(i, node);
   for (int corner : side_[i].topology.node_corners[node])
     for (int other : side_[i].surface->face.col(corner / 4)) place_node(i, other);
 }
 
-// Places the nodes of a face; all around it where more than nodes are held. An edge or vertex that is nearest
-// takes its normal from faces that are all as near.
+// Places the nodes of a face and all around it. An edge or vertex that is nearest takes its normal from faces
+// that are all as near.
 void Tracker::place_face(int i, int face) {
   if (look_[i].face[face] == n_looks_) return;
   look_[i].face[face] = n_looks_;
-  for (int node : side_[i].surface->face.col(face))
-    settings_.points == SlavePoints::nodes ? place_node(i, node) : place_around(i, node);
+  for (int node : side_[i].surface->face.col(face)) place_around(i, node);
 }
 
-// Places the nodes whose positions the fine search of these neighbours reads.
+// Places the nodes whose positions the fine search of these neighbours may read.
 void Tracker::place_for(int slave, const Neighbours& near) {
-  const bool nodes_alone = settings_.points == SlavePoints::nodes;
-  for (int node : near.slave) nodes_alone ? place_node(slave, node) : place_around(slave, node);
+  for (int node : near.slave) place_around(slave, node);
   for (int f : near.face) place_face(1 - slave, f);
-  if (nodes_alone) return;
   for (int f : near.around) place_face(1 - slave, f);
 }
 
@@ -191,7 +195,6 @@ void Tracker::measure_clearance(double limit) {
   v.uses = 0;
   for (int slave : slave_sides(settings_))
     v.near[slave] = not_apart(v.candidates[slave], v.apart_until[slave], v.path + soon);
-  for (int slave : slave_sides(settings_)) place_for(slave, v.near[slave]);
   for (int slave : slave_sides(settings_)) leave_out(slave, soon);
   v.within = std::exchange(v.near, {});
   take_near(kFirstStretch * limit);
@@ -218,7 +221,7 @@ void Tracker::leave_out(int slave, double clear) {
   Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {
     const int node = all.slave[i];
-    const Approach found = approach(master, configuration_.x[slave].col(node), move, all.faces(i));
+    const Approach found = approach(master, placed(slave, node).col(node), move, all.faces(i));
     const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
     const double beyond = std::min(found.distance, move.reach) - limits_.depth + limits_.outside;
     const double surely_seen = std::min(found.clearance, settings_.skin + limits_.outside);
@@ -301,24 +304,19 @@ void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b,
   update_neighbours();
   for (int i : {0, 1})
     for (int node : kept_[i]) place_node(i, node);
+  if (settings_.points != SlavePoints::faces) return;
   for (int slave : slave_sides(settings_)) place_for(slave, neighbours_->near[slave]);
 }
 
 void Tracker::forget() { neighbours_.reset(); }
 
-std::span<const int> Tracker::all_faces(int slave, int node) {
-  const auto faces = neighbours_->candidates[slave][node];
-  if (now_[0])
-    for (int f : faces) place_face(1 - slave, f);
-  return faces;
-}
-
-Eigen::Vector3d Tracker::position_B(int i, int node) const {
+Eigen::Vector3d Tracker::position_B(int i, int node) {
+  if (now_[0]) place_node(i, node);
   const Eigen::Vector3d x = configuration_.x[i].col(node);
   return i == 0 ? Eigen::Vector3d(configuration_.R.transpose() * (x - configuration_.r)) : x;
 }
 
-Eigen::Vector3d Tracker::velocity(int i, int node) const {
+Eigen::Vector3d Tracker::velocity(int i, int node) {
   if (!now_[i]) return Eigen::Vector3d::Zero();
   const SurfaceMotion& m = *now_[i];
   const Eigen::Matrix3d& R = configuration_.R;

@@ -32,7 +32,7 @@ struct SlaveNodes {
 std::vector<int> slave_sides(const Settings& settings);
 
 /// Frame of all positions: the BRF of surface b.
-class Tracker {
+class Tracker : private NodePlacer {
  public:
   /// settings: complete, as with_defaults returns them.
   Tracker(std::array<Tracked, 2> sides, const Settings& settings, const Limits& limits,
@@ -40,8 +40,9 @@ class Tracker {
 
   /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.
   void find(const SurfaceState& a, const SurfaceState& b);
-  /// Places the nodes that can touch, after a search where one is due. Throws Error for motions that are not
-  /// finite. Motions and residual displacements must live as long as velocity and all_faces are called.
+  /// Finds the nodes that can touch, with a search where one is due. Nodes are placed where they are asked
+  /// for; of contact integrated over faces all that can touch. Throws Error for motions that are not finite.
+  /// Motions and residual displacements must live as long as velocity and all_faces are called.
   void follow(const SurfaceMotion& a, const SurfaceMotion& b,
               const std::array<ResidualDisplacement, 2>& residual);
   /// The next call of follow searches anew.
@@ -51,21 +52,17 @@ class Tracker {
 
   const Tracked& side(int i) const { return side_[i]; }
   const Configuration& configuration() const { return configuration_; }
-  SurfaceView view(int i, double extension) const;
-  /// Slave nodes that can touch, with the faces that can be nearest. follow places both; where more than
-  /// nodes are held, all nodes of the faces around them, too.
+  SurfaceView view(int i, double extension);
+  /// Slave nodes that can touch, with the faces that can be nearest.
   const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
-  /// All faces within the depth limit of a slave node, their nodes placed.
-  std::span<const int> all_faces(int slave, int node);
-  /// Places a slave node and all nodes of the faces around it, from which its normal is taken.
-  void place_around(int i, int node);
-  /// Position of a node placed by follow, in the BRF of its surface, m.
-  Eigen::Vector3d position_B(int i, int node) const;
-  /// Velocity of a node placed by follow, m/s, components in the BRF of surface b; zero after find, which
-  /// knows no motion.
-  Eigen::Vector3d velocity(int i, int node) const;
+  /// All faces within the depth limit of a slave node.
+  std::span<const int> all_faces(int slave, int node) const { return neighbours_->candidates[slave][node]; }
+  /// Position of a node in the BRF of its surface, m.
+  Eigen::Vector3d position_B(int i, int node);
+  /// Velocity of a node, m/s, components in the BRF of surface b; zero after find, which knows no motion.
+  Eigen::Vector3d velocity(int i, int node);
 
-  /// Keeps the positions of the nodes placed by follow, for moved.
+  /// Keeps the positions of the nodes placed since the last call of follow, for moved.
   void remember();
   /// How far a node has moved since then, m, in the frame of all positions; nothing where it was not placed.
   std::optional<Eigen::Vector3d> moved(int i, int node) const;
@@ -79,7 +76,9 @@ class Tracker {
  private:
   void place(const SurfaceState& a, const SurfaceState& b);
   void place(bool deformed);
+  const Eigen::Matrix3Xd& placed(int i, int node) final;
   void place_node(int i, int node);
+  void place_around(int i, int node);
   void place_face(int i, int face);
   void place_for(int slave, const Neighbours& near);
   Eigen::Vector3d position(int i, int node);
