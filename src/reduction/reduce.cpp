@@ -15,6 +15,7 @@ namespace {
 void keep_all(Job& job) {
   Plan& plan = job.plan;
   const fem::Matrices matrices = assemble(job);
+  job.begin_stage("gathering");
   const auto K = fem::gather_matrix(matrices.K, plan.dof), M = fem::gather_matrix(matrices.M, plan.dof);
   job.on_root([&] {
     set_full_basis(plan.body, plan.free_dof, plan.moments, plan.S);
@@ -24,7 +25,7 @@ void keep_all(Job& job) {
       plan.body.inertia.S_2 = unit_second_moments(field_mass(job), plan.free_dof);
     set_relaxing_full(job);
   });
-  job.finish_stage("gathering");
+  job.begin_stage("writing");
   job.on_root([&] {
     model::validate(plan.body, job.output);
     io::BodyWriter(job.output, job.mesh.n_nodes(), 0).finish(plan.body, source_of(job));
@@ -54,18 +55,18 @@ void fill_report(Job& job) {
 
 fem::Matrices assemble_cells(Job& job) {
   Plan& plan = job.plan;
+  job.begin_stage("partition");
   job.on_root([&] {
     plan.partition = mesh::partition_cells(job.mesh, job.size);
     plan.rows = fem::number_rows(job.mesh, plan.is_free, plan.partition.part, job.size);
     plan.dof = fem::row_dofs(plan.rows);
   });
   const fem::MeshPart share = fem::distribute(job.comm, job.mesh, plan.region, plan.rows);
-  job.finish_stage("partition");
+  job.begin_stage("assembly");
   fem::Matrices matrices = fem::assemble(job.comm, share, job.regions, formulation(job), job.progress);
   int single = job.rank == 0 && mesh::has_single_directions(plan.held);
   MPI_Bcast(&single, 1, MPI_INT, 0, job.comm);
   if (single) fem::eliminate(plan.held, matrices, plan.dof);
-  job.finish_stage("assembly");
   return matrices;
 }
 
@@ -107,21 +108,16 @@ ReductionReport reduce(MPI_Comm comm, const mesh::Mesh& mesh, const ReductionOpt
   Job job{comm, mesh, options, output, progress};
   MPI_Comm_rank(comm, &job.rank);
   MPI_Comm_size(comm, &job.size);
-  if (options.imported) {
-    read_matrices(job);
-    job.finish_stage("reading matrices");
-  } else {
-    number(job);
-    job.finish_stage("numbering and symmetry");
-  }
+  job.begin_stage(options.imported ? "reading matrices" : "numbering and symmetry");
+  options.imported ? read_matrices(job) : number(job);
+  job.begin_stage("inertia, surface and stress operator");
   prepare_body(job);
-  job.finish_stage("inertia, surface and stress operator");
   if (job.modal())
     reduce_modal(job);
   else
     keep_all(job);
   job.on_root([&] { fill_report(job); });
-  job.finish_stage("writing");
+  job.end_stage();
   return job.report;
 }
 

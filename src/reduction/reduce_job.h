@@ -5,10 +5,12 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "elastogear/base/collectively.h"
+#include "elastogear/base/log_stage.h"
 #include "elastogear/fem/assembly.h"
 #include "elastogear/fem/inertia.h"
 #include "elastogear/fem/stressed_body.h"
@@ -51,7 +53,9 @@ struct Job {
   Plan plan = {};
   ReductionReport report = {};
   std::vector<model::MaterialRegion> regions = options.regions;  // in the body frame, as the mesh is
-  double started = MPI_Wtime();
+  const char* stage_name = nullptr;                              // of the stage that goes on
+  std::optional<LogStage> stage = {};                            // in PETSc's log
+  double started = 0;                                            // s, when it began
 
   bool modal() const { return options.basis == model::Basis::modal; }
   bool cyclic() const { return plan.repetition.turn.n_sectors > 1; }
@@ -65,10 +69,17 @@ struct Job {
     });
   }
 
-  void finish_stage(const char* stage) {
-    const double now = MPI_Wtime();
-    report.times.push_back({stage, now - started});
-    started = now;
+  /// Ends the stage that goes on. Its time goes to the report.
+  void end_stage() {
+    if (stage) report.times.push_back({stage_name, MPI_Wtime() - started});
+    stage.reset();
+  }
+  /// Begins a stage. name: as it stands in the report and in PETSc's log.
+  void begin_stage(const char* name) {
+    end_stage();
+    stage_name = name;
+    started = MPI_Wtime();
+    stage.emplace(name);
   }
 };
 

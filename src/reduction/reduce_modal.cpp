@@ -24,6 +24,7 @@ namespace elastogear::reduction {
 namespace {
 
 constexpr PetscInt kLargestCheckFactor = 500'000;  // displacements
+constexpr const char* kRelaxedResponses = "static responses of relaxed states";
 
 // Does this entry of the provenance change how the eigensolver works?
 bool asks_solver(const std::string& name) {
@@ -164,13 +165,13 @@ bool asks_for_completeness(const ReductionOptions& o) {
 }
 
 void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
+  job.begin_stage("checks");
   const Plan& plan = job.plan;
   auto& checks = job.report.checks;
   checks = mass_checks(system, plan.body, plan.moments);
   if (completeness)
     for (model::Check& check : load_checks(system, plan.body, job.mesh.n_nodes()))
       checks.push_back(std::move(check));
-  job.finish_stage("checks");
 }
 
 FlexibilityTask flexibility_task(const Job& job) {
@@ -222,6 +223,7 @@ void add_relaxed(Job& job, const ElasticSystem& system, const Eigen::VectorXd& s
   const FlexibilityTask task = flexibility_task(job);
   fem::Matrices matrices;
   if (!flexibility_repeats(job)) matrices = assemble(job);
+  job.begin_stage(kRelaxedResponses);
   const ElasticSystem relaxed_system{matrices.K, system.M, system.gather, system.rigid};
   model::Flexibility relaxed = solve_flexibility(job, task, relaxed_system);
   job.on_root([&] {
@@ -244,13 +246,13 @@ bool relaxes_in_ratios(Job& job) {
 
 void add_flexibility(Job& job, const ElasticSystem& system) {
   if (!job.options.flexibility) return;
+  job.begin_stage("static responses");
   model::Flexibility flexibility = solve_flexibility(job, flexibility_task(job), system);
-  job.finish_stage("static responses");
   if (relaxes_in_ratios(job)) {
+    job.begin_stage(kRelaxedResponses);
     const RelaxedStates states = relaxed_states(job);
     flexibility.law = states.law;
     for (int k = 0; k < states.size(); ++k) add_relaxed(job, system, states.share.col(k), flexibility);
-    job.finish_stage("static responses of relaxed states");
   } else if (relaxes(job.options)) {
     flexibility.creep = 0;
   }
@@ -260,6 +262,7 @@ void add_flexibility(Job& job, const ElasticSystem& system) {
 // From the matrices of the whole body.
 void reduce_whole(Job& job) {
   const fem::Matrices matrices = assemble(job);
+  job.begin_stage("eigenmodes");
   UniqueVec layout;
   check(MatCreateVecs(matrices.K, layout.out(), nullptr));
   const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
@@ -269,7 +272,6 @@ void reduce_whole(Job& job) {
   ModeCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of(job, matrices),
                               precision(job.options));
   set_eigenmodes(job, find_modes(job, system, checkpoints));
-  job.finish_stage("eigenmodes");
   std::optional<ModalWriter> writer;
   job.on_root([&] {
     const int n_q = static_cast<int>(job.report.frequency.size());
@@ -280,6 +282,7 @@ void reduce_whole(Job& job) {
   });
   check_basis(job, system, asks_for_completeness(job.options));
   add_flexibility(job, system);
+  job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();
 }
@@ -322,6 +325,7 @@ void check_sectors(Job& job) {
 
 // From one sector of a body that repeats.
 void reduce_sectors(Job& job) {
+  job.begin_stage("eigenmodes");
   HarmonicCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
   const Plan& plan = job.plan;
   const fem::MeshedBody body{job.mesh, job.regions, plan.region, plan.is_free, formulation(job)};
@@ -336,8 +340,8 @@ void reduce_sectors(Job& job) {
     job.on_root([&] { writer->add(k, mode_record(job, phi)); });
   };
   set_eigenmodes(job, find_cyclic_eigenmodes(job.comm, {body, plan.repetition}, options, keep, job.progress));
-  job.finish_stage("eigenmodes");
   check_sectors(job);
+  job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();
 }
@@ -348,6 +352,7 @@ void reduce_ritz(Job& job) {
   UniqueVec layout;
   check(MatCreateVecs(matrices.K, layout.out(), nullptr));
   const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
+  job.begin_stage("Ritz vectors");
   const ElasticSystem system{matrices.K, matrices.M, gather, nullptr};
   const BlockProduct K(matrices.K), M(matrices.M, BlockProduct::Storage::without_zeros);
   const RitzSpace space = find_space(ritz_task(job, system, eigen_options(job.options)), K, M, job.progress);
@@ -362,9 +367,9 @@ void reduce_ritz(Job& job) {
   require_definite(matrices.K, matrices.M, modes.eigenvalue(0));
   const Eigen::VectorXd residual = std::exchange(modes.residual, {});
   set_eigenmodes(job, modes);
-  job.finish_stage("Ritz vectors");
   check_basis(job, system, asks_for_completeness(job.options));
   job.report.checks.push_back(ritz_check(residual));
+  job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
 }
 

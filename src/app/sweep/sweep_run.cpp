@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
@@ -17,6 +18,7 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
+#include "elastogear/base/log_stage.h"
 #include "elastogear/base/petsc.h"
 
 namespace elastogear::app {
@@ -251,6 +253,7 @@ void run_sweep(const Options& given) {
   const OutputLock lock(locked_file(job));
   const auto settings = resumable_settings(given, job.output);
   std::unique_ptr<PreparedCase> first;
+  std::optional<LogStage> stage("bodies and set-up of contact");
   collectively(PETSC_COMM_WORLD, [&] {
     first = std::make_unique<PreparedCase>(prepare(job, 0));
     validate(first->motion, unit_settings({}, job.positions));
@@ -258,7 +261,9 @@ void run_sweep(const Options& given) {
   });
   std::vector<SweepUnit> todo = job.units();
   std::erase_if(todo, [&](const SweepUnit& unit) { return job.store.has(unit); });
+  stage.emplace("equilibria");
   compute_all(job, todo, settings.stop_cause);
+  stage.emplace("results");
   SweepFound found;
   collectively(PETSC_COMM_WORLD, [&] {
     if (rank() != 0) return;

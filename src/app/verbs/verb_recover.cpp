@@ -11,6 +11,7 @@
 #include "app/verbs/recover_tables.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/log_stage.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/recovery/contact_field.h"
@@ -77,6 +78,7 @@ std::string table_path(const RecoverSettings& settings, const std::string& body,
 
 void write_stresses(const Options& options, const RecoverSettings& settings, Run& run,
                     const Progress& progress) {
+  const LogStage stage("stresses");
   io::StressFile file{run.time, {}, options.provenance()};
   std::vector<const RecoveredBody*> owner;
   double done = 0;
@@ -132,6 +134,7 @@ std::string field_path(const std::string& base, std::size_t i, std::size_t n) {
 
 void write_fields(const RecoverSettings& settings, const Run& run, const std::vector<int>& steps,
                   const Progress& progress) {
+  const LogStage stage("fields");
   std::vector<io::SeriesFile> series;
   for (const RecoveredBody& recovered : run.bodies) {
     const recovery::BodyOfRun& body = recovered.run;
@@ -195,7 +198,10 @@ void run_recover(const Options& given, const std::vector<std::string>&) {
   const RecoverSettings settings = recover_settings(options);
   const OutputLock lock(settings.output);
   const Progress progress = console_progress();
-  Run run = read_run(settings, progress);
+  Run run = [&] {
+    const LogStage stage("static responses of the run");
+    return read_run(settings, progress);
+  }();
   const std::vector<int> steps = field_steps(settings, run);
   protect_inputs(options, settings, run, steps.size());
   write_stresses(options, settings, run, progress);

@@ -23,6 +23,7 @@
 #include "app/verbs/verbs.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/log_stage.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/sort_unique.h"
@@ -219,7 +220,10 @@ void reduce_body(const Options& options, const NodeSource& read) {
   ReductionOptions reduction = reduction_options(options);
   reduction.announce = print_cost;
   const OutputLock lock(output);
-  const Nodes nodes = read_on_rank_0(options, read);
+  const Nodes nodes = [&] {
+    const LogStage stage("mesh");
+    return read_on_rank_0(options, read);
+  }();
   if (reduction.imported) reduction.imported->node_number = nodes.report.node_number;
   drop_static_responses(reduction);
   take_materials(options, nodes.report, reduction);
