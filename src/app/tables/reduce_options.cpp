@@ -113,7 +113,7 @@ void set_extent(const Options& options, ReductionOptions& o) {
   const auto lower = parse<double>(ends[0]), upper = parse<double>(ends[1]);
   require(lower && upper && *lower < *upper, "option -eps_interval = '", ends[0], ",", ends[1],
           "': must be two numbers a < b in (rad/s)^2");
-  require(!options.given("modes") && !options.given("eps_nev"),
+  require(!o.interval && !options.given("modes") && !options.given("eps_nev"),
           "option -eps_interval takes all modes in it: leave -modes and -eps_nev out");
   require(o.basis == model::Basis::modal && !o.ritz,
           "option -eps_interval is for -basis modal_residual or modal");

@@ -168,7 +168,7 @@ Cutoff cutoff_of_interval(Search& search) {
   }
   search.n_wanted = sum(cutoff.count);
   require(search.n_wanted > 0, "no eigenvalue lies between ", lower, " and ", upper,
-          " rad^2/s^2 (-eps_interval)");
+          " rad^2/s^2 (-eps_interval, or modes: auto); take one mode (-modes 1)");
   return cutoff;
 }
 

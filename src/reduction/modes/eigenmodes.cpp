@@ -134,7 +134,8 @@ UniqueEPS create_solver(Mat K, Mat M, const EigenOptions& options) {
 void require_converged(PetscInt converged, const EigenOptions& options) {
   if (options.interval)
     require(converged > 0, "no eigenvalue lies between ", options.interval->lower, " and ",
-            options.interval->upper, " rad^2/s^2 (-", options.prefix, "eps_interval)");
+            options.interval->upper, " rad^2/s^2 (-", options.prefix,
+            "eps_interval, or modes: auto); take one mode (-modes 1)");
   else
     require(converged >= options.n_modes, "the eigensolver found ", converged, " of ", options.n_modes,
             " modes; allow more iterations (-", options.prefix, "eps_max_it) or a larger basis (-",
