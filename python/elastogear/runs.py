@@ -152,8 +152,8 @@ class System:
 
     def simulation(self, *, output: Union[str, "os.PathLike[str]", None] = None,
                    forces: Optional[Mapping[str, Force]] = None, **options: Any) -> "Simulation":
-        """A motion that is advanced step by step; needs ts_dt and ts_max_time (s). Of drives the analysis is
-        dynamic where none is given.
+        """A motion that is advanced step by step, by ts_dt (s) or steps that it chooses; needs ts_max_time
+        (s). Of drives the analysis is dynamic where none is given.
 
         output    result file to write; None: none is written
         forces    functions by what they act on:

@@ -87,6 +87,7 @@ void serialize_state(Run& run, TS ts, Archive& archive) {
   archive(run.kinetic_energy);
   archive(run.n_outputs);
   archive(run.touches);
+  archive(run.control.displacement);
   archive(run.short_steps);
   archive(run.longest_short);
   serialize_summary(run.summary, archive);

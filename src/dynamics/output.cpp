@@ -120,6 +120,7 @@ void enter_step(Run& run, TS ts, int step, double time) {
   find_state(run, ts, &U, &V, &A);
   const ReadView u(U), v(V), a(A);
   enter(run, {time, *u, *v, *a});
+  follow_displacement(run);
   run.touches = std::any_of(run.last->pairs.begin(), run.last->pairs.end(),
                             [](const model::PairState& pair) { return pair.count > 0; });
   const model::Energies& energy = run.last->energy;

@@ -17,6 +17,15 @@ inline double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// What the control of steps measures errors against.
+struct StepControl {
+  Eigen::VectorXd per_length = {};  // changes of the coordinates that move a body's surface by up to 1 m
+  double size = 0;                  // m, largest distance from the centre of a joint
+  double displacement = 0;          // m, largest elastic one so far
+  std::vector<Eigen::Matrix3Xd> corners =
+      {};  // m, of boxes around the surfaces of the bodies, in their frames
+};
+
 struct Run {
   Run(System& system, const TimeSettings& s, const Observer& o, const Progress& p, const Checkpoints& c)
       : problem(system), settings(s), observer(o), progress(p), checkpoints(c), sanity(system) {}
@@ -28,12 +37,13 @@ struct Run {
   const Checkpoints& checkpoints;
   EnergyLedger ledger;
   Sanity sanity;
-  std::shared_ptr<const model::Snapshot> last;   // null: none yet
-  bool last_observed = true;                     // nothing to observe yet
-  double nominal_dt = 0;                         // s, at the start
-  RunSummary summary;                            // its counts: of the time before this run was continued
-  int n_outputs = 1;                             // of those output_dt apart; the first is the start
-  bool step_is_due = false;                      // an output falls on the end of the last step
+  std::shared_ptr<const model::Snapshot> last;  // null: none yet
+  bool last_observed = true;                    // nothing to observe yet
+  double nominal_dt = 0;                        // s, at the start
+  RunSummary summary;                           // its counts: of the time before this run was continued
+  int n_outputs = 1;                            // of those output_dt apart; the first is the start
+  bool step_is_due = false;                     // an output falls on the end of the last step
+  StepControl control;
   bool touches = false;                          // some bodies touch at the end of the last step
   double kinetic_energy = 0;                     // J, after the last step of a relaxing run
   double unbalanced = -1, least_unbalanced = 1;  // shares of its forces without velocities: last and least
@@ -70,10 +80,16 @@ void observe_since_last_step(Run& run, TS ts);
 void enter_step(Run& run, TS ts, int step, double time);
 void report_step(const Run& run, TS ts, int step);
 
-/// Changes of the coordinates that move a body's surface by up to 1 m.
-Eigen::VectorXd coordinates_per_length(const System& system);
-/// Step-size control, when there is a tolerance.
-void control_steps(const Run& run, TS ts);
+/// Are steps chosen by their error?
+bool are_steps_chosen(const TimeSettings& settings);
+/// Control of the steps, where they are chosen.
+void control_steps(Run& run, TS ts);
+/// The first step, s, where there is no dt.
+double first_step(const Run& run);
+/// Takes the elastic displacements of the last state for the tolerance of the next steps.
+void follow_displacement(Run& run);
+/// Sets tolerance and limits of the next steps, where they are chosen.
+void limit_steps(Run& run, TS ts);
 
 /// After a step of a relaxing run: rest at each peak of the kinetic energy; the end when nothing moves any
 /// more.

@@ -28,8 +28,11 @@ void validate_output(const TimeSettings& settings) {
 }
 
 void validate(const TimeSettings& settings) {
-  require(std::isfinite(settings.dt) && settings.dt > 0, "time step dt = ", settings.dt,
+  require(std::isfinite(settings.dt) && settings.dt >= 0, "time step dt = ", settings.dt,
           " s must be positive");
+  require(settings.dt > 0 || !settings.relax,
+          "time step dt is missing: settling has no error by which steps could be chosen; a tenth of the "
+          "slowest period serves");
   require(std::isfinite(settings.end_time) && settings.end_time > 0, "end time ", settings.end_time,
           " s must be positive");
   require(settings.rho_inf >= 0 && settings.rho_inf <= 1, "rho_inf = ", settings.rho_inf,
@@ -38,6 +41,8 @@ void validate(const TimeSettings& settings) {
   require(settings.step_tolerance >= 0 && settings.velocity_tolerance >= 0, "step tolerance ",
           settings.step_tolerance, " m and velocity tolerance ", settings.velocity_tolerance,
           " m/s must not be negative");
+  require(settings.step_error > 0 && settings.step_error < 1, "step error ", settings.step_error,
+          " must lie between 0 and 1");
   validate_output(settings);
 }
 
@@ -116,6 +121,7 @@ void begin(Run& run, TS ts) {
 
 // TSSolve's work on one step.
 void take_step(Run& run, TS ts) {
+  limit_steps(run, ts);
   check(TSPreStep(ts), run.problem.pending);
   check(TSStep(ts), run.problem.pending);
   check(TSPostEvaluate(ts), run.problem.pending);

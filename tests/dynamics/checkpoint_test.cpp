@@ -146,6 +146,14 @@ TEST(Checkpoint, continuation_with_step_control_and_interpolated_output_equals_t
   expect_every_continuation_equal(model::Basis::modal, settings);
 }
 
+TEST(Checkpoint, continuation_with_steps_that_the_run_chooses_equals_the_whole_run_to_the_bit) {
+  TimeSettings settings = kSettings;
+  settings.dt = 0;
+  settings.step_error = 2e-4;
+  settings.output_dt = 0.003;
+  expect_every_continuation_equal(model::Basis::modal, settings);
+}
+
 TEST(Checkpoint, stop_ends_the_run_with_a_state_to_go_on_from) {
   System first = impact(model::Basis::modal), second = impact(model::Basis::modal);
   Rows rows;

@@ -112,6 +112,48 @@ TEST(StepControl, keeps_the_local_error_below_a_length) {
   EXPECT_NEAR(double(fine.steps) / coarse.steps, std::cbrt(10), 0.3);
 }
 
+// A cantilever that begins to hang down swings about its static deflection.
+TEST(StepControl, steps_without_a_size_keep_the_error_below_a_share_of_the_displacement) {
+  const test::BoxSpec spec{.size = {4, 1, 1},
+                           .cells = {4, 1, 1},
+                           .material = {100, 0.3, 1},
+                           .held = [](const Eigen::Vector3d& X, int) { return X[0] == 0; }};
+  const auto box = std::make_shared<model::ElasticBody>(test::make_box(spec, model::Basis::modal, 6));
+  const auto swing = [&](TimeSettings settings, RunSummary& run) {
+    settings.end_time = 20;
+    settings.output_dt = 0.1;
+    std::vector<Eigen::VectorXd> q;
+    BodySetup pulled{.name = "box", .body = box};
+    for (const auto& s : snapshots(System({pulled}, {}, {.gravity = {0, 0, -1e-4}}), settings, &run))
+      q.push_back(s.bodies[0].q);
+    return q;
+  };
+  RunSummary run, fine_run;
+  const auto fine = swing({.dt = 1e-3}, fine_run), chosen = swing({.step_error = 1e-3}, run);
+  ASSERT_EQ(fine.size(), chosen.size());
+  double error = 0, largest = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    error = std::max(error, (fine[i] - chosen[i]).norm());
+    largest = std::max(largest, fine[i].norm());
+  }
+  EXPECT_GT(largest, 0);
+  EXPECT_LT(error, 0.1 * largest);
+  EXPECT_LT(run.steps, fine_run.steps / 10);
+  const auto finer = swing({.step_error = 1e-5}, run);
+  double finer_error = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    finer_error = std::max(finer_error, (fine[i] - finer[i]).norm());
+  EXPECT_LT(finer_error, error / 5);
+}
+
+// No step is longer than the contact depth, 0.2 m, over the speed, 1 m/s, though nothing bends or turns.
+TEST(StepControl, no_step_takes_surfaces_past_each_other) {
+  std::vector<double> at{0};
+  for (const auto& s : snapshots(flight(), {.end_time = 1})) at.push_back(s.time);
+  ASSERT_GT(at.size(), 5u);
+  for (std::size_t i = 1; i < at.size(); ++i) EXPECT_LE(at[i] - at[i - 1], 0.2 * (1 + 1e-12));
+}
+
 TEST(StepControl, first_touch_is_not_deep) {
   double first = 0;
   RunSummary summary;

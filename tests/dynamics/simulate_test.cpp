@@ -61,7 +61,9 @@ TEST(Simulate, first_snapshot_holds_the_initial_acceleration) {
 }
 
 TEST(Simulate, refuses_settings_that_make_no_sense) {
-  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0, .end_time = 1}), Error);
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = -1, .end_time = 1}), Error);
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0, .end_time = 1, .relax = true}), Error);
+  EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0, .end_time = 1, .step_error = 0}), Error);
   EXPECT_THROW(times(spinning_rigid_box(), {.dt = NAN, .end_time = 1}), Error);
   EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = -1}), Error);
   EXPECT_THROW(times(spinning_rigid_box(), {.dt = 0.1, .end_time = 1, .rho_inf = 1.5}), Error);

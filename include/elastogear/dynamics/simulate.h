@@ -24,7 +24,7 @@ struct StepInfo {
 };
 
 struct TimeSettings {
-  double dt = 0;         ///< s
+  double dt = 0;         ///< s, of the first step, and of all unless they are chosen; 0: they are chosen
   double end_time = 0;   ///< s
   double rho_inf = 1;    ///< -, 0..1, spectral radius at infinite frequency; 1: no numerical dissipation
   int output_every = 1;  ///< observe every n-th step, and the first and last state
@@ -38,10 +38,12 @@ struct TimeSettings {
   double output_dt = 0;
   /// s, ascending; observe at these times and at no others but the start and the end, in the same way.
   std::vector<double> output_times = {};
-  /// m; > 0: steps are chosen so that the local error moves no surface node farther (PETSc's basic
-  /// adaptivity, -ts_adapt_*), and the step in which bodies first touch is short. velocity_tolerance, m/s, >
-  /// 0: velocities too.
-  double step_tolerance = 0, velocity_tolerance = 0;
+  /// Steps are chosen (PETSc's basic adaptivity, -ts_adapt_*) where there is no dt or step_tolerance, m, is
+  /// positive: so that the local error moves no surface node farther than step_tolerance or, where that is 0,
+  /// than step_error, -, times the largest elastic displacement so far. The step in which bodies first touch
+  /// is short, and surfaces of a pair go by less than the contact depth. velocity_tolerance, m/s, > 0:
+  /// velocities too. docs/theory.md, section 8.3.
+  double step_error = 3e-5, step_tolerance = 0, velocity_tolerance = 0;
   std::function<void(const StepInfo&)> monitor = {};  ///< after every step
 };
 
@@ -66,6 +68,7 @@ struct RunSummary {
   bool out_of_steps = false;  ///< stopped by -ts_max_steps
   double time = 0;            ///< s, reached
   bool at_rest = false;       ///< of a relaxing run: came to rest before its end time
+  double step_tolerance = 0;  ///< m, of the local error of the last step; 0: steps were not chosen
 };
 
 using Observer = std::function<void(const model::Snapshot&)>;

@@ -34,7 +34,7 @@ void print_advice(const dynamics::System& system, double dt) {
   const dynamics::Advice advice = dynamics::advise(system);
   print("highest mode", "body", advice.mode);
   print("contact vibration", "pair", advice.contact);
-  print_item("time step", with_unit(dt, "s"));
+  print_item("time step", dt > 0 ? with_unit(dt, "s") : "chosen by its error");
   const double share = dt / advice.step();
   if (share > kFarTooLong)
     print_item("warning", "the step is " + with_unit(share, "times") +

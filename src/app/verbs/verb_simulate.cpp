@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "app/console/advice.h"
 #include "app/console/console.h"
@@ -24,6 +25,7 @@
 #include "app/verbs/simulation.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/log_stage.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/static.h"
 #include "elastogear/io/relaxed_state.h"
@@ -60,17 +62,25 @@ const Rows<TimeSettings> kTimeRows = {
     {"rest_tolerance", &TimeSettings::rest_tolerance, "-",
      "relax: largest unbalanced share of the forces at rest (default: 1e-6; 1e-4 where friction sticks)",
      kPositive | kDependent},
-    {"ts_dt", &TimeSettings::dt, "s", "time step", kPositive | kRequired},
+    {"ts_dt", &TimeSettings::dt, "s",
+     "time step, with step_tolerance the first one (default: steps are chosen by step_error; relax: none)",
+     kPositive | kDependent},
     {"ts_max_time", &TimeSettings::end_time, "s",
      "end of the simulation; static: time of loads and prescribed motions, without it loads take their last "
      "value",
      kPositive | kRequired},
     {"ts_alpha_radius", &TimeSettings::rho_inf, "-",
-     "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: 1; relax: 0)",
+     "spectral radius rho_inf of generalised-alpha, 1: no numerical damping (default: with ts_dt 1, without "
+     "0.8; relax: 0)",
      kDependent},
     {"output", "-", "", "result file to write (HDF5)"},
+    {"step_error", &TimeSettings::step_error, "-",
+     "without ts_dt and step_tolerance: choose the steps so that the local error moves no surface node "
+     "farther than this share of the largest elastic displacement so far",
+     kPositive},
     {"step_tolerance", &TimeSettings::step_tolerance, "m",
-     "choose the steps so that the local error moves no surface node farther; 0: all steps are ts_dt"},
+     "choose the steps so that the local error moves no surface node farther; 0: steps of ts_dt, or by "
+     "step_error"},
     {"velocity_tolerance", &TimeSettings::velocity_tolerance, "m/s",
      "with step_tolerance: the same for velocities; 0: without"},
 };
@@ -92,12 +102,19 @@ AnalysisSettings analysis_settings(const Options& options) {
 
 Analysis analysis(const Options& options) { return analysis_settings(options).kind; }
 
+// rho_inf where steps are chosen: vibrations that the tolerance lets pass unresolved die out, and with them
+// the iterations that they cost (docs/performance.md).
+constexpr double kDamped = 0.8;
+
 // With friction that sticks, rest is a range of states, in which nodes creep on for tens of thousands of
 // steps (docs/theory.md, section 8.7): the default of rest_tolerance is larger then.
 TimeSettings time_settings(const Options& options) {
   TimeSettings time;
   time.relax = analysis(options) == Analysis::relax;
-  if (time.relax) time.rho_inf = 0;
+  if (time.relax)
+    time.rho_inf = 0;
+  else if (!options.given("ts_dt"))
+    time.rho_inf = kDamped;
   if (friction_sticks(options)) time.rest_tolerance = 1e-4;
   read_rows(options, kTimeRows, time);
   set_output_times(options, time);
@@ -123,6 +140,10 @@ void print_resolution(const Options& options, const dynamics::RunSummary& run) {
 void print_summary(const Options& options, const dynamics::RunSummary& run) {
   print_item("time steps",
              std::to_string(run.steps) + " (" + std::to_string(run.rejected_steps) + " rejected)");
+  if (run.step_tolerance > 0)
+    print_item("steps are chosen", with_unit(run.time / std::max(run.steps, 1), "s") +
+                                       " in the mean, local error at most " +
+                                       with_unit(run.step_tolerance, "m"));
   print_item("Newton iterations", std::to_string(run.newton_iterations));
   for (const dynamics::PairSummary& pair : run.pair)
     print_item("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at " +
@@ -223,6 +244,7 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   if (analysis(options) != Analysis::equilibrium) time_settings(options);
   require(analysis(options) == Analysis::equilibrium || !options.given("time_under_load"),
           options.label("time_under_load"), ": belongs to analysis: static");
+  std::optional<LogStage> stage("bodies and set-up of contact");
   KnownBodies known;
   SystemSetup setup = system_setup(options, known);
   if (analysis(options) == Analysis::equilibrium) make_static(options, setup);
@@ -230,6 +252,7 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   dynamics::System system(setup.bodies, setup.pairs, setup.environment, setup.markers);
   const model::ResultHeader head = result_header(options, system.model(), known);
   print_laws(options, system.model());
+  stage.emplace(analysis(options) == Analysis::equilibrium ? "equilibria" : "motion");
   print_summary(options, keep(options, head, computation(options, system)));
   add_relaxed_states(output, system, analysis_settings(options).time_under_load > 0);
   write_sensor_tables(options, head);

@@ -183,9 +183,9 @@ void follow_stages(const System& system, TS ts) {
   generalized_alpha_set_check(ts, [ts](bool* changed) { return check_stage(ts, changed); });
 }
 
-void set_time(TS ts, const TimeSettings& settings) {
-  check(TSSetTimeStep(ts, settings.dt));
-  check(TSSetMaxTime(ts, settings.end_time));
+void set_time(TS ts, const Run& run) {
+  check(TSSetTimeStep(ts, run.settings.dt > 0 ? run.settings.dt : first_step(run)));
+  check(TSSetMaxTime(ts, run.settings.end_time));
   check(TSSetMaxSteps(ts, std::numeric_limits<PetscInt>::max()));
   check(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
   check(TSSetMaxSNESFailures(ts, -1));
@@ -213,7 +213,7 @@ UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J) {
   check(TSGetAdapt(ts, &adapt));
   check(TSAdaptSetType(adapt, TSADAPTNONE));
   attach(run.problem, ts, J);
-  set_time(ts, run.settings);
+  set_time(ts, run);
   check(TSSetApplicationContext(ts, &run));
   check(TSSetPostStep(ts, post_step));
   check(TSMonitorSet(ts, monitor, &run, nullptr));

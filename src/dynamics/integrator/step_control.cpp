@@ -1,9 +1,11 @@
 // Tolerances of the step-size control in lengths, and care where contact begins.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/run.h"
 #include "dynamics/vec_view.h"
+#include "elastogear/dynamics/advice.h"
 #include "elastogear/dynamics/generalized_alpha.h"
 
 namespace elastogear::dynamics {
@@ -11,6 +13,11 @@ namespace {
 
 constexpr double kFirstTouch = 0.1;  // share of the contact depth that bodies may enter in their first step
 constexpr double kShortestStep = 1e-3;  // of the first one, down to which touch is looked for
+constexpr double kFirstStep = 0.1;      // of what advice asks for
+constexpr double kFirstShare = 1e-3;    // of the run, that the first step takes at most
+// Of the size of the bodies: elastic displacements that are taken for the largest so far as long as they are
+// smaller, and in place of them where no body is elastic.
+constexpr double kSmallDisplacement = 1e-5, kRigidDisplacement = 1e-3;
 
 // Largest distance from the joint's centre.
 double reach(const System::Body& body) {
@@ -40,6 +47,66 @@ bool is_angle(body::JointType type, Eigen::Index i) {
   return type == body::JointType::spherical || (body::has_rotation_axis(type) && i == 0);
 }
 
+// Largest elastic displacement by one coordinate or by contact forces that have static responses, m.
+double elastic_displacement(Run& run) {
+  System& system = run.problem.system;
+  double largest = 0;
+  for (std::size_t b = 0; b < system.bodies().size(); ++b) {
+    const System::Body& body = system.bodies()[b];
+    const model::BodyState& state = run.last->bodies[b];
+    if (state.q.size() == 0) continue;
+    const auto per_length = run.control.per_length.segment(body.first + body.n_open(), state.q.size());
+    largest = std::max(largest, state.q.cwiseQuotient(per_length).cwiseAbs().maxCoeff());
+    const double force = state.contact.f_B.colwise().norm().sum();
+    if (force > 0) largest = std::max(largest, 2 * system.residual_energy(b) / force);
+  }
+  return largest;
+}
+
+// How far the local error of a step may move a surface node, m.
+double tolerance(const Run& run) {
+  if (run.settings.step_tolerance > 0) return run.settings.step_tolerance;
+  const std::vector<System::Body>& bodies = run.problem.system.bodies();
+  const bool any_elastic =
+      std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.eq.n_q() > 0; });
+  const double least = (any_elastic ? kSmallDisplacement : kRigidDisplacement) * run.control.size;
+  return run.settings.step_error * std::max(run.control.displacement, least);
+}
+
+// Corners of a box around the surface of a body, 3 x 8, or without columns.
+Eigen::Matrix3Xd corners_around(const model::Surface& surface) {
+  const Eigen::Matrix3Xd& X = surface.X;
+  if (X.cols() == 0) return Eigen::Matrix3Xd(3, 0);
+  const Eigen::Vector3d low = X.rowwise().minCoeff(), high = X.rowwise().maxCoeff();
+  Eigen::Matrix3Xd corners(3, 8);
+  for (int corner = 0; corner < 8; ++corner)
+    for (int i = 0; i < 3; ++i) corners(i, corner) = corner & (1 << i) ? high[i] : low[i];
+  return corners;
+}
+
+// Bound of the speed of a body's surface but for its vibration, m/s.
+double surface_speed(const Run& run, std::size_t b, const State& x) {
+  const body::Equations& eq = run.problem.system.bodies()[b].eq;
+  const body::FrameMotion f = body::frame_motion(eq, run.problem.system.motion(b, x));
+  double speed = 0;
+  for (const auto& corner : run.control.corners[b].colwise())
+    speed = std::max(speed, (f.v + f.w.cross(Eigen::Vector3d(corner))).norm());
+  return speed;
+}
+
+// The step in which surfaces of a pair go by as far as the contact depth, within which alone they see each
+// other, s.
+double longest_step(const Run& run, const State& x) {
+  const System& system = run.problem.system;
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < system.pairs().size(); ++p) {
+    double speed = 0;
+    for (int b : system.pairs()[p].body) speed += surface_speed(run, static_cast<std::size_t>(b), x);
+    if (speed > 0) step = std::min(step, system.contact_settings(p).depth / speed);
+  }
+  return step;
+}
+
 PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accept) {
   Run* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
@@ -53,8 +120,6 @@ PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accep
   });
 }
 
-}  // namespace
-
 Eigen::VectorXd coordinates_per_length(const System& system) {
   Eigen::VectorXd scale(system.size());
   for (const System::Body& body : system.bodies()) {
@@ -67,15 +132,51 @@ Eigen::VectorXd coordinates_per_length(const System& system) {
   return scale;
 }
 
-void control_steps(const Run& run, TS ts) {
-  const TimeSettings& settings = run.settings;
-  if (settings.step_tolerance <= 0) return;
+}  // namespace
+
+bool are_steps_chosen(const TimeSettings& settings) {
+  return !settings.relax && (settings.dt == 0 || settings.step_tolerance > 0);
+}
+
+double first_step(const Run& run) {
+  return std::min(kFirstStep * advise(run.problem.system).step(), kFirstShare * run.settings.end_time);
+}
+
+void control_steps(Run& run, TS ts) {
+  if (!are_steps_chosen(run.settings)) return;
   TSAdapt adapt = nullptr;
   check(TSGetAdapt(ts, &adapt));
   check(TSAdaptSetType(adapt, TSADAPTBASIC));
   check(TSAdaptSetCheckStage(adapt, accept_touch));
-  const UniqueVec scale = vector(coordinates_per_length(run.problem.system));
-  generalized_alpha_set_tolerances(ts, scale, settings.step_tolerance, settings.velocity_tolerance);
+  run.control.per_length = coordinates_per_length(run.problem.system);
+  for (const System::Body& body : run.problem.system.bodies()) {
+    run.control.size = std::max(run.control.size, reach(body));
+    run.control.corners.push_back(corners_around(body.eq.body->surface));
+  }
+}
+
+void follow_displacement(Run& run) {
+  if (run.control.per_length.size() > 0)
+    run.control.displacement = std::max(run.control.displacement, elastic_displacement(run));
+}
+
+void limit_steps(Run& run, TS ts) {
+  if (run.control.per_length.size() == 0) return;
+  const UniqueVec scale = vector(run.control.per_length);
+  run.summary.step_tolerance = tolerance(run);
+  generalized_alpha_set_tolerances(ts, scale, run.summary.step_tolerance, run.settings.velocity_tolerance);
+  Vec U = nullptr, V = nullptr;
+  PetscReal time = 0, dt = 0, shortest = 0;
+  TSAdapt adapt = nullptr;
+  check(TSGetTime(ts, &time));
+  check(TSGetTimeStep(ts, &dt));
+  check(TS2GetSolution(ts, &U, &V));
+  check(TSGetAdapt(ts, &adapt));
+  const ReadView u(U), v(V);
+  const double longest = longest_step(run, {time, *u, *v, *v});
+  check(TSAdaptGetStepLimits(adapt, &shortest, nullptr));
+  if (std::isfinite(longest)) check(TSAdaptSetStepLimits(adapt, std::min(shortest, longest), longest));
+  if (dt > longest) check(TSSetTimeStep(ts, longest));
 }
 
 }  // namespace elastogear::dynamics
