@@ -5,10 +5,13 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <numeric>
 #include <set>
 
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
+#include "elastogear/mesh/surface_patches.h"
+#include "elastogear/recovery/patch_error.h"
 #include "elastogear/recovery/stress.h"
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
@@ -142,7 +145,52 @@ Largest largest(const Eigen::MatrixXd& sigma) {
   return result;
 }
 
-Solution solve(const Case& c) {
+namespace {
+
+Eigen::VectorXd von_mises_at_nodes(const Eigen::MatrixXd& sigma) {
+  return recovery::von_mises(Eigen::MatrixXd(sigma.reshaped()));
+}
+
+// Estimated error of a recovered stress, Pa, at nodes on free surfaces and the largest stress around them.
+struct Errors {
+  std::vector<int> node;
+  Eigen::VectorXd error, largest;
+};
+
+Errors recovered_errors(const mesh::Mesh& mesh, const std::vector<int>& nodes, const Eigen::VectorXd& stress,
+                        const Eigen::VectorXd& difference) {
+  Errors result;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(result.node),
+               [&](int node) { return difference[node] > 0; });
+  auto patches = mesh::surface_patches(mesh, result.node);
+  const std::vector<int> order = mesh::cell_orders(mesh, result.node);
+  result.error.resize(std::ssize(result.node));
+  result.largest.resize(std::ssize(result.node));
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    std::erase_if(patches[i], [&](int node) { return difference[node] == 0; });
+    const recovery::PatchError e =
+        recovery::patch_error(difference(patches[i]), stress(patches[i]), order[i]);
+    result.error[static_cast<Eigen::Index>(i)] = e.error;
+    result.largest[static_cast<Eigen::Index>(i)] = e.largest;
+  }
+  return result;
+}
+
+// Share of errors in the stress at the nodes on free surfaces that are nearest to x.
+double share_nearby(const mesh::Mesh& mesh, const Errors& errors, const Vector3d& x) {
+  constexpr std::ptrdiff_t kNearest = 8;
+  std::vector<int> order(errors.node.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto distance = [&](int i) { return (mesh.X.col(errors.node[i]) - x).squaredNorm(); };
+  const auto end = order.begin() + std::min(kNearest, std::ssize(order));
+  std::partial_sort(order.begin(), end, order.end(), [&](int a, int b) { return distance(a) < distance(b); });
+  order.erase(end, order.end());
+  return errors.error(order).norm() / errors.largest(order).norm();
+}
+
+}  // namespace
+
+Solutions solve(const Case& c) {
   io::BodySource source;
   source.mesh = c.mesh;
   source.regions = {{"", {210e9, 0.3, 7850}}};
@@ -156,9 +204,22 @@ Solution solve(const Case& c) {
   const Eigen::MatrixXd recovered = fem::nodal_stress(body, u);
   body.recovery.method = model::RecoveryMethod::average;
   const Eigen::MatrixXd averaged = fem::nodal_stress(body, u);
-  Solution s{root, c.mesh.X(Eigen::all, root), averaged(Eigen::all, root), recovered(Eigen::all, root)};
-  if (c.plane) s.X.row(2).setZero();
-  return s;
+  const Eigen::VectorXd stress = von_mises_at_nodes(recovered);
+  const Errors errors = recovered_errors(c.mesh, c.root, stress, von_mises_at_nodes(recovered - averaged));
+  const auto at = [&](const std::vector<int>& nodes) {
+    Solution s{nodes, c.mesh.X(Eigen::all, nodes), averaged(Eigen::all, nodes), recovered(Eigen::all, nodes),
+               Eigen::VectorXd(std::ssize(nodes))};
+    for (Eigen::Index i = 0; i < s.error.size(); ++i) {
+      const int node = nodes[static_cast<std::size_t>(i)];
+      const auto found = std::lower_bound(errors.node.begin(), errors.node.end(), node);
+      s.error[i] = found != errors.node.end() && *found == node
+                       ? errors.error[found - errors.node.begin()]
+                       : share_nearby(c.mesh, errors, c.mesh.X.col(node)) * stress[node];
+    }
+    if (c.plane) s.X.row(2).setZero();
+    return s;
+  };
+  return {at(root), at(loaded)};
 }
 
 void print(const std::string& kind, const mesh::Mesh& mesh, const Solution& s) {
@@ -176,31 +237,13 @@ void print(const std::string& kind, const mesh::Mesh& mesh, const Solution& s) {
 
 namespace {
 
-// Of positive numbers, ascending: how many are above `from`, in percent, and the median.
-void print_ratios(const char* what, std::vector<double> ratio, double from) {
+// Of positive numbers: how many, how many of them are above one half, in percent, and the median.
+void print_ratios(std::vector<double> ratio) {
   if (ratio.empty()) return;
   std::sort(ratio.begin(), ratio.end());
-  const auto above = std::count_if(ratio.begin(), ratio.end(), [&](double r) { return r > from; });
-  std::printf(", %s: %.0f %%, %.2f", what,
+  const auto above = std::count_if(ratio.begin(), ratio.end(), [](double r) { return r > 0.5; });
+  std::printf(" %zu nodes, %.0f %%, %.2f;", ratio.size(),
               100. * static_cast<double>(above) / static_cast<double>(ratio.size()), ratio[ratio.size() / 2]);
-}
-
-// How well the von Mises stress of the difference of both tells the error of either's von Mises stress: at
-// how many nodes the error is below twice the estimate, and the median of estimate over error. At nodes with
-// a tenth of the largest stress.
-void print_estimates(const Solution& s, const Eigen::MatrixXd& exact, double scale) {
-  std::vector<double> of_averaged, of_recovered;
-  for (Eigen::Index i = 0; i < exact.cols(); ++i) {
-    const auto equivalent = [&](const Eigen::MatrixXd& sigma) {
-      return recovery::von_mises(recovery::StressVector(sigma.col(i)));
-    };
-    const double e = equivalent(s.recovered - s.averaged), truth = equivalent(exact);
-    if (truth < 0.1 * scale || e == 0) continue;
-    of_averaged.push_back(e / std::abs(equivalent(s.averaged) - truth));
-    of_recovered.push_back(e / std::abs(equivalent(s.recovered) - truth));
-  }
-  print_ratios("estimate of averaged holds at, median", of_averaged, 0.5);
-  print_ratios("of recovered", of_recovered, 0.5);
 }
 
 }  // namespace
@@ -211,7 +254,23 @@ void print_errors(const Solution& s, const Eigen::MatrixXd& exact, double scale)
     std::printf("%s %.1f %% (%.1f %%)", sigma == &s.averaged ? ", errors" : " /", 100 * error.maxCoeff(),
                 100 * std::sqrt(error.squaredNorm() / static_cast<double>(error.size())));
   }
-  print_estimates(s, exact, scale);
+}
+
+void print_estimates(const std::string& what, const Solution& s, const Eigen::MatrixXd& exact, double scale) {
+  const Eigen::VectorXd difference = von_mises_at_nodes(s.recovered - s.averaged),
+                        averaged = von_mises_at_nodes(s.averaged),
+                        recovered = von_mises_at_nodes(s.recovered), truth = von_mises_at_nodes(exact);
+  std::vector<double> of_averaged, of_recovered;
+  for (Eigen::Index i = 0; i < truth.size(); ++i) {
+    if (truth[i] < 0.1 * scale) continue;
+    if (difference[i] > 0) of_averaged.push_back(difference[i] / std::abs(averaged[i] - truth[i]));
+    of_recovered.push_back(s.error[i] / std::abs(recovered[i] - truth[i]));
+  }
+  std::printf(", %s:", what.c_str());
+  if (!of_averaged.empty()) std::printf(" of averaged");
+  print_ratios(of_averaged);
+  std::printf(" of recovered");
+  print_ratios(of_recovered);
 }
 
 }  // namespace root_stress

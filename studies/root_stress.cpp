@@ -45,15 +45,22 @@ std::pair<Solution, Solution> at_common_nodes(const Solution& s, const Solution&
     others.push_back(static_cast<int>(nearest));
   }
   const auto part = [](const Solution& of, const std::vector<int>& nodes) {
-    return Solution{
-        {}, of.X(Eigen::all, nodes), of.averaged(Eigen::all, nodes), of.recovered(Eigen::all, nodes)};
+    return Solution{{},
+                    of.X(Eigen::all, nodes),
+                    of.averaged(Eigen::all, nodes),
+                    of.recovered(Eigen::all, nodes),
+                    of.error(nodes)};
   };
   return {part(s, own), part(reference, others)};
 }
 
-void print_error(const Solution& whole, const Solution& reference) {
-  const auto [s, exact] = at_common_nodes(whole, reference);
-  print_errors(s, exact.recovered, largest(reference.recovered).von_mises);
+void print_error(const Solutions& whole, const Solutions& reference) {
+  const auto [root, exact_root] = at_common_nodes(whole.root, reference.root);
+  const double scale = largest(reference.root.recovered).von_mises;
+  print_errors(root, exact_root.recovered, scale);
+  print_estimates("estimates at the root", root, exact_root.recovered, scale);
+  const auto [flank, exact_flank] = at_common_nodes(whole.flank, reference.flank);
+  print_estimates("on the flank", flank, exact_flank.recovered, largest(exact_flank.recovered).von_mises);
 }
 
 // The triangles that quadrilaterals of a surface are cut into.
@@ -151,14 +158,14 @@ Case pinion_in_space(int times) {
 }
 
 void run_nested(const std::function<Case(int)>& make, const std::vector<int>& times, bool tetrahedral) {
-  const Solution reference = solve(make(times.back()));
+  const Solutions reference = solve(make(times.back()));
   for (int n : times)
     for (bool cut : {false, true}) {
       if (cut && !tetrahedral) continue;
       Case c = make(n);
       if (cut) c.mesh = tetrahedra(c.mesh);
-      const Solution s = solve(c);
-      print(cut ? "tet4" : "hex8", c.mesh, s);
+      const Solutions s = solve(c);
+      print(cut ? "tet4" : "hex8", c.mesh, s.root);
       print_error(s, reference);
       std::printf("\n");
       std::fflush(stdout);

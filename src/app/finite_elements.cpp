@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "elastogear/fem/stress.h"
+#include "elastogear/mesh/surface_patches.h"
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
 
@@ -36,6 +37,10 @@ model::SparseRows recovery_difference(const io::BodySource& source, const std::v
   return fem::recovery_difference(std::move(body), nodes);
 }
 
+model::SparseRows stress_operator(const io::BodySource& source, const std::vector<int>& nodes) {
+  return fem::stress_operator(reduction::stressed_body(source), nodes);
+}
+
 Eigen::MatrixXd stress_difference(const io::BodySource& source, const std::vector<int>& loaded,
                                   const Eigen::VectorXd& u) {
   fem::StressedBody body = reduction::stressed_body(source);
@@ -46,10 +51,15 @@ Eigen::MatrixXd stress_difference(const io::BodySource& source, const std::vecto
   return recovered - fem::nodal_stress(body, u);
 }
 
+recovery::SurfacePatches surface_patches(const io::BodySource& source, const std::vector<int>& nodes) {
+  return {mesh::surface_patches(source.mesh, nodes), mesh::cell_orders(source.mesh, nodes)};
+}
+
 }  // namespace
 
 recovery::FiniteElements finite_elements() {
-  return {unreduced_response, nodal_stress, node_regions, recovery_difference, stress_difference};
+  return {unreduced_response, nodal_stress,      node_regions,   recovery_difference,
+          stress_operator,    stress_difference, surface_patches};
 }
 
 }  // namespace elastogear::app

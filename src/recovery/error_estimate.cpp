@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elastogear/recovery/patch_error.h"
 #include "elastogear/recovery/stress.h"
 
 namespace elastogear::recovery {
@@ -79,11 +80,23 @@ StressError reduction_error(const model::ElasticBody& body, const std::vector<in
   return error;
 }
 
-Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises) {
-  const Eigen::ArrayXd is_free = (difference.array() > 0).cast<double>();
-  const double of_stress = (is_free * von_mises.array()).matrix().squaredNorm(),
-               share = of_stress > 0 ? std::sqrt(difference.squaredNorm() / of_stress) : 0;
-  return difference.array() + (1 - is_free) * share * von_mises.array();
+Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises,
+                                 SurfacePatches patches) {
+  std::vector<int> free;
+  for (int i = 0; i < difference.size(); ++i)
+    if (difference[i] > 0) free.push_back(i);
+  Eigen::VectorXd error = difference(free);
+  for (std::size_t i = 0; i < patches.node.size(); ++i) {
+    std::vector<int>& patch = patches.node[i];
+    std::erase_if(patch, [&](int node) { return difference[node] == 0; });
+    error[static_cast<Eigen::Index>(i)] =
+        patch_error(difference(patch), von_mises(patch), patches.order[i]).error;
+  }
+  const double of_stress = von_mises(free).squaredNorm(),
+               share = of_stress > 0 ? error.norm() / std::sqrt(of_stress) : 0;
+  Eigen::VectorXd result = share * von_mises;
+  result(free) = error;
+  return result;
 }
 
 }  // namespace elastogear::recovery

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elastogear/model/elastic_body.h"
+#include "elastogear/recovery/finite_elements.h"
 
 namespace elastogear::recovery {
 
@@ -49,7 +50,9 @@ StressError reduction_error(const model::ElasticBody& body, const std::vector<in
 
 /// Estimated error of a whole field by the mesh at one time, Pa, at all nodes. difference: von Mises stress
 /// of Eq. (1.16), 0 where no free surface is, inside the body and on flanks; there the error is the share of
-/// the root mean squares of all other nodes in the von Mises stress.
-Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises);
+/// the root mean squares of all other nodes in the von Mises stress. patches: of the nodes with a difference,
+/// ascending, for Eq. (1.17); of means none.
+Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises,
+                                 SurfacePatches patches);
 
 }  // namespace elastogear::recovery

@@ -1,5 +1,8 @@
 #include "elastogear/recovery/field.h"
 
+#include <utility>
+#include <vector>
+
 #include "elastogear/recovery/stress.h"
 #include "recovery/error_estimate.h"
 
@@ -54,12 +57,19 @@ Eigen::VectorXd estimated_error(const Fields& fields, const FieldReference& refe
       reference.share);
 }
 
-// Eq. (1.16), of displacements u.
+// Eq. (1.17), of displacements u.
 Eigen::VectorXd estimated_mesh_error(const Fields& fields, const std::vector<int>& touched,
                                      const Eigen::Matrix3Xd& u, const Eigen::VectorXd& found) {
-  const Eigen::MatrixXd difference =
-      fields.finite_elements.stress_difference(fields.source, touched, u.reshaped());
-  return mesh_error_field(von_mises_at_nodes(difference), found);
+  const Eigen::VectorXd difference =
+      von_mises_at_nodes(fields.finite_elements.stress_difference(fields.source, touched, u.reshaped()));
+  SurfacePatches patches;
+  if (fields.source.recovery.method == model::RecoveryMethod::surface) {
+    std::vector<int> free;
+    for (int i = 0; i < difference.size(); ++i)
+      if (difference[i] > 0) free.push_back(i);
+    patches = fields.finite_elements.surface_patches(fields.source, free);
+  }
+  return mesh_error_field(difference, found, std::move(patches));
 }
 
 }  // namespace

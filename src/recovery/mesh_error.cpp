@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "elastogear/io/body_file.h"
+#include "elastogear/recovery/patch_error.h"
 #include "elastogear/recovery/stress.h"
 
 namespace elastogear::recovery {
@@ -14,65 +15,131 @@ namespace {
 
 using model::SparseRows;
 
-// For each node of a set, with places X (3 x n, m), the nearest node whose stress is recovered on the free
-// surface: a node itself if its own stress is; -1 where no node's is.
-std::vector<int> nearest_on_surface(const SparseRows& difference, const Eigen::Matrix3Xd& X) {
-  std::vector<int> on_surface;
-  for (int i = 0; i < X.cols(); ++i)
-    if (difference.middleRows(6 * i, 6).eval().nonZeros() > 0) on_surface.push_back(i);
-  std::vector<int> nearest(static_cast<std::size_t>(X.cols()), -1);
-  if (on_surface.empty()) return nearest;
-  for (int i = 0; i < X.cols(); ++i) {
-    const auto distance = [&](int j) { return (X.col(j) - X.col(i)).squaredNorm(); };
-    nearest[i] = *std::min_element(on_surface.begin(), on_surface.end(),
-                                   [&](int a, int b) { return distance(a) < distance(b); });
-  }
-  return nearest;
-}
-
 constexpr Eigen::Index kTimesInMemory = 64;  // output times whose tensors are in memory
+constexpr std::size_t kNearest = 8;          // nodes on free surfaces that tell the error of one off them
 
-// von Mises stresses, Pa, of the set's n nodes over n_t times.
-struct Parts {
-  Eigen::MatrixXd difference;  // n x n_t, of the two recoveries of the modes' displacements
-  Eigen::MatrixXd more;        // n x n_t, of what the set has beside the stress of the modes
-  Eigen::VectorXd share;       // n, eta of Eq. (1.17), at most 1
+// Around the n nodes of a set.
+struct Patches {
+  std::vector<int> node;                  // mesh numbers: those of the set, then others around them
+  std::vector<std::vector<int>> members;  // n, indices into `node`: of the patch, on free surfaces
+  std::vector<int> order;                 // n, of the cells; of means none
+  SparseRows difference;                  // at `node`, Eq. (1.16)
+
+  Eigen::Index n() const { return static_cast<Eigen::Index>(members.size()); }
+  bool is_free(int i) const { return difference.middleRows(6 * i, 6).nonZeros() > 0; }
 };
 
-Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, const io::StressSet& set,
-                 const SparseRows& difference) {
-  const Eigen::MatrixXd& q = body.run.history.q;
-  const bool modal = elastic.basis == model::Basis::modal;
-  Eigen::MatrixXd of_modes(difference.rows(), modal ? q.rows() : 0);
-  if (modal)
-    io::visit_modes(body.run.file, q.rows(),
-                    [&](Eigen::Index k, const Eigen::VectorXd& phi) { of_modes.col(k) = difference * phi; });
-  const auto at = [&](const Eigen::MatrixXd& q_t) -> Eigen::MatrixXd {  // 6 n x n_t
-    if (modal) return of_modes * q_t;
-    Eigen::MatrixXd result(difference.rows(), q_t.cols());
-    for (Eigen::Index t = 0; t < q_t.cols(); ++t) {
-      const Eigen::Matrix3Xd u = io::read_displacement_field(body.run.file, q_t.col(t));
-      result.col(t) = difference * u.reshaped();
+// Means have no patch but their node.
+Patches make_patches(const RecoveredBody& body, const model::ElasticBody& elastic,
+                     const io::BodySource& source, const std::vector<int>& nodes) {
+  Patches patches{nodes, {}, {}, {}};
+  std::map<int, int> index;
+  for (std::size_t i = 0; i < nodes.size(); ++i) index[nodes[i]] = static_cast<int>(i);
+  const bool averaged = source.recovery.method == model::RecoveryMethod::average;
+  SurfacePatches around;
+  if (!averaged) around = body.finite_elements.surface_patches(source, nodes);
+  patches.order = around.order;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::vector<int>& members = patches.members.emplace_back();
+    for (int node : averaged ? std::vector<int>{nodes[i]} : around.node[i]) {
+      const auto [at, is_new] = index.try_emplace(node, static_cast<int>(patches.node.size()));
+      if (is_new) patches.node.push_back(node);
+      members.push_back(at->second);
     }
-    return result;
-  };
+  }
+  patches.difference = body.finite_elements.recovery_difference(source, elastic.surface.node, patches.node);
+  for (std::vector<int>& members : patches.members)
+    std::erase_if(members, [&](int i) { return !patches.is_free(i); });
+  return patches;
+}
+
+// Applies rows to the displacements of a body at the times of coordinates.
+class Rows {
+ public:
+  Rows(SparseRows S, const std::string& file, const model::ElasticBody& elastic)
+      : S_(std::move(S)), file_(file), modal_(elastic.basis == model::Basis::modal) {
+    if (!modal_) return;
+    of_modes_.resize(S_.rows(), elastic.n_q());
+    io::visit_modes(file, elastic.n_q(),
+                    [&](Eigen::Index k, const Eigen::VectorXd& phi) { of_modes_.col(k) = S_ * phi; });
+  }
+
+  // von Mises stresses, one row a node. q: n_q x n_t.
+  Eigen::MatrixXd von_mises_of(const Eigen::MatrixXd& q) const {
+    if (modal_) return von_mises(Eigen::MatrixXd(of_modes_ * q));
+    Eigen::MatrixXd result(S_.rows(), q.cols());
+    for (Eigen::Index t = 0; t < q.cols(); ++t) {
+      const Eigen::Matrix3Xd u = io::read_displacement_field(file_, q.col(t));
+      result.col(t) = S_ * u.reshaped();
+    }
+    return von_mises(result);
+  }
+
+ private:
+  SparseRows S_;
+  const std::string& file_;
+  bool modal_;
+  Eigen::MatrixXd of_modes_;
+};
+
+// Of the set's n nodes over n_t times, Pa. Sums over time: Pa^2.
+struct Parts {
+  Eigen::MatrixXd error;  // n x n_t, Eq. (1.17), of the modes' displacements; 0 off free surfaces
+  Eigen::MatrixXd more;   // n x n_t, von Mises stress of what the set has beside the stress of the modes
+  Eigen::VectorXd sum_error, sum_stress, sum_largest;  // n: of squares of errors, stresses, patches' largest
+};
+
+void add_errors(const Patches& patches, const Eigen::MatrixXd& difference, const Eigen::MatrixXd& stress,
+                bool averaged, Eigen::Index begin, Parts& parts) {
+  for (Eigen::Index i = 0; i < patches.n(); ++i) {
+    const std::vector<int>& members = patches.members[static_cast<std::size_t>(i)];
+    if (!patches.is_free(static_cast<int>(i))) continue;
+    for (Eigen::Index t = 0; t < stress.cols(); ++t) {
+      const PatchError e = averaged ? PatchError{difference(i, t), stress(i, t)}
+                                    : patch_error(difference(members, t), stress(members, t),
+                                                  patches.order[static_cast<std::size_t>(i)]);
+      parts.error(i, begin + t) = e.error;
+      parts.sum_error[i] += e.error * e.error;
+      parts.sum_stress[i] += stress(i, t) * stress(i, t);
+      parts.sum_largest[i] += e.largest * e.largest;
+    }
+  }
+}
+
+Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, const io::StressSet& set,
+                 const io::BodySource& source, const Patches& patches) {
+  const Eigen::MatrixXd& q = body.run.history.q;
   const std::vector<int>& members = elastic.stress.sets.at(set.set);
-  const Eigen::Index n = set.von_mises.rows(), n_t = q.cols();
-  Parts parts{Eigen::MatrixXd(n, n_t), Eigen::MatrixXd(n, n_t), {}};
-  Eigen::VectorXd square = Eigen::VectorXd::Zero(n);  // of the modes' stress, summed over time
+  const std::vector<int> others(patches.node.begin() + patches.n(), patches.node.end());
+  const Rows difference(patches.difference, body.run.file, elastic),
+      stress_of_others(body.finite_elements.stress_operator(source, others), body.run.file, elastic);
+  const Eigen::Index n = patches.n(), n_t = q.cols();
+  Parts parts{Eigen::MatrixXd::Zero(n, n_t), Eigen::MatrixXd(n, n_t), Eigen::VectorXd::Zero(n),
+              Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  const bool averaged = source.recovery.method == model::RecoveryMethod::average;
   for (Eigen::Index begin = 0; begin < n_t; begin += kTimesInMemory) {
     const Eigen::Index count = std::min(kTimesInMemory, n_t - begin);
-    const Eigen::MatrixXd q_t = q.middleCols(begin, count),
-                          stress = modal_stress(elastic.stress, members, q_t);
-    parts.difference.middleCols(begin, count) = von_mises(at(q_t));
+    const Eigen::MatrixXd q_t = q.middleCols(begin, count), own = modal_stress(elastic.stress, members, q_t);
+    Eigen::MatrixXd stress(static_cast<Eigen::Index>(patches.node.size()), count);
+    stress << von_mises(own), stress_of_others.von_mises_of(q_t);
+    add_errors(patches, difference.von_mises_of(q_t), stress, averaged, begin, parts);
     parts.more.middleCols(begin, count) =
-        von_mises(Eigen::MatrixXd(set.stress.middleCols(begin, count) - stress));
-    square += von_mises(stress).rowwise().squaredNorm();
+        von_mises(Eigen::MatrixXd(set.stress.middleCols(begin, count) - own));
   }
-  // Recovered stresses vanish at corners of three free surfaces.
-  const Eigen::ArrayXd off = parts.difference.rowwise().squaredNorm();
-  parts.share = (off / square.array().max(off).max(1e-300)).sqrt();
   return parts;
+}
+
+// Root of a ratio of sums of squares, at most 1. Recovered stresses vanish at corners of three free surfaces.
+double share(double error, double stress) { return std::sqrt(error / std::max({stress, error, 1e-300})); }
+
+// The share of errors in stresses at the nodes of free surfaces nearest to a node at x.
+double share_nearby(const Parts& parts, const Eigen::Matrix3Xd& X, std::vector<int> free,
+                    const Eigen::Vector3d& x) {
+  const auto distance = [&](int j) { return (X.col(j) - x).squaredNorm(); };
+  const auto end = free.begin() + static_cast<std::ptrdiff_t>(std::min(kNearest, free.size()));
+  std::partial_sort(free.begin(), end, free.end(), [&](int a, int b) { return distance(a) < distance(b); });
+  free.erase(end, free.end());
+  return share(parts.sum_error(free).sum(), parts.sum_largest(free).sum());
 }
 
 }  // namespace
@@ -89,19 +156,19 @@ Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& 
   if (!tells_mesh_error(body, elastic) || set.node.empty() || set.von_mises.cols() == 0) return {};
   if (modal && !io::has_full_modes(file)) return {};
   const io::BodySource source = io::read_body_source(file);
-  const SparseRows difference =
-      body.finite_elements.recovery_difference(source, elastic.surface.node, set.node);
-  const std::vector<int> near = nearest_on_surface(difference, source.mesh.X(Eigen::all, set.node));
-  if (near.front() < 0) return {};
-  const Parts parts = find_parts(body, elastic, set, difference);
+  const Patches patches = make_patches(body, elastic, source, set.node);
+  std::vector<int> free;
+  for (int i = 0; i < patches.n(); ++i)
+    if (patches.is_free(i)) free.push_back(i);
+  if (free.empty()) return {};
+  const Parts parts = find_parts(body, elastic, set, source, patches);
+  const Eigen::Matrix3Xd X = source.mesh.X(Eigen::all, set.node);
   Eigen::MatrixXd error(set.von_mises.rows(), set.von_mises.cols());
-  for (Eigen::Index i = 0; i < error.rows(); ++i) {
-    const int j = near[static_cast<std::size_t>(i)];
-    if (j == i)
-      error.row(i) = parts.difference.row(i) + parts.share[i] * parts.more.row(i);
+  for (int i = 0; i < patches.n(); ++i)
+    if (patches.is_free(i))
+      error.row(i) = parts.error.row(i) + share(parts.sum_error[i], parts.sum_stress[i]) * parts.more.row(i);
     else
-      error.row(i) = parts.share[j] * set.von_mises.row(i);
-  }
+      error.row(i) = share_nearby(parts, X, free, X.col(i)) * set.von_mises.row(i);
   return error;
 }
 

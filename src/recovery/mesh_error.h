@@ -9,7 +9,7 @@
 
 namespace elastogear::recovery {
 
-/// n x n_t, Pa, at the nodes of a set whose stresses are recovered: Eq. (1.17). Empty where it cannot be
+/// n x n_t, Pa, at the nodes of a set whose stresses are recovered: Eq. (1.18). Empty where it cannot be
 /// told: the body is viscoelastic or comes from matrices, its file lacks the modes at all nodes, or no node
 /// of the set is on a free surface.
 Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic,

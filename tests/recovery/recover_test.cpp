@@ -7,14 +7,17 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <utility>
 
 #include "../fem/brick.h"
 #include "../mesh/box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/fem/stress.h"
+#include "elastogear/mesh/surface_patches.h"
 #include "elastogear/model/fingerprint.h"
 #include "elastogear/recovery/contact_field.h"
+#include "elastogear/recovery/patch_error.h"
 #include "elastogear/recovery/stress.h"
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
@@ -45,6 +48,14 @@ FiniteElements finite_elements() {
             fem::StressedBody body = reduction::stressed_body(source);
             body.recovery.loaded = loaded;
             return fem::recovery_difference(std::move(body), nodes);
+          },
+          [](const io::BodySource& source, const auto& nodes) {
+            return fem::stress_operator(reduction::stressed_body(source), nodes);
+          },
+          {},
+          [](const io::BodySource& source, const auto& nodes) {
+            return SurfacePatches{mesh::surface_patches(source.mesh, nodes),
+                                  mesh::cell_orders(source.mesh, nodes)};
           }};
 }
 
@@ -52,6 +63,7 @@ struct Recover : testing::Test {
   mesh::Folder folder{"recover"};
   std::string file = folder / "bar.h5", result = folder / "result.h5";
   Eigen::MatrixXd exact;  // 6 n x 1, Pa, at the set xmax
+  reduction::RecoveryChoice stress_recovery = reduction::RecoveryChoice::automatic;
 
   model::ElasticBody reduce(model::Basis basis, bool with_responses = false) const {
     reduction::ReductionOptions o;
@@ -62,6 +74,7 @@ struct Recover : testing::Test {
     o.basis = basis;
     o.n_modes = basis == model::Basis::full ? 1 : kModes;
     o.flexibility = with_responses;
+    o.stress_recovery = stress_recovery;
     reduction::reduce(MPI_COMM_SELF, test::distorted(test::brick({4, 2, 2}, {1, 0.4, 0.3}), 0.02), o, file);
     return io::read_body(file);
   }
@@ -130,31 +143,77 @@ TEST_F(Recover, of_the_full_basis_errs_by_nothing) {
   EXPECT_EQ(set.error.norm(), 0);
 }
 
+// Both recoveries of a body with the full basis at rest: von Mises stresses at all nodes, Pa.
+struct BothRecoveries {
+  Eigen::VectorXd difference, recovered;
+};
+BothRecoveries both_recoveries(const io::BodySource& source, const std::vector<int>& loaded,
+                               const Eigen::VectorXd& u) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  body.recovery.method = model::RecoveryMethod::average;
+  const Eigen::MatrixXd mean = fem::nodal_stress(body, u);
+  body.recovery = {model::RecoveryMethod::surface, loaded};
+  const Eigen::MatrixXd recovered = fem::nodal_stress(body, u), difference = recovered - mean;
+  return {von_mises(Eigen::MatrixXd(difference.reshaped())),
+          von_mises(Eigen::MatrixXd(recovered.reshaped()))};
+}
+
 // Nodes that are loaded or held have no free surface.
-TEST_F(Recover, estimates_the_error_of_the_mesh_by_the_difference_of_two_recoveries) {
+TEST_F(Recover, estimates_the_error_of_means_by_the_difference_of_two_recoveries) {
+  stress_recovery = reduction::RecoveryChoice::average;
   const model::ElasticBody full = reduce(model::Basis::full);
   RecoveredBody recovered = prepare_recovery(write(full), Acceleration::automatic, true, finite_elements());
   const io::StressSet set = recover_stress(recovered, full, "ymax", true);
   ASSERT_EQ(set.mesh_error.rows(), set.von_mises.rows());
   const io::BodySource source = io::read_body_source(file);
+  ASSERT_EQ(source.recovery.method, model::RecoveryMethod::average);
   const Eigen::VectorXd u = io::read_displacement_field(file, at_rest(full)).reshaped();
-  fem::StressedBody body = reduction::stressed_body(source);
-  body.recovery.method = model::RecoveryMethod::average;
-  const Eigen::MatrixXd mean = fem::nodal_stress(body, u);
-  body.recovery = {model::RecoveryMethod::surface, full.surface.node};
-  const Eigen::MatrixXd difference = fem::nodal_stress(body, u) - mean;
+  const BothRecoveries both = both_recoveries(source, full.surface.node, u);
   int n_free = 0;
   for (std::size_t i = 0; i < set.node.size(); ++i) {
-    const double expected = von_mises(StressVector(difference.col(set.node[i])));
+    const double expected = both.difference[set.node[i]];
     const auto row = static_cast<Eigen::Index>(i);
-    if (expected == 0) {  // as large a part as at a node near by
+    if (expected == 0) {  // as large a part as at nodes near by
       EXPECT_GT(set.mesh_error(row, 0), 0);
       continue;
     }
-    EXPECT_NEAR(set.mesh_error(row, 0), expected, kRoundoff * mean.norm());
+    EXPECT_NEAR(set.mesh_error(row, 0), expected, kRoundoff * both.recovered.norm());
     ++n_free;
   }
   EXPECT_GE(n_free, 8);
+}
+
+// Hexahedra: the order is 1.
+TEST_F(Recover, estimates_the_error_of_recovered_stresses_by_the_square_of_the_difference) {
+  const model::ElasticBody full = reduce(model::Basis::full);
+  RecoveredBody recovered = prepare_recovery(write(full), Acceleration::automatic, true, finite_elements());
+  const io::StressSet set = recover_stress(recovered, full, "ymax", true);
+  const io::BodySource source = io::read_body_source(file);
+  ASSERT_EQ(source.recovery.method, model::RecoveryMethod::surface);
+  const Eigen::VectorXd u = io::read_displacement_field(file, at_rest(full)).reshaped();
+  const auto [difference, stress] = both_recoveries(source, full.surface.node, u);
+  const auto patches = mesh::surface_patches(source.mesh, set.node);
+  std::vector<int> free;
+  for (int node = 0; node < difference.size(); ++node)
+    if (difference[node] > 0) free.push_back(node);
+  const Eigen::VectorXd field = mesh_error_field(
+      difference, stress, {mesh::surface_patches(source.mesh, free), mesh::cell_orders(source.mesh, free)});
+  int n_below = 0;
+  for (std::size_t i = 0; i < set.node.size(); ++i) {
+    if (difference[set.node[i]] == 0) continue;
+    double sum = 0, n = 0, largest = 0;
+    for (int node : patches[i])
+      if (difference[node] > 0) {
+        sum += difference[node] * difference[node];
+        ++n;
+        largest = std::max(largest, stress[node]);
+      }
+    const double mean = std::sqrt(sum / n), expected = std::min(mean, 2 * mean * mean / largest);
+    EXPECT_NEAR(set.mesh_error(static_cast<Eigen::Index>(i), 0), expected, kRoundoff * stress.norm());
+    EXPECT_NEAR(field[set.node[i]], expected, kRoundoff * stress.norm());
+    n_below += expected < mean;
+  }
+  EXPECT_GE(n_below, 4);
 }
 
 TEST_F(Recover, estimates_the_error_of_the_mesh_of_reduced_bodies_alike) {
@@ -202,9 +261,21 @@ TEST_F(Recover, tells_no_error_of_the_contact_by_modes_alone) {
 }
 
 TEST(MeshErrorField, takes_the_share_of_free_surfaces_elsewhere) {
-  const Eigen::Vector3d error = mesh_error_field(Eigen::Vector3d(1, 0, 2), Eigen::Vector3d(10, 5, 20));
+  const Eigen::Vector3d error = mesh_error_field(Eigen::Vector3d(1, 0, 2), Eigen::Vector3d(10, 5, 20), {});
   EXPECT_LT((error - Eigen::Vector3d(1, 0.5, 2)).norm(), 1e-14);
-  EXPECT_EQ(mesh_error_field(Eigen::Vector2d::Zero(), Eigen::Vector2d(3, 4)).norm(), 0);
+  EXPECT_EQ(mesh_error_field(Eigen::Vector2d::Zero(), Eigen::Vector2d(3, 4), {}).norm(), 0);
+}
+
+// p of the cells: 2 mean (mean / largest)^(1/p), at most the mean.
+TEST(PatchError, falls_with_a_power_of_the_mean_square_difference) {
+  const Eigen::Vector2d difference(3, 4), stress(100, 50);
+  const double mean = std::sqrt(12.5);
+  EXPECT_NEAR(patch_error(difference, stress, 1).error, 2 * 12.5 / 100, 1e-14);
+  EXPECT_NEAR(patch_error(difference, stress, 2).error, 2 * mean * std::sqrt(mean / 100), 1e-14);
+  EXPECT_EQ(patch_error(difference, stress, 2).largest, 100);
+  EXPECT_NEAR(patch_error(100 * difference, stress, 1).error, 100 * mean, 1e-12);
+  EXPECT_NEAR(patch_error(difference, Eigen::Vector2d::Zero(), 1).error, mean, 1e-14);
+  EXPECT_EQ(patch_error(Eigen::VectorXd(), Eigen::VectorXd(), 1).error, 0);
 }
 
 TEST_F(Recover, fields_of_contact_have_the_forces_in_the_world) {

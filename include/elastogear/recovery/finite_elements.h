@@ -18,6 +18,12 @@ struct UnreducedResponse {
   std::function<Eigen::MatrixXd(const std::vector<int>& loaded, const std::vector<int>& evaluated)> stress;
 };
 
+/// Around n nodes of the boundary.
+struct SurfacePatches {
+  std::vector<std::vector<int>> node;  ///< n, mesh numbers: each node and those that share a face with it
+  std::vector<int> order;              ///< n, degree of the displacements in the cells at each node
+};
+
 struct FiniteElements {
   /// Factorises K of a body. The source outlives the response. floating: nothing holds the body, whose loads
   /// are balanced by its inertia.
@@ -32,11 +38,16 @@ struct FiniteElements {
   std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& loaded,
                                   const std::vector<int>& nodes)>
       recovery_difference = {};
-  /// The same at all nodes for displacements u: 6 x n_nodes, Pa; zero at `loaded` nodes and where no free
-  /// surface is.
+  /// Rows of the stress operator at nodes, as the body takes its stresses: 6 n x 3 n_nodes, Pa/m.
+  std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& nodes)>
+      stress_operator = {};
+  /// The difference of both recoveries at all nodes for displacements u: 6 x n_nodes, Pa; zero at `loaded`
+  /// nodes and where no free surface is.
   std::function<Eigen::MatrixXd(const io::BodySource& source, const std::vector<int>& loaded,
                                 const Eigen::VectorXd& u)>
       stress_difference = {};
+  std::function<SurfacePatches(const io::BodySource& source, const std::vector<int>& nodes)> surface_patches =
+      {};
 };
 
 }  // namespace elastogear::recovery

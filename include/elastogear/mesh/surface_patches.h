@@ -1,0 +1,17 @@
+#pragma once
+// What lies around nodes of the boundary, for estimates of errors there (docs/theory.md, section 1.7).
+
+#include <vector>
+
+#include "elastogear/mesh/mesh.h"
+
+namespace elastogear::mesh {
+
+/// For each of the nodes, itself and the nodes that share a face of the boundary with it, ascending.
+std::vector<std::vector<int>> surface_patches(const Mesh& mesh, const std::vector<int>& nodes);
+
+/// Degree of the displacements in the cells at each of the nodes: 2 where one of them has midside nodes,
+/// else 1.
+std::vector<int> cell_orders(const Mesh& mesh, const std::vector<int>& nodes);
+
+}  // namespace elastogear::mesh
