@@ -1,13 +1,14 @@
 // Stress at the root of a pinion on meshes of growing fineness, averaged and recovered on the free surface:
 //
 //   root_stress plane   the pinion of the test gears C14 in plane strain, hexahedra and tetrahedra
-//   root_stress tooth   the same pinion in space
+//   root_stress tooth   the same pinion in space, hexahedra and tetrahedra
 //
 // The load is 1 kN along the normals of a flank, spread smoothly over a place that does not depend on the
 // mesh. Printed are the largest von Mises stress and the largest first principal stress (MPa) at all nodes of
 // the root that are not on a flank, and the largest and the root mean square error of the stress tensor
 // there, as shares of the largest von Mises stress, beside what is recovered on the finest mesh, at the nodes
-// that both have.
+// that both have; and there and on the loaded flank how many nodes estimates are held against, at how many
+// the error is below twice the estimate, and the median of estimate over error.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -157,11 +158,11 @@ Case pinion_in_space(int times) {
   return c;
 }
 
-void run_nested(const std::function<Case(int)>& make, const std::vector<int>& times, bool tetrahedral) {
+void run_nested(const std::function<Case(int)>& make, const std::vector<int>& times) {
   const Solutions reference = solve(make(times.back()));
   for (int n : times)
     for (bool cut : {false, true}) {
-      if (cut && !tetrahedral) continue;
+      if (cut && n == times.back()) continue;
       Case c = make(n);
       if (cut) c.mesh = tetrahedra(c.mesh);
       const Solutions s = solve(c);
@@ -180,8 +181,8 @@ int main(int argc, char** argv) {
   if (what != "plane" && what != "tooth")
     return std::fprintf(stderr, "usage: root_stress plane | tooth\n"), 2;
   try {
-    if (what == "plane") run_nested(plane_pinion, {1, 2, 4, 8, 16}, true);
-    if (what == "tooth") run_nested(pinion_in_space, {1, 2, 3, 6}, false);
+    if (what == "plane") run_nested(plane_pinion, {1, 2, 4, 8, 16});
+    if (what == "tooth") run_nested(pinion_in_space, {1, 2, 3, 6});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "elastogear/recovery/patch_error.h"
@@ -56,8 +55,8 @@ Patches make_patches(const RecoveredBody& body, const model::ElasticBody& elasti
 // Applies rows to the displacements of a body at the times of coordinates.
 class Rows {
  public:
-  Rows(SparseRows S, const std::string& file, const model::ElasticBody& elastic)
-      : S_(std::move(S)), file_(file), modal_(elastic.basis == model::Basis::modal) {
+  Rows(const SparseRows& S, const std::string& file, const model::ElasticBody& elastic)
+      : S_(S), file_(file), modal_(elastic.basis == model::Basis::modal) {
     if (!modal_) return;
     of_modes_.resize(S_.rows(), elastic.n_q());
     io::visit_modes(file, elastic.n_q(),
