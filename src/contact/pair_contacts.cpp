@@ -63,12 +63,13 @@ Eigen::Vector3d Pair::Data::node_height(int slave_side, const SurfaceView& slave
   return slave_geometry(slave, side[slave_side].heights, point).e;
 }
 
-// Contact of a node; its gap goes to `gaps` where minima are sought.
+// Contact of a node with a share of its stiffness; its gap goes to `gaps` where minima are sought.
 std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, const PlacedNode& slave,
-                                                     const Projection& w, std::map<int, NodeGap>& gaps) {
+                                                     const Projection& w, double share,
+                                                     std::map<int, NodeGap>& gaps) {
   const int slave_side = slave.side, node = slave.node;
-  const Law law =
-      this->law({slave_side, node, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)}, w.face);
+  Law law = this->law({slave_side, node, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)}, w.face);
+  law.c_p *= share;
   if (has_potential(settings) && master.heights.empty() && !on_extension(w))
     return potential_contact(master, w, law, settings.full_tangent);
   if (settings.points == SlavePoints::minima) {
@@ -86,6 +87,31 @@ std::optional<ContactPoint> Pair::Data::node_contact(const MasterSide& master, c
       {tracker.velocity(slave_side, node), [&](int n) { return tracker.velocity(1 - slave_side, n); },
        stuck_at(history[slave_side], node), friction_at(history[slave_side], node)},
       law);
+}
+
+// Do nodes in valleys of the master have a contact with each of the faces there? Those that stick have one
+// history, and a penalty's force jumps by as much as the normals do.
+bool Pair::Data::has_valleys() const {
+  return settings.law == ContactLaw::unilateral && settings.points == SlavePoints::nodes && !sticks();
+}
+
+// Contact of a node with a face beside that of its projection.
+std::optional<ContactPoint> Pair::Data::beside_contact(const MasterSide& master, const PlacedNode& slave,
+                                                       const FaceOfValley& face) {
+  const int node = slave.node,
+            number = node + static_cast<int>(surface(slave.side).X.cols()) * (1 + face.place);
+  Law law = this->law({slave.side, number, Eigen::Vector4i::Constant(node), Eigen::Vector4d::Unit(0)},
+                      face.projection.face);
+  law.c_p *= face.share;
+  if (law.p_given == 0 && size_of_gap(master, face.projection, slave.x, settings.offset) > reach.gap)
+    return {};
+  const OpenPoint open = open_point(master, face.projection, slave.x, settings.offset);
+  auto found = general_contact(master, open,
+                               {tracker.velocity(slave.side, node),
+                                [&](int n) { return tracker.velocity(1 - slave.side, n); }, nullptr},
+                               law);
+  if (found) found->slave_point = number;
+  return found;
 }
 
 std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int slave_side, const Minimum& m) {
@@ -166,13 +192,19 @@ void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
     const PlacedNode placed{slave_side, node, slave.at(node) + node_height(slave_side, slave, node)};
     const auto projection = project(master, slave, placed, near.faces(i));
     if (!projection || is_left_to_slave(slave_side, surface, *projection)) continue;
-    auto found = node_contact(master, placed, *projection, gaps);
-    if (!found) continue;
-    found->slave_side = found->stick.slave_side = slave_side;
-    found->slave_point = found->slave_node = found->stick.slave_node = node;
-    found->slave_nodes[0] = node;
-    if (sticks()) history[slave_side].open[node] = found->stick;
-    contacts.push_back(std::move(*found));
+    const Valley valley = has_valleys() ? valley_at(master, *projection, placed.x) : Valley{};
+    const auto add = [&](std::optional<ContactPoint> found) {
+      if (!found) return;
+      found->slave_side = found->stick.slave_side = slave_side;
+      found->slave_node = found->stick.slave_node = node;
+      found->slave_nodes[0] = node;
+      if (sticks()) history[slave_side].open[node] = found->stick;
+      contacts.push_back(std::move(*found));
+    };
+    auto found = node_contact(master, placed, *projection, valley.share, gaps);
+    if (found) found->slave_point = node;
+    add(std::move(found));
+    for (const FaceOfValley& face : valley.beside) add(beside_contact(master, placed, face));
   }
   if (settings.points == SlavePoints::minima) add_minima(master, slave_side, gaps, contacts);
 }

@@ -16,6 +16,7 @@
 #include "contact/projection/heights.h"
 #include "contact/reach.h"
 #include "contact/search/tracker.h"
+#include "contact/valley.h"
 #include "elastogear/contact/pair.h"
 
 namespace elastogear::contact {
@@ -68,7 +69,10 @@ struct Pair::Data {
   Law law(const OnSlave& at, int master_face) const;
   Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,
-                                           const Projection& w, std::map<int, NodeGap>& gaps);
+                                           const Projection& w, double share, std::map<int, NodeGap>& gaps);
+  std::optional<ContactPoint> beside_contact(const MasterSide& master, const PlacedNode& slave,
+                                             const FaceOfValley& face);
+  bool has_valleys() const;
   std::optional<ContactPoint> contact(const MasterSide& master, int slave_side, const Minimum& m);
   double stiffness(int slave_side, int point) const;
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,

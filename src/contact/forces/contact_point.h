@@ -19,11 +19,6 @@ Projection kept_projection(const MasterSide& master, const Projection& now, cons
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, const Law& law,
                                bool full_tangent);
 
-/// The gap of a slave point over the master, as the slave point alone moves.
-struct PointGap {
-  Projection projection;
-  GapBy<3> gap;
-};
 /// Gap of a slave point at x (m), as open_point gives it.
 PointGap point_gap(const MasterSide& master, const Projection& projection, const Eigen::Vector3d& x,
                    double offset);

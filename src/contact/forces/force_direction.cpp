@@ -5,13 +5,15 @@
 #include <optional>
 #include <vector>
 
-#include "contact/forces/law.h"
+#include "contact/projection/edges.h"
 #include "contact/projection/projection_kinematics.h"
 
 namespace elastogear::contact {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double kBand = 0.1;  // of natural coordinates, 2 across a face: where the face beyond has a share
 
 // A slave point over a face of the master.
 struct Foot {
@@ -21,16 +23,10 @@ struct Foot {
   const Eigen::Matrix<double, 2, 3>& xi_q;
 };
 
-// Gradient of the gap over a face that may end before its foot point; nothing without one near.
 std::optional<ForceDirection> gradient_over(const Foot& foot, int f) {
-  const Face face = face_of(foot.master.surface, f);
-  const ClosestPoint nearest = closest_point(face, foot.q);
-  if (nearest.feature == Feature::outside) return {};
-  const auto w = extended_projection(face, foot.q, {f, nearest, {}, 0});
-  if (!w) return {};
-  const FaceFunction h = height(foot.master.heights, face.sides, f, w->point.u, w->point.v);
-  const GapBy<3> over = gap(slave_kinematics(face, *w, foot.q), h, 0);
-  return ForceDirection{over.n, over.n_x};
+  const auto over = gap_over_face(foot.master, f, foot.q);
+  if (!over) return {};
+  return ForceDirection{over->gap.n, over->gap.n_x};
 }
 
 // What the face beyond a side has of the direction of forces: half at the side.
@@ -41,9 +37,8 @@ struct Share {
 
 // distance: from the side, of natural coordinates, 1 in the middle of the face; below 0 beyond the side.
 Share share_at(double distance, const Eigen::RowVector3d& distance_q) {
-  constexpr double kBand = 0.1;
-  const double t = std::min(1.0, std::abs(distance) / kBand), share = 0.5 * (1 - t) * (1 - t) * (1 + 2 * t);
-  return {distance < 0 ? 1 - share : share, -3 * t * (1 - t) / kBand * distance_q};
+  const double t = std::min(1.0, std::abs(distance) / kBand);
+  return {share_beyond(distance), -3 * t * (1 - t) / kBand * distance_q};
 }
 
 // A face beyond a side, with its share.
@@ -61,10 +56,8 @@ std::optional<FaceBeside> face_beside(const Foot& foot, int side, const Vector3d
   const auto at_side = [=](const Eigen::Vector4d& N) { return N[side] + N[next]; };
   const Eigen::RowVector2d away(-2 * at_side(shapes.N_u), -2 * at_side(shapes.N_v));
   const Share share = share_at(2 * (1 - at_side(shapes.N)), away * foot.xi_q);
-  const int edge = topology.edge(side, own);
-  if (share.s == 0 || edge < 0 || topology.edge_sides[edge].size() != 2) return {};
-  const auto both = topology.edge_sides[edge];
-  const int f = (both[0] / 4 == own ? both[1] : both[0]) / 4;
+  const int f = face_beyond(topology, own, side);
+  if (share.s == 0 || f < 0) return {};
   const auto over = gradient_over(foot, f);
   if (!over || over->n.normalized().dot(n.normalized()) < std::cos(foot.master.feature_angle)) return {};
   return FaceBeside{side, f, share, *over};
@@ -75,11 +68,7 @@ int opposite(const Foot& foot, const FaceBeside& a, const FaceBeside& b) {
   const SurfaceView& surface = foot.master.surface;
   const int own = foot.w.face, sides = side_count(surface.face, own);
   const int corner = (a.side + 1) % sides == b.side ? b.side : a.side;
-  const auto around = surface.topology.node_corners[surface.face(corner, own)];
-  if (around.size() != 4) return -1;
-  for (int entry : around)
-    if (const int f = entry / 4; f != own && f != a.face && f != b.face) return f;
-  return -1;
+  return face_opposite(surface, own, corner, {a.face, b.face});
 }
 
 ForceDirection blend(const ForceDirection& a, const ForceDirection& b, const Share& of_b) {
@@ -87,6 +76,21 @@ ForceDirection blend(const ForceDirection& a, const ForceDirection& b, const Sha
 }
 
 }  // namespace
+
+std::optional<PointGap> gap_over_face(const MasterSide& master, int f, const Vector3d& q) {
+  const Face face = face_of(master.surface, f);
+  const ClosestPoint nearest = closest_point(face, q);
+  if (nearest.feature == Feature::outside) return {};
+  const auto w = extended_projection(face, q, {f, nearest, {}, 0});
+  if (!w) return {};
+  const FaceFunction h = height(master.heights, face.sides, f, w->point.u, w->point.v);
+  return PointGap{*w, gap(slave_kinematics(face, *w, q), h, 0)};
+}
+
+double share_beyond(double distance) {
+  const double t = std::min(1.0, std::abs(distance) / kBand), share = 0.5 * (1 - t) * (1 - t) * (1 + 2 * t);
+  return distance < 0 ? 1 - share : share;
+}
 
 ForceDirection force_direction(const MasterSide& master, const Projection& w, const Vector3d& q,
                                const ForceDirection& gradient, const Eigen::Matrix<double, 2, 3>& xi_q) {

@@ -53,4 +53,19 @@ std::vector<bool> edge_nodes(const SurfaceView& surface, double feature_angle) {
   return marked;
 }
 
+int face_beyond(const Topology& topology, int face, int side) {
+  const int edge = topology.edge(side, face);
+  if (edge < 0 || topology.edge_sides[edge].size() != 2) return -1;
+  const auto both = topology.edge_sides[edge];
+  return (both[0] / 4 == face ? both[1] : both[0]) / 4;
+}
+
+int face_opposite(const SurfaceView& surface, int face, int corner, const std::array<int, 2>& beyond_sides) {
+  const auto around = surface.topology.node_corners[surface.face(corner, face)];
+  if (around.size() != 4) return -1;
+  for (int entry : around)
+    if (const int f = entry / 4; f != face && f != beyond_sides[0] && f != beyond_sides[1]) return f;
+  return -1;
+}
+
 }  // namespace elastogear::contact
