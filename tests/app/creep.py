@@ -3,8 +3,8 @@
 
     tests/app/creep.py ELASTOGEAR SCRIPTS [FIGURES]
 
-Pressed in and held, and under a force, over ten decades of time; an impact in 200 modes; a run that begins with what the block remembers
-of an hour under load. Relative moduli of shear and bulk together, apart in two series and of shear alone, two polymers, and a
+Pressed in and held, and under a force, over ten decades of time; in motion while a force grows, while it is pressed in, and while a
+steel ring rolls over a longer block; an impact in 200 modes; a run that begins with what the block remembers of an hour under load. Relative moduli of shear and bulk together, apart in two series and of shear alone, two polymers, and a
 block all of polymer; plain elements and incompatible ones.
 """
 import dataclasses
@@ -56,6 +56,28 @@ def mesh(path, n, low, high, touching):
                     file.write(f"{c + 1}, S{s + 1}\n")
 
 
+RADIUS, BORE, AROUND = 0.02, 0.014, 72  # m, m, of the ring and its cells
+
+
+def ring_mesh(path, width, across):
+    """A ring about the y axis, one cell thick; the face set TOUCH is outside, nodes FAR are inside."""
+    def node(i, outside, k):
+        return 1 + 2 * (across + 1) * (i % AROUND) + (across + 1) * outside + k
+
+    cells = [(i, k) for i in range(AROUND) for k in range(across)]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("*NODE\n")
+        for i, outside, k in np.ndindex(AROUND, 2, across + 1):
+            angle, r = 2 * np.pi * i / AROUND, RADIUS if outside else BORE
+            file.write(f"{node(i, outside, k)}, {r * np.sin(angle):.12g}, {width * k / across:.12g}, {-r * np.cos(angle):.12g}\n")
+        file.write("*ELEMENT, TYPE=C3D8, ELSET=HUB\n")
+        for c, (i, k) in enumerate(cells):
+            corners = [node(i + a, outside, k + b) for outside in (1, 0) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            file.write(f"{c + 1}, " + ", ".join(map(str, corners)) + "\n")
+        file.write("*NSET, NSET=FAR\n" + "".join(f"{node(i, 0, k)},\n" for i in range(AROUND) for k in range(across + 1)))
+        file.write("*SURFACE, NAME=TOUCH, TYPE=ELEMENT\n" + "".join(f"{c + 1}, S1\n" for c in range(len(cells))))
+
+
 def run(*arguments):
     done = subprocess.run([ELASTOGEAR, *map(str, arguments)], capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -71,21 +93,23 @@ def material(name, constants, series=None):
     return [word for pair in words for word in pair.split("=", 1)]
 
 
-def reduce(case, basis):
-    """Files of block and punch."""
+def reduce(case, basis, block="block", body="punch"):
+    """Files of block and punch, or of the longer block and the ring."""
     kind, modes, element, states = case
     hub = material("HUB", POLYMER, SERIES[HUBS[kind]]) if kind in HUBS else material("HUB", STEEL)
-    common = ["-element", element, "-restrain", "FAR", "-surface", "TOUCH", "-basis", basis]
-    names = [f"block_{kind}_{basis}_{modes}_{element}_{states}.h5", f"punch_{basis}_{modes}_{element}.h5"]
+    common = ["-element", element, "-restrain", "FAR", "-surface", "TOUCH"]
+    names = [f"{block}_{kind}_{basis}_{modes}_{element}_{states}.h5", f"{body}_{modes}_{element}.h5"]
     if basis == "full":
-        names = [f"block_{kind}_full_{element}.h5", f"punch_full_{element}.h5"]
+        names = [f"{block}_{kind}_full_{element}.h5", f"{body}_full_{element}.h5"]
+    loaded = ["-loaded", "TOUCH"] if basis in ("modal_attachment", "craig_bampton") else []
     series = SERIES[kind]
     if not os.path.exists(names[0]):
-        run("reduce", "-mesh", "block.inp", *hub, *material("RIM", POLYMER, series), "-stress_nodes", "NEAR,INSIDE", *common,
-            "-modes", modes, "-relaxed_states", states, "-output", names[0])
+        run("reduce", "-mesh", f"{block}.inp", *hub, *material("RIM", POLYMER, series), "-stress_nodes", "NEAR,INSIDE", *common,
+            "-basis", basis, *loaded, "-modes", modes, "-relaxed_states", states, "-output", names[0])
     if not os.path.exists(names[1]):
-        run("reduce", "-mesh", "punch.inp", *material("HUB", STEEL), *material("RIM", STEEL), *common, "-modes", min(modes, 50), "-output",
-            names[1])
+        rim = material("RIM", STEEL) if body == "punch" else []
+        run("reduce", "-mesh", f"{body}.inp", *material("HUB", STEEL), *rim, *common, "-basis",
+            "full" if basis == "full" else "modal_residual", "-modes", min(modes, 50), "-output", names[1])
     return names
 
 
@@ -131,6 +155,11 @@ class Case:
         return iter((self.kind, self.modes, self.element, self.states))
 
 
+def errors_of(found, sigma, keys):
+    errors = {key: off(found["modal_residual"][key], found["full"][key]) for key in keys}
+    return errors | {f"stress {where}": off(sigma["modal_residual"][where], sigma["full"][where]) for where in ("NEAR", "INSIDE")}
+
+
 def errors_at_rest(case, load):
     """Of displacement, force and stresses over ten decades of time, each over its largest value."""
     found, sigma = {}, {}
@@ -142,8 +171,7 @@ def errors_at_rest(case, load):
     assert found["full"]["time"][0] == 0 and found["full"]["time"][-1] == 1e6
     change = found["full"]["force" if load == "held" else "s"]
     assert not 0.8 < change[-1] / change[0] < 1.2, change
-    errors = {key: off(found["modal_residual"][key], found["full"][key]) for key in ("s", "force")}
-    return errors | {f"stress {where}": off(sigma["modal_residual"][where], sigma["full"][where]) for where in ("NEAR", "INSIDE")}
+    return errors_of(found, sigma, ("s", "force"))
 
 
 def compare_rest(case, bound):
@@ -151,6 +179,56 @@ def compare_rest(case, bound):
     for load in LOADS:
         for what, error in errors_at_rest(case, load).items():
             check(f"{case.kind}, {case.modes} modes, {case.element}, {load}: {what}", error, bound)
+
+
+def errors_on_ramp(case, load, rise):
+    """While a force grows a hundredfold within `rise` (s), and twice as long after; or while the punch is pressed in, faster and faster."""
+    with open("ramp.csv", "w", encoding="utf-8") as file:
+        file.write(f"time,force\n0,20\n{rise},2000\n{3 * rise},2000\n")
+    found, sigma = {}, {}
+    for basis in ("full", "modal_residual"):
+        names, how = reduce(case, basis), ["-punch_translation_motion", f"spin_up,{8e-6 / rise},{rise}", "-ts_max_time", rise]
+        if load == "under a force":
+            simulate(names, "before.h5", "-punch_force", 20, "-analysis", "static", "-static_steps", 2, "-time_under_load", 1e-9,
+                     "-contact_stiffness", 1e14)
+            how = ["-punch_force", "table,ramp.csv", "-initial_file", "before.h5", "-ts_max_time", 3 * rise]
+        found[basis] = simulate(names, "ramp.h5", *how, "-ts_dt", rise / 100, "-output_dt", rise / 100, "-ts_alpha_radius", 0,
+                                "-contact_stiffness", 1e14)
+        sigma[basis] = stresses("ramp.h5", "stress.h5")
+    assert found["full"]["force"][-1] > 10 * found["full"]["force"][2], found["full"]["force"]
+    return errors_of(found, sigma, ("s", "force"))
+
+
+def roll(files, output, duration):
+    """The block passes below the ring, which turns with it, and rises by 0.1 mm."""
+    way, rise = 0.016, 1e-4
+    run("simulate", "-bodies", "block,ring", "-block_file", files[0], "-ring_file", files[1], "-block_joint", "prismatic", "-block_axis",
+        f"{-way},0,{rise}", "-block_translation_motion", f"speed,{np.hypot(way, rise) / duration}", "-ring_joint", "revolute", "-ring_axis",
+        "0,1,0", "-ring_position", f"0.008,0,{RADIUS + 5e-6}", "-ring_rotation_motion", f"speed,{way / RADIUS / duration}", "-contact_pairs",
+        "block:ring", "-contact_two_pass", "true", "-contact_depth", "1e-3", "-contact_stiffness", "1e13", "-ts_dt", duration / 200,
+        "-output_dt", duration / 200, "-ts_max_time", duration, "-ts_alpha_radius", 0, "-output", output)
+    with results.open_file(output, "result") as file:
+        return {"force": file["contact/block:ring/force"][:], "relaxation": file["energy/relaxation"][-1]}
+
+
+def errors_of_rolling(case, duration):
+    """Of the contact force, a vector, and of stresses, over 16 mm within `duration` (s)."""
+    found, sigma = {}, {}
+    for basis in ("full", "modal_residual"):
+        found[basis] = roll(reduce(case, basis, "long", "ring"), "rolling.h5", duration)
+        sigma[basis] = stresses("rolling.h5", "stress.h5")
+    assert found["full"]["relaxation"] > 0
+    return errors_of(found, sigma, ("force",))
+
+
+def compare_motion(case, bound):
+    """Ramps over eight decades, and rolling."""
+    for load in LOADS:
+        for rise in (1e-4, 1e4):
+            for what, error in errors_on_ramp(case, load, rise).items():
+                check(f"{case.kind}, {case.modes} modes, ramp {load} within {rise:g} s: {what}", error, bound)
+    for what, error in errors_of_rolling(case, 1).items():
+        check(f"{case.kind}, {case.modes} modes, rolling for 1 s: {what}", error, bound)
 
 
 def compare_memory(case, bound):
@@ -170,23 +248,27 @@ def compare_memory(case, bound):
     assert 0.3 * reduced[0] < reduced[-1] < 0.9 * reduced[0]
 
 
-def compare_impact(case, bound):
+def errors_of_impact(case, basis="modal_residual"):
     """The punch hits the block at 0.5 m/s: until it has left."""
     found, sigma = {}, {}
-    for basis in ("full", "modal_residual"):
-        found[basis] = simulate(reduce(case, basis), "impact.h5", "-punch_velocity0", 0.5, "-ts_dt", 1e-6, "-ts_max_time", 4e-4,
-                                "-ts_alpha_radius", 0.5, "-contact_stiffness", 1e13)
-        sigma[basis] = stresses("impact.h5", "stress.h5")
+    for name, of in (("full", "full"), ("modal_residual", basis)):
+        found[name] = simulate(reduce(case, of), "impact.h5", "-punch_velocity0", 0.5, "-ts_dt", 1e-6, "-ts_max_time", 4e-4,
+                               "-ts_alpha_radius", 0.5, "-contact_stiffness", 1e13)
+        sigma[name] = stresses("impact.h5", "stress.h5")
     assert found["full"]["force"][-1] == 0, found["full"]["force"]
-    for key in ("s", "force"):
-        check(f"{case.kind}, {case.modes} modes, impact: {key}", off(found["modal_residual"][key], found["full"][key]), bound)
-    for where in ("NEAR", "INSIDE"):
-        check(f"{case.kind}, {case.modes} modes, impact: stress {where}", off(sigma["modal_residual"][where], sigma["full"][where]), bound)
+    return errors_of(found, sigma, ("s", "force"))
+
+
+def compare_impact(case, bound):
+    for what, error in errors_of_impact(case).items():
+        check(f"{case.kind}, {case.modes} modes, impact: {what}", error, bound)
 
 
 def meshes():
     mesh("block.inp", (4, 4, 4), (0, 0, -0.01), (0.02, 0.02, 0), 0)
     mesh("punch.inp", (2, 2, 2), (0.004, 0.006, 0), (0.014, 0.016, 0.01), 0)
+    mesh("long.inp", (16, 3, 4), (0, 0, -0.01), (0.032, 0.009, 0), 0)
+    ring_mesh("ring.inp", 0.009, 2)
 
 
 def main():
@@ -197,6 +279,7 @@ def main():
         for kind in ("both", "shear", "apart", "two"):
             for element in ("plain", "incompatible"):
                 compare_rest(Case(kind, element=element), 1e-2)
+        compare_motion(Case("shear", 100), 1e-2)
         compare_memory(Case("both"), 1e-2)
         compare_impact(Case("both", 200), 1e-2)
 
