@@ -20,9 +20,6 @@ struct Valley {
   std::vector<FaceOfValley> beside = {};
 };
 
-/// Number of places that FaceOfValley has.
-inline constexpr int kPlacesOfValley = 8;
-
 /// The faces that hold a slave point at x (m) beside that of its projection: those that make a concave kink
 /// with it at a side within a twentieth of its length, half of the stiffness each at the side. All shares add
 /// up to 1.

@@ -22,6 +22,7 @@ struct StepControl {
   Eigen::VectorXd per_length = {};  // changes of the coordinates that move a body's surface by up to 1 m
   double size = 0;                  // m, largest distance from the centre of a joint
   double displacement = 0;          // m, largest elastic one so far
+  double longest_step = 0;          // s, that PETSc's options allow (-ts_adapt_dt_max)
   std::vector<Eigen::Matrix3Xd> corners =
       {};  // m, of boxes around the surfaces of the bodies, in their frames
 };
@@ -80,8 +81,6 @@ void observe_since_last_step(Run& run, TS ts);
 void enter_step(Run& run, TS ts, int step, double time);
 void report_step(const Run& run, TS ts, int step);
 
-/// Are steps chosen by their error?
-bool are_steps_chosen(const TimeSettings& settings);
 /// Control of the steps, where they are chosen.
 void control_steps(Run& run, TS ts);
 /// The first step, s, where there is no dt.

@@ -15,8 +15,8 @@ constexpr double kFirstTouch = 0.1;  // share of the contact depth that bodies m
 constexpr double kShortestStep = 1e-3;  // of the first one, down to which touch is looked for
 constexpr double kFirstStep = 0.1;      // of what advice asks for
 constexpr double kFirstShare = 1e-3;    // of the run, that the first step takes at most
-// Of the size of the bodies: elastic displacements that are taken for the largest so far as long as they are
-// smaller, and in place of them where no body is elastic.
+// Displacements over the size of the bodies: one that stands for the largest elastic displacement so far
+// until that is larger, and one that stands for it where no body is elastic.
 constexpr double kSmallDisplacement = 1e-5, kRigidDisplacement = 1e-3;
 
 // Largest distance from the joint's centre.
@@ -45,6 +45,10 @@ Eigen::VectorXd amplitudes(const model::ElasticBody& body) {
 bool is_angle(body::JointType type, Eigen::Index i) {
   if (type == body::JointType::free) return i >= 3;
   return type == body::JointType::spherical || (body::has_rotation_axis(type) && i == 0);
+}
+
+bool are_steps_chosen(const TimeSettings& settings) {
+  return !settings.relax && (settings.dt == 0 || settings.step_tolerance > 0);
 }
 
 // Largest elastic displacement by one coordinate or by contact forces that have static responses, m.
@@ -134,10 +138,6 @@ Eigen::VectorXd coordinates_per_length(const System& system) {
 
 }  // namespace
 
-bool are_steps_chosen(const TimeSettings& settings) {
-  return !settings.relax && (settings.dt == 0 || settings.step_tolerance > 0);
-}
-
 double first_step(const Run& run) {
   return std::min(kFirstStep * advise(run.problem.system).step(), kFirstShare * run.settings.end_time);
 }
@@ -161,21 +161,24 @@ void follow_displacement(Run& run) {
 }
 
 void limit_steps(Run& run, TS ts) {
-  if (run.control.per_length.size() == 0) return;
-  const UniqueVec scale = vector(run.control.per_length);
-  run.summary.step_tolerance = tolerance(run);
-  generalized_alpha_set_tolerances(ts, scale, run.summary.step_tolerance, run.settings.velocity_tolerance);
+  StepControl& control = run.control;
+  if (control.per_length.size() == 0) return;
+  const double length = tolerance(run);
+  if (length != run.summary.step_tolerance)
+    generalized_alpha_set_tolerances(ts, vector(control.per_length), length, run.settings.velocity_tolerance);
+  run.summary.step_tolerance = length;
   Vec U = nullptr, V = nullptr;
-  PetscReal time = 0, dt = 0, shortest = 0;
+  PetscReal time = 0, dt = 0, shortest = 0, longest = 0;
   TSAdapt adapt = nullptr;
   check(TSGetTime(ts, &time));
   check(TSGetTimeStep(ts, &dt));
   check(TS2GetSolution(ts, &U, &V));
   check(TSGetAdapt(ts, &adapt));
+  check(TSAdaptGetStepLimits(adapt, &shortest, &longest));
+  if (control.longest_step == 0) control.longest_step = longest;
   const ReadView u(U), v(V);
-  const double longest = longest_step(run, {time, *u, *v, *v});
-  check(TSAdaptGetStepLimits(adapt, &shortest, nullptr));
-  if (std::isfinite(longest)) check(TSAdaptSetStepLimits(adapt, std::min(shortest, longest), longest));
+  longest = std::min(control.longest_step, longest_step(run, {time, *u, *v, *v}));
+  check(TSAdaptSetStepLimits(adapt, std::min(shortest, longest), longest));
   if (dt > longest) check(TSSetTimeStep(ts, longest));
 }
 
