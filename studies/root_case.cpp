@@ -237,7 +237,7 @@ void print(const std::string& kind, const mesh::Mesh& mesh, const Solution& s) {
 
 namespace {
 
-// Of positive numbers: how many, how many of them are above one half, in percent, and the median.
+// Prints of a list of positive numbers its length, the share above one half in percent, and the median.
 void print_ratios(std::vector<double> ratio) {
   if (ratio.empty()) return;
   std::sort(ratio.begin(), ratio.end());

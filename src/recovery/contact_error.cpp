@@ -37,7 +37,7 @@ std::vector<std::vector<int>> sides_at_nodes(const std::vector<std::vector<int>>
   return at;
 }
 
-// Which nodes of the surface have static responses in the body file; 0 or 1.
+// A mark for each node of the surface: 1 where the body file has its static response, else 0.
 std::vector<char> loadable(const model::ElasticBody& body) {
   std::vector<char> may_bear(body.surface.node.size(), 0);
   for (int node : body.flexibility.node) may_bear[static_cast<std::size_t>(node)] = 1;

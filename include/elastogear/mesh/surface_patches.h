@@ -1,5 +1,6 @@
 #pragma once
-// What lies around nodes of the boundary, for estimates of errors there (docs/theory.md, section 1.7).
+// Nodes that share a face of the boundary with given ones, and the order of the cells there, for estimates of
+// the error of stresses on free surfaces (docs/theory.md, section 1.7).
 
 #include <vector>
 

@@ -14,7 +14,7 @@ using reduction::ReductionOptions, reduction::RitzOptions;
 
 constexpr const char* kAutomatic = "auto";
 
-// What contact forces do to a body, by which its modes are chosen.
+// How fast contact forces change, by which the modes of a body are chosen.
 struct LoadSpectrum {
   std::optional<double> rise_time, frequency;  // s, Hz
   double mode_error = 0.01;                    // -
