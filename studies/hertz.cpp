@@ -23,7 +23,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/static.h"
-#include "elastogear/evaluation/hertz.h"
+#include "elastogear/model/hertz.h"
 #include "elastogear/gear/design.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/recovery/stress.h"
@@ -83,7 +83,7 @@ Matrix3d curvature(const Flank& flank) {
 
 // ---- Hertz
 
-struct Hertz : evaluation::HertzEllipse {
+struct Hertz : model::HertzEllipse {
   Vector3d along, across;  // of the major and the minor axis
 };
 
@@ -91,7 +91,7 @@ struct Hertz : evaluation::HertzEllipse {
 Hertz hertz(const Matrix3d& Q, const Vector3d& n) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(Q);
   const Vector3d along = axes.eigenvectors().col(1);
-  return {evaluation::hertz_ellipse(axes.eigenvalues()[1] / 2, axes.eigenvalues()[2] / 2,
+  return {model::hertz_ellipse(axes.eigenvalues()[1] / 2, axes.eigenvalues()[2] / 2,
                                     kE / (1 - kNu * kNu) / 2),
           along, n.cross(along)};
 }

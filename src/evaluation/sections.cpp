@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "elastogear/evaluation/hertz.h"
-#include "evaluation/line_load.h"
-#include "evaluation/pattern.h"
+#include "evaluation/load/hertz.h"
+#include "evaluation/load/line_load.h"
+#include "evaluation/load/pattern.h"
 #include "evaluation/root_stress.h"
 #include "evaluation/signal.h"
 

@@ -10,17 +10,6 @@
 
 namespace elastogear::recovery {
 
-/// How the force on a node of the contact surface is spread over n nodes around it. Eq. (4.13).
-struct Spread {
-  std::vector<int> node;   ///< n, local numbers of surface nodes
-  Eigen::VectorXd weight;  ///< n, sums to 1, with its centre at the node
-};
-
-/// sides: of the surface, lists of local nodes; those at `node` count. Nodes for which `may_bear` is 0 are
-/// left out.
-Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
-              const std::vector<char>& may_bear);
-
 /// n x n_t, Pa, at mesh nodes: von Mises stress of Eq. (4.14). Empty unless the body file holds the static
 /// responses to all forces.
 Eigen::MatrixXd contact_error(const StaticResponseOfRun& known_response, const std::vector<int>& nodes);

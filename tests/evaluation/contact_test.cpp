@@ -4,7 +4,7 @@
 
 #include "../message_of.h"
 #include "elastogear/gear/modification.h"
-#include "evaluation/pattern.h"
+#include "evaluation/load/pattern.h"
 #include "rigid_drives.h"
 
 namespace elastogear::evaluation::contact_test {

@@ -1,4 +1,4 @@
-#include "elastogear/evaluation/hertz.h"
+#include "evaluation/load/hertz.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,12 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
+#include "elastogear/model/hertz.h"
 #include "rigid_drives.h"
 
 namespace elastogear::evaluation::hertz_test {
+using namespace model;
+
 namespace {
 
 using std::numbers::pi;

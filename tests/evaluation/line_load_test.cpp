@@ -1,4 +1,4 @@
-#include "evaluation/line_load.h"
+#include "evaluation/load/line_load.h"
 
 #include <gtest/gtest.h>
 

@@ -13,6 +13,7 @@
 #include "../fem/brick.h"
 #include "../mesh/box_mesh.h"
 #include "elastogear/base/error.h"
+#include "elastogear/contact/load_spread.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/mesh/surface_patches.h"
 #include "elastogear/model/fingerprint.h"
@@ -239,8 +240,8 @@ TEST_F(Recover, estimates_the_error_of_the_contact_by_spread_forces) {
     std::vector<std::vector<int>> faces;
     for (const auto face : surface.face.colwise())
       if ((face.array() == at.node[i]).any()) faces.emplace_back(face.begin(), face.end());
-    const Spread to = spread(surface.X, faces, at.node[i],
-                             std::vector<char>(static_cast<std::size_t>(surface.X.cols()), 1));
+    const contact::Spread to = contact::spread(
+        surface.X, faces, at.node[i], std::vector<char>(static_cast<std::size_t>(surface.X.cols()), 1));
     const Eigen::Vector3d f = at.f_B.col(static_cast<Eigen::Index>(i));
     change(Eigen::all, to.node) += f * to.weight.transpose();
     change.col(at.node[i]) -= f;

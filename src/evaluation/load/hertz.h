@@ -10,24 +10,6 @@
 
 namespace elastogear::evaluation {
 
-/// Line contact of a load per length w (N/m) where the gap is kappa x^2 / 2 (1/m): Eq. (10.12).
-struct HertzLine {
-  double pressure = 0;    ///< Pa, largest
-  double half_width = 0;  ///< m
-};
-HertzLine hertz_line(double w, double kappa, double E_star);
-
-/// Point contact where the gap is A x^2 + B y^2, 0 < A <= B: Eq. (6.23).
-struct HertzEllipse {
-  double A, E_star;  // 1/m, Pa
-  double k, K, E;    // b / a and the complete elliptic integrals
-
-  double a(double F) const;         ///< m, half the major axis under the force F (N)
-  double pressure(double F) const;  ///< Pa, largest
-  double approach(double F) const;  ///< m, of distant points
-};
-HertzEllipse hertz_ellipse(double A, double B, double E_star);
-
 /// 1/m, the relative curvature Q of two flanks that touch, in the world: the gap is x'Q x / 2.
 Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const FlankContact& contact,
                                    std::size_t step);

@@ -1,4 +1,4 @@
-#include "evaluation/pattern.h"
+#include "evaluation/load/pattern.h"
 
 #include <algorithm>
 #include <cmath>

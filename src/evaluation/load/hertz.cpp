@@ -1,19 +1,18 @@
-#include "elastogear/evaluation/hertz.h"
+#include "evaluation/load/hertz.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <vector>
 
-#include "evaluation/line_load.h"
+#include "elastogear/model/hertz.h"
+#include "evaluation/load/line_load.h"
 
 namespace elastogear::evaluation {
-namespace {
+using model::HertzEllipse, model::HertzLine;
 
-using std::numbers::pi;
+namespace {
 
 constexpr double kLeastAxes = 0.02;  // b / a, below which flanks touch along a line
 
@@ -27,20 +26,6 @@ Pairs pairs_of(const std::vector<FlankContact>& contacts) {
   return pairs;
 }
 
-// Principal relative curvatures in the tangent plane, 1/m, and the direction of the smaller one.
-struct Curvatures {
-  double least, largest;
-  Eigen::Vector3d along;
-};
-
-Curvatures curvatures(const Eigen::Matrix3d& Q, const Eigen::Vector3d& n) {
-  const Eigen::Vector3d u = n.unitOrthogonal(), v = n.cross(u);
-  Eigen::Matrix<double, 3, 2> T;
-  T << u, v;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(T.transpose() * Q * T);
-  return {axes.eigenvalues()[0], axes.eigenvalues()[1], T * axes.eigenvectors().col(0)};
-}
-
 // Line contact of one pair of teeth on parallel axes, at the station of the face with the largest pressure.
 HertzLine line_contact(const std::array<const Gear*, 2>& gear,
                        const std::vector<const FlankContact*>& contacts, const Eigen::VectorXd& stations,
@@ -49,7 +34,7 @@ HertzLine line_contact(const std::array<const Gear*, 2>& gear,
   Eigen::VectorXd z(n), force(n), per_length(n), curved(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const FlankContact& c = *contacts[static_cast<std::size_t>(i)];
-    const Curvatures at = curvatures(relative_curvature(gear, c, step), c.n);
+    const model::Curvatures at = model::principal_curvatures(relative_curvature(gear, c, step), c.n);
     z[i] = c.x_B[1][2];
     force[i] = c.normal_force;
     per_length[i] = c.normal_force * std::abs(at.along.dot(gear[1]->axis(step)));
@@ -60,7 +45,7 @@ HertzLine line_contact(const std::array<const Gear*, 2>& gear,
   HertzLine largest;
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     if (!(load[i] > 0)) continue;
-    const HertzLine here = hertz_line(w[i], kappa[i] / load[i], E_star);
+    const HertzLine here = model::hertz_line(w[i], kappa[i] / load[i], E_star);
     if (here.pressure > largest.pressure) largest = here;
   }
   return largest;
@@ -97,9 +82,9 @@ std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
     n += c->normal_force * c->n;
     F += c->normal_force;
   }
-  const Curvatures at = curvatures(Q / F, n.normalized());
+  const model::Curvatures at = model::principal_curvatures(Q / F, n.normalized());
   if (!(at.least > 0)) return {};
-  const HertzEllipse ellipse = hertz_ellipse(at.least / 2, at.largest / 2, E_star);
+  const HertzEllipse ellipse = model::hertz_ellipse(at.least / 2, at.largest / 2, E_star);
   if (ellipse.k < kLeastAxes || ellipse.a(F) > std::min(gear[0]->width, gear[1]->width) / 2) return {};
   const HertzLine found{ellipse.pressure(F), ellipse.k * ellipse.a(F)};
   if (!std::isfinite(found.pressure) || crosses_end(gear, contacts, found.half_width)) return {};
@@ -107,32 +92,6 @@ std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
 }
 
 }  // namespace
-
-HertzLine hertz_line(double w, double kappa, double E_star) {
-  const double b = std::sqrt(4 * w / (pi * E_star * kappa));
-  return {2 * w / (pi * b), b};
-}
-
-double HertzEllipse::a(double F) const {
-  return std::cbrt(3 * F * (K - E) / (2 * pi * E_star * (1 - k * k) * A));
-}
-
-double HertzEllipse::pressure(double F) const { return 3 * F / (2 * pi * k * a(F) * a(F)); }
-
-double HertzEllipse::approach(double F) const { return pressure(F) * k * a(F) * K / E_star; }
-
-HertzEllipse hertz_ellipse(double A, double B, double E_star) {
-  HertzEllipse h{A, E_star, 0, 0, 0};
-  double low = 1e-3, high = 1 - 1e-6;
-  while (high - low > 1e-12) {
-    h.k = (low + high) / 2;
-    const double e = std::sqrt(1 - h.k * h.k);
-    h.K = std::comp_ellint_1(e);
-    h.E = std::comp_ellint_2(e);
-    ((h.E / (h.k * h.k) - h.K) / (h.K - h.E) > B / A ? low : high) = h.k;
-  }
-  return h;
-}
 
 Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const FlankContact& c,
                                    std::size_t step) {

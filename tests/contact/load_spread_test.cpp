@@ -1,6 +1,6 @@
 // How the force on a node of the contact surface is spread over the nodes around it.
 
-#include "recovery/contact_error.h"
+#include "elastogear/contact/load_spread.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace elastogear::recovery::contact_error_test {
+namespace elastogear::contact::load_spread_test {
 namespace {
 
 constexpr double kRoundoff = 1e-12;
@@ -53,4 +53,4 @@ TEST(Spread, keeps_force_and_place_where_nodes_lie_to_one_side) {
 }
 
 }  // namespace
-}  // namespace elastogear::recovery::contact_error_test
+}  // namespace elastogear::contact::load_spread_test
