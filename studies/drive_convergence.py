@@ -6,7 +6,8 @@
 
 drive: examples/drives/steering_worm.yaml, 10 modes a body and residual flexibility, at rest under its torque at 32 roll angles:
 mesh stiffness, operating contact ratio, largest pressure by H. Hertz, largest tension at the roots (mean over the roll angle), and
-CPU time of the reduction. frequencies: the first 20 of worm or wheel, held as in examples/worm_gear, beside those of the last mesh.
+CPU time of the reduction; with --approach hertz, by the bodies of an earlier run, with the flanks' local approach by H. Hertz.
+frequencies: the first 20 of worm or wheel, held as in examples/worm_gear, beside those of the last mesh.
 What is there already is read again.
 """
 import argparse
@@ -44,8 +45,15 @@ def drive(options):
     print("| mesh | nodes | reduction, s | stiffness, N/um | contact ratio | Hertz, MPa | tension at roots of worm, wheel, MPa |")
     for mesh in options.meshes:
         folder = os.path.join(options.out, "drive_" + mesh.replace(":", "_"))
-        os.makedirs(folder, exist_ok=True)
         arguments = [os.path.abspath(os.path.join(EXAMPLES, "drives", "steering_worm.yaml")), *size_and_order(mesh), "-modes", "10"]
+        if options.approach != "mesh":
+            reduced, folder = os.path.abspath(folder), folder + "_" + options.approach
+            arguments += ["-contact_approach", options.approach]
+            for body in ("worm.h5", "wheel.h5"):
+                os.makedirs(folder, exist_ok=True)
+                if not os.path.exists(os.path.join(folder, body)):
+                    os.symlink(os.path.join(reduced, body), os.path.join(folder, body))
+        os.makedirs(folder, exist_ok=True)
         seconds = np.nan
         if not os.path.exists(os.path.join(folder, "wheel.h5")):
             seconds = run(options, folder, "reduce", *arguments)
@@ -84,6 +92,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--elastogear", required=True)
     parser.add_argument("--out", required=True)
+    parser.add_argument("--approach", choices=("mesh", "hertz"), default="mesh", help="of flanks, by the bodies of an earlier run")
     parser.add_argument("what", choices=("drive", "frequencies"))
     parser.add_argument("meshes", nargs="+", help="SIZE[:ORDER]; of frequencies, the body before them")
     options = parser.parse_args()

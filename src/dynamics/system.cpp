@@ -176,6 +176,7 @@ double System::unclosed() const { return contact_->unclosed(); }
 void System::augment() { contact_->augment(); }
 void System::stiffen(double factor) { contact_->stiffen(factor); }
 void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_forces(pairs); }
+double System::find_approach(double share) { return contact_->find_approach(share); }
 bool System::change_closed() { return contact_->change_closed(); }
 bool System::had_impulse() const { return contact_->had_impulse(); }
 bool System::had_impulse_before() const { return contact_->had_impulse_before(); }

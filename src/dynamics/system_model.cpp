@@ -133,10 +133,10 @@ void add_body(const BodySetup& setup, SystemModel& model) {
   const auto [s, s_dot] = initial_motion(setup, body::coordinate_count(setup.joint.type));
   const std::vector<Eigen::Index> open = open_coordinates(axis, s.size());
   const model::Surface& surface = setup.body->surface;
-  model.bodies.push_back({setup.name,
-                          body::make_equations(setup.body, setup.joint, model.environment.inertia),
-                          model.U_0.size(), axis, open, false, node_groups(surface),
-                          contact::node_areas(surface.X, surface.face), setup.true_surface, setup.relaxed0});
+  model.bodies.push_back(
+      {setup.name, body::make_equations(setup.body, setup.joint, model.environment.inertia), model.U_0.size(),
+       axis, open, false, node_groups(surface), contact::node_areas(surface.X, surface.face),
+       setup.true_surface, setup.relaxed0, setup.surface_compliance});
   require_inertia(model.bodies.back());
   const Eigen::Index n_q = setup.body->n_q();
   append(model.U_0, s(open));

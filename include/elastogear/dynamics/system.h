@@ -77,6 +77,10 @@ class System {
   void stiffen(double factor);
   /// Gives the contacts these forces back.
   void set_forces(const std::vector<PairContacts>& pairs);
+  /// Goes a share of the way to the local approach of flanks (docs/theory.md, section 6.17) by the contacts
+  /// evaluated last. Returns its largest difference over the least depth of the pairs; 0 where no pair has
+  /// one.
+  double find_approach(double share);
   /// Do materials relax with time, see Environment::moduli?
   bool relaxes_in_time() const;
   /// z of a viscoelastic body at the state, n_q x n_z; of elastic bodies without columns.

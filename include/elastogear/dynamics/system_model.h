@@ -28,6 +28,7 @@ struct BodySetup {
   Eigen::VectorXd q_dot0 = {};                          ///< n_q, initial elastic velocity; empty: zero
   model::RelaxedState relaxed0 = {};  ///< deformation, and what is remembered of loads; empty: none
   std::shared_ptr<const contact::TrueSurface> true_surface = nullptr;  ///< null: nothing is known of it
+  double surface_compliance = 0;  ///< 1/Pa, (1 - nu^2) / E of the material at the surface; 0: unknown
 };
 
 struct PairSetup {
@@ -59,6 +60,7 @@ struct SystemModel {
     Eigen::VectorXd node_area;       ///< m^2, share of the surface of each of its nodes
     std::shared_ptr<const contact::TrueSurface> true_surface;  ///< may be null
     model::RelaxedState relaxed;                               ///< at the start
+    double surface_compliance;                                 ///< 1/Pa, as in BodySetup
 
     Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
   };

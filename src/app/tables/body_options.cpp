@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/console/console.h"
+#include "app/evaluate/flank_material.h"
 #include "app/gear/true_surface.h"
 #include "app/options/rows.h"
 #include "app/tables/initial_state.h"
@@ -167,6 +168,11 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name, 
     own.true_surface_input = input;
   }
   setup.true_surface = own.true_surface;
+  if (options.text("contact_approach") == "hertz" && options.given(name + "_file")) {
+    if (!own.surface_compliance)
+      own.surface_compliance = surface_compliance(options.text(name + "_file"), setup.body->surface);
+    setup.surface_compliance = *own.surface_compliance;
+  }
   check_free_body(setup);
   return setup;
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/options/options.h"
@@ -18,7 +19,8 @@ struct KnownBody {
   std::shared_ptr<const model::ElasticBody> body = nullptr;
   std::string identity = {};  ///< empty: there is no file
   std::shared_ptr<const contact::TrueSurface> true_surface = nullptr;
-  std::string true_surface_input = {};  ///< that it was made of
+  std::string true_surface_input = {};            ///< that it was made of
+  std::optional<double> surface_compliance = {};  ///< 1/Pa, as in BodySetup; empty: not asked for
 };
 using KnownBodies = std::map<std::string, KnownBody>;
 

@@ -79,10 +79,15 @@ double tolerance(const ContactState& state) {
 
 }  // namespace
 
-ResidualContact::ResidualContact(const std::vector<const model::ElasticBody*>& bodies)
-    : flexibility_(bodies.size()), left_(bodies.size()), change_(bodies.size(), 0) {
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (!bodies[b]->flexibility.empty()) flexibility_[b].emplace(*bodies[b]);
+ResidualContact::ResidualContact(const SystemModel& model)
+    : flexibility_(model.bodies.size()),
+      approach_(model),
+      tangent_(model.bodies.size()),
+      left_(model.bodies.size()),
+      change_(model.bodies.size(), 0) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (const model::ElasticBody& body = *model.bodies[b].eq.body; !body.flexibility.empty())
+      flexibility_[b].emplace(body);
 }
 
 bool ResidualContact::any() const {
@@ -92,13 +97,22 @@ bool ResidualContact::any() const {
 contact::ResidualDisplacement ResidualContact::residual(std::size_t b) {
   if (!has_flexibility(b)) return {};
   ResidualFlexibility& R = *flexibility_[b];
-  return {[&R](int node) { return R.displacement(node); }, R.bound(R.forces()) + R.lag_bound(), change_[b]};
+  return {[this, b](int node) { return displacement(b, node); },
+          R.bound(R.forces()) + R.lag_bound() + approach_.largest(b), change_[b]};
 }
 
 void ResidualContact::seen() { std::fill(change_.begin(), change_.end(), 0); }
 
 MatrixXd ResidualContact::among(std::size_t b, const std::vector<int>& node) {
-  return has_flexibility(b) ? flexibility_[b]->among(node) : MatrixXd();
+  return has_flexibility(b) ? tangent(b, node) : MatrixXd();
+}
+
+const MatrixXd& ResidualContact::tangent(std::size_t b, const std::vector<int>& node) {
+  const MatrixXd& R = flexibility_[b]->among(node);
+  if (!approach_.acts_on(b)) return R;
+  tangent_[b] = R;
+  approach_.add_tangent(b, node, tangent_[b]);
+  return tangent_[b];
 }
 
 ResidualContact::ForceResidual ResidualContact::force_residual(const std::vector<NodalForces>& found) const {
@@ -115,14 +129,16 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
   ResidualFlexibility& R = *flexibility_[b];
   change_[b] += R.bound(difference(forces, R.forces()));
   R.set_forces(forces);
+  change_[b] += approach_.set_forces(b, forces);
 }
 
 // R f - w of the forces found and the static response in place, beside what is left of former forces.
 VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& found, const MatrixXd& R) {
   VectorXd missing = R * found.f_B.reshaped();
   for (std::size_t i = 0; i < found.node.size(); ++i)
-    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) +=
-        flexibility_[b]->lag(found.node[i]) - displacement(b, found.node[i]);
+    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) += flexibility_[b]->lag(found.node[i]) +
+                                                            approach_.lag(b, found.node[i]) -
+                                                            displacement(b, found.node[i]);
   return missing;
 }
 
@@ -134,7 +150,7 @@ VectorXd ResidualContact::newton_step(const ContactState& state) {
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = found[b].node;
-    const MatrixXd& R = flexibility_[b]->among(node);
+    const MatrixXd& R = tangent(b, node);
     newton.add({b, state.surface[b].R_WB, node, R}, missing_response(b, found[b], R));
   }
   const VectorXd lambda = newton.solve();
@@ -207,11 +223,13 @@ void ResidualContact::solve(ContactState& state, const std::function<void()>& de
 }
 
 std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState& state, double share) {
+  approach_.find_new(state, flexibility_);
+  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
   UnilateralForces unilateral(state.pair);
   for (std::size_t b = 0; b < state.force.size(); ++b) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = state.force[b].node;
-    const MatrixXd& R = flexibility_[b]->among(node);
+    const MatrixXd& R = tangent(b, node);
     unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R));
   }
   if (!unilateral.solve()) return {};
@@ -287,7 +305,16 @@ void ResidualContact::accept(double time) {
     if (flexibility) flexibility->accept();
 }
 
-double ResidualContact::energy(std::size_t b) { return has_flexibility(b) ? flexibility_[b]->energy() : 0; }
+double ResidualContact::find_approach(const ContactState& state, double share) {
+  if (!approach_.any()) return 0;
+  const double difference = approach_.find(state, flexibility_, share);
+  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
+  return difference;
+}
+
+double ResidualContact::energy(std::size_t b) {
+  return has_flexibility(b) ? flexibility_[b]->energy() + approach_.energy(b) : 0;
+}
 double ResidualContact::loss(std::size_t b) const { return has_flexibility(b) ? flexibility_[b]->loss() : 0; }
 
 double ResidualContact::work(const std::vector<NodalForces>& then, const std::vector<NodalForces>& now) {
@@ -319,6 +346,7 @@ void ResidualContact::serialize(Archive& archive) {
     if (!has_flexibility(b)) continue;
     flexibility_[b]->serialize(archive);
   }
+  approach_.serialize(archive);
   for (Accepted* accepted : {&last_, &before_}) {
     archive(accepted->time);
     archive.each(accepted->forces, visit);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/approach/local_approach.h"
 #include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/archive.h"
 
@@ -14,8 +15,9 @@ namespace elastogear::dynamics {
 
 class ResidualContact {
  public:
-  /// Bodies without static responses have no residual displacement. The bodies must outlive this.
-  explicit ResidualContact(const std::vector<const model::ElasticBody*>& bodies);
+  /// Bodies without static responses have no residual displacement. The bodies of the model must outlive
+  /// this. Throws the errors of LocalApproach.
+  explicit ResidualContact(const SystemModel& model);
 
   bool any() const;
   bool has_flexibility(std::size_t b) const { return flexibility_[b].has_value(); }
@@ -24,9 +26,10 @@ class ResidualContact {
   contact::ResidualDisplacement residual(std::size_t b);
   void seen();
   Eigen::Vector3d displacement(std::size_t b, int node) {
-    return flexibility_[b]->displacement(node);
-  }  ///< m, BRF
-  /// R among the nodes (model::Surface numbers), m/N; empty for a body without residual flexibility.
+    return flexibility_[b]->displacement(node) + approach_.displacement(b, node);
+  }  ///< m, BRF, with the local approach of flanks
+  /// R among the nodes (model::Surface numbers), m/N, with the tangent of the local approach; empty for a
+  /// body without residual flexibility.
   Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);
 
   /// Solves for contact forces and static responses by Newton's method, Eq. (6.21); a step that makes the
@@ -41,6 +44,9 @@ class ResidualContact {
   void predict(double time);
   /// Keeps the present forces as those of an accepted step at this time.
   void accept(double time);
+  /// Goes a share of the way to the local approach of flanks by the contacts of a state, for later
+  /// evaluations. Returns its largest difference, m.
+  double find_approach(const ContactState& state, double share);
   /// Does the residual displacement of a body creep, whatever the moduli are?
   bool creeps(std::size_t b) const { return has_flexibility(b) && flexibility_[b]->is_viscoelastic(); }
   /// From here on its states are at this point of a step.
@@ -78,6 +84,7 @@ class ResidualContact {
   bool linear_step(ContactState& state);
   // Puts the forces whose static responses are in place in the place of those found.
   void take_forces_of_response(ContactState& state) const;
+  const Eigen::MatrixXd& tangent(std::size_t b, const std::vector<int>& node);
   Eigen::VectorXd missing_response(std::size_t b, const NodalForces& found, const Eigen::MatrixXd& R);
   void respond_to(std::size_t b, const NodalForces& forces);
   struct Change {
@@ -97,8 +104,10 @@ class ResidualContact {
 
   std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
   Accepted last_, before_;
-  std::vector<NodalForces> left_;  // of each body, the forces before the last Newton step
-  std::vector<double> change_;     // m, not yet seen by all pairs
+  LocalApproach approach_;
+  std::vector<Eigen::MatrixXd> tangent_;  // of each body, R with the tangent of the local approach
+  std::vector<NodalForces> left_;         // of each body, the forces before the last Newton step
+  std::vector<double> change_;            // m, not yet seen by all pairs
 };
 
 }  // namespace elastogear::dynamics

@@ -64,6 +64,21 @@ void ResidualFlexibility::set_bounds() {
     largest_ = std::max(largest_, relaxed.self.maxCoeff());
 }
 
+const ResidualFlexibility::Columns& ResidualFlexibility::columns(int orbit) {
+  const auto [at, is_new] = columns_.try_emplace(orbit);
+  if (is_new) at->second = model::displacement_columns(body_->flexibility, orbit);
+  return at->second;
+}
+
+Eigen::Matrix3d ResidualFlexibility::static_response(int a, int b) {
+  const model::Flexibility& flexibility = body_->flexibility;
+  const int position_a = model::find_loaded(flexibility, a), position_b = model::find_loaded(flexibility, b);
+  if (position_a < 0 || position_b < 0) return Eigen::Matrix3d::Zero();
+  return model::displacement_response(
+      flexibility, position_a, position_b,
+      columns(flexibility.surface.orbit[static_cast<std::size_t>(position_b)]));
+}
+
 int ResidualFlexibility::number(int node) {
   const auto [at, is_new] = number_of_.emplace(node, -1);
   if (!is_new) return at->second;
@@ -72,10 +87,9 @@ int ResidualFlexibility::number(int node) {
   if (position < 0) return -1;
   at->second = static_cast<int>(loaded_.size());
   const int orbit = flexibility.surface.orbit[position];
-  if (!columns_.contains(orbit)) columns_[orbit] = model::displacement_columns(flexibility, orbit);
   const auto Phi = modes(*body_).middleRows<3>(3 * node);
   loaded_.push_back(
-      {position, {&columns_.at(orbit), Phi * body_->K_r.diagonal().cwiseInverse().asDiagonal()}, {}});
+      {position, {&columns(orbit), Phi * body_->K_r.diagonal().cwiseInverse().asDiagonal()}, {}});
   for (std::size_t k = 0; k < states_.size(); ++k) {
     auto& [K_inverse, columns] = states_[k];
     if (!columns.contains(orbit)) columns[orbit] = model::displacement_columns(flexibility.relaxed[k], orbit);

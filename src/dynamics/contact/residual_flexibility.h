@@ -30,6 +30,9 @@ class ResidualFlexibility {
   void set_forces(const NodalForces& forces);
   const NodalForces& forces() const { return forces_; }
   Eigen::Vector3d displacement(int node);  ///< m, BRF: w of the node
+  /// m/N, BRF: displacement of node a by unit forces on node b, of the whole body; zero for nodes that the
+  /// flexibility does not provide for.
+  Eigen::Matrix3d static_response(int a, int b);
   /// m, BRF: what is left of w without forces; zero for an elastic body.
   Eigen::Vector3d lag(int node);
   double largest() const { return largest_; }  ///< m/N, bound of |R(b, b)|
@@ -94,6 +97,7 @@ class ResidualFlexibility {
   void set_bounds();
   double growth(const Eigen::VectorXd& before) const;
   int number(int node);
+  const Columns& columns(int orbit);
   Eigen::Matrix3d residual(int a, const Response& b, int position_b) const;
   const Eigen::Matrix3d& block(Row& row, int a, int number);
   const Blocks& creep_blocks(Row& row, int a, int number);

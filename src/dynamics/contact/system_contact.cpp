@@ -1,6 +1,7 @@
 #include "dynamics/contact/system_contact.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "dynamics/node_mobility.h"
@@ -10,12 +11,6 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr int kFreeTrials = 3;  // of contact forces before points that come and go are kept
-
-std::vector<const model::ElasticBody*> elastic_bodies(const SystemModel& model) {
-  std::vector<const model::ElasticBody*> bodies;
-  for (const SystemModel::Body& body : model.bodies) bodies.push_back(body.eq.body.get());
-  return bodies;
-}
 
 // Marks the surface nodes at which forces have a static response in the file of the body.
 std::vector<bool> responds(const model::ElasticBody& body) {
@@ -27,8 +22,7 @@ std::vector<bool> responds(const model::ElasticBody& body) {
 
 }  // namespace
 
-SystemContact::SystemContact(const SystemModel& model)
-    : pairs_(model.pairs), residual_contact_(elastic_bodies(model)) {
+SystemContact::SystemContact(const SystemModel& model) : pairs_(model.pairs), residual_contact_(model) {
   for (const SystemModel::Body& body : model.bodies)
     surface_.push_back(body.in_contact ? &body.eq.body->surface : nullptr);
   for (const PairSetup& pair : pairs_) {
@@ -227,7 +221,15 @@ void SystemContact::accept() {
   history_.time = time_;
   history_.power = power;
   if (residual_contact_.any()) residual_contact_.accept(time_);
+  residual_contact_.find_approach(state_, 1);
   if (any_sticks) forget();  // forces of the same state start from the new history
+}
+
+double SystemContact::find_approach(double share) {
+  forget();
+  double depth = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < pairs_.size(); ++p) depth = std::min(depth, settings(p).depth);
+  return residual_contact_.find_approach(state_, share) / depth;
 }
 
 void SystemContact::serialize(Archive& archive) {

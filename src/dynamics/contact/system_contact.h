@@ -55,6 +55,9 @@ class SystemContact {
 
   /// Accepts the last evaluation as the end of a step.
   void accept();
+  /// Goes a share of the way to the local approach of flanks by the last evaluation, which it forgets.
+  /// Returns its largest difference over the least depth of the pairs.
+  double find_approach(double share);
   /// J, taken by damping and friction up to the last accepted state.
   double loss() const { return history_.loss; }
   /// The history of contact, and all else that later evaluations take from earlier ones.

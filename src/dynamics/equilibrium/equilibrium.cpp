@@ -23,7 +23,8 @@ constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
 constexpr double kRoundoff = 1e-15;     // of coordinates in rad and m: smaller changes are none
-constexpr double kClosed = 1e-6;        // of the depth, by which points that bear forces may be open
+constexpr double kClosed = 1e-6;        // of the depth, by which points that bear forces may be open, and the
+                                        // local approach of flanks may change
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -276,11 +277,26 @@ double allowed_open(const System& system) {
   return minima ? kBesideMinima * kClosed : kClosed;
 }
 
+// Finds equilibria until the local approach of flanks, which is that of the last one, is at rest.
+bool settle_approach(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
+  System& system = at.problem.system;
+  constexpr int kFreeRounds = 5;  // before it goes half of the way, as contacts come and go
+  for (int round = 0; round < kMostRounds; ++round) {
+    {
+      const ReadView u(U);
+      system.contacts(at.factor, *u, at.zero);
+    }
+    if (system.find_approach(round < kFreeRounds ? 1 : 0.5) <= kClosed) return true;
+    if (!solve(at, snes, U, summary)) return false;
+  }
+  return false;
+}
+
 // Equilibria from which to which the gaps of the augmented law close, faster where they hardly do: Eq.
 // (6.31).
 bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   System& system = at.problem.system;
-  if (!solve(at, snes, U, summary)) return false;
+  if (!solve(at, snes, U, summary) || !settle_approach(at, snes, U, summary)) return false;
   double before = kFar;
   for (int round = 0; system.any_augmented(); ++round) {
     const ReadView u(U);

@@ -1,0 +1,330 @@
+#include "dynamics/approach/local_approach.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "dynamics/approach/patch_approach.h"
+#include "elastogear/base/error.h"
+#include "elastogear/contact/topology.h"
+
+namespace elastogear::dynamics {
+
+using contact::ContactPoint;
+using Eigen::Index;
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+using Patch = std::vector<const ContactPoint*>;
+
+constexpr double kLeast = 1e-6;   // of a face's length, approach under forces of roundoff
+constexpr double kSlight = 0.05;  // of all forces of a pair, below which those of a patch go on as F^m
+
+// Throws Error for bodies of which the local approach is not known.
+void require_known(const SystemModel::Body& body, const std::string& pair) {
+  const std::string who = "contact approach 'hertz' of the pair " + pair + ": body '" + body.name + "' ";
+  require(!body.eq.body->flexibility.empty(), who,
+          "has no residual flexibility; reduce it with -basis modal_residual, or take the approach 'mesh'");
+  require(body.true_surface && !body.true_surface->curvature.empty(), who,
+          "has no exact flanks; name the gear data it was meshed from, or take the approach 'mesh'");
+  require(body.surface_compliance > 0 && body.eq.body->relaxing.empty(), who,
+          "has several, orthotropic or viscoelastic materials; take the approach 'mesh'");
+}
+
+// Outward unit normals of the nodes, by the faces of their groups.
+Matrix3Xd node_normals(const model::Surface& surface, const std::vector<int>& group) {
+  Matrix3Xd normal = Matrix3Xd::Zero(3, surface.X.cols());
+  for (Index f = 0; f < surface.face.cols(); ++f) {
+    const auto corner = surface.face.col(f);
+    const Vector3d across = surface.X.col(corner[2]) - surface.X.col(corner[0]),
+                   back = surface.X.col(corner[3]) - surface.X.col(corner[1]);
+    for (int node : corner)
+      if (group[static_cast<std::size_t>(node)] == surface.group[static_cast<std::size_t>(f)])
+        normal.col(node) += across.cross(back);
+  }
+  normal.colwise().normalize();
+  return normal;
+}
+
+// m, by group, the diagonal of the box around its nodes.
+std::vector<double> lengths(const model::Surface& surface, const std::vector<int>& group) {
+  std::vector<Eigen::AlignedBox3d> box(surface.group_name.size());
+  for (Index i = 0; i < surface.X.cols(); ++i)
+    box[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])].extend(Vector3d(surface.X.col(i)));
+  std::vector<double> length;
+  for (const Eigen::AlignedBox3d& b : box) length.push_back(b.isEmpty() ? 0 : b.diagonal().norm());
+  return length;
+}
+
+// The node of one side that is nearest to a contact.
+int node_of(const ContactPoint& point, int side) {
+  if (point.slave_side == side) return point.slave_node;
+  Index nearest = 0;
+  point.N.maxCoeff(&nearest);
+  return point.master_nodes[nearest];
+}
+
+// Sum of a symmetric function of two nodes and the forces on them over all pairs.
+template <class Function>
+double work(const std::map<int, Vector3d>& forces, const Function& of) {
+  double sum = 0;
+  for (auto a = forces.begin(); a != forces.end(); ++a) {
+    for (auto c = forces.begin(); c != a; ++c) sum += 2 * of(a->first, c->first, a->second, c->second);
+    sum += of(a->first, a->first, a->second, a->second);
+  }
+  return sum;
+}
+
+// World frame, of the slave's nodes.
+Vector3d place_of(const ContactPoint& point, const contact::SurfaceState& slave) {
+  Vector3d x_B = Vector3d::Zero();
+  for (Index i = 0; i < point.slave_nodes.size(); ++i)
+    x_B += point.slave_N[i] * slave.x_B.col(point.slave_nodes[i]);
+  return slave.R_WB * x_B + slave.r_WB;
+}
+
+}  // namespace
+
+LocalApproach::LocalApproach(const SystemModel& model)
+    : surface_(model.bodies.size()), flanks_(model.bodies.size()) {
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const PairSetup& pair = model.pairs[p];
+    if (pair.settings.approach != contact::FlankApproach::hertz) continue;
+    require(pair.settings.points == contact::SlavePoints::minima &&
+                pair.settings.law == contact::ContactLaw::unilateral,
+            "contact approach 'hertz' of the pair ", pair.name,
+            " needs the law 'unilateral' and the points 'minima', or take the approach 'mesh'");
+    for (int b : pair.body) {
+      const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
+      require_known(body, pair.name);
+      surface_[static_cast<std::size_t>(b)].emplace(
+          Surface{body.eq.body.get(), contact::LoadSpread(*body.eq.body), &body.node_group,
+                  &body.true_surface->curvature, HalfSpace(body.eq.body->surface), body.surface_compliance});
+    }
+    const auto groups = [&](int side) {
+      return model.bodies[static_cast<std::size_t>(pair.body[side])].eq.body->surface.group_name.size();
+    };
+    const int side = groups(1) >= groups(0) ? 1 : 0;
+    const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(pair.body[side])];
+    const model::Surface& surface = body.eq.body->surface;
+    flanks_[static_cast<std::size_t>(pair.body[side])].emplace(
+        Flanks{node_normals(surface, body.node_group), &body.node_group,
+               std::vector<Flank>(surface.group_name.size()), lengths(surface, body.node_group)});
+    const model::Surface& slave =
+        model.bodies[static_cast<std::size_t>(pair.body[pair.settings.slave])].eq.body->surface;
+    const double face = contact::face_size(slave.X, slave.face);
+    pairs_.push_back({p, side, face, kLeast * face});
+  }
+}
+
+LocalApproach::Patches LocalApproach::patches(const Pair& pair, const PairContacts& contacts) const {
+  Patches patches;
+  const auto b = static_cast<std::size_t>(contacts.body[pair.side]);
+  for (const ContactPoint& point : contacts.points)
+    if (point.p > 0)
+      patches[(*flanks_[b]->group)[static_cast<std::size_t>(node_of(point, pair.side))]].push_back(&point);
+  return patches;
+}
+
+// 1/m, BRF.
+Eigen::Matrix3d LocalApproach::curvature(const ContactPoint& point, int side, std::size_t b) const {
+  const auto at = [&](int node) -> const Eigen::Matrix3d& {
+    return (*surface_[b]->curvature)[static_cast<std::size_t>(node)];
+  };
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+  const bool is_slave = point.slave_side == side;
+  const Eigen::VectorXi& nodes = is_slave ? point.slave_nodes : point.master_nodes;
+  const VectorXd& N = is_slave ? point.slave_N : point.N;
+  for (Index i = 0; i < nodes.size(); ++i) S += N[i] * at(nodes[i]);
+  return S;
+}
+
+// f' F f - s' F s + s' H s of the normal forces f of the patch on a body, spread to s: Eq. (6.36).
+double LocalApproach::mesh_work(const Patch& patch, int side, std::size_t b, const Eigen::Matrix3d& R_BW,
+                                ResidualFlexibility& flexibility) {
+  Surface& surface = *surface_[b];
+  std::map<int, Vector3d> f, s;
+  Vector3d total = Vector3d::Zero();
+  for (const ContactPoint* point : patch)
+    for (int i = 0; i < point->n_local(); ++i) {
+      const LocalNode local = local_node(*point, i);
+      if (local.side != side) continue;
+      const Vector3d force = R_BW * (point->n.dot(local_force(*point, i)) * point->n);
+      f.try_emplace(local.node, Vector3d::Zero()).first->second += force;
+      total += force;
+    }
+  for (const auto& [node, force] : f) {
+    const contact::Spread& to = surface.spread.of(node);
+    for (std::size_t i = 0; i < to.node.size(); ++i)
+      s.try_emplace(to.node[i], Vector3d::Zero()).first->second += to.weight[static_cast<Index>(i)] * force;
+  }
+  const Vector3d along = total.normalized();
+  return work(f, [&](int a, int c, const Vector3d& f_a,
+                     const Vector3d& f_c) { return f_a.dot(flexibility.static_response(a, c) * f_c); }) -
+         work(s, [&](int a, int c, const Vector3d& s_a, const Vector3d& s_c) {
+           return s_a.dot(flexibility.static_response(a, c) * s_c) -
+                  surface.compliance / std::numbers::pi * s_a.dot(along) * s_c.dot(along) *
+                      surface.half_space.mean_inverse_distance(a, c);
+         });
+}
+
+ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, const ContactState& state,
+                               Flexibilities& flexibility) {
+  const PairContacts& contacts = state.pair[pair.number];
+  const auto n = static_cast<Index>(patch.size());
+  Matrix3Xd x(3, n);
+  VectorXd p(n);
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
+  Vector3d normal = Vector3d::Zero();
+  for (Index i = 0; i < n; ++i) {
+    const ContactPoint& point = *patch[static_cast<std::size_t>(i)];
+    x.col(i) = place_of(point, state.surface[static_cast<std::size_t>(contacts.body[point.slave_side])]);
+    p[i] = point.p;
+    normal += point.p * point.n;
+    for (int side : {0, 1}) {
+      const auto b = static_cast<std::size_t>(contacts.body[side]);
+      const Eigen::Matrix3d& R = state.surface[b].R_WB;
+      Q += point.p * R * curvature(point, side, b) * R.transpose();
+    }
+  }
+  const double F = p.sum();
+  if (!Q.allFinite()) return {};
+  const model::Curvatures at = model::principal_curvatures(Q / F, normal.normalized());
+  if (!(at.largest > 0)) return {};
+  double compliance = 0, work = 0;
+  for (int side : {0, 1}) {
+    const auto b = static_cast<std::size_t>(contacts.body[side]);
+    compliance += surface_[b]->compliance;
+    work += mesh_work(patch, side, b, state.surface[b].R_WB.transpose(), *flexibility[b]);
+  }
+  x.colwise() -= x * p / F;
+  const auto flank = static_cast<std::size_t>(contacts.body[pair.side]);
+  const PatchApproach hertz = patch_approach(at, x.transpose() * at.along, p, pair.face, compliance,
+                                             flanks_[flank]->length[static_cast<std::size_t>(group)]);
+  const double geometric = 0.5 * p.dot((x.transpose() * (Q / F) * x).diagonal()) / F;
+  const double approach = hertz.approach - geometric - work / F;
+  if (std::abs(approach) < pair.least) return {};
+  double all = 0;
+  for (const ContactPoint& point : contacts.points) all += point.p;
+  const double F_n = std::max(F, kSlight * all);
+  return {F_n, approach * std::pow(F_n / F, hertz.m), hertz.m};
+}
+
+void LocalApproach::set_law(std::size_t b, std::size_t group, const ApproachLaw& law) {
+  Flank& flank = flanks_[b]->flank[group];
+  const double before = std::exchange(flank.law, law).value(flank.force);
+  flanks_[b]->change = std::max(flanks_[b]->change, std::abs(law.value(flank.force) - before));
+}
+
+double LocalApproach::take_change(std::size_t b) {
+  return acts_on(b) ? std::exchange(flanks_[b]->change, 0) : 0;
+}
+
+double LocalApproach::find(const ContactState& state, Flexibilities& flexibility, double share) {
+  std::vector<std::map<std::size_t, ApproachLaw>> found(flanks_.size());
+  for (const Pair& pair : pairs_) {
+    const PairContacts& contacts = state.pair[pair.number];
+    for (const auto& [group, patch] : patches(pair, contacts))
+      found[static_cast<std::size_t>(contacts.body[pair.side])][static_cast<std::size_t>(group)] =
+          law(pair, group, patch, state, flexibility);
+  }
+  double change = 0;
+  for (std::size_t b = 0; b < flanks_.size(); ++b)
+    for (std::size_t g = 0; acts_on(b) && g < flanks_[b]->flank.size(); ++g) {
+      const ApproachLaw& before = flanks_[b]->flank[g].law;
+      ApproachLaw now = found[b][g];
+      const double moved = now.e_n - before.value(now.F_n);
+      change = std::max(change, std::abs(moved));
+      if (before.F_n > 0) now.e_n -= (1 - share) * moved;
+      set_law(b, g, now);
+    }
+  return change;
+}
+
+void LocalApproach::find_new(const ContactState& state, Flexibilities& flexibility) {
+  for (const Pair& pair : pairs_) {
+    const PairContacts& contacts = state.pair[pair.number];
+    const auto b = static_cast<std::size_t>(contacts.body[pair.side]);
+    for (const auto& [group, patch] : patches(pair, contacts))
+      if (const auto g = static_cast<std::size_t>(group); !(flanks_[b]->flank[g].law.F_n > 0))
+        set_law(b, g, law(pair, group, patch, state, flexibility));
+  }
+}
+
+const LocalApproach::Flank& LocalApproach::flank_of(std::size_t b, int node) const {
+  return flanks_[b]->flank[static_cast<std::size_t>((*flanks_[b]->group)[static_cast<std::size_t>(node)])];
+}
+
+double LocalApproach::set_forces(std::size_t b, const NodalForces& forces) {
+  if (!acts_on(b)) return 0;
+  Flanks& flanks = *flanks_[b];
+  std::vector<double> before;
+  for (Flank& flank : flanks.flank) {
+    before.push_back(flank.law.value(flank.force));
+    flank.force = 0;
+  }
+  for (std::size_t i = 0; i < forces.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(forces.node[i]);
+    flanks.flank[static_cast<std::size_t>((*flanks.group)[node])].force -=
+        flanks.normal.col(forces.node[i]).dot(forces.f_B.col(static_cast<Index>(i)));
+  }
+  double change = 0;
+  for (std::size_t g = 0; g < before.size(); ++g)
+    change = std::max(change, std::abs(flanks.flank[g].law.value(flanks.flank[g].force) - before[g]));
+  return change;
+}
+
+Vector3d LocalApproach::displacement(std::size_t b, int node) const {
+  if (!acts_on(b)) return Vector3d::Zero();
+  const Flank& flank = flank_of(b, node);
+  return -flank.law.value(flank.force) * flanks_[b]->normal.col(node);
+}
+
+Vector3d LocalApproach::lag(std::size_t b, int node) const {
+  if (!acts_on(b)) return Vector3d::Zero();
+  const Flank& flank = flank_of(b, node);
+  return -(flank.law.value(flank.force) - flank.law.slope(flank.force) * flank.force) *
+         flanks_[b]->normal.col(node);
+}
+
+void LocalApproach::add_tangent(std::size_t b, const std::vector<int>& node, Eigen::MatrixXd& R) const {
+  const Flanks& flanks = *flanks_[b];
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const Flank& flank = flank_of(b, node[i]);
+    const double slope = flank.law.slope(flank.force);
+    for (std::size_t j = 0; j < node.size() && slope != 0; ++j)
+      if ((*flanks.group)[static_cast<std::size_t>(node[i])] ==
+          (*flanks.group)[static_cast<std::size_t>(node[j])])
+        R.block<3, 3>(static_cast<Index>(3 * i), static_cast<Index>(3 * j)) +=
+            slope * flanks.normal.col(node[i]) * flanks.normal.col(node[j]).transpose();
+  }
+}
+
+double LocalApproach::largest(std::size_t b) const {
+  double most = 0;
+  if (acts_on(b))
+    for (const Flank& flank : flanks_[b]->flank)
+      most = std::max(most, std::abs(flank.law.value(flank.force)));
+  return most;
+}
+
+double LocalApproach::energy(std::size_t b) const {
+  double sum = 0;
+  if (acts_on(b))
+    for (const Flank& flank : flanks_[b]->flank) sum += flank.law.energy(flank.force);
+  return sum;
+}
+
+void LocalApproach::serialize(Archive& archive) {
+  for (auto& flanks : flanks_)
+    if (flanks)
+      for (Flank& flank : flanks->flank)
+        for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force}) archive(*x);
+}
+
+}  // namespace elastogear::dynamics
