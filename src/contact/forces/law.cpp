@@ -157,26 +157,36 @@ Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> couple_directions(const Projec
   return tangents;
 }
 
-// F = B' f + spin' (f x d), W = [B', P_alpha, spin' T]: dF = B' df + P_alpha dxi_alpha + spin' T T' d(f x d).
-// The change of the spin is left out. docs/theory.md, Eq. (6.14).
-void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, ContactPoint& contact) {
+// Columns b with df = b (b^-1 df): the first one, along which f changes with p, has all that changes p.
+Matrix3d force_directions(const Gap& gap, const Parts& parts) {
+  Matrix3d b;
+  const Vector3d n = gap.direction.normalized(), slip = parts.friction.direction;
+  b.col(0) = gap.direction - (parts.friction.at_limit ? parts.mu : 0.0) * slip;
+  b.col(1) = slip.isZero(0) ? n.unitOrthogonal() : Vector3d(slip - n * n.dot(slip)).normalized();
+  b.col(2) = n.cross(b.col(1));
+  return b;
+}
+
+// F = B' f + spin' (f x d) = G' f, W = [G' b, P_alpha, spin' T]: dF = G' b (b^-1 df) + P_alpha dxi_alpha +
+// spin' T T' (f x dd). The change of the spin is left out. docs/theory.md, Eq. (6.14).
+void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, const Matrix3d& b,
+                 ContactPoint& contact) {
   const auto T = couple_directions(kinematics);
   const Eigen::Index m = T.cols(), n = 3 + kinematics.n_dir + m;
+  const Matrix3d b_inverse = b.inverse();
   contact.W.setZero(15, n);
   contact.V.setZero(15, n);
   contact.V_dot.setZero(15, n);
   contact.k.setIdentity(n, n);
-  contact.W.leftCols<3>() = spread(1, -contact.N).transpose();
-  contact.V.leftCols<3>() = -f.x.transpose();
+  contact.W.leftCols<3>() = kinematics.G.transpose() * b;
+  contact.V.leftCols<3>() = -(b_inverse * f.x).transpose();
   for (int i = 0; i < kinematics.n_dir; ++i) {
     contact.W.col(3 + i) = -spread(0, kinematics.N_a.col(i)).transpose() * f.value;
     contact.V.col(3 + i) = -kinematics.D.row(i).transpose();
   }
   contact.W.rightCols(m) = kinematics.spin.transpose() * T;
-  contact.V.rightCols(m) = (skew(kinematics.d) * f.x - skew(f.value) * kinematics.d_x).transpose() * T;
-  if (f.v.isZero(0)) return;
-  contact.V_dot.leftCols<3>() = -f.v.transpose();
-  contact.V_dot.rightCols(m) = (skew(kinematics.d) * f.v).transpose() * T;
+  contact.V.rightCols(m) = -(skew(f.value) * kinematics.d_x).transpose() * T;
+  if (!f.v.isZero(0)) contact.V_dot.leftCols<3>() = -(b_inverse * f.v).transpose();
 }
 
 // Sets the compliance c and the gradients F_p, g_x of a contact without penalty: docs/theory.md, Eq. (6.24).
@@ -319,7 +329,7 @@ void apply_law(const Law& law, const ProjectionKinematics& kinematics, const Gap
   contact.energy = (law.unilateral ? 1 : gap.fade.f) * all.normal.energy;
   contact.power = gap.fade.f * all.normal.power;
   contact.friction_power = 0;
-  set_tangent(kinematics, f, contact);
+  set_tangent(kinematics, f, force_directions(gap, all), contact);
   if (law.unilateral) set_unilateral(law, kinematics, gap, all, contact);
   if (law.impact) contact.g_x = gap.g_x.reshaped(3, 5);
   contact.fade = given.fade.f;
