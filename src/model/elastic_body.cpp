@@ -49,6 +49,13 @@ Eigen::Vector3d three_products(const double* rows, const Eigen::VectorXd& q) {
   return u;
 }
 
+// h += f_x x + f_y y + f_z z with the three rows x, y, z.
+void add_three_rows(const double* rows, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
+  using Row = Eigen::Map<const Eigen::VectorXd>;
+  const Eigen::Index n = h.size();
+  h += f[0] * Row(rows, n) + f[1] * Row(rows + n, n) + f[2] * Row(rows + 2 * n, n);
+}
+
 void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::string& source) {
   require(std::isfinite(inertia.m) && inertia.m > 0, source, ": mass is ", inertia.m,
           " kg, must be positive");
@@ -205,7 +212,9 @@ Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::Vector
 }
 
 void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
-  std::visit([&](const auto& r) { h += r.middleRows(3 * node, 3).transpose() * f; }, Phi);
+  if (const auto* dense = std::get_if<DenseRows>(&Phi))
+    return add_three_rows(dense->row(3 * node).data(), f, h);
+  h += std::get<SparseRows>(Phi).middleRows(3 * node, 3).transpose() * f;
 }
 
 Eigen::Matrix3d J_1(const Inertia& inertia, int k) {

@@ -79,6 +79,7 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
     deformed_[i].stamp.assign(n, stage_);
     const std::vector<long> of_faces(static_cast<std::size_t>(side_[i].surface->face.cols()), 0);
     look_[i] = {std::vector<long>(n, 0), std::vector<long>(n, 0), of_faces, {}};
+    rates_[i] = {{}, Eigen::Matrix3Xd(3, n), std::vector<long>(n, 0), 1};
   }
   reach_ = limits.depth + limits.around +
            kStretch * std::max(extension_reach(view(0, settings.extension)),
@@ -109,6 +110,12 @@ void Tracker::place(bool deformed) {
 
 // Deformed positions of earlier stages are of no use for other coordinates.
 void Tracker::start_stage() {
+  for (int i : {0, 1}) {
+    const Eigen::VectorXd& q_dot = now_[i]->q_dot;
+    if (q_dot.size() == rates_[i].q_dot.size() && q_dot == rates_[i].q_dot) continue;
+    rates_[i].q_dot = q_dot;
+    ++rates_[i].number;
+  }
   if (stage_ > 0 && now_[0]->q == deformed_[0].q && now_[1]->q == deformed_[1].q) return;
   ++stage_;
   for (int i : {0, 1}) deformed_[i].q = now_[i]->q;
@@ -316,13 +323,23 @@ Eigen::Vector3d Tracker::position_B(int i, int node) {
   return i == 0 ? Eigen::Vector3d(configuration_.R.transpose() * (x - configuration_.r)) : x;
 }
 
+// Phi q_dot of a node: those of the master belong to several contacts.
+Eigen::Vector3d Tracker::elastic_velocity(int i, int node) {
+  Rates& rates = rates_[i];
+  if (rates.node[node] != rates.number) {
+    rates.x_dot_B.col(node) = model::displacement(side_[i].surface->Phi, node, rates.q_dot);
+    rates.node[node] = rates.number;
+  }
+  return rates.x_dot_B.col(node);
+}
+
 Eigen::Vector3d Tracker::velocity(int i, int node) {
   if (!now_[i]) return Eigen::Vector3d::Zero();
   const SurfaceMotion& m = *now_[i];
   const Eigen::Matrix3d& R = configuration_.R;
   const Eigen::Vector3d x_B = position_B(i, node);
   Eigen::Vector3d v = m.v_WB_B + m.w_WB_B.cross(x_B);
-  if (m.q_dot.size() > 0) v += model::displacement(side_[i].surface->Phi, node, m.q_dot);
+  if (m.q_dot.size() > 0) v += elastic_velocity(i, node);
   return i == 0 ? Eigen::Vector3d(R * v) : v;
 }
 

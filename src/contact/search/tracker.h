@@ -82,6 +82,7 @@ class Tracker : private NodePlacer {
   void place_face(int i, int face);
   void place_for(int slave, const Neighbours& near);
   Eigen::Vector3d position(int i, int node);
+  Eigen::Vector3d elastic_velocity(int i, int node);
   void start_stage();
   void start_look();
   double distance_since(const SurfaceMotion then[2]) const;
@@ -112,6 +113,13 @@ class Tracker : private NodePlacer {
     std::vector<long> stamp;
   };
   std::array<Deformed, 2> deformed_;
+  struct Rates {  // Phi q_dot of the nodes with the present number, which changes with q_dot
+    Eigen::VectorXd q_dot;
+    Eigen::Matrix3Xd x_dot_B;
+    std::vector<long> node;
+    long number = 0;
+  };
+  std::array<Rates, 2> rates_;
   struct Look {                            // what is placed now: entries with the present number
     std::vector<long> node, around, face;  // by node: itself, and all nodes of the faces there; by face
     std::vector<int> nodes;
