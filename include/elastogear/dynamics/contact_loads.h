@@ -8,7 +8,7 @@
 
 #include "elastogear/body/equations.h"
 #include "elastogear/contact/types.h"
-#include "elastogear/dynamics/low_rank_solver.h"
+#include "elastogear/dynamics/effective_matrix.h"
 
 namespace elastogear::dynamics {
 

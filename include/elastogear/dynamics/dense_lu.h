@@ -1,6 +1,6 @@
 #pragma once
-// LU factors of a dense matrix by LAPACK: for hundreds of rows several times faster than Eigen's, which is
-// compiled for processors without wide registers.
+// LU factors and products of dense matrices by LAPACK and BLAS: for hundreds of rows several times faster
+// than Eigen's, which are compiled for processors without wide registers.
 
 #include <petscsys.h>
 
@@ -20,5 +20,8 @@ class DenseLu {
   Eigen::MatrixXd factors_;
   std::vector<PetscBLASInt> pivot_;
 };
+
+/// y += A x
+void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x, Eigen::VectorXd& y);
 
 }  // namespace elastogear::dynamics

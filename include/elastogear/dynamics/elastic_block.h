@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "elastogear/base/archive.h"
@@ -52,7 +53,7 @@ class ElasticBlock {
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< D x
   Eigen::MatrixXd solve(const Eigen::MatrixXd& Y) const;     ///< D^-1 Y
   /// E' D^-1 E for the given nodes, from columns kept since the shifts last changed: n_e x n_e.
-  Eigen::MatrixXd compliance(const std::vector<int>& node);
+  std::shared_ptr<const Eigen::MatrixXd> compliance(const std::vector<int>& node);
   /// D^-1 E c for nodes whose compliance was asked for; without a solution where its columns are kept.
   Eigen::VectorXd response(const std::vector<int>& node, const Eigen::VectorXd& c) const;
   const BorderColumns& columns() const { return columns_; }
@@ -67,6 +68,7 @@ class ElasticBlock {
   void attach_rigid_fields();
   void reset_compliance();
   void add_to_compliance(const std::vector<int>& node);
+  Eigen::MatrixXd gathered(const std::vector<int>& node) const;
 
   const model::ElasticBody* body_;
   Eigen::SparseMatrix<double> D_r_;
@@ -79,12 +81,14 @@ class ElasticBlock {
   Eigen::SparseMatrix<double, Eigen::RowMajor> D_;
   UniqueMat D_mat_;  // borrows D_'s arrays
   UniqueKSP ksp_;
-  Eigen::MatrixXd rigid_;                   // of the near-null space, once needed
-  std::vector<int> kept_;                   // nodes in the order of G_
-  std::vector<std::vector<int>> batches_;   // of kept_, as they were added together
-  std::vector<int> slot_;                   // surface node -> position in kept_, or -1
-  Eigen::MatrixXd G_;                       // E' D^-1 E of the kept nodes
-  Eigen::MatrixXd U_response_;              // D^-1 U
+  Eigen::MatrixXd rigid_;                          // of the near-null space, once needed
+  std::vector<int> kept_;                          // nodes in the order of G_
+  std::vector<std::vector<int>> batches_;          // of kept_, as they were added together
+  std::vector<int> slot_;                          // surface node -> position in kept_, or -1
+  Eigen::MatrixXd G_;                              // E' D^-1 E of the kept nodes
+  std::vector<int> asked_;                         // nodes whose compliance was last asked for
+  std::shared_ptr<const Eigen::MatrixXd> answer_;  // their compliance, or null
+  Eigen::MatrixXd U_response_;                     // D^-1 U
   std::vector<Eigen::MatrixX3d> response_;  // D^-1 Phi(node)' of the first kept nodes, unless D is diagonal
 };
 

@@ -15,37 +15,17 @@
 
 #include <vector>
 
-#include "elastogear/dynamics/dense_lu.h"
+#include "elastogear/dynamics/condensed_system.h"
+#include "elastogear/dynamics/effective_matrix.h"
 #include "elastogear/dynamics/elastic_block.h"
 
 namespace elastogear::dynamics {
-
-/// One body's entries. n_e = BorderColumns::size(node); r contact columns in the whole system.
-struct BodyTerms {
-  std::vector<int> node;                 ///< surface nodes touched by contact
-  Eigen::MatrixXd C;                     ///< n_s x n_s
-  Eigen::MatrixXd beta, rho;             ///< n_e x n_s
-  Eigen::MatrixXd W_s, V_s;              ///< n_s x r
-  Eigen::SparseMatrix<double> L;         ///< n_e x r
-  Eigen::SparseMatrix<double> L_V = {};  ///< n_e x r, of V where it differs from that of W; or empty
-  Eigen::SparseMatrix<double> L_x = {};  ///< n_e x r, L_V without rates, where it has some; or empty
-  Eigen::MatrixXd R = {};                ///< 3 n x 3 n, m/N, residual flexibility of `node`; or empty
-  Eigen::MatrixXd R_q, Q_s;  ///< n_s x n_q, n_q x n_s: of level full, see body/tangent.h, or empty
-  Eigen::Matrix3d Gamma = Eigen::Matrix3d::Zero();
-  Eigen::VectorXd following = {};  ///< n_p, of the relaxing parts, see ElasticBlock; or empty
-};
 
 /// A body, how many of its joint coordinates are unknown, and the columns of its markers, see BorderColumns.
 struct SolverBody {
   const body::Equations* eq;
   Eigen::Index n_s;
   Eigen::MatrixXd markers = {};
-};
-
-struct EffectiveMatrix {
-  double shift_v = 0, shift_a = 0;  ///< 1/s, 1/s^2
-  std::vector<BodyTerms> body;
-  Eigen::SparseMatrix<double> k;  ///< r x r, N/m
 };
 
 /// Vectors are ordered body by body, [s; q] each.
@@ -72,14 +52,13 @@ class LowRankSolver {
   Eigen::VectorXd contact_forces(const Eigen::VectorXd& x,
                                  const std::vector<Eigen::VectorXd>& projected) const;
   void add_second_order(std::size_t b, const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
-  void add_body(std::size_t b, Eigen::MatrixXd& small);
 
   std::vector<const body::Equations*> eq_;
   std::vector<Range> range_;
   std::vector<ElasticBlock> block_;
   EffectiveMatrix A_;
   Eigen::Index n_s_ = 0;
-  DenseLu lu_;
+  CondensedSystem condensed_;
 };
 
 }  // namespace elastogear::dynamics

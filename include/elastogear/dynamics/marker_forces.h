@@ -9,7 +9,7 @@
 #include "elastogear/body/marker.h"
 #include "elastogear/dynamics/axis.h"
 #include "elastogear/dynamics/bushing.h"
-#include "elastogear/dynamics/low_rank_solver.h"
+#include "elastogear/dynamics/effective_matrix.h"
 
 namespace elastogear::dynamics {
 

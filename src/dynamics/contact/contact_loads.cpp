@@ -3,12 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "dynamics/integrator/low_rank_columns.h"
 #include "elastogear/base/sort_unique.h"
 
 namespace elastogear::dynamics {
 namespace {
-
-using Triplets = std::vector<Eigen::Triplet<double>>;
 
 Eigen::Index slot(const std::vector<int>& node, int number) {
   return std::lower_bound(node.begin(), node.end(), number) - node.begin();
@@ -19,76 +18,100 @@ Eigen::Vector3d twist_at(const body::MotionSubspace& H, Eigen::Index i, const Ei
   return H.col(i).head<3>() + H.col(i).tail<3>().cross(x_B);
 }
 
-// Rows of W, V and V_dot at one local node, turned into one body's frame, added to its W_s, V_s and L from
-// `column` on.
-struct NodeColumns {
-  using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, contact::kColumns>;
-  Eigen::Index column, first_row;  // first_row: of the node in L
-  Eigen::Vector3d x_B, v_B;
-  Rows W_B, V_B, V_dot_B;
+// Rows of W, V and V_dot of one contact at its nodes on one body, each node once, in the body's frame.
+struct BodyColumns {
+  struct Node {
+    int node, local;   // one of its local nodes
+    Eigen::Index row;  // of the node in L
+    bool operator<(const Node& other) const { return node < other.node; }
+    bool operator==(const Node& other) const { return node == other.node; }
+  };
+  std::vector<Node> nodes;            // ascending
+  contact::LocalColumns W, V, V_dot;  // 3 rows a node; V_dot has no columns where it is zero
+
+  Eigen::Index n() const { return static_cast<Eigen::Index>(nodes.size()); }
+  bool has_rates() const { return V_dot.cols() > 0; }
 };
 
-// Sparse columns of W and V on the body's E.
-struct SparseColumns {
-  Triplets L, L_V, L_x;
+// A contact, its pair and one of the bodies there.
+struct ContactOfBody {
+  const PairContacts& pair;
+  const contact::ContactPoint& point;
+  int body;
+
+  bool touches() const { return pair.body[0] == body || pair.body[1] == body; }
+  bool has(int i) const { return pair.body[local_node(point, i).side] == body; }
 };
 
-void add_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms, SparseColumns& sparse) {
-  for (Eigen::Index j = 0; j < c.W_B.cols(); ++j) {
-    for (Eigen::Index i = 0; i < twists.H.cols(); ++i) {
-      terms.W_s(i, c.column + j) += twist_at(twists.H, i, c.x_B).dot(c.W_B.col(j));
-      terms.V_s(i, c.column + j) += twist_at(twists.P, i, c.x_B).dot(c.V_B.col(j));
-    }
-    for (Eigen::Index d = 0; d < 3; ++d) {
-      sparse.L.emplace_back(c.first_row + d, c.column + j, c.W_B(d, j));
-      sparse.L_V.emplace_back(c.first_row + d, c.column + j, c.V_B(d, j));
-      sparse.L_x.emplace_back(c.first_row + d, c.column + j, c.V_B(d, j));
-    }
+// Rows of all local nodes on the body, added up by node.
+void add_up(const ContactOfBody& contact, const BodyColumns& columns, const Eigen::Matrix3d& R_BW,
+            const contact::LocalColumns& of_local, contact::LocalColumns& rows) {
+  rows.setZero(3 * columns.n(), of_local.cols());
+  for (int i = 0; i < contact.point.n_local(); ++i) {
+    if (!contact.has(i)) continue;
+    const BodyColumns::Node node{local_node(contact.point, i).node, i, 0};
+    const auto at = std::lower_bound(columns.nodes.begin(), columns.nodes.end(), node);
+    rows.middleRows<3>(3 * (at - columns.nodes.begin())) += R_BW.lazyProduct(of_local.middleRows<3>(3 * i));
   }
 }
 
-// d(velocity): s_i turns it and adds P_dot_i at x_B; Phi q' grows by shift_v Phi q and turns with w. What
-// residual flexibility adds to positions has no rate of its own, but turns, too. docs/theory.md, Eq. (6.12).
-void add_rate_columns(const JointTwists& twists, const NodeColumns& c, BodyTerms& terms,
-                      SparseColumns& sparse) {
-  for (Eigen::Index j = 0; j < c.V_dot_B.cols(); ++j) {
-    const Eigen::Vector3d row = c.V_dot_B.col(j);
-    for (Eigen::Index i = 0; i < twists.P.cols(); ++i)
-      terms.V_s(i, c.column + j) +=
-          row.dot(twist_at(twists.P_dot, i, c.x_B) + twists.P.col(i).tail<3>().cross(c.v_B));
-    const Eigen::Vector3d turning = row.cross(twists.w), elastic = twists.shift_v * row + turning;
-    for (Eigen::Index d = 0; d < 3; ++d) {
-      sparse.L_V.emplace_back(c.first_row + d, c.column + j, elastic[d]);
-      sparse.L_x.emplace_back(c.first_row + d, c.column + j, turning[d]);
-    }
-  }
-}
-
-NodeColumns node_columns(const contact::ContactPoint& point, int i, Eigen::Index column,
-                         const BodyTerms& terms, const contact::SurfaceState& state) {
-  const int node = local_node(point, i).node;
+void set_columns(const ContactOfBody& contact, const BodyTerms& terms, const Eigen::Matrix3d& R_BW,
+                 BodyColumns& columns) {
+  const contact::ContactPoint& point = contact.point;
   const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
-  const Eigen::Matrix3d R_BW = state.R_WB.transpose();
-  const bool has_rate = point.V_dot.cols() > 0;
-  return {column,
-          n_u + 3 * slot(terms.node, node),
-          state.x_B.col(node),
-          has_rate ? Eigen::Vector3d(R_BW * point.v.col(i)) : Eigen::Vector3d(Eigen::Vector3d::Zero()),
-          R_BW * point.W.middleRows(3 * i, 3),
-          R_BW * point.V.middleRows(3 * i, 3),
-          R_BW * point.V_dot.middleRows(3 * i, 3)};
+  columns.nodes.clear();
+  for (int i = 0; i < point.n_local() && contact.touches(); ++i)
+    if (contact.has(i)) columns.nodes.push_back({local_node(point, i).node, i, 0});
+  sort_unique(columns.nodes);
+  for (BodyColumns::Node& node : columns.nodes) node.row = n_u + 3 * slot(terms.node, node.node);
+  const bool has_rates = columns.n() > 0 && !point.V_dot.isZero(0);
+  add_up(contact, columns, R_BW, point.W, columns.W);
+  add_up(contact, columns, R_BW, point.V, columns.V);
+  if (has_rates) add_up(contact, columns, R_BW, point.V_dot, columns.V_dot);
+  if (!has_rates) columns.V_dot.resize(0, 0);
 }
 
-template <class Matrix>
-void add_block(const Matrix& block, Eigen::Index first, Triplets& triplets) {
-  for (Eigen::Index i = 0; i < block.rows(); ++i)
-    for (Eigen::Index j = 0; j < block.cols(); ++j) triplets.emplace_back(first + i, first + j, block(i, j));
+// Rows of W and V along the twists of the joint.
+void add_joint_rows(const JointTwists& twists, const BodyColumns& c, const contact::SurfaceState& state,
+                    Eigen::Index first, BodyTerms& terms) {
+  for (Eigen::Index a = 0; a < c.n(); ++a) {
+    const Eigen::Vector3d x_B = state.x_B.col(c.nodes[a].node);
+    for (Eigen::Index i = 0; i < twists.H.cols(); ++i) {
+      terms.W_s.row(i).segment(first, c.W.cols()) +=
+          twist_at(twists.H, i, x_B).transpose().lazyProduct(c.W.middleRows<3>(3 * a));
+      terms.V_s.row(i).segment(first, c.V.cols()) +=
+          twist_at(twists.P, i, x_B).transpose().lazyProduct(c.V.middleRows<3>(3 * a));
+    }
+  }
 }
 
-void set_sparse(Eigen::SparseMatrix<double>& A, Eigen::Index rows, Eigen::Index cols,
-                const Triplets& triplets) {
+// d(velocity): s_i turns it and adds P_dot_i at x_B. docs/theory.md, Eq. (6.12).
+void add_joint_rates(const JointTwists& twists, const BodyColumns& c, const contact::ContactPoint& point,
+                     const contact::SurfaceState& state, Eigen::Index first, BodyTerms& terms) {
+  for (Eigen::Index a = 0; a < c.n(); ++a) {
+    const Eigen::Vector3d x_B = state.x_B.col(c.nodes[a].node),
+                          v_B = state.R_WB.transpose() * point.v.col(c.nodes[a].local);
+    for (Eigen::Index i = 0; i < twists.P.cols(); ++i) {
+      const Eigen::Vector3d rate = twist_at(twists.P_dot, i, x_B) + twists.P.col(i).tail<3>().cross(v_B);
+      terms.V_s.row(i).segment(first, c.V_dot.cols()) +=
+          rate.transpose().lazyProduct(c.V_dot.middleRows<3>(3 * a));
+    }
+  }
+}
+
+// Appends the rows of a contact to the columns from `first` on, which are the next ones.
+void append(const BodyColumns& c, const contact::LocalColumns& rows, Eigen::Index first, Eigen::Index count,
+            Eigen::SparseMatrix<double>& A) {
+  for (Eigen::Index j = 0; j < count; ++j) {
+    A.startVec(first + j);
+    for (Eigen::Index a = 0; a < c.n(); ++a)
+      for (int d = 0; d < 3; ++d) A.insertBack(c.nodes[a].row + d, first + j) = rows(3 * a + d, j);
+  }
+}
+
+void begin(Eigen::Index rows, Eigen::Index cols, Eigen::SparseMatrix<double>& A) {
   A.resize(rows, cols);
-  A.setFromTriplets(triplets.begin(), triplets.end());
+  A.reserve(12 * cols);  // four nodes
 }
 
 Eigen::Index column_count(const std::vector<PairContacts>& pairs) {
@@ -98,11 +121,19 @@ Eigen::Index column_count(const std::vector<PairContacts>& pairs) {
   return r;
 }
 
-bool without_potential(const std::vector<PairContacts>& pairs) {
+// Does V of any contact differ from W, and has any a part of the velocities?
+struct Differences {
+  bool V = false, V_dot = false;
+};
+
+Differences differences(const std::vector<PairContacts>& pairs) {
+  Differences any;
   for (const PairContacts& pair : pairs)
-    for (const auto& point : pair.points)
-      if (point.V_dot.cols() > 0 || point.V != point.W) return true;
-  return false;
+    for (const auto& point : pair.points) {
+      any.V = any.V || point.V != point.W;
+      any.V_dot = any.V_dot || !point.V_dot.isZero(0);
+    }
+  return any;
 }
 
 // The part of the force on a local node that lies along the master.
@@ -194,35 +225,73 @@ body::MotionSubspace velocity_twists(const body::Joint& joint, const body::Motio
   return P_dot;
 }
 
+namespace {
+
+// Phi q' grows by shift_v Phi q and turns with w. What residual flexibility adds to positions has no rate of
+// its own, but turns, too. docs/theory.md, Eq. (6.12).
+void append_rows(const JointTwists& twists, const BodyColumns& c, Eigen::Index first, Eigen::Index count,
+                 BodyTerms& terms) {
+  append(c, c.W, first, count, terms.L);
+  if (terms.L_V.rows() == 0) return;
+  contact::LocalColumns V = c.V;
+  if (c.has_rates())
+    for (Eigen::Index a = 0; a < c.n(); ++a)
+      for (Eigen::Index j = 0; j < count; ++j)
+        V.col(j).segment<3>(3 * a) += Eigen::Vector3d(c.V_dot.col(j).segment<3>(3 * a)).cross(twists.w);
+  if (terms.L_x.rows() > 0) append(c, V, first, count, terms.L_x);
+  if (c.has_rates()) V += twists.shift_v * c.V_dot;
+  append(c, V, first, count, terms.L_V);
+}
+
+void set_body_columns(int b, const JointTwists& twists, const std::vector<PairContacts>& pairs,
+                      const contact::SurfaceState& state, BodyTerms& terms) {
+  const Eigen::Matrix3d R_BW = state.R_WB.transpose();
+  Eigen::Index first = 0;
+  BodyColumns c;
+  for (const PairContacts& pair : pairs)
+    for (const auto& point : pair.points) {
+      set_columns({pair, point, b}, terms, R_BW, c);
+      add_joint_rows(twists, c, state, first, terms);
+      if (c.has_rates()) add_joint_rates(twists, c, point, state, first, terms);
+      append_rows(twists, c, first, point.W.cols(), terms);
+      first += point.W.cols();
+    }
+}
+
+void set_stiffness(const std::vector<PairContacts>& pairs, Eigen::SparseMatrix<double>& k) {
+  Eigen::Index first = 0;
+  k.reserve(contact::kColumns * k.cols());
+  for (const PairContacts& pair : pairs)
+    for (const auto& point : pair.points) {
+      for (Eigen::Index j = 0; j < point.k.cols(); ++j) {
+        k.startVec(first + j);
+        for (Eigen::Index i = 0; i < point.k.rows(); ++i)
+          if (point.k(i, j) != 0) k.insertBack(first + i, first + j) = point.k(i, j);
+      }
+      first += point.k.cols();
+    }
+  k.finalize();
+}
+
+}  // namespace
+
 void set_contact_columns(const std::vector<JointTwists>& twists, const std::vector<PairContacts>& pairs,
                          const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A) {
   const Eigen::Index r = column_count(pairs);
-  std::vector<SparseColumns> sparse(twists.size());
-  Triplets k;
+  const Differences differ = differences(pairs);
+  A.n_contact = r;
+  A.k.resize(r, r);
+  set_stiffness(pairs, A.k);
   for (std::size_t b = 0; b < twists.size(); ++b) {
-    A.body[b].W_s.setZero(twists[b].H.cols(), r);
-    A.body[b].V_s.setZero(twists[b].P.cols(), r);
-  }
-  Eigen::Index column = 0;
-  for (const PairContacts& pair : pairs)
-    for (const auto& point : pair.points) {
-      for (int i = 0; i < point.n_local(); ++i) {
-        const int b = pair.body[local_node(point, i).side];
-        const NodeColumns columns = node_columns(point, i, column, A.body[b], states[b]);
-        add_columns(twists[b], columns, A.body[b], sparse[b]);
-        add_rate_columns(twists[b], columns, A.body[b], sparse[b]);
-      }
-      add_block(point.k, column, k);
-      column += point.W.cols();
-    }
-  set_sparse(A.k, r, r, k);
-  const bool two = without_potential(pairs);
-  for (std::size_t b = 0; b < twists.size(); ++b) {
-    const Eigen::Index n_e = A.body[b].beta.rows();
-    set_sparse(A.body[b].L, n_e, r, sparse[b].L);
-    if (!two) continue;
-    set_sparse(A.body[b].L_V, n_e, r, sparse[b].L_V);
-    set_sparse(A.body[b].L_x, n_e, r, sparse[b].L_x);
+    BodyTerms& terms = A.body[b];
+    const Eigen::Index n_e = terms.beta.rows();
+    terms.W_s.setZero(twists[b].H.cols(), r);
+    terms.V_s.setZero(twists[b].P.cols(), r);
+    begin(n_e, r, terms.L);
+    if (differ.V || differ.V_dot) begin(n_e, r, terms.L_V);
+    if (differ.V_dot) begin(n_e, r, terms.L_x);
+    set_body_columns(static_cast<int>(b), twists[b], pairs, states[b], terms);
+    for (auto* L : elastic_rows(terms)) L->finalize();
   }
 }
 

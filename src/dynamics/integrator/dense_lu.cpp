@@ -22,4 +22,11 @@ Eigen::VectorXd DenseLu::solve(Eigen::VectorXd y) const {
   return y;
 }
 
+void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+  const auto m = static_cast<PetscBLASInt>(A.rows()), n = static_cast<PetscBLASInt>(A.cols());
+  const PetscBLASInt one = 1;
+  const double factor = 1;
+  if (m > 0 && n > 0) BLASgemv_("N", &m, &n, &factor, A.data(), &m, x.data(), &one, &factor, y.data(), &one);
+}
+
 }  // namespace elastogear::dynamics

@@ -51,6 +51,12 @@ Eigen::Index BorderColumns::size(const std::vector<int>& node) const {
 Eigen::MatrixXd BorderColumns::project(const std::vector<int>& node, const Eigen::MatrixXd& X) const {
   Eigen::MatrixXd P(size(node), X.cols());
   P.topRows(n_u()) = U_.transpose() * X;
+  if (X.cols() == 1) {
+    for (std::size_t i = 0; i < node.size(); ++i)
+      P.col(0).segment<3>(n_u() + 3 * static_cast<Eigen::Index>(i)) =
+          model::displacement(*Phi_, node[i], X.col(0));
+    return P;
+  }
   std::visit(
       [&](const auto& rows) {
         for (std::size_t i = 0; i < node.size(); ++i)
@@ -168,6 +174,7 @@ Eigen::MatrixXd ElasticBlock::solve(const Eigen::MatrixXd& Y) const {
 void ElasticBlock::reset_compliance() {
   kept_.clear();
   batches_.clear();
+  answer_.reset();
   std::fill(slot_.begin(), slot_.end(), -1);
   response_.clear();
   U_response_ = solve(columns_.U());
@@ -190,7 +197,25 @@ void ElasticBlock::add_to_compliance(const std::vector<int>& node) {
   G_.bottomLeftCorner(after - before, before) = G_.topRightCorner(before, after - before).transpose();
 }
 
-Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
+// Part of G_: the columns U and those of the given nodes, three by three.
+Eigen::MatrixXd ElasticBlock::gathered(const std::vector<int>& node) const {
+  const Eigen::Index n_u = columns_.n_u(), n = columns_.size(node);
+  Eigen::MatrixXd G(n, n);
+  const auto copy_column = [&](Eigen::Index from, Eigen::Index to) {
+    G.col(to).head(n_u) = G_.col(from).head(n_u);
+    for (std::size_t i = 0; i < node.size(); ++i)
+      G.col(to).segment<3>(n_u + 3 * static_cast<Eigen::Index>(i)) =
+          G_.col(from).segment<3>(n_u + 3 * slot_[node[i]]);
+  };
+  for (Eigen::Index u = 0; u < n_u; ++u) copy_column(u, u);
+  for (std::size_t i = 0; i < node.size(); ++i)
+    for (Eigen::Index d = 0; d < 3; ++d)
+      copy_column(n_u + 3 * slot_[node[i]] + d, n_u + 3 * static_cast<Eigen::Index>(i) + d);
+  return G;
+}
+
+std::shared_ptr<const Eigen::MatrixXd> ElasticBlock::compliance(const std::vector<int>& node) {
+  if (answer_ && node == asked_) return answer_;
   std::vector<int> missing;
   std::copy_if(node.begin(), node.end(), std::back_inserter(missing), [&](int i) { return slot_[i] < 0; });
   if (kept_.size() + missing.size() > kMaxKeptNodes) {
@@ -204,11 +229,9 @@ Eigen::MatrixXd ElasticBlock::compliance(const std::vector<int>& node) {
     add_to_compliance({part, end});
     part = end;
   }
-  std::vector<Eigen::Index> index;
-  for (Eigen::Index u = 0; u < columns_.n_u(); ++u) index.push_back(u);
-  for (int i : node)
-    for (Eigen::Index d = 0; d < 3; ++d) index.push_back(columns_.n_u() + 3 * slot_[i] + d);
-  return G_(index, index);
+  asked_ = node;
+  answer_ = std::make_shared<const Eigen::MatrixXd>(gathered(node));
+  return answer_;
 }
 
 Eigen::VectorXd ElasticBlock::response(const std::vector<int>& node, const Eigen::VectorXd& c) const {

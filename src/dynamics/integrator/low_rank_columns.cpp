@@ -31,8 +31,18 @@ void add_block(Index row, Index column, const MatrixXd& block, Eigen::SparseMatr
 }
 
 std::vector<Eigen::SparseMatrix<double>*> elastic_rows(BodyTerms& terms) {
-  if (terms.L_V.rows() == 0) return {&terms.L};
-  return {&terms.L, &terms.L_V, &terms.L_x};
+  std::vector<Eigen::SparseMatrix<double>*> all{&terms.L};
+  if (terms.L_V.rows() > 0) all.push_back(&terms.L_V);
+  if (terms.L_x.rows() > 0) all.push_back(&terms.L_x);
+  return all;
+}
+
+const Eigen::SparseMatrix<double>& displacement_rows(const BodyTerms& terms) {
+  return terms.L_V.rows() > 0 ? terms.L_V : terms.L;
+}
+
+const Eigen::SparseMatrix<double>& position_rows(const BodyTerms& terms) {
+  return terms.L_x.rows() > 0 ? terms.L_x : displacement_rows(terms);
 }
 
 void add_border_stiffness(const MatrixXd& Z, std::size_t b, EffectiveMatrix& A) {

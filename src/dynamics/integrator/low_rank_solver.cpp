@@ -3,39 +3,17 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "elastogear/base/error.h"
+#include "dynamics/integrator/low_rank_columns.h"
 #include "elastogear/body/deformed_inertia.h"
 
 namespace elastogear::dynamics {
 namespace {
-
-const Eigen::SparseMatrix<double>& rows_of(const BodyTerms& t) { return t.L_V.rows() > 0 ? t.L_V : t.L; }
-
-const Eigen::SparseMatrix<double>& position_rows(const BodyTerms& t) {
-  return t.L_x.rows() > 0 ? t.L_x : rows_of(t);
-}
 
 // R on all columns of E: those of the nodes are the last.
 Eigen::MatrixXd residual_displacement(const BodyTerms& t, const Eigen::MatrixXd& X) {
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.rows(), X.cols());
   if (t.R.size() > 0) Y.bottomRows(t.R.rows()).noalias() = t.R * X.bottomRows(t.R.rows());
   return Y;
-}
-
-// X' R on all columns of E.
-Eigen::MatrixXd residual_displacement_rows(const BodyTerms& t, const Eigen::MatrixXd& X) {
-  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(X.cols(), X.rows());
-  if (t.R.size() > 0) Y.rightCols(t.R.cols()).noalias() = X.bottomRows(t.R.rows()).transpose() * t.R;
-  return Y;
-}
-
-// L_V'G + L_x'R. Products of a sparse matrix that run down the columns of the dense one are the fast ones; G
-// is not symmetric where D^-1 is only approximated.
-Eigen::MatrixXd responses(const BodyTerms& t, const Eigen::MatrixXd& G) {
-  const Eigen::MatrixXd G_t = G.transpose();
-  Eigen::MatrixXd rows = (G_t * rows_of(t)).transpose();
-  if (t.R.size() > 0) rows += residual_displacement_rows(t, position_rows(t));
-  return rows;
 }
 
 }  // namespace
@@ -55,31 +33,14 @@ bool LowRankSolver::is_exact() const {
   return std::all_of(block_.begin(), block_.end(), [](const ElasticBlock& D) { return D.is_exact(); });
 }
 
-void LowRankSolver::add_body(std::size_t b, Eigen::MatrixXd& small) {
-  const BodyTerms& t = A_.body[b];
-  const auto [s, n_s, n_q, joint] = range_[b];
-  const Eigen::Index r = A_.k.rows();
-  const Eigen::MatrixXd G = block_[b].compliance(t.node), V_responses = responses(t, G),
-                        rho_responses = t.rho.transpose() * G + residual_displacement_rows(t, t.rho);
-  const Eigen::SparseMatrix<double> L_k = t.L * A_.k;
-  small.block(joint, joint, n_s, n_s) += t.C - rho_responses * t.beta;
-  small.block(joint, n_s_, n_s, r) += t.W_s * A_.k - rho_responses * L_k;
-  small.block(n_s_, joint, r, n_s) += V_responses * t.beta - t.V_s.transpose();
-  small.bottomRightCorner(r, r) += V_responses * L_k;
-}
-
-// The dense matrix of the system that stays: docs/theory.md, Eq. (8.16).
 void LowRankSolver::set(EffectiveMatrix A) {
   A_ = std::move(A);
-  const Eigen::Index r = A_.k.rows();
-  Eigen::MatrixXd small = Eigen::MatrixXd::Zero(n_s_ + r, n_s_ + r);
-  small.bottomRightCorner(r, r).setIdentity();
+  std::vector<CondensedBody> bodies;
   for (std::size_t b = 0; b < block_.size(); ++b) {
     block_[b].set_shifts(A_.shift_v, A_.shift_a, A_.body[b].following);
-    add_body(b, small);
+    bodies.push_back({range_[b].joint, range_[b].n_s, block_[b].compliance(A_.body[b].node)});
   }
-  require(small.allFinite(), "the effective matrix is not finite");
-  lu_.set(std::move(small));
+  condensed_.set(A_, std::move(bodies));
 }
 
 // k lambda, lambda = V'x + L_x'w of all bodies with w = -R (beta x_s + L k lambda); projected: E'x_q.
@@ -92,7 +53,7 @@ Eigen::VectorXd LowRankSolver::contact_forces(const Eigen::VectorXd& x,
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const BodyTerms& t = A_.body[b];
     const auto x_s = x.segment(range_[b].s, range_[b].n_s);
-    lambda += t.V_s.transpose() * x_s + rows_of(t).transpose() * projected[b];
+    lambda += t.V_s.transpose() * x_s + displacement_rows(t).transpose() * projected[b];
     if (t.R.size() == 0) continue;
     has_residual = true;
     lambda -= position_rows(t).transpose() * residual_displacement(t, t.beta * x_s).col(0);
@@ -139,9 +100,9 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
     x.segment(s + n_s, n_q) = block_[b].solve(y.segment(s + n_s, n_q));
     const Eigen::VectorXd p = block_[b].columns().project(t.node, x.segment(s + n_s, n_q));
     right.segment(joint, n_s) = y.segment(s, n_s) - t.rho.transpose() * p;
-    right.tail(A_.k.rows()) += rows_of(t).transpose() * p;
+    right.tail(A_.k.rows()) += displacement_rows(t).transpose() * p;
   }
-  const Eigen::VectorXd small = lu_.solve(std::move(right));
+  const Eigen::VectorXd small = condensed_.solve(A_, right);
   const Eigen::VectorXd k_lambda = A_.k * small.tail(A_.k.rows());
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const auto [s, n_s, n_q, joint] = range_[b];

@@ -1,0 +1,67 @@
+#include "dynamics/integrator/gmres.h"
+
+#include <Eigen/Jacobi>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace elastogear::dynamics {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kFirst = 16;  // vectors for which there is room at first
+
+// The triangular factor of the Hessenberg matrix, and |b| e_1 turned with it: its last entry is the norm of
+// the residual.
+struct Hessenberg {
+  MatrixXd R;
+  VectorXd g;
+  std::vector<Eigen::JacobiRotation<double>> turns;
+
+  // Takes up column j: its entries along the basis, and the length of what is left.
+  void add(Index j, VectorXd column) {
+    for (Index i = 0; i < j; ++i)
+      column.applyOnTheLeft(i, i + 1, turns[static_cast<std::size_t>(i)].adjoint());
+    turns.emplace_back();
+    turns.back().makeGivens(column[j], column[j + 1]);
+    column.applyOnTheLeft(j, j + 1, turns.back().adjoint());
+    g.applyOnTheLeft(j, j + 1, turns.back().adjoint());
+    R.col(j).head(j + 1) = column.head(j + 1);
+  }
+};
+
+}  // namespace
+
+std::optional<GmresSolution> gmres(const std::function<VectorXd(const VectorXd&)>& multiply,
+                                   const VectorXd& b, const GmresLimits& limits) {
+  const double norm = b.norm();
+  if (norm <= limits.residual) return GmresSolution{VectorXd::Zero(b.size()), 0};
+  MatrixXd basis(b.size(), std::min(kFirst, limits.steps + 1));
+  Hessenberg H{MatrixXd::Zero(limits.steps, limits.steps), norm * VectorXd::Unit(limits.steps + 1, 0), {}};
+  basis.col(0) = b / norm;
+  for (Index j = 0; j < limits.steps; ++j) {
+    VectorXd next = multiply(basis.col(j)), column = VectorXd::Zero(j + 2);
+    for (int pass = 0; pass < 2; ++pass) {  // the second one takes out the roundoff of the first
+      const VectorXd along = basis.leftCols(j + 1).transpose() * next;
+      next -= basis.leftCols(j + 1) * along;
+      column.head(j + 1) += along;
+    }
+    column[j + 1] = next.norm();
+    const double left = column[j + 1];
+    if (!std::isfinite(left)) return {};
+    H.add(j, std::move(column));
+    if (std::abs(H.g[j + 1]) <= limits.residual) {
+      const VectorXd y =
+          H.R.topLeftCorner(j + 1, j + 1).triangularView<Eigen::Upper>().solve(H.g.head(j + 1));
+      return GmresSolution{basis.leftCols(j + 1) * y, static_cast<int>(j + 1)};
+    }
+    if (j + 1 == basis.cols()) basis.conservativeResize(Eigen::NoChange, limits.steps + 1);
+    basis.col(j + 1) = next / left;
+  }
+  return {};
+}
+
+}  // namespace elastogear::dynamics

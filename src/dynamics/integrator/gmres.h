@@ -1,0 +1,25 @@
+#pragma once
+// GMRES without restart for systems near the identity. Private to module dynamics.
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+
+namespace elastogear::dynamics {
+
+struct GmresLimits {
+  double residual;  ///< largest norm of b - A x
+  int steps;
+};
+
+struct GmresSolution {
+  Eigen::VectorXd x;
+  int steps;
+};
+
+/// Solves A x = b from zero (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869). Nothing
+/// where the limits are not met.
+std::optional<GmresSolution> gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply,
+                                   const Eigen::VectorXd& b, const GmresLimits& limits);
+
+}  // namespace elastogear::dynamics
