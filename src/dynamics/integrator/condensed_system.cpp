@@ -252,19 +252,22 @@ VectorXd CondensedSystem::moved_by(const EffectiveMatrix& A, const VectorXd& for
 std::optional<VectorXd> CondensedSystem::solve_by_steps(const EffectiveMatrix& A,
                                                         const VectorXd& right) const {
   const Index r = A.k.rows();
-  const VectorXd x = solve_leading(A, right),
-                 unweighted = weight_.unaryExpr([](double w) { return w > 0 ? 1 / w : 0; });
+  VectorXd x = solve_leading(A, right);
+  const VectorXd unweighted = weight_.unaryExpr([](double w) { return w > 0 ? 1 / w : 0; });
   const auto weak = [&](const VectorXd& of) -> VectorXd {
     return weight_.cwiseProduct(k_weak_ * of.tail(r));
   };
-  const auto moved = [&](const VectorXd& phi) { return moved_by(A, unweighted.cwiseProduct(phi)); };
+  std::vector<VectorXd> moved;  // by each of the vectors that GMRES takes
+  const auto multiply = [&](const VectorXd& f) -> VectorXd {
+    moved.push_back(moved_by(A, unweighted.cwiseProduct(f)));
+    return f - weak(moved.back());
+  };
   const double forces = weight_.cwiseProduct(A.k * x.tail(r)).norm();
-  const auto phi = gmres([&](const VectorXd& f) -> VectorXd { return f - weak(moved(f)); }, weak(x),
-                         {kLeft * forces, kMostSteps});
-  if (!phi) return {};
-  n_steps_ = phi->steps;
-  if (n_steps_ == 0) return x;
-  return x + moved(phi->x);
+  const auto share = gmres(multiply, weak(x), {kLeft * forces, kMostSteps});
+  if (!share) return {};
+  n_steps_ = static_cast<int>(share->size());
+  for (std::size_t j = 0; j < moved.size(); ++j) x += (*share)[static_cast<Index>(j)] * moved[j];
+  return x;
 }
 
 VectorXd CondensedSystem::solve(const EffectiveMatrix& A, const VectorXd& right) const {

@@ -35,10 +35,10 @@ struct Hessenberg {
 
 }  // namespace
 
-std::optional<GmresSolution> gmres(const std::function<VectorXd(const VectorXd&)>& multiply,
-                                   const VectorXd& b, const GmresLimits& limits) {
+std::optional<VectorXd> gmres(const std::function<VectorXd(const VectorXd&)>& multiply, const VectorXd& b,
+                              const GmresLimits& limits) {
   const double norm = b.norm();
-  if (norm <= limits.residual) return GmresSolution{VectorXd::Zero(b.size()), 0};
+  if (norm <= limits.residual) return VectorXd();
   MatrixXd basis(b.size(), std::min(kFirst, limits.steps + 1));
   Hessenberg H{MatrixXd::Zero(limits.steps, limits.steps), norm * VectorXd::Unit(limits.steps + 1, 0), {}};
   basis.col(0) = b / norm;
@@ -53,11 +53,8 @@ std::optional<GmresSolution> gmres(const std::function<VectorXd(const VectorXd&)
     const double left = column[j + 1];
     if (!std::isfinite(left)) return {};
     H.add(j, std::move(column));
-    if (std::abs(H.g[j + 1]) <= limits.residual) {
-      const VectorXd y =
-          H.R.topLeftCorner(j + 1, j + 1).triangularView<Eigen::Upper>().solve(H.g.head(j + 1));
-      return GmresSolution{basis.leftCols(j + 1) * y, static_cast<int>(j + 1)};
-    }
+    if (std::abs(H.g[j + 1]) <= limits.residual)
+      return H.R.topLeftCorner(j + 1, j + 1).triangularView<Eigen::Upper>().solve(H.g.head(j + 1)).eval();
     if (j + 1 == basis.cols()) basis.conservativeResize(Eigen::NoChange, limits.steps + 1);
     basis.col(j + 1) = next / left;
   }

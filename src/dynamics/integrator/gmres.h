@@ -12,14 +12,10 @@ struct GmresLimits {
   int steps;
 };
 
-struct GmresSolution {
-  Eigen::VectorXd x;
-  int steps;
-};
-
-/// Solves A x = b from zero (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869). Nothing
-/// where the limits are not met.
-std::optional<GmresSolution> gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply,
-                                   const Eigen::VectorXd& b, const GmresLimits& limits);
+/// Solves A x = b from zero (Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869). Returns
+/// the coefficients with which the vectors that were multiplied, in their order, make up x; nothing where the
+/// limits are not met.
+std::optional<Eigen::VectorXd> gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply,
+                                     const Eigen::VectorXd& b, const GmresLimits& limits);
 
 }  // namespace elastogear::dynamics
