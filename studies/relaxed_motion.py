@@ -20,7 +20,7 @@ import matplotlib.pyplot as plt
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "app"))
 import creep
 
-RISES, ROLLINGS, MODES = (1e-4, 1e-2, 1, 1e2, 1e4), (1e-2, 0.1, 1), 100
+RISES, ROLLINGS, MODES = (1e-4, 1e-2, 1, 1e2, 1e4), (1e-2, 0.1, 1, 10, 1e2, 1e4), 100
 KINDS = {"both": "one Poisson's ratio", "shear": "shear alone relaxes", "apart": "shear and bulk apart", "two": "two polymers"}
 TOUCHING = 75  # displacements of the nodes of the block that may touch
 BASES = {"modal_residual": ((50, 100, 150, 175, 200), 0), "modal_attachment": ((25, 75, 125), TOUCHING), "craig_bampton": ((100, 150, 200), 0)}

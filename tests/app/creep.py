@@ -227,8 +227,9 @@ def compare_motion(case, bound):
         for rise in (1e-4, 1e4):
             for what, error in errors_on_ramp(case, load, rise).items():
                 check(f"{case.kind}, {case.modes} modes, ramp {load} within {rise:g} s: {what}", error, bound)
-    for what, error in errors_of_rolling(case, 1).items():
-        check(f"{case.kind}, {case.modes} modes, rolling for 1 s: {what}", error, bound)
+    for duration in (1, 10, 1e4):
+        for what, error in errors_of_rolling(case, duration).items():
+            check(f"{case.kind}, {case.modes} modes, rolling for {duration:g} s: {what}", error, bound)
 
 
 def compare_memory(case, bound):

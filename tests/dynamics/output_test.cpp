@@ -96,6 +96,66 @@ TEST(Output, between_steps_has_the_velocity_of_the_motion) {
   }
 }
 
+// An elastic box that is pressed slowly, in long steps, onto a wall which is stiffer by far: contact begins
+// within a step.
+System press(double speed) {
+  const test::BoxSpec spec{
+      .size = {1, 1, 1}, .cells = {2, 1, 1}, .material = {1e4, 0.3, 1}, .held = [](const auto& X, int) {
+        return X[0] == 0;
+      }};
+  const auto box = std::make_shared<model::ElasticBody>(test::make_box(spec, model::Basis::full));
+  const auto wall = std::make_shared<model::ElasticBody>(test::make_rigid_box(spec));
+  BodySetup ram{.name = "ram", .body = box, .joint = {.type = body::JointType::prismatic, .axis = {1, 0, 0}}};
+  ram.translation.drive = speed_drive(0, speed);
+  PairSetup pair{"ram:wall", {0, 1}, {.depth = 0.2, .friction = {}}};
+  pair.settings.stiffness = 1e7;
+  return System({ram, {.name = "wall", .body = wall, .joint = {.r_WB0 = {1.003, 0, 0}}}}, {pair});
+}
+
+TEST(Output, between_steps_has_the_forces_of_steps_that_end_there) {
+  constexpr double kEnd = 1e3, kStep = kEnd / 8, kOutput = kEnd / 32;  // s
+  const auto seen =
+      snapshots(press(1e-5), {.dt = kStep, .end_time = kEnd, .rho_inf = 0, .output_dt = kOutput});
+  const auto steps = snapshots(press(1e-5), {.dt = kOutput, .end_time = kEnd, .rho_inf = 0});
+  ASSERT_EQ(seen.size(), 33u);
+  ASSERT_EQ(steps.size(), seen.size());
+  const double largest = steps.back().pairs[0].force.norm();
+  ASSERT_GT(largest, 10);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_NEAR(seen[i].time, steps[i].time, 1e-9);
+    EXPECT_LT((seen[i].pairs[0].force - steps[i].pairs[0].force).norm(), 1e-6 * largest) << seen[i].time;
+    EXPECT_NEAR(seen[i].energy.elastic, steps[i].energy.elastic, 1e-6 * steps.back().energy.elastic);
+  }
+}
+
+// The box vibrates from its sudden motion on, which long steps do not resolve: forces swing from step to
+// step.
+TEST(Output, leaves_the_ledger_of_energy_as_it_is) {
+  const auto seen = snapshots(press(1), {.dt = 4e-3, .end_time = 0.08, .output_dt = 3e-3});
+  const auto steps = snapshots(press(1), {.dt = 4e-3, .end_time = 0.08});
+  ASSERT_GT(steps.back().energy.work, 0);
+  EXPECT_NEAR(seen.back().energy.work, steps.back().energy.work, 1e-12 * steps.back().energy.work);
+  EXPECT_NEAR(seen.back().energy.balance, steps.back().energy.balance, 1e-12 * steps.back().energy.work);
+}
+
+// Velocity and acceleration at the outputs, of a method whose acceleration lags.
+TEST(Output, between_steps_with_dissipation_is_of_second_order) {
+  const Pendulum pendulum;
+  const auto errors = [&](double dt) {
+    Eigen::Vector2d error(0, 0);
+    for (const auto& s :
+         snapshots(pendulum.system(), {.dt = dt, .end_time = 2, .rho_inf = 0.2, .output_dt = 0.013})) {
+      const double speed = -pendulum.phi_0 * pendulum.omega * std::sin(pendulum.omega * s.time);
+      error[0] = std::max(error[0], std::abs(s.bodies[0].s[0] - pendulum.angle(s.time)));
+      error[1] = std::max(error[1], std::abs(s.bodies[0].s_dot[0] - speed));
+    }
+    return error;
+  };
+  const Eigen::Vector2d coarse = errors(0.04), fine = errors(0.02);
+  EXPECT_NEAR(std::log2(coarse[0] / fine[0]), 2, 0.1);
+  EXPECT_NEAR(std::log2(coarse[1] / fine[1]), 2, 0.1);
+}
+
 // The local error per step is a length: ten times less of it takes about 10^(1/3) times the steps.
 TEST(StepControl, keeps_the_local_error_below_a_length) {
   const Pendulum pendulum;

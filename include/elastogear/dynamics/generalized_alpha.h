@@ -43,6 +43,11 @@ struct MotionVectors {
 /// U by Eq. (8.10), V and A by Eq. (8.17) between the ends of the last step, as integrated.
 void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x);
 
+/// The same by a step from the start of the last one to t, at whose stage F = 0 (docs/theory.md,
+/// section 8.2); the run goes on from the end of the last step all the same. False: Newton's method does not
+/// converge, and x is none.
+bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x);
+
 /// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
 

@@ -107,38 +107,6 @@ PetscErrorCode step(TS ts) {
 
 PetscErrorCode roll_back(TS ts) { return set_solution(ts, method(ts).start); }
 
-// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated: docs/theory.md,
-// Eq. (8.10).
-PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
-  const Method& m = method(ts);
-  const PetscReal dt = m.step_size, s = (t - m.step_time) / dt;
-  PetscCheck(dt > 0 && m.step_time == ts->ptime_prev, PetscObjectComm((PetscObject)ts),
-             PETSC_ERR_ARG_WRONGSTATE, "No step to interpolate: none was taken, or it was rolled back");
-  const PetscReal h = s * s * (3 - 2 * s);
-  const PetscScalar weights[] = {1 - h, h, dt * s * (1 - s) * (1 - s), dt * s * s * (s - 1)};
-  Vec ends[] = {m.start.U, m.end.U, m.start.V, m.end.V};
-  PetscCall(VecZeroEntries(U));
-  return VecMAXPY(U, 4, weights, ends);
-}
-
-// Derivative of the Hermite polynomial of interpolate, docs/theory.md, Eq. (8.17).
-PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V) {
-  const Method& m = method(ts);
-  const PetscReal dt = m.step_size, s = (t - m.step_time) / dt, slope = 6 * s * (1 - s) / dt;
-  const PetscScalar weights[] = {-slope, slope, (1 - s) * (1 - 3 * s), s * (3 * s - 2)};
-  Vec ends[] = {m.start.U, m.end.U, m.start.V, m.end.V};
-  PetscCall(VecZeroEntries(V));
-  return VecMAXPY(V, 4, weights, ends);
-}
-
-// Linear between the ends of the last step, docs/theory.md, Eq. (8.17).
-PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A) {
-  const Method& m = method(ts);
-  const PetscReal s = (t - m.step_time) / m.step_size;
-  PetscCall(VecCopy(m.start.A, A));
-  return VecAXPBY(A, s, 1 - s, m.end.A);
-}
-
 // ---- error estimate
 
 // norm := weighted norm of scale * (A1 - A0), as an error of x
@@ -365,6 +333,13 @@ void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x) {
   check(interpolate(ts, t, x.U));
   check(interpolate_velocity(ts, t, x.V));
   check(interpolate_acceleration(ts, t, x.A));
+}
+
+bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x) {
+  bool solved = false;
+  ready_method(ts);
+  check(solve_between(ts, t, {x.U, x.V, x.A}, &solved));
+  return solved;
 }
 
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity) {

@@ -65,6 +65,13 @@ PetscErrorCode solve_acceleration(TS ts);
 /// the last.
 PetscErrorCode move_lag(const Method& m, PetscReal ratio);
 
+/// U at a time between the ends of the last step, Eq. (8.10), and V and A, Eq. (8.17).
+PetscErrorCode interpolate(TS ts, PetscReal t, Vec U);
+PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V);
+PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A);
+/// x := the end of a step from the start of the last one to t. Not solved: Newton's method does not converge.
+PetscErrorCode solve_between(TS ts, PetscReal t, const Motion& x, bool* solved);
+
 /// The callbacks of ts->snes.
 PetscErrorCode stage_function(SNES, Vec Delta, Vec F, TS ts);
 PetscErrorCode stage_jacobian(SNES, Vec Delta, Mat J, Mat P, TS ts);
