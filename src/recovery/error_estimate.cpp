@@ -10,6 +10,7 @@ namespace elastogear::recovery {
 namespace {
 
 constexpr double kInertia = 0.05;  // share of the static residual stress by which its own inertia changes it
+constexpr double kStates = 1e-2;   // by which states of relaxation are interpolated worst, Eq. (4.12b)
 constexpr double kForces = 1e-3;   // to which contact forces are reproduced when the time step changes
 
 // n x n_q, Pa: von Mises stress of each mode.
@@ -68,6 +69,7 @@ StressError reduction_error(const model::ElasticBody& body, const std::vector<in
   if (found.rows() == 0) return error;
   if (recovered.residual.size() > 0)
     error.at_node += kInertia * von_mises(recovered.residual) * dynamic_share(body, coordinates).asDiagonal();
+  if (recovered.crept.size() > 0) error.at_node += kStates * von_mises(recovered.crept);
   Eigen::MatrixXd exact = found;
   if (recovered.residual.size() > 0 && !recovered.has_residual)
     exact = von_mises(Eigen::MatrixXd(recovered.stress + recovered.residual));

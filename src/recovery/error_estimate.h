@@ -21,6 +21,8 @@ struct RecoveredStress {
   Eigen::MatrixXd stress;    ///< 6 n x n_t, Pa, as recovered
   Eigen::MatrixXd residual;  ///< 6 n x n_t, Pa, static response to f beside that of the modes; empty: unknown
   bool has_residual = true;  ///< whether `stress` contains it
+  /// 6 n x n_t, Pa, what of the residual has come by creep as in states of relaxation; empty: nothing.
+  Eigen::MatrixXd crept = {};
 };
 
 /// Eq. (4.8), n_t: dynamic over static amplitude of the upper half of the modes, in the norm of the
@@ -44,7 +46,8 @@ struct StressError {
   Eigen::VectorXd of_peak;  ///< n_t, Pa, of the largest value over the nodes
 };
 
-/// Eqs. (4.6) to (4.9). members: n local numbers in body.stress.node. The body's basis is modal.
+/// Eqs. (4.6) to (4.9), and Eq. (4.12b) of bodies that relax. members: n local numbers in
+/// body.stress.node. The body's basis is modal.
 StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);
 

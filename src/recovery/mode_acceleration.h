@@ -15,4 +15,10 @@ namespace elastogear::recovery {
 Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::MatrixXd& q,
                              const model::ForceHistory& forces);
 
+/// What is dynamic in the coordinates of a body that relaxes, n_q x n_t: its instantaneous response to the
+/// forces of inertia. q_d: its coordinates without their instantaneous response to the contact forces; w:
+/// n_q n_p x n_t. Eq. (4.12a).
+Eigen::MatrixXd inertial_part(const model::ElasticBody& body, const Eigen::MatrixXd& q_d,
+                              const Eigen::MatrixXd& w);
+
 }  // namespace elastogear::recovery

@@ -6,6 +6,7 @@
 #include "recovery/crept_response.h"
 #include "recovery/error_estimate.h"
 #include "recovery/mesh_error.h"
+#include "recovery/mode_acceleration.h"
 
 namespace elastogear::recovery {
 namespace {
@@ -31,7 +32,22 @@ Eigen::MatrixXd residual_stress(RecoveredBody& body, const model::Stress& stress
   return whole.size() > 0 ? Eigen::MatrixXd(whole - of_modes) : Eigen::MatrixXd(-of_modes);
 }
 
-// Sets `error` where it can be told: the full basis leaves nothing out.
+// The same in a body that relaxes, which has crept besides, and what has crept. Eqs. (4.11) and (4.12).
+RecoveredStress relaxed_residual(const RecoveredBody& body, const model::ElasticBody& elastic,
+                                 const std::vector<int>& members, const io::StressSet& set) {
+  const StaticResponseOfRun& response = *body.response;
+  const Eigen::MatrixXd& q = body.run.history.q;
+  RecoveredStress recovered{set.stress, set.stress - modal_stress(elastic.stress, members, q) +
+                                            relaxed_stress(elastic, members, body.run.history.w)};
+  if (response.crept)
+    recovered.crept = recovered.residual -
+                      stored_stress(response, response.position, response.force, set.node) +
+                      modal_stress(elastic.stress, members, q - response.q);
+  return recovered;
+}
+
+// Sets `error` where it can be told: the full basis leaves nothing out, and of bodies that relax without
+// residual flexibility the static response is not known.
 void estimate_error(RecoveredBody& body, const model::ElasticBody& elastic, io::StressSet& set) {
   if (elastic.basis == model::Basis::full) {
     set.error.setZero(set.von_mises.rows(), set.von_mises.cols());
@@ -39,12 +55,16 @@ void estimate_error(RecoveredBody& body, const model::ElasticBody& elastic, io::
     return;
   }
   const StaticResponseOfRun* const known = body.known();
-  if (!known || body.relaxes()) return;
+  if (!known) return;
   const std::vector<int>& members = elastic.stress.sets.at(set.set);
   const Eigen::MatrixXd q_s = body.run.history.q - known->q;
-  auto error = reduction_error(
-      elastic, members, {known->q, q_s},
-      {set.stress, residual_stress(body, elastic.stress, members, set), body.response != nullptr});
+  auto error =
+      body.relaxes()
+          ? reduction_error(elastic, members, {inertial_part(elastic, known->q, body.run.history.w), q_s},
+                            relaxed_residual(body, elastic, members, set))
+          : reduction_error(
+                elastic, members, {known->q, q_s},
+                {set.stress, residual_stress(body, elastic.stress, members, set), body.response != nullptr});
   set.error = std::move(error.at_node);
   set.peak_error = std::move(error.of_peak);
 }
@@ -85,7 +105,7 @@ io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elas
   if (with_error) {
     estimate_error(body, elastic, recovered);
     recovered.mesh_error = mesh_error(body, elastic, recovered);
-    if (body.known() && !body.relaxes()) recovered.contact_error = contact_error(*body.known(), nodes);
+    if (body.known()) recovered.contact_error = contact_error(*body.known(), nodes);
   }
   return recovered;
 }

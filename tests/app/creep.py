@@ -124,10 +124,21 @@ def simulate(files, output, *more):
                 "relaxation": file["energy/relaxation"][-1]}
 
 
+RECOVERED = []  # von Mises stresses and their estimated errors, of the full basis and of a reduced one in turn
+
+
 def stresses(result, name):
     run("recover", "-result", result, "-stress_block", "NEAR,INSIDE", "-output", name)
     with h5py.File(name) as file:
-        return {where: file[f"block/{where}/stress"][:] for where in ("NEAR", "INSIDE")}
+        sets = {where: file[f"block/{where}"] for where in ("NEAR", "INSIDE")}
+        RECOVERED.append([(of["von_mises"][:], of["error"][:]) for of in sets.values()])
+        return {where: of["stress"][:] for where, of in sets.items()}
+
+
+def estimates(full, reduced):
+    """True error of the von Mises stress of two recoveries and its estimate, of all values, over the largest of the set."""
+    rows = [np.array([abs(found - exact).ravel(), error.ravel()]) / exact.max() for (exact, _), (found, error) in zip(full, reduced)]
+    return np.hstack(rows)
 
 
 def off(values, reference):
@@ -232,6 +243,13 @@ def compare_motion(case, bound):
             check(f"{case.kind}, {case.modes} modes, rolling for {duration:g} s: {what}", error, bound)
 
 
+def check_estimates(bound):
+    """Of all recoveries so far: the share of values whose true error is above twice the estimate."""
+    true, estimate = np.hstack([estimates(*RECOVERED[i : i + 2]) for i in range(0, len(RECOVERED), 2)])
+    check(f"{true.size} stresses, true error up to {true.max():.1e}, above twice its estimate", np.mean(true > 2 * estimate), bound)
+    assert np.median(estimate) < 1e-2, np.median(estimate)
+
+
 def compare_memory(case, bound):
     """The block is loaded for an hour, then all but a fortieth of the load is taken off within 0.5 ms: what is left of its print."""
     with open("load.csv", "w", encoding="utf-8") as file:
@@ -281,6 +299,7 @@ def main():
             for element in ("plain", "incompatible"):
                 compare_rest(Case(kind, element=element), 1e-2)
         compare_motion(Case("shear", 100), 1e-2)
+        check_estimates(5e-2)
         compare_memory(Case("both"), 1e-2)
         compare_impact(Case("both", 200), 1e-2)
 

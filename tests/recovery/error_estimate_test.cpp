@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "elastogear/recovery/stress.h"
+#include "recovery/mode_acceleration.h"
 
 namespace elastogear::recovery::error_estimate_test {
 namespace {
@@ -50,6 +51,33 @@ TEST(ReductionError, of_modes_alone_at_rest_is_what_the_static_response_adds) {
     EXPECT_GE(error.of_peak[t], missing);
     EXPECT_LE(error.of_peak[t], missing + 2e-3 * found.col(t).maxCoeff());
   }
+}
+
+TEST(ReductionError, of_what_has_crept_is_a_hundredth_of_its_stress) {
+  Recovered crept;
+  const Eigen::MatrixXd before = crept.error().at_node;
+  crept.stress.crept = 1e7 * Eigen::MatrixXd::Random(6 * kNodes, kTimes);
+  const Eigen::MatrixXd more = crept.error().at_node - before, stress = von_mises(crept.stress.crept);
+  EXPECT_LT((more - 1e-2 * stress).norm(), kRoundoff * before.norm());
+}
+
+// K q - K_1 w = h under static forces h, whatever has crept; and the instantaneous response to others
+// besides.
+TEST(ReductionError, of_a_body_that_relaxes_knows_the_dynamic_part_from_what_has_crept) {
+  Recovered relaxing;
+  model::ElasticBody& body = relaxing.body;
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(kModes, kModes);
+  body.relaxing.resize(1);
+  body.relaxing[0].K = Eigen::MatrixXd(A * A.transpose()).sparseView();
+  const Eigen::MatrixXd w = Eigen::MatrixXd::Random(kModes, kTimes),
+                        h = Eigen::MatrixXd::Random(kModes, kTimes),
+                        inertia = Eigen::MatrixXd::Random(kModes, kTimes);
+  const auto over_K = [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd {
+    return body.K_r.diagonal().cwiseInverse().asDiagonal() * x;
+  };
+  const Eigen::MatrixXd q = over_K(h + inertia + body.relaxing[0].K * w),
+                        q_d = inertial_part(body, q - over_K(h), w);
+  EXPECT_LT((q_d - over_K(inertia)).norm(), kRoundoff * q.norm());
 }
 
 TEST(ReductionError, grows_with_the_dynamic_part_of_the_upper_modes_and_not_of_the_lower_ones) {

@@ -20,8 +20,7 @@ struct RecoveredBody {
 
   /// The coordinates to multiply modes with: their dynamic part where `response` adds the static one.
   const Eigen::MatrixXd& q() const { return response ? response->q : run.history.q; }
-  /// Is it viscoelastic? Then the error cannot be told: what is dynamic in its coordinates and what has crept
-  /// are not told apart.
+  /// Is it viscoelastic? Then errors are told of the sets of nodes alone, and where `response` is known.
   bool relaxes() const { return run.history.w.rows() > 0; }
   /// The static response by which errors are estimated; nullptr: there is none.
   StaticResponseOfRun* known() const { return response ? response.get() : reference.get(); }

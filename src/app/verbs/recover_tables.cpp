@@ -26,8 +26,8 @@ constexpr double kTrustedMesh = 0.1;  // the same, of the mesh's error
 
 // Advice for stresses whose estimated error is too large.
 std::string remedy(const recovery::RecoveredBody& body) {
-  if (body.relaxes())
-    return "the body is viscoelastic; compare with more modes (-modes), or with -basis full";
+  if (body.relaxes() && !body.response)
+    return "the body is viscoelastic; reduce it with -basis modal_residual, or compare with -basis full";
   const bool untouched = body.reference && body.reference->node.empty();
   if (!body.response && !untouched)
     return "reduce the body with -basis modal_residual, loaded wherever it is touched (option loaded; by "
