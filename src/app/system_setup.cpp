@@ -52,6 +52,10 @@ const Rows<Environment> kEnvironmentRows = {
      "its best affine field), or full (needs bodies reduced with -invariants full)"},
 };
 
+std::string approach_text(const contact::Settings& settings) {
+  return settings.approach == contact::FlankApproach::hertz ? ", approach by H. Hertz" : "";
+}
+
 std::string points_text(const contact::Settings& settings) {
   if (settings.points == contact::SlavePoints::faces) return "over faces";
   if (settings.points == contact::SlavePoints::minima) return "where gaps are least";
@@ -93,7 +97,8 @@ void print_laws(const Options& options, const dynamics::SystemModel& system) {
   for (const dynamics::PairSetup& pair : system.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     print_item("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +
-                                     points_text(pair.settings) + " (" + pair.name + ")");
+                                     points_text(pair.settings) + approach_text(pair.settings) + " (" +
+                                     pair.name + ")");
     warn_of_facets(options, pair, options.list("bodies"));
   }
 }

@@ -28,7 +28,8 @@ def run(*arguments, fails=False):
 
 def stiffness(size, approach):
     size = ["-size", size, "-modes", "5"]
-    run("simulate", DRIVE, *size, "-analysis", "sweep", "-sweep_positions", str(POSITIONS), *approach)
+    said = run("simulate", DRIVE, *size, "-analysis", "sweep", "-sweep_positions", str(POSITIONS), *approach)
+    assert ("approach by H. Hertz" in said) == bool(approach), said
     run("evaluate", DRIVE, *size)
     with h5py.File("spur_c14_evaluation.h5") as file:
         return file["cases/spur_c14_result/pinion:wheel/stiffness/secant"][:].mean()
