@@ -55,10 +55,11 @@ def impact():
 def line(name, found):
     true, estimate = found
     clear = true > 1e-3
-    ratio = np.median(estimate[clear] / true[clear]) if clear.any() else np.nan
+    of_clear = "| |"
+    if clear.any():
+        of_clear = f"{np.median(estimate[clear] / true[clear]):.2g} | {100 * np.mean(true[clear] < 2 * estimate[clear]):.2f} % |"
     print(f"| {name} | {true.size} | {100 * np.median(true):.2g} % | {100 * true.max():.2g} % | {100 * np.median(estimate):.2g} % | "
-          f"{100 * np.mean(true < 2 * estimate):.2f} % | {100 * clear.mean():.1f} % | {ratio:.2g} | "
-          f"{100 * np.mean(true[clear] < 2 * estimate[clear]) if clear.any() else np.nan:.2f} % |", flush=True)
+          f"{100 * np.mean(true < 2 * estimate):.2f} % | {100 * clear.mean():.1f} % | {of_clear}", flush=True)
 
 
 def main():
