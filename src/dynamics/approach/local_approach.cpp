@@ -206,7 +206,8 @@ ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, 
   const auto flank = static_cast<std::size_t>(contacts.body[pair.side]);
   const PatchApproach hertz = patch_approach(at, x.transpose() * at.along, p, pair.face, compliance,
                                              flanks_[flank]->length[static_cast<std::size_t>(group)]);
-  const double geometric = 0.5 * p.dot((x.transpose() * (Q / F) * x).diagonal()) / F;
+  // Points of least gap on a line are at its place, where the gap of rigid flanks is zero.
+  const double geometric = hertz.is_line ? 0 : 0.5 * p.dot((x.transpose() * (Q / F) * x).diagonal()) / F;
   const double approach = hertz.approach - geometric - work / F;
   if (std::abs(approach) < pair.least) return {};
   double all = 0;

@@ -54,7 +54,7 @@ PatchApproach patch_approach(const model::Curvatures& at, const VectorXd& t, con
   const double F = p.sum();
   if (at.least > 0) {
     const model::HertzEllipse ellipse = model::hertz_ellipse(at.least / 2, at.largest / 2, 1 / compliance);
-    if (ellipse.k > kLeastAxes && ellipse.a(F) < longest / 2) return {ellipse.approach(F), kEllipse};
+    if (ellipse.k > kLeastAxes && ellipse.a(F) < longest / 2) return {ellipse.approach(F), kEllipse, false};
   }
   return line_approach(t, p, at.largest, face, compliance);
 }

@@ -12,6 +12,7 @@ namespace elastogear::dynamics {
 struct PatchApproach {
   double approach = 0;  ///< m
   double m = 1;
+  bool is_line = true;
 };
 
 /// Forces p (N) at places t (m) along a line of contact; face: m, of which their places are known no better;
