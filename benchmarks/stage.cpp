@@ -69,7 +69,8 @@ System drive(const Laws& laws, const std::shared_ptr<const model::ElasticBody>& 
   return System({held, turning}, {pair});
 }
 
-// Of all stages, s. contacts: detection, positions of the touched nodes and, without a penalty, the forces.
+// CPU time of each part of the stages, s. contacts: detection, positions of the touched nodes and, without a
+// penalty, the forces.
 struct Times {
   std::vector<double> detection, contacts, residual, matrix, factorisation, solve;
   double displaced = 0;  // nodes, sum over the stages

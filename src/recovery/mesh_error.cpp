@@ -81,7 +81,7 @@ class Rows {
   Eigen::MatrixXd of_modes_;
 };
 
-// What the errors at the n nodes of a set at n_t times are made of, Pa; sums over time are in Pa^2.
+// Terms of the errors at the n nodes of a set at n_t times, Pa; sums over time are in Pa^2.
 struct Parts {
   Eigen::MatrixXd error;  // n x n_t, Eq. (1.17), of the modes' displacements; 0 off free surfaces
   Eigen::MatrixXd more;   // n x n_t, von Mises stress of what the set has beside the stress of the modes

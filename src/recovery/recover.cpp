@@ -32,7 +32,8 @@ Eigen::MatrixXd residual_stress(RecoveredBody& body, const model::Stress& stress
   return whole.size() > 0 ? Eigen::MatrixXd(whole - of_modes) : Eigen::MatrixXd(-of_modes);
 }
 
-// The same in a body that relaxes, which has crept besides, and what has crept. Eqs. (4.11) and (4.12).
+// Stress of a body that relaxes, beside it what its modes leave out, and the part of that which has come by
+// creep. Eqs. (4.11) and (4.12).
 RecoveredStress relaxed_residual(const RecoveredBody& body, const model::ElasticBody& elastic,
                                  const std::vector<int>& members, const io::StressSet& set) {
   const StaticResponseOfRun& response = *body.response;

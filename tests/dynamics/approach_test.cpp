@@ -108,6 +108,8 @@ TEST(PatchApproach, of_a_line_is_that_of_a_long_ellipse) {
   std::printf("b / a = %.3f: line %.4g m, ellipse %.4g m\n", ellipse.k, line.approach,
               ellipse.approach(kForce) - gap);
   EXPECT_NEAR(line.approach, ellipse.approach(kForce) - gap, 0.01 * line.approach);
+  const PatchApproach finer = line_approach(t, p, 2 * kB, 0.1 * ellipse.k * a, 1 / kE);
+  EXPECT_NEAR(finer.approach, line.approach, 0.01 * line.approach);
   const PatchApproach more = line_approach(t, 1.01 * p, 2 * kB, 2 * a / kForces, 1 / kE);
   EXPECT_NEAR(std::log(more.approach / line.approach) / std::log(1.01), line.m, 1e-3);
 }

@@ -6,6 +6,9 @@
 
 namespace elastogear::model {
 
+/// b / a of an ellipse, below which two bodies are taken to touch along a line.
+inline constexpr double kLeastAxes = 0.02;
+
 /// Principal relative curvatures of two surfaces that touch, in their tangent plane.
 struct Curvatures {
   double least = 0, largest = 0;  ///< 1/m; the gap is (least x^2 + largest y^2) / 2

@@ -218,8 +218,9 @@ ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, 
 
 void LocalApproach::set_law(std::size_t b, std::size_t group, const ApproachLaw& law) {
   Flank& flank = flanks_[b]->flank[group];
-  const double before = std::exchange(flank.law, law).value(flank.force);
-  flanks_[b]->change = std::max(flanks_[b]->change, std::abs(law.value(flank.force) - before));
+  flank.law = law;
+  const double before = std::exchange(flank.approach, law.value(flank.force));
+  flanks_[b]->change = std::max(flanks_[b]->change, std::abs(flank.approach - before));
 }
 
 double LocalApproach::take_change(std::size_t b) {
@@ -264,33 +265,30 @@ const LocalApproach::Flank& LocalApproach::flank_of(std::size_t b, int node) con
 double LocalApproach::set_forces(std::size_t b, const NodalForces& forces) {
   if (!acts_on(b)) return 0;
   Flanks& flanks = *flanks_[b];
-  std::vector<double> before;
-  for (Flank& flank : flanks.flank) {
-    before.push_back(flank.law.value(flank.force));
-    flank.force = 0;
-  }
+  for (Flank& flank : flanks.flank) flank.force = 0;
   for (std::size_t i = 0; i < forces.node.size(); ++i) {
     const auto node = static_cast<std::size_t>(forces.node[i]);
     flanks.flank[static_cast<std::size_t>((*flanks.group)[node])].force -=
         flanks.normal.col(forces.node[i]).dot(forces.f_B.col(static_cast<Index>(i)));
   }
   double change = 0;
-  for (std::size_t g = 0; g < before.size(); ++g)
-    change = std::max(change, std::abs(flanks.flank[g].law.value(flanks.flank[g].force) - before[g]));
+  for (Flank& flank : flanks.flank) {
+    const double before = std::exchange(flank.approach, flank.law.value(flank.force));
+    change = std::max(change, std::abs(flank.approach - before));
+  }
   return change;
 }
 
 Vector3d LocalApproach::displacement(std::size_t b, int node) const {
   if (!acts_on(b)) return Vector3d::Zero();
   const Flank& flank = flank_of(b, node);
-  return -flank.law.value(flank.force) * flanks_[b]->normal.col(node);
+  return -flank.approach * flanks_[b]->normal.col(node);
 }
 
 Vector3d LocalApproach::lag(std::size_t b, int node) const {
   if (!acts_on(b)) return Vector3d::Zero();
   const Flank& flank = flank_of(b, node);
-  return -(flank.law.value(flank.force) - flank.law.slope(flank.force) * flank.force) *
-         flanks_[b]->normal.col(node);
+  return -(flank.approach - flank.law.slope(flank.force) * flank.force) * flanks_[b]->normal.col(node);
 }
 
 void LocalApproach::add_tangent(std::size_t b, const std::vector<int>& node, Eigen::MatrixXd& R) const {
@@ -309,8 +307,7 @@ void LocalApproach::add_tangent(std::size_t b, const std::vector<int>& node, Eig
 double LocalApproach::largest(std::size_t b) const {
   double most = 0;
   if (acts_on(b))
-    for (const Flank& flank : flanks_[b]->flank)
-      most = std::max(most, std::abs(flank.law.value(flank.force)));
+    for (const Flank& flank : flanks_[b]->flank) most = std::max(most, std::abs(flank.approach));
   return most;
 }
 
@@ -325,7 +322,8 @@ void LocalApproach::serialize(Archive& archive) {
   for (auto& flanks : flanks_)
     if (flanks)
       for (Flank& flank : flanks->flank)
-        for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force}) archive(*x);
+        for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force, &flank.approach})
+          archive(*x);
 }
 
 }  // namespace elastogear::dynamics

@@ -59,7 +59,8 @@ class LocalApproach {
   };
   struct Flank {
     ApproachLaw law;
-    double force = 0;  // N, of those set
+    double force = 0;     // N, of those set
+    double approach = 0;  // m, by the law at that force
   };
   struct Flanks {             // of a body
     Eigen::Matrix3Xd normal;  // of each surface node, BRF, outwards

@@ -29,8 +29,10 @@ VectorXd at_stations(const VectorXd& t, const VectorXd& p, Index n, double l) {
 
 PatchApproach line_approach(const VectorXd& t, const VectorXd& p, double curvature, double face,
                             double compliance) {
+  constexpr double kWide = 4;  // half widths, which a station is at least long: it is a line from far away
   const double length = std::max(t.maxCoeff() - t.minCoeff(), face), F = p.sum();
-  const auto n = std::max<Index>(1, std::lround(length / face));
+  const double least = kWide * model::hertz_line(F / length, curvature, 1 / compliance).half_width;
+  const auto n = std::max<Index>(1, std::lround(length / std::max(face, least)));
   const double l = length / static_cast<double>(n);
   const VectorXd S = at_stations(t, p, n, l);
   double sum = 0, own = 0;
@@ -49,12 +51,12 @@ PatchApproach line_approach(const VectorXd& t, const VectorXd& p, double curvatu
 
 PatchApproach patch_approach(const model::Curvatures& at, const VectorXd& t, const VectorXd& p, double face,
                              double compliance, double longest) {
-  constexpr double kLeastAxes = 0.02;  // b / a, below which flanks touch along a line
   constexpr double kEllipse = 2. / 3;
   const double F = p.sum();
   if (at.least > 0) {
     const model::HertzEllipse ellipse = model::hertz_ellipse(at.least / 2, at.largest / 2, 1 / compliance);
-    if (ellipse.k > kLeastAxes && ellipse.a(F) < longest / 2) return {ellipse.approach(F), kEllipse, false};
+    if (ellipse.k > model::kLeastAxes && ellipse.a(F) < longest / 2)
+      return {ellipse.approach(F), kEllipse, false};
   }
   return line_approach(t, p, at.largest, face, compliance);
 }

@@ -15,7 +15,7 @@ struct PatchApproach {
   bool is_line = true;
 };
 
-/// Forces p (N) at places t (m) along a line of contact; face: m, of which their places are known no better;
+/// Forces p (N) at places t (m) along a line of contact; face: m, to which their places are known;
 /// compliance: 1/Pa, of both bodies together. Eq. (6.35).
 PatchApproach line_approach(const Eigen::VectorXd& t, const Eigen::VectorXd& p, double curvature, double face,
                             double compliance);

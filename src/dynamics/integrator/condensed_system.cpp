@@ -162,7 +162,7 @@ void CondensedSystem::factorise_all(const EffectiveMatrix& A) const {
   all_->set(std::move(small));
 }
 
-// The same with k_leading in place of k, and its leading columns alone.
+// Factorises the matrix of Eq. (8.16) of the leading columns, with k_leading in place of k.
 void CondensedSystem::factorise_leading(const EffectiveMatrix& A) {
   const Index l = n_leading();
   MatrixXd small = MatrixXd::Zero(n_s_ + l, n_s_ + l);
@@ -225,7 +225,8 @@ VectorXd CondensedSystem::solve_leading(const EffectiveMatrix& A, const VectorXd
   return x;
 }
 
-// What forces of the columns make of x_s and lambda, with those of the leading ones that follow.
+// Returns the [x_s; lambda] that given forces along the columns cause, while the leading columns respond by
+// k_leading. Eq. (8.16b).
 VectorXd CondensedSystem::moved_by(const EffectiveMatrix& A, const VectorXd& forces) const {
   const Index l = n_leading();
   VectorXd small = VectorXd::Zero(n_s_ + l), x = VectorXd::Zero(n_s_ + A.k.rows());

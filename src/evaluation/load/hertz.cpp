@@ -14,8 +14,6 @@ using model::HertzEllipse, model::HertzLine;
 
 namespace {
 
-constexpr double kLeastAxes = 0.02;  // b / a, below which flanks touch along a line
-
 // Contacts of one pair of teeth at one time.
 using Pairs = std::map<std::array<int, 2>, std::vector<const FlankContact*>>;
 
@@ -85,7 +83,7 @@ std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
   const model::Curvatures at = model::principal_curvatures(Q / F, n.normalized());
   if (!(at.least > 0)) return {};
   const HertzEllipse ellipse = model::hertz_ellipse(at.least / 2, at.largest / 2, E_star);
-  if (ellipse.k < kLeastAxes || ellipse.a(F) > std::min(gear[0]->width, gear[1]->width) / 2) return {};
+  if (ellipse.k < model::kLeastAxes || ellipse.a(F) > std::min(gear[0]->width, gear[1]->width) / 2) return {};
   const HertzLine found{ellipse.pressure(F), ellipse.k * ellipse.a(F)};
   if (!std::isfinite(found.pressure) || crosses_end(gear, contacts, found.half_width)) return {};
   return found;
