@@ -48,7 +48,6 @@ def drive(options):
         arguments = [os.path.abspath(os.path.join(EXAMPLES, "drives", "steering_worm.yaml")), *size_and_order(mesh), "-modes", "10"]
         if options.approach != "mesh":
             reduced, folder = os.path.abspath(folder), folder + "_" + options.approach
-            arguments += ["-contact_approach", options.approach]
             for body in ("worm.h5", "wheel.h5"):
                 os.makedirs(folder, exist_ok=True)
                 if not os.path.exists(os.path.join(folder, body)):
@@ -58,7 +57,7 @@ def drive(options):
         if not os.path.exists(os.path.join(folder, "wheel.h5")):
             seconds = run(options, folder, "reduce", *arguments)
         if not os.path.exists(os.path.join(folder, "steering_worm_evaluation.h5")):
-            run(options, folder, "simulate", *arguments, "-analysis", "sweep")
+            run(options, folder, "simulate", *arguments, "-analysis", "sweep", "-contact_approach", options.approach)
             run(options, folder, "evaluate", *arguments)
         nodes = [nodes_of(os.path.join(folder, body + ".h5")) for body in ("worm", "wheel")]
         with h5py.File(os.path.join(folder, "steering_worm_evaluation.h5")) as file:

@@ -38,7 +38,8 @@ def make(program, drive, folder, size, positions):
     paths = [os.path.join(folder, f"{kind}_evaluation.h5") for kind in ("reduced", "full")]
     if not os.path.exists(paths[0]):
         run(program, folder, "reduce", name, *common)
-        run(program, folder, "simulate", name, *common, "-analysis", "sweep", "-sweep_positions", positions, "-output", "reduced_result.h5")
+        run(program, folder, "simulate", name, *common, "-analysis", "sweep", "-sweep_positions", positions, "-output", "reduced_result.h5",
+            "-contact_approach", "mesh")
         run(program, folder, "evaluate", name, *common, "-result", "reduced_result.h5", "-output", "reduced_evaluation.h5")
     files = full_files(folder)
     if not os.path.exists(paths[1]):

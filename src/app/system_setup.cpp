@@ -1,5 +1,8 @@
 #include "app/system_setup.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "app/console/console.h"
 #include "app/options/rows.h"
 #include "app/resumable_run.h"
@@ -7,6 +10,7 @@
 #include "app/tables/initial_state.h"
 #include "app/tables/marker_options.h"
 #include "elastogear/base/error.h"
+#include "elastogear/dynamics/approach_choice.h"
 
 namespace elastogear::app {
 namespace {
@@ -56,6 +60,17 @@ std::string approach_text(const contact::Settings& settings) {
   return settings.approach == contact::FlankApproach::hertz ? ", approach by H. Hertz" : "";
 }
 
+// Why exact flanks approach each other as the mesh has it, where nobody asks for that.
+void print_approach(const Options& options, const dynamics::SystemModel& system,
+                    const dynamics::PairSetup& pair) {
+  const auto is_exact = [&](int b) { return system.bodies[static_cast<std::size_t>(b)].true_surface; };
+  if (pair.settings.approach == contact::FlankApproach::hertz || options.text("contact_approach") == "mesh" ||
+      !std::all_of(std::begin(pair.body), std::end(pair.body), is_exact))
+    return;
+  print_item("approach of flanks", "as the mesh has it, which is too stiff (" + pair.name +
+                                       "); not by H. Hertz: " + dynamics::lacks_for_approach(system, pair));
+}
+
 std::string points_text(const contact::Settings& settings) {
   if (settings.points == contact::SlavePoints::faces) return "over faces";
   if (settings.points == contact::SlavePoints::minima) return "where gaps are least";
@@ -99,6 +114,7 @@ void print_laws(const Options& options, const dynamics::SystemModel& system) {
     print_item("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +
                                      points_text(pair.settings) + approach_text(pair.settings) + " (" +
                                      pair.name + ")");
+    print_approach(options, system, pair);
     warn_of_facets(options, pair, options.list("bodies"));
   }
 }

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace elastogear::contact {
@@ -43,8 +44,24 @@ std::vector<char> loadable(const model::ElasticBody& body) {
 
 }  // namespace
 
+namespace {
+
+// Square roots of what nodes at these vectors weigh where a load is spread across a line. Eq. (6.36a).
+Eigen::VectorXd weigh_across(const Eigen::Matrix3Xd& away, const Eigen::Vector3d& along) {
+  constexpr double kSteep = 4;  // squared slope against the line, by which half of the weight is left
+  constexpr int kPower = 4;
+  Eigen::VectorXd weight(away.cols());
+  for (Eigen::Index i = 0; i < away.cols(); ++i) {
+    const double t = std::pow(away.col(i).dot(along), 2), c = away.col(i).squaredNorm() - t;
+    weight[i] = t > 0 ? 1 / std::sqrt(1 + std::pow(kSteep * t / std::max(c, 1e-6 * t), kPower)) : 1;
+  }
+  return weight;
+}
+
+}  // namespace
+
 Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
-              const std::vector<char>& may_bear) {
+              const std::vector<char>& may_bear, const Eigen::Vector3d& along) {
   Spread result;
   for (const std::vector<int>& side : sides)
     for (int other : side)
@@ -57,7 +74,9 @@ Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& si
   A.row(0).setOnes();
   A.bottomRows<2>() =
       axes.matrixU().leftCols<2>().transpose() * away / std::max(axes.singularValues()[0], 1e-300);
-  result.weight = A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(1, 0, 0));
+  const Eigen::VectorXd D = weigh_across(away, along);
+  A *= D.asDiagonal();
+  result.weight = D.cwiseProduct(A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(1, 0, 0)));
   return result;
 }
 
@@ -70,10 +89,14 @@ LoadSpread::LoadSpread(const model::ElasticBody& body)
 const Spread& LoadSpread::of(int node) {
   const auto known = known_.find(node);
   if (known != known_.end()) return known->second;
+  return known_.emplace(node, across(node, Eigen::Vector3d::Zero())).first->second;
+}
+
+Spread LoadSpread::across(int node, const Eigen::Vector3d& along) const {
   std::vector<std::vector<int>> around;
   for (int side : at_node_[static_cast<std::size_t>(node)])
     around.push_back(sides_[static_cast<std::size_t>(side)]);
-  return known_.emplace(node, spread(*X_, around, node, may_bear_)).first->second;
+  return spread(*X_, around, node, may_bear_, along);
 }
 
 }  // namespace elastogear::contact

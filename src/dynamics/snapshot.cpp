@@ -150,8 +150,9 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
   snapshot.energy.dissipated = dissipated_ + crept + system.contact_loss();
   snapshot.energy.work = work_;
   snapshot.energy.relaxation = relaxation_ + crept;
-  snapshot.energy.balance =
-      stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
+  snapshot.energy.approach = system.approach_taken();
+  snapshot.energy.balance = stored(snapshot.energy) + snapshot.energy.dissipated + snapshot.energy.approach -
+                            snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
   bodies_ = snapshot.bodies;
   bushings_ = snapshot.bushings;

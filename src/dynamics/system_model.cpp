@@ -7,6 +7,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/contact/topology.h"
+#include "elastogear/dynamics/approach_choice.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -168,6 +169,7 @@ void add_pair(const PairSetup& setup, SystemModel& model) {
   settings.law = contact::chosen_law(settings, flexible);
   settings.points = contact::chosen_points(
       settings, model.bodies[setup.body[settings.slave == 0 ? 0 : 1]].eq.body->surface);
+  settings.approach = chosen_approach(model, model.pairs.back());
 }
 
 void add_marker_forces(const MarkerSetups& setups, SystemModel& model) {
@@ -234,7 +236,11 @@ model::ResultHeader result_header(const SystemModel& model) {
   for (const PairSetup& pair : model.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     model::ResultHeader::Pair entry{
-        pair.name, {pair.body[0], pair.body[1]}, {}, unilateral ? "unilateral" : "penalty"};
+        pair.name,
+        {pair.body[0], pair.body[1]},
+        {},
+        unilateral ? "unilateral" : "penalty",
+        pair.settings.approach == contact::FlankApproach::hertz ? "hertz" : "mesh"};
     for (int side : {0, 1})
       entry.group_name[side] = model.bodies[pair.body[side]].eq.body->surface.group_name;
     header.pairs.push_back(entry);

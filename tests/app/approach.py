@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""The local approach of flanks, contact_approach hertz, of spur gears in one file:
+"""The local approach of flanks by H. Hertz, the default, of spur gears in one file:
 
     tests/app/approach.py ELASTOGEAR EXAMPLES SCRIPTS
 
-Meshes of size tiny are too stiff by more than a quarter beside those of size small; with the approach both have one stiffness within
-some 2 %. A run in time that is stopped goes on to the bit. What it cannot be told of is refused.
+The approach of the mesh (contact_approach mesh) makes size tiny stiffer than size small by more than 8 %; with that by H. Hertz less than
+0.4 of this is left (3.8 of 12 % over a pitch, validation 43). A run in time closes its energies with what changes of the approach take, and goes on to the bit where it is
+stopped. Where the approach is not known, it is that of the mesh, and refused if asked for.
 """
 import os
 import subprocess
@@ -16,7 +17,7 @@ import h5py
 import numpy as np
 
 ELASTOGEAR, DRIVE = os.path.abspath(sys.argv[1]), os.path.abspath(os.path.join(sys.argv[2], "drives", "spur_c14.yaml"))
-APPROACH = ["-contact_approach", "hertz"]
+MESH, HERTZ = ["-contact_approach", "mesh"], ["-contact_approach", "hertz"]
 POSITIONS = 4
 
 
@@ -29,7 +30,9 @@ def run(*arguments, fails=False):
 def stiffness(size, approach):
     size = ["-size", size, "-modes", "5"]
     said = run("simulate", DRIVE, *size, "-analysis", "sweep", "-sweep_positions", str(POSITIONS), *approach)
-    assert ("approach by H. Hertz" in said) == bool(approach), said
+    assert ("approach by H. Hertz" in said) == (not approach), said
+    with h5py.File("spur_c14_result.h5") as file:
+        assert file["contact/pinion:wheel"].attrs["approach"] == ("mesh" if approach else "hertz")
     run("evaluate", DRIVE, *size)
     with h5py.File("spur_c14_evaluation.h5") as file:
         return file["cases/spur_c14_result/pinion:wheel/stiffness/secant"][:].mean()
@@ -39,18 +42,18 @@ def check_stiffness():
     found = {}
     for size in ("small", "tiny"):  # bodies of size tiny stay for what follows
         run("reduce", DRIVE, "-size", size, "-modes", "5")
-        found[size] = stiffness(size, []), stiffness(size, APPROACH)
+        found[size] = stiffness(size, MESH), stiffness(size, [])
     for size, (mesh, hertz) in found.items():
         print(f"{size}: {mesh / 1e6:.1f} N/um, with the approach by H. Hertz {hertz / 1e6:.1f}")
         assert hertz < 0.9 * mesh
     (tiny_mesh, tiny), (small_mesh, small) = found["tiny"], found["small"]
     assert tiny_mesh > 1.08 * small_mesh
-    assert abs(tiny / small - 1) < 0.03
+    assert abs(tiny / small - 1) < 0.4 * (tiny_mesh / small_mesh - 1)
 
 
 def check_resumed():
     moving = [DRIVE, "-size", "tiny", "-modes", "5", "-analysis", "dynamic", "-speed", "10 rad/s", "-ts_dt", "2e-6", "-ts_max_time",
-              "4e-5", *APPROACH]
+              "4e-5"]
     run("simulate", *moving, "-output", "whole.h5")
     with open("stopped.log", "w", encoding="utf-8") as log, subprocess.Popen(
             [ELASTOGEAR, "simulate", *moving, "-output", "parts.h5", "-checkpoint_every", "0"], stdout=log, stderr=log) as process:
@@ -59,15 +62,19 @@ def check_resumed():
         process.terminate()
     run("simulate", *moving, "-output", "parts.h5")
     with h5py.File("whole.h5") as whole, h5py.File("parts.h5") as parts:
-        for name in ("contact/pinion:wheel/force", "bodies/wheel/rigid", "energy/elastic", "energy/balance"):
+        for name in ("contact/pinion:wheel/force", "bodies/wheel/rigid", "energy/elastic", "energy/approach", "energy/balance"):
             assert np.array_equal(whole[name][:], parts[name][:]), name
         assert np.abs(whole["contact/pinion:wheel/force"][:]).max() > 0
 
 
 def check_refused():
-    still = [DRIVE, "-size", "tiny", "-modes", "5", *APPROACH]
-    assert "needs the law 'unilateral' and the points 'minima'" in run("simulate", *still, "-contact_points", "nodes", fails=True)
-    assert "has no residual flexibility" in run("simulate", *still, "-pinion_residual", "false", fails=True)
+    still = [DRIVE, "-size", "tiny", "-modes", "5"]
+    for lacks, options in (("needs the law 'unilateral' and the points 'minima'", ["-contact_points", "nodes"]),
+                           ("has no residual flexibility", ["-pinion_residual", "false"])):
+        said = run("simulate", *still, *options)
+        assert "as the mesh has it" in said and lacks in said, said
+        assert lacks in run("simulate", *still, *options, *HERTZ, fails=True)
+    assert "as the mesh has it" not in run("simulate", *still, *MESH)
     assert "contact_approach" in run("simulate", DRIVE, "-contact_approach", "herz", fails=True)
 
 

@@ -17,9 +17,10 @@ struct Spread {
 };
 
 /// sides: of the surface, lists of local nodes; those at `node` count. Nodes for which `may_bear` is 0 are
-/// left out.
+/// left out. along: unit vector of a line, across which the force is spread, Eq. (6.36a); 0: to all
+/// directions.
 Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
-              const std::vector<char>& may_bear);
+              const std::vector<char>& may_bear, const Eigen::Vector3d& along = Eigen::Vector3d::Zero());
 
 /// The spreads of all nodes of a body's contact surface, over nodes of which its file has the static
 /// response.
@@ -29,6 +30,8 @@ class LoadSpread {
   explicit LoadSpread(const model::ElasticBody& body);
   /// Of a local node of the surface; found when it is first asked for.
   const Spread& of(int node);
+  /// Across a line along this unit vector.
+  Spread across(int node, const Eigen::Vector3d& along) const;
 
  private:
   const Eigen::Matrix3Xd* X_;

@@ -108,6 +108,8 @@ class System {
   void accept(const State& x);
   /// J, taken by damping and friction of contact up to the last accepted state.
   double contact_loss() const;
+  /// J, taken by changes of the local approach of flanks up to the last accepted state: Eq. (7.2b).
+  double approach_taken() const;
   /// J, stored in the residual flexibility of a body by the contact forces of the last evaluation.
   double residual_energy(std::size_t b);
   /// J, that has been taken by the creep of its residual displacement up to the last accepted state.

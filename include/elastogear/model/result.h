@@ -92,9 +92,10 @@ struct SensorState {
 struct Energies {
   double kinetic = 0, elastic = 0, contact = 0;  ///< J, stored
   double dissipated = 0, work = 0;               ///< J, since the start: by damping; by loads
-  double balance = 0;                            ///< J, stored + dissipated - work - stored at the start
-  double bushing = 0;                            ///< J, stored
-  double relaxation = 0;                         ///< J, of dissipated: by viscoelastic materials
+  double balance = 0;     ///< J, stored + dissipated + approach - work - stored at the start
+  double bushing = 0;     ///< J, stored
+  double relaxation = 0;  ///< J, of dissipated: by viscoelastic materials
+  double approach = 0;    ///< J, since the start: by changes of flanks' local approach
 };
 
 struct Snapshot {
@@ -118,6 +119,7 @@ struct ResultHeader {
     int body[2] = {0, 1};                    ///< indices into bodies
     std::vector<std::string> group_name[2];  ///< face groups of both surfaces
     std::string law = {};                    ///< of contact: penalty or unilateral; empty: not known
+    std::string approach = {};               ///< of flanks: mesh or hertz; empty: not known
   };
   std::vector<Body> bodies;
   std::vector<Pair> pairs;

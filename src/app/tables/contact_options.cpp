@@ -32,10 +32,11 @@ const Rows<S> kContactRows = {
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
      "node (pressure as a field); auto: faces where the slave's cells are of second order, whose nodes alone "
      "cannot bear an even pressure, unless there are two passes; nodes elsewhere"},
-    {"contact_approach", &S::approach, one_of("mesh", "hertz"),
-     "of flanks that touch in a patch smaller than the faces: as the mesh makes it, which is too stiff, or "
-     "by "
-     "H. Hertz in its place (points minima, exact flanks, bodies with residual flexibility)"},
+    {"contact_approach", &S::approach, one_of("auto", "mesh", "hertz"),
+     "of flanks that touch in a patch smaller than the faces: as the mesh makes it, which is too stiff; by "
+     "H. Hertz in its place (law unilateral, points minima, exact flanks, elastic bodies of one material "
+     "with "
+     "residual flexibility); auto: by H. Hertz where that can be"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",

@@ -131,7 +131,7 @@ Eigen::MatrixXd interpolation(int sides) {
   for (Eigen::Index p = 0; p < n; ++p) {
     const Eigen::Vector2d t = sides == 4 ? points[p] : Eigen::Vector2d(2 * points[p].array() - 1);
     const Terms a = chebyshev(t[0]).T, b = chebyshev(t[1]).T;
-    for (Eigen::Index t = 0; t < n; ++t) values(p, t) = a[terms[t].first] * b[terms[t].second];
+    for (Eigen::Index j = 0; j < n; ++j) values(p, j) = a[terms[j].first] * b[terms[j].second];
   }
   return values.inverse();
 }

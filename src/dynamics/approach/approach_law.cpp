@@ -24,7 +24,9 @@ double ApproachLaw::slope(double F) const {
   return coefficient(*this) * m * std::pow(std::fmax(F, 0) + kTouch * F_n, m - 1);
 }
 
-double ApproachLaw::energy(double F) const {
+double ApproachLaw::energy(double F) const { return F * value(F) - complementary_energy(F); }
+
+double ApproachLaw::complementary_energy(double F) const {
   if (!(F_n > 0) || !(F > 0)) return 0;
   const double F_0 = kTouch * F_n;
   return coefficient(*this) *

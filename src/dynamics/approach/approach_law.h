@@ -12,9 +12,10 @@ struct ApproachLaw {
   double e_n = 0;  ///< m, approach at F_n
   double m = 1;    ///< -, 2/3 of an ellipse, nearly 1 of a line
 
-  double value(double F) const;   ///< m
-  double slope(double F) const;   ///< m/N
-  double energy(double F) const;  ///< J, integral of the approach over the force
+  double value(double F) const;                 ///< m
+  double slope(double F) const;                 ///< m/N
+  double energy(double F) const;                ///< J, stored: the integral of the force over the approach
+  double complementary_energy(double F) const;  ///< J, the integral of the approach over the force
 };
 
 }  // namespace elastogear::dynamics

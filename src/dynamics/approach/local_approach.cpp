@@ -3,11 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "dynamics/approach/patch_approach.h"
-#include "elastogear/base/error.h"
 #include "elastogear/contact/topology.h"
 
 namespace elastogear::dynamics {
@@ -24,17 +25,6 @@ using Patch = std::vector<const ContactPoint*>;
 
 constexpr double kLeast = 1e-6;   // of a face's length, approach under forces of roundoff
 constexpr double kSlight = 0.05;  // of all forces of a pair, below which those of a patch go on as F^m
-
-// Throws Error for bodies of which the local approach is not known.
-void require_known(const SystemModel::Body& body, const std::string& pair) {
-  const std::string who = "contact approach 'hertz' of the pair " + pair + ": body '" + body.name + "' ";
-  require(!body.eq.body->flexibility.empty(), who,
-          "has no residual flexibility; reduce it with -basis modal_residual, or take the approach 'mesh'");
-  require(body.true_surface && !body.true_surface->curvature.empty(), who,
-          "has no exact flanks; name the gear data it was meshed from, or take the approach 'mesh'");
-  require(body.surface_compliance > 0 && body.eq.body->relaxing.empty(), who,
-          "has several, orthotropic or viscoelastic materials; take the approach 'mesh'");
-}
 
 // Outward unit normals of the nodes, by the faces of their groups.
 Matrix3Xd node_normals(const model::Surface& surface, const std::vector<int>& group) {
@@ -80,6 +70,14 @@ double work(const std::map<int, Vector3d>& forces, const Function& of) {
   return sum;
 }
 
+// Forces p at places t along a line, by their place.
+LineForces sorted(const VectorXd& t, const VectorXd& p) {
+  std::vector<Index> order(static_cast<std::size_t>(t.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return t[a] < t[b]; });
+  return {t(order), p(order)};
+}
+
 // World frame, of the slave's nodes.
 Vector3d place_of(const ContactPoint& point, const contact::SurfaceState& slave) {
   Vector3d x_B = Vector3d::Zero();
@@ -95,13 +93,8 @@ LocalApproach::LocalApproach(const SystemModel& model)
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const PairSetup& pair = model.pairs[p];
     if (pair.settings.approach != contact::FlankApproach::hertz) continue;
-    require(pair.settings.points == contact::SlavePoints::minima &&
-                pair.settings.law == contact::ContactLaw::unilateral,
-            "contact approach 'hertz' of the pair ", pair.name,
-            " needs the law 'unilateral' and the points 'minima', or take the approach 'mesh'");
     for (int b : pair.body) {
       const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
-      require_known(body, pair.name);
       surface_[static_cast<std::size_t>(b)].emplace(
           Surface{body.eq.body.get(), contact::LoadSpread(*body.eq.body), &body.node_group,
                   &body.true_surface->curvature, HalfSpace(body.eq.body->surface), body.surface_compliance});
@@ -114,7 +107,8 @@ LocalApproach::LocalApproach(const SystemModel& model)
     const model::Surface& surface = body.eq.body->surface;
     flanks_[static_cast<std::size_t>(pair.body[side])].emplace(
         Flanks{node_normals(surface, body.node_group), &body.node_group,
-               std::vector<Flank>(surface.group_name.size()), lengths(surface, body.node_group)});
+               std::vector<Flank>(surface.group_name.size()),
+               std::vector<Accepted>(surface.group_name.size()), lengths(surface, body.node_group)});
     const model::Surface& slave =
         model.bodies[static_cast<std::size_t>(pair.body[pair.settings.slave])].eq.body->surface;
     const double face = contact::face_size(slave.X, slave.face);
@@ -146,7 +140,7 @@ Eigen::Matrix3d LocalApproach::curvature(const ContactPoint& point, int side, st
 
 // f' F f - s' F s + s' H s of the normal forces f of the patch on a body, spread to s: Eq. (6.36).
 double LocalApproach::mesh_work(const Patch& patch, int side, std::size_t b, const Eigen::Matrix3d& R_BW,
-                                ResidualFlexibility& flexibility) {
+                                const Vector3d& along_line, ResidualFlexibility& flexibility) {
   Surface& surface = *surface_[b];
   std::map<int, Vector3d> f, s;
   Vector3d total = Vector3d::Zero();
@@ -159,7 +153,8 @@ double LocalApproach::mesh_work(const Patch& patch, int side, std::size_t b, con
       total += force;
     }
   for (const auto& [node, force] : f) {
-    const contact::Spread& to = surface.spread.of(node);
+    const contact::Spread to =
+        along_line.isZero(0) ? surface.spread.of(node) : surface.spread.across(node, R_BW * along_line);
     for (std::size_t i = 0; i < to.node.size(); ++i)
       s.try_emplace(to.node[i], Vector3d::Zero()).first->second += to.weight[static_cast<Index>(i)] * force;
   }
@@ -171,6 +166,23 @@ double LocalApproach::mesh_work(const Patch& patch, int side, std::size_t b, con
                   surface.compliance / std::numbers::pi * s_a.dot(along) * s_c.dot(along) *
                       surface.half_space.mean_inverse_distance(a, c);
          });
+}
+
+// Where a line of contact along a unit vector (world frame) through x goes on over both flanks of a patch.
+LineExtent LocalApproach::line_extent_of(const ContactPoint& point, const PairContacts& contacts,
+                                         const ContactState& state, const Vector3d& x,
+                                         const Vector3d& along) const {
+  LineExtent both{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  for (int side : {0, 1}) {
+    const auto b = static_cast<std::size_t>(contacts.body[side]);
+    const contact::SurfaceState& at = state.surface[b];
+    const Eigen::Matrix3d R_BW = at.R_WB.transpose();
+    const LineExtent one = line_extent(surface_[b]->body->surface,
+                                       (*surface_[b]->group)[static_cast<std::size_t>(node_of(point, side))],
+                                       R_BW * (x - at.r_WB), R_BW * along, R_BW * point.n);
+    both = {std::max(both.from, one.from), std::min(both.to, one.to), std::max(both.face, one.face)};
+  }
+  return both;
 }
 
 ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, const ContactState& state,
@@ -196,20 +208,26 @@ ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, 
   if (!Q.allFinite()) return {};
   const model::Curvatures at = model::principal_curvatures(Q / F, normal.normalized());
   if (!(at.largest > 0)) return {};
+  const auto flank = static_cast<std::size_t>(contacts.body[pair.side]);
   double compliance = 0, work = 0;
+  for (int side : {0, 1}) compliance += surface_[static_cast<std::size_t>(contacts.body[side])]->compliance;
+  const bool ellipse = is_ellipse(at, F, compliance, flanks_[flank]->length[static_cast<std::size_t>(group)]);
   for (int side : {0, 1}) {
     const auto b = static_cast<std::size_t>(contacts.body[side]);
-    compliance += surface_[b]->compliance;
-    work += mesh_work(patch, side, b, state.surface[b].R_WB.transpose(), *flexibility[b]);
+    work += mesh_work(patch, side, b, state.surface[b].R_WB.transpose(),
+                      ellipse ? Vector3d(Vector3d::Zero()) : at.along, *flexibility[b]);
   }
-  x.colwise() -= x * p / F;
-  const auto flank = static_cast<std::size_t>(contacts.body[pair.side]);
-  const PatchApproach hertz = patch_approach(at, x.transpose() * at.along, p, pair.face, compliance,
-                                             flanks_[flank]->length[static_cast<std::size_t>(group)]);
+  const Vector3d centre = x * p / F;
+  x.colwise() -= centre;
+  const PatchApproach hertz =
+      ellipse ? ellipse_approach(at, F, compliance)
+              : line_approach(sorted(x.transpose() * at.along, p),
+                              line_extent_of(*patch.front(), contacts, state, centre, at.along), pair.face,
+                              at.largest, compliance);
   // Points of least gap on a line are at its place, where the gap of rigid flanks is zero.
-  const double geometric = hertz.is_line ? 0 : 0.5 * p.dot((x.transpose() * (Q / F) * x).diagonal()) / F;
+  const double geometric = ellipse ? 0.5 * p.dot((x.transpose() * (Q / F) * x).diagonal()) / F : 0;
   const double approach = hertz.approach - geometric - work / F;
-  if (std::abs(approach) < pair.least) return {};
+  if (approach < pair.least) return {};  // a mesh is never too soft, what is told of it may be
   double all = 0;
   for (const ContactPoint& point : contacts.points) all += point.p;
   const double F_n = std::max(F, kSlight * all);
@@ -318,12 +336,28 @@ double LocalApproach::energy(std::size_t b) const {
   return sum;
 }
 
-void LocalApproach::serialize(Archive& archive) {
+void LocalApproach::accept() {
   for (auto& flanks : flanks_)
-    if (flanks)
-      for (Flank& flank : flanks->flank)
-        for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force, &flank.approach})
-          archive(*x);
+    for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
+      const Flank& flank = flanks->flank[g];
+      Accepted& last = flanks->last[g];
+      if (last.law.F_n > 0 && flank.law.F_n > 0)
+        for (double F : {last.force, flank.force})
+          taken_ += 0.5 * (flank.law.complementary_energy(F) - last.law.complementary_energy(F));
+      last = {flank.law, flank.force};
+    }
+}
+
+void LocalApproach::serialize(Archive& archive) {
+  archive(taken_);
+  for (auto& flanks : flanks_)
+    for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
+      Flank& flank = flanks->flank[g];
+      Accepted& last = flanks->last[g];
+      for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force, &flank.approach,
+                        &last.law.F_n, &last.law.e_n, &last.law.m, &last.force})
+        archive(*x);
+    }
 }
 
 }  // namespace elastogear::dynamics

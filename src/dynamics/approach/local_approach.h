@@ -9,6 +9,7 @@
 
 #include "dynamics/approach/approach_law.h"
 #include "dynamics/approach/half_space.h"
+#include "dynamics/approach/line_extent.h"
 #include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/archive.h"
 #include "elastogear/contact/load_spread.h"
@@ -20,9 +21,8 @@ class LocalApproach {
  public:
   using Flexibilities = std::vector<std::optional<ResidualFlexibility>>;  // of each body
 
-  /// Of the pairs with contact::FlankApproach::hertz. Throws Error where a pair lacks what that takes: exact
-  /// flanks, one elastic material at each surface, points of least gap without a penalty and static responses
-  /// of both bodies. The bodies must outlive this.
+  /// Of the pairs with contact::FlankApproach::hertz, for which chosen_approach asks what that takes. The
+  /// bodies must outlive this.
   explicit LocalApproach(const SystemModel& model);
 
   bool acts_on(std::size_t b) const { return flanks_[b].has_value(); }
@@ -45,7 +45,12 @@ class LocalApproach {
   /// Adds the derivative of the displacements of these nodes with the forces on them: 3 n x 3 n, m/N.
   void add_tangent(std::size_t b, const std::vector<int>& node, Eigen::MatrixXd& R) const;
   double largest(std::size_t b) const;  ///< m, displacement
-  double energy(std::size_t b) const;   ///< J
+  double energy(std::size_t b) const;   ///< J, stored
+  /// To be called with every accepted state, by the laws of the contacts that it has.
+  void accept();
+  double taken() const {
+    return taken_;
+  }  ///< J, by changes of laws up to the last accepted state: Eq. (7.2b)
   void serialize(Archive& archive);
 
  private:
@@ -62,10 +67,15 @@ class LocalApproach {
     double force = 0;     // N, of those set
     double approach = 0;  // m, by the law at that force
   };
+  struct Accepted {
+    ApproachLaw law;
+    double force = 0;  // N
+  };
   struct Flanks {             // of a body
     Eigen::Matrix3Xd normal;  // of each surface node, BRF, outwards
     const std::vector<int>* group;
     std::vector<Flank> flank;    // by group
+    std::vector<Accepted> last;  // by group, in the last accepted state
     std::vector<double> length;  // m, by group, diagonal of the box around its nodes
     double change = 0;           // m, of a displacement, that take_change has not told of
   };
@@ -83,13 +93,18 @@ class LocalApproach {
   ApproachLaw law(const Pair& pair, int group, const std::vector<const contact::ContactPoint*>& patch,
                   const ContactState& state, Flexibilities& flexibility);
   double mesh_work(const std::vector<const contact::ContactPoint*>& patch, int side, std::size_t b,
-                   const Eigen::Matrix3d& R_BW, ResidualFlexibility& flexibility);
+                   const Eigen::Matrix3d& R_BW, const Eigen::Vector3d& along_line,
+                   ResidualFlexibility& flexibility);
+  LineExtent line_extent_of(const contact::ContactPoint& point, const PairContacts& contacts,
+                            const ContactState& state, const Eigen::Vector3d& x,
+                            const Eigen::Vector3d& along) const;
   Eigen::Matrix3d curvature(const contact::ContactPoint& point, int side, std::size_t b) const;
   const Flank& flank_of(std::size_t b, int node) const;
 
   std::vector<Pair> pairs_;
   std::vector<std::optional<Surface>> surface_;  // of each body
   std::vector<std::optional<Flanks>> flanks_;    // of each body
+  double taken_ = 0;
 };
 
 }  // namespace elastogear::dynamics

@@ -60,6 +60,7 @@ class SystemContact {
   double find_approach(double share);
   /// J, taken by damping and friction up to the last accepted state.
   double loss() const { return history_.loss; }
+  double approach_taken() const { return residual_contact_.approach_taken(); }
   /// The history of contact, and all else that later evaluations take from earlier ones.
   void serialize(Archive& archive);
 

@@ -82,6 +82,8 @@ model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& nam
   const std::vector<int> body = h5::int_attribute(file, group, "body");
   require(body.size() == 2, file.path, ": ", group, ": attribute body must be two numbers");
   if (h5::has_attribute(file, group, "law")) pair.law = h5::string_attribute(file, group, "law");
+  if (h5::has_attribute(file, group, "approach"))
+    pair.approach = h5::string_attribute(file, group, "approach");
   for (int side : {0, 1}) {
     require(body[side] >= 0 && body[side] < static_cast<int>(n_bodies), file.path, ": ", group,
             " names body ", body[side], " of ", n_bodies);
@@ -201,13 +203,15 @@ EnergyHistory read_energies(const std::string& path) {
                        read("work"),
                        read("balance"),
                        {},
+                       {},
                        {}};
-  energy.bushing = h5::exists(file, "/energy/bushing")
-                       ? read("bushing")
-                       : Eigen::VectorXd(Eigen::VectorXd::Zero(energy.kinetic.size()));
-  energy.relaxation = h5::exists(file, kRelaxationLoss)
-                          ? read_vector(file, kRelaxationLoss, time_count(file))
-                          : Eigen::VectorXd(Eigen::VectorXd::Zero(energy.kinetic.size()));
+  const auto read_if_there = [&](const std::string& name) -> Eigen::VectorXd {
+    if (h5::exists(file, name)) return read_vector(file, name, time_count(file));
+    return Eigen::VectorXd::Zero(energy.kinetic.size());
+  };
+  energy.bushing = read_if_there("/energy/bushing");
+  energy.relaxation = read_if_there(kRelaxationLoss);
+  energy.approach = read_if_there(kApproachLoss);
   return energy;
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+// Which pairs of bodies have the local approach of flanks by H. Hertz: docs/theory.md, section 6.17.
+
+#include <string>
+
+#include "elastogear/dynamics/system_model.h"
+
+namespace elastogear::dynamics {
+
+/// What a pair, with its law and points chosen, lacks for that: points of least gap without a penalty, exact
+/// flanks, residual flexibility and one elastic material at the surface of both bodies. Empty: nothing.
+std::string lacks_for_approach(const SystemModel& model, const PairSetup& pair);
+
+/// What contact::FlankApproach::automatic stands for: hertz where nothing lacks for it, the mesh's elsewhere.
+/// Throws Error where hertz is asked for and something does.
+contact::FlankApproach chosen_approach(const SystemModel& model, const PairSetup& pair);
+
+}  // namespace elastogear::dynamics
