@@ -78,8 +78,7 @@ class System {
   /// Gives the contacts these forces back.
   void set_forces(const std::vector<PairContacts>& pairs);
   /// Goes a share of the way to the local approach of flanks (docs/theory.md, section 6.17) by the contacts
-  /// evaluated last. Returns its largest difference over the least depth of the pairs; 0 where no pair has
-  /// one.
+  /// evaluated last. Returns the largest change of one, m; 0 where no pair has one.
   double find_approach(double share);
   /// Do materials relax with time, see Environment::moduli?
   bool relaxes_in_time() const;
@@ -108,7 +107,7 @@ class System {
   void accept(const State& x);
   /// J, taken by damping and friction of contact up to the last accepted state.
   double contact_loss() const;
-  /// J, taken by changes of the local approach of flanks up to the last accepted state: Eq. (7.2b).
+  /// J, taken by changes of the local approach of flanks: Eq. (7.2b).
   double approach_taken() const;
   /// J, stored in the residual flexibility of a body by the contact forces of the last evaluation.
   double residual_energy(std::size_t b);

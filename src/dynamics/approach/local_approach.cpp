@@ -24,6 +24,7 @@ namespace {
 using Patch = std::vector<const ContactPoint*>;
 
 constexpr double kLeast = 1e-6;   // of a face's length, approach under forces of roundoff
+constexpr double kAtRest = 1e-9;  // of a flank's length, differences by which laws do not change
 constexpr double kSlight = 0.05;  // of all forces of a pair, below which those of a patch go on as F^m
 
 // Outward unit normals of the nodes, by the faces of their groups.
@@ -107,8 +108,7 @@ LocalApproach::LocalApproach(const SystemModel& model)
     const model::Surface& surface = body.eq.body->surface;
     flanks_[static_cast<std::size_t>(pair.body[side])].emplace(
         Flanks{node_normals(surface, body.node_group), &body.node_group,
-               std::vector<Flank>(surface.group_name.size()),
-               std::vector<Accepted>(surface.group_name.size()), lengths(surface, body.node_group)});
+               std::vector<Flank>(surface.group_name.size()), lengths(surface, body.node_group)});
     const model::Surface& slave =
         model.bodies[static_cast<std::size_t>(pair.body[pair.settings.slave])].eq.body->surface;
     const double face = contact::face_size(slave.X, slave.face);
@@ -259,8 +259,11 @@ double LocalApproach::find(const ContactState& state, Flexibilities& flexibility
       const ApproachLaw& before = flanks_[b]->flank[g].law;
       ApproachLaw now = found[b][g];
       const double moved = now.e_n - before.value(now.F_n);
+      if (std::abs(moved) <= kAtRest * flanks_[b]->length[g] && (before.F_n > 0) == (now.F_n > 0)) continue;
       change = std::max(change, std::abs(moved));
       if (before.F_n > 0) now.e_n -= (1 - share) * moved;
+      if (const double F = flanks_[b]->flank[g].force; before.F_n > 0 && now.F_n > 0)
+        taken_ += now.complementary_energy(F) - before.complementary_energy(F);
       set_law(b, g, now);
     }
   return change;
@@ -336,26 +339,12 @@ double LocalApproach::energy(std::size_t b) const {
   return sum;
 }
 
-void LocalApproach::accept() {
-  for (auto& flanks : flanks_)
-    for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
-      const Flank& flank = flanks->flank[g];
-      Accepted& last = flanks->last[g];
-      if (last.law.F_n > 0 && flank.law.F_n > 0)
-        for (double F : {last.force, flank.force})
-          taken_ += 0.5 * (flank.law.complementary_energy(F) - last.law.complementary_energy(F));
-      last = {flank.law, flank.force};
-    }
-}
-
 void LocalApproach::serialize(Archive& archive) {
   archive(taken_);
   for (auto& flanks : flanks_)
     for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
       Flank& flank = flanks->flank[g];
-      Accepted& last = flanks->last[g];
-      for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force, &flank.approach,
-                        &last.law.F_n, &last.law.e_n, &last.law.m, &last.force})
+      for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force, &flank.approach})
         archive(*x);
     }
 }

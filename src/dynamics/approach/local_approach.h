@@ -29,7 +29,8 @@ class LocalApproach {
   bool any() const { return !pairs_.empty(); }
 
   /// Finds the laws of all flanks that bear a force in the state, and goes the given share of the way from
-  /// those before to them. Returns the largest difference of an approach between both, m.
+  /// those before to them. Laws that hardly differ stay. Returns the largest difference of an approach where
+  /// one has changed, m.
   double find(const ContactState& state, Flexibilities& flexibility, double share);
   /// The same of flanks that have none yet; the others keep theirs.
   void find_new(const ContactState& state, Flexibilities& flexibility);
@@ -44,13 +45,9 @@ class LocalApproach {
   Eigen::Vector3d lag(std::size_t b, int node) const;
   /// Adds the derivative of the displacements of these nodes with the forces on them: 3 n x 3 n, m/N.
   void add_tangent(std::size_t b, const std::vector<int>& node, Eigen::MatrixXd& R) const;
-  double largest(std::size_t b) const;  ///< m, displacement
-  double energy(std::size_t b) const;   ///< J, stored
-  /// To be called with every accepted state, by the laws of the contacts that it has.
-  void accept();
-  double taken() const {
-    return taken_;
-  }  ///< J, by changes of laws up to the last accepted state: Eq. (7.2b)
+  double largest(std::size_t b) const;     ///< m, displacement
+  double energy(std::size_t b) const;      ///< J, stored
+  double taken() const { return taken_; }  ///< J, by the changes of laws in find: Eq. (7.2b)
   void serialize(Archive& archive);
 
  private:
@@ -67,15 +64,10 @@ class LocalApproach {
     double force = 0;     // N, of those set
     double approach = 0;  // m, by the law at that force
   };
-  struct Accepted {
-    ApproachLaw law;
-    double force = 0;  // N
-  };
   struct Flanks {             // of a body
     Eigen::Matrix3Xd normal;  // of each surface node, BRF, outwards
     const std::vector<int>* group;
     std::vector<Flank> flank;    // by group
-    std::vector<Accepted> last;  // by group, in the last accepted state
     std::vector<double> length;  // m, by group, diagonal of the box around its nodes
     double change = 0;           // m, of a displacement, that take_change has not told of
   };

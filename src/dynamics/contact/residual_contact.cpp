@@ -312,11 +312,6 @@ double ResidualContact::find_approach(const ContactState& state, double share) {
   return difference;
 }
 
-void ResidualContact::accept_approach(const ContactState& state) {
-  find_approach(state, 1);
-  approach_.accept();
-}
-
 double ResidualContact::energy(std::size_t b) {
   return has_flexibility(b) ? flexibility_[b]->energy() + approach_.energy(b) : 0;
 }

@@ -47,8 +47,6 @@ class ResidualContact {
   /// Goes a share of the way to the local approach of flanks by the contacts of a state, for later
   /// evaluations. Returns its largest difference, m.
   double find_approach(const ContactState& state, double share);
-  /// Goes all the way and takes the state for an accepted one.
-  void accept_approach(const ContactState& state);
   double approach_taken() const { return approach_.taken(); }
   /// Does the residual displacement of a body creep, whatever the moduli are?
   bool creeps(std::size_t b) const { return has_flexibility(b) && flexibility_[b]->is_viscoelastic(); }

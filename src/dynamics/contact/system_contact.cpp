@@ -1,7 +1,6 @@
 #include "dynamics/contact/system_contact.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "dynamics/node_mobility.h"
@@ -221,15 +220,13 @@ void SystemContact::accept() {
   history_.time = time_;
   history_.power = power;
   if (residual_contact_.any()) residual_contact_.accept(time_);
-  residual_contact_.accept_approach(state_);
+  residual_contact_.find_approach(state_, 1);
   if (any_sticks) forget();  // forces of the same state start from the new history
 }
 
 double SystemContact::find_approach(double share) {
   forget();
-  double depth = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < pairs_.size(); ++p) depth = std::min(depth, settings(p).depth);
-  return residual_contact_.find_approach(state_, share) / depth;
+  return residual_contact_.find_approach(state_, share);
 }
 
 void SystemContact::serialize(Archive& archive) {

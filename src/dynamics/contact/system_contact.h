@@ -56,7 +56,7 @@ class SystemContact {
   /// Accepts the last evaluation as the end of a step.
   void accept();
   /// Goes a share of the way to the local approach of flanks by the last evaluation, which it forgets.
-  /// Returns its largest difference over the least depth of the pairs.
+  /// Returns the largest change of one, m.
   double find_approach(double share);
   /// J, taken by damping and friction up to the last accepted state.
   double loss() const { return history_.loss; }

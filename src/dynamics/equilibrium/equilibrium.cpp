@@ -23,8 +23,7 @@ constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
 constexpr double kRoundoff = 1e-15;     // of coordinates in rad and m: smaller changes are none
-constexpr double kClosed = 1e-6;        // of the depth, by which points that bear forces may be open, and the
-                                        // local approach of flanks may change
+constexpr double kClosed = 1e-6;        // of the depth, by which points that bear forces may be open
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -286,7 +285,7 @@ bool settle_approach(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
       const ReadView u(U);
       system.contacts(at.factor, *u, at.zero);
     }
-    if (system.find_approach(round < kFreeRounds ? 1 : 0.5) <= kClosed) return true;
+    if (system.find_approach(round < kFreeRounds ? 1 : 0.5) == 0) return true;
     if (!solve(at, snes, U, summary)) return false;
   }
   return false;

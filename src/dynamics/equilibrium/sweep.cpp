@@ -164,9 +164,11 @@ void enter(SweepLedger& all, Sweep& sweep, bool first, model::Snapshot& found) {
   found.time = sweep.position;
   if (!all.last.bodies.empty()) {
     all.turning += work_of_turning(sweep.motion, all.last, found);
-    if (first)
+    if (first) {
+      all.approach_before -= sweep.system.approach_taken();
       all.lost_before +=
           0.5 * (found.time - all.last.time) * (friction_power(all.last) + friction_power(found));
+    }
   }
   found.energy.dissipated += all.lost_before;
   found.energy.work += all.turning;
