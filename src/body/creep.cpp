@@ -100,6 +100,30 @@ double CreepLaw::loss(const Pair& force, const Pair& displaced) const {
   return sum;
 }
 
+// Eq. (3.27) with f = 0.
+Eigen::MatrixXd CreepLaw::free_step() const {
+  const Index n = g_.size();
+  Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(1 + n, n), step(1 + n, 1 + n);
+  kept.row(0) = (relaxed_ - c_).transpose();
+  kept.bottomRows(n).diagonal() = (1 - relaxed_.array()).matrix();
+  step.col(0) = rise_ * kept * g_;
+  step.rightCols(n) = step.col(0) * c_.transpose() + kept;
+  return step;
+}
+
+double CreepLaw::twice_energy(const Eigen::MatrixXd& gram) const {
+  const auto both = gram.diagonal().tail(g_.size()) - 2 * gram.row(0).tail(g_.size()).transpose();
+  return gram(0, 0) + g_.dot(both);
+}
+
+double CreepLaw::free_loss(const Eigen::MatrixXd& gram) const {
+  const Eigen::MatrixXd step = free_step(), same = Eigen::MatrixXd::Identity(step.rows(), step.cols()),
+                        both = (same + step).transpose() * gram * (step - same);
+  double sum = 0;
+  for (Index i = 1; i <= g_.size(); ++i) sum += 0.5 * g_[i - 1] * (both(0, i) - both(i, i));
+  return sum;
+}
+
 CreepLaws::CreepLaws(const std::vector<RelaxationLaw>& laws) {
   for (const RelaxationLaw& law : laws) laws_.emplace_back(law);
   if (creeps()) n_each_ = laws_.front().n_columns();

@@ -45,6 +45,8 @@ class CreepLaw {
   Eigen::Vector3d lag(const CreepColumns& start) const;
   /// The state at the point, where the force is f.
   CreepState state(const CreepColumns& start, const Eigen::Vector3d& f) const;
+  /// (1 + n) square: the columns of a state without a force times this are those at the point.
+  Eigen::MatrixXd free_step() const;
 
   /// Twice the energy that springs keep, and what dashpots take between two states, of forces a and their
   /// displacements D a. Eqs. (3.28) and (3.29).
@@ -53,6 +55,10 @@ class CreepLaw {
     CreepColumns from, to;
   };
   double loss(const Pair& force, const Pair& displaced) const;
+  /// The same of many states, of which `gram` has the products of the columns of forces with those of
+  /// displacements; the loss of forces that are zero all along from their states at the start to the point.
+  double twice_energy(const Eigen::MatrixXd& gram) const;
+  double free_loss(const Eigen::MatrixXd& gram) const;
 
  private:
   Eigen::Vector3d kept(const CreepColumns& start, Eigen::Index i) const;

@@ -40,9 +40,8 @@ Eigen::Matrix3d product(const double* A, const double* B, Eigen::Index n) {
 
 ResidualFlexibility::ResidualFlexibility(const model::ElasticBody& body)
     : body_(&body),
-      laws_(body::creep_laws(body)),
-      rows_(body.surface.node.size()),
-      fields_(body.surface.node.size()) {
+      history_(body::creep_laws(body), body.surface.node.size()),
+      rows_(body.surface.node.size()) {
   const model::Flexibility& flexibility = body.flexibility;
   if (flexibility.empty()) return;
   set_bounds();
@@ -58,8 +57,8 @@ ResidualFlexibility::ResidualFlexibility(const model::ElasticBody& body)
 void ResidualFlexibility::set_bounds() {
   const model::Flexibility& flexibility = body_->flexibility;
   largest_ = largest_R_0_ = flexibility.self.maxCoeff();
-  if (!laws_.creeps()) return;
-  if (relaxes_alike()) largest_ *= 1 + laws_[0].long_term();
+  if (!laws().creeps()) return;
+  if (relaxes_alike()) largest_ *= 1 + laws()[0].long_term();
   for (const model::RelaxedResponse& relaxed : flexibility.relaxed)
     largest_ = std::max(largest_, relaxed.self.maxCoeff());
 }
@@ -126,25 +125,29 @@ const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
 }
 
 // Blocks D_j(a, b) of a body that relaxes in different ratios. Eq. (2.23).
-const ResidualFlexibility::Blocks& ResidualFlexibility::creep_blocks(Row& row, int a, int number) {
-  Blocks& D = row.D[number];
-  if (D.cols() > 0) return D;
-  const Eigen::Matrix3d R_0 = block(row, a, number);
-  D.setZero(3, 3 * laws_.size());
+ResidualFlexibility::Blocks ResidualFlexibility::creep_blocks(int a, const Loaded& b,
+                                                              const Eigen::Matrix3d& R_0) const {
+  Blocks D = Blocks::Zero(3, 3 * laws().size());
   for (std::size_t k = 0; k < states_.size(); ++k) {
-    const Eigen::Matrix3d grown = residual(a, loaded_[number].relaxed[k], loaded_[number].position) - R_0;
-    for (Eigen::Index j = 0; j < laws_.size(); ++j)
+    const Eigen::Matrix3d grown = residual(a, b.relaxed[k], b.position) - R_0;
+    for (Eigen::Index j = 0; j < laws().size(); ++j)
       D.middleCols<3>(3 * j) += C_(static_cast<Eigen::Index>(k) + 1, j + 1) * grown;
   }
   return D;
 }
 
+const ResidualFlexibility::Blocks& ResidualFlexibility::creep_blocks(Row& row, int a, int number) {
+  Blocks& D = row.D[number];
+  if (D.cols() == 0) D = creep_blocks(a, loaded_[number], block(row, a, number));
+  return D;
+}
+
 // Block of what forces add to R_0 within the step. Eq. (6.34).
 Eigen::Matrix3d ResidualFlexibility::at_once(Row& row, int a, int number) {
-  if (relaxes_alike()) return laws_[0].at_once() * block(row, a, number);
+  if (relaxes_alike()) return laws()[0].at_once() * block(row, a, number);
   const Blocks& D = creep_blocks(row, a, number);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (Eigen::Index j = 0; j < laws_.size(); ++j) sum += laws_[j].at_once() * D.middleCols<3>(3 * j);
+  for (Eigen::Index j = 0; j < laws().size(); ++j) sum += laws()[j].at_once() * D.middleCols<3>(3 * j);
   return sum;
 }
 
@@ -161,7 +164,7 @@ void ResidualFlexibility::set_forces(const NodalForces& forces) {
 // every stage.
 void ResidualFlexibility::pack(Row& row, int a) {
   row.packed.setZero(3, 3 * static_cast<Eigen::Index>(numbers_.size()));
-  if (!relaxes_alike()) row.packed_D.assign(static_cast<std::size_t>(laws_.size()), row.packed);
+  if (!relaxes_alike()) row.packed_D.assign(static_cast<std::size_t>(laws().size()), row.packed);
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     if (numbers_[i] < 0) continue;
     const auto column = static_cast<Eigen::Index>(3 * i);
@@ -174,7 +177,7 @@ void ResidualFlexibility::pack(Row& row, int a) {
 }
 
 ResidualFlexibility::Displaced ResidualFlexibility::displaced(int node) {
-  Displaced by{Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, laws_.size())};
+  Displaced by{Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, laws().size())};
   if (numbers_.empty()) return by;
   Row& known = row(node);
   if (known.packed_at != n_changes_) pack(known, node);
@@ -192,23 +195,31 @@ ResidualFlexibility::Displaced ResidualFlexibility::displaced(int node) {
 // Eq. (6.34).
 Eigen::Vector3d ResidualFlexibility::displacement(int node) {
   const auto [by_R, by_D] = displaced(node);
-  if (!laws_.creeps()) return by_R;
+  if (!laws().creeps()) return by_R;
   Eigen::Vector3d w = by_R;
-  for (Eigen::Index j = 0; j < laws_.size(); ++j) w += laws_[j].at_once() * by_D.col(j);
+  for (Eigen::Index j = 0; j < laws().size(); ++j) w += laws()[j].at_once() * by_D.col(j);
   return w + lag(node);
 }
 
 Eigen::Vector3d ResidualFlexibility::lag(int node) {
-  return creeps() && !history_.empty() ? laws_.lag(field(node)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return creeps() ? history_.lag(node, response()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-// D_j times a state of forces on the node with this number.
-CreepState ResidualFlexibility::displaced_by(Row& row, int a, int number, const CreepState& force) {
-  if (relaxes_alike()) return block(row, a, number) * force;
-  const Blocks& D = creep_blocks(row, a, number);
+CreepHistory::Response ResidualFlexibility::response() {
+  return {[this](int a, int b, const CreepState& force) { return displaced_by(a, b, force); },
+          [this](int node) { return displaced(node).by_D; }};
+}
+
+// D_j(a, b) times a state of forces. Blocks are found for this alone: they are asked for once.
+CreepState ResidualFlexibility::displaced_by(int a, int b, const CreepState& force) {
+  const int i = number(b);
+  if (i < 0) return CreepState::Zero(3, force.cols());
+  const Eigen::Matrix3d R_0 = residual(a, loaded_[i].response, loaded_[i].position);
+  if (relaxes_alike()) return R_0 * force;
+  const Blocks D = creep_blocks(a, loaded_[i], R_0);
   CreepState displaced(3, force.cols());
-  const Eigen::Index n = force.cols() / laws_.size();
-  for (Eigen::Index j = 0; j < laws_.size(); ++j)
+  const Eigen::Index n = force.cols() / laws().size();
+  for (Eigen::Index j = 0; j < laws().size(); ++j)
     displaced.middleCols(j * n, n) = D.middleCols<3>(3 * j) * force.middleCols(j * n, n);
   return displaced;
 }
@@ -218,32 +229,8 @@ Eigen::Matrix3d ResidualFlexibility::never_creeping(Row& row, int a, int number)
   if (relaxes_alike()) return Eigen::Matrix3d::Zero();
   Eigen::Matrix3d rest = block(row, a, number);
   const Blocks& D = creep_blocks(row, a, number);
-  for (Eigen::Index j = 0; j < laws_.size(); ++j) rest -= D.middleCols<3>(3 * j);
+  for (Eigen::Index j = 0; j < laws().size(); ++j) rest -= D.middleCols<3>(3 * j);
   return rest;
-}
-
-// D_j times the history, at a node that had no part in it yet.
-CreepState ResidualFlexibility::sum_of_history(int node) {
-  CreepState sum = CreepState::Zero(3, laws_.n_columns());
-  for (const auto& [b, crept] : history_) number(b);
-  Row& own = row(node);
-  for (const auto& [b, crept] : history_)
-    if (const int i = number(b); i >= 0) sum += displaced_by(own, node, i, crept.force);
-  return sum;
-}
-
-CreepState& ResidualFlexibility::field(int node) {
-  CreepState& field = fields_[node];
-  if (field.cols() > 0) return field;
-  field = sum_of_history(node);
-  known_.push_back(node);
-  return field;
-}
-
-Eigen::Vector3d ResidualFlexibility::present_force(int node) const {
-  const auto at = std::lower_bound(forces_.node.begin(), forces_.node.end(), node);
-  if (at == forces_.node.end() || *at != node) return Eigen::Vector3d::Zero();
-  return forces_.f_B.col(at - forces_.node.begin());
 }
 
 // |R(a, :) f|^2 <= |R(a, a)| f'R f, because R is positive semidefinite.
@@ -273,7 +260,7 @@ const Eigen::MatrixXd& ResidualFlexibility::among(const std::vector<int>& node) 
     for (Eigen::Index j = 0; j <= i; ++j) {
       if (numbers[j] < 0) continue;
       R.block<3, 3>(3 * i, 3 * j) = block(known, node[i], numbers[j]);
-      if (laws_.creeps()) R.block<3, 3>(3 * i, 3 * j) += at_once(known, node[i], numbers[j]);
+      if (laws().creeps()) R.block<3, 3>(3 * i, 3 * j) += at_once(known, node[i], numbers[j]);
     }
     for (Eigen::Index j = 0; j < i; ++j)
       R.block<3, 3>(3 * j, 3 * i) = R.block<3, 3>(3 * i, 3 * j).transpose();
@@ -284,8 +271,8 @@ const Eigen::MatrixXd& ResidualFlexibility::among(const std::vector<int>& node) 
 // How much larger the factor of a law has become by which forces act at once; of all laws the largest.
 double ResidualFlexibility::growth(const Eigen::VectorXd& before) const {
   double most = 0;
-  for (Eigen::Index j = 0; j < laws_.size(); ++j)
-    most = std::max(most, std::abs(laws_[j].at_once() - before[j]));
+  for (Eigen::Index j = 0; j < laws().size(); ++j)
+    most = std::max(most, std::abs(laws()[j].at_once() - before[j]));
   return most;
 }
 
@@ -294,49 +281,28 @@ double ResidualFlexibility::growth(const Eigen::VectorXd& before) const {
 // for it, because what modes leave out is largest under the forces.
 double ResidualFlexibility::set_point(body::Moduli moduli, const body::StepPoint& at) {
   constexpr double kElsewhere = 2;
-  if (!laws_.creeps()) return 0;
-  Eigen::VectorXd before(laws_.size());
-  for (Eigen::Index j = 0; j < laws_.size(); ++j) before[j] = laws_[j].at_once();
-  laws_.set_point(moduli, at);
+  if (!laws().creeps()) return 0;
+  Eigen::VectorXd before(laws().size());
+  for (Eigen::Index j = 0; j < laws().size(); ++j) before[j] = laws()[j].at_once();
+  const CreepHistory::Lag lag = history_.set_point(moduli, at, response());
   moduli_ = moduli;
   const double grown = growth(before);
   if (grown > 0) among_ = {};
-  double all = 0, change = 0, largest_lag = 0, largest_change = 0;
-  for (auto& [node, crept] : history_) {
-    const Eigen::Vector3d lag = laws_.lag(crept.force), displaced = laws_.lag(field(node));
-    all += std::abs(lag.dot(displaced));
-    change += std::abs((lag - crept.lag).dot(displaced - crept.displaced_lag));
-    largest_lag = std::max(largest_lag, displaced.norm());
-    largest_change = std::max(largest_change, (displaced - crept.displaced_lag).norm());
-    crept.lag = lag;
-    crept.displaced_lag = displaced;
-  }
   const double at_once = grown > 0 ? grown * std::max(1.0, largest_R_0_ / largest_) * bound(forces_) : 0;
-  lag_bound_ = relaxes_alike() ? std::sqrt(largest_R_0_ * all) : kElsewhere * largest_lag;
-  return (relaxes_alike() ? std::sqrt(largest_R_0_ * change) : kElsewhere * largest_change) + at_once;
+  lag_bound_ = relaxes_alike() ? std::sqrt(largest_R_0_ * lag.product) : kElsewhere * lag.largest;
+  return (relaxes_alike() ? std::sqrt(largest_R_0_ * lag.product_change) : kElsewhere * lag.largest_change) +
+         at_once;
 }
 
 void ResidualFlexibility::accept() {
   if (!creeps()) return;
-  const CreepState zero = CreepState::Zero(3, laws_.n_columns());
-  for (int node : forces_.node) history_.emplace(node, Crept{zero, zero.col(0), zero.col(0)});
-  for (const auto& [node, crept] : history_) field(node);
-  std::vector<CreepState> fields;
-  for (int node : known_) fields.push_back(laws_.displaced_state(fields_[node], displaced(node).by_D));
-  std::vector<CreepState> before;
-  for (std::size_t i = 0; i < known_.size(); ++i)
-    before.push_back(std::exchange(fields_[known_[i]], std::move(fields[i])));
-  std::unordered_map<int, const CreepState*> field_before;
-  for (std::size_t i = 0; i < known_.size(); ++i) field_before[known_[i]] = &before[i];
-  for (auto& [node, crept] : history_) {
-    const CreepState then = std::exchange(crept.force, laws_.state(crept.force, present_force(node)));
-    loss_ += laws_.loss({then, crept.force}, {*field_before.at(node), fields_[node]});
-  }
+  history_.accept(forces_, response());
   set_point(moduli_, {0, 1});
+  history_.gather(response());
 }
 
 Eigen::Vector3d ResidualFlexibility::change_since(const NodalForces& then, int node) {
-  Eigen::Vector3d before = laws_.sum(field(node));
+  Eigen::Vector3d before = history_.displaced_at_start(node, response());
   std::vector<int> numbers;
   for (int b : then.node) numbers.push_back(number(b));
   Row& own = row(node);
@@ -348,47 +314,27 @@ Eigen::Vector3d ResidualFlexibility::change_since(const NodalForces& then, int n
 }
 
 double ResidualFlexibility::energy() {
-  double twice = 0;
-  if (!creeps()) {
-    for (std::size_t i = 0; i < forces_.node.size(); ++i)
-      twice += forces_.f_B.col(static_cast<Eigen::Index>(i)).dot(displacement(forces_.node[i]));
-    return 0.5 * twice;
-  }
-  std::vector<int> nodes = forces_.node;
-  for (const auto& [node, crept] : history_) nodes.push_back(node);
-  sort_unique(nodes);
-  for (int node : nodes) {
-    const auto at = history_.find(node);
-    const Eigen::Vector3d f = present_force(node);
-    const auto [by_R, by_D] = displaced(node);
-    const CreepState force = laws_.state(at == history_.end() ? CreepState() : at->second.force, f);
-    twice += laws_.twice_energy(force, laws_.displaced_state(field(node), by_D)) +
-             f.dot(by_R - by_D.rowwise().sum());
+  double twice = creeps() ? history_.twice_energy(forces_, response()) : 0;
+  for (std::size_t i = 0; i < forces_.node.size(); ++i) {
+    const Eigen::Vector3d f = forces_.f_B.col(static_cast<Eigen::Index>(i));
+    if (!creeps()) {
+      twice += f.dot(displacement(forces_.node[i]));
+      continue;
+    }
+    const auto [by_R, by_D] = displaced(forces_.node[i]);
+    twice += f.dot(by_R - by_D.rowwise().sum());
   }
   return 0.5 * twice;
 }
 
-void ResidualFlexibility::get_history(model::RelaxedState& state) const {
-  state.node.clear();
-  state.force.resize(3, laws_.n_columns() * static_cast<Eigen::Index>(history_.size()));
-  for (const auto& [node, crept] : history_) {
-    state.force.middleCols(laws_.n_columns() * static_cast<Eigen::Index>(state.node.size()),
-                           laws_.n_columns()) = crept.force;
-    state.node.push_back(node);
-  }
-}
-
 void ResidualFlexibility::set_history(const model::RelaxedState& state) {
-  if (state.node.empty() || !laws_.creeps()) return;
-  const Eigen::Index n = laws_.n_columns(), n_nodes = static_cast<Eigen::Index>(state.node.size());
+  if (state.node.empty() || !laws().creeps()) return;
+  const Eigen::Index n = laws().n_columns(), n_nodes = static_cast<Eigen::Index>(state.node.size());
   require(state.force.rows() == 3 && state.force.cols() == n * n_nodes && state.force.allFinite() &&
               std::is_sorted(state.node.begin(), state.node.end()) && state.node.front() >= 0 &&
               state.node.back() < static_cast<int>(rows_.size()),
           "body '", body_->name, "': the history of its contact forces is not one of this body");
-  history_.clear();
-  for (Eigen::Index i = 0; i < n_nodes; ++i)
-    history_[state.node[static_cast<std::size_t>(i)]] = {state.force.middleCols(n * i, n),
-                                                         Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  history_.set(state);
 }
 
 void ResidualFlexibility::serialize(Archive& archive) {
@@ -396,23 +342,7 @@ void ResidualFlexibility::serialize(Archive& archive) {
   archive(forces.node);
   archive(forces.f_B);
   if (archive.is_loading()) set_forces(forces);
-  if (!laws_.creeps()) return;
-  std::vector<int> nodes;
-  for (const auto& [node, crept] : history_) nodes.push_back(node);
-  if (archive.is_loading()) {
-    history_.clear();
-    fields_.assign(fields_.size(), {});
-  }
-  archive(nodes);
-  archive(known_);
-  archive(loss_);
-  for (int node : nodes) {
-    Crept& crept = history_[node];
-    archive(crept.force);
-    archive(crept.lag);
-    archive(crept.displaced_lag);
-  }
-  for (int node : known_) archive(fields_[node]);
+  if (laws().creeps()) history_.serialize(archive);
 }
 
 }  // namespace elastogear::dynamics

@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <map>
 #include <unordered_map>
 #include <vector>
 
+#include "dynamics/creep/creep_history.h"
 #include "elastogear/base/archive.h"
 #include "elastogear/body/creep.h"
 #include "elastogear/dynamics/contact_loads.h"
@@ -42,21 +42,23 @@ class ResidualFlexibility {
   /// for.
   const Eigen::MatrixXd& among(const std::vector<int>& node);
 
-  bool is_viscoelastic() const { return laws_.creeps(); }
+  bool is_viscoelastic() const { return laws().creeps(); }
   /// Does w have a history?
-  bool creeps() const { return laws_.creeps() && moduli_ == body::Moduli::relaxing; }
+  bool creeps() const { return laws().creeps() && moduli_ == body::Moduli::relaxing; }
   /// From here on states are at this point of a step. Returns the largest change of w by that, m.
   double set_point(body::Moduli moduli, const body::StepPoint& at);
   /// The forces in place are those at the end of the step: it becomes the start of the next one.
   void accept();
   /// Change of w of a node since the last accepted state, in which these were the forces, m; where it creeps.
   Eigen::Vector3d change_since(const NodalForces& then, int node);
-  double energy();                       ///< J, stored by the forces in place. Eq. (3.28)
-  double loss() const { return loss_; }  ///< J, that the material has taken up to the last accepted state
+  double energy();  ///< J, stored by the forces in place. Eq. (3.28)
+  double loss() const {
+    return history_.loss();
+  }  ///< J, that the material has taken up to the last accepted state
   /// The forces and their history.
   void serialize(Archive& archive);
   /// The history alone, of the last accepted state.
-  void get_history(model::RelaxedState& state) const;
+  void get_history(model::RelaxedState& state) const { history_.get(state); }
   /// Begins with it. Throws Error where it is not one of this body.
   void set_history(const model::RelaxedState& state);
 
@@ -84,10 +86,6 @@ class ResidualFlexibility {
     Eigen::MatrixXd K_inverse;  // of the reduced body
     std::unordered_map<int, Columns> columns = {};
   };
-  struct Crept {  // of a node that has been loaded
-    body::CreepState force;
-    Eigen::Vector3d lag, displaced_lag;  // when the point of the step was set last
-  };
   struct Displaced {  // of a node, by the forces in place
     Eigen::Vector3d by_R;
     Eigen::Matrix3Xd by_D;  // 3 x n_laws
@@ -103,21 +101,21 @@ class ResidualFlexibility {
   const Blocks& creep_blocks(Row& row, int a, int number);
   Eigen::Matrix3d at_once(Row& row, int a, int number);
   Eigen::Matrix3d never_creeping(Row& row, int a, int number);
-  body::CreepState displaced_by(Row& row, int a, int number, const body::CreepState& force);
+  Blocks creep_blocks(int a, const Loaded& b, const Eigen::Matrix3d& R_0) const;
+  body::CreepState displaced_by(int a, int b, const body::CreepState& force);
   void pack(Row& row, int a);
   Row& row(int node);
   Displaced displaced(int node);
-  body::CreepState& field(int node);
-  body::CreepState sum_of_history(int node);
-  Eigen::Vector3d present_force(int node) const;
+  const body::CreepLaws& laws() const { return history_.laws(); }
+  CreepHistory::Response response();
 
   const model::ElasticBody* body_;
-  body::CreepLaws laws_;
+  CreepHistory history_;
   Eigen::MatrixXd C_ = {};                 // where the body relaxes in different ratios. Eq. (2.23)
   std::vector<RelaxedState> states_ = {};  // of it
   body::Moduli moduli_ = body::Moduli::relaxing;
   double largest_ = 0, largest_R_0_ = 0;  // m/N, of |R(b, b)|, of |R_0(b, b)|
-  double lag_bound_ = 0, loss_ = 0;
+  double lag_bound_ = 0;
   NodalForces forces_;
   std::vector<int> numbers_;                  // of the nodes of forces_
   long n_changes_ = 0;                        // of these nodes
@@ -126,10 +124,6 @@ class ResidualFlexibility {
   std::vector<Loaded> loaded_;                // these
   std::vector<Row> rows_;                     // of each node of the surface, empty before it is asked for
   std::size_t n_rows_ = 0;
-  std::map<int, Crept> history_;  // by node
-  std::vector<body::CreepState>
-      fields_;              // D_j times the history, at each node of the surface; empty: unknown
-  std::vector<int> known_;  // nodes whose field is known
   struct Among {
     std::vector<int> node = {};
     Eigen::MatrixXd R = {};
