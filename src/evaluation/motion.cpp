@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "elastogear/base/error.h"
 
@@ -88,6 +89,28 @@ double place_of_tooth(const Gear& gear, const Gear& mate, int tooth, std::size_t
   const double direction = std::atan2(to_mate[1], to_mate[0]) + (mate.toothing.internal ? pi : 0);
   const double off = std::remainder(gear::tooth_angle(gear.toothing, tooth) - direction, 2 * pi);
   return (gear.ratio > 0 ? 1 : -1) * off / pitch(gear);
+}
+
+std::optional<std::array<double, 2>> path_of_contact(const Gear& first, const Gear& second, int side) {
+  const gear::Toothing &t_1 = first.toothing, &t_2 = second.toothing;
+  const Eigen::Vector3d axis = second.axis(0), apart = first.position[0] - second.position[0];
+  const double a = (apart - axis.dot(apart) * axis).norm();
+  const bool parallel = std::abs(axis.dot(first.axis(0))) > kParallel;
+  if (!(t_1.r_b > 0) || !(t_2.r_b > 0) || t_1.internal || t_2.internal || !parallel || side == 0 ||
+      !(a > t_1.r_b + t_2.r_b))
+    return {};
+  const double alpha_w = std::acos((t_1.r_b + t_2.r_b) / a), action = a * std::sin(alpha_w);
+  const auto roll = [](const gear::Toothing& t) { return std::sqrt(t.r_start * t.r_start - t.r_b * t.r_b); };
+  const double half_overlap =
+      std::min(first.width, second.width) / 2 * std::abs(std::tan(t_2.beta_b)) / (t_2.r_b * pitch(second));
+  std::array<double, 2> place;
+  for (int end : {0, 1}) {
+    const double rho = end == 0 ? roll(t_2) : action - roll(t_1);
+    place[static_cast<std::size_t>(end)] =
+        (second.ratio > 0 ? 1 : -1) * side * (rho / t_2.r_b - alpha_w - t_2.psi_b) / pitch(second);
+  }
+  if (place[0] > place[1]) std::swap(place[0], place[1]);
+  return std::array{place[0] - half_overlap, place[1] + half_overlap};
 }
 
 }  // namespace elastogear::evaluation

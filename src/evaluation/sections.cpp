@@ -1,6 +1,7 @@
 #include "evaluation/sections.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "evaluation/load/hertz.h"
@@ -30,6 +31,21 @@ Eigen::MatrixXd places_of(const PairOfRun& pair, const ToothPairs& pairs) {
       place(i, k) = place_of_tooth(pair.gear[1], pair.gear[0], pairs.tooth[static_cast<std::size_t>(k)][1],
                                    static_cast<std::size_t>(i));
   return place;
+}
+
+// Where on the way of a tooth of the second gear contact begins and ends, beside rigid gears.
+void add_path(const PairOfRun& pair, const ToothPairs& pairs, const Eigen::MatrixXd& place, Items& items) {
+  const auto bears = (pairs.share.array() > kBears).eval();
+  if (!bears.any()) return;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  items.number("teeth/begins", "1", "smallest place of a pair of teeth that bears, pitches",
+               bears.select(place.array(), kFar).minCoeff());
+  items.number("teeth/ends", "1", "largest place of a pair of teeth that bears, pitches",
+               bears.select(place.array(), -kFar).maxCoeff());
+  const auto path = path_of_contact(pair.gear[0], pair.gear[1], loaded_side(pair.contacts, 1));
+  if (!path) return;
+  items.number("teeth/path_begins", "1", "place where rigid teeth begin to touch, pitches", path->front());
+  items.number("teeth/path_ends", "1", "place where rigid teeth cease to touch, pitches", path->back());
 }
 
 // Half of the way by which contact moves along the profile from one position to the next, m: for involutes
@@ -112,9 +128,11 @@ void add_teeth(const PairOfRun& pair, Items& items) {
               numbers_of(pairs));
   items.table("teeth/force", "N", "normal force of each pair of teeth", pairs.force);
   items.table("teeth/share", "1", "share of each pair of teeth in the sum of normal forces", pairs.share);
+  const Eigen::MatrixXd place = places_of(pair, pairs);
   items.table("teeth/place", "1",
               "place of each pair, by the tooth of the second gear, on its way through the mesh, pitches",
-              places_of(pair, pairs));
+              place);
+  add_path(pair, pairs, place, items);
   items.curve("teeth/count", "1", "pairs of teeth in contact", pairs.count.cast<double>());
   items.number("teeth/contact_ratio", "1", "operating contact ratio: mean number of pairs in contact",
                contact_ratio(pairs));

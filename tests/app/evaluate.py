@@ -82,7 +82,7 @@ def near(what, value, expected, allowed):
 def check_elastic(drive):
     drive.sweep(16)
     text = drive.run("evaluate", "drive.yaml")
-    for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "KHbeta", "by H. Hertz", "root of pinion, tension", ", by the mesh ", "efficiency"):
+    for word in ("transmission error", "mesh stiffness, secant", "operating contact ratio", "a pair of teeth bears", "KHbeta", "by H. Hertz", "root of pinion, tension", ", by the mesh ", "efficiency"):
         assert word in text, f"'{word}' is not printed"
     figures = Figures("drive_evaluation")
     with h5py.File("drive_result.h5") as result:
@@ -98,6 +98,10 @@ def check_elastic(drive):
     near("sum of shares", abs(figures["teeth/share"].sum(axis=1) - 1).max(), 0, 1e-12)
     near("sum of normal forces", figures["teeth/force"].sum(axis=1).mean(), force, 1e-4 * force)
     near("contact ratio", figures["teeth/contact_ratio"], 1.6, 0.15)  # 1.516 rigid, teeth meet earlier under load
+    near("path of rigid teeth", figures["teeth/path_ends"] - figures["teeth/path_begins"], 1.516, 1e-3)
+    step = 1 / len(roll)
+    assert figures["teeth/path_begins"] - 0.1 < figures["teeth/begins"] < figures["teeth/path_begins"] + step
+    assert figures["teeth/path_ends"] - step < figures["teeth/ends"] < figures["teeth/path_ends"] + 0.1
     normal_force = figures["teeth/force"].sum(axis=1).mean()  # a little less than forces where ends of teeth cross
     near("line load over the width", np.trapz(figures["line_load/mean"], figures["line_load/z"]), normal_force, 1e-6 * force)
     near("torque on the wheel", -figures["torque/second_mean"], T_1 * TEETH[1] / TEETH[0], 1e-3 * T_1 * TEETH[1] / TEETH[0])

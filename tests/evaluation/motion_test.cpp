@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "rigid_drives.h"
 
@@ -97,6 +98,30 @@ TEST(PlaceOfTooth, advances_by_a_pitch_while_the_drive_rolls_by_one) {
       EXPECT_NEAR(place_of_tooth(pair.gear[0], pair.gear[1], 0, 0), 0.1, 1e-9);
     }
   }
+}
+
+// At its ends the flank is at the radii on the path that are nearest to both roots, where its normal is that
+// of the line of action.
+TEST(PathOfContact, is_as_long_as_the_contact_ratio_and_ends_at_both_roots) {
+  const RollingPair pair = test::spur_pair();
+  const gear::Toothing &t = pair.gear[1].toothing, &mate = pair.gear[0].toothing;
+  const double a = (pair.gear[1].position[0] - pair.gear[0].position[0]).norm();
+  const double alpha_w = std::acos((t.r_b + mate.r_b) / a);
+  const auto left = path_of_contact(pair.gear[0], pair.gear[1], 1),
+             right = path_of_contact(pair.gear[0], pair.gear[1], -1);
+  ASSERT_TRUE(left && right);
+  EXPECT_NEAR((*left)[0], -(*right)[1], 1e-12);
+  EXPECT_NEAR((*left)[1], -(*right)[0], 1e-12);
+  const auto place = [&](double r) {  // of the left flank; the wheel turns clockwise
+    return -(std::acos(t.r_b / r) - alpha_w - gear::psi(t, r)) / pitch(pair.gear[1]);
+  };
+  EXPECT_NEAR((*left)[1], place(t.r_start), 1e-9);
+  EXPECT_NEAR((*left)[0], place(t.r_a), 1e-9);
+  const double rho_1 = std::sqrt(mate.r_a * mate.r_a - mate.r_b * mate.r_b),
+               rho_2 = std::sqrt(t.r_a * t.r_a - t.r_b * t.r_b);
+  EXPECT_NEAR((*left)[1] - (*left)[0],
+              (rho_1 + rho_2 - a * std::sin(alpha_w)) * 43 / (2 * std::numbers::pi * t.r_b), 1e-9);
+  EXPECT_FALSE(path_of_contact(test::worm_pair().gear[0], test::worm_pair().gear[1], 1));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // Motion of two gears in mesh: transmission error, stiffness, sliding (docs/theory.md, section 10.2).
 
 #include <Eigen/Core>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,5 +68,10 @@ Eigen::Vector3d sliding_velocity(const Gear& first, const Gear& second, std::siz
 /// Place of a tooth (0-based) on its way through the mesh, pitches: 0 where its centre at z = 0 stands on the
 /// line to the mate, > 0 later; between -z/2 and z/2. Eq. (10.6).
 double place_of_tooth(const Gear& gear, const Gear& mate, int tooth, std::size_t step);
+
+/// Places of a tooth of the second gear, pitches, between which rigid external involute gears on parallel
+/// axes touch it on this side (+1 left, -1 right) anywhere over the face width, Eq. (10.6a); nothing for
+/// others.
+std::optional<std::array<double, 2>> path_of_contact(const Gear& first, const Gear& second, int side);
 
 }  // namespace elastogear::evaluation

@@ -73,6 +73,14 @@ void print_load(const Reader& of) {
     print_item("operating contact ratio", digits_of(of.value("teeth/contact_ratio"), 4) +
                                               "; one pair of teeth bears up to " +
                                               of.in("teeth/largest_share", 100, "%"));
+  if (of.has("teeth/begins"))
+    print_item("a pair of teeth bears",
+               "from " + digits_of(of.value("teeth/begins"), 4) + " to " +
+                   digits_of(of.value("teeth/ends"), 4) + " pitches of its way" +
+                   (of.has("teeth/path_begins")
+                        ? ", rigid teeth from " + digits_of(of.value("teeth/path_begins"), 4) + " to " +
+                              digits_of(of.value("teeth/path_ends"), 4)
+                        : ""));
   if (of.has("line_load/KHbeta")) print_item("KHbeta", digits_of(of.value("line_load/KHbeta"), 4));
 }
 

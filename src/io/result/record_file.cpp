@@ -6,7 +6,7 @@
 namespace elastogear::io {
 namespace {
 
-constexpr Format kRecordFormat{"elastogear record", 1, 1};
+constexpr Format kRecordFormat{"elastogear record", 2, 2};
 
 void visit(model::BodyState& body, Archive& archive) {
   archive(body.r_WB);
@@ -16,6 +16,8 @@ void visit(model::BodyState& body, Archive& archive) {
     archive(*x);
   archive(body.contact.node);
   archive(body.contact.f_B);
+  archive(body.z);
+  archive(body.w);
 }
 
 void visit(model::ContactFigures& figures, Archive& archive) {
@@ -48,7 +50,7 @@ void visit(model::PairState& pair, Archive& archive) {
 
 void visit(model::Energies& energy, Archive& archive) {
   for (double* x : {&energy.kinetic, &energy.elastic, &energy.contact, &energy.dissipated, &energy.work,
-                    &energy.balance, &energy.bushing})
+                    &energy.balance, &energy.bushing, &energy.relaxation})
     archive(*x);
 }
 
