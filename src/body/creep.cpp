@@ -100,7 +100,7 @@ double CreepLaw::loss(const Pair& force, const Pair& displaced) const {
   return sum;
 }
 
-// Eq. (3.27) with f = 0.
+// Eq. (3.27a).
 Eigen::MatrixXd CreepLaw::free_step() const {
   const Index n = g_.size();
   Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(1 + n, n), step(1 + n, 1 + n);

@@ -255,6 +255,29 @@ def check_prescribed(drive):
     assert speed.size >= 1 and 200 + 4e4 * 1e-3 < speed[0] < 200 + 4e4 * 4.5e-3, speed
 
 
+def check_soft_wheel(drive):
+    """Teeth of a polymer bear before and after the path of rigid ones, farther when they have relaxed, and take the load up step by step."""
+    os.makedirs("soft", exist_ok=True)
+    os.chdir("soft")
+    polymer = "{E: 3 GPa, nu: 0.39, rho: 1140, prony_tau: [1 s, 1000 s], prony: [0.25, 0.25]}"
+    with open("drive.yaml", "w", encoding="utf-8") as file:
+        file.write(DRIVE.replace("torque: 300", "torque: 30").replace("profile_shift: 0.1", f"profile_shift: 0.1, material: {polymer}"))
+    drive.run("reduce", "drive.yaml")
+    beyond = []
+    for moduli in ("instantaneous", "long_term"):
+        drive.sweep(32, "-moduli", moduli)
+        figures = drive.evaluate()
+        beyond.append([figures["teeth/path_begins"] - figures["teeth/begins"], figures["teeth/ends"] - figures["teeth/path_ends"]])
+        assert figures["root/wheel/largest_tension"] > 0
+        place, force = figures["teeth/place"].ravel(), figures["teeth/force"].ravel()
+        way = np.argsort(place)
+        change = abs(np.diff(force[way][abs(place[way]) < 2])).max()
+        assert change < 0.3 * force.max(), f"{moduli}: the force of a tooth changes by {change} N of {force.max()} within a 32nd of a pitch"
+        print(f"{moduli}: a tooth bears {beyond[-1][0]:.3f} pitches before and {beyond[-1][1]:.3f} after the path of rigid ones, changes {change:.0f} N of {force.max():.0f}")
+    assert min(beyond[0]) > 0.08 and beyond[1][0] > beyond[0][0] and beyond[1][1] > beyond[0][1], beyond
+    os.chdir("..")
+
+
 def check_misuse(drive):
     drive.refusal("there is no such result", "evaluate", "drive.yaml", "-result", "nosuch.h5")
     drive.refusal("-from and -to", "evaluate", "drive.yaml", "-from", "0.1")
@@ -285,3 +308,4 @@ if __name__ == "__main__":
         check_cases(d)
         check_in_time(d)
         check_prescribed(d)
+        check_soft_wheel(d)
