@@ -109,6 +109,14 @@ SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& m
 
 Eigen::Vector3d Pair::position(int side, int node) const { return data_->tracker.position_B(side, node); }
 
+double Pair::travel(int side, const SurfaceMotion& from, const SurfaceMotion& to) const {
+  const Tracked& surface = data_->tracker.side(side);
+  Ball ball = surface.ball;
+  ball.radius += largest_displacement(surface.bound, from.q);
+  return largest_displacement(surface.bound, to.q - from.q) +
+         contact::travel(ball, {from.R_WB, from.r_WB}, {to.R_WB, to.r_WB});
+}
+
 void Pair::set_forces(const std::vector<ContactPoint>& contacts) {
   contact::set_forces(data_->history, contacts, data_->R_WB.transpose());
 }

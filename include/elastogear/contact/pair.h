@@ -38,6 +38,10 @@ class Pair {
   std::vector<ContactPoint> detect(const SurfaceMotion& a, const SurfaceMotion& b,
                                    const std::array<ResidualDisplacement, 2>& residual = {});
 
+  /// Bound of the distance, in m, that a node of a surface goes from one motion to another, without residual
+  /// displacements.
+  double travel(int side, const SurfaceMotion& from, const SurfaceMotion& to) const;
+
   /// m, in its BRF, of a node that a contact of the last detect (by motion) names; residual included.
   Eigen::Vector3d position(int side, int node) const;
 

@@ -6,6 +6,7 @@
 
 #include "dynamics/vec_view.h"
 #include "elastogear/base/error.h"
+#include "elastogear/contact/pair.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -116,9 +117,12 @@ double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& 
     most = std::max(most, (after[b].R_WB - before[b].R_WB).norm() / std::sqrt(2.0) / kTurn);
   }
   for (std::size_t p = 0; p < system.pairs().size(); ++p)
-    for (int b : system.pairs()[p].body)
-      most = std::max(most, distance(system.bodies()[b].eq.body->surface, before[b], after[b]) /
-                                (kDistancePerDepth * system.contact_settings(p).depth));
+    for (int side : {0, 1}) {
+      const int b = system.pairs()[p].body[side];
+      const double allowed = kDistancePerDepth * system.contact_settings(p).depth;
+      if (system.detector(p).travel(side, before[b], after[b]) <= allowed) continue;
+      most = std::max(most, distance(system.bodies()[b].eq.body->surface, before[b], after[b]) / allowed);
+    }
   return most;
 }
 

@@ -72,13 +72,14 @@ std::vector<Eigen::VectorXd> sliding(const SlowMotion& motion, const System& sys
 // A system that is led from position to position, from the one at which it was loaded.
 struct Sweep {
   Sweep(const SlowMotion& m, double p, const std::function<bool()>& stop)
-      : motion(m), system(system_at(m, p)), at(system), snes(make_snes(at, J)), first(p) {
+      : motion(m), system(system_at(m, p)), sanity(system), at(system), snes(make_snes(at, J)), first(p) {
     system.set_sliding(sliding(motion, system));
     let_stop(at, stop);
   }
 
   const SlowMotion& motion;
   System system;
+  Sanity sanity;
   Equilibrium at;
   UniqueMat J;
   UniqueSNES snes;
@@ -238,7 +239,7 @@ bool find(Leader& leader, double position, model::Snapshot& found) {
   const State x = sweep.at.state(sweep.U);
   sweep.system.accept(x);
   found = snapshot(sweep.system, x);
-  Sanity(sweep.system).require_small(found);
+  sweep.sanity.require_small(found);
   enter(leader.ledger, sweep, !led, found);
   sweep.system.rebase(sweep.U);
   ++run.steps;
