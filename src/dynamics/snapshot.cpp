@@ -68,7 +68,7 @@ Eigen::Vector3d turn(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
 }  // namespace
 
 model::Snapshot snapshot(System& system, const State& x) {
-  const ContactState& contact = system.contacts(x.time, x.U, x.V);
+  const ContactState& contact = system.observed_contacts(x);
   model::Snapshot result;
   result.time = x.time;
   for (std::size_t b = 0; b < system.bodies().size(); ++b) {

@@ -155,13 +155,21 @@ contact::SurfaceMotion System::surface_motion(std::size_t b, double time, ConstV
 }
 
 const ContactState& System::contacts(double time, ConstVector U, ConstVector V) {
-  if (const ContactState* known = contact_->known(time, U, V)) return *known;
+  return contacts(time, U, V, ForceAccuracy::balanced);
+}
+
+const ContactState& System::observed_contacts(const State& x) {
+  return contacts(x.time, x.U, x.V, ForceAccuracy::observed);
+}
+
+const ContactState& System::contacts(double time, ConstVector U, ConstVector V, ForceAccuracy accuracy) {
+  if (const ContactState* known = contact_->known(time, U, V, accuracy)) return *known;
   std::vector<contact::SurfaceMotion> motion;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     motion.push_back(surface_motion(b, time, U, V));
     if (contact_->creeps(b)) contact_->set_point(b, relaxation_->moduli(), relaxation_->point(b, time));
   }
-  return contact_->evaluate(time, U, V, motion);
+  return contact_->evaluate(time, U, V, motion, accuracy);
 }
 
 double System::depth_share(double time, ConstVector U, ConstVector V) {
@@ -220,7 +228,7 @@ Eigen::MatrixXd System::internal_variables(std::size_t b, const State& x) const 
 }
 
 void System::accept(const State& x) {
-  contacts(x.time, x.U, x.V);
+  observed_contacts(x);
   contact_->accept();
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) relaxation_->accept(b, x.time, motion(b, x).q);
   relaxation_->close_step();
@@ -251,7 +259,7 @@ body::Force System::balance(std::size_t b, const State& x, const MarkerForce& ma
   const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
                     inner = inner_force(b, x.time, m),
                     weight = body::gravity_force(body.eq, m, gravity(model_.environment, x.time)),
-                    touch = contact_force(body.eq, contacts(x.time, x.U, x.V).force[b]);
+                    touch = contact_force(body.eq, observed_contacts(x).force[b]);
   const Terms s{inertia.s,
                 -quadratic.s,
                 -touch.s,
@@ -279,6 +287,7 @@ Residual System::residual(const State& x) {
   const auto n_blocks = static_cast<Eigen::Index>(2 * model_.bodies.size());
   Residual r{Eigen::VectorXd::Zero(size()), Eigen::VectorXd::Zero(n_blocks), Eigen::VectorXd::Zero(n_blocks)};
   const std::vector<MarkerForce> marker_force = at_markers(x);
+  contacts(x.time, x.U, x.V);  // as exact as forces in balance are, for all that follows
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) balance(b, x, marker_force[b], &r);
   raise_vanishing_scales(r);
   return r;

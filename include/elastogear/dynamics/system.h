@@ -18,6 +18,7 @@ class Pair;
 namespace elastogear::dynamics {
 
 class SystemContact;
+enum class ForceAccuracy;
 class SystemRelaxation;
 
 /// F and, for each block (s then q of every body), the sum of the norms of the terms that it balances.
@@ -61,6 +62,9 @@ class System {
   void set_sliding(std::vector<Eigen::VectorXd> rates);
   /// Placement and contacts; kept, so that a second call with equal time, U and V costs nothing.
   const ContactState& contacts(double time, ConstVector U, ConstVector V);
+  /// The same for states that are read and not solved for: forces without a penalty may be less exact, see
+  /// ForceAccuracy.
+  const ContactState& observed_contacts(const State& x);
   /// Largest penetration over the depth of its pair, beyond which it would no longer be seen; -.
   double depth_share(double time, ConstVector U, ConstVector V);
   /// Settings of a pair in force, with stiffness, depth and skin filled in.
@@ -128,6 +132,7 @@ class System {
   void serialize(Archive& archive);
 
  private:
+  const ContactState& contacts(double time, ConstVector U, ConstVector V, ForceAccuracy accuracy);
   /// Motion of a body as contact sees it.
   body::Motion sliding_motion(std::size_t b, const State& x) const;
   /// Generalised forces of all loads and bushings, one entry per body.

@@ -122,7 +122,7 @@ double pressure_of_other_pass(const contact::Settings& settings, double own, con
 }  // namespace
 
 model::PairState pair_state(System& system, const State& x, std::size_t p) {
-  const ContactState& contact = system.contacts(x.time, x.U, x.V);
+  const ContactState& contact = system.observed_contacts(x);
   const PairContacts& pair = contact.pair[p];
   const System::Body* body[2] = {&system.bodies()[pair.body[0]], &system.bodies()[pair.body[1]]};
   model::PairState state;

@@ -19,7 +19,8 @@ constexpr double kRoundoffResidual = 1e-7;  // that may be roundoff of gaps, whe
 constexpr double kSmallResidual = 1e-3;     // whose square is negligible
 constexpr double kJump = 0.02;  // of forces where a node passes from face to face, that has no solution
 constexpr double kForceTolerance = 1e-8;  // of contact forces without a penalty, as of all forces in balance
-constexpr double kMovingTolerance = 1e-10;  // of those of points that move over faces, and turn with them
+constexpr double kMovingTolerance = 3e-9;   // of those of points that move over faces, and turn with them
+constexpr double kObservedTolerance = 1e-6;  // of those of states that are read and not solved for
 constexpr double kFirstRate = 1e-3;         // by which a first change of forces is expected to fall
 constexpr double kBend = 0.1;     // and by this times itself, where points move and forces turn with it
 constexpr int kFullTrials = 12;   // before they go half of the way, as nodes pass to and fro between faces
@@ -67,7 +68,8 @@ NodalForces difference(const NodalForces& a, const NodalForces& b) { return sum(
 
 // Forces of points of least gap turn as these move, far on flat gaps: Newton's method of the system, whose
 // tangent is that of settled points, needs them more exactly.
-double tolerance(const ContactState& state) {
+double tolerance(const ContactState& state, ForceAccuracy accuracy) {
+  if (accuracy == ForceAccuracy::observed) return kObservedTolerance;
   const auto moves = [](const contact::ContactPoint& point) {
     return point.n_slave() > 1 && point.area == 0;
   };
@@ -261,7 +263,8 @@ double ResidualContact::least_force(const ContactState& state) const {
   return least;
 }
 
-void ResidualContact::solve_unilateral(ContactState& state, const std::function<void()>& detect) {
+void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accuracy,
+                                       const std::function<void()>& detect) {
   std::optional<Change> change;
   double before = 0;
   bool settled = false;
@@ -273,7 +276,7 @@ void ResidualContact::solve_unilateral(ContactState& state, const std::function<
     const double first_rate = change->bends ? std::min(kFirstRate, kBend * now) : kFirstRate;
     const double left = now * (trial > 0 ? std::min(1.0, now / before) : first_rate);
     const bool is_roundoff = trial > 0 && now < kRoundoffResidual && now > 0.1 * before;
-    settled = (left <= tolerance(state) || is_roundoff) && !change->slides_anew;
+    settled = (left <= tolerance(state, accuracy) || is_roundoff) && !change->slides_anew;
     before = now;
     if (!settled) detect();
   }

@@ -13,6 +13,10 @@
 
 namespace elastogear::dynamics {
 
+/// How exact forces without a penalty are: as all forces in balance are, for states that are solved for; or
+/// as results are read, for others, which takes fewer looks at the surfaces.
+enum class ForceAccuracy { balanced, observed };
+
 class ResidualContact {
  public:
   /// Bodies without static responses have no residual displacement. The bodies of the model must outlive
@@ -38,7 +42,7 @@ class ResidualContact {
   void solve(ContactState& state, const std::function<void()>& detect);
   /// The same for pairs without a penalty: solves for the forces that close the gaps, Eq. (6.24), at closest
   /// points that each trial finds anew. Contacts that stay open are taken out of the state.
-  void solve_unilateral(ContactState& state, const std::function<void()>& detect);
+  void solve_unilateral(ContactState& state, ForceAccuracy accuracy, const std::function<void()>& detect);
   /// Puts the static responses in place to forces extrapolated from the last two accepted states to this
   /// time.
   void predict(double time);

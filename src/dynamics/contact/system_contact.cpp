@@ -56,12 +56,25 @@ bool SystemContact::is_unilateral() const {
   return unilateral != nullptr;
 }
 
-const ContactState* SystemContact::known(double time, ConstVector U, ConstVector V) const {
-  return U_ && time == time_ && *U_ == U && V_ == V ? &state_ : nullptr;
+const ContactState* SystemContact::known(double time, ConstVector U, ConstVector V,
+                                         ForceAccuracy accuracy) const {
+  const bool is_exact = accuracy_ == ForceAccuracy::balanced || accuracy == ForceAccuracy::observed;
+  return U_ && is_exact && time == time_ && *U_ == U && V_ == V ? &state_ : nullptr;
+}
+
+// Do forces of an accepted state stay in later ones?
+bool SystemContact::remembers_forces() const {
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (has_friction(p, contact::FrictionLaw::stick)) return true;
+  for (std::size_t b = 0; b < surface_.size(); ++b)
+    if (residual_contact_.creeps(b)) return true;
+  return false;
 }
 
 const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVector V,
-                                            const std::vector<contact::SurfaceMotion>& motion) {
+                                            const std::vector<contact::SurfaceMotion>& motion,
+                                            ForceAccuracy accuracy) {
+  accuracy_ = remembers_forces() ? ForceAccuracy::balanced : accuracy;
   forget();
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
@@ -78,7 +91,7 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
 void SystemContact::solve(const std::vector<contact::SurfaceMotion>& motion) {
   if (!unilateral_) return residual_contact_.solve(state_, [&] { detect(motion); });
   int trial = 0;
-  residual_contact_.solve_unilateral(state_, [&] {
+  residual_contact_.solve_unilateral(state_, accuracy_, [&] {
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       detectors_[p].set_forces(state_.pair[p].points);
       if (trial >= kFreeTrials) detectors_[p].keep_minima(state_.pair[p].points);

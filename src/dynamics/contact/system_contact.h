@@ -16,11 +16,11 @@ class SystemContact {
   /// The elastic bodies of the model must outlive this.
   explicit SystemContact(const SystemModel& model);
 
-  /// What was evaluated last, if that was this state; null otherwise.
-  const ContactState* known(double time, ConstVector U, ConstVector V) const;
+  /// What was evaluated last, if that was this state with forces as exact; null otherwise.
+  const ContactState* known(double time, ConstVector U, ConstVector V, ForceAccuracy accuracy) const;
   /// Contacts and static responses of a state with these motions of the bodies' surfaces.
   const ContactState& evaluate(double time, ConstVector U, ConstVector V,
-                               const std::vector<contact::SurfaceMotion>& motion);
+                               const std::vector<contact::SurfaceMotion>& motion, ForceAccuracy accuracy);
   /// Makes known() forget the last evaluation.
   void forget() { U_.reset(); }
 
@@ -81,6 +81,7 @@ class SystemContact {
   void detect(const std::vector<contact::SurfaceMotion>& motion);
   bool has_friction(std::size_t p, contact::FrictionLaw law) const;
   double friction_loss_of_responses();
+  bool remembers_forces() const;
   void solve(const std::vector<contact::SurfaceMotion>& motion);
 
   std::vector<PairSetup> pairs_;
@@ -90,6 +91,7 @@ class SystemContact {
   ResidualContact residual_contact_;
   History history_;
   double time_ = 0;  // s, of the last evaluation
+  ForceAccuracy accuracy_ = ForceAccuracy::balanced;
   std::optional<Eigen::VectorXd> U_;
   Eigen::VectorXd V_;
   ContactState state_;
