@@ -58,24 +58,32 @@ bool may_have_minimum(const SideGaps& side, double reach) {
   return may_be_within(least_of_cubic(side.g, side.slope).value, std::min(side.g[0], side.g[1]), reach);
 }
 
+// Gaps and slopes at the corners of a quadrilateral; -kFar where the gap is not known.
+FaceCorners corners_of(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
+  FaceCorners corners;
+  corners.value.setConstant(-kFar);
+  corners.slope.setZero();
+  for (int c = 0; c < 4; ++c)
+    if (const NodeGap* node = find(nodes, field.slave.face(c, f))) {
+      corners.slope.col(c) = corner_tangents(field.slave, field.heights, f, c).transpose() * node->n;
+      corners.value[c] = node->g;
+    }
+  return corners;
+}
+
 // Estimates the place of the least gap on a quadrilateral by the bicubic with the gaps and slopes of its
 // corners. The start has no master face where the gap is beyond the reach, or least well beyond the sides of
 // the face; there is none where a corner's gap is not known.
 std::optional<FaceStart> estimate(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
   if (side_count(field.slave.face, f) != 4) return {};
-  FaceCorners corners;
+  const FaceCorners corners = corners_of(field, f, nodes);
   FaceStart start;
   double nearest = kFar;
   bool all_known = true;
   for (int c = 0; c < 4; ++c) {
     const NodeGap* node = find(nodes, field.slave.face(c, f));
-    corners.value[c] = -kFar;
-    corners.slope.col(c).setZero();
     all_known = all_known && node;
-    if (!node) continue;
-    corners.slope.col(c) = corner_tangents(field.slave, field.heights, f, c).transpose() * node->n;
-    corners.value[c] = node->g;
-    if (node->g < nearest) nearest = node->g, start.face = node->nearest;
+    if (node && node->g < nearest) nearest = node->g, start.face = node->nearest;
   }
   if (lower_bound(corners) > field.reach.gap) return FaceStart{};
   if (!all_known) return {};
@@ -86,12 +94,16 @@ std::optional<FaceStart> estimate(const GapField& field, int f, const std::map<i
   return may_be_within(start.g, nearest, field.reach.gap) ? start : FaceStart{};
 }
 
-// The slave faces around these nodes, ascending.
+// The slave faces around these nodes, ascending, but for those over which no convex gap with the tangent
+// planes at these nodes is within the reach, nor along their sides.
 std::vector<int> faces_around(const GapField& field, const std::map<int, NodeGap>& nodes) {
   std::vector<int> faces;
   for (const auto& [node, gap] : nodes)
     for (int corner : field.slave.topology.node_corners[node]) faces.push_back(corner / 4);
   sort_unique(faces);
+  std::erase_if(faces, [&](int f) {
+    return side_count(field.slave.face, f) == 4 && lower_bound(corners_of(field, f, nodes)) > field.reach.gap;
+  });
   return faces;
 }
 

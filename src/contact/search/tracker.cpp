@@ -81,6 +81,7 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
     look_[i] = {std::vector<long>(n, 0), std::vector<long>(n, 0), of_faces, {}};
     rates_[i] = {{}, Eigen::Matrix3Xd(3, n), std::vector<long>(n, 0), 1};
   }
+  for (int i : {0, 1}) boxes_[i] = face_boxes(view(i, settings.extension));
   reach_ = limits.depth + limits.around +
            kStretch * std::max(extension_reach(view(0, settings.extension)),
                                extension_reach(view(1, settings.extension)));
@@ -218,16 +219,33 @@ void Tracker::take_near(double distance) {
     v.near[slave] = not_apart(v.within[slave], v.apart_until[slave], v.path + distance + limits_.outside);
 }
 
+// Bound of what the present coordinates and residual displacements move a node by, m.
+double Tracker::largest_deformation(int i) const {
+  return largest_displacement(side_[i].bound, now_[i]->q) + (residual_ ? (*residual_)[i].largest : 0);
+}
+
 // Leaves out the near nodes that have more clearance than `clear`. A node for which less than limits.outside
 // serves has so much clearance more. Whichever side of the surface it is on, nothing comes of a node that is
-// farther away than the depth limit.
+// farther away than the depth limit. Most are so from the undeformed surface, however both are deformed, and
+// are not displaced.
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension);
   const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around};
+  const RelativeMotion to_master = relative_motion(*now_[slave], *now_[1 - slave]);
+  const double of_extension = 1 + 2 * settings_.extension,
+               deformed = largest_deformation(slave) +
+                          of_extension * of_extension * largest_deformation(1 - slave);
   Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {
     const int node = all.slave[i];
+    const Eigen::Vector3d undeformed = to_master.R * side_[slave].surface->X.col(node) + to_master.r;
+    const double least = distance(boxes_[1 - slave], undeformed, all.faces(i)) - deformed,
+                 surely_beyond = std::min(least, move.reach) - limits_.depth + limits_.outside;
+    if (surely_beyond > clear) {
+      neighbours_->apart_until[slave][node] = neighbours_->path + surely_beyond;
+      continue;
+    }
     const Approach found = approach(master, placed(slave, node).col(node), move, all.faces(i));
     const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
     const double beyond = std::min(found.distance, move.reach) - limits_.depth + limits_.outside;

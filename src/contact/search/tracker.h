@@ -6,6 +6,7 @@
 
 #include "contact/projection/projection.h"
 #include "contact/search/coarse_search.h"
+#include "contact/search/face_boxes.h"
 #include "contact/search/neighbour_list.h"
 #include "elastogear/base/archive.h"
 #include "elastogear/contact/deformation_bound.h"
@@ -89,6 +90,7 @@ class Tracker : private NodePlacer {
   void measure_clearance(double limit);
   void take_near(double distance);
   void leave_out(int slave, double clear);
+  double largest_deformation(int i) const;
   void update_neighbours();
   void find_candidates(double margin);
   void find_candidates();
@@ -98,6 +100,7 @@ class Tracker : private NodePlacer {
   Limits limits_;
   std::array<SlaveNodes, 2> slaves_;
   CoarseSearch search_;
+  std::array<FaceBoxes, 2> boxes_;
   double reach_;  // m, largest distance of a slave node from a master face's corners that can still matter
   Configuration configuration_;
   std::optional<NeighbourList> neighbours_;
