@@ -13,9 +13,11 @@ namespace elastogear::contact {
 namespace {
 
 // The relative motion for which one measurement of clearance serves: at first this share of the skin, twice
-// as much when it has served few stages only, half as much after many.
+// as much when it has served few stages only, half as much after many. A motion much longer than that, as from
+// position to position of a sweep, says nothing of the stages that follow.
 constexpr double kLimit = 0.125;
 constexpr int kFewUses = 8, kManyUses = 64;
+constexpr double kJump = 4;  // limits
 // The share of the measured motion for which the nodes that touch first serve; it doubles when it is used up.
 constexpr double kFirstStretch = 0.125;
 constexpr double kStretch = 1.1;  // of extensions when the surface is deformed, generously
@@ -37,8 +39,9 @@ double extension_reach(const SurfaceView& surface) {
   return reach;
 }
 
-double next_limit(const NeighbourList& neighbours, double skin) {
+double next_limit(const NeighbourList& neighbours, double distance, double skin) {
   if (neighbours.limit == 0) return kLimit * skin;
+  if (distance > kJump * neighbours.limit) return neighbours.limit;
   if (neighbours.uses < kFewUses) return std::min(2 * neighbours.limit, skin);
   return neighbours.uses > kManyUses ? neighbours.limit / 2 : neighbours.limit;
 }
@@ -260,13 +263,13 @@ void Tracker::leave_out(int slave, double clear) {
 void Tracker::update_neighbours() {
   const bool search_is_due =
       !neighbours_ || !(distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin);
-  if (search_is_due) find_candidates();
   const double distance =
-      search_is_due ? 0 : distance_since(neighbours_->measured_at) + residual_since_measured_;
+      neighbours_ ? distance_since(neighbours_->measured_at) + residual_since_measured_ : 0;
+  if (search_is_due) find_candidates();
   const bool is_used_up = search_is_due || !(distance <= neighbours_->limit);
   if (is_used_up) {
-    neighbours_->path += distance;
-    measure_clearance(next_limit(*neighbours_, settings_.skin));
+    if (!search_is_due) neighbours_->path += distance;
+    measure_clearance(next_limit(*neighbours_, distance, settings_.skin));
   } else if (distance > neighbours_->near_limit) {
     take_near(std::min(2 * distance, neighbours_->limit));
   }
