@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <array>
+#include <limits>
 #include <numbers>
 
+#include "contact/projection/closest_point.h"
+#include "contact/search/face_boxes.h"
 #include "contact/search/neighbour_list.h"
 #include "elastogear/base/error.h"
 #include "elastogear/contact/deformation_bound.h"
@@ -109,6 +113,48 @@ TEST(Travel, bounds_the_way_of_every_point_of_the_ball) {
     largest_share = std::max(largest_share, farthest / travel(ball, from, to));
   }
   EXPECT_GT(largest_share, 0.8);
+}
+
+TEST(Skin, way_of_a_deformed_surface_is_bounded) {
+  Random random(6);
+  const Elastic a = elastic_patch(16, true, random), b = elastic_patch(14, false, random);
+  const Pair pair(a.surface, b.surface, settings(Update::bound), {&a.K_r, &b.K_r});
+  double largest_share = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const double size = std::pow(10.0, random.uniform(-4, 0));
+    const SurfaceMotion from{amplitudes(random, 1), random.vector(1), test::rotation(random.vector(3))};
+    const SurfaceMotion to{from.q + amplitudes(random, size), from.r_WB + random.vector(0.01 * size),
+                           from.R_WB * test::rotation(random.vector(0.01 * size))};
+    const SurfaceState before = surface_state(a.surface, from), after = surface_state(a.surface, to);
+    const Eigen::Matrix3Xd way =
+        (after.R_WB * after.x_B - before.R_WB * before.x_B).colwise() + (after.r_WB - before.r_WB);
+    const double farthest = std::sqrt(way.colwise().squaredNorm().maxCoeff());
+    EXPECT_GE(pair.travel(0, from, to) * (1 + 1e-12), farthest);
+    largest_share = std::max(largest_share, farthest / pair.travel(0, from, to));
+  }
+  EXPECT_GT(largest_share, 0.3);
+}
+
+// Faces have extensions at the open ends of the patch.
+TEST(Skin, boxes_around_faces_are_no_farther_than_these) {
+  constexpr double kExtension = 0.3;
+  Random random(7);
+  const Elastic e = elastic_patch(6, false, random);
+  const Topology topology = contact::topology(e.surface.face, static_cast<int>(e.surface.X.cols()));
+  const SurfaceView view{e.surface.face, topology, e.surface.X, kExtension};
+  const FaceBoxes boxes = face_boxes(view);
+  int n_near = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Vector3d x = random.vector(2);
+    for (int f = 0; f < e.surface.face.cols(); ++f) {
+      const double of_box = distance(boxes, x, std::array{f}),
+                   of_face = std::sqrt(closest_point(face_of(view, f), x).distance2);
+      EXPECT_LE(of_box, of_face * (1 + 1e-12));
+      n_near += of_box > 0.8 * of_face;
+    }
+  }
+  EXPECT_GT(n_near, 1000);
+  EXPECT_EQ(distance(boxes, random.vector(2), {}), std::numeric_limits<double>::infinity());
 }
 
 // Two elastic patches slide, roll and vibrate over each other for 200 small steps.

@@ -150,6 +150,36 @@ TEST(Unilateral, forces_of_a_stage_are_those_of_another_look) {
   }
 }
 
+// States that are read have forces within 1e-5 of those of states that are solved for, which are found
+// nevertheless when they are asked for afterwards.
+TEST(Unilateral, observed_forces_are_near_those_in_balance) {
+  constexpr double kObserved = 1e-5, kFound = 1e-8;  // of the forces
+  Blocks b = blocks(kUnilateral, false, 0);
+  b.setups[1].joint.type = body::JointType::prismatic;
+  b.setups[1].joint.axis = {0, 1, 0};
+  b.pair.settings.surface = contact::ContactSurface::smooth;
+  System system(b.setups, {b.pair});
+  Eigen::VectorXd U = system.initial_position();
+  std::srand(1);
+  U = 0.01 * Eigen::VectorXd::Random(U.size());
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(U.size());
+  double largest = 0, time = 0;
+  for (double step = 1e-6; step < 0.02; step *= 1.1) {
+    U[0] = 0.05 + time / 2;  // m, of the ram
+    U[U.size() / 2] = time;  // m, of the wall
+    const NodalForces observed = system.observed_contacts({time, U, zero, zero}).force[1];
+    const NodalForces found = system.contacts(time, U, zero).force[1];
+    if (observed.node == found.node && found.f_B.norm() > 0)
+      largest = std::max(largest, (observed.f_B - found.f_B).norm() / found.f_B.norm());
+    EXPECT_EQ(&system.observed_contacts({time, U, zero, zero}), &system.contacts(time, U, zero));
+    EXPECT_LT(change_by_another_look(system, time, U), kFound);
+    time += step;
+  }
+  std::printf("observed forces within %.2g\n", largest);
+  EXPECT_GT(largest, kFound) << "all were found as exactly";
+  EXPECT_LT(largest, kObserved);
+}
+
 // The ram is driven against the wall, which is driven aside. They touch, and stick, from the start.
 System press_and_rub(double aside, double stiffness, contact::SlavePoints points,
                      const contact::FrictionSettings& friction) {

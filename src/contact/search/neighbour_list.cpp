@@ -1,6 +1,22 @@
 #include "contact/search/neighbour_list.h"
 
+#include <algorithm>
+
 namespace elastogear::contact {
+namespace {
+
+constexpr double kFirstLimit = 0.125;        // of the skin
+constexpr int kFewUses = 8, kManyUses = 64;  // stages
+constexpr double kJump = 4;                  // limits
+
+}  // namespace
+
+double next_limit(const NeighbourList& neighbours, double distance, double skin) {
+  if (neighbours.limit == 0) return kFirstLimit * skin;
+  if (distance > kJump * neighbours.limit) return neighbours.limit;
+  if (neighbours.uses < kFewUses) return std::min(2 * neighbours.limit, skin);
+  return neighbours.uses > kManyUses ? neighbours.limit / 2 : neighbours.limit;
+}
 
 Ball enclosing_ball(const Eigen::Matrix3Xd& X) {
   const Eigen::Vector3d centre = 0.5 * (X.rowwise().minCoeff() + X.rowwise().maxCoeff());

@@ -37,6 +37,11 @@ struct NeighbourList {
   std::array<Neighbours, 2> within, near;          ///< by slave side: the candidates that can touch
 };
 
+/// The relative motion, m, for which the next measurement of clearance serves: at first a share of the skin,
+/// twice as much when the last one has served few stages only, half as much after many. A motion much longer
+/// than that since it, as from position to position of a sweep, says nothing of the stages that follow.
+double next_limit(const NeighbourList& neighbours, double distance, double skin);
+
 /// Ball around the undeformed nodes of a surface in its own frame.
 struct Ball {
   Eigen::Vector3d centre;

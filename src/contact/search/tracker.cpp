@@ -12,12 +12,6 @@
 namespace elastogear::contact {
 namespace {
 
-// The relative motion for which one measurement of clearance serves: at first this share of the skin, twice
-// as much when it has served few stages only, half as much after many. A motion much longer than that, as from
-// position to position of a sweep, says nothing of the stages that follow.
-constexpr double kLimit = 0.125;
-constexpr int kFewUses = 8, kManyUses = 64;
-constexpr double kJump = 4;  // limits
 // The share of the measured motion for which the nodes that touch first serve; it doubles when it is used up.
 constexpr double kFirstStretch = 0.125;
 constexpr double kStretch = 1.1;  // of extensions when the surface is deformed, generously
@@ -37,13 +31,6 @@ double extension_reach(const SurfaceView& surface) {
     }
   }
   return reach;
-}
-
-double next_limit(const NeighbourList& neighbours, double distance, double skin) {
-  if (neighbours.limit == 0) return kLimit * skin;
-  if (distance > kJump * neighbours.limit) return neighbours.limit;
-  if (neighbours.uses < kFewUses) return std::min(2 * neighbours.limit, skin);
-  return neighbours.uses > kManyUses ? neighbours.limit / 2 : neighbours.limit;
 }
 
 void serialize_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Archive& archive) {
@@ -237,8 +224,8 @@ void Tracker::leave_out(int slave, double clear) {
   const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around};
   const RelativeMotion to_master = relative_motion(*now_[slave], *now_[1 - slave]);
   const double of_extension = 1 + 2 * settings_.extension,
-               deformed = largest_deformation(slave) +
-                          of_extension * of_extension * largest_deformation(1 - slave);
+               deformed =
+                   largest_deformation(slave) + of_extension * of_extension * largest_deformation(1 - slave);
   Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {
     const int node = all.slave[i];
