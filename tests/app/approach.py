@@ -32,7 +32,7 @@ def stiffness(size, approach):
     said = run("simulate", DRIVE, *size, "-analysis", "sweep", "-sweep_positions", str(POSITIONS), *approach)
     assert ("approach by H. Hertz" in said) == (not approach), said
     with h5py.File("spur_c14_result.h5") as file:
-        assert file["contact/pinion:wheel"].attrs["approach"] == ("mesh" if approach else "hertz")
+        assert file["contact/pinion:wheel"].attrs["approach"] == (b"mesh" if approach else b"hertz")
     run("evaluate", DRIVE, *size)
     with h5py.File("spur_c14_evaluation.h5") as file:
         return file["cases/spur_c14_result/pinion:wheel/stiffness/secant"][:].mean()

@@ -32,7 +32,8 @@ done
 "${sweep[@]}" -torque "300 N m" -sweep_positions 18 -roll -0.2 -output elastic.h5 >run.log 2>&1 || fail "elastic gears"
 grep -q "roll angles  *18 of 18, 0 of them anew" run.log || fail "positions are not found from one another"
 "${sweep[@]}" -torque "300 N m" "${bearings[@]}" -sweep_positions 6 -output bearings.h5 >run.log 2>&1 || fail "bearings"
-"${sweep[@]}" -torque "300 N m" -contact_friction 0.08 -sweep_positions 64 -output rough.h5 >run.log 2>&1 || fail "friction"
+# The local approach of flanks depends on where they touch, by which the work of the torques is off by half a per cent of this loss.
+"${sweep[@]}" -torque "300 N m" -contact_friction 0.08 -contact_approach mesh -sweep_positions 64 -output rough.h5 >run.log 2>&1 || fail "friction"
 static=("${sweep[@]}" -analysis static -torque "300 N m")
 "${static[@]}" -roll 0.63333333333333333 -output static.h5 >run.log 2>&1 || fail "static"
 "${static[@]}" -roll 0.66666666666666667 "${bearings[@]}" -output static_bearings.h5 >run.log 2>&1 || fail "static on bearings"
