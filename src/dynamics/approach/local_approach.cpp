@@ -24,7 +24,7 @@ namespace {
 using Patch = std::vector<const ContactPoint*>;
 
 constexpr double kLeast = 1e-6;   // of a face's length, approach under forces of roundoff
-constexpr double kAtRest = 1e-9;  // of a flank's length, differences by which laws do not change
+constexpr double kAtRest = 1e-8;  // of a flank's length, differences by which laws do not change
 constexpr double kSlight = 0.05;  // of all forces of a pair, below which those of a patch go on as F^m
 
 // Outward unit normals of the nodes, by the faces of their groups.
