@@ -42,10 +42,6 @@ std::vector<char> loadable(const model::ElasticBody& body) {
   return may_bear;
 }
 
-}  // namespace
-
-namespace {
-
 // Square roots of what nodes at these vectors weigh where a load is spread across a line. Eq. (6.36a).
 Eigen::VectorXd weigh_across(const Eigen::Matrix3Xd& away, const Eigen::Vector3d& along) {
   constexpr double kSteep = 4;  // squared slope against the line, by which half of the weight is left

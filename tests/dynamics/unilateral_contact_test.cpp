@@ -123,16 +123,22 @@ double change_by_another_look(System& system, double time, const Eigen::VectorXd
   return (again - found).norm() / again.norm();
 }
 
+// Blocks with smooth surfaces, the second of which slides along the first.
+Blocks sliding_blocks(bool two_pass) {
+  Blocks b = blocks(kUnilateral, two_pass, 0);
+  b.setups[1].joint.type = body::JointType::prismatic;
+  b.setups[1].joint.axis = {0, 1, 0};
+  b.pair.settings.surface = contact::ContactSurface::smooth;
+  return b;
+}
+
 // The blocks, bent, come together and slide along each other, in steps that change the forces by small and
 // by large shares: where no second look was made, it would have found the same forces. On facets nodes pass
 // to and fro between two faces in some states, whose forces have no other look's.
 TEST(Unilateral, forces_of_a_stage_are_those_of_another_look) {
   constexpr double kFound = 1e-8;  // of the forces
   for (bool two_pass : {false, true}) {
-    Blocks b = blocks(kUnilateral, two_pass, 0);
-    b.setups[1].joint.type = body::JointType::prismatic;
-    b.setups[1].joint.axis = {0, 1, 0};
-    b.pair.settings.surface = contact::ContactSurface::smooth;
+    const Blocks b = sliding_blocks(two_pass);
     System system(b.setups, {b.pair});
     Eigen::VectorXd U = system.initial_position();
     std::srand(1);
@@ -154,10 +160,7 @@ TEST(Unilateral, forces_of_a_stage_are_those_of_another_look) {
 // nevertheless when they are asked for afterwards.
 TEST(Unilateral, observed_forces_are_near_those_in_balance) {
   constexpr double kObserved = 1e-5, kFound = 1e-8;  // of the forces
-  Blocks b = blocks(kUnilateral, false, 0);
-  b.setups[1].joint.type = body::JointType::prismatic;
-  b.setups[1].joint.axis = {0, 1, 0};
-  b.pair.settings.surface = contact::ContactSurface::smooth;
+  const Blocks b = sliding_blocks(false);
   System system(b.setups, {b.pair});
   Eigen::VectorXd U = system.initial_position();
   std::srand(1);

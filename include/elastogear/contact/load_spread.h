@@ -30,7 +30,7 @@ class LoadSpread {
   explicit LoadSpread(const model::ElasticBody& body);
   /// Of a local node of the surface; found when it is first asked for.
   const Spread& of(int node);
-  /// Across a line along this unit vector.
+  /// The spread of a local node's force across a line along this unit vector.
   Spread across(int node, const Eigen::Vector3d& along) const;
 
  private:

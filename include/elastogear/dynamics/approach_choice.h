@@ -7,8 +7,9 @@
 
 namespace elastogear::dynamics {
 
-/// What a pair, with its law and points chosen, lacks for that: points of least gap without a penalty, exact
-/// flanks, residual flexibility and one elastic material at the surface of both bodies. Empty: nothing.
+/// What a pair, with its law and points chosen, lacks for the approach by H. Hertz: points of least gap
+/// without a penalty, exact flanks, residual flexibility and one elastic material at the surface of both
+/// bodies. Empty: nothing.
 std::string lacks_for_approach(const SystemModel& model, const PairSetup& pair);
 
 /// What contact::FlankApproach::automatic stands for: hertz where nothing lacks for it, the mesh's elsewhere.

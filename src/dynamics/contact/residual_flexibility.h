@@ -52,9 +52,8 @@ class ResidualFlexibility {
   /// Change of w of a node since the last accepted state, in which these were the forces, m; where it creeps.
   Eigen::Vector3d change_since(const NodalForces& then, int node);
   double energy();  ///< J, stored by the forces in place. Eq. (3.28)
-  double loss() const {
-    return history_.loss();
-  }  ///< J, that the material has taken up to the last accepted state
+  /// J, that the material has taken up to the last accepted state.
+  double loss() const { return history_.loss(); }
   /// The forces and their history.
   void serialize(Archive& archive);
   /// The history alone, of the last accepted state.
