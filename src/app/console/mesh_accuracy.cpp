@@ -6,7 +6,7 @@ namespace {
 // Error of the largest stress at a root, recovered on the free surface: a row for meshes of order 1 and 2, a
 // column for the sizes tiny, small, medium and paper.
 constexpr const char* kWorm[2][4] = {{"22 % low", "21 % low", "14 % low", "11 % low"},
-                                     {"within 9 %", "within 3 %", "2 % high", "within 1 %"}};
+                                     {"within 9 %", "within 3 %", "within 1 %", "within 1 %"}};
 constexpr const char* kWheel[2][4] = {{"48 % low", "30 % low", "20 % low", "8 % low"},
                                       {"9 % low", "within 1 %", "within 1 %", "within 1 %"}};
 

@@ -172,20 +172,27 @@ WormCounts equal_counts(Size size) {
 // inwards.
 WormCounts graded_counts(Size size) {
   WormCounts n{.tooth = 4, .order = 2, .growth = 4, .tooth_growth = 4};
-  if (size >= Size::small) {
+  if (size == Size::small) {
     n.space = n.fillet = 2;
     n.flank = n.ring = 3;
     n.turn = 32;
     n.growth = 3;
   }
-  if (size >= Size::medium) {
-    n.tooth = 6;
+  if (size == Size::medium) {
+    n.space = n.fillet = 3;
+    n.ring = 4;
     n.turn = 40;
-    n.tooth_growth = 3;
+    n.shaft = 2;
+    n.growth = 3;
+    n.tooth_growth = 6;
   }
   if (size == Size::paper) {
-    n.flank = n.ring = 4;
+    n.tooth = 6;
+    n.space = 2;
     n.fillet = 3;
+    n.flank = n.ring = 4;
+    n.turn = 40;
+    n.growth = n.tooth_growth = 3;
   }
   return n;
 }
