@@ -104,6 +104,22 @@ TEST_P(Solver, follows_new_nodes_and_new_shifts) {
   expect_equal_to_dense(pair, solver);
 }
 
+// Loads on nodes whose columns are kept, alone and with others that count or do not.
+TEST_P(Solver, sums_up_responses_to_loads_on_kept_nodes) {
+  const Bodies pair = bodies(GetParam());
+  const std::vector<int> kept{0, 4, 9};
+  ElasticBlock D(pair[0]);
+  D.set_shifts(10, 100);
+  D.compliance(kept);
+  const VectorXd load = BorderColumns(pair[0]).node_columns(kept) * VectorXd::Random(9);
+  for (double elsewhere : {0., 1e-9, 1e-3}) {
+    const VectorXd y = load + elsewhere * load.norm() * VectorXd::Unit(load.size(), load.size() / 2),
+                   x = D.solve(y);
+    EXPECT_LT((D.solve_load(y) - x).norm(),
+              (elsewhere < 1e-6 ? 100 * elsewhere + kRoundoff : kRoundoff) * x.norm());
+  }
+}
+
 TEST_P(Solver, takes_up_more_nodes_than_it_solves_for_at_once) {
   const Bodies pair = bodies(GetParam(), 4);
   std::vector<int> node(pair[0].body->surface.node.size());

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -30,6 +31,8 @@ class BorderColumns {
   Eigen::VectorXd expand(const std::vector<int>& node, const Eigen::VectorXd& c) const;   ///< E c
   const Eigen::MatrixXd& U() const { return U_; }
   Eigen::MatrixXd node_columns(const std::vector<int>& node) const;  ///< Phi(node)', n_q x 3 n_node
+  /// The elastic coordinates that are displacements of the node; -1 for those that are none.
+  std::array<int, 3> coordinates(int node) const;
 
  private:
   const model::BasisRows* Phi_;
@@ -52,6 +55,8 @@ class ElasticBlock {
   void set_shifts(double shift_v, double shift_a, const Eigen::VectorXd& following = {});
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< D x
   Eigen::MatrixXd solve(const Eigen::MatrixXd& Y) const;     ///< D^-1 Y
+  /// D^-1 y, within 1e-6 of y; without a solution where y loads nodes whose columns are kept, and no others.
+  Eigen::VectorXd solve_load(const Eigen::VectorXd& y) const;
   /// E' D^-1 E for the given nodes, from columns kept since the shifts last changed: n_e x n_e.
   std::shared_ptr<const Eigen::MatrixXd> compliance(const std::vector<int>& node);
   /// D^-1 E c for nodes whose compliance was asked for; without a solution where its columns are kept.
@@ -90,6 +95,7 @@ class ElasticBlock {
   std::shared_ptr<const Eigen::MatrixXd> answer_;  // their compliance, or null
   Eigen::MatrixXd U_response_;                     // D^-1 U
   std::vector<Eigen::MatrixX3d> response_;  // D^-1 Phi(node)' of the first kept nodes, unless D is diagonal
+  std::vector<std::array<int, 3>> coordinate_;  // of the same nodes
 };
 
 }  // namespace elastogear::dynamics

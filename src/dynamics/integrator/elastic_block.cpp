@@ -85,6 +85,16 @@ Eigen::MatrixXd BorderColumns::node_columns(const std::vector<int>& node) const 
   return columns;
 }
 
+std::array<int, 3> BorderColumns::coordinates(int node) const {
+  std::array<int, 3> found{-1, -1, -1};
+  const auto* rows = std::get_if<model::SparseRows>(Phi_);
+  for (int d = 0; d < 3 && rows; ++d) {
+    model::SparseRows::InnerIterator entry(*rows, 3 * node + d);
+    if (entry && entry.value() == 1) found[static_cast<std::size_t>(d)] = static_cast<int>(entry.col());
+  }
+  return found;
+}
+
 ElasticBlock::ElasticBlock(const body::Equations& eq, const Eigen::MatrixXd& markers)
     : body_(eq.body.get()), D_r_(eq.D_r), columns_(eq, markers), slot_(eq.body->surface.node.size(), -1) {
   diagonal_ = is_diagonal(body_->M_r) && is_diagonal(body_->K_r) &&
@@ -171,12 +181,30 @@ Eigen::MatrixXd ElasticBlock::solve(const Eigen::MatrixXd& Y) const {
   return X;
 }
 
+// After a Newton step the forces that are not in balance on a linear body are those of contact.
+Eigen::VectorXd ElasticBlock::solve_load(const Eigen::VectorXd& y) const {
+  constexpr double kElsewhere = 1e-6;
+  if (diagonal_ || !exact_) return solve(y);
+  Eigen::VectorXd elsewhere = y;
+  for (const std::array<int, 3>& of_node : coordinate_)
+    for (int i : of_node)
+      if (i >= 0) elsewhere[i] = 0;
+  if (!(elsewhere.norm() <= kElsewhere * y.norm())) return solve(y);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(y.size());
+  for (std::size_t slot = 0; slot < coordinate_.size(); ++slot)
+    for (std::size_t d = 0; d < 3; ++d)
+      if (const int i = coordinate_[slot][d]; i >= 0 && y[i] != 0)
+        x += y[i] * response_[slot].col(static_cast<Eigen::Index>(d));
+  return x;
+}
+
 void ElasticBlock::reset_compliance() {
   kept_.clear();
   batches_.clear();
   answer_.reset();
   std::fill(slot_.begin(), slot_.end(), -1);
   response_.clear();
+  coordinate_.clear();
   U_response_ = solve(columns_.U());
   G_ = columns_.U().transpose() * U_response_;
 }
@@ -189,7 +217,9 @@ void ElasticBlock::add_to_compliance(const std::vector<int>& node) {
     slot_[node[i]] = static_cast<int>(kept_.size());
     kept_.push_back(node[i]);
     const bool room = kept_.size() * 3 * static_cast<std::size_t>(X.rows()) <= kMaxKeptNumbers;
-    if (!diagonal_ && room) response_.push_back(X.middleCols<3>(3 * static_cast<Eigen::Index>(i)));
+    if (diagonal_ || !room) continue;
+    response_.push_back(X.middleCols<3>(3 * static_cast<Eigen::Index>(i)));
+    coordinate_.push_back(columns_.coordinates(node[i]));
   }
   const Eigen::Index after = columns_.size(kept_);
   G_.conservativeResize(after, after);

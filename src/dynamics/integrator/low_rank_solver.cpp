@@ -97,7 +97,7 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const auto [s, n_s, n_q, joint] = range_[b];
     const BodyTerms& t = A_.body[b];
-    x.segment(s + n_s, n_q) = block_[b].solve(y.segment(s + n_s, n_q));
+    x.segment(s + n_s, n_q) = block_[b].solve_load(y.segment(s + n_s, n_q));
     const Eigen::VectorXd p = block_[b].columns().project(t.node, x.segment(s + n_s, n_q));
     right.segment(joint, n_s) = y.segment(s, n_s) - t.rho.transpose() * p;
     right.tail(A_.k.rows()) += displacement_rows(t).transpose() * p;
