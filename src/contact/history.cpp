@@ -24,6 +24,13 @@ void require_on(const StickPoint& point, int node, const model::Surface& slave,
           node, " on face ", point.face, ", there are ", n_nodes, " nodes and ", n_faces, " faces");
 }
 
+void require_on(const StandingPoint& point, const model::Surface& slave, const model::Surface& master) {
+  const auto n_slave = slave.face.cols(), n_master = master.face.cols();
+  require(point.face >= 0 && point.face < n_slave && point.master_face >= 0 && point.master_face < n_master,
+          "contact history: a point of face ", point.face, " of ", n_slave, " over face ", point.master_face,
+          " of ", n_master);
+}
+
 }  // namespace
 
 double given_force(const History& history, int point) {
@@ -97,6 +104,11 @@ void serialize(History& history, const model::Surface& slave, const model::Surfa
   serialize_map(archive, history.start, [&](GapRate& at) {
     for (double* x : {&at.gap, &at.rate, &at.fade}) archive(*x);
   });
+  serialize_map(archive, history.standing, [&](StandingPoint& point) {
+    for (int* n : {&point.face, &point.master_face}) archive(*n);
+    for (Eigen::Vector2d* x : {&point.at, &point.way}) archive(*x);
+  });
+  for (const auto& [number, point] : history.standing) require_on(point, slave, master);
   const std::size_t n_nodes = history.last_face.size();
   archive(history.last_face);
   require(history.last_face.size() == n_nodes, "the stored contacts are of other surfaces");

@@ -18,6 +18,14 @@ struct GapRate {
   double gap, rate, fade;  ///< m, m/s, -
 };
 
+/// A point of a slave face that may bear a force in a step, and a face of the master near it.
+struct StandingPoint {
+  int face;
+  Eigen::Vector2d at;   ///< (u, v) of the face: where the gap was least after the last accepted step
+  Eigen::Vector2d way;  ///< by which that has moved in the step
+  int master_face;
+};
+
 /// By slave node, forces and gaps by slave point.
 struct History {
   std::vector<int> last_face;            ///< master face each node touched last; -1
@@ -32,6 +40,7 @@ struct History {
   std::set<int> closed = {};             ///< points whose rate is held in this step
   std::map<int, GapRate> start = {};     ///< after the last accepted step, of points that are near
   std::map<int, GapRate> near = {};      ///< of the last look between steps
+  std::map<int, StandingPoint> standing = {};  ///< points of least gap, of an impact law
 };
 using Histories = std::array<History, 2>;  ///< of both surfaces
 

@@ -29,13 +29,11 @@ void let_stay(KeptMinima& kept, KeptMinimum point, int first) {
   kept.emplace(number, point);
 }
 
-// The point where it was last; nothing if the master is not near.
-std::optional<Minimum> where_it_was(const GapField& field, const KeptMinimum& kept) {
-  Minimum m{kept.last.point, {}, {}};
-  m.point.n_dir = 0;
-  m.geometry = slave_geometry(field.slave, field.heights, m.point);
-  const auto w =
-      walk_to_projection(field.master.surface, m.geometry.x, field.reach.limits, master_face(kept));
+// The point where it is on its face; nothing if the master is not near. start: a face of the master.
+std::optional<Minimum> fixed(const GapField& field, SlavePoint point, int start) {
+  point.n_dir = 0;
+  Minimum m{point, slave_geometry(field.slave, field.heights, point), {}};
+  const auto w = walk_to_projection(field.master.surface, m.geometry.x, field.reach.limits, start);
   if (!w) return {};
   m.open = open_point(field.master, *w, m.geometry.x, field.offset);
   return m;
@@ -66,8 +64,31 @@ void add_kept(const GapField& field, KeptMinima& kept, std::vector<Minimum>& fou
     if (!point.stays) continue;
     if (const auto same = find(found, number % first, master_face(point)); same != found.end())
       found.erase(same);
-    if (const auto m = where_it_was(field, point)) found.push_back(*m);
+    if (const auto m = fixed(field, point.last.point, master_face(point))) found.push_back(*m);
   }
+}
+
+std::map<int, StandingPoint> standing_points(const std::vector<Minimum>& minima,
+                                             const std::map<int, StandingPoint>& before) {
+  std::map<int, StandingPoint> points;
+  for (const Minimum& m : minima) {
+    const auto last = before.find(m.point.number);
+    const bool stayed = last != before.end() && last->second.face == m.point.face;
+    const Eigen::Vector2d way =
+        stayed ? Eigen::Vector2d(m.point.at - last->second.at) : Eigen::Vector2d::Zero();
+    points[m.point.number] = {m.point.face, m.point.at, way, m.open.projection.face};
+  }
+  return points;
+}
+
+std::vector<Minimum> standing_minima(const GapField& field, const std::map<int, StandingPoint>& points) {
+  std::vector<Minimum> minima;
+  for (const auto& [number, point] : points) {
+    const int sides = side_count(field.slave.face, point.face);
+    const Eigen::Vector2d at = held_inside(sides, point.at + 0.5 * point.way);
+    if (const auto m = fixed(field, {number, point.face, at}, point.master_face)) minima.push_back(*m);
+  }
+  return minima;
 }
 
 }  // namespace elastogear::contact

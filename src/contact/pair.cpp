@@ -92,6 +92,13 @@ void Pair::Data::keep_stuck() {
   tracker.keep(std::move(corners));
 }
 
+// Of an impact law, after an accepted step.
+void Pair::Data::stand() {
+  for (int slave : {0, 1})
+    if (history[slave].step)
+      history[slave].standing = standing_points(minima[slave], history[slave].standing);
+}
+
 // N/m, of a node, or for points between nodes the mean of all.
 double Pair::Data::stiffness(int slave_side, int point) const {
   const std::vector<Law>& law = side[slave_side].law;
@@ -164,6 +171,7 @@ bool Pair::end_step(const std::vector<ContactPoint>* contacts, double delivered)
 
 void Pair::accept(const std::vector<ContactPoint>& contacts) {
   contact::accept(data_->history, contacts, data_->sticks());
+  data_->stand();
   data_->keep_stuck();
   if (data_->sticks() && data_->settings.points == SlavePoints::faces) data_->tracker.remember();
 }

@@ -144,7 +144,8 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
   const SurfaceView slave = tracker.view(slave_side, 0);
   const GapField field{master,     slave,           side[slave_side].heights, reach,
                        slave_side, settings.offset, is_whole(slave_side)};
-  minima[slave_side] = gap_minima(field, gaps);
+  const History& last = history[slave_side];
+  minima[slave_side] = last.in_step ? standing_minima(field, last.standing) : gap_minima(field, gaps);
   add_kept(field, kept[slave_side], minima[slave_side]);
   for (const Minimum& m : minima[slave_side]) {
     auto found = contact(master, slave_side, m);

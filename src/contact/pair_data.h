@@ -66,6 +66,7 @@ struct Pair::Data {
   bool is_between_steps() const { return history[0].step && !history[0].in_step; }
   bool is_whole(int slave_side) const { return contact::is_whole(settings, slave_side); }
   void keep_stuck();
+  void stand();
   Law law(const OnSlave& at, int master_face) const;
   Eigen::Vector3d node_height(int slave_side, const SurfaceView& slave, int node) const;
   std::optional<ContactPoint> node_contact(const MasterSide& master, const PlacedNode& slave,

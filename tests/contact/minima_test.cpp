@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 
 #include "contact/forces/slave_point.h"
@@ -107,6 +109,46 @@ TEST(GapMinima, gradient_and_tangent_are_those_of_the_least_gap) {
     EXPECT_LT((g_x - g_h).norm(), kLeftOut * g_h.norm()) << c.slave_point;
     const bool at_side = std::max(std::abs(c.xi), std::abs(c.eta)) > 0.9;
     EXPECT_LT((K - K_h).norm(), (at_side ? kBeside : kLeftOut) * K_h.norm()) << c.slave_point;
+  }
+}
+
+using Weights = std::map<int, Eigen::VectorXd>;
+
+// Weights of the slave's nodes in the points on its sides and faces, by number.
+Weights weights(Pair& pair, const Two& t) {
+  Weights of;
+  for (const ContactPoint& c : found(pair, t, true)) of[c.slave_point] = c.slave_N;
+  return of;
+}
+
+// States of bodies that move with a constant speed, before and after a step, in the middle of the next one
+// and at its end.
+TEST(GapMinima, stand_half_a_step_ahead_in_a_step_of_the_impact_law) {
+  constexpr double kFit = 2e-2;  // of the way in a step, which is not uniform
+  std::array<Two, 4> at;
+  for (int i : {0, 1, 2, 3}) {
+    constexpr std::array<double, 4> kTime{0, 1, 1.5, 2};
+    at[i] = two(3, -0.03);
+    at[i].a.r_WB += kTime[i] * Vector3d(2e-3, 1e-3, 0);
+  }
+  Pair free(at[0].slave, at[0].master, minima());
+  const Weights first = weights(free, at[0]), second = weights(free, at[1]);
+  Settings impact = minima();
+  impact.law = ContactLaw::augmented;
+  Pair pair(at[0].slave, at[0].master, impact);
+  pair.set_masses(0, Eigen::VectorXd::Ones(at[0].slave.X.cols()));
+  pair.set_masses(1, Eigen::VectorXd::Ones(at[0].master.X.cols()));
+  pair.begin_step({0, 1});
+  for (int i : {0, 1}) pair.accept(pair.detect(at[i].a, at[i].b));
+  pair.begin_step({1e-3, 1});
+  const Weights middle = weights(pair, at[2]), end = weights(pair, at[3]);
+  ASSERT_GE(middle.size(), 4u);
+  EXPECT_EQ(middle, end);
+  for (const auto& [number, N] : middle) {
+    ASSERT_TRUE(first.contains(number) && second.contains(number));
+    const Eigen::VectorXd way = second.at(number) - first.at(number);
+    EXPECT_GT(way.norm(), 1e-4);
+    EXPECT_LT((N - second.at(number) - 0.5 * way).norm(), kFit * way.norm());
   }
 }
 

@@ -166,12 +166,6 @@ bool is_inside(int sides, const Vector2d& at) {
   return at.cwiseAbs().maxCoeff() < 1;
 }
 
-Vector2d held_inside(int sides, const Vector2d& at) {
-  if (sides == 4) return at.cwiseMax(-1).cwiseMin(1);
-  const Vector2d positive = at.cwiseMax(0);
-  return positive / std::max(1.0, positive.sum());
-}
-
 // The step of Newton's method on a face, whose sides hold it: along a side that it would leave, down the
 // slope there. Nothing where the gap is not convex.
 std::optional<Vector2d> step_on_face(int sides, const Vector2d& at, const Vector2d& slope,
@@ -288,6 +282,12 @@ void add_beside(const GapField& field, std::vector<Minimum>& minima, const Searc
 }
 
 }  // namespace
+
+Vector2d held_inside(int sides, const Vector2d& at) {
+  if (sides == 4) return at.cwiseMax(-1).cwiseMin(1);
+  const Vector2d positive = at.cwiseMax(0);
+  return positive / std::max(1.0, positive.sum());
+}
 
 std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side, int face) {
   std::vector<Minimum> minima;

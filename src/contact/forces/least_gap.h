@@ -48,6 +48,9 @@ struct FaceStart {
   int face = -1;  ///< of the master
 };
 
+/// The coordinates (u, v) or, where they are beyond a face of so many sides, some on its border.
+Eigen::Vector2d held_inside(int sides, const Eigen::Vector2d& at);
+
 /// The minimum on the side and those over the master's faces beside it; none that differ from the ends by
 /// less than a millionth of the length. On open sides that is also the point at which a side leaves the
 /// master through an open side of that, where the gap falls up to there. face: of the master, near the side.
