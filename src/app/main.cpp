@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/console/blas_kernels.h"
 #include "app/options/command_line.h"
 #include "app/verbs/registry.h"
 #include "elastogear/base/error.h"
@@ -89,6 +90,7 @@ int main(int argc, char** argv) {
       if (verb.name == line.verb) return app::print_help(verb), 0;
     return app::print_usage(verbs), 1;
   }
+  app::use_fast_blas(argv);
   // With words that PETSc would fail on it is started without any, to report them once on all ranks.
   const std::string problem = app::problem_of_words(argc, argv);
   int n_words = problem.empty() ? argc : 1;

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "app/console/blas_advice.h"
+#include "app/console/blas_kernels.h"
 #include "app/console/console.h"
 #include "app/console/mesh_accuracy.h"
 #include "app/console/outputs.h"

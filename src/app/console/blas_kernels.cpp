@@ -1,0 +1,64 @@
+#include "app/console/blas_kernels.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+namespace elastogear::app {
+namespace {
+
+constexpr const char* kVariable = "OPENBLAS_CORETYPE";
+
+// The processor that OpenBLAS takes this one for; empty with another BLAS.
+std::string openblas_core() {
+  using Name = const char* (*)();
+  const auto name = reinterpret_cast<Name>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  return name ? name() : "";
+}
+
+// The best instructions of the kernels for a Skylake with AVX-512, for a Haswell, or of neither.
+Instructions kernel_instructions() {
+#ifdef __x86_64__
+  if (best_instructions() == Instructions::avx512 && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    return Instructions::avx512;
+  if (best_instructions() != Instructions::portable) return Instructions::avx2;
+#endif
+  return Instructions::portable;
+}
+
+std::string setting() { return faster_core(openblas_core(), kernel_instructions()); }
+
+}  // namespace
+
+std::string faster_core(const std::string& core, Instructions instructions) {
+  static const std::set<std::string> with_avx2{"Haswell", "Zen", "Excavator"},
+      older{"Prescott",     "Core2",  "Penryn",    "Dunnington", "Nehalem",
+            "Sandybridge",  "Atom",   "Nano",      "Opteron",    "Barcelona",
+            "Opteron_SSE3", "Bobcat", "Bulldozer", "Piledriver", "Steamroller"};
+  if (instructions == Instructions::avx512 && (older.contains(core) || with_avx2.contains(core)))
+    return "SKYLAKEX";
+  return instructions != Instructions::portable && older.contains(core) ? "HASWELL" : "";
+}
+
+std::string blas_advice() {
+  const std::string core = setting();
+  if (core.empty()) return "";
+  return "OpenBLAS takes this processor for a " + openblas_core() + "; " + kVariable + "=" + core +
+         " in the environment is faster";
+}
+
+void use_fast_blas(char** argv) {
+  const std::string core = setting();
+  if (core.empty() || std::getenv(kVariable)) return;
+  std::error_code none;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+  if (none || setenv(kVariable, core.c_str(), 1) != 0) return;
+  execv(program.c_str(), argv);  // returns where it fails, and the kernels stay what they are
+}
+
+}  // namespace elastogear::app

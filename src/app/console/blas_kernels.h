@@ -1,0 +1,23 @@
+#pragma once
+// Kernels of the linked BLAS that make use of this processor. OpenBLAS chooses them by the number of the
+// processor's model as it is loaded, and takes models that it does not know for old ones: version 0.3.21
+// takes Intel's Sapphire and Emerald Rapids for a Prescott, AMD's Zen 4 and 5 for a Haswell.
+
+#include <string>
+
+#include "elastogear/base/instructions.h"
+
+namespace elastogear::app {
+
+/// The value of OPENBLAS_CORETYPE whose kernels use the given instructions, where those of `core`, a name by
+/// openblas_get_corename, do not; else, and for cores of unknown names, empty.
+std::string faster_core(const std::string& core, Instructions instructions);
+
+/// Setting to put into the environment where OpenBLAS does not use this processor; else empty.
+std::string blas_advice();
+
+/// Starts this program again with that setting; returns where there is none, or the user has given one. To
+/// be called before MPI starts. argv: that of main, ended by a null pointer.
+void use_fast_blas(char** argv);
+
+}  // namespace elastogear::app
