@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
@@ -17,14 +19,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kWindow = 256;        // modes
-constexpr double kSurplus = 0.05;   // modes found beyond the wanted ones, at most
-constexpr int kLeastSurplus = 8;    // and at least so many may be
-constexpr int kPairsInDoubt = 4;    // in a sample
-constexpr int kSampleEvery = 5;     // harmonics counted for the first guess of the cutoff
-constexpr double kAtCutoff = 1e-6;  // relative: an eigenvalue may lie so close above it
-constexpr int kCheckedFields = 4;   // on the whole mesh
-constexpr double kResidual = 1e-5;  // of their forces: the mesh repeats to 1e-6 only
+constexpr int kWindow = 256;           // modes
+constexpr double kSurplus = 0.05;      // modes found beyond the wanted ones, at most
+constexpr double kMoreSurplus = 0.12;  // of few modes, which take less time than another count
+constexpr int kFewSurplus = 50;        // of these at most
+constexpr int kLeastSurplus = 8;       // and at least so many may be
+constexpr int kPairsInDoubt = 4;       // in a sample
+constexpr int kSampleEvery = 5;        // harmonics counted for the first guess of the cutoff
+constexpr double kAtCutoff = 1e-6;     // relative: an eigenvalue may lie so close above it
+constexpr int kCheckedFields = 4;      // on the whole mesh
+constexpr double kResidual = 1e-5;     // of their forces: the mesh repeats to 1e-6 only
 constexpr int kTag = 2;
 
 // The ranks that solve harmonics together; each group takes every n-th harmonic.
@@ -56,6 +60,13 @@ struct Entry {
   auto key() const { return std::make_tuple(eigenvalue, k, column, times_i); }
 };
 
+// The harmonic whose eigenvalues were counted last: another count takes a factorisation alone.
+struct Counted {
+  int k = -1;
+  fem::Matrices matrices = {};
+  std::unique_ptr<ShiftedFactor> factor = {};
+};
+
 struct Search {
   MPI_Comm comm;
   const CyclicBody& body;
@@ -67,8 +78,10 @@ struct Search {
   std::vector<fem::Harmonic> harmonics = {};
   std::vector<int> order = {};  // of harmonics by work
   std::unique_ptr<Group> group = {};
-  std::vector<HarmonicModes> modes = {};  // of each harmonic; z on the first rank of its group
-  std::vector<Entry> entries = {};        // wanted modes, ascending
+  Counted last = {};
+  std::map<std::pair<int, double>, int> counts = {};  // eigenvalues of a harmonic below a bound
+  std::vector<HarmonicModes> modes = {};              // of each harmonic; z on the first rank of its group
+  std::vector<Entry> entries = {};                    // wanted modes, ascending
   int n_wanted = options.eigen.n_modes;
 
   int n_harmonics() const { return static_cast<int>(harmonics.size()); }
@@ -105,20 +118,32 @@ void make_problems(Search& search) {
   search.modes.resize(search.harmonics.size());
 }
 
+// Eigenvalues below sigma of a harmonic of this rank's group.
+int count_below(Search& search, int k, double sigma) {
+  Counted& last = search.last;
+  if (last.k != k) {
+    last = {};
+    last.matrices = search.assemble(k);
+    last.factor = std::make_unique<ShiftedFactor>(last.matrices.K, last.matrices.M);
+    last.k = k;
+  }
+  return last.factor->factorise(sigma);
+}
+
 // Eigenvalues below sigma of each of the harmonics `which`. Pairs are never split, even where roundoff may.
-std::vector<int> count_below(const Search& search, const std::vector<int>& which, double sigma) {
+std::vector<int> count_below(Search& search, const std::vector<int>& which, double sigma) {
   std::vector<int> count(search.harmonics.size(), 0);
   collectively(search.comm, [&] {
     for (std::size_t i = 0; i < which.size(); ++i) {
       const int k = which[i];
       report(search.progress, "mode count", static_cast<double>(i) / which.size());
-      if (!search.mine(k)) continue;
-      const fem::Matrices matrices = search.assemble(k);
-      const int below = ShiftedFactor(matrices.K, matrices.M).factorise(sigma);
+      if (!search.mine(k) || search.counts.contains({k, sigma})) continue;
+      const int below = count_below(search, k, sigma);
       if (search.group->first) count[k] = search.harmonics[k].real ? below : below + below % 2;
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM, search.comm);
+  for (int k : which) count[k] = search.counts.try_emplace({k, sigma}, count[k]).first->second;
   return count;
 }
 
@@ -130,7 +155,7 @@ double share_of_coordinates(const Search& search, const std::vector<int>& harmon
 }
 
 // A sigma with about n eigenvalues below it, by counting those of every few harmonics.
-double estimate_cutoff(const Search& search, int n) {
+double estimate_cutoff(Search& search, int n) {
   const double weyl = weyl_cutoff(search.sector, search.body.body.regions, n);
   std::vector<int> sample;
   for (int k = kSampleEvery / 2; k < search.n_harmonics(); k += kSampleEvery) sample.push_back(k);
@@ -172,9 +197,10 @@ Cutoff cutoff_of_interval(Search& search) {
   return cutoff;
 }
 
-Cutoff choose_cutoff(const Search& search) {
+Cutoff choose_cutoff(Search& search) {
   const int n = search.n_wanted;
-  const int surplus = std::max(kLeastSurplus, static_cast<int>(kSurplus * n));
+  const int surplus = std::max({kLeastSurplus, static_cast<int>(kSurplus * n),
+                                std::min(kFewSurplus, static_cast<int>(kMoreSurplus * n))});
   std::vector<int> all(search.harmonics.size());
   std::iota(all.begin(), all.end(), 0);
   Cutoff cutoff{0, {}};
@@ -206,14 +232,15 @@ void keep(const Search& search, int k) {
   });
 }
 
-HarmonicModes solve(const Search& search, int k, const Cutoff& cutoff, const Progress& progress) {
+HarmonicModes solve(Search& search, int k, const Cutoff& cutoff, const Progress& progress) {
   EigenOptions options = search.options.eigen;
   options.n_modes = cutoff.count[k];
   options.counted_below = cutoff.sigma;
   options.window = std::min(options.window > 0 ? options.window : kWindow, options.n_modes + options.block);
   options.whole_pairs = false;  // the cutoff cuts none
   if (options.interval && options.interval->lower <= 0) options.interval.reset();
-  const fem::Matrices matrices = search.assemble(k);
+  const fem::Matrices matrices = search.last.k == k ? std::move(search.last.matrices) : search.assemble(k);
+  search.last = {};
   const int first_orbit = fem::own_orbits(search.group->comm, search.sector).first;
   HarmonicModes modes = find_harmonic_modes(matrices, search.harmonics[k], first_orbit, options, progress);
   modes.cutoff = cutoff.sigma;
@@ -227,6 +254,7 @@ HarmonicModes solve(const Search& search, int k, const Cutoff& cutoff, const Pro
 void solve_all(Search& search, const Cutoff& cutoff) {
   const std::vector<int>& order = search.order;
   collectively(search.comm, [&] {
+    if (search.last.k >= 0 && cutoff.count[search.last.k] == 0) search.last = {};
     for (std::size_t i = 0; i < order.size(); ++i) {
       const int k = order[i];
       if (!search.mine(k) || cutoff.count[k] == 0) continue;

@@ -11,6 +11,8 @@ namespace elastogear::reduction {
 namespace {
 
 constexpr double kWeyl = 2.0 / 3;       // sigma ~ N^(2/3)
+constexpr int kFewModes = 16;           // too few to show a power of their own
+constexpr double kSpread = 3;           // factor by which that may differ from Weyl's
 constexpr double kLargestStep = 8;      // factor of sigma between two counts
 constexpr double kSmallestStep = 1.02;  // its least while sigma is known from one side only
 constexpr double kLeastProgress = 0.1;  // of the logarithmic width of the bracket
@@ -21,10 +23,18 @@ struct Point {
   int n;
 };
 
-// Next trial for the cutoff by the power law through both ends, or by Weyl's law where only one is known.
-double next_guess(const Point& lower, const Point& upper, double target) {
-  const auto step = [](double ratio) {
-    return std::clamp(std::pow(ratio, kWeyl), kSmallestStep, kLargestStep);
+// sigma ~ N^exponent between two counts, by Weyl's law where these do not tell.
+double exponent(const Point& a, const Point& b) {
+  if (std::min(a.n, b.n) < kFewModes || a.n == b.n) return kWeyl;
+  return std::clamp(std::log(a.sigma / b.sigma) / std::log(a.n * 1.0 / b.n), kWeyl / kSpread,
+                    kWeyl * kSpread);
+}
+
+// Next trial for the cutoff by the power law through both ends, or by that through the last two trials where
+// only one end is known.
+double next_guess(const Point& lower, const Point& upper, double power, double target) {
+  const auto step = [&](double ratio) {
+    return std::clamp(std::pow(ratio, power), kSmallestStep, kLargestStep);
   };
   if (!std::isfinite(upper.sigma)) return lower.sigma * step(target / std::max(1, lower.n));
   if (lower.sigma == 0) return upper.sigma / step(upper.n / target);
@@ -37,11 +47,13 @@ double next_guess(const Point& lower, const Point& upper, double target) {
 
 double find_cutoff(const Count& count, CountRange wanted, double start) {
   const double target = (wanted.least + wanted.most) / 2.0;
-  Point lower{0, 0}, upper{std::numeric_limits<double>::infinity(), 0};
-  for (double sigma = start;; sigma = next_guess(lower, upper, target)) {
+  Point lower{0, 0}, upper{std::numeric_limits<double>::infinity(), 0}, before{0, 0};
+  for (double sigma = start, power = kWeyl;; sigma = next_guess(lower, upper, power, target)) {
     const int n = count(sigma);
     if (n >= wanted.least && n <= wanted.most) return sigma;
-    (n < wanted.least ? lower : upper) = {sigma, n};
+    power = exponent({sigma, n}, before);
+    before = {sigma, n};
+    (n < wanted.least ? lower : upper) = before;
     if (upper.sigma - lower.sigma < kNarrow * upper.sigma) {
       count(upper.sigma);
       return upper.sigma;
