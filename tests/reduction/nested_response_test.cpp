@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <set>
 
@@ -21,6 +25,7 @@ using namespace reduction;
 using Eigen::MatrixXd;
 
 constexpr double kRoundoff = 1e-9;  // relative, times the condition number
+constexpr double kSingle = 5e-7;    // of the root of both rows' own responses: eight times the unit roundoff
 constexpr int kSmallLeaf = 30;      // rows
 
 test::System block() { return test::assemble(test::brick({4, 4, 6}, {1, 0.9, 1.5}), {"zmin"}); }
@@ -50,6 +55,17 @@ model::SparseRows wanted(Eigen::Index n_rows) {
   model::SparseRows P(30, n_rows);
   P.setFromTriplets(entries.begin(), entries.end());
   return P;
+}
+
+// Largest difference of the responses to `loads` from the exact P K^-1 P', over the root of the own responses
+// of load and row.
+double largest_error(const NestedResponse& response, const std::vector<int>& loads, const MatrixXd& exact) {
+  const Eigen::VectorXd size = exact.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const MatrixXd error = response(loads).cast<double>() - exact(Eigen::all, loads);
+  double largest = 0;
+  for (Eigen::Index j = 0; j < error.cols(); ++j)
+    largest = std::max(largest, (error.col(j).array() / (size * size[loads[j]]).array()).abs().maxCoeff());
+  return largest;
 }
 
 std::vector<int> all_in(const NestedResponse& response) {
@@ -90,7 +106,7 @@ TEST(NestedResponse, is_that_of_the_inverse_whatever_the_parts) {
   for (int leaf : {kSmallLeaf, 100, 100'000}) {
     const NestedResponse response(system.matrices.K, P, loads, {}, leaf);
     std::vector<int> asked = all_in(response);
-    EXPECT_LE((response(asked) - exact(Eigen::all, asked)).norm(), kRoundoff * exact.norm()) << leaf;
+    EXPECT_LE(largest_error(response, asked, exact), kSingle) << leaf;
     std::sort(asked.begin(), asked.end());
     EXPECT_EQ(asked, loads);
   }
@@ -112,8 +128,61 @@ TEST(NestedResponse, balances_loads_on_free_bodies_by_inertia) {
   for (int leaf : {kSmallLeaf, 100'000}) {
     const NestedResponse response(system.matrices.K, P, loads, rigid, leaf);
     const std::vector<int> asked = all_in(response);
-    EXPECT_LE((response(asked) - exact(Eigen::all, asked)).norm(), kRoundoff * exact.norm()) << leaf;
+    EXPECT_LE(largest_error(response, asked, exact), kSingle) << leaf;
   }
+}
+
+// Loads on all of a slender body: many a column of every separator, whose columns then are ordered, and most
+// of them far from it. Rows for stresses are of another size than displacements.
+TEST(NestedResponse, leaves_out_nothing_that_single_precision_shows) {
+  const test::System system = test::assemble(test::brick({3, 3, 40}, {1, 1, 13}), {"zmin"});
+  const MatrixXd K = dense(system.matrices.K);
+  const Eigen::Index n = K.rows();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
+  for (int i = 0; i + 48 < n; ++i)
+    for (int k : {0, 3, 48}) entries.emplace_back(static_cast<int>(n) + i, i + k, k == 0 ? -3e11 : 1e11);
+  model::SparseRows P(2 * n - 48, n);
+  P.setFromTriplets(entries.begin(), entries.end());
+  const MatrixXd exact = P * K.ldlt().solve(MatrixXd(P).transpose());
+  std::vector<int> loads(static_cast<std::size_t>(n));
+  std::iota(loads.begin(), loads.end(), 0);
+  const NestedResponse response(system.matrices.K, P, loads, {}, 200);
+  for (const std::vector<int>& group : response.groups())
+    EXPECT_LE(largest_error(response, group, exact), kSingle);
+}
+
+// Far rows, which are long in few directions, need fewer columns than near ones, and what is left out is
+// negligible.
+TEST(NestedResponse, orders_the_columns_of_a_separator_by_what_rows_know_of_them) {
+  const int n_rows = 800, n_columns = 128;
+  srand(3);
+  MatrixXd C = MatrixXd::Random(n_rows, n_columns);
+  for (int i = 0; i < n_rows; ++i)
+    for (int j = 0; j < n_columns; ++j) C(i, j) = i < 40 ? j == 2 * i + 48 : C(i, j) * std::pow(0.5, j);
+  const Eigen::MatrixXd turn = MatrixXd::Random(n_columns, n_columns).householderQr().householderQ();
+  C = (C * turn).eval();
+  std::vector<int> rows(n_rows);
+  std::iota(rows.begin(), rows.end(), 0);
+  Contribution<float> plain{.row = rows, .C = C.cast<float>()}, ordered = plain;
+  const Eigen::VectorXd scale = row_scales(Contributions<float>{plain}, n_rows);
+  order_columns(std::vector<char>(n_rows, 1), scale, ordered);
+  ASSERT_EQ(ordered.left_out.rows(), n_rows);
+  EXPECT_NEAR(ordered.left_out(0, 0), 1, 1e-5);
+  EXPECT_LT(ordered.left_out(0, 2), 0.01F * ordered.left_out(n_rows - 1, 2));
+  EXPECT_LE(ordered.left_out.rightCols<1>().maxCoeff(), 0);
+  const std::vector<int> loads{0, 39, 40, 500};
+  ASSERT_EQ(ordered.row.size(), plain.row.size());
+  Eigen::MatrixXf Y = Eigen::MatrixXf::Zero(n_rows, 4), Y_plain = Y;
+  add_responses(ordered, loads, Y);
+  add_responses(plain, loads, Y_plain);
+  const MatrixXd exact = C * C(loads, Eigen::all).transpose();
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < n_rows; ++i) {
+      const double size = C.row(i).norm() * C.row(loads[j]).norm();
+      EXPECT_LE(std::abs(Y(i, j) - exact(i, j)), kSingle * size);
+      EXPECT_LE(std::abs(Y_plain(i, j) - exact(i, j)), kSingle * size);
+    }
 }
 
 // Between its first two eigenvalues the leaves, held all around, are definite and the body is not.

@@ -19,8 +19,10 @@ namespace elastogear::reduction {
 namespace {
 
 constexpr const char* kStage = "static responses";
+constexpr Eigen::Index kPiece = 512;  // columns of responses that are put together at a time
 
 using Eigen::MatrixXd;
+using Eigen::MatrixXf;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 // Loaded nodes and wanted rows of the stress operator in terms of a sector, for the first node of each orbit.
@@ -118,18 +120,28 @@ Eigen::Matrix<double, 6, 6> tensor_turn(const Eigen::Matrix3d& T) {
   return turn;
 }
 
-// Adds to these columns what the orbits' nodes, turned by j sectors, get from their amplitudes Y.
+// Columns of the responses of one harmonic: of the fields z and, of a complex harmonic, below of the fields i
+// z.
+struct Amplitudes {
+  bool real;
+  int k;
+  std::vector<MatrixXf> piece;  // kPiece columns each
+};
+
+// Adds to these columns of responses what the orbits' nodes, turned by j sectors, get from amplitudes Y,
+// below of fields i Y_i. The field turned by j sectors has the amplitude z exp(2 pi i j k/Z).
 template <int kComponents>
-void add_turned(const Eigen::Ref<const MatrixXd>& Y,
+void add_turned(const Eigen::Ref<const MatrixXf>& Y, const Eigen::Ref<const MatrixXf>& Y_i, double phase,
                 const Eigen::Matrix<double, kComponents, kComponents>& turn, const model::Images& images,
-                int j, const std::vector<int>& columns, Eigen::MatrixXf& responses) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto from = Y.col(static_cast<Eigen::Index>(i));
-    auto to = responses.col(columns[i]);
-    for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit)
-      to.segment<kComponents>(static_cast<Eigen::Index>(kComponents) * images.node(j, orbit)) +=
-          (turn * from.template segment<kComponents>(kComponents * orbit)).template cast<float>();
-  }
+                int j, Eigen::Ref<MatrixXf> responses) {
+  const Eigen::Matrix<float, kComponents, kComponents> re = (std::cos(phase) * turn).template cast<float>(),
+                                                       im = (std::sin(phase) * turn).template cast<float>();
+  for (Eigen::Index column = 0; column < Y.cols(); ++column)
+    for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit) {
+      auto to = responses.col(column).segment<kComponents>(kComponents * Eigen::Index{images.node(j, orbit)});
+      to.noalias() += re * Y.col(column).segment<kComponents>(kComponents * orbit);
+      if (Y_i.cols() > 0) to.noalias() += im * Y_i.col(column).segment<kComponents>(kComponents * orbit);
+    }
 }
 
 // Rows P_i with P_i z = P (i z).
@@ -158,20 +170,17 @@ model::SparseRows below_each_other(const model::SparseRows& A, const model::Spar
   return both;
 }
 
-// One harmonic's part of all responses.
+// Amplitudes of one harmonic's part of all responses.
 class HarmonicResponses {
  public:
   // rigid: the rigid motions that the harmonic contains; of a held body none.
   HarmonicResponses(const fem::Harmonic& harmonic, const fem::Sector& sector, const Wanted& wanted,
                     MatrixXd rigid)
-      : harmonic_(harmonic),
-        axis_(sector.turn.axis),
-        P_(rows_of(wanted, harmonic, sector)),
-        rigid_(std::move(rigid)) {
+      : harmonic_(harmonic), P_(rows_of(wanted, harmonic, sector)), rigid_(std::move(rigid)) {
     n_u_ = static_cast<Eigen::Index>(3 * wanted.surface_orbit.size());
   }
 
-  void add(const fem::Matrices& matrices, model::Flexibility& flexibility) const {
+  Amplitudes find(const fem::Matrices& matrices) const {
     RigidFields rigid;
     UniqueMat grounded;
     if (rigid_.cols() > 0) {
@@ -184,42 +193,80 @@ class HarmonicResponses {
     const NestedResponse response(grounded ? grounded.get() : matrices.K.get(),
                                   harmonic_.real ? P_ : below_each_other(P_, times_i(P_, harmonic_)), loads,
                                   rigid);
-    for (const std::vector<int>& group : response.groups()) enter(response(group), group, flexibility);
+    Amplitudes amplitudes{harmonic_.real, harmonic_.k, {}};
+    const Eigen::Index n_rows = harmonic_.real ? P_.rows() : 2 * P_.rows();
+    for (Eigen::Index first = 0; first < n_u_; first += kPiece)
+      amplitudes.piece.emplace_back(n_rows, std::min(kPiece, n_u_ - first));
+    for (const std::vector<int>& group : response.groups()) {
+      const MatrixXf Y = response(group);
+      for (std::size_t i = 0; i < group.size(); ++i)
+        amplitudes.piece[group[i] / kPiece].col(group[i] % kPiece) = Y.col(static_cast<Eigen::Index>(i));
+    }
+    return amplitudes;
   }
 
  private:
-  // Y: of the fields z, below of the fields i z. The field turned by j sectors has the amplitude
-  // z exp(2 pi i j k/Z).
-  void enter(const MatrixXd& Y, const std::vector<int>& loads, model::Flexibility& flexibility) const {
-    const Eigen::Index n_rows = P_.rows();
-    for (int j = 0; j < harmonic_.n_sectors; ++j) {
-      const double alpha = 2 * std::numbers::pi / harmonic_.n_sectors,
-                   phase =
-                       alpha * static_cast<double>(static_cast<long>(j) * harmonic_.k % harmonic_.n_sectors);
-      MatrixXd Y_j = std::cos(phase) * Y.topRows(n_rows);
-      if (!harmonic_.real) Y_j += std::sin(phase) * Y.bottomRows(n_rows);
-      const Eigen::Matrix3d T = rotation_matrix(alpha * j * axis_);
-      add_turned<3>(Y_j.topRows(n_u_), T, flexibility.surface, j, loads, flexibility.F);
-      if (n_rows > n_u_)
-        add_turned<6>(Y_j.bottomRows(n_rows - n_u_), tensor_turn(T), flexibility.stress, j, loads,
-                      flexibility.G);
-    }
-  }
-
   const fem::Harmonic& harmonic_;
-  Eigen::Vector3d axis_;
   model::SparseRows P_;
   MatrixXd rigid_;
   Eigen::Index n_u_ = 0;
 };
 
-// Sum of the ranks' matrices on rank 0, some columns at a time.
+// Adds the harmonic's part of these columns of F and G.
+void add_part(const MatrixXf& Y, const Amplitudes& harmonic, const mesh::Turn& sectors,
+              const model::Flexibility& plan, Eigen::Ref<MatrixXf> F, Eigen::Ref<MatrixXf> G) {
+  const int Z = sectors.n_sectors;  // that of the plan, which rank 0 alone has
+  const Eigen::Index n_rows = harmonic.real ? Y.rows() : Y.rows() / 2, n_u = 3 * plan.surface.node.cols(),
+                     n_i = harmonic.real ? 0 : Y.cols();
+  const auto Y_i = Y.bottomRows(n_rows).leftCols(n_i);
+  for (int j = 0; j < Z; ++j) {
+    const double alpha = 2 * std::numbers::pi / Z,
+                 phase = alpha * static_cast<double>(static_cast<long>(j) * harmonic.k % Z);
+    const Eigen::Matrix3d T = rotation_matrix(alpha * j * sectors.axis);
+    add_turned<3>(Y.topRows(n_u), Y_i.topRows(n_u), phase, T, plan.surface, j, F);
+    if (n_rows > n_u)
+      add_turned<6>(Y.middleRows(n_u, n_rows - n_u), Y_i.bottomRows(n_rows - n_u), phase, tensor_turn(T),
+                    plan.stress, j, G);
+  }
+}
+
+// Sum of the ranks' matrices on rank 0.
 void sum_on_root(MPI_Comm comm, Eigen::MatrixXf& A) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   for (Eigen::Index j = 0; j < A.cols(); ++j)
     MPI_Reduce(rank == 0 ? MPI_IN_PLACE : A.col(j).data(), A.col(j).data(), static_cast<int>(A.rows()),
                MPI_FLOAT, MPI_SUM, 0, comm);
+}
+
+// F and G on rank 0 from the amplitudes of all ranks, which are released with the columns that are done:
+// there are never many more numbers than those of F and G.
+void combine(MPI_Comm comm, const mesh::Turn& sectors, std::vector<Amplitudes>& own,
+             model::Flexibility& flexibility) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  const Eigen::Index n_F = 3 * flexibility.surface.node.size(), n_G = 6 * flexibility.stress.node.size(),
+                     n = 3 * flexibility.surface.node.cols();
+  if (rank == 0) {
+    flexibility.F.resize(n_F, n);
+    flexibility.G.resize(n_G, n);
+  }
+  MatrixXf F, G;
+  for (Eigen::Index first = 0; first < n; first += kPiece) {
+    const Eigen::Index width = std::min(kPiece, n - first);
+    F.setZero(n_F, width);
+    G.setZero(n_G, width);
+    for (Amplitudes& harmonic : own) {
+      MatrixXf& Y = harmonic.piece[static_cast<std::size_t>(first / kPiece)];
+      add_part(Y, harmonic, sectors, flexibility, F, G);
+      Y = MatrixXf();
+    }
+    sum_on_root(comm, F);
+    sum_on_root(comm, G);
+    if (rank != 0) continue;
+    flexibility.F.middleCols(first, width) = F;
+    flexibility.G.middleCols(first, width) = G;
+  }
 }
 
 void broadcast(MPI_Comm comm, model::Images& images, int n_sectors) {
@@ -250,22 +297,20 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   broadcast(comm, wanted);
   broadcast(comm, flexibility.surface, sector.turn.n_sectors);
   broadcast(comm, flexibility.stress, sector.turn.n_sectors);
-  flexibility.F.setZero(3 * flexibility.surface.node.size(), 3 * flexibility.surface.node.cols());
-  flexibility.G.setZero(6 * flexibility.stress.node.size(), flexibility.F.cols());
   const int n_harmonics = sector.turn.n_sectors / 2 + 1;
+  std::vector<Amplitudes> own;
   collectively(comm, [&] {
     for (int k = rank; k < n_harmonics; k += size) {
       const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
       if (harmonic.size() == 0) continue;
       const fem::Matrices matrices =
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.formulation);
-      HarmonicResponses(harmonic, sector, wanted, floating ? fem::rigid_fields(harmonic, sector) : MatrixXd())
-          .add(matrices, flexibility);
+      const MatrixXd rigid = floating ? fem::rigid_fields(harmonic, sector) : MatrixXd();
+      own.push_back(HarmonicResponses(harmonic, sector, wanted, rigid).find(matrices));
       report(progress, kStage, std::min(1.0, static_cast<double>(k + size) / n_harmonics));
     }
   });
-  sum_on_root(comm, flexibility.F);
-  sum_on_root(comm, flexibility.G);
+  combine(comm, sector.turn, own, flexibility);
   if (rank == 0) model::set_self(flexibility);
   return flexibility;
 }

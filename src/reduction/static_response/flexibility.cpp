@@ -152,9 +152,9 @@ RootSystem gather(const ElasticSystem& system) {
 }
 
 // Enters the responses to these of the loads.
-void enter(const MatrixXd& responses, const std::vector<int>& loads, model::Flexibility& flexibility) {
-  flexibility.F(Eigen::all, loads) = responses.topRows(flexibility.F.rows()).cast<float>();
-  flexibility.G(Eigen::all, loads) = responses.bottomRows(flexibility.G.rows()).cast<float>();
+void enter(const Eigen::MatrixXf& responses, const std::vector<int>& loads, model::Flexibility& flexibility) {
+  flexibility.F(Eigen::all, loads) = responses.topRows(flexibility.F.rows());
+  flexibility.G(Eigen::all, loads) = responses.bottomRows(flexibility.G.rows());
 }
 
 }  // namespace
@@ -191,7 +191,7 @@ std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibil
 
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
                             int n_ranks) {
-  constexpr double kSpeed = 30e9, kSingle = 4, kDouble = 8;  // flops of a core, bytes
+  constexpr double kSpeed = 30e9, kSingle = 4;  // flops of a core, bytes
   const int Z = plan.n_sectors, n_harmonics = Z / 2 + 1;
   const double n_loads = 3 * static_cast<double>(plan.surface.node.cols()),
                parts = Z > 2 ? 2 : 1,  // real form of a complex harmonic
@@ -207,7 +207,7 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
   cost.n_columns = static_cast<std::size_t>(n_loads) * static_cast<std::size_t>(n_harmonics);
   cost.seconds = flops / (kSpeed * at_work);
   cost.kept_bytes = rows * n_loads * kSingle;
-  cost.bytes = (cost.kept_bytes + 2 * wanted * separator * kDouble) * at_work;
+  cost.bytes = cost.kept_bytes + 4 * wanted * separator * kSingle * at_work;
   return cost;
 }
 

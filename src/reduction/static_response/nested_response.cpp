@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -17,12 +16,14 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::MatrixXf;
 using ByColumn = Eigen::SparseMatrix<double>;
 using ByRow = model::SparseRows;
 
-constexpr Index kLeafColumns = 128;  // right-hand sides that go through a leaf's factor together
-constexpr int kLargestLeaf = 4000;   // rows of K, where there are separators
-constexpr std::size_t kGroup = 128;  // loads that go through the parts together
+constexpr Index kLeafColumns = 128;   // right-hand sides that go through a leaf's factor together
+constexpr int kLargestLeaf = 1500;    // rows of K, where there are separators
+constexpr std::size_t kGroup = 1024;  // loads that go through the parts together
+constexpr Index kBalanced = 64;       // of them, that are balanced together
 
 // Rows of a sequential matrix without copies.
 class CsrView {
@@ -79,6 +80,7 @@ struct OwnedMat {
 
 }  // namespace
 
+template <class T>
 class NestedResponse::Elimination {
  public:
   Elimination(Mat K, const ByRow& P, const std::vector<int>& loads, int largest_leaf)
@@ -92,7 +94,7 @@ class NestedResponse::Elimination {
     for (int load : loads) is_load_[load] = 1;
   }
 
-  std::vector<Contribution> run() {
+  Contributions<T> run() {
     for (std::size_t i = 0; i < parts_.size(); ++i)
       parts_[i].is_leaf() ? condense_leaf(parts_[i], condensed_[i])
                           : condense_separator(parts_[i], condensed_[i]);
@@ -189,7 +191,7 @@ class NestedResponse::Elimination {
       result.S.middleCols(first, n) = -(K_BI * X);
       result.E.middleCols(first, n) = -(P_I * X);
     }
-    Contribution c{result.row, {}, {}, {}};
+    Contribution<T> c{.row = result.row};
     std::vector<Eigen::Triplet<double>> selected;
     for (std::size_t i = 0; i < c.row.size(); ++i)
       if (is_load_[c.row[i]]) {
@@ -203,7 +205,7 @@ class NestedResponse::Elimination {
     c.response.resize(P_I.rows(), n_loads);
     for (Index first = 0; first < n_loads; first += kLeafColumns) {
       const Index n = std::min(kLeafColumns, n_loads - first);
-      c.response.middleCols(first, n) = P_I * solve(P_load, first, n);
+      c.response.middleCols(first, n) = (P_I * solve(P_load, first, n)).template cast<T>();
     }
     if (n_loads > 0) contributions_.push_back(std::move(c));
   }
@@ -273,7 +275,7 @@ class NestedResponse::Elimination {
     multiply(Op::plain, Op::transposed, -1, front.E_I, front.S_BI, 1, front.E_B);
     result.S = std::move(front.S_BB);
     result.E = std::move(front.E_B);
-    contributions_.push_back({result.row, {}, {}, std::move(front.E_I)});
+    contributions_.push_back({.row = result.row, .C = front.E_I.template cast<T>()});
   }
 
   CsrView K_;
@@ -283,7 +285,7 @@ class NestedResponse::Elimination {
   std::vector<int> at_;  // of each row of K: its place in the part at hand, -1: not in it
   std::vector<char> is_eliminated_;
   std::vector<Condensed> condensed_;
-  std::vector<Contribution> contributions_;
+  Contributions<T> contributions_;
 };
 
 namespace {
@@ -295,6 +297,17 @@ ByRow with_inertia(const ByRow& P, const MatrixXd& M_R) {
   all.topRows(P.rows()) = P;
   all.bottomRows(rigid.rows()) = rigid;
   return all;
+}
+
+// The columns of all separators in order, as far as that saves time.
+template <class T>
+Contributions<T> ordered(Contributions<T> contributions, const std::vector<int>& loads, Index n_rows) {
+  std::vector<char> is_load(static_cast<std::size_t>(n_rows), 0);
+  for (int load : loads) is_load[load] = 1;
+  const Eigen::VectorXd scale = row_scales(contributions, static_cast<int>(n_rows));
+  for (Contribution<T>& c : contributions)
+    if (c.C.size() > 0) order_columns(is_load, scale, c);
+  return contributions;
 }
 
 }  // namespace
@@ -320,17 +333,12 @@ NestedResponse::NestedResponse(Mat K, const ByRow& P, const std::vector<int>& lo
   }
   std::vector<int> all = loads;
   for (Index i = P.rows(); i < n_rows_; ++i) all.push_back(static_cast<int>(i));
-  contributions_ =
-      Elimination(K, rigid.M_R.cols() > 0 ? with_inertia(P, rigid.M_R) : P, all, largest_leaf).run();
-  std::map<int, std::vector<int>> of_part;  // loads by the first part that feels them
-  std::vector<int> first(static_cast<std::size_t>(n_rows_), static_cast<int>(contributions_.size()));
-  for (int i = static_cast<int>(contributions_.size()) - 1; i >= 0; --i)
-    for (int row : contributions_[i].row) first[row] = i;
-  for (int load : loads) of_part[first[load]].push_back(load);
-  for (const auto& [part, list] : of_part)
-    for (std::size_t begin = 0; begin < list.size(); begin += kGroup)
-      groups_.emplace_back(list.begin() + static_cast<std::ptrdiff_t>(begin),
-                           list.begin() + static_cast<std::ptrdiff_t>(std::min(begin + kGroup, list.size())));
+  if (rigid.M_R.cols() > 0)
+    contributions_ =
+        ordered(Elimination<double>(K, with_inertia(P, rigid.M_R), all, largest_leaf).run(), all, n_rows_);
+  else
+    contributions_ = ordered(Elimination<float>(K, P, all, largest_leaf).run(), all, n_rows_);
+  group(loads);
   if (rigid.M_R.cols() > 0) balance(P, rigid);
 }
 
@@ -338,45 +346,40 @@ NestedResponse::NestedResponse(Mat K, const ByRow& P, const std::vector<int>& lo
 void NestedResponse::balance(const ByRow& P, const RigidFields& rigid) {
   std::vector<int> inertia(static_cast<std::size_t>(rigid.M_R.cols()));
   std::iota(inertia.begin(), inertia.end(), static_cast<int>(P.rows()));
-  const MatrixXd to_inertia = plain(inertia);
+  const MatrixXd to_inertia = plain<double>(inertia);
   P_R_ = P * rigid.R;
   drift_ = to_inertia.topRows(P.rows()) - P_R_ * to_inertia.bottomRows(rigid.M_R.cols());
 }
 
-MatrixXd NestedResponse::plain(const std::vector<int>& loads) const {
-  MatrixXd all = MatrixXd::Zero(n_rows_, static_cast<Index>(loads.size()));
-  for (const Contribution& c : contributions_) {
-    const std::vector<int> at = positions_in(c.load.empty() ? c.row : c.load, loads);
-    std::vector<Index> from, to;
-    for (std::size_t j = 0; j < at.size(); ++j)
-      if (at[j] >= 0) {
-        from.push_back(at[j]);
-        to.push_back(static_cast<Index>(j));
-      }
-    if (from.empty()) continue;
-    MatrixXd part;
-    if (c.load.empty()) {
-      part.resize(c.C.rows(), static_cast<Index>(from.size()));
-      const MatrixXd C_load = c.C(from, Eigen::all);
-      multiply(Op::plain, Op::transposed, 1, c.C, C_load, 0, part);
-    } else {
-      part = c.response(Eigen::all, from);
-    }
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      auto column = all.col(to[j]);
-      for (std::size_t i = 0; i < c.row.size(); ++i)
-        column[c.row[i]] += part(static_cast<Index>(i), static_cast<Index>(j));
-    }
-  }
+// Loads that the same parts feel come together: they are ordered by the first part that feels them.
+void NestedResponse::group(std::vector<int> loads) {
+  std::vector<int> first(static_cast<std::size_t>(n_rows_), -1);
+  const auto find_first = [&](const auto& contributions) {
+    for (int i = static_cast<int>(contributions.size()) - 1; i >= 0; --i)
+      for (int row : contributions[i].row) first[row] = i;
+  };
+  std::visit(find_first, contributions_);
+  std::stable_sort(loads.begin(), loads.end(), [&](int a, int b) { return first[a] < first[b]; });
+  for (std::size_t begin = 0; begin < loads.size(); begin += kGroup)
+    groups_.emplace_back(loads.begin() + static_cast<std::ptrdiff_t>(begin),
+                         loads.begin() + static_cast<std::ptrdiff_t>(std::min(begin + kGroup, loads.size())));
+}
+
+template <class T>
+Dense<T> NestedResponse::plain(const std::vector<int>& loads) const {
+  Dense<T> all = Dense<T>::Zero(n_rows_, static_cast<Index>(loads.size()));
+  for (const Contribution<T>& c : std::get<Contributions<T>>(contributions_)) add_responses(c, loads, all);
   return all;
 }
 
-MatrixXd NestedResponse::operator()(const std::vector<int>& loads) const {
-  MatrixXd all = plain(loads);
-  if (P_R_.size() == 0) return all;
-  const MatrixXd P_R_load = P_R_(loads, Eigen::all);
+MatrixXf NestedResponse::balanced(const std::vector<int>& loads) const {
+  const MatrixXd all = plain<double>(loads), P_R_load = P_R_(loads, Eigen::all);
   const Index n = P_R_.rows();
-  return all.topRows(n) - P_R_ * all.bottomRows(n_rows_ - n) - drift_ * P_R_load.transpose();
+  return (all.topRows(n) - P_R_ * all.bottomRows(n_rows_ - n) - drift_ * P_R_load.transpose()).cast<float>();
+}
+
+MatrixXf NestedResponse::operator()(const std::vector<int>& loads) const {
+  return P_R_.size() > 0 ? balanced(loads) : plain<float>(loads);
 }
 
 }  // namespace elastogear::reduction

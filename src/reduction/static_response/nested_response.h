@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <variant>
 #include <vector>
 
 #include "elastogear/base/petsc.h"
 #include "elastogear/model/elastic_body.h"
+#include "reduction/static_response/contribution.h"
 #include "reduction/static_response/inertia_relief.h"
 
 namespace elastogear::reduction {
@@ -21,7 +23,8 @@ ResponseFlops response_flops(double unknowns, double wanted, double n_loads);
 
 /// Parts of K are eliminated one after the other, from leaves to the root of the dissection. What is wanted
 /// of a part is kept as a dense matrix over its border, so that nothing is solved for at rows that nobody
-/// asks for.
+/// asks for. Parts are eliminated in double precision; what they add to
+/// responses is in single precision, but for free bodies, where rigid motions cancel.
 class NestedResponse {
  public:
   /// K: sequential, symmetric, positive definite; of a free body grounded (reduction::InertiaRelief), with
@@ -34,17 +37,9 @@ class NestedResponse {
   /// The loads in groups that go through the parts together.
   const std::vector<std::vector<int>>& groups() const { return groups_; }
   /// P K^-1 P(loads, :)': a column for each of these loads.
-  Eigen::MatrixXd operator()(const std::vector<int>& loads) const;
+  Eigen::MatrixXf operator()(const std::vector<int>& loads) const;
 
  private:
-  // Adds up to P K^-1 P' over all parts: from a leaf `response` of all its rows to its loads, from a
-  // separator C C'.
-  struct Contribution {
-    std::vector<int> row;      // of P, ascending
-    std::vector<int> load;     // of a leaf: rows of P, ascending
-    Eigen::MatrixXd response;  // rows x loads
-    Eigen::MatrixXd C;         // of a separator: rows x its rows of K
-  };
   // A part and all below it, eliminated.
   struct Condensed {
     std::vector<int> border;  // rows of K that are left, ascending
@@ -52,13 +47,17 @@ class NestedResponse {
     std::vector<int> row;     // of P, ascending
     Eigen::MatrixXd E;        // P of these rows, by the displacements of the border
   };
+  template <class T>
   class Elimination;
 
-  Eigen::MatrixXd plain(const std::vector<int>& loads) const;
+  template <class T>
+  Dense<T> plain(const std::vector<int>& loads) const;
+  Eigen::MatrixXf balanced(const std::vector<int>& loads) const;
+  void group(std::vector<int> loads);
   void balance(const model::SparseRows& P, const RigidFields& rigid);
 
   Eigen::Index n_rows_;  // of P
-  std::vector<Contribution> contributions_;
+  std::variant<Contributions<float>, Contributions<double>> contributions_;
   std::vector<std::vector<int>> groups_;
   Eigen::MatrixXd P_R_;    // of a free body: P R
   Eigen::MatrixXd drift_;  // and P K^-1 M R without the rigid motion in it

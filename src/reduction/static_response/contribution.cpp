@@ -1,0 +1,185 @@
+#include "reduction/static_response/contribution.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "reduction/eigensolver/dense_blas.h"
+#include "reduction/eigensolver/dense_eigenproblem.h"
+
+namespace elastogear::reduction {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::MatrixXf;
+using Eigen::VectorXd;
+
+// Of a response that is left out, over the root of both rows' own responses: below the unit roundoff, and in
+// double precision below what is left of roundoff where responses cancel.
+template <class T>
+constexpr double kNeglected = sizeof(T) == sizeof(float) ? 1e-8 : 1e-14;
+constexpr Index kStep = 32;         // columns of C that are kept or left out together
+constexpr Index kTile = 512;        // rows and loads of a product
+constexpr Index kLoadsOfOrder = 4;  // loads per column of C from which ordering saves time
+constexpr Index kSampleRows = 4;    // rows per column that show the directions
+
+// Rows of C, over their scales, at regular distances.
+template <class T>
+MatrixXd sample(const Contribution<T>& c, const VectorXd& scale) {
+  const Index every = std::max<Index>(1, c.C.rows() / (kSampleRows * c.C.cols())),
+              n = (c.C.rows() + every - 1) / every;
+  MatrixXd rows(n, c.C.cols());
+  for (Index i = 0; i < n; ++i) {
+    const double size = scale[c.row[i * every]];
+    rows.row(i) = c.C.row(i * every).template cast<double>() * (size > 0 ? 1 / size : 0);
+  }
+  return rows;
+}
+
+// Orthonormal columns, those last in which the rows are longest: a sum of products then begins with the small
+// ones and is rounded little.
+MatrixXd directions(const MatrixXd& rows) {
+  MatrixXd gram(rows.cols(), rows.cols());
+  multiply(Op::transposed, Op::plain, 1, rows, rows, 0, gram);
+  diagonalise(gram);
+  return gram;
+}
+
+// C := C V, in double precision.
+template <class T>
+void turn(const MatrixXd& V, Dense<T>& C) {
+  MatrixXd turned;
+  for (Index i = 0; i < C.rows(); i += kTile) {
+    auto rows = C.middleRows(i, std::min(kTile, C.rows() - i));
+    turned.resize(rows.rows(), V.cols());
+    multiply(Op::plain, Op::plain, 1, MatrixXd(rows.template cast<double>()), V, 0, turned);
+    rows = turned.template cast<T>();
+  }
+}
+
+template <class T>
+MatrixXf lengths_left_out(const Contribution<T>& c, const VectorXd& scale) {
+  const Index n = c.C.cols(), n_steps = (n + kStep - 1) / kStep;
+  MatrixXd left = MatrixXd::Zero(c.C.rows(), n_steps + 1);
+  for (Index step = n_steps - 1; step >= 0; --step) {
+    const Index first = std::max<Index>(0, n - (step + 1) * kStep), width = n - step * kStep - first;
+    left.col(step) =
+        left.col(step + 1) + c.C.middleCols(first, width).rowwise().squaredNorm().template cast<double>();
+  }
+  for (Index i = 0; i < left.rows(); ++i) {
+    const double size = scale[c.row[i]];
+    left.row(i) = left.row(i).cwiseSqrt() * (size > 0 ? 1 / size : 0);
+  }
+  return left.cast<float>();
+}
+
+// The least number of steps after which what is left out of a product of such rows is negligible.
+Index steps_needed(const Eigen::RowVectorXf& a, const Eigen::RowVectorXf& b, double neglected) {
+  Index step = 0;
+  while (step + 1 < a.size() && double(a[step]) * b[step] > neglected) ++step;
+  return step;
+}
+
+template <class T>
+void sort_rows(Contribution<T>& c) {
+  std::vector<Index> needed(c.row.size()), order(c.row.size());
+  for (std::size_t i = 0; i < c.row.size(); ++i) {
+    const Eigen::RowVectorXf own = c.left_out.row(static_cast<Index>(i));
+    needed[i] = steps_needed(own, own, kNeglected<T>);
+  }
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return needed[a] < needed[b]; });
+  std::vector<int> row;
+  for (Index i : order) row.push_back(c.row[i]);
+  c.row = std::move(row);
+  c.C = Dense<T>(c.C(order, Eigen::all));
+  c.left_out = MatrixXf(c.left_out(order, Eigen::all));
+}
+
+// Rows of a contribution and columns of Y that belong together, by rows.
+using Columns = std::vector<std::pair<Index, Index>>;
+
+Columns columns_of(const std::vector<int>& rows, const std::vector<int>& loads, Index n_rows) {
+  std::vector<Index> at(static_cast<std::size_t>(n_rows), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) at[rows[i]] = static_cast<Index>(i);
+  Columns columns;
+  for (std::size_t j = 0; j < loads.size(); ++j)
+    if (at[loads[j]] >= 0) columns.emplace_back(at[loads[j]], static_cast<Index>(j));
+  std::sort(columns.begin(), columns.end());
+  return columns;
+}
+
+template <class Block, class T>
+void scatter(const Block& part, const int* row, T* column) {
+  for (Index i = 0; i < part.size(); ++i) column[row[i]] += part[i];
+}
+
+// The products of all rows with the loads columns[first..first + n).
+template <class T>
+void add_products(const Contribution<T>& c, const Columns& columns, Index first, Index n, Dense<T>& Y) {
+  Dense<T> C_load(n, c.C.cols()), part;
+  Eigen::RowVectorXf load_left_out = Eigen::RowVectorXf::Zero(c.left_out.cols());
+  for (Index j = 0; j < n; ++j) {
+    C_load.row(j) = c.C.row(columns[first + j].first);
+    if (c.left_out.size() > 0)
+      load_left_out = load_left_out.cwiseMax(c.left_out.row(columns[first + j].first));
+  }
+  for (Index i = 0; i < c.C.rows(); i += kTile) {
+    const Index n_i = std::min(kTile, c.C.rows() - i);
+    Index k = c.C.cols();
+    if (c.left_out.size() > 0)
+      k = std::min(k, kStep * steps_needed(c.left_out.middleRows(i, n_i).colwise().maxCoeff(), load_left_out,
+                                           kNeglected<T>));
+    if (k == 0) continue;
+    part.resize(n_i, n);
+    multiply(Op::plain, Op::transposed, T(1), c.C.block(i, c.C.cols() - k, n_i, k), C_load.rightCols(k), T(0),
+             part);
+    for (Index j = 0; j < n; ++j)
+      scatter(part.col(j), c.row.data() + i, Y.col(columns[first + j].second).data());
+  }
+}
+
+}  // namespace
+
+template <class T>
+VectorXd row_scales(const Contributions<T>& contributions, int n_rows) {
+  VectorXd squared = VectorXd::Zero(n_rows);
+  for (const Contribution<T>& c : contributions)
+    if (c.C.size() > 0) {
+      const VectorXd own = c.C.rowwise().squaredNorm().template cast<double>();
+      for (std::size_t i = 0; i < c.row.size(); ++i) squared[c.row[i]] += own[static_cast<Index>(i)];
+    }
+  return squared.cwiseSqrt();
+}
+
+template <class T>
+void order_columns(const std::vector<char>& is_load, const VectorXd& scale, Contribution<T>& c) {
+  const auto n_loads = std::count_if(c.row.begin(), c.row.end(), [&](int row) { return is_load[row] != 0; });
+  if (n_loads < kLoadsOfOrder * c.C.cols() || c.C.cols() <= kStep) return;
+  turn(directions(sample(c, scale)), c.C);
+  c.left_out = lengths_left_out(c, scale);
+  sort_rows(c);
+}
+
+template <class T>
+void add_responses(const Contribution<T>& c, const std::vector<int>& loads, Dense<T>& Y) {
+  const bool leaf = !c.load.empty();
+  const Columns columns = columns_of(leaf ? c.load : c.row, loads, Y.rows());
+  if (leaf) {
+    for (const auto& [from, to] : columns) scatter(c.response.col(from), c.row.data(), Y.col(to).data());
+    return;
+  }
+  const auto n = static_cast<Index>(columns.size());
+  for (Index first = 0; first < n; first += kTile)
+    add_products(c, columns, first, std::min(kTile, n - first), Y);
+}
+
+template VectorXd row_scales(const Contributions<float>&, int);
+template VectorXd row_scales(const Contributions<double>&, int);
+template void order_columns(const std::vector<char>&, const VectorXd&, Contribution<float>&);
+template void order_columns(const std::vector<char>&, const VectorXd&, Contribution<double>&);
+template void add_responses(const Contribution<float>&, const std::vector<int>&, Dense<float>&);
+template void add_responses(const Contribution<double>&, const std::vector<int>&, Dense<double>&);
+
+}  // namespace elastogear::reduction

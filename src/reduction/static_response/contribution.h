@@ -1,0 +1,43 @@
+#pragma once
+// What one part of K adds to the static responses P K^-1 P' (docs/theory.md, Eqs. (6.20a) and (6.20c)).
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace elastogear::reduction {
+
+template <class T>
+using Dense = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// From a leaf `response` of all its rows to its loads; from a separator C C'. T: float, as responses are
+/// stored, or double, where what is stored is a small difference of responses.
+template <class T>
+struct Contribution {
+  std::vector<int> row = {};   ///< of P
+  std::vector<int> load = {};  ///< of a leaf: rows of P, ascending
+  Dense<T> response = {};      ///< of a leaf: rows x loads
+  Dense<T> C = {};             ///< of a separator: rows x its rows of K
+  /// Of an ordered separator, rows x steps: length of each row of C, over its scale, in the columns that are
+  /// left out when those of so many steps, the last ones, count.
+  Eigen::MatrixXf left_out = {};
+};
+
+template <class T>
+using Contributions = std::vector<Contribution<T>>;
+
+/// Of each of n_rows rows of P the root of its own response by all separators, the scale of what may be
+/// neglected of it; 0: not in any.
+template <class T>
+Eigen::VectorXd row_scales(const Contributions<T>& contributions, int n_rows);
+
+/// Turns the columns of a separator's C and orders its rows such that far rows know of few columns, Eq.
+/// (6.20c), where so many of its rows are loads that this saves time.
+template <class T>
+void order_columns(const std::vector<char>& is_load, const Eigen::VectorXd& scale,
+                   Contribution<T>& contribution);
+
+/// Y, rows of P x loads (rows of P): adds the contribution's responses to these loads.
+template <class T>
+void add_responses(const Contribution<T>& contribution, const std::vector<int>& loads, Dense<T>& Y);
+
+}  // namespace elastogear::reduction
