@@ -81,6 +81,10 @@ class System {
   void stiffen(double factor);
   /// Gives the contacts these forces back.
   void set_forces(const std::vector<PairContacts>& pairs);
+  /// From here on states are those of iterations towards a state of rest: forces of contacts without a
+  /// penalty need be no more exact than this share of them, and the local approach of flanks follows them.
+  /// 0: they no longer are.
+  void seek_rest(double tolerance);
   /// Goes a share of the way to the local approach of flanks (docs/theory.md, section 6.17) by the contacts
   /// evaluated last. Returns the largest change of one, m; 0 where no pair has one.
   double find_approach(double share);

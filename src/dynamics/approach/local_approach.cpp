@@ -262,11 +262,19 @@ double LocalApproach::find(const ContactState& state, Flexibilities& flexibility
       if (std::abs(moved) <= kAtRest * flanks_[b]->length[g] && (before.F_n > 0) == (now.F_n > 0)) continue;
       change = std::max(change, std::abs(moved));
       if (before.F_n > 0) now.e_n -= (1 - share) * moved;
-      if (const double F = flanks_[b]->flank[g].force; before.F_n > 0 && now.F_n > 0)
-        taken_ += now.complementary_energy(F) - before.complementary_energy(F);
       set_law(b, g, now);
     }
   return change;
+}
+
+void LocalApproach::accept() {
+  for (auto& flanks : flanks_)
+    for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
+      Flank& flank = flanks->flank[g];
+      const ApproachLaw before = std::exchange(flank.accepted, flank.law);
+      if (before.F_n > 0 && flank.law.F_n > 0)
+        taken_ += flank.law.complementary_energy(flank.force) - before.complementary_energy(flank.force);
+    }
 }
 
 void LocalApproach::find_new(const ContactState& state, Flexibilities& flexibility) {
@@ -274,8 +282,10 @@ void LocalApproach::find_new(const ContactState& state, Flexibilities& flexibili
     const PairContacts& contacts = state.pair[pair.number];
     const auto b = static_cast<std::size_t>(contacts.body[pair.side]);
     for (const auto& [group, patch] : patches(pair, contacts))
-      if (const auto g = static_cast<std::size_t>(group); !(flanks_[b]->flank[g].law.F_n > 0))
+      if (const auto g = static_cast<std::size_t>(group); !(flanks_[b]->flank[g].law.F_n > 0)) {
         set_law(b, g, law(pair, group, patch, state, flexibility));
+        flanks_[b]->flank[g].accepted = flanks_[b]->flank[g].law;
+      }
   }
 }
 
@@ -346,6 +356,7 @@ void LocalApproach::serialize(Archive& archive) {
       Flank& flank = flanks->flank[g];
       for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force, &flank.approach})
         archive(*x);
+      flank.accepted = flank.law;
     }
 }
 

@@ -34,6 +34,8 @@ class LocalApproach {
   double find(const ContactState& state, Flexibilities& flexibility, double share);
   /// The same of flanks that have none yet; the others keep theirs.
   void find_new(const ContactState& state, Flexibilities& flexibility);
+  /// Takes the present laws for those of the end of a step, under the forces set: Eq. (7.2b).
+  void accept();
 
   /// m, largest change of a displacement of a body by the laws found since the last call.
   double take_change(std::size_t b);
@@ -47,7 +49,7 @@ class LocalApproach {
   void add_tangent(std::size_t b, const std::vector<int>& node, Eigen::MatrixXd& R) const;
   double largest(std::size_t b) const;     ///< m, displacement
   double energy(std::size_t b) const;      ///< J, stored
-  double taken() const { return taken_; }  ///< J, by the changes of laws in find: Eq. (7.2b)
+  double taken() const { return taken_; }  ///< J, by the laws accepted so far
   void serialize(Archive& archive);
 
  private:
@@ -61,6 +63,7 @@ class LocalApproach {
   };
   struct Flank {
     ApproachLaw law;
+    ApproachLaw accepted = {};
     double force = 0;     // N, of those set
     double approach = 0;  // m, by the law at that force
   };

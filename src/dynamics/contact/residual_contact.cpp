@@ -134,13 +134,23 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
   change_[b] += approach_.set_forces(b, forces);
 }
 
+std::vector<VectorXd> ResidualContact::displacements(const ContactState& state) {
+  std::vector<VectorXd> w(state.force.size());
+  for (std::size_t b = 0; b < w.size(); ++b)
+    for (int node : has_flexibility(b) ? state.force[b].node : std::vector<int>()) {
+      w[b].conservativeResize(w[b].size() + 3);
+      w[b].tail<3>() = displacement(b, node);
+    }
+  return w;
+}
+
 // R f - w of the forces found and the static response in place, beside what is left of former forces.
-VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& found, const MatrixXd& R) {
-  VectorXd missing = R * found.f_B.reshaped();
+VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& found, const MatrixXd& R,
+                                           const VectorXd& w) {
+  VectorXd missing = R * found.f_B.reshaped() - w;
   for (std::size_t i = 0; i < found.node.size(); ++i)
-    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) += flexibility_[b]->lag(found.node[i]) +
-                                                            approach_.lag(b, found.node[i]) -
-                                                            displacement(b, found.node[i]);
+    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) +=
+        flexibility_[b]->lag(found.node[i]) + approach_.lag(b, found.node[i]);
   return missing;
 }
 
@@ -148,12 +158,13 @@ VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& fou
 // w_now), H = L_V' R L. docs/theory.md, Eq. (6.21).
 VectorXd ResidualContact::newton_step(const ContactState& state) {
   const std::vector<NodalForces>& found = state.force;
+  const std::vector<VectorXd> w = displacements(state);
   ResponseNewton newton(state.pair);
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = found[b].node;
     const MatrixXd& R = tangent(b, node);
-    newton.add({b, state.surface[b].R_WB, node, R}, missing_response(b, found[b], R));
+    newton.add({b, state.surface[b].R_WB, node, R}, missing_response(b, found[b], R, w[b]));
   }
   const VectorXd lambda = newton.solve();
   for (std::size_t b = 0, i = 0; b < found.size(); ++b) {
@@ -225,14 +236,27 @@ void ResidualContact::solve(ContactState& state, const std::function<void()>& de
 }
 
 std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState& state, double share) {
+  const std::vector<VectorXd> w = displacements(state);
   approach_.find_new(state, flexibility_);
+  return close_gaps(state, share, w);
+}
+
+std::optional<ResidualContact::Change> ResidualContact::follow_approach(ContactState& state) {
+  state.force = nodal_forces(state.pair, state.surface);
+  const std::vector<VectorXd> w = displacements(state);
+  if (approach_.find(state, flexibility_, 1) == 0) return Change{};
+  return close_gaps(state, 1, w);
+}
+
+std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState& state, double share,
+                                                                   const std::vector<VectorXd>& w) {
   for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
   UnilateralForces unilateral(state.pair);
   for (std::size_t b = 0; b < state.force.size(); ++b) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = state.force[b].node;
     const MatrixXd& R = tangent(b, node);
-    unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R));
+    unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R, w[b]));
   }
   if (!unilateral.solve()) return {};
   const bool slides_anew = unilateral.slides_anew(), bends = unilateral.takes_turning_in();
@@ -267,16 +291,24 @@ void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accura
                                        const std::function<void()>& detect) {
   std::optional<Change> change;
   double before = 0;
-  bool settled = false;
+  const double allowed = std::max(sought_, tolerance(state, accuracy));
+  bool settled = false, follows = sought_ > 0 && approach_.any();
   for (int trial = 0; !settled && trial < kMostTrials; ++trial) {
     change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);
     if (!change) break;
     const double now = change->forces;
     // The next change of the forces is expected to fall as this one did.
     const double first_rate = change->bends ? std::min(kFirstRate, kBend * now) : kFirstRate;
-    const double left = now * (trial > 0 ? std::min(1.0, now / before) : first_rate);
+    expected_ = now * (trial > 0 ? std::min(1.0, now / before) : first_rate);
     const bool is_roundoff = trial > 0 && now < kRoundoffResidual && now > 0.1 * before;
-    settled = (left <= tolerance(state, accuracy) || is_roundoff) && !change->slides_anew;
+    bool is_exact = expected_ <= allowed && now < kJump;
+    if (is_exact && std::exchange(follows, false)) {
+      change = follow_approach(state);
+      if (!change) break;
+      expected_ = std::max(expected_, kBend * change->forces * change->forces);
+      is_exact = expected_ <= allowed && change->forces < kJump;
+    }
+    settled = (is_exact || is_roundoff) && !change->slides_anew;
     before = now;
     if (!settled) detect();
   }
@@ -308,11 +340,21 @@ void ResidualContact::accept(double time) {
     if (flexibility) flexibility->accept();
 }
 
+bool ResidualContact::seek_rest(double tolerance) {
+  sought_ = tolerance;
+  return expected_ > std::max(tolerance, kMovingTolerance);
+}
+
 double ResidualContact::find_approach(const ContactState& state, double share) {
   if (!approach_.any()) return 0;
   const double difference = approach_.find(state, flexibility_, share);
   for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
   return difference;
+}
+
+void ResidualContact::accept_approach(const ContactState& state) {
+  find_approach(state, 1);
+  approach_.accept();
 }
 
 double ResidualContact::energy(std::size_t b) {

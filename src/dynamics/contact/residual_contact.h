@@ -48,9 +48,13 @@ class ResidualContact {
   void predict(double time);
   /// Keeps the present forces as those of an accepted step at this time.
   void accept(double time);
+  /// See System::seek_rest. Returns whether forces must be more exact than before.
+  bool seek_rest(double tolerance);
   /// Goes a share of the way to the local approach of flanks by the contacts of a state, for later
   /// evaluations. Returns its largest difference, m.
   double find_approach(const ContactState& state, double share);
+  /// Takes that approach for the one at the end of a step.
+  void accept_approach(const ContactState& state);
   double approach_taken() const { return approach_.taken(); }
   /// Does the residual displacement of a body creep, whatever the moduli are?
   bool creeps(std::size_t b) const { return has_flexibility(b) && flexibility_[b]->is_viscoelastic(); }
@@ -90,16 +94,25 @@ class ResidualContact {
   // Puts the forces whose static responses are in place in the place of those found.
   void take_forces_of_response(ContactState& state) const;
   const Eigen::MatrixXd& tangent(std::size_t b, const std::vector<int>& node);
-  Eigen::VectorXd missing_response(std::size_t b, const NodalForces& found, const Eigen::MatrixXd& R);
+  // m, BRF, of each body: 3 n, of the nodes of the state's forces, with the responses in place.
+  std::vector<Eigen::VectorXd> displacements(const ContactState& state);
+  // w: m, 3 n, displacements of the nodes that contacts were found with.
+  Eigen::VectorXd missing_response(std::size_t b, const NodalForces& found, const Eigen::MatrixXd& R,
+                                   const Eigen::VectorXd& w);
   void respond_to(std::size_t b, const NodalForces& forces);
   struct Change {
-    double forces;     // as part of them
-    bool slides_anew;  // does a node slide that stuck before, or stick that slid?
-    bool bends;        // is what is left of second order?
+    double forces = 0;         // as part of them
+    bool slides_anew = false;  // does a node slide that stuck before, or stick that slid?
+    bool bends = true;         // is what is left of second order?
   };
   // Closes the gaps at unchanged closest points: sets the forces of the contacts and the static responses,
-  // these by the given share of their change. Returns nothing where there is no solution.
+  // these by the given share of their change. w: of each body, displacements of the state's nodes that gaps
+  // were found with. Returns nothing where there is no solution.
+  std::optional<Change> close_gaps(ContactState& state, double share, const std::vector<Eigen::VectorXd>& w);
+  // The same after the local approach of flanks has been found of flanks that have none.
   std::optional<Change> close_gaps(ContactState& state, double share);
+  // Lets it follow the forces found, and closes the gaps that this opens.
+  std::optional<Change> follow_approach(ContactState& state);
   double least_force(const ContactState& state) const;
 
   struct Accepted {
@@ -110,6 +123,8 @@ class ResidualContact {
   std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
   Accepted last_, before_;
   LocalApproach approach_;
+  double expected_ = 0;                   // expected change of the forces found last, as part of them
+  double sought_ = 0;                     // tolerance of forces in iterations towards rest; 0: there are none
   std::vector<Eigen::MatrixXd> tangent_;  // of each body, R with the tangent of the local approach
   std::vector<NodalForces> left_;         // of each body, the forces before the last Newton step
   std::vector<double> change_;            // m, not yet seen by all pairs

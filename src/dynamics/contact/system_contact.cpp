@@ -215,6 +215,11 @@ double SystemContact::friction_loss_of_responses() {
   return then.empty() ? 0 : -residual_contact_.work(then, history_.friction);
 }
 
+void SystemContact::seek_rest(double tolerance) {
+  if (remembers_forces()) return;
+  if (residual_contact_.seek_rest(tolerance)) forget();
+}
+
 void SystemContact::accept() {
   double power = 0;
   bool any_sticks = false;
@@ -233,13 +238,14 @@ void SystemContact::accept() {
   history_.time = time_;
   history_.power = power;
   if (residual_contact_.any()) residual_contact_.accept(time_);
-  residual_contact_.find_approach(state_, 1);
+  residual_contact_.accept_approach(state_);
   if (any_sticks) forget();  // forces of the same state start from the new history
 }
 
 double SystemContact::find_approach(double share) {
-  forget();
-  return residual_contact_.find_approach(state_, share);
+  const double difference = residual_contact_.find_approach(state_, share);
+  if (difference > 0) forget();
+  return difference;
 }
 
 void SystemContact::serialize(Archive& archive) {

@@ -53,6 +53,7 @@ class SystemContact {
   bool had_impulse() const { return history_.impulse; }
   bool had_impulse_before() const { return history_.impulse_before; }
 
+  void seek_rest(double tolerance);
   /// Accepts the last evaluation as the end of a step.
   void accept();
   /// Goes a share of the way to the local approach of flanks by the last evaluation, which it forgets.

@@ -28,6 +28,9 @@ constexpr double kClosed = 1e-6;        // of the depth, by which points that be
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr int kMostSeeking = 12;      // evaluations in which flanks' approach follows the forces
+constexpr double kLoose = 1e-3;       // of the last imbalance, by which forces of contact may err
+constexpr double kTight = 1e-10;      // of the forces, which always may
 constexpr double kHeldBySigma = 0.5;  // share of sigma in a coordinate's stiffness: nothing else holds it
 
 // Tells of each pair whether its bodies touch.
@@ -50,14 +53,30 @@ void remember_scale(Equilibrium& at) {
   at.unloaded_scale = scale;
 }
 
+// Evaluates the forces; false where there are none. Those of contact are as exact as Newton's method needs
+// them: in the end as all forces in balance are.
+bool evaluate(Equilibrium& at, ConstVector U) {
+  constexpr double kTold = 0.1;  // of the imbalance, below which an error of forces does not count
+  Problem& problem = at.problem;
+  const bool seeks = at.n_to_seek > 0;
+  if (seeks) --at.n_to_seek;
+  double tolerance = seeks ? std::clamp(kLoose * at.last_imbalance, kTight, kLoose) : 0;
+  while (true) {
+    problem.system.seek_rest(tolerance);
+    if (!is_admissible(problem, at.factor, U, Eigen::VectorXd::Zero(U.size()))) return false;
+    problem.residual = problem.system.residual(at.state(U));
+    at.last_imbalance = imbalance(problem.residual);
+    if (tolerance <= std::max(kTight, kTold * at.last_imbalance)) return true;
+    tolerance = kTight;
+  }
+}
+
 PetscErrorCode function(SNES snes, Vec U, Vec F, void* ctx) {
   auto& at = *static_cast<Equilibrium*>(ctx);
   return guard(at.problem.pending, [&] {
     at.problem.pulse();
     const ReadView u(U);
-    if (!is_admissible(at.problem, at.factor, *u, Eigen::VectorXd::Zero((*u).size())))
-      return check(SNESSetFunctionDomainError(snes));
-    at.problem.residual = at.problem.system.residual(at.state(*u));
+    if (!evaluate(at, *u)) return check(SNESSetFunctionDomainError(snes));
     if (at.factor == 0) remember_scale(at);
     assign(F, at.problem.residual.F);
   });
@@ -234,12 +253,16 @@ std::string free_coordinates(const Equilibrium& at) {
        ". Try more load steps, a softer contact, or a dynamic relaxing in place of the static analysis");
 }
 
-bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
+// n_seeking: evaluations in which the local approach of flanks follows the forces.
+bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary, int n_seeking = 0) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   at.problem.trouble.clear();
   at.problem.slack = 0;
+  at.n_to_seek = n_seeking;
+  at.last_imbalance = 1;
   check(SNESSolve(snes, nullptr, U), at.problem.pending);
+  at.problem.system.seek_rest(0);
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
   summary.newton_iterations += iterations;
@@ -299,7 +322,9 @@ bool settle_approach(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
 // (6.31).
 bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   System& system = at.problem.system;
-  if (!solve(at, snes, U, summary) || !settle_approach(at, snes, U, summary)) return false;
+  if (!solve(at, snes, U, summary, at.begins_near ? kMostSeeking : 0) ||
+      !settle_approach(at, snes, U, summary))
+    return false;
   double before = kFar;
   for (int round = 0; system.any_augmented(); ++round) {
     const ReadView u(U);

@@ -21,8 +21,11 @@ struct Equilibrium {
   Eigen::VectorXd zero;
   std::vector<Eigen::VectorXd> resistance = {};  // sigma M of each body's joint coordinates, its diagonal
   Eigen::VectorXd unloaded_scale = {};           // of forces without load, the largest so far
-  double least_norm = 0;                         // of F, so far
-  int n_in_vain = 0;                             // iterations since then
+  bool begins_near = false;                      // the search, at an equilibrium beside it
+  int n_to_seek = 0;  // evaluations left in which contact need not be more exact than the imbalance asks
+  double last_imbalance = 1;
+  double least_norm = 0;  // of F, so far
+  int n_in_vain = 0;      // iterations since then
 
   State state(ConstVector U) const { return {factor, U, zero, zero}; }
 };

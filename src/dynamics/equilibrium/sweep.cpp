@@ -101,6 +101,7 @@ void load(Sweep& sweep, int steps, RunSummary& summary) {
   LoadPath path(sweep.system, steps);
   path.least_step = kLeastStep * std::min(1.0, 2.0 / steps);
   limit_iterations(sweep, kMostToLoad);
+  sweep.at.begins_near = false;
   while (path.reached < 1) advance(sweep.at, sweep.snes, path, summary);
   sweep.U = path.good;
 }
@@ -125,6 +126,7 @@ bool go_on(Sweep& sweep, double position, RunSummary& summary) {
   for (std::size_t i = 0; i < sweep.motion.bushing_rate.size(); ++i)
     sweep.system.turn_bushing(i, sweep.motion.bushing_rate[i] * by);
   limit_iterations(sweep, kMostToGoOn);
+  sweep.at.begins_near = true;
   sweep.at.factor = kLoaded + position - sweep.first;
   const UniqueVec U = vector(turned_on(sweep, by));
   if (!find_equilibrium(sweep.at, sweep.snes, U, summary)) return false;
