@@ -179,12 +179,12 @@ WormCounts graded_counts(Size size) {
     n.growth = 3;
   }
   if (size == Size::medium) {
-    n.space = n.fillet = 3;
+    n.space = n.flank = n.fillet = 3;
     n.ring = 4;
     n.turn = 40;
     n.shaft = 2;
     n.growth = 3;
-    n.tooth_growth = 6;
+    n.tooth_growth = 8;
   }
   if (size == Size::paper) {
     n.tooth = 6;
