@@ -15,7 +15,6 @@
 namespace elastogear::io {
 namespace {
 
-constexpr hsize_t kColumns = 96;  // that are converted at a time
 const std::string kGroup = "/flexibility";
 
 void write_images(const h5::File& file, const std::string& name, const model::Images& images) {
@@ -36,21 +35,16 @@ void write_columns(const h5::File& file, const std::string& name, const Eigen::M
   const hsize_t rows = static_cast<hsize_t>(A.rows()), n = static_cast<hsize_t>(A.cols());
   if (A.size() == 0) return;
   const h5::Id dataset = h5::create_chunked(file, kGroup + name, {{n, rows}, {1, rows}, unit, true});
-  for (hsize_t first = 0; first < n; first += kColumns) {
-    const hsize_t count = std::min(kColumns, n - first);
-    const Eigen::MatrixXd piece =
-        A.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).cast<double>();
-    h5::write_rows(file, dataset, {first, {count, rows}}, piece.data());
-  }
+  h5::write_rows(file, dataset, {0, {n, rows}}, A.data());
 }
 
 Eigen::MatrixXf read_columns(const h5::File& file, const std::string& name, hsize_t first, hsize_t n) {
   const h5::Shape shape = h5::shape(file, kGroup + name);
   require(shape.size() == 2 && first + n <= shape[0], file.path, ": ", kGroup, name,
           " must have a row for each of ", first + n, " forces");
-  Eigen::MatrixXd A(static_cast<Eigen::Index>(shape[1]), static_cast<Eigen::Index>(n));
+  Eigen::MatrixXf A(static_cast<Eigen::Index>(shape[1]), static_cast<Eigen::Index>(n));
   h5::read_rows(file, kGroup + name, {first, {n, shape[1]}}, A.data());
-  return A.cast<float>();
+  return A;
 }
 
 // A number of the group that files may lack.
@@ -68,11 +62,7 @@ std::function<Eigen::MatrixXf(int)> reader(const std::shared_ptr<const h5::File>
   const auto n_orbits = static_cast<hsize_t>(flexibility.surface.node.cols());
   require(h5::shape(*body, kGroup + name) == h5::Shape{3 * n_orbits, 3 * flexibility.node.size()}, body->path,
           ": ", kGroup, name, " must have a row for each force and a column for each displacement");
-  return [body, name](int orbit) {
-    const Eigen::MatrixXf F = read_columns(*body, name, 3 * static_cast<hsize_t>(orbit), 3);
-    require(F.allFinite(), body->path, ": ", kGroup, name, " is not finite");
-    return F;
-  };
+  return [body, name](int orbit) { return read_columns(*body, name, 3 * static_cast<hsize_t>(orbit), 3); };
 }
 
 void write_relaxed(const h5::File& file, const model::Flexibility& flexibility) {

@@ -120,9 +120,12 @@ struct Chunked {
   bool single = false;  ///< 4 bytes a number
 };
 Id create_chunked(const File& file, const std::string& name, const Chunked& layout);
-void write_rows(const File& file, hid_t dataset, const Rows& rows, const double* data);
+/// T: double, or float for numbers of 4 bytes, which then are not converted.
+template <class T>
+void write_rows(const File& file, hid_t dataset, const Rows& rows, const T* data);
 /// Error when the numbers are damaged or not finite.
-void read_rows(const File& file, const std::string& name, const Rows& rows, double* data);
+template <class T>
+void read_rows(const File& file, const std::string& name, const Rows& rows, T* data);
 
 /// Shape and unit of the rows of a Series.
 struct Item {

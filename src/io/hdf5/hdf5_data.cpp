@@ -200,21 +200,27 @@ Id create_growing(const File& file, const std::string& name, const Item& item, h
   return dataset;
 }
 
-void write_rows(const File& file, hid_t dataset, const Rows& rows, const double* data) {
+template <class T>
+void write_rows(const File& file, hid_t dataset, const Rows& rows, const T* data) {
   const Id space = select(dataset, rows), memory = simple_space(rows.count);
-  check_written(space >= 0 && H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, data) >= 0,
-                file, "a dataset");
+  check_written(space >= 0 && H5Dwrite(dataset, native<T>(), memory, space, H5P_DEFAULT, data) >= 0, file,
+                "a dataset");
 }
+template void write_rows(const File&, hid_t, const Rows&, const double*);
+template void write_rows(const File&, hid_t, const Rows&, const float*);
 
-void read_rows(const File& file, const std::string& name, const Rows& rows, double* data) {
+template <class T>
+void read_rows(const File& file, const std::string& name, const Rows& rows, T* data) {
   const Id dataset = open_dataset(file, name), space = select(dataset, rows),
            memory = simple_space(rows.count);
   check(space >= 0, file, name, "lacks rows");
-  require_read(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, data) >= 0, file, name);
+  require_read(H5Dread(dataset, native<T>(), memory, space, H5P_DEFAULT, data) >= 0, file, name);
   require_finite(data,
                  std::accumulate(rows.count.begin(), rows.count.end(), std::size_t{1}, std::multiplies<>()),
                  file, name);
 }
+template void read_rows(const File&, const std::string&, const Rows&, double*);
+template void read_rows(const File&, const std::string&, const Rows&, float*);
 
 std::string unit(const File& file, const std::string& name) { return string_attribute(file, name, "unit"); }
 

@@ -15,6 +15,10 @@ inline hid_t native<double>() {
   return H5T_NATIVE_DOUBLE;
 }
 template <>
+inline hid_t native<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
 inline hid_t native<int>() {
   return H5T_NATIVE_INT;
 }
