@@ -163,8 +163,8 @@ def error_label(surface, stress):
         found = [name for name in names if name and name.startswith(start)]
         if found:
             error = vtk_to_numpy(surface.GetPointData().GetArray(found[0]))[int(stress.argmax())] / 1e6
-            errors[by] = f"by the {by} {error:.2g}" + (", not to be trusted" if error > trusted * stress.max() else "")
-    return "; estimated error there " + ", ".join(errors.values()) if errors else "; error not estimated"
+            errors[by] = f"by the {by} {float(f'{error:.2g}'):g}" + (", not to be trusted" if error > trusted * stress.max() else "")
+    return "its estimated error: " + ", ".join(errors.values()) if errors else "its error is not estimated"
 
 
 def draw_stress(options):
@@ -177,11 +177,12 @@ def draw_stress(options):
     name = options.title or os.path.splitext(os.path.basename(options.field))[0].replace("_", " ")
     picture = scene.Picture(1800, 1000)
     whole = [scene.scalar_actor(surface, table, edges=False), scene.crease_actor(surface)]
-    picture.panel((0, 0.16, 0.5, 0.92), whole, views[0])
-    picture.panel((0.5, 0.16, 1, 0.92), [scene.scalar_actor(surface, table, edges=True)], views[1])
+    picture.panel((0, 0.18, 0.5, 0.92), whole, views[0])
+    picture.panel((0.5, 0.18, 1, 0.92), [scene.scalar_actor(surface, table, edges=True)], views[1])
     picture.panel((0, 0.92, 1, 1), [scene.text_actor(f"{name}: deformation x {scale:g}", 0.5, 0.5, 32)])
-    picture.panel((0, 0, 1, 0.16), [scene.text_actor(stress_label(stress, end) + error_label(surface, stress), 0.5, 0.8, 28),
-                                    scene.colour_bar(table, stress.max() > end)])
+    picture.panel((0, 0.145, 1, 0.18), [scene.text_actor(stress_label(stress, end), 0.5, 0.5, 28)])
+    picture.panel((0, 0.11, 1, 0.145), [scene.text_actor(error_label(surface, stress), 0.5, 0.5, 28)])
+    picture.panel((0, 0.015, 1, 0.11), [scene.colour_bar(table, stress.max() > end)])
     picture.save(options.out)
 
 
