@@ -1,4 +1,5 @@
 """What the tests of the Python module share: a drive that is reduced once, and the program beside the module."""
+import ctypes
 import os
 import signal
 import subprocess
@@ -21,8 +22,21 @@ REST = {"roll": 0.25, "contact_law": "unilateral"}
 ENDLESS = {**MOTION, "ts_max_time": 1e3}
 
 
+def blas_core():
+    """The processor that OpenBLAS takes this one for here; empty with another BLAS."""
+    try:
+        name = ctypes.CDLL("libopenblas.so.0").openblas_get_corename
+    except (OSError, AttributeError):
+        return ""
+    name.restype = ctypes.c_char_p
+    return name().decode()
+
+
 def command(*words):
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+    """Runs the program with this process's kernels of BLAS, where results are to be equal to the bit."""
+    core = blas_core()
+    environment = {**os.environ, "OPENBLAS_CORETYPE": core} if core else None
+    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, env=environment)
 
 
 def python(script):
