@@ -6,6 +6,7 @@
 #include <algorithm>
 
 // PETSc declares the routines of its own precision alone.
+// NOLINTNEXTLINE(readability-identifier-naming): the name is BLAS's
 extern "C" void sgemm_(const char* op_A, const char* op_B, const PetscBLASInt* m, const PetscBLASInt* n,
                        const PetscBLASInt* k, const float* alpha, const float* A, const PetscBLASInt* a,
                        const float* B, const PetscBLASInt* b, const float* beta, float* C,
