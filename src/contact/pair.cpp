@@ -92,7 +92,7 @@ void Pair::Data::keep_stuck() {
   tracker.keep(std::move(corners));
 }
 
-// Of an impact law, after an accepted step.
+// Keeps the points of least gap of an accepted step for the next one, where the law is that of impacts.
 void Pair::Data::stand() {
   for (int slave : {0, 1})
     if (history[slave].step)

@@ -1,4 +1,4 @@
-// Which kernels of OpenBLAS serve a processor.
+// The program names the kernels of OpenBLAS that use the instructions of a processor.
 #include "app/console/blas_kernels.h"
 
 #include <gtest/gtest.h>

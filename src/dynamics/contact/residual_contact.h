@@ -109,7 +109,7 @@ class ResidualContact {
   // these by the given share of their change. w: of each body, displacements of the state's nodes that gaps
   // were found with. Returns nothing where there is no solution.
   std::optional<Change> close_gaps(ContactState& state, double share, const std::vector<Eigen::VectorXd>& w);
-  // The same after the local approach of flanks has been found of flanks that have none.
+  // Finds the local approach of flanks that have none, and closes the gaps as above.
   std::optional<Change> close_gaps(ContactState& state, double share);
   // Lets it follow the forces found, and closes the gaps that this opens.
   std::optional<Change> follow_approach(ContactState& state);

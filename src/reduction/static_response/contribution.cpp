@@ -15,8 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
-// Of a response that is left out, over the root of both rows' own responses: below the unit roundoff, and in
-// double precision below what is left of roundoff where responses cancel.
+// The part of a response that may be left out, over the root of both rows' own responses, Eq. (6.20c): less
+// than single precision shows, and in double precision less than shows where responses of free bodies cancel.
 template <class T>
 constexpr double kNeglected = sizeof(T) == sizeof(float) ? 1e-8 : 1e-14;
 constexpr Index kStep = 32;         // columns of C that are kept or left out together

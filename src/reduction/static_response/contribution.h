@@ -1,5 +1,6 @@
 #pragma once
-// What one part of K adds to the static responses P K^-1 P' (docs/theory.md, Eqs. (6.20a) and (6.20c)).
+// Static responses P K^-1 P' are a sum over leaves and separators of K; a contribution is one term of it
+// (docs/theory.md, Eqs. (6.20a) and (6.20c)).
 
 #include <Eigen/Core>
 #include <vector>
