@@ -10,6 +10,8 @@ constexpr double kResidualTolerance = 1e-8;  // of the forces in balance
 constexpr double kLinearTolerance = 1e-10;   // where the solver is only a preconditioner
 constexpr int kNewtonLimit = 25;
 constexpr const char* kNotFinite = "the motion is not finite";
+// Of the largest forces: a block whose forces are below it has the roundoff of others, and none of its own.
+constexpr double kNothing = 1e-14;
 constexpr double kDeepest = 0.9;  // share of the contact depth that may be used before a step is cut
 
 template <class Object>
@@ -74,12 +76,11 @@ PetscErrorCode converged(SNES snes, PetscInt, PetscReal, PetscReal, PetscReal no
   PetscReal atol = 0, rtol = 0;
   PetscCall(SNESGetTolerances(snes, &atol, &rtol, nullptr, nullptr, nullptr));
   *reason = SNES_CONVERGED_ITERATING;
-  const Residual& r = problem.residual;
   if (PetscIsInfOrNanReal(norm))
     *reason = SNES_DIVERGED_FNORM_NAN;
   else if (norm <= atol)
     *reason = SNES_CONVERGED_FNORM_ABS;
-  else if ((r.norm.array() <= std::max<double>(rtol, problem.slack) * r.scale.array()).all())
+  else if (imbalance(problem.residual) <= std::max<double>(rtol, problem.slack))
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
   return 0;
 }
@@ -88,8 +89,9 @@ PetscErrorCode converged(SNES snes, PetscInt, PetscReal, PetscReal, PetscReal no
 
 double imbalance(const Residual& r) {
   double share = 0;
+  const double nothing = kNothing * r.scale.maxCoeff();
   for (Eigen::Index i = 0; i < r.norm.size(); ++i)
-    if (r.scale[i] > 0) share = std::max(share, r.norm[i] / r.scale[i]);
+    if (r.scale[i] > nothing) share = std::max(share, r.norm[i] / r.scale[i]);
   return share;
 }
 

@@ -32,7 +32,8 @@ void make_matrix(Problem& problem, UniqueMat& J);
 /// Part of attach: sets the convergence test by blocks, and the exact solver as preconditioner.
 void set_solvers(Problem& problem, SNES snes);
 void assemble(Mat J, Mat P);
-/// Largest norm of a block over the sum of the norms of its forces: 0 in balance, at most 1.
+/// Largest norm of a block over the sum of the norms of its forces: 0 in balance, at most 1. Blocks in which
+/// nothing acts but the roundoff of others have none.
 double imbalance(const Residual& r);
 /// Returns whether forces can be computed at this state; if not, `trouble` says why.
 bool is_admissible(Problem& problem, double time, ConstVector U, ConstVector V);
