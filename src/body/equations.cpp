@@ -21,7 +21,8 @@ Eigen::MatrixXd inertia_derivatives(const model::Inertia& inertia) {
 
 // D_r from the Rayleigh coefficients and the damping ratios of the modes: docs/theory.md, Eq. (2.4).
 Eigen::SparseMatrix<double> damping_matrix(const model::ElasticBody& body) {
-  Eigen::SparseMatrix<double> D_r = body.alpha * body.M_r + body.beta * body.K_r;
+  Eigen::SparseMatrix<double> D_r(body.M_r.rows(), body.M_r.cols());
+  if (body.alpha != 0 || body.beta != 0) D_r = body.alpha * body.M_r + body.beta * body.K_r;
   if (body.zeta.size() == 0) return D_r;
   const VectorXd d = 4 * std::numbers::pi * body.zeta.cwiseProduct(body.frequency);
   return D_r + Eigen::SparseMatrix<double>(d.asDiagonal());

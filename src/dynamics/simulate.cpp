@@ -59,6 +59,13 @@ void require_tables_cover(const System& system, double end_time) {
   system.marker_forces().require_tables_cover(end_time);
 }
 
+// Has the method no numerical damping, rho_inf = 1 in docs/theory.md, Eq. (8.5)?
+bool is_undamped(TS ts) {
+  PetscReal alpha_f = 0;
+  check(TSAlpha2GetParams(ts, nullptr, &alpha_f, nullptr, nullptr));
+  return alpha_f <= 0.5;
+}
+
 void require_solved(const Run& run, TS ts) {
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   PetscReal time = 0, dt = 0;
@@ -69,6 +76,7 @@ void require_solved(const Run& run, TS ts) {
   require(reason > 0, "the step at t = ", time, " s cannot be solved, not even with dt cut to ", dt,
           " s: ", trouble.empty() ? "Newton's method does not converge" : trouble, " (",
           TSConvergedReasons[reason], "). Try a smaller time step",
+          is_undamped(ts) ? ", numerical damping (-ts_alpha_radius 0.8)" : "",
           run.summary.pair.empty() ? "" : ", a softer contact or a larger contact depth");
 }
 

@@ -109,6 +109,8 @@ void ElasticBlock::set_shifts(double shift_v, double shift_a, const Eigen::Vecto
   following_ = following;
   shift_v_ = shift_v;
   shift_a_ = shift_a;
+  ksp_ = {};  // a full basis has no room for two factors
+  D_mat_ = {};
   D_ = shift_a * body_->M_r + shift_v * D_r_ + body_->K_r;
   for (Eigen::Index p = 0; p < following.size(); ++p)
     D_ -= Eigen::SparseMatrix<double, Eigen::RowMajor>(following[p] *
