@@ -83,6 +83,9 @@ void report_step(const Run& run, TS ts, int step);
 
 /// Control of the steps, where they are chosen.
 void control_steps(Run& run, TS ts);
+/// Tells the system how closely forces are balanced where steps are chosen; to be called once options are
+/// read.
+void let_move(Run& run, TS ts);
 /// The first step, s, where there is no dt.
 double first_step(const Run& run);
 /// Takes the elastic displacements of the last state for the tolerance of the next steps.

@@ -184,6 +184,7 @@ double System::unclosed() const { return contact_->unclosed(); }
 void System::augment() { contact_->augment(); }
 void System::stiffen(double factor) { contact_->stiffen(factor); }
 void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_forces(pairs); }
+void System::let_move(double unbalanced) { contact_->let_move(unbalanced); }
 void System::seek_rest(double tolerance) { contact_->seek_rest(tolerance); }
 double System::find_approach(double share) { return contact_->find_approach(share); }
 bool System::change_closed() { return contact_->change_closed(); }

@@ -81,6 +81,10 @@ class System {
   void stiffen(double factor);
   /// Gives the contacts these forces back.
   void set_forces(const std::vector<PairContacts>& pairs);
+  /// From here on, until seek_rest is called, states are those of a motion in which forces may be unbalanced
+  /// by this share of them: those of contacts without a penalty need be no more exact. 0: they are as
+  /// elsewhere.
+  void let_move(double unbalanced);
   /// From here on states are those of iterations towards a state of rest: forces of contacts without a
   /// penalty need be no more exact than this share of them, and the local approach of flanks follows them.
   /// 0: they no longer are.

@@ -21,6 +21,7 @@ constexpr double kJump = 0.02;  // of forces where a node passes from face to fa
 constexpr double kForceTolerance = 1e-8;  // of contact forces without a penalty, as of all forces in balance
 constexpr double kMovingTolerance = 1e-10;   // of those of points that move over faces, and turn with them
 constexpr double kObservedTolerance = 1e-6;  // of those of states that are read and not solved for
+constexpr double kMovingShare = 0.1;         // of the tolerance asked for, of those of points that move
 constexpr double kFirstRate = 1e-3;          // by which a first change of forces is expected to fall
 constexpr double kBend = 0.1;     // and by this times itself, where points move and forces turn with it
 constexpr int kFullTrials = 12;   // before they go half of the way, as nodes pass to and fro between faces
@@ -67,16 +68,16 @@ NodalForces loaded(const NodalForces& all, const std::vector<int>& before) {
 NodalForces difference(const NodalForces& a, const NodalForces& b) { return sum(a, 1, b, -1); }
 
 // Forces of points of least gap turn as these move, far on flat gaps: Newton's method of the system, whose
-// tangent is that of settled points, needs them more exactly.
-double tolerance(const ContactState& state, ForceAccuracy accuracy) {
-  if (accuracy == ForceAccuracy::observed) return kObservedTolerance;
+// tangent is that of settled points, needs them more exactly. asked: by that method.
+double tolerance(const ContactState& state, ForceAccuracy accuracy, double asked) {
+  if (accuracy == ForceAccuracy::observed) return std::max(kObservedTolerance, asked);
   const auto moves = [](const contact::ContactPoint& point) {
     return point.n_slave() > 1 && point.area == 0;
   };
   const bool any = std::any_of(state.pair.begin(), state.pair.end(), [&](const PairContacts& pair) {
     return std::any_of(pair.points.begin(), pair.points.end(), moves);
   });
-  return any ? kMovingTolerance : kForceTolerance;
+  return any ? std::max(kMovingTolerance, kMovingShare * asked) : std::max(kForceTolerance, asked);
 }
 
 }  // namespace
@@ -291,7 +292,7 @@ void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accura
                                        const std::function<void()>& detect) {
   std::optional<Change> change;
   double before = 0;
-  const double allowed = std::max(sought_, tolerance(state, accuracy));
+  const double allowed = std::max(sought_, tolerance(state, accuracy, asked_));
   bool settled = false, follows = sought_ > 0 && approach_.any();
   for (int trial = 0; !settled && trial < kMostTrials; ++trial) {
     change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);

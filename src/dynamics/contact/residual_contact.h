@@ -48,6 +48,8 @@ class ResidualContact {
   void predict(double time);
   /// Keeps the present forces as those of an accepted step at this time.
   void accept(double time);
+  /// Tolerance of forces in what follows, where it is above that which they have without.
+  void ask_forces(double tolerance) { asked_ = tolerance; }
   /// See System::seek_rest. Returns whether forces must be more exact than before.
   bool seek_rest(double tolerance);
   /// Goes a share of the way to the local approach of flanks by the contacts of a state, for later
@@ -124,6 +126,7 @@ class ResidualContact {
   Accepted last_, before_;
   LocalApproach approach_;
   double expected_ = 0;                   // expected change of the forces found last, as part of them
+  double asked_ = 0;                      // tolerance of forces that Newton's method of the system needs
   double sought_ = 0;                     // tolerance of forces in iterations towards rest; 0: there are none
   std::vector<Eigen::MatrixXd> tangent_;  // of each body, R with the tangent of the local approach
   std::vector<NodalForces> left_;         // of each body, the forces before the last Newton step

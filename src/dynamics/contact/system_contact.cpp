@@ -216,6 +216,7 @@ double SystemContact::friction_loss_of_responses() {
 }
 
 void SystemContact::seek_rest(double tolerance) {
+  residual_contact_.ask_forces(0);
   if (remembers_forces()) return;
   if (residual_contact_.seek_rest(tolerance)) forget();
 }

@@ -53,6 +53,7 @@ class SystemContact {
   bool had_impulse() const { return history_.impulse; }
   bool had_impulse_before() const { return history_.impulse_before; }
 
+  void let_move(double unbalanced) { residual_contact_.ask_forces(unbalanced); }
   void seek_rest(double tolerance);
   /// Accepts the last evaluation as the end of a step.
   void accept();

@@ -6,8 +6,7 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kResidualTolerance = 1e-8;  // of the forces in balance
-constexpr double kLinearTolerance = 1e-10;   // where the solver is only a preconditioner
+constexpr double kLinearTolerance = 1e-10;  // where the solver is only a preconditioner
 constexpr int kNewtonLimit = 25;
 constexpr const char* kNotFinite = "the motion is not finite";
 // Of the largest forces: a block whose forces are below it has the roundoff of others, and none of its own.

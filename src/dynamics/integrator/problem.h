@@ -8,6 +8,9 @@
 
 namespace elastogear::dynamics {
 
+/// Largest share of the forces that may be unbalanced, where nothing else is asked for.
+inline constexpr double kResidualTolerance = 1e-8;
+
 /// Data that the callbacks share. It must outlive the TS.
 struct Problem {
   explicit Problem(System& s) : system(s), solver(s.solver_bodies()) {}

@@ -15,6 +15,11 @@ constexpr double kFirstTouch = 0.1;  // share of the contact depth that bodies m
 constexpr double kShortestStep = 1e-3;  // of the first one, down to which touch is looked for
 constexpr double kFirstStep = 0.1;      // of what advice asks for
 constexpr double kFirstShare = 1e-3;    // of the run, that the first step takes at most
+// Of step_error, the share of the forces that may be unbalanced: it moves bodies by no more than that share
+// of their elastic displacement.
+constexpr double kUnbalanced = 0.1;
+constexpr double kMostError = 2;  // of the tolerated error, with which a step is still taken
+constexpr double kSafety = 0.9;   // of the step that would have the tolerated error
 // Displacements over the size of the bodies: one that stands for the largest elastic displacement so far
 // until that is larger, and one that stands for it where no body is elastic.
 constexpr double kSmallDisplacement = 1e-5, kRigidDisplacement = 1e-3;
@@ -67,14 +72,14 @@ double elastic_displacement(Run& run) {
   return largest;
 }
 
-// How far the local error of a step may move a surface node, m.
+// How far the local error of a step may move a surface node at most, m.
 double tolerance(const Run& run) {
   if (run.settings.step_tolerance > 0) return run.settings.step_tolerance;
   const std::vector<System::Body>& bodies = run.problem.system.bodies();
   const bool any_elastic =
       std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.eq.n_q() > 0; });
   const double least = (any_elastic ? kSmallDisplacement : kRigidDisplacement) * run.control.size;
-  return run.settings.step_error * std::max(run.control.displacement, least);
+  return kMostError * run.settings.step_error * std::max(run.control.displacement, least);
 }
 
 // Corners of a box around the surface of a body, 3 x 8, or without columns.
@@ -124,6 +129,25 @@ PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accep
   });
 }
 
+// Is the tolerated error of steps a share of the displacements?
+bool has_step_error(const TimeSettings& settings) {
+  return are_steps_chosen(settings) && settings.step_tolerance == 0;
+}
+
+// Errors scatter from step to step: one that is little larger than tolerated is not worth another trial.
+void aim_below_most(TSAdapt adapt) {
+  check(TSAdaptSetSafety(adapt, kSafety / std::cbrt(kMostError), PETSC_DEFAULT));
+}
+
+// Forces are balanced no more closely than the error of steps is worth.
+void balance_by_error(const Run& run, TS ts) {
+  SNES snes = nullptr;
+  check(TSGetSNES(ts, &snes));
+  check(SNESSetTolerances(snes, PETSC_DEFAULT,
+                          std::max(kResidualTolerance, kUnbalanced * run.settings.step_error), PETSC_DEFAULT,
+                          PETSC_DEFAULT, PETSC_DEFAULT));
+}
+
 Eigen::VectorXd coordinates_per_length(const System& system) {
   Eigen::VectorXd scale(system.size());
   for (const System::Body& body : system.bodies()) {
@@ -148,11 +172,23 @@ void control_steps(Run& run, TS ts) {
   check(TSGetAdapt(ts, &adapt));
   check(TSAdaptSetType(adapt, TSADAPTBASIC));
   check(TSAdaptSetCheckStage(adapt, accept_touch));
+  if (has_step_error(run.settings)) {
+    aim_below_most(adapt);
+    balance_by_error(run, ts);
+  }
   run.control.per_length = coordinates_per_length(run.problem.system);
   for (const System::Body& body : run.problem.system.bodies()) {
     run.control.size = std::max(run.control.size, reach(body));
     run.control.corners.push_back(corners_around(body.eq.body->surface));
   }
+}
+
+void let_move(Run& run, TS ts) {
+  SNES snes = nullptr;
+  PetscReal unbalanced = 0;
+  check(TSGetSNES(ts, &snes));
+  check(SNESGetTolerances(snes, nullptr, &unbalanced, nullptr, nullptr, nullptr));
+  run.problem.system.let_move(has_step_error(run.settings) ? unbalanced : 0);
 }
 
 void follow_displacement(Run& run) {
