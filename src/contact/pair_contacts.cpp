@@ -160,7 +160,8 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
                                               const PlacedNode& placed, std::span<const int> faces) {
   const SlaveNode q{placed.x,
                     [this, &placed] { return node_normal(tracker.view(placed.side, 0), placed.node); },
-                    [this, &placed] { return tracker.all_faces(placed.side, placed.node); }};
+                    [this, &placed] { return tracker.all_faces(placed.side, placed.node); },
+                    tracker.undeformed_normal(placed.side, placed.node), tracker.bounds(1 - placed.side)};
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
   int& last_face = history[placed.side].last_face[placed.node];
   int& nearest = history[placed.side].nearest_face[placed.node];

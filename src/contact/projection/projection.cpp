@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/search/face_boxes.h"
+
 namespace elastogear::contact {
 namespace {
 
@@ -38,16 +40,19 @@ struct Trial {
   double depth;
   std::span<const int> faces;
   int likely;
+  const FaceBounds* bounds;
 };
 
 template <class Accept>
 Nearest nearest(const Trial& trial, const Accept& accept) {
+  constexpr double kRoundoff = 1e-14;  // which must not decide between faces that are as near
   Nearest best(trial.depth * trial.depth);
+  const Eigen::Vector3d q_B = trial.bounds ? trial.bounds->in_surface(trial.q) : trial.q;
+  const auto is_beyond = [&](double bound) { return (1 - kRoundoff) * bound * bound > best.distance2; };
   const auto offer = [&](int f) {
+    if (trial.bounds && is_beyond(trial.bounds->least(f, q_B))) return;
     const Face face = face_of(trial.master, f);
-    constexpr double kRoundoff = 1e-14;  // which must not decide between faces that are as near
-    const double bound = distance_bound(face, trial.q);
-    if ((1 - kRoundoff) * bound * bound > best.distance2) return;
+    if (is_beyond(distance_bound(face, trial.q))) return;
     const ClosestPoint p = closest_point(face, trial.q);
     if (accept(face, p)) best.offer(f, p);
   };
@@ -93,24 +98,35 @@ Projection make_projection(const SurfaceView& master, const Eigen::Vector3d& q, 
   return w;
 }
 
+// Tells whether a normal of the master opposes that of the slave node however the slave is deformed: strains
+// that are linear leave its normal near the undeformed one.
+bool surely_opposes(const Eigen::Vector3d& n, const SlaveNode& slave, const Limits& limits) {
+  constexpr double kTurn = 0.4;  // of the cosine, by deformation
+  return !slave.undeformed_normal.isZero(0) && n.dot(slave.undeformed_normal) <= limits.cos_angle - kTurn;
+}
+
 }  // namespace
 
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
                                           const Limits& limits, std::span<const int> faces, int* likely) {
   const int first = likely ? *likely : -1;
-  const Trial trial{master, slave.x, limits.depth, faces, first};
+  const Trial trial{master, slave.x, limits.depth, faces, first, slave.bounds};
   const Nearest any = nearest(trial, [](auto&&...) { return true; });
   if (!any.found()) return {};
   if (likely) *likely = any.face;
   const bool is_far = any.distance2 > limits.outside * limits.outside;
   if (is_far && place(master, slave.x, any) == Place::outside) return {};
-  const Eigen::Vector3d n_slave = slave.normal();
+  std::optional<Eigen::Vector3d> n_slave;
   const auto opposes = [&](const Face& face, const ClosestPoint& p) {
-    return normal(face, p.u, p.v).dot(n_slave) <= limits.cos_angle;
+    const Eigen::Vector3d n = normal(face, p.u, p.v);
+    if (surely_opposes(n, slave, limits)) return true;
+    if (!n_slave) n_slave = slave.normal();
+    return n.dot(*n_slave) <= limits.cos_angle;
   };
   const bool settled = opposes(face_of(master, any.face), any.point);
   const auto all = [&] { return slave.all_faces ? slave.all_faces() : faces; };
-  const Nearest best = settled ? any : nearest({master, slave.x, trial.depth, all(), first}, opposes);
+  const Nearest best =
+      settled ? any : nearest({master, slave.x, trial.depth, all(), first, slave.bounds}, opposes);
   if (!is_taken(master, slave, best, limits.outside)) return {};
   return make_projection(master, slave.x, best);
 }
@@ -162,14 +178,17 @@ std::optional<Projection> extended_projection(const Face& face, const Eigen::Vec
 
 Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Move& move,
                   std::span<const int> faces) {
-  const auto [reach, limit, around] = move;
-  const Nearest any = nearest({master, x, reach, faces, -1}, [](auto&&...) { return true; });
+  const auto& [reach, limit, around, bounds] = move;
+  const Nearest any = nearest({master, x, reach, faces, -1, bounds}, [](auto&&...) { return true; });
   constexpr double kFar = std::numeric_limits<double>::infinity();
   if (!any.found()) return {kFar, kFar, {}, {}};
   const double distance = std::sqrt(any.distance2);
   Approach result{distance, place(master, x, any) == Place::outside ? distance : 0, {}, {}};
   if (result.clearance > limit) return result;
+  const Eigen::Vector3d x_B = bounds ? bounds->in_surface(x) : x;
+  const double farthest = std::max(distance, around) + 2 * limit;
   for (int f : faces) {  // all move by `limit`
+    if (bounds && bounds->least(f, x_B) > farthest) continue;
     const double bound = distance_bound(face_of(master, f), x);
     if (bound <= distance + 2 * limit) result.faces.push_back(f);
     if (bound <= around + 2 * limit) result.around.push_back(f);

@@ -14,6 +14,8 @@
 
 namespace elastogear::contact {
 
+struct FaceBounds;
+
 struct SlaveNode {
   Eigen::Vector3d x;  ///< m
   std::function<Eigen::Vector3d()>
@@ -21,6 +23,8 @@ struct SlaveNode {
   /// All master faces within the depth limit, where `faces` of find_projection are only those that can be the
   /// nearest; asked for when the nearest does not oppose the node.
   std::function<std::span<const int>()> all_faces = {};
+  Eigen::Vector3d undeformed_normal = Eigen::Vector3d::Zero();  ///< zero: not known
+  const FaceBounds* bounds = nullptr;                           ///< of the master's faces; null: none
 };
 
 struct Limits {
@@ -66,6 +70,7 @@ std::optional<Projection> walk_to_projection(const SurfaceView& master, const Ei
 /// all that are.
 struct Move {
   double reach = 0, limit = 0, around = 0;
+  const FaceBounds* bounds = nullptr;  ///< of the master's faces; null: none
 };
 Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Move& move,
                   std::span<const int> faces);

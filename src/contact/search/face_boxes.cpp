@@ -21,12 +21,22 @@ FaceBoxes face_boxes(const SurfaceView& surface) {
   return boxes;
 }
 
+namespace {
+
+double squared_distance(const FaceBoxes& boxes, const Eigen::Vector3d& x, int f) {
+  const Eigen::Vector3d out = (boxes.low.col(f) - x).cwiseMax(x - boxes.high.col(f)).cwiseMax(0.0);
+  return out.squaredNorm();
+}
+
+}  // namespace
+
+double FaceBounds::least(int f, const Eigen::Vector3d& x_B) const {
+  return std::max(0.0, std::sqrt(squared_distance(*boxes, x_B, f)) - deformed);
+}
+
 double distance(const FaceBoxes& boxes, const Eigen::Vector3d& x, std::span<const int> faces) {
   double least = std::numeric_limits<double>::infinity();
-  for (int f : faces) {
-    const Eigen::Vector3d out = (boxes.low.col(f) - x).cwiseMax(x - boxes.high.col(f)).cwiseMax(0.0);
-    least = std::min(least, out.squaredNorm());
-  }
+  for (int f : faces) least = std::min(least, squared_distance(boxes, x, f));
   return std::sqrt(least);
 }
 

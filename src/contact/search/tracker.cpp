@@ -7,7 +7,6 @@
 
 #include "contact/settings.h"
 #include "elastogear/base/error.h"
-#include "elastogear/base/sort_unique.h"
 
 namespace elastogear::contact {
 namespace {
@@ -18,6 +17,11 @@ constexpr double kStretch = 1.1;  // of extensions when the surface is deformed,
 
 double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
   return std::sqrt((state.x_B - surface.X).colwise().squaredNorm().maxCoeff());
+}
+
+// Is a displacement bounded without displacing all nodes?
+bool is_cheap(const DeformationBound& bound, const Eigen::VectorXd& q) {
+  return q.size() == 0 || bound.stiffness.size() > 0;
 }
 
 // How far the extensions of a surface reach beyond its faces.
@@ -31,15 +35,6 @@ double extension_reach(const SurfaceView& surface) {
     }
   }
   return reach;
-}
-
-void serialize_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Archive& archive) {
-  for (int i : {0, 1}) {
-    archive(motion[i].q);
-    archive(motion[i].r_WB);
-    archive(motion[i].R_WB);
-    validate(motion[i], *side[i].surface, i);
-  }
 }
 
 }  // namespace
@@ -71,7 +66,12 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
     look_[i] = {std::vector<long>(n, 0), std::vector<long>(n, 0), of_faces, {}};
     rates_[i] = {{}, Eigen::Matrix3Xd(3, n), std::vector<long>(n, 0), 1};
   }
-  for (int i : {0, 1}) boxes_[i] = face_boxes(view(i, settings.extension));
+  for (int i : {0, 1}) {
+    boxes_[i] = face_boxes(view(i, settings.extension));
+    normals_[i].resize(3, side_[i].surface->X.cols());
+    for (int node = 0; node < side_[i].surface->X.cols(); ++node)
+      normals_[i].col(node) = node_normal(view(i, 0), node);
+  }
   reach_ = limits.depth + limits.around +
            kStretch * std::max(extension_reach(view(0, settings.extension)),
                                extension_reach(view(1, settings.extension)));
@@ -132,6 +132,24 @@ void Tracker::start_look() {
   configuration_.R = relative.R;
   configuration_.r = relative.r;
   for (Look& look : look_) look.nodes.clear();
+  for (int i : {0, 1}) {
+    bounds_[i].reset();
+    if (is_cheap(side_[i].bound, now_[i]->q)) bounds_[i] = face_bounds(i);
+  }
+}
+
+// An extension moves by more than the nodes that it prolongs.
+FaceBounds Tracker::face_bounds(int i) const {
+  const double of_extension = 1 + 2 * settings_.extension;
+  const Eigen::Matrix3d R = i == 0 ? configuration_.R : Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d r = i == 0 ? configuration_.r : Eigen::Vector3d::Zero();
+  return {&boxes_[i], of_extension * of_extension * largest_deformation(i), R, r};
+}
+
+Eigen::Vector3d Tracker::undeformed_normal(int i, int node) const {
+  if (!now_[0]) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d n = normals_[i].col(node);
+  return i == 0 ? Eigen::Vector3d(configuration_.R * n) : n;
 }
 
 // Places a node by the present motion, in the BRF of surface b.
@@ -221,11 +239,10 @@ double Tracker::largest_deformation(int i) const {
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension);
-  const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around};
+  const FaceBounds bounds = face_bounds(1 - slave);
+  const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around, &bounds};
   const RelativeMotion to_master = relative_motion(*now_[slave], *now_[1 - slave]);
-  const double of_extension = 1 + 2 * settings_.extension,
-               deformed =
-                   largest_deformation(slave) + of_extension * of_extension * largest_deformation(1 - slave);
+  const double deformed = largest_deformation(slave) + bounds.deformed;
   Neighbours& near = neighbours_->near[slave];
   for (std::size_t i = 0; i < all.slave.size(); ++i) {
     const int node = all.slave[i];
@@ -294,6 +311,7 @@ void Tracker::find_candidates() {
 void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   const SurfaceState* state[2] = {&a, &b};
   std::fill_n(now_, 2, nullptr);
+  bounds_ = {};
   residual_ = nullptr;
   double margin = reach_;
   for (int i : {0, 1}) {
@@ -349,51 +367,6 @@ Eigen::Vector3d Tracker::velocity(int i, int node) {
   Eigen::Vector3d v = m.v_WB_B + m.w_WB_B.cross(x_B);
   if (m.q_dot.size() > 0) v += elastic_velocity(i, node);
   return i == 0 ? Eigen::Vector3d(R * v) : v;
-}
-
-void Tracker::remember() {
-  for (int i : {0, 1}) {
-    remembered_[i].node = look_[i].nodes;
-    sort_unique(remembered_[i].node);
-    remembered_[i].x = configuration_.x[i](Eigen::all, remembered_[i].node);
-  }
-}
-
-std::optional<Eigen::Vector3d> Tracker::moved(int i, int node) const {
-  const auto& [nodes, x] = remembered_[i];
-  const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
-  if (at == nodes.end() || *at != node) return {};
-  return Eigen::Vector3d(configuration_.x[i].col(node) - x.col(at - nodes.begin()));
-}
-
-// Stores the motions at which candidates were found and measured; on loading, candidates and clearances are
-// found anew from these.
-void Tracker::serialize(Archive& archive) {
-  for (Placed& placed : remembered_) {
-    archive(placed.node);
-    archive(placed.x);
-  }
-  bool found = neighbours_.has_value();
-  archive(found);
-  if (!found) return neighbours_.reset();
-  NeighbourList then = neighbours_.value_or(NeighbourList{});
-  serialize_motion(then.found_at, side_, archive);
-  serialize_motion(then.measured_at, side_, archive);
-  archive(then.limit);
-  archive(then.near_limit);
-  archive(then.uses);
-  archive(has_residual_);
-  if (!archive.is_loading()) return;
-  if (has_residual_) return neighbours_.reset();  // the residual displacement of that time is not known
-  for (int i : {0, 1}) now_[i] = &then.found_at[i];
-  find_candidates();
-  for (int i : {0, 1}) now_[i] = &then.measured_at[i];
-  start_stage();
-  start_look();
-  measure_clearance(then.limit);
-  take_near(then.near_limit);
-  neighbours_->uses = then.uses;
-  std::fill_n(now_, 2, nullptr);
 }
 
 }  // namespace elastogear::contact

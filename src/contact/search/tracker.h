@@ -58,6 +58,10 @@ class Tracker : private NodePlacer {
   const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
   /// All faces within the depth limit of a slave node.
   std::span<const int> all_faces(int slave, int node) const { return neighbours_->candidates[slave][node]; }
+  /// Of the faces of a surface; null where no bound of its deformation is known without displacing all nodes.
+  const FaceBounds* bounds(int i) const { return bounds_[i] ? &*bounds_[i] : nullptr; }
+  /// Unit normal of a node of the undeformed surface, in the frame of all positions; zero after find.
+  Eigen::Vector3d undeformed_normal(int i, int node) const;
   /// Position of a node in the BRF of its surface, m.
   Eigen::Vector3d position_B(int i, int node);
   /// Velocity of a node, m/s, components in the BRF of surface b; zero after find, which knows no motion.
@@ -86,6 +90,7 @@ class Tracker : private NodePlacer {
   Eigen::Vector3d elastic_velocity(int i, int node);
   void start_stage();
   void start_look();
+  FaceBounds face_bounds(int i) const;
   double distance_since(const SurfaceMotion then[2]) const;
   void measure_clearance(double limit);
   void take_near(double distance);
@@ -101,6 +106,8 @@ class Tracker : private NodePlacer {
   std::array<SlaveNodes, 2> slaves_;
   CoarseSearch search_;
   std::array<FaceBoxes, 2> boxes_;
+  std::array<std::optional<FaceBounds>, 2> bounds_;  // of this look
+  std::array<Eigen::Matrix3Xd, 2> normals_;          // of the nodes of the undeformed surfaces, BRF
   double reach_;  // m, largest distance of a slave node from a master face's corners that can still matter
   Configuration configuration_;
   std::optional<NeighbourList> neighbours_;
