@@ -137,7 +137,7 @@ void UnilateralForces::set_changes() {
     body.change = body.turned;
     for (const Touch& t : body.touches)
       body.change.segment<3>(t.row) +=
-          t.F_z * (forces_of(contacts_[t.contact], z_) - forces_of(contacts_[t.contact], z_found_));
+          t.F_z.lazyProduct(forces_of(contacts_[t.contact], z_) - forces_of(contacts_[t.contact], z_found_));
   }
 }
 
@@ -148,8 +148,8 @@ void UnilateralForces::set_moved() {
     const VectorXd dx = body.missing + *body.R * body.change;
     for (const Touch& t : body.touches) {
       Displacement& moved = moved_[t.contact];
-      moved.k_V += t.V.transpose() * dx.segment<3>(t.row);
-      moved.way.head(t.y_x.cols()) += t.y_x.transpose() * dx.segment<3>(t.row);
+      moved.k_V += t.V.transpose().lazyProduct(dx.segment<3>(t.row));
+      moved.way.head(t.y_x.cols()) += t.y_x.transpose().lazyProduct(dx.segment<3>(t.row));
     }
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -174,7 +174,8 @@ VectorXd UnilateralForces::turned_forces() {
   for (const Body& body : bodies_) {
     for (const Touch& t : body.touches) {
       const Displacement& moved = moved_[t.contact];
-      all.segment<3>(first + t.row) += t.F_z * moved.answered.head(t.F_z.cols()) - t.W * moved.k_V;
+      all.segment<3>(first + t.row) +=
+          t.F_z.lazyProduct(moved.answered.head(t.F_z.cols())) - t.W.lazyProduct(moved.k_V);
     }
     first += body.turned.size();
   }
