@@ -1,5 +1,7 @@
 #include "elastogear/dynamics/elastic_block.h"
 
+#include <petscblaslapack.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -34,6 +36,28 @@ bool is_factorisation(KSP ksp, PC pc) {
   return once && factor;
 }
 
+// The rows of the nodes times X, 3 n x m, into the last rows of P.
+void project_on(const model::DenseRows& Phi, const std::vector<int>& node, const Eigen::MatrixXd& X,
+                Eigen::MatrixXd& P) {
+  model::DenseRows rows(3 * static_cast<Eigen::Index>(node.size()), Phi.cols());
+  P.bottomRows(rows.rows()).setZero();
+  if (rows.size() == 0) return;
+  for (std::size_t i = 0; i < node.size(); ++i)
+    rows.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = Phi.middleRows<3>(3 * node[i]);
+  const auto n = static_cast<PetscBLASInt>(rows.rows()), m = static_cast<PetscBLASInt>(X.cols()),
+             n_q = static_cast<PetscBLASInt>(rows.cols()), ld = static_cast<PetscBLASInt>(P.rows());
+  const double one = 1, none = 0;
+  BLASgemm_("T", "N", &n, &m, &n_q, &one, rows.data(), &n_q, X.data(), &n_q, &none,
+            P.data() + (P.rows() - rows.rows()), &ld);
+}
+
+void project_on(const model::SparseRows& Phi, const std::vector<int>& node, const Eigen::MatrixXd& X,
+                Eigen::MatrixXd& P) {
+  const Eigen::Index first = P.rows() - 3 * static_cast<Eigen::Index>(node.size());
+  for (std::size_t i = 0; i < node.size(); ++i)
+    P.middleRows(first + 3 * static_cast<Eigen::Index>(i), 3) = Phi.middleRows(3 * node[i], 3) * X;
+}
+
 }  // namespace
 
 BorderColumns::BorderColumns(const body::Equations& eq, const Eigen::MatrixXd& markers)
@@ -57,12 +81,7 @@ Eigen::MatrixXd BorderColumns::project(const std::vector<int>& node, const Eigen
           model::displacement(*Phi_, node[i], X.col(0));
     return P;
   }
-  std::visit(
-      [&](const auto& rows) {
-        for (std::size_t i = 0; i < node.size(); ++i)
-          P.middleRows(n_u() + 3 * static_cast<Eigen::Index>(i), 3) = rows.middleRows(3 * node[i], 3) * X;
-      },
-      *Phi_);
+  std::visit([&](const auto& rows) { project_on(rows, node, X, P); }, *Phi_);
   return P;
 }
 
