@@ -127,6 +127,15 @@ void broadcast(MPI_Comm comm, Sector& sector) {
   sector.mesh.X = Eigen::Map<const Eigen::Matrix3Xd>(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3));
 }
 
+Sector cut_open(const Sector& sector) {
+  Sector open = sector;
+  int n_free = 0;
+  for (int& orbit : open.node_orbits.orbit)
+    if (orbit >= 0) orbit = n_free++;
+  open.on_axis.assign(static_cast<std::size_t>(n_free), 0);
+  return open;
+}
+
 Harmonic make_harmonic(const Sector& sector, int k) {
   const int Z = sector.turn.n_sectors;
   const double alpha = 2 * std::numbers::pi / Z;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "elastogear/base/error.h"
-#include "reduction/eigensolver/dense_eigenproblem.h"
+#include "reduction/dense/dense_eigenproblem.h"
 #include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {

@@ -2,6 +2,7 @@
 
 #include "../mesh/disc.h"
 #include "elastogear/base/error.h"
+#include "reduction/cyclic/condensed_sector.h"
 #include "reduction/modes/cutoff.h"
 
 namespace elastogear::cyclic_test {
@@ -19,6 +20,43 @@ TEST(Cyclic, modes_of_discs_with_few_sectors_are_those_of_the_whole) {
   for (int Z : {2, 3, 4, 5}) {
     SCOPED_TRACE(Z);
     expect_equals_the_general_path({disc({Z, 3, 2, 2}), {"bottom"}, kSteelBody, Z}, 30);
+  }
+}
+
+// Sectors of many cells, which are condensed to their border.
+TEST(Cyclic, modes_of_discs_with_large_sectors_are_those_of_the_whole) {
+  for (int Z : {3, 4}) {
+    SCOPED_TRACE(Z);
+    expect_equals_the_general_path({shuffled(disc({Z, 10, 3, 2})), {"bottom"}, kSteelBody, Z}, 60);
+  }
+}
+
+TEST(CondensedSector, counts_and_solves_as_each_harmonic_by_itself) {
+  const Body body{disc({4, 10, 3, 2}), {"bottom"}, kSteelBody, 4};
+  const std::vector<int> region = fem::cell_regions(body.mesh, body.regions);
+  const std::vector<bool> is_free = fem::free_nodes(body.mesh, body.restrained);
+  const mesh::Repetition repetition = *mesh::find_repetition(body.mesh, {region, is_free}).found;
+  const fem::Sector sector =
+      fem::make_sector(body.mesh, repetition, region, fem::free_node_orbits(repetition, is_free));
+  const model::Formulation formulation{model::Element::incompatible};
+  ASSERT_TRUE(reduction::condensing_pays(sector));
+  reduction::CondensedSector condensed(sector, body.regions, formulation);
+  for (int k = 0; k <= 2; ++k) {
+    SCOPED_TRACE(k);
+    const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
+    const fem::Matrices matrices =
+        fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, formulation);
+    reduction::HarmonicFactor factor(condensed, harmonic);
+    reduction::ShiftedFactor whole(matrices.K, matrices.M);
+    for (double sigma : {0.0, 3e8, 2e9}) {
+      const int below = whole.factorise(sigma);
+      EXPECT_EQ(factor.factorise(sigma), below) << sigma;
+      EXPECT_EQ(below > 0, sigma > 0) << "a count that says nothing";
+      MatrixXd expected = MatrixXd::Random(harmonic.size(), 3), found = expected;
+      whole.solve(expected);
+      factor.solve(found);
+      EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm()) << sigma;
+    }
   }
 }
 

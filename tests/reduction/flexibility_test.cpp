@@ -114,6 +114,15 @@ TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry
   }
 }
 
+// Whose harmonics are condensed to the border of the sector.
+TEST_F(Flexibility, of_large_sectors_is_the_static_response_of_the_body) {
+  mesh_ = disc_with_rim(5, 10);
+  const model::ElasticBody body = reduce(options(reduction::Symmetry::automatic));
+  if (!is_root()) return;
+  EXPECT_EQ(body.flexibility.n_sectors, 5);
+  expect_static_response(body);
+}
+
 TEST_F(Flexibility, recovers_stresses_on_free_surfaces_as_its_modes_and_the_unreduced_body_do) {
   for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none})
     for (const std::vector<std::string>& markers : {std::vector<std::string>{"inner"}, {"one"}, {}}) {

@@ -40,6 +40,10 @@ Sector make_sector(const mesh::Mesh& mesh, const mesh::Repetition& repetition, c
 /// Copies rank 0's sector to all ranks. Collective.
 void broadcast(MPI_Comm comm, Sector& sector);
 
+/// The sector by itself, cut open: each of its free nodes is an orbit of its own, with all directions, in the
+/// frame that is turned with it. Of its harmonic 0 the coordinates are displacements in these frames.
+Sector cut_open(const Sector& sector);
+
 /// Displacements u_j = R^j Re(z exp(2 pi i j k/Z)) on the sectors j = 0..Z-1 with complex amplitudes z of the
 /// sector, which are real for k = 0 and 2 k = Z. Coordinates of an orbit: Re z then Im z (3 + 3, or 3 when
 /// real); on the axis those along the directions that the turn allows. Eq. (2.10).

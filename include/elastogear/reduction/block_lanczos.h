@@ -34,12 +34,13 @@ void register_block_lanczos();
 
 /// What SLEPc has no functions for. The options database wins over window, block and verify_count.
 struct BlockLanczosSettings {
-  int window = 0;            ///< eigenpairs found at a time; 0: automatic
-  int block = 0;             ///< columns that go through the factor together; 0: automatic
-  bool verify_count = true;  ///< compare the number of eigenvalues with the inertia of K - sigma M
-  bool whole_pairs = false;  ///< find also what is as good as equal to the last of -eps_nev
-  double counted_below = 0;  ///< known to have -eps_nev eigenvalues below; 0: unknown
-  SearchState start = {};    ///< of a search to be continued, in the same problem
+  int window = 0;                   ///< eigenpairs found at a time; 0: automatic
+  int block = 0;                    ///< columns that go through the factor together; 0: automatic
+  bool verify_count = true;         ///< compare the number of eigenvalues with the inertia of K - sigma M
+  bool whole_pairs = false;         ///< find also what is as good as equal to the last of -eps_nev
+  ShiftedSolver* factor = nullptr;  ///< of the PC type "ldl", borrowed; nullptr: by MUMPS
+  double counted_below = 0;         ///< known to have -eps_nev eigenvalues below; 0: unknown
+  SearchState start = {};           ///< of a search to be continued, in the same problem
 };
 
 /// Called on all ranks while EPSSolve runs. An exception ends it: see block_lanczos_check.

@@ -14,6 +14,8 @@ namespace elastogear::reduction {
 
 constexpr int kAutomaticWindow = -1;
 
+class ShiftedSolver;
+
 /// State of a search between two windows: all that the next one depends on.
 struct SearchState {
   double lower = -std::numeric_limits<double>::infinity();  ///< rad^2/s^2, a gap above the modes found
@@ -37,8 +39,10 @@ struct EigenOptions {
   int block = 0;             ///< right-hand sides that go through the factor together; 0: automatic
   double counted_below = 0;  ///< rad^2/s^2, known to have n_modes eigenvalues below (windows); 0: unknown
   bool whole_pairs = false;  ///< deliver also the modes above n_modes that are as good as equal to the last
-  std::string prefix = {};   ///< of the options: `-<prefix>eps_type`, `-<prefix>st_pc_type`, ...
-  SearchState start = {};    ///< of a search to be continued, in windows
+  /// Factor of K - sigma M that block Lanczos uses, borrowed; nullptr: by MUMPS. Not with -st_pc_type.
+  ShiftedSolver* factor = nullptr;
+  std::string prefix = {};  ///< of the options: `-<prefix>eps_type`, `-<prefix>st_pc_type`, ...
+  SearchState start = {};   ///< of a search to be continued, in windows
   std::function<void(const SearchState&)> commit = {};  ///< called when a window's modes are delivered
 };
 

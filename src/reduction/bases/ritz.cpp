@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reduction/eigensolver/dense_eigenproblem.h"
+#include "reduction/dense/dense_eigenproblem.h"
 #include "reduction/eigensolver/krylov_basis.h"
 #include "reduction/static_response/residual.h"
 

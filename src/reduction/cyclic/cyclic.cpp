@@ -11,6 +11,7 @@
 
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "reduction/cyclic/condensed_sector.h"
 #include "reduction/eigensolver/factorisation.h"
 #include "reduction/modes/cutoff.h"
 
@@ -63,8 +64,8 @@ struct Entry {
 // The harmonic whose eigenvalues were counted last: another count takes a factorisation alone.
 struct Counted {
   int k = -1;
-  fem::Matrices matrices = {};
-  std::unique_ptr<ShiftedFactor> factor = {};
+  fem::Matrices matrices = {};  // none where the factor is that of the sector's border
+  std::unique_ptr<ShiftedSolver> factor = {};
 };
 
 struct Search {
@@ -78,6 +79,7 @@ struct Search {
   std::vector<fem::Harmonic> harmonics = {};
   std::vector<int> order = {};  // of harmonics by work
   std::unique_ptr<Group> group = {};
+  std::unique_ptr<CondensedSector> condensed = {};  // of ranks that solve harmonics alone, where it pays
   Counted last = {};
   std::map<std::pair<int, double>, int> counts = {};  // eigenvalues of a harmonic below a bound
   std::vector<HarmonicModes> modes = {};              // of each harmonic; z on the first rank of its group
@@ -116,6 +118,12 @@ void make_problems(Search& search) {
                    [&](int a, int b) { return search.harmonics[a].size() > search.harmonics[b].size(); });
   search.group = std::make_unique<Group>(search.comm, search.n_harmonics());
   search.modes.resize(search.harmonics.size());
+  collectively(search.comm, [&] {
+    int n_ranks = 1;
+    MPI_Comm_size(search.group->comm, &n_ranks);
+    if (n_ranks == 1 && condensing_pays(search.sector))
+      search.condensed = std::make_unique<CondensedSector>(search.sector, body.regions, body.formulation);
+  });
 }
 
 // Eigenvalues below sigma of a harmonic of this rank's group.
@@ -123,8 +131,12 @@ int count_below(Search& search, int k, double sigma) {
   Counted& last = search.last;
   if (last.k != k) {
     last = {};
-    last.matrices = search.assemble(k);
-    last.factor = std::make_unique<ShiftedFactor>(last.matrices.K, last.matrices.M);
+    if (search.condensed) {
+      last.factor = std::make_unique<HarmonicFactor>(*search.condensed, search.harmonics[k]);
+    } else {
+      last.matrices = search.assemble(k);
+      last.factor = std::make_unique<ShiftedFactor>(last.matrices.K, last.matrices.M);
+    }
     last.k = k;
   }
   return last.factor->factorise(sigma);
@@ -239,8 +251,11 @@ HarmonicModes solve(Search& search, int k, const Cutoff& cutoff, const Progress&
   options.window = std::min(options.window > 0 ? options.window : kWindow, options.n_modes + options.block);
   options.whole_pairs = false;  // the cutoff cuts none
   if (options.interval && options.interval->lower <= 0) options.interval.reset();
-  const fem::Matrices matrices = search.last.k == k ? std::move(search.last.matrices) : search.assemble(k);
+  const bool known_matrices = search.last.k == k && search.last.matrices.K;
+  const fem::Matrices matrices = known_matrices ? std::move(search.last.matrices) : search.assemble(k);
   search.last = {};
+  std::optional<HarmonicFactor> factor;
+  if (search.condensed) options.factor = &factor.emplace(*search.condensed, search.harmonics[k]);
   const int first_orbit = fem::own_orbits(search.group->comm, search.sector).first;
   HarmonicModes modes = find_harmonic_modes(matrices, search.harmonics[k], first_orbit, options, progress);
   modes.cutoff = cutoff.sigma;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/collectively.h"
@@ -12,6 +13,8 @@
 #include "elastogear/fem/sector_assembly.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/flexibility.h"
+#include "reduction/cyclic/condensed_responses.h"
+#include "reduction/cyclic/wanted_rows.h"
 #include "reduction/static_response/inertia_relief.h"
 #include "reduction/static_response/nested_response.h"
 
@@ -19,23 +22,14 @@ namespace elastogear::reduction {
 namespace {
 
 constexpr const char* kStage = "static responses";
-constexpr Eigen::Index kPiece = 512;  // columns of responses that are put together at a time
 
 using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Loaded nodes and wanted rows of the stress operator in terms of a sector, for the first node of each orbit.
-struct Wanted {
-  std::vector<int> surface_orbit, surface_sector_index;  // in the sector: of the loaded nodes; orbit -1: held
-  std::vector<int> row, orbit, direction, sector_index;  // stress operator, entry by entry
-  std::vector<double> value;
-  int n_stress_rows = 0;
-};
-
 // Adds the rows of the stress operator at one node of each orbit of the nodes of G.
 void add_stress_rows(const FlexibilityTask& task, const fem::NodeOrbits& node_orbits,
-                     const model::Flexibility& plan, Wanted& wanted) {
+                     const model::Flexibility& plan, WantedRows& wanted) {
   const std::vector<int> all = stress_nodes(task, plan);
   std::vector<int> first;
   for (int orbit = 0; orbit < static_cast<int>(plan.stress.node.cols()); ++orbit)
@@ -55,9 +49,9 @@ void add_stress_rows(const FlexibilityTask& task, const fem::NodeOrbits& node_or
     }
 }
 
-Wanted find_wanted(const FlexibilityTask& task, const model::Flexibility& plan,
-                   const fem::NodeOrbits& node_orbits) {
-  Wanted wanted;
+WantedRows find_wanted(const FlexibilityTask& task, const model::Flexibility& plan,
+                       const fem::NodeOrbits& node_orbits) {
+  WantedRows wanted;
   for (Eigen::Index orbit = 0; orbit < plan.surface.node.cols(); ++orbit) {
     const int node = task.surface.node[plan.node[plan.surface.node(0, orbit)]];
     wanted.surface_orbit.push_back(node_orbits.orbit[node]);
@@ -67,7 +61,7 @@ Wanted find_wanted(const FlexibilityTask& task, const model::Flexibility& plan,
   return wanted;
 }
 
-void broadcast(MPI_Comm comm, Wanted& wanted) {
+void broadcast(MPI_Comm comm, WantedRows& wanted) {
   for (std::vector<int>* list : {&wanted.surface_orbit, &wanted.surface_sector_index, &wanted.row,
                                  &wanted.orbit, &wanted.direction, &wanted.sector_index})
     elastogear::broadcast(comm, *list);
@@ -97,7 +91,8 @@ class Unfolding {
 };
 
 // P_k at the first node of each orbit, displacements then stresses.
-model::SparseRows rows_of(const Wanted& wanted, const fem::Harmonic& harmonic, const fem::Sector& sector) {
+model::SparseRows rows_of(const WantedRows& wanted, const fem::Harmonic& harmonic,
+                          const fem::Sector& sector) {
   const Unfolding unfolding(harmonic, sector);
   const int n_u = static_cast<int>(3 * wanted.surface_orbit.size());
   Triplets entries;
@@ -119,14 +114,6 @@ Eigen::Matrix<double, 6, 6> tensor_turn(const Eigen::Matrix3d& T) {
   for (int j = 0; j < 6; ++j) turn.col(j) = six_entries(T * symmetric(Vector6::Unit(j)) * T.transpose());
   return turn;
 }
-
-// Columns of the responses of one harmonic: of the fields z and, of a complex harmonic, below of the fields i
-// z.
-struct Amplitudes {
-  bool real;
-  int k;
-  std::vector<MatrixXf> piece;  // kPiece columns each
-};
 
 // Adds to these columns of responses what the orbits' nodes, turned by j sectors, get from amplitudes Y,
 // below of fields i Y_i. The field turned by j sectors has the amplitude z exp(2 pi i j k/Z).
@@ -174,7 +161,7 @@ model::SparseRows below_each_other(const model::SparseRows& A, const model::Spar
 class HarmonicResponses {
  public:
   // rigid: the rigid motions that the harmonic contains; of a held body none.
-  HarmonicResponses(const fem::Harmonic& harmonic, const fem::Sector& sector, const Wanted& wanted,
+  HarmonicResponses(const fem::Harmonic& harmonic, const fem::Sector& sector, const WantedRows& wanted,
                     MatrixXd rigid)
       : harmonic_(harmonic), P_(rows_of(wanted, harmonic, sector)), rigid_(std::move(rigid)) {
     n_u_ = static_cast<Eigen::Index>(3 * wanted.surface_orbit.size());
@@ -285,7 +272,7 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   MPI_Comm_size(comm, &size);
   model::Flexibility flexibility;
   fem::Sector sector;
-  Wanted wanted;
+  WantedRows wanted;
   collectively(comm, [&] {
     if (rank != 0) return;
     flexibility = plan_flexibility(task);
@@ -300,14 +287,21 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   const int n_harmonics = sector.turn.n_sectors / 2 + 1;
   std::vector<Amplitudes> own;
   collectively(comm, [&] {
+    std::optional<CondensedResponses> condensed;
+    if (!floating && condensing_pays(sector))
+      condensed.emplace(sector, wanted, body.regions, body.formulation);
     for (int k = rank; k < n_harmonics; k += size) {
       const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
       if (harmonic.size() == 0) continue;
+      report(progress, kStage, std::min(1.0, static_cast<double>(k + size) / n_harmonics));
+      if (condensed) {
+        own.push_back(condensed->find(harmonic));
+        continue;
+      }
       const fem::Matrices matrices =
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.formulation);
       const MatrixXd rigid = floating ? fem::rigid_fields(harmonic, sector) : MatrixXd();
       own.push_back(HarmonicResponses(harmonic, sector, wanted, rigid).find(matrices));
-      report(progress, kStage, std::min(1.0, static_cast<double>(k + size) / n_harmonics));
     }
   });
   combine(comm, sector.turn, own, flexibility);

@@ -3,6 +3,7 @@
 #include <dmumps_c.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "elastogear/base/error.h"
@@ -13,9 +14,10 @@ namespace elastogear::reduction {
 namespace {
 
 enum Job { start = -1, end = -2, analyse = 1, factorise = 2, solve = 3 };
-constexpr int kSymmetric = 2;           // indefinite: pivots of both signs
-constexpr int kWorkspace = 30;          // per cent above MUMPS' estimate
-constexpr int kMaxWorkspace = 1000;     // per cent
+enum class Part { whole = 0, condense = 1, expand = 2 };  // of a solution, ICNTL(26)
+constexpr int kSymmetric = 2;                             // indefinite: pivots of both signs
+constexpr int kWorkspace = 30;                            // per cent above MUMPS' estimate
+constexpr int kMaxWorkspace = 1000;                       // per cent
 constexpr int kSharedFront = 9;         // KEEP: order from which a front's rows are shared among ranks
 constexpr int kSingular = -10;          // INFOG(1)
 constexpr int kWorkspaceTooSmall = -9;  // INFOG(1), and -8 for the integers
@@ -35,6 +37,8 @@ struct ShiftedFactor::Solver {
   std::vector<int> position = {};                // of each row in the elimination, from 1; rank 0
   std::vector<int> n_rows = {}, first_row = {};  // of each rank
   std::vector<double> right_hand_sides = {};     // on rank 0 of several
+  std::vector<int> kept = {};                    // rows that are not eliminated, from 1
+  Eigen::MatrixXd schur = {};                    // of these
 
   int& icntl(int i) { return id.icntl[i - 1]; }
   int infog(int i) const { return id.infog[i - 1]; }
@@ -48,6 +52,15 @@ struct ShiftedFactor::Solver {
   void check_call(Job job) {
     const int code = call(job);
     require(code >= 0, "MUMPS error ", code, " (detail ", infog(2), ") in phase ", static_cast<int>(job));
+  }
+
+  void check_solve(double* B, int columns, Part part = Part::whole) {
+    id.rhs = B;
+    id.nrhs = columns;
+    id.lrhs = id.n;
+    icntl(26) = static_cast<int>(part);
+    icntl(27) = columns;  // all at once
+    check_call(Job::solve);
   }
 
   template <class F>
@@ -82,8 +95,9 @@ struct ShiftedFactor::Solver {
   }
 };
 
-ShiftedFactor::ShiftedFactor(Mat K, Mat M, Ordering ordering) : solver_(new Solver{K, M, comm_of(K)}) {
+void ShiftedFactor::start_up() {
   Solver& s = *solver_;
+  const auto [K, M] = std::pair(s.K, s.M);
   int n_ranks = 1;
   MPI_Comm_rank(s.comm, &s.rank);
   MPI_Comm_size(s.comm, &n_ranks);
@@ -113,13 +127,40 @@ ShiftedFactor::ShiftedFactor(Mat K, Mat M, Ordering ordering) : solver_(new Solv
   s.id.irn_loc = s.row.data();
   s.id.jcn_loc = s.column.data();
   s.id.a_loc = s.value.data();
-  if (ordering == Ordering::metis) {
-    s.position = nested_dissection(K);
-    for (int& p : s.position) ++p;
-    s.icntl(7) = 1;  // the order is given
-    s.id.perm_in = s.position.data();
-  }
+}
+
+// position: of each row in the order of elimination, from 0.
+void ShiftedFactor::analyse_in_order(std::vector<int> position) {
+  Solver& s = *solver_;
+  s.position = std::move(position);
+  for (int& p : s.position) ++p;
+  s.icntl(7) = 1;  // the order is given
+  s.id.perm_in = s.position.data();
   s.check_call(analyse);
+}
+
+ShiftedFactor::ShiftedFactor(Mat K, Mat M, Ordering ordering) : solver_(new Solver{K, M, comm_of(K)}) {
+  start_up();
+  if (ordering == Ordering::metis)
+    analyse_in_order(nested_dissection(K));
+  else
+    solver_->check_call(analyse);
+}
+
+ShiftedFactor::ShiftedFactor(Mat K, Mat M, const std::vector<int>& kept)
+    : solver_(new Solver{K, M, comm_of(K)}) {
+  start_up();
+  Solver& s = *solver_;
+  require(s.n_rows.size() == 1, "rows can be kept of a matrix on one rank only");
+  const auto n_kept = static_cast<Eigen::Index>(kept.size());
+  for (int row : kept) s.kept.push_back(row + 1);
+  s.schur.setZero(n_kept, n_kept);
+  s.icntl(19) = 1;  // as a whole: its lower triangle by rows is the upper one by columns
+  s.id.size_schur = static_cast<MUMPS_INT>(n_kept);
+  s.id.listvar_schur = s.kept.data();
+  s.id.schur = s.schur.data();
+  s.id.lredrhs = static_cast<MUMPS_INT>(n_kept);
+  analyse_in_order(nested_dissection(K, kept));
 }
 
 ShiftedFactor::~ShiftedFactor() { solver_->call(end); }
@@ -152,14 +193,24 @@ void ShiftedFactor::solve(Eigen::Ref<Eigen::MatrixXd> B) {
   for (int j = 0; !serial && j < columns; ++j)
     MPI_Gatherv(B.col(j).data(), own, MPI_DOUBLE, column(j), s.n_rows.data(), s.first_row.data(), MPI_DOUBLE,
                 0, s.comm);
-  s.id.rhs = all;
-  s.id.nrhs = columns;
-  s.id.lrhs = n;
-  s.icntl(27) = columns;  // all at once
-  s.check_call(Job::solve);
+  s.check_solve(all, columns);
   for (int j = 0; !serial && j < columns; ++j)
     MPI_Scatterv(column(j), s.n_rows.data(), s.first_row.data(), MPI_DOUBLE, B.col(j).data(), own, MPI_DOUBLE,
                  0, s.comm);
+}
+
+const Eigen::MatrixXd& ShiftedFactor::schur() const { return solver_->schur; }
+
+Eigen::MatrixXd ShiftedFactor::condense(Eigen::Ref<Eigen::MatrixXd> B) {
+  Eigen::MatrixXd reduced(solver_->schur.rows(), B.cols());
+  solver_->id.redrhs = reduced.data();
+  solver_->check_solve(B.data(), static_cast<int>(B.cols()), Part::condense);
+  return reduced;
+}
+
+void ShiftedFactor::expand(Eigen::MatrixXd X, Eigen::Ref<Eigen::MatrixXd> B) {
+  solver_->id.redrhs = X.data();
+  solver_->check_solve(B.data(), static_cast<int>(B.cols()), Part::expand);
 }
 
 FactorSize ShiftedFactor::size() const {

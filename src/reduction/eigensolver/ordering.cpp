@@ -2,6 +2,8 @@
 
 #include <metis.h>
 
+#include <algorithm>
+
 #include "elastogear/base/error.h"
 
 namespace elastogear::reduction {
@@ -57,7 +59,31 @@ std::vector<int> order(const std::vector<int>& degree, std::vector<int>& neighbo
   return position;
 }
 
+// Rows of a matrix of n rows that are not among these, ascending.
+std::vector<PetscInt> others(PetscInt n, const std::vector<int>& rows) {
+  std::vector<PetscInt> rest;
+  for (PetscInt i = 0; i < n; ++i)
+    if (!std::binary_search(rows.begin(), rows.end(), i)) rest.push_back(i);
+  return rest;
+}
+
 }  // namespace
+
+std::vector<int> nested_dissection(Mat A, const std::vector<int>& last) {
+  PetscInt n = 0;
+  check(MatGetSize(A, &n, nullptr));
+  const std::vector<PetscInt> first = others(n, last);
+  const auto n_first = static_cast<PetscInt>(first.size());
+  UniqueIS rows;
+  UniqueMat block;
+  check(ISCreateGeneral(PETSC_COMM_SELF, n_first, first.data(), PETSC_USE_POINTER, rows.out()));
+  check(MatCreateSubMatrix(A, rows, rows, MAT_INITIAL_MATRIX, block.out()));
+  const std::vector<int> order_of_first = nested_dissection(block);
+  std::vector<int> position(static_cast<std::size_t>(n));
+  for (std::size_t i = 0; i < first.size(); ++i) position[first[i]] = order_of_first[i];
+  for (std::size_t i = 0; i < last.size(); ++i) position[last[i]] = n_first + static_cast<int>(i);
+  return position;
+}
 
 std::vector<int> nested_dissection(Mat A) {
   const MPI_Comm comm = comm_of(A);

@@ -12,4 +12,7 @@ namespace elastogear::reduction {
 /// keeps the whole graph (one int per entry of A). Throws Error when METIS fails.
 std::vector<int> nested_dissection(Mat A);
 
+/// The same with the rows `last`, ascending, after all others, in this order. A: sequential.
+std::vector<int> nested_dissection(Mat A, const std::vector<int>& last);
+
 }  // namespace elastogear::reduction

@@ -8,7 +8,7 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/fem/gather.h"
-#include "reduction/eigensolver/dense_eigenproblem.h"
+#include "reduction/dense/dense_eigenproblem.h"
 #include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {

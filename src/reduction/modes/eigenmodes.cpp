@@ -60,6 +60,7 @@ void set_block_lanczos(EPS eps, const EigenOptions& options) {
                           .block = options.block,
                           .verify_count = options.verify_count,
                           .whole_pairs = options.whole_pairs,
+                          .factor = options.factor,
                           .counted_below = options.counted_below,
                           .start = options.start});
 }

@@ -83,6 +83,7 @@ PetscErrorCode set_up_transform(EPS eps) {
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, kLdlType, &ldl));
   if (!ldl) return set_up_factorisation(eps, pc);
   ldl_set_transform(pc, eps->st);
+  ldl_set_factor(pc, method(eps).settings.factor);
   return 0;
 }
 

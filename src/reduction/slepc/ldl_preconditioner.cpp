@@ -27,7 +27,8 @@ Known known(Mat A) {
 }
 
 struct Ldl {
-  ST st = nullptr;  // borrowed: it owns the PC
+  ST st = nullptr;                 // borrowed: it owns the PC
+  ShiftedSolver* given = nullptr;  // borrowed
   std::optional<ShiftedFactor> factor = {};
   Known K = {}, M = {};  // of the factor
   bool factorised = false;
@@ -59,8 +60,9 @@ Operator operator_of(PC pc) {
   return A;
 }
 
-ShiftedFactor& analysed(PC pc, const Operator& A) {
+ShiftedSolver& analysed(PC pc, const Operator& A) {
   Ldl& data = ldl(pc);
+  if (data.given) return *data.given;
   if (!data.factor || data.K != known(A.K) || data.M != known(A.M)) {
     data.factor.emplace(A.K, A.M);
     data.K = known(A.K);
@@ -70,9 +72,9 @@ ShiftedFactor& analysed(PC pc, const Operator& A) {
   return *data.factor;
 }
 
-ShiftedFactor& factorised(PC pc) {
+ShiftedSolver& factorised(PC pc) {
   const Operator A = operator_of(pc);
-  ShiftedFactor& factor = analysed(pc, A);
+  ShiftedSolver& factor = analysed(pc, A);
   Ldl& data = ldl(pc);
   if (!data.factorised) data.negative = factor.factorise(A.sigma);
   data.factorised = true;
@@ -144,8 +146,9 @@ PetscErrorCode view(PC pc, PetscViewer viewer) {
   PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(viewer), PETSCVIEWERASCII, &ascii));
   if (!ascii) return 0;
   PetscCall(PetscViewerASCIIPrintf(viewer, "  L D L' by MUMPS in the order of METIS\n"));
-  if (!ldl(pc).factor) return 0;
-  const FactorSize size = ldl(pc).factor->size();
+  const ShiftedSolver* factor = ldl(pc).given ? ldl(pc).given : ldl(pc).factor ? &*ldl(pc).factor : nullptr;
+  if (!factor) return 0;
+  const FactorSize size = factor->size();
   PetscCall(PetscViewerASCIIPrintf(viewer, "  factor: %g entries, %g flops\n", size.entries, size.flops));
   if (!ldl(pc).factorised) return 0;
   return PetscViewerASCIIPrintf(viewer, "  negative pivots: %d\n", ldl(pc).negative);
@@ -174,6 +177,11 @@ bool is_ldl(PC pc) {
 }
 
 void ldl_set_transform(PC pc, ST st) { ldl(pc).st = st; }
+
+void ldl_set_factor(PC pc, ShiftedSolver* factor) {
+  ldl(pc).given = factor;
+  ldl(pc).factorised = false;
+}
 
 int ldl_negative_pivots(PC pc) {
   factorised(pc);

@@ -18,6 +18,8 @@ void register_ldl();
 bool is_ldl(PC pc);
 /// The matrices and the shift are those of st, which must outlive the solves. pc: of st's KSP.
 void ldl_set_transform(PC pc, ST st);
+/// Another factor than that of MUMPS, borrowed; of the ST's K and M. nullptr: MUMPS'.
+void ldl_set_factor(PC pc, ShiftedSolver* factor);
 /// Negative pivots of the present factor: eigenvalues of (K, M) below sigma. Collective.
 int ldl_negative_pivots(PC pc);
 /// Finds the order of elimination if need be. Collective.

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
-#include "reduction/eigensolver/dense_blas.h"
-#include "reduction/eigensolver/dense_eigenproblem.h"
+#include "reduction/dense/dense_blas.h"
+#include "reduction/dense/dense_eigenproblem.h"
 
 namespace elastogear::reduction {
 namespace {

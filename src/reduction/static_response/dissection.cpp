@@ -21,7 +21,7 @@ struct Vertices {
   std::vector<std::vector<int>> neighbour;
 };
 
-Vertices find_vertices(Mat A) {
+Vertices find_vertices(Mat A, const std::vector<char>& is_kept) {
   PetscInt n_rows = 0;
   check(MatGetSize(A, &n_rows, nullptr));
   Vertices vertices;
@@ -30,7 +30,8 @@ Vertices find_vertices(Mat A) {
     PetscInt n = 0;
     const PetscInt* column = nullptr;
     check(MatGetRow(A, i, &n, &column, nullptr));
-    if (i == 0 || !std::equal(column, column + n, before.begin(), before.end())) {
+    if (i == 0 || is_kept[i] != is_kept[i - 1] ||
+        !std::equal(column, column + n, before.begin(), before.end())) {
       before.assign(column, column + n);
       if (i > 0) vertices.first.push_back(i);
       vertices.neighbour.push_back(before);
@@ -50,13 +51,16 @@ Vertices find_vertices(Mat A) {
 
 class Dissection {
  public:
-  Dissection(Mat A, int largest_leaf)
-      : vertices_(find_vertices(A)), largest_leaf_(largest_leaf), local_(vertices_.neighbour.size(), -1) {}
+  Dissection(Mat A, int largest_leaf, const std::vector<char>& is_kept)
+      : vertices_(find_vertices(A, is_kept)),
+        largest_leaf_(largest_leaf),
+        local_(vertices_.neighbour.size(), -1) {
+    for (std::size_t v = 0; v < vertices_.neighbour.size(); ++v)
+      if (!is_kept[vertices_.first[v]]) all_.push_back(static_cast<int>(v));
+  }
 
   std::vector<Part> parts() {
-    std::vector<int> all(vertices_.neighbour.size());
-    for (std::size_t v = 0; v < all.size(); ++v) all[v] = static_cast<int>(v);
-    add(all);
+    add(all_);
     return std::move(parts_);
   }
 
@@ -104,6 +108,7 @@ class Dissection {
   }
 
   Vertices vertices_;
+  std::vector<int> all_ = {};  // that are not kept
   int largest_leaf_;
   std::vector<int> local_;
   std::vector<Part> parts_;
@@ -111,6 +116,12 @@ class Dissection {
 
 }  // namespace
 
-std::vector<Part> dissect(Mat A, int largest_leaf) { return Dissection(A, largest_leaf).parts(); }
+std::vector<Part> dissect(Mat A, int largest_leaf, const std::vector<int>& kept) {
+  PetscInt n_rows = 0;
+  check(MatGetSize(A, &n_rows, nullptr));
+  std::vector<char> is_kept(static_cast<std::size_t>(n_rows), 0);
+  for (int row : kept) is_kept[row] = 1;
+  return Dissection(A, largest_leaf, is_kept).parts();
+}
 
 }  // namespace elastogear::reduction

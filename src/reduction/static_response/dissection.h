@@ -16,8 +16,8 @@ struct Part {
 };
 
 /// Every row of A in one part. Children stand before their separators, the root is the last one. Leaves have
-/// up to largest_leaf rows, or more where METIS finds no separator. A: sequential, of symmetric sparsity.
-/// Throws Error when METIS fails.
-std::vector<Part> dissect(Mat A, int largest_leaf);
+/// up to largest_leaf rows, or more where METIS finds no separator. Rows `kept`, ascending, are in no part.
+/// A: sequential, of symmetric sparsity. Throws Error when METIS fails.
+std::vector<Part> dissect(Mat A, int largest_leaf, const std::vector<int>& kept = {});
 
 }  // namespace elastogear::reduction

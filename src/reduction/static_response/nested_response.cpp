@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "elastogear/base/sort_unique.h"
-#include "reduction/eigensolver/dense_blas.h"
+#include "reduction/dense/dense_blas.h"
 #include "reduction/eigensolver/factorisation.h"
+#include "reduction/static_response/csr_view.h"
 #include "reduction/static_response/dissection.h"
 #include "reduction/static_response/residual.h"
 
@@ -24,35 +25,6 @@ constexpr Index kLeafColumns = 128;   // right-hand sides that go through a leaf
 constexpr int kLargestLeaf = 1500;    // rows of K, where there are separators
 constexpr std::size_t kGroup = 1024;  // loads that go through the parts together
 constexpr Index kBalanced = 64;       // of them, that are balanced together
-
-// Rows of a sequential matrix without copies.
-class CsrView {
- public:
-  explicit CsrView(Mat A) : A_(A) {
-    PetscBool done = PETSC_FALSE;
-    check(MatGetRowIJ(A_, 0, PETSC_FALSE, PETSC_FALSE, &n_, &offset_, &column_, &done));
-    check(MatSeqAIJGetArrayRead(A_, &value_));
-  }
-  CsrView(const CsrView&) = delete;
-  CsrView& operator=(const CsrView&) = delete;
-  ~CsrView() {
-    PetscBool done = PETSC_FALSE;
-    MatRestoreRowIJ(A_, 0, PETSC_FALSE, PETSC_FALSE, &n_, &offset_, &column_, &done);
-    MatSeqAIJRestoreArrayRead(A_, &value_);
-  }
-
-  int n() const { return n_; }
-  template <class F>
-  void visit_row(int i, F&& f) const {
-    for (PetscInt k = offset_[i]; k < offset_[i + 1]; ++k) f(column_[k], value_[k]);
-  }
-
- private:
-  Mat A_;
-  PetscInt n_ = 0;
-  const PetscInt *offset_ = nullptr, *column_ = nullptr;
-  const PetscScalar* value_ = nullptr;
-};
 
 int position(const std::vector<int>& sorted, int value) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
@@ -83,11 +55,12 @@ struct OwnedMat {
 template <class T>
 class NestedResponse::Elimination {
  public:
-  Elimination(Mat K, const ByRow& P, const std::vector<int>& loads, int largest_leaf)
+  Elimination(Mat K, const ByRow& P, const std::vector<int>& loads, int largest_leaf,
+              const std::vector<int>& kept = {})
       : K_(K),
         P_(P),
         is_load_(static_cast<std::size_t>(P.rows()), 0),
-        parts_(dissect(K, largest_leaf)),
+        parts_(dissect(K, largest_leaf, kept)),
         at_(static_cast<std::size_t>(K_.n()), -1),
         is_eliminated_(at_.size(), 0),
         condensed_(parts_.size()) {
@@ -101,7 +74,25 @@ class NestedResponse::Elimination {
     return std::move(contributions_);
   }
 
+  // What is left of the kept rows after run().
+  KeptRows left_at(const std::vector<int>& kept) {
+    const Part border{kept};
+    mark(border);
+    KeptRows left{entries(kept, border), wanted_entries(border, all_wanted())};
+    const Condensed root = std::move(condensed_.back());
+    const std::vector<int> at = positions_in(kept, root.border);
+    left.S(at, at) += root.S;
+    left.E(root.row, at) += root.E;
+    return left;
+  }
+
  private:
+  std::vector<int> all_wanted() const {
+    std::vector<int> rows(static_cast<std::size_t>(P_.rows()));
+    std::iota(rows.begin(), rows.end(), 0);
+    return rows;
+  }
+
   void mark(const Part& part) {
     for (std::size_t i = 0; i < part.row.size(); ++i) at_[part.row[i]] = static_cast<int>(i);
   }
@@ -342,6 +333,15 @@ NestedResponse::NestedResponse(Mat K, const ByRow& P, const std::vector<int>& lo
   if (rigid.M_R.cols() > 0) balance(P, rigid);
 }
 
+NestedResponse::NestedResponse(Mat K, const ByRow& P, const std::vector<int>& loads,
+                               const std::vector<int>& kept, KeptRows& left)
+    : n_rows_(P.rows()) {
+  Elimination<double> elimination(K, P, loads, kLargestLeaf, kept);
+  contributions_ = ordered(elimination.run(), loads, n_rows_);
+  left = elimination.left_at(kept);
+  group(loads);
+}
+
 // With the inertia forces M R of unit rigid accelerations: drift = P K^-1 M R - P R (M R)' K^-1 M R.
 void NestedResponse::balance(const ByRow& P, const RigidFields& rigid) {
   std::vector<int> inertia(static_cast<std::size_t>(rigid.M_R.cols()));
@@ -379,7 +379,9 @@ MatrixXf NestedResponse::balanced(const std::vector<int>& loads) const {
 }
 
 MatrixXf NestedResponse::operator()(const std::vector<int>& loads) const {
-  return P_R_.size() > 0 ? balanced(loads) : plain<float>(loads);
+  if (P_R_.size() > 0) return balanced(loads);
+  return std::holds_alternative<Contributions<float>>(contributions_) ? plain<float>(loads)
+                                                                      : plain<double>(loads).cast<float>();
 }
 
 }  // namespace elastogear::reduction

@@ -21,6 +21,12 @@ struct ResponseFlops {
 /// unknowns: rows of K; wanted: rows of P.
 ResponseFlops response_flops(double unknowns, double wanted, double n_loads);
 
+/// What rows of K that are kept are left with, when all others are eliminated. Eq. (6.20a).
+struct KeptRows {
+  Eigen::MatrixXd S;  ///< Schur complement, in their order
+  Eigen::MatrixXd E;  ///< P by their displacements
+};
+
 /// Parts of K are eliminated one after the other, from leaves to the root of the dissection. What is wanted
 /// of a part is kept as a dense matrix over its border, so that nothing is solved for at rows that nobody
 /// asks for. Parts are eliminated in double precision; what they add to
@@ -33,6 +39,11 @@ class NestedResponse {
   /// K is not positive definite.
   NestedResponse(Mat K, const model::SparseRows& P, const std::vector<int>& loads,
                  const RigidFields& rigid = {}, int largest_leaf = 0);
+
+  /// The same of a held body whose rows `kept`, ascending, stay where they are: to the responses then comes
+  /// what their displacements add.
+  NestedResponse(Mat K, const model::SparseRows& P, const std::vector<int>& loads,
+                 const std::vector<int>& kept, KeptRows& left);
 
   /// The loads in groups that go through the parts together.
   const std::vector<std::vector<int>>& groups() const { return groups_; }

@@ -1,4 +1,4 @@
-#include "reduction/eigensolver/dense_eigenproblem.h"
+#include "reduction/dense/dense_eigenproblem.h"
 
 #include <slepcsys.h>
 

@@ -1,4 +1,4 @@
-#include "reduction/eigensolver/dense_blas.h"
+#include "reduction/dense/dense_blas.h"
 
 #include <petscsys.h>
 #include <slepcblaslapack.h>

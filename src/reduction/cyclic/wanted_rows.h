@@ -1,0 +1,32 @@
+#pragma once
+// What is wanted of static responses of a body that repeats, and how responses of its harmonics are kept.
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace elastogear::reduction {
+
+/// Loaded nodes and wanted rows of the stress operator in terms of a sector, for the first node of each
+/// orbit.
+struct WantedRows {
+  std::vector<int> surface_orbit,
+      surface_sector_index;  ///< in the sector: of the loaded nodes; orbit -1: held
+  std::vector<int> row, orbit, direction, sector_index;  ///< stress operator, entry by entry
+  std::vector<double> value;
+  int n_stress_rows = 0;
+
+  int n_loads() const { return static_cast<int>(3 * surface_orbit.size()); }
+  int n_rows() const { return n_loads() + n_stress_rows; }
+};
+
+constexpr Eigen::Index kPiece = 512;  ///< columns of responses that are put together at a time
+
+/// Columns of the responses of one harmonic: of the fields z and, of a complex harmonic, below of the fields
+/// i z.
+struct Amplitudes {
+  bool real;
+  int k;
+  std::vector<Eigen::MatrixXf> piece;  ///< kPiece columns each
+};
+
+}  // namespace elastogear::reduction

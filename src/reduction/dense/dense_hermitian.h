@@ -1,0 +1,16 @@
+#pragma once
+// Hermitian systems of some thousand rows, by LAPACK.
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace elastogear::reduction {
+
+/// The lower triangle of A becomes L D L^H of A (Bunch and Kaufman), of which it is read. Returns the number
+/// of negative eigenvalues. Throws Error where a pivot is zero.
+int factorise_hermitian(Eigen::MatrixXcd& A, std::vector<int>& pivot);
+
+/// B := A^-1 B from its factor.
+void solve_hermitian(const Eigen::MatrixXcd& factor, const std::vector<int>& pivot, Eigen::MatrixXcd& B);
+
+}  // namespace elastogear::reduction
