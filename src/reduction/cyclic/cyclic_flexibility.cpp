@@ -8,6 +8,7 @@
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/memory.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/base/tensor.h"
 #include "elastogear/fem/sector_assembly.h"
@@ -302,6 +303,7 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.formulation);
       const MatrixXd rigid = floating ? fem::rigid_fields(harmonic, sector) : MatrixXd();
       own.push_back(HarmonicResponses(harmonic, sector, wanted, rigid).find(matrices));
+      give_back_memory();
     }
   });
   combine(comm, sector.turn, own, flexibility);
