@@ -7,7 +7,7 @@
 namespace elastogear::reduction {
 namespace {
 
-constexpr double kTolerance = 1e-10;  // of the solution; the masses are as exact as its square
+constexpr double kTolerance = 1e-7;  // of the solution; the masses are as exact as its square
 
 // Conjugate gradients: the consistent mass scaled by its diagonal has a condition number that depends on the
 // cell types alone (A. J. Wathen, IMA J. Numer. Anal. 7 (1987) 449-457).
