@@ -26,10 +26,19 @@ void set_norms(Residual& r, std::size_t block, const Terms& terms, const std::ve
   r.norm[block] = norm(sum(terms));
 }
 
+constexpr double kLeast = 1e-3;  // of forces that cancel, as a scale of what is left
+
+// Contact forces that cancel on all modes, as those along a tooth do on modes out of its plane, leave their
+// roundoff.
+void raise_cancelled(Residual& r, std::size_t block, const NodalForces& contact, double row_size) {
+  const double before = contact.f_B.colwise().norm().sum() * row_size;
+  r.scale[static_cast<Eigen::Index>(block)] =
+      std::max(r.scale[static_cast<Eigen::Index>(block)], kLeast * before);
+}
+
 // Coordinates on which the forces cancel, as the angle of an idler between two gears, or modes out of a plane
 // of symmetry, are in balance when what is left is small against the forces on those of other bodies.
 void raise_vanishing_scales(Residual& r) {
-  constexpr double kLeast = 1e-3;  // of the largest one
   for (Eigen::Index kind : {0, 1}) {
     double largest = 0;
     for (Eigen::Index i = kind; i < r.scale.size(); i += 2) largest = std::max(largest, r.scale[i]);
@@ -282,6 +291,7 @@ body::Force System::balance(std::size_t b, const State& x, const MarkerForce& ma
   r->F.segment(body.first + body.n_open(), body.eq.n_q()) = total.q;
   set_norms(*r, 2 * b, s, &body.open);
   set_norms(*r, 2 * b + 1, q, nullptr);
+  raise_cancelled(*r, 2 * b + 1, observed_contacts(x).force[b], body.row_size);
   return total;
 }
 

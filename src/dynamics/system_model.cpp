@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <variant>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
@@ -127,6 +129,22 @@ void validate_relaxed(const BodySetup& setup) {
           " and ", law.n_z(), "): reduced otherwise, or at another temperature");
 }
 
+// Norm of the three rows at a node of the surface, root mean square over some hundred nodes.
+double row_size(const model::Surface& surface) {
+  constexpr Eigen::Index kNodes = 256;
+  const Eigen::Index n = surface.X.cols(), step = 1 + n / kNodes;
+  double sum = 0;
+  Eigen::Index count = 0;
+  std::visit(
+      [&](const auto& Phi) {
+        if (Phi.cols() == 0) return;
+        for (Eigen::Index node = 0; node < n; node += step, ++count)
+          sum += Phi.middleRows(3 * node, 3).squaredNorm();
+      },
+      surface.Phi);
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+}
+
 void add_body(const BodySetup& setup, SystemModel& model) {
   validate_relaxed(setup);
   validate_body(setup, model.bodies);
@@ -137,7 +155,7 @@ void add_body(const BodySetup& setup, SystemModel& model) {
   model.bodies.push_back(
       {setup.name, body::make_equations(setup.body, setup.joint, model.environment.inertia), model.U_0.size(),
        axis, open, false, node_groups(surface), contact::node_areas(surface.X, surface.face),
-       setup.true_surface, setup.relaxed0, setup.surface_compliance});
+       setup.true_surface, setup.relaxed0, setup.surface_compliance, row_size(surface)});
   require_inertia(model.bodies.back());
   const Eigen::Index n_q = setup.body->n_q();
   append(model.U_0, s(open));

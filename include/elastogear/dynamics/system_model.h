@@ -61,6 +61,7 @@ struct SystemModel {
     std::shared_ptr<const contact::TrueSurface> true_surface;  ///< may be null
     model::RelaxedState relaxed;                               ///< at the start
     double surface_compliance;                                 ///< 1/Pa, as in BodySetup
+    double row_size;  ///< norm of surface.Phi's rows at a node, root mean square over the nodes
 
     Eigen::Index n_open() const { return static_cast<Eigen::Index>(open.size()); }
   };
