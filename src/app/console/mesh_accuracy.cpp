@@ -19,7 +19,10 @@ constexpr const char* kStiffness[2][4] = {
     {"3 % high (without the approach by H. Hertz 32 %)",
      "within 1 % (without the approach by H. Hertz 21 % high)",
      "within 1 % (without the approach by H. Hertz 19 % high)", "not measured"}};
-constexpr const char* kHertz = "within 1 % (without the approach by H. Hertz 4 %)";  // of all sizes
+constexpr const char* kMeasured = "within 1 % (without the approach by H. Hertz 4 %)";
+constexpr const char* kNotMeasured = "not measured (without the approach by H. Hertz within 4 %)";
+constexpr const char* kHertz[2][4] = {{kMeasured, kMeasured, kMeasured, kNotMeasured},
+                                      {kMeasured, kMeasured, kNotMeasured, "not measured"}};
 
 }  // namespace
 
@@ -31,7 +34,8 @@ std::string root_accuracy(bool is_worm, gear::Size size, int order) {
 
 std::string drive_accuracy(gear::Size size, int order) {
   return std::string("mesh stiffness ") + kStiffness[order - 1][static_cast<int>(size)] +
-         "; flank pressure by H. Hertz " + kHertz + "; on the reference worm drive";
+         "; flank pressure by H. Hertz " + kHertz[order - 1][static_cast<int>(size)] +
+         "; on the reference worm drive";
 }
 
 }  // namespace elastogear::app

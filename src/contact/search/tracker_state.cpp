@@ -1,4 +1,4 @@
-// What the tracker remembers from one step to the next, and through a restart.
+// The Tracker's state beyond one look at the surfaces: displaced nodes of the last one, and checkpoints.
 #include <algorithm>
 
 #include "contact/search/tracker.h"

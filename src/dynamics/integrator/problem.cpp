@@ -9,7 +9,8 @@ namespace {
 constexpr double kLinearTolerance = 1e-10;  // where the solver is only a preconditioner
 constexpr int kNewtonLimit = 25;
 constexpr const char* kNotFinite = "the motion is not finite";
-// Of the largest forces: a block whose forces are below it has the roundoff of others, and none of its own.
+// A block of equations (the joint or the elastic coordinates of a body) whose forces are below this share of
+// the largest block's has roundoff alone.
 constexpr double kNothing = 1e-14;
 constexpr double kDeepest = 0.9;  // share of the contact depth that may be used before a step is cut
 

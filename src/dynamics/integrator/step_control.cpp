@@ -15,8 +15,8 @@ constexpr double kFirstTouch = 0.1;  // share of the contact depth that bodies m
 constexpr double kShortestStep = 1e-3;  // of the first one, down to which touch is looked for
 constexpr double kFirstStep = 0.1;      // of what advice asks for
 constexpr double kFirstShare = 1e-3;    // of the run, that the first step takes at most
-// Of step_error, the share of the forces that may be unbalanced: it moves bodies by no more than that share
-// of their elastic displacement.
+// The share of the forces that may be unbalanced, over step_error. An unbalanced share of the forces moves
+// bodies by no more than that share of their elastic displacement.
 constexpr double kUnbalanced = 0.1;
 constexpr double kMostError = 2;  // of the tolerated error, with which a step is still taken
 constexpr double kSafety = 0.9;   // of the step that would have the tolerated error

@@ -161,8 +161,8 @@ Amplitudes CondensedResponses::find(const fem::Harmonic& harmonic) const {
     if (load_[j] >= 0) E_load.row(j) = E_.row(load_[j]);
   MatrixXcd X = by_amplitudes(E_load, border).adjoint();
   solve_hermitian(S, pivot, X);
-  // What is smooth of the border's displacements moves the sector far more than it strains it: its part of
-  // stresses, in which large numbers cancel, is found in double precision.
+  // Smooth displacements of the border move the sector far more than they strain it. Large numbers cancel in
+  // their stresses, which are found in double precision.
   MatrixXd exact = at_nodes(border, X);
   const MatrixXd smooth = smooth_.transpose() * exact;
   exact.noalias() -= smooth_ * smooth;

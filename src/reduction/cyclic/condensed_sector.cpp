@@ -90,7 +90,7 @@ bool condensing_pays(const fem::Sector& sector) {
   const SectorNodes nodes = sort_nodes(sector);
   const auto n_border = static_cast<double>(nodes.border.size()),
              n_inner = static_cast<double>(nodes.inner.size());
-  return sector.turn.n_sectors > 2 && n_border <= kLargestBorder * (n_border + n_inner);
+  return sector.turn.n_sectors > 2 && n_border > 0 && n_border <= kLargestBorder * (n_border + n_inner);
 }
 
 CondensedSector::CondensedSector(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions,

@@ -1,5 +1,6 @@
 #pragma once
-// What is wanted of static responses of a body that repeats, and how responses of its harmonics are kept.
+// Rows of the static responses of a body that repeats that `reduce` stores, and the responses of one
+// harmonic.
 
 #include <Eigen/Core>
 #include <vector>

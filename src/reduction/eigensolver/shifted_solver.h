@@ -1,5 +1,5 @@
 #pragma once
-// What shift-and-invert needs of a factorisation.
+// The interface of a factorisation that the shift-and-invert transformation works with.
 
 #include <Eigen/Core>
 

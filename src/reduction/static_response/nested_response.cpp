@@ -74,7 +74,7 @@ class NestedResponse::Elimination {
     return std::move(contributions_);
   }
 
-  // What is left of the kept rows after run().
+  // The Schur complement of the kept rows and the wanted rows by them; to be called after run().
   KeptRows left_at(const std::vector<int>& kept) {
     const Part border{kept};
     mark(border);
