@@ -87,15 +87,16 @@ Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen:
   std::vector<int> free;
   for (int i = 0; i < difference.size(); ++i)
     if (difference[i] > 0) free.push_back(i);
-  Eigen::VectorXd error = difference(free);
+  Eigen::VectorXd error = difference(free), of_mean = error;
   for (std::size_t i = 0; i < patches.node.size(); ++i) {
     std::vector<int>& patch = patches.node[i];
     std::erase_if(patch, [&](int node) { return difference[node] == 0; });
-    error[static_cast<Eigen::Index>(i)] =
-        patch_error(difference(patch), von_mises(patch), patches.order[i]).error;
+    const PatchError e = patch_error(difference(patch), von_mises(patch), patches.order[i]);
+    error[static_cast<Eigen::Index>(i)] = e.error;
+    of_mean[static_cast<Eigen::Index>(i)] = e.of_mean;
   }
   const double of_stress = von_mises(free).squaredNorm(),
-               share = of_stress > 0 ? error.norm() / std::sqrt(of_stress) : 0;
+               share = of_stress > 0 ? std::sqrt(error.dot(of_mean) / of_stress) : 0;
   Eigen::VectorXd result = share * von_mises;
   result(free) = error;
   return result;

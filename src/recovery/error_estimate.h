@@ -52,9 +52,9 @@ StressError reduction_error(const model::ElasticBody& body, const std::vector<in
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);
 
 /// Estimated error of a whole field by the mesh at one time, Pa, at all nodes. difference: von Mises stress
-/// of Eq. (1.16), 0 where no free surface is, inside the body and on flanks; there the error is the share of
-/// the root mean squares of all other nodes in the von Mises stress. patches: of the nodes with a difference,
-/// ascending, for Eq. (1.17); of means none.
+/// of Eq. (1.16), 0 where no free surface is, inside the body and on flanks; there the error is the share
+/// (1.18a) of all other nodes in the von Mises stress. patches: of the nodes with a difference, ascending,
+/// for Eq. (1.17); of means none.
 Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises,
                                  SurfacePatches patches);
 

@@ -86,6 +86,7 @@ struct Parts {
   Eigen::MatrixXd error;  // n x n_t, Eq. (1.17), of the modes' displacements; 0 off free surfaces
   Eigen::MatrixXd more;   // n x n_t, von Mises stress of what the set has beside the stress of the modes
   Eigen::VectorXd sum_error, sum_stress, sum_largest;  // n: of squares of errors, stresses, patches' largest
+  Eigen::VectorXd sum_near;                            // n: of errors times those of means, for means near by
 };
 
 void add_errors(const Patches& patches, const Eigen::MatrixXd& difference, const Eigen::MatrixXd& stress,
@@ -94,13 +95,14 @@ void add_errors(const Patches& patches, const Eigen::MatrixXd& difference, const
     const std::vector<int>& members = patches.members[static_cast<std::size_t>(i)];
     if (!patches.is_free(static_cast<int>(i))) continue;
     for (Eigen::Index t = 0; t < stress.cols(); ++t) {
-      const PatchError e = averaged ? PatchError{difference(i, t), stress(i, t)}
+      const PatchError e = averaged ? PatchError{difference(i, t), difference(i, t), stress(i, t)}
                                     : patch_error(difference(members, t), stress(members, t),
                                                   patches.order[static_cast<std::size_t>(i)]);
       parts.error(i, begin + t) = e.error;
       parts.sum_error[i] += e.error * e.error;
       parts.sum_stress[i] += stress(i, t) * stress(i, t);
       parts.sum_largest[i] += e.largest * e.largest;
+      parts.sum_near[i] += e.error * e.of_mean;
     }
   }
 }
@@ -113,8 +115,8 @@ Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, c
   const Rows difference(patches.difference, body.run.file, elastic),
       stress_of_others(body.finite_elements.stress_operator(source, others), body.run.file, elastic);
   const Eigen::Index n = patches.n(), n_t = q.cols();
-  Parts parts{Eigen::MatrixXd::Zero(n, n_t), Eigen::MatrixXd(n, n_t), Eigen::VectorXd::Zero(n),
-              Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
+  Parts parts{Eigen::MatrixXd::Zero(n, n_t), Eigen::MatrixXd(n, n_t), zero, zero, zero, zero};
   const bool averaged = source.recovery.method == model::RecoveryMethod::average;
   for (Eigen::Index begin = 0; begin < n_t; begin += kTimesInMemory) {
     const Eigen::Index count = std::min(kTimesInMemory, n_t - begin);
@@ -131,14 +133,15 @@ Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, c
 // Root of a ratio of sums of squares, at most 1. Recovered stresses vanish at corners of three free surfaces.
 double share(double error, double stress) { return std::sqrt(error / std::max({stress, error, 1e-300})); }
 
-// The share of errors in stresses at the nodes of free surfaces nearest to a node at x.
+// The share of errors in the mean at a node at x, from the nodes of free surfaces nearest to it.
+// docs/theory.md, Eq. (1.18a).
 double share_nearby(const Parts& parts, const Eigen::Matrix3Xd& X, std::vector<int> free,
                     const Eigen::Vector3d& x) {
   const auto distance = [&](int j) { return (X.col(j) - x).squaredNorm(); };
   const auto end = free.begin() + static_cast<std::ptrdiff_t>(std::min(kNearest, free.size()));
   std::partial_sort(free.begin(), end, free.end(), [&](int a, int b) { return distance(a) < distance(b); });
   free.erase(end, free.end());
-  return share(parts.sum_error(free).sum(), parts.sum_largest(free).sum());
+  return share(parts.sum_near(free).sum(), parts.sum_largest(free).sum());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ PatchError patch_error(const Eigen::Ref<const Eigen::VectorXd>& difference,
   const double mean = difference.norm() / std::sqrt(static_cast<double>(difference.size())),
                largest = stress.maxCoeff();
   const double share = largest > 0 ? kScale * std::pow(mean / largest, 1. / order) : 1;
-  return {mean * std::min(1., share), largest};
+  return {mean * std::min(1., share), mean, largest};
 }
 
 }  // namespace elastogear::recovery

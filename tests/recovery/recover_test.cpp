@@ -267,6 +267,13 @@ TEST(MeshErrorField, takes_the_share_of_free_surfaces_elsewhere) {
   EXPECT_EQ(mesh_error_field(Eigen::Vector2d::Zero(), Eigen::Vector2d(3, 4), {}).norm(), 0);
 }
 
+// Patches of one node and cells of order 1: errors of 0.2 and 0.4 with means' of 1 and 2.
+TEST(MeshErrorField, takes_a_share_between_those_of_means_and_of_recovered_stresses_elsewhere) {
+  const Eigen::Vector3d error =
+      mesh_error_field(Eigen::Vector3d(1, 0, 2), Eigen::Vector3d(10, 5, 20), {{{0}, {2}}, {1, 1}});
+  EXPECT_LT((error - Eigen::Vector3d(0.2, 5 * std::sqrt((0.2 * 1 + 0.4 * 2) / 500), 0.4)).norm(), 1e-14);
+}
+
 // p of the cells: 2 mean (mean / largest)^(1/p), at most the mean.
 TEST(PatchError, falls_with_a_power_of_the_mean_square_difference) {
   const Eigen::Vector2d difference(3, 4), stress(100, 50);

@@ -9,6 +9,7 @@ namespace elastogear::recovery {
 /// Pa, at one node.
 struct PatchError {
   double error = 0;    ///< of the von Mises stress
+  double of_mean = 0;  ///< of that of the means: the root mean square difference over the patch
   double largest = 0;  ///< von Mises stress in the patch
 };
 
