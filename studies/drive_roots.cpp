@@ -45,22 +45,27 @@ constexpr const char* kThread = "thread";
 constexpr double kHalfLength = 6e-3;  // m, of the load along the flank
 constexpr double kRoot = 10e-3;       // m, from its middle to the ends of the worm's root that is looked at
 
-// SIZE[xTIMES][,COUNT=N ...][:ORDER]
+// SIZE[xTIMES][,COUNT=N ...][:ORDER|:tet]
 struct MeshChoice {
   gear::Size size;
   int times = 1, order = 1;
+  bool tetrahedra = false;
   std::map<std::string, double> counts;
 };
 
 MeshChoice mesh_choice(const std::string& word) {
-  std::istringstream body(word.substr(0, word.find(':')));
+  const auto colon = word.find(':');
+  const std::string cells = colon == std::string::npos ? "1" : word.substr(colon + 1);
+  std::istringstream body(word.substr(0, colon));
   std::string part;
   std::getline(body, part, ',');
   const auto x = part.find('x');
-  MeshChoice choice{gear::size(part.substr(0, x)),
-                    x == std::string::npos ? 1 : std::stoi(part.substr(x + 1)),
-                    word.find(':') == std::string::npos ? 1 : std::stoi(word.substr(word.find(':') + 1)),
-                    {}};
+  MeshChoice choice{.size = gear::size(part.substr(0, x)),
+                    .times = x == std::string::npos ? 1 : std::stoi(part.substr(x + 1)),
+                    .order = 1,
+                    .tetrahedra = cells == "tet",
+                    .counts = {}};
+  if (!choice.tetrahedra) choice.order = std::stoi(cells);
   while (std::getline(body, part, ',')) {
     const auto at = part.find('=');
     choice.counts[part.substr(0, at)] = std::stod(part.substr(at + 1));
@@ -130,6 +135,7 @@ Case case_of(const std::string& body, const MeshChoice& choice) {
     if (std::abs(along * c.mesh.X(2, node)) < kRoot) c.root.push_back(node);
   }
   if (!worm) cut_teeth(c, t.z, 2);
+  if (choice.tetrahedra) c.mesh = tetrahedra(c.mesh);
   return c;
 }
 
@@ -237,8 +243,9 @@ int main(int argc, char** argv) {
   const Session session(argc, argv);
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 2)
-    return std::fprintf(stderr,
-                        "usage: drive_roots worm|wheel SIZE[xTIMES][,COUNT=N ...][:ORDER] ... [deck FILE]\n"),
+    return std::fprintf(
+               stderr,
+               "usage: drive_roots worm|wheel SIZE[xTIMES][,COUNT=N ...][:ORDER|:tet] ... [deck FILE]\n"),
            2;
   try {
     run(words);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "elastogear/base/error.h"
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/mesh/surface_patches.h"
@@ -94,7 +95,43 @@ std::vector<std::vector<int>> loaded_sides(const mesh::Mesh& mesh, const std::ve
   return sides;
 }
 
+// The triangles that quadrilaterals of a surface are cut into.
+std::vector<mesh::Face> triangles_on(const std::vector<mesh::Face>& quadrilaterals,
+                                     const std::vector<mesh::Face>& triangles) {
+  std::set<std::set<int>> halves;
+  for (const mesh::Face& face : quadrilaterals)
+    for (int left_out : face) {
+      std::set<int> half(face.begin(), face.end());
+      half.erase(left_out);
+      halves.insert(half);
+    }
+  std::vector<mesh::Face> result;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(result), [&](const mesh::Face& face) {
+    return halves.contains({face.begin(), face.end()});
+  });
+  return result;
+}
+
 }  // namespace
+
+mesh::Mesh tetrahedra(const mesh::Mesh& hexahedra) {
+  mesh::Mesh result;
+  result.X = hexahedra.X;
+  result.node_sets = hexahedra.node_sets;
+  static constexpr int kPieces[][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                       {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  for (int cell = 0; cell < hexahedra.cells.size(); ++cell)
+    for (const auto& piece : kPieces) {
+      std::array<int, 4> nodes;
+      for (int i = 0; i < 4; ++i) nodes[i] = hexahedra.cells[cell][piece[i]];
+      result.cells.add(mesh::CellType::tet4, nodes);
+    }
+  const std::vector<mesh::Face> surface = mesh::boundary_faces(result);
+  require(surface.size() == 2 * mesh::boundary_faces(hexahedra).size(),
+          "this mesh's hexahedra are not cut alike from both sides");
+  for (const auto& [name, faces] : hexahedra.face_sets) result.face_sets[name] = triangles_on(faces, surface);
+  return result;
+}
 
 void cut_teeth(Case& c, int n_teeth, int beside) {
   const int n_cells = c.mesh.cells.size() / n_teeth;
@@ -151,10 +188,11 @@ Eigen::VectorXd von_mises_at_nodes(const Eigen::MatrixXd& sigma) {
   return recovery::von_mises(Eigen::MatrixXd(sigma.reshaped()));
 }
 
-// Estimated error of a recovered stress, Pa, at nodes on free surfaces and the largest stress around them.
+// Estimated errors of a recovered stress and of means, Pa, at nodes on free surfaces, and the largest stress
+// around them.
 struct Errors {
   std::vector<int> node;
-  Eigen::VectorXd error, largest;
+  Eigen::VectorXd error, of_mean, largest;
 };
 
 Errors recovered_errors(const mesh::Mesh& mesh, const std::vector<int>& nodes, const Eigen::VectorXd& stress,
@@ -165,18 +203,20 @@ Errors recovered_errors(const mesh::Mesh& mesh, const std::vector<int>& nodes, c
   auto patches = mesh::surface_patches(mesh, result.node);
   const std::vector<int> order = mesh::cell_orders(mesh, result.node);
   result.error.resize(std::ssize(result.node));
-  result.largest.resize(std::ssize(result.node));
+  result.of_mean = result.largest = result.error;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     std::erase_if(patches[i], [&](int node) { return difference[node] == 0; });
     const recovery::PatchError e =
         recovery::patch_error(difference(patches[i]), stress(patches[i]), order[i]);
     result.error[static_cast<Eigen::Index>(i)] = e.error;
+    result.of_mean[static_cast<Eigen::Index>(i)] = e.of_mean;
     result.largest[static_cast<Eigen::Index>(i)] = e.largest;
   }
   return result;
 }
 
-// Share of errors in the stress at the nodes on free surfaces that are nearest to x.
+// Share of errors in the mean at x, from the nodes on free surfaces that are nearest to it. docs/theory.md,
+// Eq. (1.18a).
 double share_nearby(const mesh::Mesh& mesh, const Errors& errors, const Vector3d& x) {
   constexpr std::ptrdiff_t kNearest = 8;
   std::vector<int> order(errors.node.size());
@@ -185,7 +225,7 @@ double share_nearby(const mesh::Mesh& mesh, const Errors& errors, const Vector3d
   const auto end = order.begin() + std::min(kNearest, std::ssize(order));
   std::partial_sort(order.begin(), end, order.end(), [&](int a, int b) { return distance(a) < distance(b); });
   order.erase(end, order.end());
-  return errors.error(order).norm() / errors.largest(order).norm();
+  return std::sqrt(errors.error(order).dot(errors.of_mean(order))) / errors.largest(order).norm();
 }
 
 }  // namespace

@@ -21,6 +21,10 @@ struct Case {
   double load = 1000;                                         ///< N
 };
 
+/// Six tetrahedra for each hexahedron of 8 nodes, around its diagonal 0-6, which structured meshes cut alike
+/// from both sides.
+elastogear::mesh::Mesh tetrahedra(const elastogear::mesh::Mesh& hexahedra);
+
 /// Leaves the first of n_teeth equal sectors of cells and `beside` ones on either side of it, with the loaded
 /// faces there. They are held where they are cut from the whole, node set "cut".
 void cut_teeth(Case& c, int n_teeth, int beside);

@@ -64,42 +64,6 @@ void print_error(const Solutions& whole, const Solutions& reference) {
   print_estimates("on the flank", flank, exact_flank.recovered, largest(exact_flank.recovered).von_mises);
 }
 
-// The triangles that quadrilaterals of a surface are cut into.
-std::vector<mesh::Face> triangles_on(const std::vector<mesh::Face>& quadrilaterals,
-                                     const std::vector<mesh::Face>& triangles) {
-  std::set<std::set<int>> halves;
-  for (const mesh::Face& face : quadrilaterals)
-    for (int left_out : face) {
-      std::set<int> half(face.begin(), face.end());
-      half.erase(left_out);
-      halves.insert(half);
-    }
-  std::vector<mesh::Face> result;
-  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(result), [&](const mesh::Face& face) {
-    return halves.contains({face.begin(), face.end()});
-  });
-  return result;
-}
-
-// Six tetrahedra for each hexahedron, around its diagonal 0-6, which structured meshes cut alike from both
-// sides.
-mesh::Mesh tetrahedra(const mesh::Mesh& hexahedra) {
-  mesh::Mesh result;
-  result.X = hexahedra.X;
-  result.node_sets = hexahedra.node_sets;
-  static constexpr int kPieces[][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
-                                       {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-  for (int cell = 0; cell < hexahedra.cells.size(); ++cell)
-    for (const auto& piece : kPieces) {
-      std::array<int, 4> nodes;
-      for (int i = 0; i < 4; ++i) nodes[i] = hexahedra.cells[cell][piece[i]];
-      result.cells.add(mesh::CellType::tet4, nodes);
-    }
-  const std::vector<mesh::Face> surface = mesh::boundary_faces(result);
-  for (const auto& [name, faces] : hexahedra.face_sets) result.face_sets[name] = triangles_on(faces, surface);
-  return result;
-}
-
 gear::CylindricalDrive c14(double face_width = kFaceWidth) {
   gear::CylindricalDrive drive;
   drive.m_n = 4.5e-3;
