@@ -1,23 +1,18 @@
 #pragma once
-// Products, Cholesky factors and triangular solutions of large dense matrices by BLAS and LAPACK.
+// Products (of base), Cholesky factors and triangular solutions of large dense matrices by BLAS and LAPACK.
 
 #include <Eigen/Core>
 
+#include "elastogear/base/dense_product.h"
+
 namespace elastogear::reduction {
 
-using DenseColumns = Eigen::Ref<Eigen::MatrixXd>;
-using ConstDenseColumns = Eigen::Ref<const Eigen::MatrixXd>;
-using SingleColumns = Eigen::Ref<Eigen::MatrixXf>;
-using ConstSingleColumns = Eigen::Ref<const Eigen::MatrixXf>;
-
-enum class Op { plain, transposed };
-
-/// C := alpha op(A) op(B) + beta C.
-void multiply(Op op_A, Op op_B, double alpha, const ConstDenseColumns& A, const ConstDenseColumns& B,
-              double beta, DenseColumns C);
-/// The same in single precision.
-void multiply(Op op_A, Op op_B, float alpha, const ConstSingleColumns& A, const ConstSingleColumns& B,
-              float beta, SingleColumns C);
+using elastogear::ConstDenseColumns;
+using elastogear::ConstSingleColumns;
+using elastogear::DenseColumns;
+using elastogear::multiply;
+using elastogear::Op;
+using elastogear::SingleColumns;
 
 /// The lower triangle of A becomes L of A = L L', of which it is read. Returns false where A is not positive
 /// definite.
