@@ -1,20 +1,12 @@
 #include "elastogear/recovery/stress.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "elastogear/base/tensor.h"
+#include "recovery/tensors/largest_principal.h"
 
 namespace elastogear::recovery {
 namespace {
-
-Eigen::MatrixXd for_each_tensor(const Eigen::MatrixXd& stress, double (*scalar)(const StressVector&)) {
-  Eigen::MatrixXd result(stress.rows() / 6, stress.cols());
-  for (Eigen::Index t = 0; t < result.cols(); ++t)
-    for (Eigen::Index i = 0; i < result.rows(); ++i) result(i, t) = scalar(stress.col(t).segment<6>(6 * i));
-  return result;
-}
 
 // The stresses of a reduced basis.
 void multiply_rows(const model::DenseRows& Psi, const std::vector<int>& members, const Eigen::MatrixXd& q,
@@ -46,12 +38,23 @@ double von_mises(const StressVector& s) {
 }
 
 double rankine(const StressVector& s) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(symmetric(s), Eigen::EigenvaluesOnly)
-      .eigenvalues()[2];
+  double largest = 0;
+  largest_principal(s.data(), 1, &largest);
+  return largest;
 }
 
-Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, von_mises); }
-Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress) { return for_each_tensor(stress, rankine); }
+Eigen::MatrixXd von_mises(const Eigen::MatrixXd& stress) {
+  Eigen::MatrixXd result(stress.rows() / 6, stress.cols());
+  for (Eigen::Index i = 0; i < result.size(); ++i)
+    result.data()[i] = von_mises(StressVector(stress.data() + 6 * i));
+  return result;
+}
+
+Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress) {
+  Eigen::MatrixXd result(stress.rows() / 6, stress.cols());
+  largest_principal(stress.data(), result.size(), result.data());
+  return result;
+}
 
 Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>& members,
                              const Eigen::MatrixXd& q) {

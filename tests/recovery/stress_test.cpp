@@ -38,6 +38,34 @@ TEST(Rankine, is_the_largest_principal_stress_with_its_sign) {
   EXPECT_NEAR(rankine(tensor_to_vector(T)), -2, 50 * kRoundoff);
 }
 
+// Principal values from far apart to equal, either pair of them, at any size: one by one and together, more
+// than are taken at a time.
+TEST(Rankine, is_exact_to_roundoff_where_principal_stresses_coincide) {
+  constexpr int kTensors = 1003;
+  Eigen::MatrixXd stress(6 * kTensors, 1);
+  Eigen::VectorXd expected(kTensors), size(kTensors);
+  for (int i = 0; i < kTensors; ++i) {
+    const double gap = std::pow(10., -(i % 18)), scale = std::pow(10., i % 13 - 3);
+    const Eigen::Vector3d principal = i % 3 == 0   ? Eigen::Vector3d(1, 1 - gap, -1)
+                                      : i % 3 == 1 ? Eigen::Vector3d(gap - 1, -1, -1)
+                                                   : Eigen::Vector3d(3, 3, 3 - gap);
+    const Eigen::Matrix3d R = rotation_matrix({0.1 * i, std::sin(i), -1});
+    stress.col(0).segment<6>(6 * i) = scale * tensor_to_vector(R * principal.asDiagonal() * R.transpose());
+    expected[i] = scale * principal.maxCoeff();
+    size[i] = scale * principal.norm();
+  }
+  const Eigen::VectorXd together = rankine(stress);
+  for (int i = 0; i < kTensors; ++i) {
+    EXPECT_NEAR(together[i], expected[i], kRoundoff * size[i]);
+    EXPECT_NEAR(rankine(StressVector(stress.col(0).segment<6>(6 * i))), expected[i], kRoundoff * size[i]);
+  }
+}
+
+TEST(Rankine, of_equal_pressure_is_minus_the_pressure) {
+  EXPECT_EQ(rankine(StressVector{-7, -7, -7, 0, 0, 0}), -7);
+  EXPECT_EQ(rankine(StressVector::Zero()), 0);
+}
+
 TEST(StressHistory, is_Psi_times_q_for_dense_and_sparse_rows) {
   model::Stress stress;
   stress.node = {4, 8, 15};

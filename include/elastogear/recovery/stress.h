@@ -14,7 +14,7 @@ using StressVector = Eigen::Matrix<double, 6, 1>;
 /// sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + yz^2 + xz^2)), Pa. Eq. (4.2).
 double von_mises(const StressVector& sigma);
 
-/// Largest principal stress (Rankine), Pa. Eq. (4.2).
+/// Largest principal stress (Rankine), Pa. Eqs. (4.2) and (4.2a).
 double rankine(const StressVector& sigma);
 
 /// Histories at n nodes over n_t times.
