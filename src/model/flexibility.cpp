@@ -18,6 +18,15 @@ Matrix3d turn(const Flexibility& flexibility, int sector_index) {
   return Eigen::AngleAxisd(angle, flexibility.axis).toRotationMatrix();
 }
 
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+// Turns the six entries of a symmetric matrix S: those of T S T'.
+Matrix6d turn_of_entries(const Matrix3d& T) {
+  Matrix6d turned;
+  for (int j = 0; j < 6; ++j) turned.col(j) = six_entries(T * symmetric(Vector6::Unit(j)) * T.transpose());
+  return turned;
+}
+
 // The node of the same orbit that comes to `node` when it is turned by sector_index sectors.
 int turned_back(const Images& images, int node, int sector_index) {
   const auto n_sectors = static_cast<int>(images.node.rows());
@@ -79,14 +88,22 @@ Matrix3d displacement_response(const Flexibility& flexibility, int a, int b, con
   return T * u * T.transpose();
 }
 
-Eigen::Matrix<double, 6, 3> stress_response(const Flexibility& flexibility, int e, int b, const Columns3& G) {
-  const int sector_index = flexibility.surface.sector_index[b],
-            row = turned_back(flexibility.stress, flexibility.stress_row[e], sector_index);
+Eigen::Matrix<double, Eigen::Dynamic, 3> stress_responses(const Flexibility& flexibility,
+                                                          const std::vector<int>& evaluated, int b,
+                                                          const Columns3& G) {
+  const int sector_index = flexibility.surface.sector_index[b];
   const Matrix3d T = turn(flexibility, sector_index);
-  const Eigen::Matrix<double, 6, 3> s = G.middleRows<6>(6 * row).cast<double>() * T.transpose();
-  Eigen::Matrix<double, 6, 3> turned;
-  for (int j = 0; j < 3; ++j) turned.col(j) = six_entries(T * symmetric(s.col(j)) * T.transpose());
-  return turned;
+  const Matrix6d turned = turn_of_entries(T);
+  Eigen::Matrix<double, Eigen::Dynamic, 3> S(6 * static_cast<Eigen::Index>(evaluated.size()), 3);
+  for (std::size_t i = 0; i < evaluated.size(); ++i) {
+    const int row = turned_back(flexibility.stress, flexibility.stress_row[evaluated[i]], sector_index);
+    auto s = S.middleRows<6>(6 * static_cast<Eigen::Index>(i));
+    if (sector_index == 0)
+      s = G.middleRows<6>(6 * row).cast<double>();
+    else
+      s = turned * (G.middleRows<6>(6 * row).cast<double>() * T.transpose());
+  }
+  return S;
 }
 
 }  // namespace elastogear::model

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elastogear/base/dense_product.h"
 #include "elastogear/recovery/patch_error.h"
 #include "elastogear/recovery/stress.h"
 
@@ -12,28 +13,6 @@ namespace {
 constexpr double kInertia = 0.05;  // share of the static residual stress by which its own inertia changes it
 constexpr double kStates = 1e-2;   // by which states of relaxation are interpolated worst, Eq. (4.12b)
 constexpr double kForces = 1e-3;   // to which contact forces are reproduced when the time step changes
-
-// n x n_q, Pa: von Mises stress of each mode.
-Eigen::MatrixXd mode_stress(const model::Stress& stress, const std::vector<int>& members) {
-  Eigen::MatrixXd result;
-  std::visit(
-      [&](const auto& Psi) {
-        result.resize(static_cast<Eigen::Index>(members.size()), Psi.cols());
-        for (std::size_t i = 0; i < members.size(); ++i)
-          result.row(static_cast<Eigen::Index>(i)) =
-              von_mises(Eigen::MatrixXd(Psi.middleRows(6 * members[i], 6)));
-      },
-      stress.Psi);
-  return result;
-}
-
-// n x n_t (docs/theory.md, Eq. (4.7)): root sum of squares over the upper half of the modes.
-Eigen::MatrixXd upper_modes_part(const model::ElasticBody& body, const std::vector<int>& members,
-                                 const Eigen::MatrixXd& q_d) {
-  const Eigen::Index n = q_d.rows() - q_d.rows() / 2;
-  const Eigen::MatrixXd psi = mode_stress(body.stress, members).rightCols(n).cwiseAbs2();
-  return (psi * q_d.bottomRows(n).cwiseAbs2()).cwiseSqrt();
-}
 
 }  // namespace
 
@@ -60,25 +39,53 @@ Eigen::VectorXd field_error(const FieldStress& stress, double share) {
          kInertia * share * stress.residual;
 }
 
-StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
+Peaks no_peaks(Eigen::Index n_t) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(n_t, -1);  // below that of any node
+  return {none, none, Eigen::VectorXd::Zero(n_t)};
+}
+
+void join(Peaks& peaks, const Peaks& others) {
+  peaks.found = peaks.found.cwiseMax(others.found);
+  peaks.error = (others.exact.array() > peaks.exact.array()).select(others.error, peaks.error);
+  peaks.exact = peaks.exact.cwiseMax(others.exact);
+}
+
+Eigen::MatrixXd upper_modes_stress(const model::Stress& stress, const std::vector<int>& members) {
+  Eigen::MatrixXd result;
+  std::visit(
+      [&](const auto& Psi) {
+        const Eigen::Index n = Psi.cols() - Psi.cols() / 2;
+        result.resize(static_cast<Eigen::Index>(members.size()), n);
+        for (std::size_t i = 0; i < members.size(); ++i)
+          result.row(static_cast<Eigen::Index>(i)) =
+              von_mises(Eigen::MatrixXd(Eigen::MatrixXd(Psi.middleRows(6 * members[i], 6)).rightCols(n)));
+      },
+      stress.Psi);
+  return result.cwiseAbs2();
+}
+
+StressError reduction_error(const model::ElasticBody& body, const Eigen::Ref<const Eigen::MatrixXd>& upper,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered) {
-  StressError error;
+  StressError error{{}, no_peaks(recovered.stress.cols())};
   const Eigen::MatrixXd found = von_mises(recovered.stress);
-  error.at_node = kForces * found + upper_modes_part(body, members, coordinates.q_d);
-  error.of_peak.setZero(found.cols());
+  Eigen::MatrixXd& e = error.at_node;
+  e.resize(found.rows(), found.cols());
+  multiply(Op::plain, Op::plain, 1., upper, coordinates.q_d.bottomRows(upper.cols()).cwiseAbs2(), 0., e);
+  e = e.cwiseSqrt() + kForces * found;
   if (found.rows() == 0) return error;
   if (recovered.residual.size() > 0)
-    error.at_node += kInertia * von_mises(recovered.residual) * dynamic_share(body, coordinates).asDiagonal();
-  if (recovered.crept.size() > 0) error.at_node += kStates * von_mises(recovered.crept);
+    e += kInertia * von_mises(recovered.residual) * dynamic_share(body, coordinates).asDiagonal();
+  if (recovered.crept.size() > 0) e += kStates * von_mises(recovered.crept);
   Eigen::MatrixXd exact = found;
   if (recovered.residual.size() > 0 && !recovered.has_residual)
     exact = von_mises(Eigen::MatrixXd(recovered.stress + recovered.residual));
   for (Eigen::Index t = 0; t < found.cols(); ++t) {
     Eigen::Index node = 0;
-    const double peak = exact.col(t).maxCoeff(&node);
-    error.of_peak[t] = std::abs(peak - found.col(t).maxCoeff()) + error.at_node(node, t);
+    error.peaks.exact[t] = exact.col(t).maxCoeff(&node);
+    error.peaks.found[t] = found.col(t).maxCoeff();
+    error.peaks.error[t] = e(node, t);
   }
-  error.at_node += (exact - found).cwiseAbs();
+  e += (exact - found).cwiseAbs();
   return error;
 }
 

@@ -40,15 +40,32 @@ struct FieldStress {
 /// Eq. (4.9), n, Pa. share: dynamic_share at this time.
 Eigen::VectorXd field_error(const FieldStress& stress, double share);
 
+/// The largest von Mises stresses over nodes, n_t each, Pa.
+struct Peaks {
+  Eigen::VectorXd found, exact;  ///< as recovered, and with the residual
+  Eigen::VectorXd error;         ///< at the node of the largest exact one, but for the difference of the two
+
+  /// Estimated error of the largest value.
+  Eigen::VectorXd whole_error() const { return (exact - found).cwiseAbs() + error; }
+};
+/// Those of no node.
+Peaks no_peaks(Eigen::Index n_t);
+/// Those over the nodes of both.
+void join(Peaks& peaks, const Peaks& others);
+
 /// Estimated errors of the von Mises stress.
 struct StressError {
   Eigen::MatrixXd at_node;  ///< n x n_t, Pa
-  Eigen::VectorXd of_peak;  ///< n_t, Pa, of the largest value over the nodes
+  Peaks peaks;              ///< over the nodes
 };
 
-/// Eqs. (4.6) to (4.9), and Eq. (4.12b) of bodies that relax. members: n local numbers in
-/// body.stress.node. The body's basis is modal.
-StressError reduction_error(const model::ElasticBody& body, const std::vector<int>& members,
+/// n x n_q / 2, Pa^2: squares of the von Mises stresses of the upper half of the modes. members: n local
+/// numbers in stress.node.
+Eigen::MatrixXd upper_modes_stress(const model::Stress& stress, const std::vector<int>& members);
+
+/// Eqs. (4.6) to (4.9), and Eq. (4.12b) of bodies that relax. upper: upper_modes_stress at the n nodes. The
+/// body's basis is modal.
+StressError reduction_error(const model::ElasticBody& body, const Eigen::Ref<const Eigen::MatrixXd>& upper,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);
 
 /// Estimated error of a whole field by the mesh at one time, Pa, at all nodes. difference: von Mises stress

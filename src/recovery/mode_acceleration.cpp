@@ -16,7 +16,7 @@ Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::Matrix
 }
 
 Eigen::MatrixXd inertial_part(const model::ElasticBody& body, const Eigen::MatrixXd& q_d,
-                              const Eigen::MatrixXd& w) {
+                              const Eigen::Ref<const Eigen::MatrixXd>& w) {
   Eigen::MatrixXd relaxed = Eigen::MatrixXd::Zero(q_d.rows(), q_d.cols());
   for (std::size_t p = 0; p < body.relaxing.size(); ++p)
     relaxed += body.relaxing[p].K * w.middleRows(static_cast<Eigen::Index>(p) * q_d.rows(), q_d.rows());

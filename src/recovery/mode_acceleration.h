@@ -19,6 +19,6 @@ Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::Matrix
 /// forces of inertia. q_d: its coordinates without their instantaneous response to the contact forces; w:
 /// n_q n_p x n_t. Eq. (4.12a).
 Eigen::MatrixXd inertial_part(const model::ElasticBody& body, const Eigen::MatrixXd& q_d,
-                              const Eigen::MatrixXd& w);
+                              const Eigen::Ref<const Eigen::MatrixXd>& w);
 
 }  // namespace elastogear::recovery

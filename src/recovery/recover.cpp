@@ -1,12 +1,16 @@
 #include "elastogear/recovery/recover.h"
 
+#include <algorithm>
+#include <optional>
+#include <utility>
+
 #include "elastogear/base/error.h"
 #include "elastogear/recovery/stress.h"
-#include "recovery/contact_error.h"
 #include "recovery/crept_response.h"
 #include "recovery/error_estimate.h"
 #include "recovery/mesh_error.h"
 #include "recovery/mode_acceleration.h"
+#include "recovery/static_stress.h"
 
 namespace elastogear::recovery {
 namespace {
@@ -21,53 +25,125 @@ const std::vector<int>& members_of(const model::Stress& stress, const std::strin
   return found->second;
 }
 
-// The stress of the whole static response less that of the modes, which mode acceleration has added to `set`.
-// Eq. (4.6).
-Eigen::MatrixXd residual_stress(RecoveredBody& body, const model::Stress& stress,
-                                const std::vector<int>& members, const io::StressSet& set) {
-  const Eigen::MatrixXd& q = body.run.history.q;
-  if (body.response) return set.stress - modal_stress(stress, members, q);
-  const Eigen::MatrixXd whole = static_stress(*body.reference, set.node);
-  const Eigen::MatrixXd of_modes = modal_stress(stress, members, q - body.reference->q);
-  return whole.size() > 0 ? Eigen::MatrixXd(whole - of_modes) : Eigen::MatrixXd(-of_modes);
+// Output times and nodes of a set that are recovered together, so that their stresses stay in the cache.
+constexpr Eigen::Index kTimesTogether = 128, kNodesTogether = 256;
+
+// A set of a body whose stresses are recovered.
+struct SetOfBody {
+  const RecoveredBody& body;
+  const model::ElasticBody& elastic;
+  const std::vector<int>& members;
+  std::optional<StaticStress> known = {};  // by which errors are estimated, and which mode acceleration adds
+  Eigen::MatrixXd upper = {};  // upper_modes_stress at the members; empty: no errors are estimated
+
+  bool estimates() const { return upper.size() > 0; }
+};
+
+// What a body does at some output times, one column each.
+struct Motion {
+  Range times;
+  Eigen::Ref<const Eigen::MatrixXd> q, w;
+  SplitCoordinates split = {};    // of its static response, where that is known; q_d as in the stress
+  Eigen::MatrixXd inertial = {};  // what of q is dynamic
+  std::optional<CreptResponse> crept = {};
+};
+
+std::optional<CreptResponse> at_times(const std::optional<CreptResponse>& crept, Range times) {
+  if (!crept) return {};
+  CreptResponse some;
+  for (const CreptForces& state : crept->states)
+    some.states.push_back({{},
+                           state.q.middleCols(times.begin, times.count),
+                           state.q_relaxed.middleCols(times.begin, times.count)});
+  return some;
 }
 
-// Stress of a body that relaxes, beside it what its modes leave out, and the part of that which has come by
-// creep. Eqs. (4.11) and (4.12).
-RecoveredStress relaxed_residual(const RecoveredBody& body, const model::ElasticBody& elastic,
-                                 const std::vector<int>& members, const io::StressSet& set) {
-  const StaticResponseOfRun& response = *body.response;
-  const Eigen::MatrixXd& q = body.run.history.q;
-  RecoveredStress recovered{set.stress, set.stress - modal_stress(elastic.stress, members, q) +
-                                            relaxed_stress(elastic, members, body.run.history.w)};
-  if (response.crept)
-    recovered.crept = recovered.residual -
-                      stored_stress(response, response.position, response.force, set.node) +
-                      modal_stress(elastic.stress, members, q - response.q);
+Motion motion_at(const SetOfBody& set, Range times) {
+  const RecoveredBody& body = set.body;
+  const io::BodyHistory& history = body.run.history;
+  const auto at = [&](const Eigen::MatrixXd& all) { return all.middleCols(times.begin, times.count); };
+  Motion motion{times, at(history.q), at(history.w)};
+  const StaticResponseOfRun* const known = body.known();
+  if (!known) return motion;
+  motion.split.q_d = at(known->q);
+  motion.split.q_s = motion.q - motion.split.q_d;
+  motion.inertial =
+      body.relaxes() ? inertial_part(set.elastic, motion.split.q_d, motion.w) : motion.split.q_d;
+  motion.crept = at_times(known->crept, times);
+  return motion;
+}
+
+// The static response at some nodes, 6 n x n_t, with what of the modes' part has come by creep; empty where
+// it is not known.
+Eigen::MatrixXd static_stress(const SetOfBody& set, const Motion& motion, const std::vector<int>& members,
+                              Range nodes) {
+  if (!set.known) return {};
+  Eigen::MatrixXd stress = set.known->whole(nodes);
+  if (motion.crept) stress += crept_modal_stress(set.elastic, members, *motion.crept);
+  return stress;
+}
+
+// What errors are estimated from: the static response beside that of the modes, Eq. (4.6), and the part of it
+// that has come by creep, Eqs. (4.11) and (4.12).
+RecoveredStress with_residual(const SetOfBody& set, const Motion& motion, const std::vector<int>& members,
+                              Range nodes, Eigen::MatrixXd stress, const Eigen::MatrixXd& whole) {
+  RecoveredStress recovered{std::move(stress),
+                            whole - modal_stress(set.elastic.stress, members, motion.split.q_s),
+                            set.body.response != nullptr};
+  if (motion.crept) recovered.crept = whole - set.known->instantaneous(nodes);
   return recovered;
 }
 
-// Sets `error` where it can be told: the full basis leaves nothing out, and of bodies that relax without
-// residual flexibility the static response is not known.
-void estimate_error(RecoveredBody& body, const model::ElasticBody& elastic, io::StressSet& set) {
-  if (elastic.basis == model::Basis::full) {
-    set.error.setZero(set.von_mises.rows(), set.von_mises.cols());
-    set.peak_error.setZero(set.von_mises.cols());
-    return;
+// Sets stresses and errors at some nodes, and extends `peaks` by them.
+void recover_part(const SetOfBody& set, const Motion& motion, Range nodes, io::StressSet& result,
+                  Peaks& peaks) {
+  const std::vector<int> members(set.members.begin() + nodes.begin,
+                                 set.members.begin() + nodes.begin + nodes.count);
+  const auto part = [&](Eigen::MatrixXd& all) {
+    const Eigen::Index each = all.rows() / static_cast<Eigen::Index>(set.members.size());
+    return all.block(each * nodes.begin, motion.times.begin, each * nodes.count, motion.times.count);
+  };
+  const Eigen::MatrixXd whole = static_stress(set, motion, members, nodes);
+  const bool adds = set.body.response != nullptr;
+  Eigen::MatrixXd stress = adds ? modal_stress(set.elastic.stress, members, motion.split.q_d) + whole
+                                : modal_stress(set.elastic.stress, members, motion.q);
+  if (!set.elastic.relaxing.empty()) stress -= relaxed_stress(set.elastic, members, motion.w);  // Eq. (4.10)
+  part(result.stress) = stress;
+  part(result.von_mises) = von_mises(stress);
+  part(result.rankine) = rankine(stress);
+  if (!set.estimates()) return;
+  const StressError error = reduction_error(
+      set.elastic, set.upper.middleRows(nodes.begin, nodes.count), {motion.inertial, motion.split.q_s},
+      with_residual(set, motion, members, nodes, std::move(stress), whole));
+  part(result.error) = error.at_node;
+  join(peaks, error.peaks);
+  if (result.contact_error.size() > 0)
+    part(result.contact_error) = von_mises(set.known->change_by_spread(nodes));
+}
+
+void recover_times(SetOfBody& set, Range times, io::StressSet& result) {
+  const Motion motion = motion_at(set, times);
+  if (set.known) set.known->set_times(times, result.contact_error.size() > 0);
+  Peaks peaks = no_peaks(times.count);
+  const auto n = static_cast<Eigen::Index>(set.members.size());
+  for (Eigen::Index begin = 0; begin < n; begin += kNodesTogether)
+    recover_part(set, motion, {begin, std::min(kNodesTogether, n - begin)}, result, peaks);
+  if (set.estimates()) result.peak_error.segment(times.begin, times.count) = peaks.whole_error();
+}
+
+// Prepares estimates where errors can be told: the full basis leaves nothing out, and of bodies that relax
+// without residual flexibility the static response is not known.
+void prepare_errors(SetOfBody& set, io::StressSet& result) {
+  const Eigen::Index n = result.von_mises.rows(), n_t = result.von_mises.cols();
+  if (set.elastic.basis == model::Basis::full) {
+    result.error.setZero(n, n_t);
+    result.peak_error.setZero(n_t);
+  } else if (set.known) {
+    set.upper = upper_modes_stress(set.elastic.stress, set.members);
+    result.error.resize(n, n_t);
+    result.peak_error.setZero(n_t);
   }
-  const StaticResponseOfRun* const known = body.known();
-  if (!known) return;
-  const std::vector<int>& members = elastic.stress.sets.at(set.set);
-  const Eigen::MatrixXd q_s = body.run.history.q - known->q;
-  auto error =
-      body.relaxes()
-          ? reduction_error(elastic, members, {inertial_part(elastic, known->q, body.run.history.w), q_s},
-                            relaxed_residual(body, elastic, members, set))
-          : reduction_error(
-                elastic, members, {known->q, q_s},
-                {set.stress, residual_stress(body, elastic.stress, members, set), body.response != nullptr});
-  set.error = std::move(error.at_node);
-  set.peak_error = std::move(error.of_peak);
+  if (set.known && set.known->is_stored()) result.contact_error.resize(n, n_t);
 }
 
 }  // namespace
@@ -85,29 +161,21 @@ RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool wi
 io::StressSet recover_stress(RecoveredBody& body, const model::ElasticBody& elastic, const std::string& set,
                              bool with_error) {
   const model::Stress& stress = elastic.stress;
-  const std::vector<int>& members = members_of(stress, set, body.run.file);
-  std::vector<int> nodes;
-  for (int member : members) nodes.push_back(stress.node[member]);
-  Eigen::MatrixXd sigma_more = body.response ? static_stress(*body.response, nodes) : Eigen::MatrixXd();
-  if (!elastic.relaxing.empty()) {  // Eqs. (4.10) to (4.12)
-    const Eigen::MatrixXd relaxed = relaxed_stress(elastic, members, body.run.history.w);
-    sigma_more = sigma_more.size() > 0 ? Eigen::MatrixXd(sigma_more - relaxed) : Eigen::MatrixXd(-relaxed);
-    if (body.response && body.response->crept)
-      sigma_more += crept_modal_stress(elastic, members, *body.response->crept);
-  }
-  StressHistory h = stress_history(stress, members, body.q(), sigma_more);
+  SetOfBody of{body, elastic, members_of(stress, set, body.run.file)};
+  const auto n = static_cast<Eigen::Index>(of.members.size()), n_t = body.run.history.q.cols();
   io::StressSet recovered{body.run.name,
                           set,
-                          std::move(h.node),
-                          std::move(h.stress),
-                          std::move(h.von_mises),
-                          std::move(h.rankine),
-                          stress.X(Eigen::all, members)};
-  if (with_error) {
-    estimate_error(body, elastic, recovered);
-    recovered.mesh_error = mesh_error(body, elastic, recovered);
-    if (body.known()) recovered.contact_error = contact_error(*body.known(), nodes);
-  }
+                          {},
+                          Eigen::MatrixXd(6 * n, n_t),
+                          Eigen::MatrixXd(n, n_t),
+                          Eigen::MatrixXd(n, n_t),
+                          stress.X(Eigen::all, of.members)};
+  for (int member : of.members) recovered.node.push_back(stress.node[static_cast<std::size_t>(member)]);
+  if (body.response || (with_error && body.reference)) of.known.emplace(*body.known(), recovered.node);
+  if (with_error) prepare_errors(of, recovered);
+  for (Eigen::Index begin = 0; begin < n_t; begin += kTimesTogether)
+    recover_times(of, {begin, std::min(kTimesTogether, n_t - begin)}, recovered);
+  if (with_error) recovered.mesh_error = mesh_error(body, elastic, recovered);
   return recovered;
 }
 

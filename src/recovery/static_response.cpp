@@ -36,62 +36,6 @@ std::string obstacle_to_factor(const model::ElasticBody& body) {
   return "";
 }
 
-const UnreducedResponse& unreduced(StaticResponseOfRun& known_response) {
-  if (known_response.unreduced) return *known_response.unreduced;
-  const std::string obstacle = obstacle_to_factor(known_response.body);
-  require(obstacle.empty(), known_response.file, ": mode acceleration ", obstacle,
-          "; use -mode_acceleration false");
-  known_response.source = io::read_body_source(known_response.file);
-  known_response.unreduced =
-      known_response.finite_elements.unreduced_response(*known_response.source, known_response.body.floating);
-  return *known_response.unreduced;
-}
-
-// 6 n x 3, Pa/N: stresses at mesh nodes by unit forces on the node at a position of the flexibility, given
-// the responses of its orbit.
-Eigen::MatrixXd stresses_of(const model::ElasticBody& body, int position, const std::vector<int>& nodes,
-                            const model::Columns3& columns) {
-  const std::vector<int>& known = body.stress.node;
-  Eigen::MatrixXd G(6 * static_cast<Eigen::Index>(nodes.size()), 3);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto e = std::lower_bound(known.begin(), known.end(), nodes[i]) - known.begin();
-    G.middleRows<6>(static_cast<Eigen::Index>(6 * i)) =
-        model::stress_response(body.flexibility, static_cast<int>(e), position, columns);
-  }
-  return G;
-}
-
-// Responses of the stresses to unit forces on the node at a position of the flexibility. The rows of G are
-// those of the instantaneous body, then those of its relaxed states.
-Eigen::MatrixXf columns_of(const StaticResponseOfRun& known_response, int position) {
-  return io::read_stress_responses(known_response.file,
-                                   known_response.body.flexibility.surface.orbit[position]);
-}
-
-// 6 n x n_t, from the body file, of a body that may have crept.
-Eigen::MatrixXd whole_stored_stress(const StaticResponseOfRun& known_response,
-                                    const std::vector<int>& nodes) {
-  const model::ElasticBody& body = known_response.body;
-  const auto n_rows = static_cast<Eigen::Index>(6 * body.flexibility.stress.node.size());
-  Eigen::MatrixXd stress =
-      stored_stress(known_response, known_response.position, known_response.force, nodes);
-  if (!known_response.crept) return stress;
-  const CreptResponse& crept = *known_response.crept;
-  const auto n_states = static_cast<Eigen::Index>(crept.states.size());
-  for (std::size_t b = 0; b < crept.position.size(); ++b) {
-    const Eigen::MatrixXf columns = columns_of(known_response, crept.position[b]);
-    require(columns.rows() == (1 + n_states) * n_rows, known_response.file,
-            ": /flexibility/G lacks the relaxed states");
-    for (Eigen::Index k = 0; k < n_states; ++k) {
-      const Eigen::MatrixXf grown = columns.middleRows((1 + k) * n_rows, n_rows) - columns.topRows(n_rows);
-      stress +=
-          stresses_of(body, crept.position[b], nodes, grown) *
-          crept.states[static_cast<std::size_t>(k)].force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
-    }
-  }
-  return stress;
-}
-
 // Static response of a body over the run; nothing for the full basis, and for a body that is rigid in the
 // run.
 std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body,
@@ -118,20 +62,15 @@ bool is_stored(const StaticResponseOfRun& known_response) { return !known_respon
 
 }  // namespace
 
-Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& positions,
-                              const Eigen::MatrixXd& force, const std::vector<int>& nodes) {
-  Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), force.cols());
-  for (std::size_t b = 0; b < positions.size(); ++b) {
-    const auto f = force.middleRows(static_cast<Eigen::Index>(3 * b), 3);
-    std::vector<Eigen::Index> loaded;  // times: a node bears at few of a long run
-    for (Eigen::Index t = 0; t < f.cols(); ++t)
-      if (!f.col(t).isZero(0)) loaded.push_back(t);
-    if (loaded.empty()) continue;
-    stress(Eigen::all, loaded) +=
-        stresses_of(known_response.body, positions[b], nodes, columns_of(known_response, positions[b])) *
-        f(Eigen::all, loaded);
-  }
-  return stress;
+const UnreducedResponse& unreduced_response(StaticResponseOfRun& known_response) {
+  if (known_response.unreduced) return *known_response.unreduced;
+  const std::string obstacle = obstacle_to_factor(known_response.body);
+  require(obstacle.empty(), known_response.file, ": mode acceleration ", obstacle,
+          "; use -mode_acceleration false");
+  known_response.source = io::read_body_source(known_response.file);
+  known_response.unreduced =
+      known_response.finite_elements.unreduced_response(*known_response.source, known_response.body.floating);
+  return *known_response.unreduced;
 }
 
 std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& body, Acceleration acceleration,
@@ -159,15 +98,9 @@ std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
   return known_response->source->free_dof.size() <= kLargestReference ? std::move(known_response) : nullptr;
 }
 
-Eigen::MatrixXd static_stress(StaticResponseOfRun& known_response, const std::vector<int>& nodes) {
-  if (known_response.node.empty()) return {};
-  if (!known_response.position.empty()) return whole_stored_stress(known_response, nodes);
-  return unreduced(known_response).stress(known_response.node, nodes) * known_response.force;
-}
-
 Eigen::VectorXd static_displacement(StaticResponseOfRun& known_response, Eigen::Index step) {
   if (known_response.node.empty()) return {};
-  return unreduced(known_response)
+  return unreduced_response(known_response)
       .displacement(known_response.node,
                     known_response.force.col(step).reshaped(3, known_response.node.size()));
 }

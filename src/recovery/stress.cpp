@@ -3,27 +3,43 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elastogear/base/dense_product.h"
 #include "recovery/tensors/largest_principal.h"
 
 namespace elastogear::recovery {
 namespace {
 
+using Coordinates = Eigen::Ref<const Eigen::MatrixXd>;
+
+bool are_consecutive(const std::vector<int>& members) {
+  return std::adjacent_find(members.begin(), members.end(), [](int a, int b) { return b != a + 1; }) ==
+         members.end();
+}
+
+// rows * q; rows: of a matrix that is stored row by row.
+void multiply_dense(const double* rows, const Coordinates& q, Eigen::Ref<Eigen::MatrixXd> sigma) {
+  const Eigen::Map<const Eigen::MatrixXd> transposed(rows, q.rows(), sigma.rows());
+  multiply(Op::transposed, Op::plain, 1., transposed, q, 0., sigma);
+}
+
 // The stresses of a reduced basis.
-void multiply_rows(const model::DenseRows& Psi, const std::vector<int>& members, const Eigen::MatrixXd& q,
+void multiply_rows(const model::DenseRows& Psi, const std::vector<int>& members, const Coordinates& q,
                    Eigen::MatrixXd& sigma) {
+  if (members.empty()) return;
+  if (are_consecutive(members)) return multiply_dense(&Psi(6 * members.front(), 0), q, sigma);
   constexpr Eigen::Index kTogether = 256;  // nodes: fewer would pack q anew for each product
   const auto n = static_cast<Eigen::Index>(members.size());
   for (Eigen::Index first = 0; first < n; first += kTogether) {
     const Eigen::Index count = std::min(kTogether, n - first);
-    Eigen::MatrixXd rows(6 * count, Psi.cols());
+    model::DenseRows rows(6 * count, Psi.cols());
     for (Eigen::Index i = 0; i < count; ++i)
-      rows.middleRows<6>(6 * i) = Psi.middleRows<6>(6 * members[first + i]);
-    sigma.middleRows(6 * first, 6 * count).noalias() = rows * q;
+      rows.middleRows<6>(6 * i) = Psi.middleRows<6>(6 * members[static_cast<std::size_t>(first + i)]);
+    multiply_dense(rows.data(), q, sigma.middleRows(6 * first, 6 * count));
   }
 }
 
 // The stresses of the full basis, whose rows touch the displacements of the cells around a node alone.
-void multiply_rows(const model::SparseRows& Psi, const std::vector<int>& members, const Eigen::MatrixXd& q,
+void multiply_rows(const model::SparseRows& Psi, const std::vector<int>& members, const Coordinates& q,
                    Eigen::MatrixXd& sigma) {
   for (std::size_t i = 0; i < members.size(); ++i)
     sigma.middleRows<6>(6 * static_cast<Eigen::Index>(i)) = Psi.middleRows(6 * members[i], 6) * q;
@@ -57,7 +73,7 @@ Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress) {
 }
 
 Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>& members,
-                             const Eigen::MatrixXd& q) {
+                             const Coordinates& q) {
   const auto n = static_cast<Eigen::Index>(members.size());
   Eigen::MatrixXd sigma(6 * n, q.cols());
   std::visit([&](const auto& Psi) { multiply_rows(Psi, members, q, sigma); }, stress.Psi);
@@ -81,7 +97,7 @@ Eigen::MatrixXd stress_of_part(Eigen::MatrixXd stress, model::ModulusPart part) 
 }
 
 Eigen::MatrixXd relaxed_stress(const model::ElasticBody& body, const std::vector<int>& members,
-                               const Eigen::MatrixXd& w) {
+                               const Coordinates& w) {
   Eigen::MatrixXd relaxed = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(members.size()), w.cols());
   for (std::size_t p = 0; p < body.relaxing.size(); ++p) {
     const model::RelaxingPart& part = body.relaxing[p];

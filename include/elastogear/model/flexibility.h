@@ -72,8 +72,10 @@ using Columns3 = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>;
 /// F of b's orbit. F(a, b) = F(b, a)' to the accuracy of what is stored.
 Eigen::Matrix3d displacement_response(const Flexibility& flexibility, int a, int b, const Columns3& F);
 
-/// Stress at evaluation node e by unit forces on node b (position in flexibility.node), Pa/N, given the
-/// columns of G of b's orbit.
-Eigen::Matrix<double, 6, 3> stress_response(const Flexibility& flexibility, int e, int b, const Columns3& G);
+/// Stresses at evaluation nodes by unit forces on node b (position in flexibility.node), 6 n x 3, Pa/N, given
+/// the columns of G of b's orbit.
+Eigen::Matrix<double, Eigen::Dynamic, 3> stress_responses(const Flexibility& flexibility,
+                                                          const std::vector<int>& evaluated, int b,
+                                                          const Columns3& G);
 
 }  // namespace elastogear::model

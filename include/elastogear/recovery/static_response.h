@@ -52,13 +52,9 @@ std::unique_ptr<StaticResponseOfRun> static_response_of_run(const BodyOfRun& bod
 std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
                                                      const FiniteElements& finite_elements);
 
-/// Stress of the static response at mesh nodes, 6 n x n_t, Pa: from the body file, or by a factor of K when
-/// the file holds no static responses. Empty when no force acts.
-Eigen::MatrixXd static_stress(StaticResponseOfRun& known_response, const std::vector<int>& nodes);
-/// Stress at mesh nodes, 6 n x n_t, Pa, by forces (3 n x n_t, N, body frame) on nodes at these positions of
-/// the flexibility, from the instantaneous responses in the body file.
-Eigen::MatrixXd stored_stress(const StaticResponseOfRun& known_response, const std::vector<int>& positions,
-                              const Eigen::MatrixXd& force, const std::vector<int>& nodes);
+/// The body's whole finite elements with a factor of K, made when it is first asked for. Error where none can
+/// serve.
+const UnreducedResponse& unreduced_response(StaticResponseOfRun& known_response);
 /// Displacement of the static response at one output time, 3 n_nodes, m; takes a factor of K. Empty when no
 /// force acts.
 Eigen::VectorXd static_displacement(StaticResponseOfRun& known_response, Eigen::Index step);

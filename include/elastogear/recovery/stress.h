@@ -32,12 +32,12 @@ Eigen::MatrixXd rankine(const Eigen::MatrixXd& stress);
 /// Psi q at the evaluation nodes `members` (local numbers in stress.node), 6 n x n_t, Pa; q: n_q x n_t.
 /// Eq. (4.1).
 Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>& members,
-                             const Eigen::MatrixXd& q);
+                             const Eigen::Ref<const Eigen::MatrixXd>& q);
 
 /// Stress that the relaxing parts of a viscoelastic body have lost at these nodes, 6 n x n_t, Pa; w: n_q n_p
 /// x n_t, model::BodyState::w part by part. To be subtracted from that of q. Eq. (4.10).
 Eigen::MatrixXd relaxed_stress(const model::ElasticBody& body, const std::vector<int>& members,
-                               const Eigen::MatrixXd& w);
+                               const Eigen::Ref<const Eigen::MatrixXd>& w);
 
 /// The part of stresses (6 n x n_t) that the shear or the bulk modulus makes: deviators or mean stresses.
 Eigen::MatrixXd stress_of_part(Eigen::MatrixXd stress, model::ModulusPart part);
