@@ -23,7 +23,6 @@
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
-#include "recovery/contact_error.h"
 #include "recovery/error_estimate.h"
 
 namespace elastogear::recovery::recover_test {
@@ -93,19 +92,25 @@ struct Recover : testing::Test {
     f << 100, 0, -300, 50, -200, -400;
     return {{last / 2, last}, f};
   }
-  BodyOfRun write(const model::ElasticBody& body) const {
+  // share: of the forces at each time; the body is at rest where it is 1.
+  BodyOfRun write(const model::ElasticBody& body, const std::vector<double>& share = {1}) const {
     const auto n_q = body.n_q();
     model::BodyState state;
     state.r_WB = Eigen::Vector3d(1, 2, 3);
     state.R_WB.setIdentity();
-    state.q = at_rest(body);
     state.q_dot = state.q_ddot = Eigen::VectorXd::Zero(n_q);
     state.contact = forces(body);
+    const Eigen::VectorXd q = at_rest(body);
+    const Eigen::Matrix3Xd f = state.contact.f_B;
     model::ResultHeader header;
     header.bodies = {{"bar", file, "fixed"}};
     header.provenance[model::identity_key("bar")] = model::fingerprint(body);
     io::ResultWriter writer(result, header);
-    writer.append({.time = 0, .bodies = {state}, .pairs = {}, .energy = {}});
+    for (std::size_t t = 0; t < share.size(); ++t) {
+      state.q = share[t] * q + (share[t] - 1) * q.reverse();
+      state.contact.f_B = share[t] * f;
+      writer.append({.time = static_cast<double>(t), .bodies = {state}, .pairs = {}, .energy = {}});
+    }
     writer.finish();
     return read_bodies_of_run(result).front();
   }
@@ -123,6 +128,44 @@ TEST_F(Recover, with_mode_acceleration_gives_the_stress_of_the_full_basis) {
     const io::StressSet set = recover_stress(recovered, body, "ymax", true);
     EXPECT_LT((set.stress - exact).norm(), (stored ? kSinglePrecision : kRoundoff) * exact.norm());
     EXPECT_LT((set.error - kForces * set.von_mises).norm(), kRoundoff * set.von_mises.norm());
+  }
+}
+
+// More times and nodes than are recovered together; forces come and go. With responses from the file nodes
+// may be named repeatedly; a factor of K takes each once.
+TEST_F(Recover, gives_each_time_and_node_what_it_has_alone) {
+  constexpr int kTimes = 300;
+  std::vector<double> share(kTimes);
+  for (int t = 0; t < kTimes; ++t) share[static_cast<std::size_t>(t)] = t % 150 < 100 ? std::sin(0.1 * t) : 0;
+  for (bool stored : {false, true}) {
+    const int repeated = stored ? 40 : 1;
+    model::ElasticBody body = reduce(model::Basis::modal, stored);
+    const std::vector<int> members = body.stress.sets.at("ymax");
+    for (int i = 0; i < repeated; ++i)
+      body.stress.sets["many"].insert(body.stress.sets["many"].end(), members.begin(), members.end());
+    const auto recover = [&](const std::vector<double>& shares, const std::string& set) {
+      RecoveredBody recovered =
+          prepare_recovery(write(body, shares), Acceleration::automatic, true, finite_elements());
+      return recover_stress(recovered, body, set, true);
+    };
+    const io::StressSet all = recover(share, "many");
+    ASSERT_GT(all.von_mises.rows(), stored ? 512 : 10);
+    for (int t : {0, 1, 99, 127, 128, 200, 255, 256, 299}) {
+      const io::StressSet alone = recover({share[static_cast<std::size_t>(t)]}, "ymax");
+      const auto expect_same = [&](const Eigen::MatrixXd& of_all, const Eigen::MatrixXd& of_one) {
+        ASSERT_EQ(of_all.rows(), repeated * of_one.rows());
+        EXPECT_LT((of_all.col(t) - of_one.replicate(repeated, 1)).norm(),
+                  1e-11 * of_all.col(t).norm() + 1e-6);
+      };
+      expect_same(all.stress, alone.stress);
+      expect_same(all.von_mises, alone.von_mises);
+      expect_same(all.rankine, alone.rankine);
+      expect_same(all.error, alone.error);
+      ASSERT_EQ(all.contact_error.size() > 0, stored);
+      if (stored) expect_same(all.contact_error, alone.contact_error);
+      EXPECT_NEAR(all.peak_error[t], alone.peak_error[0], 1e-11 * alone.peak_error[0]);
+    }
+    EXPECT_GT(all.stress.col(200).norm(), 1e-3 * all.stress.col(10).norm());
   }
 }
 

@@ -63,7 +63,7 @@ TEST(Rankine, is_exact_to_roundoff_where_principal_stresses_coincide) {
 
 TEST(Rankine, of_equal_pressure_is_minus_the_pressure) {
   EXPECT_EQ(rankine(StressVector{-7, -7, -7, 0, 0, 0}), -7);
-  EXPECT_EQ(rankine(StressVector::Zero()), 0);
+  EXPECT_EQ(rankine(StressVector{0, 0, 0, 0, 0, 0}), 0);
 }
 
 TEST(StressHistory, is_Psi_times_q_for_dense_and_sparse_rows) {
