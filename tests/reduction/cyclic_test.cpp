@@ -3,6 +3,7 @@
 #include "../mesh/disc.h"
 #include "elastogear/base/error.h"
 #include "reduction/cyclic/condensed_sector.h"
+#include "reduction/cyclic/harmonic_krylov.h"
 #include "reduction/modes/cutoff.h"
 
 namespace elastogear::cyclic_test {
@@ -31,21 +32,33 @@ TEST(Cyclic, modes_of_discs_with_large_sectors_are_those_of_the_whole) {
   }
 }
 
+// A sector of many cells.
+struct LargeSector {
+  Body body{disc({4, 10, 3, 2}), {"bottom"}, kSteelBody, 4};
+  model::Formulation formulation{model::Element::incompatible};
+  fem::Sector sector = make();
+
+  fem::Matrices matrices(const fem::Harmonic& harmonic) const {
+    return fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, formulation);
+  }
+
+ private:
+  fem::Sector make() const {
+    const std::vector<int> region = fem::cell_regions(body.mesh, body.regions);
+    const std::vector<bool> is_free = fem::free_nodes(body.mesh, body.restrained);
+    const mesh::Repetition repetition = *mesh::find_repetition(body.mesh, {region, is_free}).found;
+    return fem::make_sector(body.mesh, repetition, region, fem::free_node_orbits(repetition, is_free));
+  }
+};
+
 TEST(CondensedSector, counts_and_solves_as_each_harmonic_by_itself) {
-  const Body body{disc({4, 10, 3, 2}), {"bottom"}, kSteelBody, 4};
-  const std::vector<int> region = fem::cell_regions(body.mesh, body.regions);
-  const std::vector<bool> is_free = fem::free_nodes(body.mesh, body.restrained);
-  const mesh::Repetition repetition = *mesh::find_repetition(body.mesh, {region, is_free}).found;
-  const fem::Sector sector =
-      fem::make_sector(body.mesh, repetition, region, fem::free_node_orbits(repetition, is_free));
-  const model::Formulation formulation{model::Element::incompatible};
-  ASSERT_TRUE(reduction::condensing_pays(sector));
-  reduction::CondensedSector condensed(sector, body.regions, formulation);
+  const LargeSector large;
+  ASSERT_TRUE(reduction::condensing_pays(large.sector));
+  reduction::CondensedSector condensed(large.sector, large.body.regions, large.formulation);
   for (int k = 0; k <= 2; ++k) {
     SCOPED_TRACE(k);
-    const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
-    const fem::Matrices matrices =
-        fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, formulation);
+    const fem::Harmonic harmonic = fem::make_harmonic(large.sector, k);
+    const fem::Matrices matrices = large.matrices(harmonic);
     reduction::HarmonicFactor factor(condensed, harmonic);
     reduction::ShiftedFactor whole(matrices.K, matrices.M);
     for (double sigma : {0.0, 3e8, 2e9}) {
@@ -58,6 +71,52 @@ TEST(CondensedSector, counts_and_solves_as_each_harmonic_by_itself) {
       EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm()) << sigma;
     }
   }
+}
+
+class Together : public testing::Test {
+ protected:
+  static constexpr double kCutoff = 2e9;  // rad^2/s^2
+
+  std::vector<reduction::HarmonicTask> tasks(int more) {
+    std::vector<reduction::HarmonicTask> tasks;
+    for (const fem::Harmonic& harmonic : harmonics) {
+      const int below = reduction::HarmonicFactor(condensed, harmonic).factorise(kCutoff);
+      tasks.push_back({&harmonic, (harmonic.real ? below : below / 2) + more});
+    }
+    return tasks;
+  }
+
+  LargeSector large;
+  reduction::CondensedSector condensed{large.sector, large.body.regions, large.formulation};
+  std::vector<fem::Harmonic> harmonics{fem::make_harmonic(large.sector, 0),
+                                       fem::make_harmonic(large.sector, 1),
+                                       fem::make_harmonic(large.sector, 2)};
+};
+
+TEST_F(Together, harmonics_have_the_modes_of_each_by_itself) {
+  const auto all = reduction::find_modes_together(condensed, tasks(0), {.cutoff = kCutoff});
+  ASSERT_EQ(all.size(), harmonics.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    SCOPED_TRACE(k);
+    ASSERT_TRUE(all[k]);
+    const reduction::HarmonicModes& found = *all[k];
+    ASSERT_GT(found.eigenvalue.size(), 1) << "a comparison that says nothing";
+    const int parts = harmonics[k].real ? 1 : 2;
+    reduction::EigenOptions options;
+    options.n_modes = parts * static_cast<int>(found.eigenvalue.size());
+    const reduction::HarmonicModes expected =
+        reduction::find_harmonic_modes(large.matrices(harmonics[k]), harmonics[k], 0, options);
+    EXPECT_LT((found.eigenvalue.cwiseQuotient(expected.eigenvalue).array() - 1).abs().maxCoeff(), 1e-9);
+    EXPECT_LT((found.z - expected.z).norm(), 1e-6 * expected.z.norm());
+    EXPECT_LT(found.residual.maxCoeff(), 1e-8);
+    EXPECT_LT(found.orthogonality, 1e-10);
+    EXPECT_EQ(found.cutoff, kCutoff);
+  }
+}
+
+TEST_F(Together, a_harmonic_without_as_many_modes_has_none) {
+  for (const auto& found : reduction::find_modes_together(condensed, tasks(1), {.cutoff = kCutoff}))
+    EXPECT_FALSE(found);
 }
 
 TEST(Cyclic, modes_of_a_small_body_can_be_all_it_has) {

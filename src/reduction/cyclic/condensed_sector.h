@@ -2,36 +2,18 @@
 // All harmonics of a body that repeats from one factor of its sector (docs/theory.md, Eq. (2.11a)).
 
 #include <Eigen/Core>
-#include <complex>
 #include <optional>
 #include <vector>
 
 #include "elastogear/fem/sector_assembly.h"
+#include "reduction/cyclic/sector_nodes.h"
 #include "reduction/eigensolver/factorisation.h"
 
 namespace elastogear::reduction {
 
-/// exp(i turns k alpha), the factor of an amplitude that is turned by so many sectors. Eq. (2.10).
-std::complex<double> phase_after(const fem::Harmonic& harmonic, int turns);
-
-/// Nodes of the sector cut open: those of the border, where it meets its images, and on the axis come last in
-/// every harmonic; all others are the same in all of them.
-struct SectorNodes {
-  std::vector<int> inner, border;  ///< local nodes of the sector, ascending
-  std::vector<int> row;            ///< of each local node, its first one in the matrices; -1: held
-};
-
-SectorNodes sort_nodes(const fem::Sector& sector);
-
-/// Rows of the border's nodes, in their order.
-std::vector<int> border_rows(const SectorNodes& nodes);
-
 /// K and M of the sector cut open. Sequential.
 fem::Matrices assemble_open(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions,
                             const model::Formulation& formulation);
-
-/// Whether harmonics take less work by the border alone than each by itself.
-bool condensing_pays(const fem::Sector& sector);
 
 /// A = K - sigma M of the sector cut open, factorised but for its border.
 class CondensedSector {
@@ -59,24 +41,6 @@ class CondensedSector {
   int n_negative_ = 0;
 };
 
-/// The border of a harmonic: amplitudes of its nodes' orbits, one after the other, and how the nodes follow
-/// from them.
-struct HarmonicBorder {
-  struct Node {
-    int first;           ///< of its orbit's amplitudes
-    Eigen::MatrixXcd T;  ///< 3 x these
-    bool on_axis;        ///< else T is a multiple of the unit matrix
-  };
-  std::vector<Node> node;       ///< in the order of SectorNodes::border
-  std::vector<int> coordinate;  ///< of each amplitude its real coordinate in the harmonic
-  std::vector<int> imaginary;   ///< and its imaginary one; -1: the harmonic is real
-
-  Eigen::Index size() const { return static_cast<Eigen::Index>(coordinate.size()); }
-};
-
-HarmonicBorder make_border(const fem::Sector& sector, const SectorNodes& nodes,
-                           const fem::Harmonic& harmonic);
-
 /// T^H S T, of which the lower triangle is set. S: of the border's nodes; its upper triangle counts.
 Eigen::MatrixXcd fold(const HarmonicBorder& border, const Eigen::MatrixXd& S);
 
@@ -87,25 +51,34 @@ class HarmonicFactor : public ShiftedSolver {
   /// Both are borrowed.
   HarmonicFactor(CondensedSector& sector, const fem::Harmonic& harmonic);
 
+  const HarmonicNodes& nodes() const { return nodes_; }
+  double sigma() const { return sigma_; }
   /// Counts double eigenvalues of harmonics that are not real twice.
   int factorise(double sigma) override;
   void solve(Eigen::Ref<Eigen::MatrixXd> B) override;
   FactorSize size() const override;
+  /// At the border's nodes: forces f become displacements T S_k^-1 T^H f.
+  void solve_border(Eigen::Ref<Eigen::MatrixXd> at_nodes) const;
 
  private:
-  struct Inner {
-    int row;                    // in the matrices of the sector
-    int coordinate, imaginary;  // in the harmonic
-    std::complex<double> phase;
-  };
-
   CondensedSector& sector_;
   const fem::Harmonic& harmonic_;
   HarmonicBorder border_;
-  std::vector<Inner> inner_ = {};
+  HarmonicNodes nodes_;
   double sigma_ = 0;
   Eigen::MatrixXcd S_ = {};  // L D L^H of the border
   std::vector<int> pivot_ = {};
 };
+
+/// Columns of forces that belong to a harmonic.
+struct Share {
+  const HarmonicFactor* factor;
+  Eigen::Index n_columns;
+};
+
+/// Forces F at the sector's nodes become displacements T_k (K_k - sigma M_k)^-1 T_k^H F: all columns, those
+/// of one harmonic after those of another, go through the sector's factor together. All have one shift. Eq.
+/// (2.11b).
+void solve_together(CondensedSector& sector, const std::vector<Share>& shares, Eigen::Ref<Eigen::MatrixXd> F);
 
 }  // namespace elastogear::reduction

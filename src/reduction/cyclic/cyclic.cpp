@@ -2,103 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
-#include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
-#include "reduction/cyclic/condensed_sector.h"
-#include "reduction/eigensolver/factorisation.h"
-#include "reduction/modes/cutoff.h"
+#include "reduction/cyclic/cyclic_search.h"
+#include "reduction/cyclic/harmonic_krylov.h"
 
 namespace elastogear::reduction {
 namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kWindow = 256;           // modes
-constexpr double kSurplus = 0.05;      // modes found beyond the wanted ones, at most
-constexpr double kMoreSurplus = 0.12;  // of few modes, which take less time than another count
-constexpr int kFewSurplus = 50;        // of these at most
-constexpr int kLeastSurplus = 8;       // and at least so many may be
-constexpr int kPairsInDoubt = 4;       // in a sample
-constexpr int kSampleEvery = 5;        // harmonics counted for the first guess of the cutoff
-constexpr double kAtCutoff = 1e-6;     // relative: an eigenvalue may lie so close above it
-constexpr int kCheckedFields = 4;      // on the whole mesh
-constexpr double kResidual = 1e-5;     // of their forces: the mesh repeats to 1e-6 only
+constexpr int kWindow = 256;          // modes
+constexpr double kAtCutoff = 1e-6;    // relative: an eigenvalue may lie so close above it
+constexpr int kCheckedFields = 4;     // on the whole mesh
+constexpr double kResidual = 1e-5;    // of their forces: the mesh repeats to 1e-6 only
+constexpr std::size_t kTogether = 4;  // harmonics whose blocks go through the factor together
 constexpr int kTag = 2;
 
-// The ranks that solve harmonics together; each group takes every n-th harmonic.
-struct Group {
-  MPI_Comm comm = MPI_COMM_NULL;
-  int index = 0, n_groups = 1;
-  bool first = false;  // this rank is its group's first
-
-  Group(MPI_Comm all, int n_harmonics) {
-    int rank = 0, size = 1;
-    MPI_Comm_rank(all, &rank);
-    MPI_Comm_size(all, &size);
-    n_groups = std::min(size, n_harmonics);
-    index = rank % n_groups;
-    first = rank == index;
-    MPI_Comm_split(all, index, rank, &comm);
-  }
-  ~Group() { MPI_Comm_free(&comm); }
-  Group(const Group&) = delete;
-  Group& operator=(const Group&) = delete;
-};
-
-// A mode of the body: column of its harmonic's z, or i times it.
-struct Entry {
-  double eigenvalue, residual;
-  int k, column;
-  bool times_i;
-
-  auto key() const { return std::make_tuple(eigenvalue, k, column, times_i); }
-};
-
-// The harmonic whose eigenvalues were counted last: another count takes a factorisation alone.
-struct Counted {
-  int k = -1;
-  fem::Matrices matrices = {};  // none where the factor is that of the sector's border
-  std::unique_ptr<ShiftedSolver> factor = {};
-};
-
-struct Search {
-  MPI_Comm comm;
-  const CyclicBody& body;
-  const CyclicOptions& options;
-  const Progress& progress;
-  int rank = 0;
-  fem::NodeOrbits node_orbits = {};  // of the whole mesh, on rank 0
-  fem::Sector sector = {};
-  std::vector<fem::Harmonic> harmonics = {};
-  std::vector<int> order = {};  // of harmonics by work
-  std::unique_ptr<Group> group = {};
-  std::unique_ptr<CondensedSector> condensed = {};  // of ranks that solve harmonics alone, where it pays
-  Counted last = {};
-  std::map<std::pair<int, double>, int> counts = {};  // eigenvalues of a harmonic below a bound
-  std::vector<HarmonicModes> modes = {};              // of each harmonic; z on the first rank of its group
-  std::vector<Entry> entries = {};                    // wanted modes, ascending
-  int n_wanted = options.eigen.n_modes;
-
-  int n_harmonics() const { return static_cast<int>(harmonics.size()); }
-  int n_found() const { return static_cast<int>(entries.size()); }
-  int group_of(int k) const {
-    const auto at = std::find(order.begin(), order.end(), k) - order.begin();
-    return static_cast<int>(at) % group->n_groups;
-  }
-  bool mine(int k) const { return group_of(k) == group->index && harmonics[k].size() > 0; }
-  fem::Matrices assemble(int k) const {
-    return fem::assemble(group->comm, sector, harmonics[k], body.body.regions, body.body.formulation);
-  }
-};
-
-void make_problems(Search& search) {
+void make_problems(CyclicSearch& search) {
   const fem::MeshedBody& body = search.body.body;
   MPI_Comm_rank(search.comm, &search.rank);
   collectively(search.comm, [&] {
@@ -116,7 +40,7 @@ void make_problems(Search& search) {
   if (!search.options.eigen.interval) require_mode_count(search.n_wanted, n_free);
   std::stable_sort(search.order.begin(), search.order.end(),
                    [&](int a, int b) { return search.harmonics[a].size() > search.harmonics[b].size(); });
-  search.group = std::make_unique<Group>(search.comm, search.n_harmonics());
+  search.group = std::make_unique<RankGroup>(search.comm, search.n_harmonics());
   search.modes.resize(search.harmonics.size());
   collectively(search.comm, [&] {
     int n_ranks = 1;
@@ -126,106 +50,8 @@ void make_problems(Search& search) {
   });
 }
 
-// Eigenvalues below sigma of a harmonic of this rank's group.
-int count_below(Search& search, int k, double sigma) {
-  Counted& last = search.last;
-  if (last.k != k) {
-    last = {};
-    if (search.condensed) {
-      last.factor = std::make_unique<HarmonicFactor>(*search.condensed, search.harmonics[k]);
-    } else {
-      last.matrices = search.assemble(k);
-      last.factor = std::make_unique<ShiftedFactor>(last.matrices.K, last.matrices.M);
-    }
-    last.k = k;
-  }
-  return last.factor->factorise(sigma);
-}
-
-// Eigenvalues below sigma of each of the harmonics `which`. Pairs are never split, even where roundoff may.
-std::vector<int> count_below(Search& search, const std::vector<int>& which, double sigma) {
-  std::vector<int> count(search.harmonics.size(), 0);
-  collectively(search.comm, [&] {
-    for (std::size_t i = 0; i < which.size(); ++i) {
-      const int k = which[i];
-      report(search.progress, "mode count", static_cast<double>(i) / which.size());
-      if (!search.mine(k) || search.counts.contains({k, sigma})) continue;
-      const int below = count_below(search, k, sigma);
-      if (search.group->first) count[k] = search.harmonics[k].real ? below : below + below % 2;
-    }
-  });
-  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM, search.comm);
-  for (int k : which) count[k] = search.counts.try_emplace({k, sigma}, count[k]).first->second;
-  return count;
-}
-
-double share_of_coordinates(const Search& search, const std::vector<int>& harmonics) {
-  double share = 0, all = 0;
-  for (int k : harmonics) share += search.harmonics[k].size();
-  for (const fem::Harmonic& harmonic : search.harmonics) all += harmonic.size();
-  return share / all;
-}
-
-// A sigma with about n eigenvalues below it, by counting those of every few harmonics.
-double estimate_cutoff(Search& search, int n) {
-  const double weyl = weyl_cutoff(search.sector, search.body.body.regions, n);
-  std::vector<int> sample;
-  for (int k = kSampleEvery / 2; k < search.n_harmonics(); k += kSampleEvery) sample.push_back(k);
-  const double share = share_of_coordinates(search, sample);
-  if (share == 0) return weyl;
-  const auto estimate = [&](double sigma) {
-    const std::vector<int> count = count_below(search, sample, sigma);
-    return static_cast<int>(std::accumulate(count.begin(), count.end(), 0) / share);
-  };
-  const int doubt = static_cast<int>(std::max(kPairsInDoubt / share, kSurplus * n));
-  return find_cutoff(estimate, {std::max(1, n - doubt), n + doubt}, weyl);
-}
-
-struct Cutoff {
-  double sigma;
-  std::vector<int> count;  // of each harmonic
-};
-
-int sum(const std::vector<int>& counts) { return std::accumulate(counts.begin(), counts.end(), 0); }
-
-// All harmonics of the interval, whose number of modes becomes that of the search.
-Cutoff cutoff_of_interval(Search& search) {
-  const auto& [lower, upper] = *search.options.eigen.interval;
-  std::vector<int> all(search.harmonics.size());
-  std::iota(all.begin(), all.end(), 0);
-  Cutoff cutoff{upper, {}};
-  if (std::isfinite(upper)) {
-    cutoff.count = count_below(search, all, upper);
-  } else {
-    for (const fem::Harmonic& harmonic : search.harmonics) cutoff.count.push_back(harmonic.size());
-  }
-  if (lower > 0) {  // the body is held: none lies below zero
-    const std::vector<int> below = count_below(search, all, lower);
-    for (std::size_t k = 0; k < all.size(); ++k) cutoff.count[k] -= below[k];
-  }
-  search.n_wanted = sum(cutoff.count);
-  require(search.n_wanted > 0, "no eigenvalue lies between ", lower, " and ", upper,
-          " rad^2/s^2 (-eps_interval, or modes: auto); take one mode (-modes 1)");
-  return cutoff;
-}
-
-Cutoff choose_cutoff(Search& search) {
-  const int n = search.n_wanted;
-  const int surplus = std::max({kLeastSurplus, static_cast<int>(kSurplus * n),
-                                std::min(kFewSurplus, static_cast<int>(kMoreSurplus * n))});
-  std::vector<int> all(search.harmonics.size());
-  std::iota(all.begin(), all.end(), 0);
-  Cutoff cutoff{0, {}};
-  const auto count = [&](double sigma) {
-    cutoff.count = count_below(search, all, sigma);
-    return sum(cutoff.count);
-  };
-  cutoff.sigma = find_cutoff(count, {n, n + surplus}, estimate_cutoff(search, n + surplus / 2));
-  return cutoff;
-}
-
 // Returns the harmonic when the hook `known` has it, on all ranks of the group; z only on the first of them.
-std::optional<HarmonicModes> recall(const Search& search, int k, double sigma) {
+std::optional<HarmonicModes> recall(const CyclicSearch& search, int k, double sigma) {
   std::optional<HarmonicModes> known;
   if (!search.options.known) return known;
   collectively(search.group->comm, [&] {
@@ -237,14 +63,14 @@ std::optional<HarmonicModes> recall(const Search& search, int k, double sigma) {
   return known;
 }
 
-void keep(const Search& search, int k) {
+void keep(const CyclicSearch& search, int k) {
   if (!search.options.done) return;
   collectively(search.group->comm, [&] {
     if (search.group->first) search.options.done(search.modes[k]);
   });
 }
 
-HarmonicModes solve(Search& search, int k, const Cutoff& cutoff, const Progress& progress) {
+HarmonicModes solve(CyclicSearch& search, int k, const Cutoff& cutoff, const Progress& progress) {
   EigenOptions options = search.options.eigen;
   options.n_modes = cutoff.count[k];
   options.counted_below = cutoff.sigma;
@@ -266,25 +92,66 @@ HarmonicModes solve(Search& search, int k, const Cutoff& cutoff, const Progress&
   return modes;
 }
 
-void solve_all(Search& search, const Cutoff& cutoff) {
-  const std::vector<int>& order = search.order;
+// Whether the harmonic's modes are few enough for one shift, and no other solver was asked for.
+bool suits_one_shift(const CyclicSearch& search, int k, const Cutoff& cutoff) {
+  const EigenOptions& options = search.options.eigen;
+  PetscBool asked = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, options.prefix.c_str(), "-eps_type", &asked));
+  const bool from_zero = !options.interval || options.interval->lower <= 0;
+  return search.condensed && !asked && options.window != 0 && from_zero && cutoff.count[k] <= kWindow;
+}
+
+// Enters the modes of those of the harmonics that are found at one shift.
+void solve_together(CyclicSearch& search, const std::vector<int>& which, const Cutoff& cutoff,
+                    const Progress& progress) {
+  std::vector<HarmonicTask> tasks;
+  for (int k : which)
+    if (suits_one_shift(search, k, cutoff)) {
+      const fem::Harmonic& harmonic = search.harmonics[k];
+      tasks.push_back({&harmonic, harmonic.real ? cutoff.count[k] : cutoff.count[k] / 2});
+    }
+  if (tasks.empty()) return;
+  search.last = {};
+  const EigenOptions& options = search.options.eigen;
+  for (auto& found : find_modes_together(*search.condensed, tasks,
+                                         {cutoff.sigma, options.tolerance, options.block}, progress))
+    if (found) search.modes[found->k] = std::move(*found);
+}
+
+// Harmonics that this rank's group is to solve.
+std::vector<int> unknown_harmonics(CyclicSearch& search, const Cutoff& cutoff) {
+  std::vector<int> unknown;
+  for (int k : search.order) {
+    if (!search.mine(k) || cutoff.count[k] == 0) continue;
+    if (auto known = recall(search, k, cutoff.sigma))
+      search.modes[k] = std::move(*known);
+    else
+      unknown.push_back(k);
+  }
+  return unknown;
+}
+
+void solve_all(CyclicSearch& search, const Cutoff& cutoff) {
   collectively(search.comm, [&] {
     if (search.last.k >= 0 && cutoff.count[search.last.k] == 0) search.last = {};
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const int k = order[i];
-      if (!search.mine(k) || cutoff.count[k] == 0) continue;
+    const std::vector<int> unknown = unknown_harmonics(search, cutoff);
+    const std::size_t step = search.condensed ? kTogether : 1;
+    for (std::size_t i = 0; i < unknown.size(); i += step) {
+      const std::vector<int> which(unknown.begin() + i, unknown.begin() + std::min(i + step, unknown.size()));
       const auto progress = [&](std::string_view stage, double fraction) {
-        report(search.progress, stage, (i + fraction) / order.size());
+        report(search.progress, stage, (i + fraction * which.size()) / unknown.size());
       };
-      auto known = recall(search, k, cutoff.sigma);
-      search.modes[k] = known ? std::move(*known) : solve(search, k, cutoff, progress);
-      if (!known) keep(search, k);
+      solve_together(search, which, cutoff, progress);
+      for (int k : which) {
+        if (search.modes[k].eigenvalue.size() == 0) search.modes[k] = solve(search, k, cutoff, progress);
+        keep(search, k);
+      }
     }
   });
 }
 
 // Eigenvalues and residuals of every harmonic on all ranks; those of the body in order.
-void merge(Search& search, const Cutoff& cutoff) {
+void merge(CyclicSearch& search, const Cutoff& cutoff) {
   for (int k = 0; k < search.n_harmonics(); ++k) {
     const bool real = search.harmonics[k].real;
     const int n = real ? cutoff.count[k] : cutoff.count[k] / 2, from = search.group_of(k);
@@ -299,14 +166,14 @@ void merge(Search& search, const Cutoff& cutoff) {
           search.entries.push_back({modes.eigenvalue(i), modes.residual(i), k, i, times_i});
   }
   std::sort(search.entries.begin(), search.entries.end(),
-            [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
+            [](const ModeEntry& a, const ModeEntry& b) { return a.key() < b.key(); });
   auto n = static_cast<std::size_t>(search.n_wanted);
   const bool cut = n < search.entries.size() && search.entries[n].times_i;
   search.entries.resize(n + (cut && search.options.eigen.whole_pairs));
 }
 
 // The whole body's displacements on rank 0.
-VectorXd field(const Search& search, const Entry& entry) {
+VectorXd field(const CyclicSearch& search, const ModeEntry& entry) {
   const int from = search.group_of(entry.k);  // the rank, too
   const fem::Harmonic& harmonic = search.harmonics[entry.k];
   VectorXd z;
@@ -319,7 +186,7 @@ VectorXd field(const Search& search, const Entry& entry) {
   return fem::unfold(harmonic, search.node_orbits, z);
 }
 
-void check_fields(const Search& search) {
+void check_fields(const CyclicSearch& search) {
   std::set<int> chosen;
   for (int i = 0; i < kCheckedFields; ++i) chosen.insert(i * (search.n_found() - 1) / (kCheckedFields - 1));
   const auto n = static_cast<Eigen::Index>(chosen.size());
@@ -339,14 +206,14 @@ void check_fields(const Search& search) {
   });
 }
 
-Eigenmodes deliver(const Search& search, const FieldSink& sink) {
+Eigenmodes deliver(const CyclicSearch& search, const FieldSink& sink) {
   const int n = search.n_found();
   Eigenmodes result;
   result.eigenvalue.resize(n);
   result.residual.resize(n);
   if (search.options.begin) search.options.begin(n);
   for (int i = 0; i < n; ++i) {
-    const Entry& entry = search.entries[i];
+    const ModeEntry& entry = search.entries[i];
     result.eigenvalue(i) = entry.eigenvalue;
     result.residual(i) = entry.residual;
     sink(i, field(search, entry));
@@ -364,9 +231,9 @@ Eigenmodes deliver(const Search& search, const FieldSink& sink) {
 
 Eigenmodes find_cyclic_eigenmodes(MPI_Comm comm, const CyclicBody& body, const CyclicOptions& options,
                                   const FieldSink& sink, const Progress& progress) {
-  Search search{comm, body, options, progress};
+  CyclicSearch search{comm, body, options, progress};
   make_problems(search);
-  const Cutoff cutoff = options.eigen.interval ? cutoff_of_interval(search) : choose_cutoff(search);
+  const Cutoff cutoff = find_cutoff(search);
   solve_all(search, cutoff);
   merge(search, cutoff);
   report(progress, "eigenmodes", 1);

@@ -128,6 +128,17 @@ void fix_phase(const fem::Harmonic& harmonic, Eigen::Ref<VectorXd> z) {
 
 }  // namespace
 
+void fix_phases(const fem::Harmonic& harmonic, MatrixXd& z) {
+  for (Eigen::Index j = 0; j < z.cols(); ++j) {
+    VectorXd column = z.col(j);
+    if (harmonic.real)
+      fix_sign(column);
+    else
+      fix_phase(harmonic, column);
+    z.col(j) = column;
+  }
+}
+
 HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harmonic& harmonic,
                                   int first_orbit, const EigenOptions& options, const Progress& progress) {
   const auto& [K, M] = matrices;
@@ -154,14 +165,7 @@ HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harm
   modes.iterations = found.iterations;
   if (!harmonic.real) W = complex_modes(problem, W, modes);
   modes.z = gathered(comm_of(K), std::move(W));
-  for (Eigen::Index j = 0; j < modes.z.cols() && modes.z.rows() > 0; ++j) {
-    VectorXd z = modes.z.col(j);
-    if (harmonic.real)
-      fix_sign(z);
-    else
-      fix_phase(harmonic, z);
-    modes.z.col(j) = z;
-  }
+  if (modes.z.rows() > 0) fix_phases(harmonic, modes.z);
   return modes;
 }
 

@@ -28,4 +28,7 @@ HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harm
                                   int first_orbit, const EigenOptions& options,
                                   const Progress& progress = {});
 
+/// Columns z by the phase rule, or of a real harmonic by that of signs.
+void fix_phases(const fem::Harmonic& harmonic, Eigen::MatrixXd& z);
+
 }  // namespace elastogear::reduction

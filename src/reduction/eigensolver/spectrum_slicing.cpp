@@ -53,7 +53,7 @@ struct Choice {
 
 // Converged pairs from the shift outwards up to the first that is not. Between them none is missing, as far
 // as the basis can know.
-Found trusted(const KrylovBasis& basis, const RitzPairs& pairs, double tolerance) {
+Found trusted(const KrylovBasis<>& basis, const RitzPairs<>& pairs, double tolerance) {
   Found found;
   for (int i = 0; i < pairs.theta.size() && pairs.error(i) <= tolerance; ++i)
     found.emplace_back(basis.sigma + 1 / pairs.theta(i), i);
@@ -125,14 +125,15 @@ int target(const Search& search) {
   return (search.wanted() + n_windows - 1) / n_windows + kSpare;
 }
 
-void report_search(const Search& search, const KrylovBasis& basis) {
+void report_search(const Search& search, const KrylovBasis<>& basis) {
   if (!search.hooks.progress) return;
   const double inside = std::min(1.0, static_cast<double>(basis.size) / room(search));
   const double modes = search.delivered() + inside * std::min(search.wanted(), target(search));
   search.hooks.progress(std::min(1.0, modes / search.slicing.n_modes));
 }
 
-void report_look(const Search& search, const KrylovBasis& basis, const RitzPairs& pairs, const Found& found) {
+void report_look(const Search& search, const KrylovBasis<>& basis, const RitzPairs<>& pairs,
+                 const Found& found) {
   if (!search.hooks.look) return;
   const Found fresh = new_modes(search, found);
   const auto n = search.delivered() + static_cast<Eigen::Index>(fresh.size());
@@ -157,11 +158,11 @@ bool has_blocks_left(const Search& search) { return search.state.iterations < se
 
 // Grows the basis until it holds `modes` about the shift, known ones included, and reaches down to the last
 // window, or holds all that are wanted, or is full.
-std::optional<Choice> grow(Search& search, KrylovBasis& basis, RitzPairs& pairs, int modes) {
+std::optional<Choice> grow(Search& search, KrylovBasis<>& basis, RitzPairs<>& pairs, int modes) {
   std::optional<Choice> choice;
   for (double next = std::max(kFirstLook * needed_columns(modes, search.block), kGrowth * basis.size);
        has_room(basis) && has_blocks_left(search) && !choice;) {
-    expand(basis, search.transform);
+    expand(basis, search.transform.solve(basis.M_next));
     ++search.state.iterations;
     report_search(search, basis);
     if (basis.size < next && has_room(basis)) continue;
@@ -197,9 +198,9 @@ void measure_block(const Search& search, Eigen::MatrixXd& phi, Eigen::MatrixXd& 
 
 // Largest |phi_i' M phi_j| of the columns j from `first` on of the window with all i < j of it, and with the
 // edge of the window before.
-double overlap(const Search& search, const KrylovBasis& basis, const Eigen::MatrixXd& s, int first,
+double overlap(const Search& search, const KrylovBasis<>& basis, const Eigen::MatrixXd& s, int first,
                const Eigen::MatrixXd& M_phi) {
-  Eigen::MatrixXd gram = project(basis, s.leftCols(first + M_phi.cols()), M_phi);
+  Eigen::MatrixXd gram = project<double>(basis, s.leftCols(first + M_phi.cols()), M_phi);
   gram.bottomRows(M_phi.cols()).diagonal().setZero();
   double largest = gram.size() > 0 ? gram.cwiseAbs().maxCoeff() : 0;
   if (search.state.edge.cols() > 0)
@@ -209,7 +210,7 @@ double overlap(const Search& search, const KrylovBasis& basis, const Eigen::Matr
 
 // Mass-normalised, in ascending order, as many columns at a time as go through the factor together. Enters
 // the modes into a new state, for the edge of the old one serves all blocks.
-void deliver(Search& search, const KrylovBasis& basis, const RitzPairs& pairs, const Choice& choice) {
+void deliver(Search& search, const KrylovBasis<>& basis, const RitzPairs<>& pairs, const Choice& choice) {
   const int found = static_cast<int>(choice.modes.size()), before = search.delivered();
   const int count = search.slicing.whole_pairs ? found : std::min(search.wanted(), found);
   std::vector<int> columns;
@@ -220,7 +221,7 @@ void deliver(Search& search, const KrylovBasis& basis, const RitzPairs& pairs, c
   next.residual.conservativeResize(before + count);
   for (int begin = 0; begin < count; begin += search.size.block) {
     const int width = std::min(count - begin, search.size.block);
-    next.edge = combine(basis, s.middleCols(begin, width));
+    next.edge = combine<double>(basis, s.middleCols(begin, width));
     Eigen::MatrixXd M_phi = search.M_times(next.edge);
     measure_block(search, next.edge, M_phi, before + begin, next);
     next.orthogonality = std::max(next.orthogonality, overlap(search, basis, s, begin, M_phi));
@@ -274,8 +275,10 @@ void step_back(Search& search, const Shift& shift, const Choice& choice) {
 bool solve_window(Search& search, int modes) {
   const Shift shift =
       place_shift({search.K, search.M, search.transform, search.slicing, search.state}, modes);
-  KrylovBasis basis = start_basis(search.M_times, search.transform, shift.sigma, search.block, *search.V);
-  RitzPairs pairs;
+  const Eigen::MatrixXd first = random_forces(search.M_times, std::min(search.block, search.M_times.n()));
+  KrylovBasis<> basis =
+      start_basis<double>(search.M_times, shift.sigma, search.transform.solve(first), *search.V);
+  RitzPairs<> pairs;
   std::optional<Choice> choice;
   for (bool complete = false; !complete;) {
     const std::optional<Choice> larger = grow(search, basis, pairs, modes);
