@@ -64,6 +64,26 @@ Eigen::VectorXd coordinates(const Harmonic& harmonic, const Sector& sector, cons
   return all;
 }
 
+// Displacements of nodes from the coordinates of their orbits: visit(node, first coordinate, T).
+template <class Visit>
+void visit_nodes(const Harmonic& harmonic, const NodeOrbits& node_orbits, const Visit& visit) {
+  const double scale = std::sqrt((harmonic.real ? 1.0 : 2.0) / harmonic.n_sectors);
+  const Eigen::Index n = harmonic.turned.front().cols();
+  const Eigen::Matrix3Xd on_axis = scale * harmonic.on_axis.topRows<3>();
+  std::vector<Eigen::Matrix3Xd> turned;
+  for (const Eigen::MatrixXd& Q : harmonic.turned) turned.emplace_back(scale * Q.topRows<3>());
+  for (std::size_t node = 0; node < node_orbits.orbit.size(); ++node) {
+    const int orbit = node_orbits.orbit[node];
+    if (orbit < 0) continue;
+    const int first = harmonic.first[orbit];
+    const auto at = static_cast<Eigen::Index>(node);
+    if (harmonic.first[orbit + std::size_t{1}] - first < n)
+      visit(at, first, on_axis);
+    else
+      visit(at, first, turned[node_orbits.sector_index[node]]);
+  }
+}
+
 }  // namespace
 
 NodeOrbits free_node_orbits(const mesh::Repetition& repetition, const std::vector<bool>& is_free) {
@@ -155,18 +175,20 @@ Harmonic make_harmonic(const Sector& sector, int k) {
 
 Eigen::VectorXd unfold(const Harmonic& harmonic, const NodeOrbits& node_orbits,
                        const Eigen::Ref<const Eigen::VectorXd>& z) {
-  const double scale = std::sqrt((harmonic.real ? 1.0 : 2.0) / harmonic.n_sectors);
-  const Eigen::Index off_axis = harmonic.turned.front().cols();
   Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(node_orbits.orbit.size()));
-  for (std::size_t node = 0; node < node_orbits.orbit.size(); ++node) {
-    const int orbit = node_orbits.orbit[node];
-    if (orbit < 0) continue;
-    const int first = harmonic.first[orbit], count = harmonic.first[orbit + std::size_t{1}] - first;
-    const Eigen::MatrixXd& Q = harmonic.at(count < off_axis, node_orbits.sector_index[node]);
-    u.segment<3>(3 * static_cast<Eigen::Index>(node)).noalias() =
-        scale * (Q.topRows<3>() * z.segment(first, count));
-  }
+  visit_nodes(harmonic, node_orbits, [&](Eigen::Index node, int first, const auto& T) {
+    u.segment<3>(3 * node).noalias() = T * z.segment(first, T.cols());
+  });
   return u;
+}
+
+Eigen::VectorXd project_forces(const Harmonic& harmonic, const NodeOrbits& node_orbits,
+                               const Eigen::Ref<const Eigen::VectorXd>& f) {
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(harmonic.size());
+  visit_nodes(harmonic, node_orbits, [&](Eigen::Index node, int first, const auto& T) {
+    g.segment(first, T.cols()) += T.transpose() * f.segment<3>(3 * node);
+  });
+  return g;
 }
 
 Eigen::MatrixXd rigid_fields(const Harmonic& harmonic, const Sector& sector) {

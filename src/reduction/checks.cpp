@@ -1,7 +1,5 @@
 #include "reduction/checks.h"
 
-#include "reduction/modes/effective_mass.h"
-
 namespace elastogear::reduction {
 namespace {
 
@@ -26,19 +24,18 @@ model::Check rigid_coupling(const SixDirections& largest, const SixDirections& w
 
 }  // namespace
 
-std::vector<model::Check> mass_checks(const ElasticSystem& system, const model::ElasticBody& body,
-                                      const fem::MassMoments& moments) {
+std::vector<model::Check> mass_checks(bool floating, const model::ElasticBody& body,
+                                      const std::function<SixDirections()>& mobile) {
   const auto masses = effective_masses(body.inertia);
   const SixDirections whole = body_masses(body.inertia);
-  if (system.rigid) {
+  if (floating) {
     if (masses.rows() == 0) return {};
     return {rigid_coupling(masses.colwise().maxCoeff(), whole)};
   }
-  const SixDirections mobile = mobile_masses(system.M, system.gather, moments, body.inertia.c);
   return {{"effective_mass", "kg", "of each mode, directions x y z", masses.leftCols<3>()},
           {"effective_inertia", "kg m^2", "of each mode, about axes x y z through the centre of mass",
            masses.rightCols<3>()},
-          captured_mass(masses.colwise().sum(), mobile, whole)};
+          captured_mass(masses.colwise().sum(), mobile(), whole)};
 }
 
 std::vector<model::Check> load_checks(const ElasticSystem& system, const model::ElasticBody& body,

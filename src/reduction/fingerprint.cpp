@@ -30,4 +30,12 @@ std::uint64_t fingerprint(Mat A) {
   return all.value();
 }
 
+void add(Fingerprint& f, const model::Material& material) {
+  for (double x : {material.E, material.nu, material.rho}) f.add(x);
+  if (!material.orthotropic) return;
+  const auto& [E, nu, G, o] = *material.orthotropic;
+  f.add(static_cast<double>(o.system));
+  for (const auto& v : {E, nu, G, o.axis_1, o.axis_2, o.origin, o.axis, o.rotation}) f.add_all(v);
+}
+
 }  // namespace elastogear::reduction

@@ -13,6 +13,7 @@
 #include "reduction/basis.h"
 #include "reduction/checks.h"
 #include "reduction/cyclic/cyclic.h"
+#include "reduction/cyclic/cyclic_masses.h"
 #include "reduction/cyclic/harmonic_checkpoints.h"
 #include "reduction/fingerprint.h"
 #include "reduction/modes/mode_checkpoints.h"
@@ -56,13 +57,11 @@ Fingerprint fingerprint_of(const Job& job) {
 }
 
 EigenOptions eigen_options(const ReductionOptions& o) {
-  EigenOptions options;
-  options.n_modes = o.n_modes;
-  options.interval = o.interval;
-  options.window = o.window;
-  options.prefix = o.prefix;
-  options.whole_pairs = true;
-  return options;
+  return {.n_modes = o.n_modes,
+          .interval = o.interval,
+          .window = o.window,
+          .whole_pairs = true,
+          .prefix = o.prefix};
 }
 
 void report_continued(Job& job, int checkpoints, int discarded, const std::string& what) {
@@ -74,7 +73,6 @@ void report_continued(Job& job, int checkpoints, int discarded, const std::strin
 
 // Is something wanted of every pair of modes?
 bool needs_pairs(const ReductionOptions& o) { return o.invariants == Invariants::full || relaxes(o); }
-
 bool needs_fields(const ReductionOptions& o) { return o.store == Store::all || needs_pairs(o); }
 
 // Precision of fields until the body file is written.
@@ -164,14 +162,18 @@ bool asks_for_completeness(const ReductionOptions& o) {
   return o.completeness && !(o.flexibility && o.loaded.empty());
 }
 
+void add_load_checks(Job& job, const ElasticSystem& system) {
+  for (model::Check& check : load_checks(system, job.plan.body, job.mesh.n_nodes()))
+    job.report.checks.push_back(std::move(check));
+}
+
 void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
   job.begin_stage("checks");
   const Plan& plan = job.plan;
-  auto& checks = job.report.checks;
-  checks = mass_checks(system, plan.body, plan.moments);
-  if (completeness)
-    for (model::Check& check : load_checks(system, plan.body, job.mesh.n_nodes()))
-      checks.push_back(std::move(check));
+  job.report.checks = mass_checks(system.rigid != nullptr, plan.body, [&] {
+    return mobile_masses(system.M, system.gather, plan.moments, plan.body.inertia.c);
+  });
+  if (completeness) add_load_checks(job, system);
 }
 
 FlexibilityTask flexibility_task(const Job& job) {
@@ -206,11 +208,14 @@ bool flexibility_repeats(Job& job) {
   return repeats != 0;
 }
 
+fem::MeshedBody meshed_body(const Job& job) {
+  return {job.mesh, job.regions, job.plan.region, job.plan.is_free, formulation(job)};
+}
+
 // Static responses of the body with the present moduli of job.regions. Collective.
 model::Flexibility solve_flexibility(Job& job, const FlexibilityTask& task, const ElasticSystem& system) {
-  const fem::MeshedBody body{job.mesh, job.regions, job.plan.region, job.plan.is_free, formulation(job)};
   return flexibility_repeats(job)
-             ? find_cyclic_flexibility(job.comm, task, body, job.options.floating, job.progress)
+             ? find_cyclic_flexibility(job.comm, task, meshed_body(job), job.options.floating, job.progress)
              : find_flexibility(task, system, job.progress);
 }
 
@@ -274,7 +279,7 @@ void reduce_whole(Job& job) {
   set_eigenmodes(job, find_modes(job, system, checkpoints));
   std::optional<ModalWriter> writer;
   job.on_root([&] {
-    const int n_q = static_cast<int>(job.report.frequency.size());
+    const auto n_q = static_cast<int>(job.report.frequency.size());
     writer.emplace(job, n_q);
     checkpoints.visit([&](int k, const ModeRecord& mode) {
       if (k < n_q) writer->add(k, mode);  // later ones are void
@@ -285,14 +290,6 @@ void reduce_whole(Job& job) {
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();
-}
-
-void add(Fingerprint& f, const model::Material& material) {
-  for (double x : {material.E, material.nu, material.rho}) f.add(x);
-  if (!material.orthotropic) return;
-  const auto& [E, nu, G, o] = *material.orthotropic;
-  f.add(static_cast<double>(o.system));
-  for (const auto& v : {E, nu, G, o.axis_1, o.axis_2, o.origin, o.axis, o.rotation}) f.add_all(v);
 }
 
 std::string fingerprint_of_sectors(Job& job) {
@@ -309,17 +306,35 @@ std::string fingerprint_of_sectors(Job& job) {
   return f.text();
 }
 
-// The modes of sectors need no matrices of the whole body, their checks do: K and M, and for completeness a
-// factor, which is left out where it would take more memory than all else.
+SixDirections mobile_masses_by_sectors(const Job& job) {
+  const Plan& plan = job.plan;
+  return cyclic_mobile_masses(job.comm, meshed_body(job), plan.repetition, plan.moments, plan.body.inertia.c);
+}
+
+// Completeness takes a factor of the whole body, which is left out where it would take more memory than all
+// else. Collective.
+bool completeness_of_sectors(const Job& job) {
+  int few = job.rank == 0 && job.plan.free_dof.size() <= kLargestCheckFactor;
+  MPI_Bcast(&few, 1, MPI_INT, 0, job.comm);
+  return asks_for_completeness(job.options) && few != 0;
+}
+
+// The modes of sectors need no matrices of the whole body, and neither do their masses nor static responses
+// that repeat as well: K and M are assembled where something else asks for them.
 void check_sectors(Job& job) {
-  const fem::Matrices matrices = assemble(job);
+  const bool completeness = completeness_of_sectors(job);
+  const bool whole = completeness || (job.options.flexibility && !flexibility_repeats(job));
+  const fem::Matrices matrices = whole ? assemble(job) : fem::Matrices{};
   UniqueVec layout;
-  PetscInt n_free = 0;
-  check(MatCreateVecs(matrices.K, layout.out(), nullptr));
-  check(VecGetSize(layout, &n_free));
-  const fem::VectorGather gather(layout, job.plan.dof, 3 * job.mesh.n_nodes());
+  if (whole)
+    check(MatCreateVecs(matrices.K, layout.out(), nullptr));
+  else
+    check(VecCreateMPI(job.comm, 0, 0, layout.out()));
+  const fem::VectorGather gather(layout, job.plan.dof, whole ? 3 * job.mesh.n_nodes() : 0);
   const ElasticSystem system{matrices.K, matrices.M, gather, nullptr};
-  check_basis(job, system, asks_for_completeness(job.options) && n_free <= kLargestCheckFactor);
+  job.begin_stage("checks");
+  job.report.checks = mass_checks(false, job.plan.body, [&] { return mobile_masses_by_sectors(job); });
+  if (completeness) add_load_checks(job, system);
   add_flexibility(job, system);
 }
 
@@ -327,8 +342,7 @@ void check_sectors(Job& job) {
 void reduce_sectors(Job& job) {
   job.begin_stage("eigenmodes");
   HarmonicCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
-  const Plan& plan = job.plan;
-  const fem::MeshedBody body{job.mesh, job.regions, plan.region, plan.is_free, formulation(job)};
+  const fem::MeshedBody body = meshed_body(job);
   std::optional<ModalWriter> writer;
   CyclicOptions options;
   options.eigen = eigen_options(job.options);
@@ -339,7 +353,8 @@ void reduce_sectors(Job& job) {
   const auto keep = [&](int k, const Eigen::VectorXd& phi) {
     job.on_root([&] { writer->add(k, mode_record(job, phi)); });
   };
-  set_eigenmodes(job, find_cyclic_eigenmodes(job.comm, {body, plan.repetition}, options, keep, job.progress));
+  set_eigenmodes(job,
+                 find_cyclic_eigenmodes(job.comm, {body, job.plan.repetition}, options, keep, job.progress));
   check_sectors(job);
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });

@@ -2,7 +2,9 @@
 
 #include "../mesh/disc.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/rotation.h"
 #include "reduction/cyclic/condensed_sector.h"
+#include "reduction/cyclic/cyclic_masses.h"
 #include "reduction/cyclic/harmonic_krylov.h"
 #include "reduction/modes/cutoff.h"
 
@@ -145,6 +147,29 @@ TEST(Cyclic, modes_do_not_depend_on_the_number_of_ranks) {
   for (int i = 0; i < 33; ++i) {
     EXPECT_NEAR(many.modes.eigenvalue(i) / one.modes.eigenvalue(i), 1, kFrequency);
     EXPECT_LT((many.phi.col(i) - one.phi.col(i)).norm(), 1e-6 * one.phi.col(i).norm()) << i;
+  }
+}
+
+// The axis is oblique to the coordinates, so that all directions have parts of both harmonics.
+TEST(Cyclic, mobile_masses_are_those_of_the_whole) {
+  for (int Z : {2, 3, 6}) {
+    SCOPED_TRACE(Z);
+    Body body{disc({Z, 2, 3, 2}), {"bottom"}, kSteelBody, Z};
+    body.mesh.X = rotation_matrix({0.3, -0.5, 0.2}) * body.mesh.X;
+    const std::vector<int> region = fem::cell_regions(body.mesh, body.regions);
+    const std::vector<bool> is_free = fem::free_nodes(body.mesh, body.restrained);
+    const mesh::Repetition repetition = *mesh::find_repetition(body.mesh, {region, is_free}).found;
+    ASSERT_EQ(repetition.turn.n_sectors, Z);
+    const fem::MassMoments moments = fem::mass_moments(body.mesh, body.regions);
+    const Eigen::Vector3d c = fem::rigid_inertia(body.mesh, moments).c;
+    const System system = assemble(body.mesh, body.restrained, PETSC_COMM_WORLD, body.regions);
+    UniqueVec layout;
+    check(MatCreateVecs(system.matrices.M, layout.out(), nullptr));
+    const fem::VectorGather gather(layout, system.rows);
+    const reduction::SixDirections whole = reduction::mobile_masses(system.matrices.M, gather, moments, c);
+    const reduction::SixDirections sectors = reduction::cyclic_mobile_masses(
+        PETSC_COMM_WORLD, {body.mesh, body.regions, region, is_free, {}}, repetition, moments, c);
+    EXPECT_LT((sectors.cwiseQuotient(whole).array() - 1).abs().maxCoeff(), 1e-9);
   }
 }
 

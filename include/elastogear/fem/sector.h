@@ -68,6 +68,11 @@ Harmonic make_harmonic(const Sector& sector, int k);
 Eigen::VectorXd unfold(const Harmonic& harmonic, const NodeOrbits& node_orbits,
                        const Eigen::Ref<const Eigen::VectorXd>& z);
 
+/// What forces f at all nodes (3 n_nodes, N) are along the coordinates of a harmonic: f' u = g' z for the
+/// displacements u that follow from z as above.
+Eigen::VectorXd project_forces(const Harmonic& harmonic, const NodeOrbits& node_orbits,
+                               const Eigen::Ref<const Eigen::VectorXd>& f);
+
 /// Coordinates of i z, the second real field of a complex amplitude; the harmonic must not be real. Rows may
 /// be those of some orbits only.
 Eigen::MatrixXd times_i(const Harmonic& harmonic, int first_orbit,

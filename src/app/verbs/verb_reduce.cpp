@@ -190,8 +190,11 @@ void print_modes(const reduction::ReductionReport& report) {
 void print_summary(const reduction::ReductionReport& report, const std::string& output) {
   print_item("nodes / elements", std::to_string(report.n_nodes) + " / " + std::to_string(report.n_cells));
   print_item("degrees of freedom", std::to_string(report.n_dofs) + ", free " + std::to_string(report.n_free));
-  print_item("ranks", std::to_string(report.n_ranks) + ", faces cut " + std::to_string(report.edge_cut) +
-                          ", largest part / mean " + with_unit(report.balance, ""));
+  const bool divided = report.n_ranks == 1 || report.edge_cut > 0;
+  print_item("ranks", std::to_string(report.n_ranks) +
+                          (divided ? ", faces cut " + std::to_string(report.edge_cut) +
+                                         ", largest part / mean " + with_unit(report.balance, "")
+                                   : ", the mesh is not divided among them"));
   if (!report.symmetry.empty()) print_item("symmetry", report.symmetry);
   print_item("body frame's origin", vector_text(report.origin, "m of the mesh"));
   print_item("mass", with_unit(report.m, "kg"));

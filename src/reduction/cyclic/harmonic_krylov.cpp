@@ -17,9 +17,8 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShift = 0.6;      // over the cutoff: modes on both sides of it converge
+constexpr double kShift = 0.2;      // over the cutoff: modes on both sides of it converge
 constexpr int kBlock = 4;           // vectors of a harmonic
-constexpr double kMargin = 5;       // by which errors are smaller than tolerated
 constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
 constexpr double kFirstLook = 0.2;  // of the basis that is expected to do: when they are first looked at
 
@@ -103,7 +102,7 @@ class SearchOver final : public HarmonicSearch {
   // Relative to the force of the stiffness, which in low modes is small beside that of the shift.
   double error(int i) const {
     const double lambda = std::abs(eigenvalue(i));
-    return kMargin * pairs_.error(i) * std::max(1.0, std::abs(lambda - basis_.sigma) / lambda);
+    return pairs_.error(i) * std::max(1.0, std::abs(lambda - basis_.sigma) / lambda);
   }
   double eigenvalue(int i) const { return basis_.sigma + 1 / pairs_.theta(i); }
 

@@ -24,13 +24,6 @@ UniqueKSP mass_solver(Mat M) {
   return ksp;
 }
 
-// M S at all nodes for one of the six rigid fields; rotations are about c.
-Eigen::VectorXd rigid_momentum(const fem::MassMoments& moments, const Eigen::Vector3d& c, int direction) {
-  const Eigen::Vector3d e = Eigen::Vector3d::Unit(direction % 3);
-  if (direction < 3) return fem::momentum(moments, e, Eigen::Vector3d::Zero());
-  return fem::momentum(moments, -e.cross(c), e);
-}
-
 }  // namespace
 
 Eigen::Matrix<double, Eigen::Dynamic, 6> effective_masses(const model::Inertia& inertia) {
@@ -51,20 +44,31 @@ SixDirections body_masses(const model::Inertia& inertia) {
   return masses;
 }
 
-SixDirections mobile_masses(Mat M, const fem::VectorGather& gather, const fem::MassMoments& moments,
-                            const Eigen::Vector3d& c) {
+Eigen::VectorXd rigid_momentum(const fem::MassMoments& moments, const Eigen::Vector3d& c, int direction) {
+  const Eigen::Vector3d e = Eigen::Vector3d::Unit(direction % 3);
+  if (direction < 3) return fem::momentum(moments, e, Eigen::Vector3d::Zero());
+  return fem::momentum(moments, -e.cross(c), e);
+}
+
+SixDirections inverse_masses(Mat M, const std::function<void(int direction, Vec p)>& set) {
   const UniqueKSP ksp = mass_solver(M);
   UniqueVec p, v;
   check(MatCreateVecs(M, v.out(), p.out()));
   SixDirections masses;
   for (int direction = 0; direction < 6; ++direction) {
     PetscScalar product = 0;
-    gather.scatter(rigid_momentum(moments, c, direction), p);
+    set(direction, p);
     check(KSPSolve(ksp, p, v));
     check(VecDot(p, v, &product));
     masses(direction) = product;
   }
   return masses;
+}
+
+SixDirections mobile_masses(Mat M, const fem::VectorGather& gather, const fem::MassMoments& moments,
+                            const Eigen::Vector3d& c) {
+  return inverse_masses(
+      M, [&](int direction, Vec p) { gather.scatter(rigid_momentum(moments, c, direction), p); });
 }
 
 }  // namespace elastogear::reduction
