@@ -10,7 +10,8 @@
 namespace elastogear::reduction {
 namespace {
 
-constexpr double kWeyl = 2.0 / 3;       // sigma ~ N^(2/3)
+constexpr double kWeyl = 2.0 / 3;       // sigma ~ N^(2/3), of waves in the volume
+constexpr double kSurface = 1;          // sigma ~ N, of waves along surfaces
 constexpr int kFewModes = 16;           // too few to show a power of their own
 constexpr double kSpread = 3;           // factor by which that may differ from Weyl's
 constexpr double kLargestStep = 8;      // factor of sigma between two counts
@@ -23,9 +24,10 @@ struct Point {
   int n;
 };
 
-// sigma ~ N^exponent between two counts, by Weyl's law where these do not tell.
+// sigma ~ N^exponent between two counts. Where these do not tell it is that of surfaces: what bodies with
+// teeth have more modes than Weyl's law says lies there.
 double exponent(const Point& a, const Point& b) {
-  if (std::min(a.n, b.n) < kFewModes || a.n == b.n) return kWeyl;
+  if (std::min(a.n, b.n) < kFewModes || a.n == b.n) return kSurface;
   return std::clamp(std::log(a.sigma / b.sigma) / std::log(a.n * 1.0 / b.n), kWeyl / kSpread,
                     kWeyl * kSpread);
 }
@@ -48,7 +50,7 @@ double next_guess(const Point& lower, const Point& upper, double power, double t
 double find_cutoff(const Count& count, CountRange wanted, double start) {
   const double target = (wanted.least + wanted.most) / 2.0;
   Point lower{0, 0}, upper{std::numeric_limits<double>::infinity(), 0}, before{0, 0};
-  for (double sigma = start, power = kWeyl;; sigma = next_guess(lower, upper, power, target)) {
+  for (double sigma = start, power = kSurface;; sigma = next_guess(lower, upper, power, target)) {
     const int n = count(sigma);
     if (n >= wanted.least && n <= wanted.most) return sigma;
     power = exponent({sigma, n}, before);
