@@ -17,7 +17,7 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShift = 0.2;      // over the cutoff: modes on both sides of it converge
+constexpr double kShift = 0;        // over the cutoff: higher ones leave low modes more roundoff
 constexpr int kBlock = 4;           // vectors of a harmonic
 constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
 constexpr double kFirstLook = 0.2;  // of the basis that is expected to do: when they are first looked at
