@@ -1,6 +1,7 @@
 #pragma once
 // The state of a search for the modes of a body that repeats, and the bound up to which they are found.
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <tuple>
