@@ -5,23 +5,19 @@
 #include <set>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/finite.h"
 
 namespace elastogear::model {
 namespace {
 
 constexpr double kUnit = 1e-9;  // roundoff of a unit vector in a file
 
-// 0 x is zero unless x is infinite or no number; the sum runs at the speed of memory, allFinite() does not.
-bool finite(const double* x, Eigen::Index n) {
-  return n == 0 || (0 * Eigen::Map<const Eigen::ArrayXd>(x, n)).sum() == 0;
-}
-
 template <class Rows>
 bool finite(const Rows& rows) {
   if constexpr (std::is_same_v<Rows, DenseRows>) {
-    return finite(rows.data(), rows.size());
+    return all_finite(rows);
   } else {
-    return finite(rows.valuePtr(), rows.nonZeros());
+    return all_finite(rows.valuePtr(), rows.nonZeros());
   }
 }
 
@@ -148,7 +144,7 @@ void validate_relaxed_responses(const ElasticBody& body, const std::string& sour
                 (relaxed.F.size() == 0
                      ? relaxed.read_F != nullptr
                      : relaxed.F.rows() == 3 * n_c && relaxed.F.cols() == 3 * f.surface.node.cols()) &&
-                relaxed.F.allFinite(),
+                all_finite(relaxed.F),
             source, ": the static responses of a relaxed state do not fit those of the instantaneous body");
 }
 
@@ -172,7 +168,7 @@ void validate_flexibility(const ElasticBody& body, const std::string& source) {
   require((f.F.size() == 0 ? f.read_F != nullptr : f.F.rows() == 3 * n_c && f.F.cols() == n_columns) &&
               (f.G.size() == 0 || (f.G.rows() == 6 * n_r * n_states && f.G.cols() == n_columns)),
           source, ": F or G does not have a row for each node and a column for each force");
-  require(f.F.allFinite() && f.G.allFinite(), source, ": static responses are not finite");
+  require(all_finite(f.F) && all_finite(f.G), source, ": static responses are not finite");
   validate_relaxed_responses(body, source);
 }
 

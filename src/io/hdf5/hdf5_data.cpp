@@ -2,13 +2,12 @@
 // alone, that of the object's header, in which it stands.
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <numeric>
 
+#include "elastogear/base/finite.h"
 #include "elastogear/base/text.h"
-
 #include "io/hdf5/hdf5_objects.h"
 
 namespace elastogear::io::h5 {
@@ -85,8 +84,7 @@ void require_read(bool good, const File& file, const std::string& name) {
 template <class T>
 void require_finite(const T* data, std::size_t n, const File& file, const std::string& name) {
   if constexpr (std::is_floating_point_v<T>)
-    check(std::all_of(data, data + n, [](T x) { return std::isfinite(x); }), file, name,
-          "holds a number that is not finite");
+    check(all_finite(data, static_cast<Eigen::Index>(n)), file, name, "holds a number that is not finite");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "elastogear/base/file.h"
+#include "elastogear/base/finite.h"
 #include "io/hdf5/schema.h"
 
 namespace elastogear::io {
@@ -26,9 +27,9 @@ void check(const h5::File& file, const StressSet& set, Eigen::Index n_t) {
     require(error->size() == 0 || (error->rows() == n && error->cols() == n_t), file.path,
             ": estimated errors by ", by, " of ", set.body, "/", set.set, " do not have ", n, " nodes and ",
             n_t, " times");
-  require(set.stress.allFinite() && set.von_mises.allFinite() && set.rankine.allFinite() &&
-              set.error.allFinite() && set.peak_error.allFinite() && set.mesh_error.allFinite() &&
-              set.contact_error.allFinite(),
+  require(all_finite(set.stress) && all_finite(set.von_mises) && all_finite(set.rankine) &&
+              all_finite(set.error) && all_finite(set.peak_error) && all_finite(set.mesh_error) &&
+              all_finite(set.contact_error),
           file.path, ": stresses of ", set.body, "/", set.set, " are not finite");
 }
 
