@@ -151,10 +151,11 @@ def plot_roots(pair, gear, folder):
         way.set_xlim(-far - 0.5, far + 0.5)
         way.legend(frameon=False, fontsize=8, loc="upper right")
     way.set(xlabel="place of a tooth on its way, pitches", title="nodes of the largest ones on the way of a tooth")
-    node, error = int(pair[root + "/largest_tension_node"]), ""
-    if pair.has(root + "/largest_tension_error"):
-        error = f", estimated error {pair[root + '/largest_tension_error'] / 1e6:.2g} MPa"
-    figure.suptitle(f"Stress at the roots of the {gear}: tension at most {pair[root + '/largest_tension'] / 1e6:.4g} MPa at node {node}{error}")
+    node, tension = int(pair[root + "/largest_tension_node"]), root + "/largest_tension"
+    parts = (("error", "reduction"), ("mesh_error", "mesh"), ("contact_error", "resolution of the contact"))
+    errors = [f"{by} {pair[f'{tension}_{name}'] / 1e6:.2g} MPa" for name, by in parts if pair.has(f"{tension}_{name}")]
+    told = "\nestimated errors: " + ", ".join(errors) if errors else ""
+    figure.suptitle(f"Stress at the roots of the {gear}: tension at most {pair[tension] / 1e6:.4g} MPa at node {node}{told}", fontsize=10)
     save(figure, folder, "root_stress_" + gear)
 
 

@@ -139,11 +139,11 @@ class Peak:
         return f"estimated error of the contact's resolution {self.contact_error / 1e6:.3g} MPa ({share:.2g} %){doubt}"
 
     def trust(self):
-        """The estimated error in words."""
+        """The estimated error of the reduction in words."""
         if self.error is None:
             return "error not estimated: not to be trusted"
         doubt = ": not to be trusted" if self.error > TRUSTED * self.value else ""
-        return f"estimated error {self.error / 1e6:.3g} MPa ({100 * self.error / max(self.value, 1e-300):.2g} %){doubt}"
+        return f"estimated error of the reduction {self.error / 1e6:.3g} MPa ({100 * self.error / max(self.value, 1e-300):.2g} %){doubt}"
 
 
 def stress_sets(file):

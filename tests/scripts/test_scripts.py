@@ -153,12 +153,12 @@ class Scripts(unittest.TestCase):
 
     def test_a_stress_has_its_estimated_error_beside_it(self):
         text = self.summary_with_error(0.01)
-        self.assertIn("estimated error 1.73 MPa (1 %)", text)
+        self.assertIn("estimated error of the reduction 1.73 MPa (1 %)", text)
         self.assertIn("estimated error of the mesh 34.6 MPa (20 %): too coarse a mesh for this stress", text)
         self.assertNotIn("not to be trusted", text)
 
     def test_a_stress_with_a_large_estimated_error_is_not_to_be_trusted(self):
-        self.assertIn("estimated error 10.4 MPa (6 %): not to be trusted", self.summary_with_error(0.06))
+        self.assertIn("estimated error of the reduction 10.4 MPa (6 %): not to be trusted", self.summary_with_error(0.06))
 
     def test_a_stress_without_an_estimate_is_not_to_be_trusted(self):
         run = self.run_script("summary.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5")
