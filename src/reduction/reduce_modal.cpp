@@ -212,25 +212,29 @@ fem::MeshedBody meshed_body(const Job& job) {
   return {job.mesh, job.regions, job.plan.region, job.plan.is_free, formulation(job)};
 }
 
-// Static responses of the body with the present moduli of job.regions. Collective.
-model::Flexibility solve_flexibility(Job& job, const FlexibilityTask& task, const ElasticSystem& system) {
-  return flexibility_repeats(job)
+// Static responses of the body with the present moduli of job.regions. system: of the whole body; none where
+// they repeat. Collective.
+model::Flexibility solve_flexibility(Job& job, const FlexibilityTask& task, const ElasticSystem* system) {
+  return system == nullptr
              ? find_cyclic_flexibility(job.comm, task, meshed_body(job), job.options.floating, job.progress)
-             : find_flexibility(task, system, job.progress);
+             : find_flexibility(task, *system, job.progress);
 }
 
 // Adds the static responses of one state of relaxation, Eqs. (2.21) and (4.12), with the amplitudes of
-// incompatible modes and the mass of the instantaneous moduli. Collective.
-void add_relaxed(Job& job, const ElasticSystem& system, const Eigen::VectorXd& share,
+// incompatible modes and the mass of the instantaneous moduli. system: as above, instantaneous. Collective.
+void add_relaxed(Job& job, const ElasticSystem* system, const Eigen::VectorXd& share,
                  model::Flexibility& flexibility) {
   const std::vector<model::MaterialRegion> instantaneous = job.regions;
   set_relaxed(job.regions, share);
   const FlexibilityTask task = flexibility_task(job);
   fem::Matrices matrices;
-  if (!flexibility_repeats(job)) matrices = assemble(job);
+  std::optional<ElasticSystem> relaxed_system;
+  if (system != nullptr) {
+    matrices = assemble(job);
+    relaxed_system.emplace(ElasticSystem{matrices.K, system->M, system->gather, system->rigid});
+  }
   job.begin_stage(kRelaxedResponses);
-  const ElasticSystem relaxed_system{matrices.K, system.M, system.gather, system.rigid};
-  model::Flexibility relaxed = solve_flexibility(job, task, relaxed_system);
+  model::Flexibility relaxed = solve_flexibility(job, task, relaxed_system ? &*relaxed_system : nullptr);
   job.on_root([&] {
     relax_stresses(job, stress_nodes(task, relaxed), relaxed.G);
     flexibility.relaxed.push_back({share, std::move(relaxed.self), std::move(relaxed.F)});
@@ -249,8 +253,10 @@ bool relaxes_in_ratios(Job& job) {
   return apart != 0;
 }
 
-void add_flexibility(Job& job, const ElasticSystem& system) {
+// whole: of the whole body; not needed where static responses repeat. Collective.
+void add_flexibility(Job& job, const ElasticSystem* whole) {
   if (!job.options.flexibility) return;
+  const ElasticSystem* const system = flexibility_repeats(job) ? nullptr : whole;
   job.begin_stage("static responses");
   model::Flexibility flexibility = solve_flexibility(job, flexibility_task(job), system);
   if (relaxes_in_ratios(job)) {
@@ -286,7 +292,7 @@ void reduce_whole(Job& job) {
     });
   });
   check_basis(job, system, asks_for_completeness(job.options));
-  add_flexibility(job, system);
+  add_flexibility(job, &system);
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();
@@ -325,17 +331,18 @@ void check_sectors(Job& job) {
   const bool completeness = completeness_of_sectors(job);
   const bool whole = completeness || (job.options.flexibility && !flexibility_repeats(job));
   const fem::Matrices matrices = whole ? assemble(job) : fem::Matrices{};
-  UniqueVec layout;
-  if (whole)
+  std::optional<fem::VectorGather> gather;
+  std::optional<ElasticSystem> system;
+  if (whole) {
+    UniqueVec layout;
     check(MatCreateVecs(matrices.K, layout.out(), nullptr));
-  else
-    check(VecCreateMPI(job.comm, 0, 0, layout.out()));
-  const fem::VectorGather gather(layout, job.plan.dof, whole ? 3 * job.mesh.n_nodes() : 0);
-  const ElasticSystem system{matrices.K, matrices.M, gather, nullptr};
+    gather.emplace(layout, job.plan.dof, 3 * job.mesh.n_nodes());
+    system.emplace(ElasticSystem{matrices.K, matrices.M, *gather, nullptr});
+  }
   job.begin_stage("checks");
   job.report.checks = mass_checks(false, job.plan.body, [&] { return mobile_masses_by_sectors(job); });
-  if (completeness) add_load_checks(job, system);
-  add_flexibility(job, system);
+  if (completeness) add_load_checks(job, *system);
+  add_flexibility(job, system ? &*system : nullptr);
 }
 
 // From one sector of a body that repeats.
