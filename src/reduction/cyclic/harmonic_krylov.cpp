@@ -17,7 +17,7 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShift = 0;        // over the cutoff: higher ones leave low modes more roundoff
+constexpr double kShift = 0;        // amid the modes it would leave the lowest ones more roundoff
 constexpr int kBlock = 4;           // vectors of a harmonic
 constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
 constexpr double kFirstLook = 0.2;  // of the basis that is expected to do: when they are first looked at
@@ -55,7 +55,7 @@ class SearchOver final : public HarmonicSearch {
                   block;
     next_look_ = kFirstLook * needed_columns(task.n_modes, block);
     V_ = TallBasis(products.M.n(), room * kParts<Scalar>);
-    factor_.factorise(kShift * wanted.cutoff);
+    factor_.factorise(kShift);
     forces_ = random_forces(products.M, block * kParts<Scalar>);
   }
 
@@ -95,15 +95,10 @@ class SearchOver final : public HarmonicSearch {
     pairs_ = ritz_pairs(basis_);
     below_.clear();
     for (int i = 0; i < pairs_.theta.size(); ++i)
-      if (error(i) <= wanted_.tolerance && eigenvalue(i) < wanted_.cutoff) below_.push_back(i);
+      if (pairs_.error(i) <= wanted_.tolerance && eigenvalue(i) < wanted_.cutoff) below_.push_back(i);
     std::sort(below_.begin(), below_.end(), [&](int i, int j) { return eigenvalue(i) < eigenvalue(j); });
   }
 
-  // Relative to the force of the stiffness, which in low modes is small beside that of the shift.
-  double error(int i) const {
-    const double lambda = std::abs(eigenvalue(i));
-    return pairs_.error(i) * std::max(1.0, std::abs(lambda - basis_.sigma) / lambda);
-  }
   double eigenvalue(int i) const { return basis_.sigma + 1 / pairs_.theta(i); }
 
   // phi: vectors of the modes.
