@@ -39,7 +39,7 @@ struct SetOfBody {
   bool estimates() const { return upper.size() > 0; }
 };
 
-// What a body does at some output times, one column each.
+// Coordinates of a body at some output times, one column each.
 struct Motion {
   Range times;
   Eigen::Ref<const Eigen::MatrixXd> q, w;
@@ -83,8 +83,8 @@ Eigen::MatrixXd static_stress(const SetOfBody& set, const Motion& motion, const 
   return stress;
 }
 
-// What errors are estimated from: the static response beside that of the modes, Eq. (4.6), and the part of it
-// that has come by creep, Eqs. (4.11) and (4.12).
+// Adds to recovered stresses the residual static stress, Eq. (4.6), and the part of it that has come by
+// creep, Eqs. (4.11) and (4.12), from which errors are estimated.
 RecoveredStress with_residual(const SetOfBody& set, const Motion& motion, const std::vector<int>& members,
                               Range nodes, Eigen::MatrixXd stress, const Eigen::MatrixXd& whole) {
   RecoveredStress recovered{std::move(stress),

@@ -92,7 +92,7 @@ HarmonicModes solve(CyclicSearch& search, int k, const Cutoff& cutoff, const Pro
   return modes;
 }
 
-// Whether the harmonic's modes are few enough for one shift, and no other solver was asked for.
+// Whether harmonic k has few enough modes to be found at one shift, and the user asked for no other solver.
 bool suits_one_shift(const CyclicSearch& search, int k, const Cutoff& cutoff) {
   const EigenOptions& options = search.options.eigen;
   PetscBool asked = PETSC_FALSE;

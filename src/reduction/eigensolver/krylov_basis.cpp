@@ -28,7 +28,7 @@ MatrixXd times(const ConstColumns& W, const MatrixXd& U) {
   return product;
 }
 
-// What A' B of real columns says of the vectors A^H B that they are.
+// A^H B of complex vectors from A' B of the real columns that hold their real and imaginary parts.
 template <class Scalar>
 Dense<Scalar> as_scalars(MatrixXd product) {
   if constexpr (kParts<Scalar> == 1) {
@@ -45,7 +45,8 @@ Dense<Scalar> as_scalars(MatrixXd product) {
   }
 }
 
-// The coefficients of real columns that do what C does with vectors.
+// The real coefficients by which columns of real and imaginary parts are combined as complex vectors are by
+// C.
 template <class Scalar>
 MatrixXd as_reals(const Dense<Scalar>& C) {
   if constexpr (kParts<Scalar> == 1) {
@@ -95,7 +96,7 @@ std::vector<int> kept_rows(const Dense<Scalar>& R, double scale) {
   return kept;
 }
 
-// W := W G^-1/2, G: its Gram matrix; drops directions that are noise. Returns the factor applied.
+// W := W G^-1/2, G: its Gram matrix; drops directions that are noise. Returns the real factor applied.
 template <class Scalar>
 MatrixXd normalise(MatrixXd& W, const Dense<Scalar>& G, double correction, Orthonormal<Scalar>& result) {
   const Eigen::SelfAdjointEigenSolver<Dense<Scalar>> gram(G);
