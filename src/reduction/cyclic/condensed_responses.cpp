@@ -134,16 +134,17 @@ CondensedResponses::CondensedResponses(const fem::Sector& sector, const WantedRo
   for (std::size_t i = 0; i < load_.size(); ++i)
     if (load_[i] >= 0) loads.push_back(load_[i]);
   KeptRows left;
-  const NestedResponse response(matrices.K, P, loads, border_rows(nodes_), left);
+  NestedResponse response(matrices.K, P, loads, border_rows(nodes_), left);
   std::vector<Index> column_of(row_.size(), -1);  // of loads that are not held
   for (std::size_t i = 0; i < load_.size(); ++i)
     if (load_[i] >= 0) column_of[load_[i]] = static_cast<Index>(i);
   fixed_.setZero(P.rows(), wanted.n_loads());
   for (const std::vector<int>& group : response.groups()) {
-    const MatrixXf Y = response(group);
+    const MatrixXf Y = response.next();
     for (std::size_t i = 0; i < group.size(); ++i)
       fixed_.col(column_of[group[i]]) = Y.col(static_cast<Index>(i));
   }
+  fill_symmetric(response.groups(), [&](int load) { return fixed_.col(column_of[load]).data(); });
   S_ = std::move(left.S);
   E_ = left.E.cast<float>();
   smooth_ = smooth_fields(sector, nodes_.border);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "elastogear/reduction/flexibility.h"
 #include "reduction/cyclic/condensed_responses.h"
 #include "reduction/cyclic/wanted_rows.h"
+#include "reduction/static_response/independent_rows.h"
 #include "reduction/static_response/inertia_relief.h"
 #include "reduction/static_response/nested_response.h"
 
@@ -35,11 +37,12 @@ void add_stress_rows(const FlexibilityTask& task, const fem::NodeOrbits& node_or
   std::vector<int> first;
   for (int orbit = 0; orbit < static_cast<int>(plan.stress.node.cols()); ++orbit)
     first.push_back(all[plan.stress.node(0, orbit)]);
-  wanted.n_stress_rows = static_cast<int>(6 * first.size());
   if (first.empty()) return;
-  const model::SparseRows S = fem::stress_operator(task.stressed, first);
-  for (int row = 0; row < wanted.n_stress_rows; ++row)
-    for (model::SparseRows::InnerIterator it(S, row); it; ++it) {
+  const IndependentRows independent = independent_rows(fem::stress_operator(task.stressed, first));
+  wanted.first_stress_row = independent.first;
+  for (int row = 0; row < independent.W.rows(); ++row) {
+    Eigen::Map<Vector6>(wanted.stress.emplace_back().data()) = independent.Q.col(row);
+    for (model::SparseRows::InnerIterator it(independent.W, row); it; ++it) {
       const auto node = static_cast<std::size_t>(it.col() / 3);
       if (node_orbits.orbit[node] < 0) continue;
       wanted.row.push_back(row);
@@ -48,6 +51,7 @@ void add_stress_rows(const FlexibilityTask& task, const fem::NodeOrbits& node_or
       wanted.direction.push_back(static_cast<int>(it.col() % 3));
       wanted.value.push_back(it.value());
     }
+  }
 }
 
 WantedRows find_wanted(const FlexibilityTask& task, const model::Flexibility& plan,
@@ -63,11 +67,12 @@ WantedRows find_wanted(const FlexibilityTask& task, const model::Flexibility& pl
 }
 
 void broadcast(MPI_Comm comm, WantedRows& wanted) {
-  for (std::vector<int>* list : {&wanted.surface_orbit, &wanted.surface_sector_index, &wanted.row,
-                                 &wanted.orbit, &wanted.direction, &wanted.sector_index})
+  for (std::vector<int>* list :
+       {&wanted.surface_orbit, &wanted.surface_sector_index, &wanted.row, &wanted.orbit, &wanted.direction,
+        &wanted.sector_index, &wanted.first_stress_row})
     elastogear::broadcast(comm, *list);
   elastogear::broadcast(comm, wanted.value);
-  MPI_Bcast(&wanted.n_stress_rows, 1, MPI_INT, 0, comm);
+  elastogear::broadcast(comm, wanted.stress);
 }
 
 // Rows of one displacement in the coordinates of a harmonic.
@@ -104,7 +109,7 @@ model::SparseRows rows_of(const WantedRows& wanted, const fem::Harmonic& harmoni
   for (std::size_t i = 0; i < wanted.row.size(); ++i)
     unfolding.add(n_u + wanted.row[i], wanted.orbit[i], wanted.sector_index[i],
                   wanted.value[i] * Eigen::Vector3d::Unit(wanted.direction[i]).transpose(), entries);
-  model::SparseRows P(n_u + wanted.n_stress_rows, harmonic.size());
+  model::SparseRows P(wanted.n_rows(), harmonic.size());
   P.setFromTriplets(entries.begin(), entries.end());
   return P;
 }
@@ -116,19 +121,46 @@ Eigen::Matrix<double, 6, 6> tensor_turn(const Eigen::Matrix3d& T) {
   return turn;
 }
 
-// Adds to these columns of responses what the orbits' nodes, turned by j sectors, get from amplitudes Y,
-// below of fields i Y_i. The field turned by j sectors has the amplitude z exp(2 pi i j k/Z).
-template <int kComponents>
-void add_turned(const Eigen::Ref<const MatrixXf>& Y, const Eigen::Ref<const MatrixXf>& Y_i, double phase,
-                const Eigen::Matrix<double, kComponents, kComponents>& turn, const model::Images& images,
-                int j, Eigen::Ref<MatrixXf> responses) {
-  const Eigen::Matrix<float, kComponents, kComponents> re = (std::cos(phase) * turn).template cast<float>(),
-                                                       im = (std::sin(phase) * turn).template cast<float>();
-  for (Eigen::Index column = 0; column < Y.cols(); ++column)
+// Amplitudes Y of one harmonic, Y_i of the fields i Y or none. The field turned by j sectors has the
+// amplitude z exp(2 pi i j k/Z): re and im are the parts of what follows from Y and Y_i.
+struct TurnedAmplitudes {
+  Eigen::Ref<const MatrixXf> Y, Y_i;
+  int j;
+  double phase;
+};
+
+// Adds to these columns of responses what the orbits' nodes, turned by j sectors, are displaced.
+void add_displacements(const TurnedAmplitudes& of, const Eigen::Matrix3d& turn, const model::Images& images,
+                       Eigen::Ref<MatrixXf> responses) {
+  const Eigen::Matrix3f re = (std::cos(of.phase) * turn).cast<float>(),
+                        im = (std::sin(of.phase) * turn).cast<float>();
+  for (Eigen::Index column = 0; column < of.Y.cols(); ++column)
     for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit) {
-      auto to = responses.col(column).segment<kComponents>(kComponents * Eigen::Index{images.node(j, orbit)});
-      to.noalias() += re * Y.col(column).segment<kComponents>(kComponents * orbit);
-      if (Y_i.cols() > 0) to.noalias() += im * Y_i.col(column).segment<kComponents>(kComponents * orbit);
+      auto to = responses.col(column).segment<3>(3 * Eigen::Index{images.node(of.j, orbit)});
+      to.noalias() += re * of.Y.col(column).segment<3>(3 * orbit);
+      if (of.Y_i.cols() > 0) to.noalias() += im * of.Y_i.col(column).segment<3>(3 * orbit);
+    }
+}
+
+// The same of stresses, for which the rows of Y stand.
+void add_stresses(const TurnedAmplitudes& of, const Eigen::Matrix<double, 6, 6>& turn,
+                  const WantedRows& wanted, const model::Images& images, Eigen::Ref<MatrixXf> responses) {
+  const auto n = static_cast<Eigen::Index>(wanted.stress.size());
+  Eigen::Matrix<float, 6, Eigen::Dynamic> re(6, n), im(6, n);
+  for (Eigen::Index row = 0; row < n; ++row) {
+    const Vector6 turned =
+        turn * Eigen::Map<const Vector6>(wanted.stress[static_cast<std::size_t>(row)].data());
+    re.col(row) = (std::cos(of.phase) * turned).cast<float>();
+    im.col(row) = (std::sin(of.phase) * turned).cast<float>();
+  }
+  for (Eigen::Index column = 0; column < of.Y.cols(); ++column)
+    for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit) {
+      Eigen::Matrix<float, 6, 1> sum = Eigen::Matrix<float, 6, 1>::Zero();
+      for (int row = wanted.first_stress_row[orbit]; row < wanted.first_stress_row[orbit + 1]; ++row) {
+        sum += of.Y(row, column) * re.col(row);
+        if (of.Y_i.cols() > 0) sum += of.Y_i(row, column) * im.col(row);
+      }
+      responses.col(column).segment<6>(6 * Eigen::Index{images.node(of.j, orbit)}) += sum;
     }
 }
 
@@ -158,6 +190,10 @@ model::SparseRows below_each_other(const model::SparseRows& A, const model::Spar
   return both;
 }
 
+auto column(Amplitudes& amplitudes, int load) {
+  return amplitudes.piece[static_cast<std::size_t>(load / kPiece)].col(load % kPiece);
+}
+
 // Amplitudes of one harmonic's part of all responses.
 class HarmonicResponses {
  public:
@@ -168,7 +204,8 @@ class HarmonicResponses {
     n_u_ = static_cast<Eigen::Index>(3 * wanted.surface_orbit.size());
   }
 
-  Amplitudes find(const fem::Matrices& matrices) const {
+  // progress: takes the share of the columns that are found.
+  Amplitudes find(const fem::Matrices& matrices, const std::function<void(double)>& progress) const {
     RigidFields rigid;
     UniqueMat grounded;
     if (rigid_.cols() > 0) {
@@ -178,18 +215,20 @@ class HarmonicResponses {
     }
     std::vector<int> loads(static_cast<std::size_t>(n_u_));
     std::iota(loads.begin(), loads.end(), 0);
-    const NestedResponse response(grounded ? grounded.get() : matrices.K.get(),
-                                  harmonic_.real ? P_ : below_each_other(P_, times_i(P_, harmonic_)), loads,
-                                  rigid);
+    NestedResponse response(grounded ? grounded.get() : matrices.K.get(),
+                            harmonic_.real ? P_ : below_each_other(P_, times_i(P_, harmonic_)), loads, rigid);
     Amplitudes amplitudes{harmonic_.real, harmonic_.k, {}};
     const Eigen::Index n_rows = harmonic_.real ? P_.rows() : 2 * P_.rows();
     for (Eigen::Index first = 0; first < n_u_; first += kPiece)
       amplitudes.piece.emplace_back(n_rows, std::min(kPiece, n_u_ - first));
+    std::size_t done = 0;
     for (const std::vector<int>& group : response.groups()) {
-      const MatrixXf Y = response(group);
+      const MatrixXf Y = response.next();
       for (std::size_t i = 0; i < group.size(); ++i)
-        amplitudes.piece[group[i] / kPiece].col(group[i] % kPiece) = Y.col(static_cast<Eigen::Index>(i));
+        column(amplitudes, group[i]) = Y.col(static_cast<Eigen::Index>(i));
+      progress(static_cast<double>(++done) / static_cast<double>(response.groups().size()));
     }
+    fill_symmetric(response.groups(), [&](int load) { return column(amplitudes, load).data(); });
     return amplitudes;
   }
 
@@ -202,7 +241,8 @@ class HarmonicResponses {
 
 // Adds the harmonic's part of these columns of F and G.
 void add_part(const MatrixXf& Y, const Amplitudes& harmonic, const mesh::Turn& sectors,
-              const model::Flexibility& plan, Eigen::Ref<MatrixXf> F, Eigen::Ref<MatrixXf> G) {
+              const WantedRows& wanted, const model::Flexibility& plan, Eigen::Ref<MatrixXf> F,
+              Eigen::Ref<MatrixXf> G) {
   const int Z = sectors.n_sectors;  // that of the plan, which rank 0 alone has
   const Eigen::Index n_rows = harmonic.real ? Y.rows() : Y.rows() / 2, n_u = 3 * plan.surface.node.cols(),
                      n_i = harmonic.real ? 0 : Y.cols();
@@ -211,10 +251,10 @@ void add_part(const MatrixXf& Y, const Amplitudes& harmonic, const mesh::Turn& s
     const double alpha = 2 * std::numbers::pi / Z,
                  phase = alpha * static_cast<double>(static_cast<long>(j) * harmonic.k % Z);
     const Eigen::Matrix3d T = rotation_matrix(alpha * j * sectors.axis);
-    add_turned<3>(Y.topRows(n_u), Y_i.topRows(n_u), phase, T, plan.surface, j, F);
+    add_displacements({Y.topRows(n_u), Y_i.topRows(n_u), j, phase}, T, plan.surface, F);
     if (n_rows > n_u)
-      add_turned<6>(Y.middleRows(n_u, n_rows - n_u), Y_i.bottomRows(n_rows - n_u), phase, tensor_turn(T),
-                    plan.stress, j, G);
+      add_stresses({Y.middleRows(n_u, n_rows - n_u), Y_i.bottomRows(n_rows - n_u), j, phase}, tensor_turn(T),
+                   wanted, plan.stress, G);
   }
 }
 
@@ -229,7 +269,7 @@ void sum_on_root(MPI_Comm comm, Eigen::MatrixXf& A) {
 
 // F and G on rank 0 from the amplitudes of all ranks, which are released with the columns that are done:
 // there are never many more numbers than those of F and G.
-void combine(MPI_Comm comm, const mesh::Turn& sectors, std::vector<Amplitudes>& own,
+void combine(MPI_Comm comm, const mesh::Turn& sectors, const WantedRows& wanted, std::vector<Amplitudes>& own,
              model::Flexibility& flexibility) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
@@ -246,7 +286,7 @@ void combine(MPI_Comm comm, const mesh::Turn& sectors, std::vector<Amplitudes>& 
     G.setZero(n_G, width);
     for (Amplitudes& harmonic : own) {
       MatrixXf& Y = harmonic.piece[static_cast<std::size_t>(first / kPiece)];
-      add_part(Y, harmonic, sectors, flexibility, F, G);
+      add_part(Y, harmonic, sectors, wanted, flexibility, F, G);
       Y = MatrixXf();
     }
     sum_on_root(comm, F);
@@ -292,21 +332,24 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
     if (!floating && condensing_pays(sector))
       condensed.emplace(sector, wanted, body.regions, body.formulation);
     for (int k = rank; k < n_harmonics; k += size) {
+      const auto report_part = [&](double part) {
+        report(progress, kStage, std::min(1.0, (k - rank + part * size) / n_harmonics));
+      };
       const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
       if (harmonic.size() == 0) continue;
-      report(progress, kStage, std::min(1.0, static_cast<double>(k + size) / n_harmonics));
       if (condensed) {
         own.push_back(condensed->find(harmonic));
+        report_part(1);
         continue;
       }
       const fem::Matrices matrices =
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.formulation);
       const MatrixXd rigid = floating ? fem::rigid_fields(harmonic, sector) : MatrixXd();
-      own.push_back(HarmonicResponses(harmonic, sector, wanted, rigid).find(matrices));
+      own.push_back(HarmonicResponses(harmonic, sector, wanted, rigid).find(matrices, report_part));
       give_back_memory();
     }
   });
-  combine(comm, sector.turn, own, flexibility);
+  combine(comm, sector.turn, wanted, own, flexibility);
   if (rank == 0) model::set_self(flexibility);
   return flexibility;
 }

@@ -175,11 +175,27 @@ void add_responses(const Contribution<T>& c, const std::vector<int>& loads, Dens
     add_products(c, columns, first, std::min(kTile, n - first), Y);
 }
 
+template <class T>
+void remove_rows(const std::vector<char>& marked, Contribution<T>& c) {
+  std::vector<Index> left;
+  for (std::size_t i = 0; i < c.row.size(); ++i)
+    if (marked[c.row[i]] == 0) left.push_back(static_cast<Index>(i));
+  if (left.size() == c.row.size()) return;
+  std::vector<int> row;
+  for (Index i : left) row.push_back(c.row[i]);
+  c.row = std::move(row);
+  if (c.response.size() > 0) c.response = Dense<T>(c.response(left, Eigen::all));
+  if (c.C.size() > 0) c.C = Dense<T>(c.C(left, Eigen::all));
+  if (c.left_out.size() > 0) c.left_out = MatrixXf(c.left_out(left, Eigen::all));
+}
+
 template VectorXd row_scales(const Contributions<float>&, int);
 template VectorXd row_scales(const Contributions<double>&, int);
 template void order_columns(const std::vector<char>&, const VectorXd&, Contribution<float>&);
 template void order_columns(const std::vector<char>&, const VectorXd&, Contribution<double>&);
 template void add_responses(const Contribution<float>&, const std::vector<int>&, Dense<float>&);
 template void add_responses(const Contribution<double>&, const std::vector<int>&, Dense<double>&);
+template void remove_rows(const std::vector<char>&, Contribution<float>&);
+template void remove_rows(const std::vector<char>&, Contribution<double>&);
 
 }  // namespace elastogear::reduction

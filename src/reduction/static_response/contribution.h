@@ -41,4 +41,8 @@ void order_columns(const std::vector<char>& is_load, const Eigen::VectorXd& scal
 template <class T>
 void add_responses(const Contribution<T>& contribution, const std::vector<int>& loads, Dense<T>& Y);
 
+/// Forgets the rows of P that are marked; what a leaf adds to loads stays.
+template <class T>
+void remove_rows(const std::vector<char>& marked, Contribution<T>& contribution);
+
 }  // namespace elastogear::reduction

@@ -9,6 +9,7 @@
 
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "reduction/static_response/independent_rows.h"
 #include "reduction/static_response/inertia_relief.h"
 #include "reduction/static_response/nested_response.h"
 
@@ -91,20 +92,19 @@ std::vector<int> mesh_numbers(const FlexibilityTask& task, const std::vector<int
   return numbers;
 }
 
-// The wanted rows of the displacements, first those of the loaded nodes, then those of the stress operator.
-// dof: displacement of each row of K.
+// The wanted rows of the displacements, first those of the loaded nodes, then those of stresses. dof:
+// displacement of each row of K.
 model::SparseRows wanted_rows(const FlexibilityTask& task, const model::Flexibility& flexibility,
-                              const std::vector<int>& dof) {
+                              const IndependentRows& stress, const std::vector<int>& dof) {
   std::vector<int> row(static_cast<std::size_t>(task.mesh.X.size()), -1);
   for (std::size_t i = 0; i < dof.size(); ++i) row[dof[i]] = static_cast<int>(i);
-  const int n_u = 3 * static_cast<int>(flexibility.node.size()),
-            n_sigma = 6 * static_cast<int>(task.stress_node.size());
+  const int n_u = 3 * static_cast<int>(flexibility.node.size()), n_sigma = static_cast<int>(stress.W.rows());
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < n_u; ++i)
     if (const int j = row[3 * task.surface.node[flexibility.node[i / 3]] + i % 3]; j >= 0)
       entries.emplace_back(i, j, 1.0);
   for (int i = 0; i < n_sigma; ++i)
-    for (model::SparseRows::InnerIterator it(task.S, i); it; ++it)
+    for (model::SparseRows::InnerIterator it(stress.W, i); it; ++it)
       if (const int j = row[it.col()]; j >= 0) entries.emplace_back(n_u + i, j, it.value());
   model::SparseRows P(n_u + n_sigma, static_cast<Eigen::Index>(dof.size()));
   P.setFromTriplets(entries.begin(), entries.end());
@@ -152,9 +152,16 @@ RootSystem gather(const ElasticSystem& system) {
 }
 
 // Enters the responses to these of the loads.
-void enter(const Eigen::MatrixXf& responses, const std::vector<int>& loads, model::Flexibility& flexibility) {
-  flexibility.F(Eigen::all, loads) = responses.topRows(flexibility.F.rows());
-  flexibility.G(Eigen::all, loads) = responses.bottomRows(flexibility.G.rows());
+void enter(const Eigen::MatrixXf& responses, const std::vector<int>& loads, const IndependentRows& stress,
+           model::Flexibility& flexibility) {
+  const Eigen::Index n_u = flexibility.F.rows();
+  const Eigen::Matrix<float, 6, Eigen::Dynamic> Q = stress.Q.cast<float>();
+  flexibility.F(Eigen::all, loads) = responses.topRows(n_u);
+  for (int node = 0; node < stress.n_nodes(); ++node) {
+    const int first = stress.first[node], n = stress.first[node + 1] - first;
+    flexibility.G(Eigen::seqN(6 * node, 6), loads) =
+        Q.middleCols(first, n) * responses.middleRows(n_u + first, n);
+  }
 }
 
 }  // namespace
@@ -221,19 +228,22 @@ model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSy
   collectively(comm, [&] {
     if (rank != 0) return;
     flexibility = plan_flexibility(task);
-    const model::SparseRows P = wanted_rows(task, flexibility, system.gather.dof());
+    const auto n_stress = static_cast<Eigen::Index>(6 * task.stress_node.size());
+    const IndependentRows stress = independent_rows(task.S.topRows(n_stress));
+    const model::SparseRows P = wanted_rows(task, flexibility, stress, system.gather.dof());
     const auto n_u = static_cast<Eigen::Index>(3 * flexibility.node.size());
     std::vector<int> loads(static_cast<std::size_t>(n_u));
     std::iota(loads.begin(), loads.end(), 0);
-    const NestedResponse response(root.K, P, loads, root.rigid);
+    NestedResponse response(root.K, P, loads, root.rigid);
     flexibility.F.resize(n_u, n_u);
-    flexibility.G.resize(P.rows() - n_u, n_u);
+    flexibility.G.resize(n_stress, n_u);
     double done = 0;
     for (const std::vector<int>& group : response.groups()) {
-      enter(response(group), group, flexibility);
+      enter(response.next(), group, stress, flexibility);
       done += static_cast<double>(group.size());
       report(progress, kStage, done / static_cast<double>(n_u));
     }
+    fill_symmetric(response.groups(), [&](int load) { return flexibility.F.col(load).data(); });
     model::set_self(flexibility);
   });
   return flexibility;

@@ -378,10 +378,36 @@ MatrixXf NestedResponse::balanced(const std::vector<int>& loads) const {
   return (all.topRows(n) - P_R_ * all.bottomRows(n_rows_ - n) - drift_ * P_R_load.transpose()).cast<float>();
 }
 
-MatrixXf NestedResponse::operator()(const std::vector<int>& loads) const {
-  if (P_R_.size() > 0) return balanced(loads);
-  return std::holds_alternative<Contributions<float>>(contributions_) ? plain<float>(loads)
-                                                                      : plain<double>(loads).cast<float>();
+MatrixXf NestedResponse::next() {
+  const std::vector<int>& loads = groups_.at(next_++);
+  MatrixXf Y = P_R_.size() > 0 ? balanced(loads)
+               : std::holds_alternative<Contributions<float>>(contributions_)
+                   ? plain<float>(loads)
+                   : MatrixXf(plain<double>(loads).cast<float>());
+  std::vector<char> done(static_cast<std::size_t>(n_rows_), 0);
+  for (int load : loads) done[load] = 1;
+  std::visit(
+      [&](auto& contributions) {
+        for (auto& c : contributions) remove_rows(done, c);
+      },
+      contributions_);
+  return Y;
+}
+
+void fill_symmetric(const std::vector<std::vector<int>>& groups,
+                    const std::function<float*(int load)>& column) {
+  constexpr std::size_t kBlock = 64;  // loads whose columns stay in the cache
+  for (std::size_t later = 1; later < groups.size(); ++later)
+    for (std::size_t earlier = 0; earlier < later; ++earlier)
+      for (std::size_t first = 0; first < groups[earlier].size(); first += kBlock) {
+        const std::size_t end = std::min(first + kBlock, groups[earlier].size());
+        std::vector<const float*> from;
+        for (std::size_t i = first; i < end; ++i) from.push_back(column(groups[earlier][i]));
+        for (int load : groups[later]) {
+          float* const to = column(load);
+          for (std::size_t i = first; i < end; ++i) to[groups[earlier][i]] = from[i - first][load];
+        }
+      }
 }
 
 }  // namespace elastogear::reduction

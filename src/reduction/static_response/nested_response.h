@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstddef>
+#include <functional>
 #include <variant>
 #include <vector>
 
@@ -47,8 +49,9 @@ class NestedResponse {
 
   /// The loads in groups that go through the parts together.
   const std::vector<std::vector<int>>& groups() const { return groups_; }
-  /// P K^-1 P(loads, :)': a column for each of these loads.
-  Eigen::MatrixXf operator()(const std::vector<int>& loads) const;
+  /// P K^-1 P(loads, :)' of the next group, a column for each of its loads. Rows that were loads of earlier
+  /// groups are left out, 0: they stand in the columns of these (fill_symmetric).
+  Eigen::MatrixXf next();
 
  private:
   // A part and all below it, eliminated.
@@ -70,8 +73,14 @@ class NestedResponse {
   Eigen::Index n_rows_;  // of P
   std::variant<Contributions<float>, Contributions<double>> contributions_;
   std::vector<std::vector<int>> groups_;
+  std::size_t next_ = 0;
   Eigen::MatrixXd P_R_;    // of a free body: P R
   Eigen::MatrixXd drift_;  // and P K^-1 M R without the rigid motion in it
 };
+
+/// Enters the rows of loads that NestedResponse::next leaves out, the responses of loads to each other being
+/// symmetric. column: where the responses to a load are stored, in the order of the rows of P.
+void fill_symmetric(const std::vector<std::vector<int>>& groups,
+                    const std::function<float*(int load)>& column);
 
 }  // namespace elastogear::reduction
