@@ -16,6 +16,8 @@ constexpr double kMoreSurplus = 0.25;  // of few modes, which take less time tha
 constexpr int kFewSurplus = 50;        // of these at most
 constexpr int kLeastSurplus = 8;       // and at least so many may be
 constexpr int kPairsInDoubt = 4;       // in a sample
+constexpr double kMoreModes = 60;      // of a worm or wheel than Weyl's law says, among the first hundreds
+constexpr double kMoreShare = 0.45;    // and among the first hundred
 constexpr int kSampleEvery = 5;        // harmonics counted for the first guess of the cutoff
 
 // Eigenvalues below sigma of a harmonic of this rank's group.
@@ -60,7 +62,8 @@ double share_of_coordinates(const CyclicSearch& search, const std::vector<int>& 
 
 // A sigma with about n eigenvalues below it, by counting those of every few harmonics.
 double estimate_cutoff(CyclicSearch& search, int n) {
-  const double weyl = weyl_cutoff(search.sector, search.body.body.regions, n);
+  const double weyl =
+      weyl_cutoff(search.sector, search.body.body.regions, n - std::min(kMoreModes, kMoreShare * n));
   std::vector<int> sample;
   for (int k = kSampleEvery / 2; k < search.n_harmonics(); k += kSampleEvery) sample.push_back(k);
   const double share = share_of_coordinates(search, sample);

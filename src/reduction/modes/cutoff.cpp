@@ -1,9 +1,13 @@
 #include "reduction/modes/cutoff.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "elastogear/fem/element.h"
 
@@ -18,6 +22,7 @@ constexpr double kLargestStep = 8;      // factor of sigma between two counts
 constexpr double kSmallestStep = 1.02;  // its least while sigma is known from one side only
 constexpr double kLeastProgress = 0.1;  // of the logarithmic width of the bracket
 constexpr double kNarrow = 1e-10;       // relative width of a bracket around equal eigenvalues
+constexpr int kNewton = 20;             // iterations from above, where N(omega) is convex
 
 struct Point {
   double sigma;
@@ -45,6 +50,63 @@ double next_guess(const Point& lower, const Point& upper, double power, double t
          std::pow(upper.sigma / lower.sigma, std::clamp(fraction, kLeastProgress, 1 - kLeastProgress));
 }
 
+// Coefficients of omega^3 and omega^2 in the number of modes of a large body.
+struct WeylCoefficients {
+  double volume = 0, surface = 0;
+};
+
+// Faces of the sector's cells at which the body ends, with their cells: where the sector is cut from the
+// others the same orbits of nodes come twice.
+std::vector<std::pair<mesh::Face, int>> outer_faces(const fem::Sector& sector) {
+  std::vector<int> cell;
+  const std::vector<mesh::Face> faces = mesh::boundary_faces(sector.mesh, &cell);
+  std::map<std::vector<int>, std::vector<std::size_t>> of_orbits;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    std::vector<int> orbits;
+    for (int node : faces[i]) orbits.push_back(sector.node_orbits.orbit[node]);
+    std::sort(orbits.begin(), orbits.end());
+    of_orbits[orbits].push_back(i);
+  }
+  std::vector<std::pair<mesh::Face, int>> outer;
+  for (const auto& [orbits, which] : of_orbits)
+    if (which.size() == 1 || orbits.front() < 0)
+      for (std::size_t i : which) outer.emplace_back(faces[i], cell[i]);
+  return outer;
+}
+
+double area(const mesh::Mesh& mesh, const mesh::Face& face) {
+  const Eigen::Vector3d a = mesh.X.col(face[2]) - mesh.X.col(face[0]),
+                        b = mesh.X.col(face[3]) - mesh.X.col(face[1]);
+  return a.cross(b).norm() / 2;
+}
+
+WeylCoefficients weyl_coefficients(const fem::Sector& sector,
+                                   const std::vector<model::MaterialRegion>& regions) {
+  struct Speeds {
+    double p2, s2;  // squares
+  };
+  const auto speeds = [&](int cell) {
+    const model::Material& material = regions[sector.region[cell]].material;
+    const auto [lambda, mu] = fem::mean_lame(material);
+    return Speeds{(lambda + 2 * mu) / material.rho, mu / material.rho};
+  };
+  const auto share = [&](int cell) { return sector.turn.n_sectors * sector.weight[cell]; };
+  WeylCoefficients result;
+  for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
+    const auto [p2, s2] = speeds(cell);
+    const double volume =
+        fem::element_functions(sector.mesh.cells.type[cell]).volume(fem::cell_coordinates(sector.mesh, cell));
+    result.volume += share(cell) * volume * (std::pow(p2, -1.5) + 2 * std::pow(s2, -1.5)) /
+                     (6 * std::numbers::pi * std::numbers::pi);
+  }
+  for (const auto& [face, cell] : outer_faces(sector)) {
+    const auto [p2, s2] = speeds(cell);
+    result.surface += share(cell) * area(sector.mesh, face) * (2 * s2 * s2 - 3 * s2 * p2 + 3 * p2 * p2) /
+                      (s2 * p2 * (p2 - s2)) / (16 * std::numbers::pi);
+  }
+  return result;
+}
+
 }  // namespace
 
 double find_cutoff(const Count& count, CountRange wanted, double start) {
@@ -63,18 +125,14 @@ double find_cutoff(const Count& count, CountRange wanted, double start) {
   }
 }
 
-double weyl_cutoff(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions, int n) {
-  double density = 0;  // of modes: N = density omega^3 / (6 pi^2)
-  for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
-    const model::Material& material = regions[sector.region[cell]].material;
-    const auto [lambda, mu] = fem::mean_lame(material);
-    const double c_p = std::sqrt((lambda + 2 * mu) / material.rho), c_s = std::sqrt(mu / material.rho);
-    const double volume =
-        fem::element_functions(sector.mesh.cells.type[cell]).volume(fem::cell_coordinates(sector.mesh, cell));
-    density +=
-        sector.turn.n_sectors * sector.weight[cell] * volume * (std::pow(c_p, -3) + 2 * std::pow(c_s, -3));
+double weyl_cutoff(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions, double n) {
+  const auto [volume, surface] = weyl_coefficients(sector, regions);
+  double omega = std::min(std::cbrt(n / volume), std::sqrt(n / surface));  // above the root
+  for (int i = 0; i < kNewton; ++i) {
+    const double off = (volume * omega + surface) * omega * omega - n;
+    omega -= off / ((3 * volume * omega + 2 * surface) * omega);
   }
-  return std::pow(6 * std::numbers::pi * std::numbers::pi * n / density, kWeyl);
+  return omega * omega;
 }
 
 }  // namespace elastogear::reduction

@@ -20,8 +20,8 @@ using Count = std::function<int(double sigma)>;
 /// that there is none. count must rise from 0 at 0 to at least wanted.least.
 double find_cutoff(const Count& count, CountRange wanted, double start);
 
-/// The sigma below which an elastic body of the sector's volume has n modes if it is large: H. Weyl's law for
-/// compression and shear waves. docs/theory.md, Eq. (2.15).
-double weyl_cutoff(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions, int n);
+/// The sigma below which an elastic body of the sector's volume and surface has n modes if it is large: H.
+/// Weyl's law for compression, shear and surface waves. docs/theory.md, Eq. (2.15).
+double weyl_cutoff(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions, double n);
 
 }  // namespace elastogear::reduction
