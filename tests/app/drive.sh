@@ -261,6 +261,7 @@ refused "face_width = .* m would do" mesh "$examples/one_start_worm.yaml" -face_
 refused "is for a drive" mesh part.yaml -helix_angle 10
 refused "is for a single body" reduce spur.yaml -mesh other.msh
 refused "counts are for single bodies" mesh spur.yaml -wheel_count_flank 4
+refused "counts are for single bodies" reduce "$examples/steering_worm.yaml" -worm_count_turn 60
 refused "element_order = '3'" mesh spur.yaml -element_order 3
 # Contact forces that cancel on all of the few modes, up to roundoff, are in balance.
 cat >plane.yaml <<'END'

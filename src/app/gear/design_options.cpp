@@ -2,10 +2,12 @@
 
 #include <numbers>
 
+#include "elastogear/base/error.h"
+
 namespace elastogear::app {
 namespace {
 
-using gear::Design;
+using gear::Design, gear::WormCounts, gear::WheelCounts;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -65,6 +67,46 @@ const Rows<Design> kDesignRows = {
     {"rim_diameter", &Design::rim_diameter, "m", "wheel: inner diameter of the rim (its own element set)"},
 };
 
+const Rows<WormCounts> kWormCounts = {
+    {"worm_count_tooth", &WormCounts::tooth, "-", "worm: columns across the tooth, even", kDependent},
+    {"worm_count_space", &WormCounts::space, "-", "worm: columns across half a space", kDependent},
+    {"worm_count_flank", &WormCounts::flank, "-", "worm: rows up the flank", kDependent},
+    {"worm_count_fillet", &WormCounts::fillet, "-", "worm: rows up the tooth's half of the fillet",
+     kDependent},
+    {"worm_count_ring", &WormCounts::ring, "-", "worm: rows from the bore to the root", kDependent},
+    {"worm_count_turn", &WormCounts::turn, "-", "worm: sections per turn, a multiple of z1 (2 space + tooth)",
+     kDependent},
+    {"worm_count_shaft", &WormCounts::shaft, "-", "worm: layers of each plain shaft end", kDependent},
+    {"worm_growth", &WormCounts::growth, "-",
+     "worm: how much thicker each row from the root inwards is than the one before, 1 to 10; 0: nearly equal",
+     kDependent},
+    {"worm_tooth_growth", &WormCounts::tooth_growth, "-",
+     "worm: the same of columns from the flanks to the middle of the tooth", kDependent},
+};
+const Rows<WheelCounts> kWheelCounts = {
+    {"wheel_count_tooth", &WheelCounts::tooth, "-", "wheel: columns across the tooth, even", kDependent},
+    {"wheel_count_space", &WheelCounts::space, "-", "wheel: columns across half a space", kDependent},
+    {"wheel_count_flank", &WheelCounts::flank, "-", "wheel: rows up the flank", kDependent},
+    {"wheel_count_fillet", &WheelCounts::fillet, "-", "wheel: rows up the tooth's half of the fillet",
+     kDependent},
+    {"wheel_count_rim", &WheelCounts::rim, "-", "wheel: rows from the rim radius to the root", kDependent},
+    {"wheel_count_ring", &WheelCounts::ring, "-", "wheel: rows across the ring", kDependent},
+    {"wheel_count_web", &WheelCounts::web, "-", "wheel: rows across the web", kDependent},
+    {"wheel_count_hub", &WheelCounts::hub, "-", "wheel: rows across the hub", kDependent},
+    {"wheel_count_web_layers", &WheelCounts::web_layers, "-", "wheel: axial layers across the web",
+     kDependent},
+    {"wheel_count_face_layers", &WheelCounts::face_layers, "-",
+     "wheel: axial layers of the face beside the web", kDependent},
+    {"wheel_count_hub_layers", &WheelCounts::hub_layers, "-",
+     "wheel: axial layers of the hub beyond the face", kDependent},
+    {"wheel_growth", &WheelCounts::growth, "-",
+     "wheel: how much thicker each row from the root inwards is than the one before, 1 to 10; 0: nearly "
+     "equal",
+     kDependent},
+    {"wheel_tooth_growth", &WheelCounts::tooth_growth, "-",
+     "wheel: the same of columns from the flanks to the middle of the tooth", kDependent},
+};
+
 }  // namespace
 
 const Rows<Design>& design_rows() { return kDesignRows; }
@@ -72,5 +114,14 @@ const Rows<Design>& design_rows() { return kDesignRows; }
 int element_order(const Options& options) { return options.choice("element_order", {"1", "2"}) + 1; }
 
 bool is_worm(const Options& options) { return options.choice("part", {"worm", "wheel"}) == 0; }
+
+const Rows<WormCounts>& worm_count_rows() { return kWormCounts; }
+const Rows<WheelCounts>& wheel_count_rows() { return kWheelCounts; }
+
+void refuse_counts(const Options& options) {
+  for (const OptionSpec& spec : table_of(kWormCounts, kWheelCounts))
+    require(!options.given(spec.name), options.label(spec.name),
+            ": counts are for single bodies; a drive's meshes follow from size");
+}
 
 }  // namespace elastogear::app

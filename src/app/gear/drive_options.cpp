@@ -138,6 +138,7 @@ Options with_gears(Options options) {
 
 Drive read_drive(const Options& options) {
   refuse_others(options);
+  refuse_counts(options);
   const std::vector<std::string> names = options.list("gears");
   for (const std::string& name : names)
     require(std::count(names.begin(), names.end(), name) == 1, options.label("gears"), ": '", name,

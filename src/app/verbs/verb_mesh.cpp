@@ -20,50 +20,9 @@
 namespace elastogear::app {
 namespace {
 
-using gear::Design, gear::WormCounts, gear::WheelCounts;
+using gear::Design;
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-// The default counts are those of the size.
-const Rows<WormCounts> kWormCounts = {
-    {"worm_count_tooth", &WormCounts::tooth, "-", "worm: columns across the tooth, even", kDependent},
-    {"worm_count_space", &WormCounts::space, "-", "worm: columns across half a space", kDependent},
-    {"worm_count_flank", &WormCounts::flank, "-", "worm: rows up the flank", kDependent},
-    {"worm_count_fillet", &WormCounts::fillet, "-", "worm: rows up the tooth's half of the fillet",
-     kDependent},
-    {"worm_count_ring", &WormCounts::ring, "-", "worm: rows from the bore to the root", kDependent},
-    {"worm_count_turn", &WormCounts::turn, "-", "worm: sections per turn, a multiple of z1 (2 space + tooth)",
-     kDependent},
-    {"worm_count_shaft", &WormCounts::shaft, "-", "worm: layers of each plain shaft end", kDependent},
-    {"worm_growth", &WormCounts::growth, "-",
-     "worm: how much thicker each row from the root inwards is than the one before, 1 to 10; 0: nearly equal",
-     kDependent},
-    {"worm_tooth_growth", &WormCounts::tooth_growth, "-",
-     "worm: the same of columns from the flanks to the middle of the tooth", kDependent},
-};
-const Rows<WheelCounts> kWheelCounts = {
-    {"wheel_count_tooth", &WheelCounts::tooth, "-", "wheel: columns across the tooth, even", kDependent},
-    {"wheel_count_space", &WheelCounts::space, "-", "wheel: columns across half a space", kDependent},
-    {"wheel_count_flank", &WheelCounts::flank, "-", "wheel: rows up the flank", kDependent},
-    {"wheel_count_fillet", &WheelCounts::fillet, "-", "wheel: rows up the tooth's half of the fillet",
-     kDependent},
-    {"wheel_count_rim", &WheelCounts::rim, "-", "wheel: rows from the rim radius to the root", kDependent},
-    {"wheel_count_ring", &WheelCounts::ring, "-", "wheel: rows across the ring", kDependent},
-    {"wheel_count_web", &WheelCounts::web, "-", "wheel: rows across the web", kDependent},
-    {"wheel_count_hub", &WheelCounts::hub, "-", "wheel: rows across the hub", kDependent},
-    {"wheel_count_web_layers", &WheelCounts::web_layers, "-", "wheel: axial layers across the web",
-     kDependent},
-    {"wheel_count_face_layers", &WheelCounts::face_layers, "-",
-     "wheel: axial layers of the face beside the web", kDependent},
-    {"wheel_count_hub_layers", &WheelCounts::hub_layers, "-",
-     "wheel: axial layers of the hub beyond the face", kDependent},
-    {"wheel_growth", &WheelCounts::growth, "-",
-     "wheel: how much thicker each row from the root inwards is than the one before, 1 to 10; 0: nearly "
-     "equal",
-     kDependent},
-    {"wheel_tooth_growth", &WheelCounts::tooth_growth, "-",
-     "wheel: the same of columns from the flanks to the middle of the tooth", kDependent},
-};
 
 void print_toothing(const gear::Geometry& g, const gear::Toothing& t) {
   const auto mm = [](double diameter) { return with_unit(2e3 * diameter, "mm"); };
@@ -90,9 +49,6 @@ Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) 
 
 // All members of a drive file.
 void mesh_drive(const Options& options) {
-  for (const OptionSpec& spec : table_of(kWormCounts, kWheelCounts))
-    require(!options.given(spec.name), options.label(spec.name),
-            ": counts are for single bodies; a drive's meshes follow from size");
   const Drive drive = read_drive(options);
   const gear::Size size = gear::size(options.text("size"));
   std::vector<std::string> paths;
@@ -135,11 +91,11 @@ void run_mesh(const Options& given, const std::vector<std::string>&) {
   const gear::Geometry geometry = gear::derive(d);
   const int order = element_order(options);
   const mesh::Mesh mesh =
-      worm ? gear::worm_mesh(d, refined(gear::worm_counts(size, d.z1, order), kWormCounts, options))
-           : gear::wheel_mesh(d, refined(gear::wheel_counts(size, order), kWheelCounts, options));
+      worm ? gear::worm_mesh(d, refined(gear::worm_counts(size, d.z1, order), worm_count_rows(), options))
+           : gear::wheel_mesh(d, refined(gear::wheel_counts(size, order), wheel_count_rows(), options));
   print_toothing(geometry, worm ? geometry.worm : geometry.wheel);
   print_mesh(mesh);
-  const OptionTable counts = table_of(kWormCounts, kWheelCounts);
+  const OptionTable counts = table_of(worm_count_rows(), wheel_count_rows());
   if (std::none_of(counts.begin(), counts.end(), [&](const auto& spec) { return options.given(spec.name); }))
     print_item("stress on such meshes", root_accuracy(worm, size, order));
   mesh::write_mesh(path, mesh);
@@ -149,7 +105,7 @@ void run_mesh(const Options& given, const std::vector<std::string>&) {
 }  // namespace
 
 Verb mesh_verb() {
-  OptionTable table = table_of(design_rows(), kWormCounts, kWheelCounts);
+  OptionTable table = table_of(design_rows(), worm_count_rows(), wheel_count_rows());
   const OptionTable of_drives = drive_table();
   table.insert(table.end(), of_drives.begin(), of_drives.end());
   return {"mesh", "mesh drive.yaml [-option value ...]",
