@@ -1,8 +1,10 @@
 #include "io/body/basis_rows.h"
 
-#include "io/hdf5/schema.h"
-
 #include <algorithm>
+#include <cstddef>
+
+#include "elastogear/base/memory.h"
+#include "io/hdf5/schema.h"
 
 namespace elastogear::io {
 namespace {
@@ -62,7 +64,9 @@ model::BasisRows read_rows(const h5::File& file, const std::string& name, int bl
   require(shape.size() == 3 && shape[1] == extent(block), file.path, ": ", name, " must have the shape n x ",
           block, " x n_q");
   DenseRows rows(static_cast<Eigen::Index>(shape[0]) * block, static_cast<Eigen::Index>(shape[2]));
-  if (rows.size() > 0) h5::read_rows(file, name, {0, shape}, rows.data());  // gigabytes: no second copy
+  if (rows.size() == 0) return rows;
+  use_large_pages(rows.data(), sizeof(double) * static_cast<std::size_t>(rows.size()));
+  h5::read_rows(file, name, {0, shape}, rows.data());  // gigabytes: no second copy
   return rows;
 }
 
@@ -92,11 +96,16 @@ void write_square(const h5::File& file, const std::string& name, const Eigen::Sp
 
 Eigen::SparseMatrix<double> read_square(const h5::File& file, const std::string& name) {
   if (is_sparse(file, name)) return read_sparse(file, name);
-  const auto values = h5::read<double>(file, name, {h5::kAny, h5::kAny});
   const h5::Shape shape = h5::shape(file, name);
-  return Eigen::Map<const DenseRows>(values.data(), static_cast<Eigen::Index>(shape[0]),
-                                     static_cast<Eigen::Index>(shape[1]))
-      .sparseView();
+  require(shape.size() == 2, file.path, ": ", name, " must have two dimensions");
+  SparseRows A(static_cast<Eigen::Index>(shape[0]), static_cast<Eigen::Index>(shape[1]));
+  h5::visit_rows(file, name, [&](hsize_t row, const double* values) {
+    A.startVec(static_cast<Eigen::Index>(row));
+    for (Eigen::Index column = 0; column < A.cols(); ++column)
+      if (values[column] != 0) A.insertBack(static_cast<Eigen::Index>(row), column) = values[column];
+  });
+  A.finalize();
+  return A;
 }
 
 }  // namespace elastogear::io

@@ -6,6 +6,7 @@
 #include <hdf5.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -126,6 +127,11 @@ void write_rows(const File& file, hid_t dataset, const Rows& rows, const T* data
 /// Error when the numbers are damaged or not finite.
 template <class T>
 void read_rows(const File& file, const std::string& name, const Rows& rows, T* data);
+
+/// Calls visit(row, its numbers) for all rows of a dataset of real numbers, chunk by chunk: no more than one
+/// chunk is in memory. Error when they are damaged or not finite.
+void visit_rows(const File& file, const std::string& name,
+                const std::function<void(hsize_t row, const double* numbers)>& visit);
 
 /// Shape and unit of the rows of a Series.
 struct Item {

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <numeric>
+#include <optional>
 
 #include "elastogear/base/finite.h"
 #include "elastogear/base/text.h"
+#include "io/hdf5/chunk_read.h"
 #include "io/hdf5/hdf5_objects.h"
 
 namespace elastogear::io::h5 {
@@ -16,6 +18,7 @@ namespace {
 constexpr hsize_t kChunkBytes = 1 << 20;
 // A compressed dataset is at most about 1000 times its bytes in the file: more is a damaged header.
 constexpr double kMaxRatio = 2000, kSlack = 1 << 20;
+constexpr const char* kNotFinite = "holds a number that is not finite";
 
 bool is_empty(const Shape& shape) { return std::find(shape.begin(), shape.end(), 0u) != shape.end(); }
 
@@ -67,6 +70,15 @@ Id select(hid_t dataset, const Rows& rows) {
   return good ? std::move(space) : Id();
 }
 
+// Rows of a chunk, which HDF5 reads as a whole; of a dataset without chunks as many as one would have.
+hsize_t rows_at_a_time(hid_t dataset, const Shape& shape) {
+  const Id properties(H5Dget_create_plist(dataset));
+  Shape chunk(shape.size());
+  const bool chunked = H5Pget_layout(properties) == H5D_CHUNKED &&
+                       H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) >= 0;
+  return (chunked ? chunk : chunk_of_rows(shape, sizeof(double)))[0];
+}
+
 std::string text(const Shape& shape) {
   const auto size = [](hsize_t n) { return n == kAny ? "n" : std::to_string(n); };
   return shape.empty() ? "one number" : join(shape, " x ", size);
@@ -84,7 +96,7 @@ void require_read(bool good, const File& file, const std::string& name) {
 template <class T>
 void require_finite(const T* data, std::size_t n, const File& file, const std::string& name) {
   if constexpr (std::is_floating_point_v<T>)
-    check(all_finite(data, static_cast<Eigen::Index>(n)), file, name, "holds a number that is not finite");
+    check(all_finite(data, static_cast<Eigen::Index>(n)), file, name, kNotFinite);
 }
 
 }  // namespace
@@ -212,6 +224,8 @@ void read_rows(const File& file, const std::string& name, const Rows& rows, T* d
   const Id dataset = open_dataset(file, name), space = select(dataset, rows),
            memory = simple_space(rows.count);
   check(space >= 0, file, name, "lacks rows");
+  if (const std::optional<bool> finite = read_chunks(dataset, rows, data))
+    return check(*finite, file, name, kNotFinite);
   require_read(H5Dread(dataset, native<T>(), memory, space, H5P_DEFAULT, data) >= 0, file, name);
   require_finite(data,
                  std::accumulate(rows.count.begin(), rows.count.end(), std::size_t{1}, std::multiplies<>()),
@@ -219,6 +233,27 @@ void read_rows(const File& file, const std::string& name, const Rows& rows, T* d
 }
 template void read_rows(const File&, const std::string&, const Rows&, double*);
 template void read_rows(const File&, const std::string&, const Rows&, float*);
+
+void visit_rows(const File& file, const std::string& name,
+                const std::function<void(hsize_t row, const double* numbers)>& visit) {
+  const Id dataset = open_dataset(file, name), type(H5Dget_type(dataset)), space(H5Dget_space(dataset));
+  const H5T_class_t kind = H5Tget_class(type);
+  check(kind == H5T_INTEGER || kind == H5T_FLOAT, file, name, "does not hold numbers of the right kind");
+  const Shape all = shape_of(space);
+  check(!all.empty(), file, name, "has no rows");
+  if (checked_size(file, name, all) == 0) return;
+  const hsize_t n_chunk = rows_at_a_time(dataset, all);
+  const std::size_t row_size =
+      std::accumulate(all.begin() + 1, all.end(), std::size_t{1}, std::multiplies<>());
+  std::vector<double> numbers;
+  for (hsize_t first = 0; first < all[0]; first += n_chunk) {
+    Rows rows{first, all};
+    rows.count[0] = std::min(n_chunk, all[0] - first);
+    numbers.resize(rows.count[0] * row_size);
+    read_rows(file, name, rows, numbers.data());
+    for (hsize_t i = 0; i < rows.count[0]; ++i) visit(first + i, numbers.data() + i * row_size);
+  }
+}
 
 std::string unit(const File& file, const std::string& name) { return string_attribute(file, name, "unit"); }
 
