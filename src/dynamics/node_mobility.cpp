@@ -1,12 +1,31 @@
 #include "dynamics/node_mobility.h"
 
+#include "elastogear/model/row_products.h"
+
 namespace elastogear::dynamics {
+
+namespace {
+
+// Rows of a node, weighted with the inverse masses: the largest of three sums.
+Eigen::VectorXd mobility(const model::DenseRows& Phi, const Eigen::VectorXd& flexibility) {
+  Eigen::VectorXd most(Phi.rows() / 3);
+  for (Eigen::Index node = 0; node < most.size(); ++node)
+    most[node] = model::weighted_squares(Phi.row(3 * node).data(), flexibility.data(), Phi.cols())
+                     .diagonal()
+                     .maxCoeff();
+  return most;
+}
+
+Eigen::VectorXd mobility(const model::SparseRows& Phi, const Eigen::VectorXd& flexibility) {
+  const Eigen::VectorXd rows = Phi.cwiseAbs2() * flexibility;
+  return rows.reshaped(3, rows.size() / 3).colwise().maxCoeff().transpose();
+}
+
+}  // namespace
 
 Eigen::VectorXd elastic_mobility(const model::ElasticBody& body) {
   const Eigen::VectorXd flexibility = Eigen::VectorXd(body.M_r.diagonal()).cwiseInverse();
-  const Eigen::VectorXd rows = std::visit(
-      [&](const auto& Phi) { return Eigen::VectorXd(Phi.cwiseAbs2() * flexibility); }, body.surface.Phi);
-  return rows.reshaped(3, rows.size() / 3).colwise().maxCoeff().transpose();
+  return std::visit([&](const auto& Phi) { return mobility(Phi, flexibility); }, body.surface.Phi);
 }
 
 Eigen::VectorXd node_masses(const model::ElasticBody& body) {

@@ -6,6 +6,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/finite.h"
+#include "elastogear/model/row_products.h"
 
 namespace elastogear::model {
 namespace {
@@ -27,29 +28,6 @@ bool finite(const BasisRows& rows) {
 
 bool in_range(const std::vector<int>& numbers, int n) {
   return std::all_of(numbers.begin(), numbers.end(), [n](int i) { return i >= 0 && i < n; });
-}
-
-// Products of three rows, stored one after the other, with q. Each row has four partial sums, so that no
-// addition waits for the last.
-Eigen::Vector3d three_products(const double* rows, const Eigen::VectorXd& q) {
-  using Four = Eigen::Array4d;
-  const Eigen::Index n = q.size(), n_fours = n - n % 4;
-  Four sum[3] = {Four::Zero(), Four::Zero(), Four::Zero()};
-  for (Eigen::Index k = 0; k < n_fours; k += 4) {
-    const Four four = Eigen::Map<const Four>(q.data() + k);
-    for (int d : {0, 1, 2}) sum[d] += Eigen::Map<const Four>(rows + d * n + k) * four;
-  }
-  Eigen::Vector3d u(sum[0].sum(), sum[1].sum(), sum[2].sum());
-  for (Eigen::Index k = n_fours; k < n; ++k)
-    for (int d : {0, 1, 2}) u[d] += rows[d * n + k] * q[k];
-  return u;
-}
-
-// h += f_x x + f_y y + f_z z with the three rows x, y, z.
-void add_three_rows(const double* rows, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
-  using Row = Eigen::Map<const Eigen::VectorXd>;
-  const Eigen::Index n = h.size();
-  h += f[0] * Row(rows, n) + f[1] * Row(rows + n, n) + f[2] * Row(rows + 2 * n, n);
 }
 
 void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::string& source) {
@@ -203,13 +181,14 @@ Eigen::VectorXd multiply_transposed(const BasisRows& rows, const Eigen::VectorXd
 }
 
 Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q) {
-  if (const auto* dense = std::get_if<DenseRows>(&Phi)) return three_products(dense->row(3 * node).data(), q);
+  if (const auto* dense = std::get_if<DenseRows>(&Phi))
+    return three_products(dense->row(3 * node).data(), q.data(), q.size());
   return std::get<SparseRows>(Phi).middleRows(3 * node, 3) * q;
 }
 
 void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
   if (const auto* dense = std::get_if<DenseRows>(&Phi))
-    return add_three_rows(dense->row(3 * node).data(), f, h);
+    return add_three_rows(dense->row(3 * node).data(), f, h.data(), h.size());
   h += std::get<SparseRows>(Phi).middleRows(3 * node, 3).transpose() * f;
 }
 

@@ -1,7 +1,10 @@
 #include "elastogear/contact/deformation_bound.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+
+#include "elastogear/model/row_products.h"
 
 namespace elastogear::contact {
 namespace {
@@ -19,10 +22,8 @@ double largest_compliance(const model::DenseRows& Phi, const Eigen::VectorXd& st
   const Eigen::VectorXd compliance = stiffness.cwiseInverse();
   double largest = 0;
   for (Eigen::Index i = 0; i < Phi.rows(); i += 3) {
-    const auto rows = Phi.middleRows<3>(i);
-    const double trace = (rows.cwiseAbs2() * compliance).sum();
-    if (trace < (1 - kRoundoffOfTrace) * largest) continue;
-    const Eigen::Matrix3d C = rows * compliance.asDiagonal() * rows.transpose();
+    const Eigen::Matrix3d C = model::weighted_squares(Phi.row(i).data(), compliance.data(), Phi.cols());
+    if (C.trace() < (1 - kRoundoffOfTrace) * largest) continue;
     largest = std::max(
         largest,
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
