@@ -110,7 +110,8 @@ double Pair::Data::stiffness(int slave_side, int point) const {
 
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion) {
   SurfaceState state{surface.X, motion.r_WB, motion.R_WB};
-  if (motion.q.size() > 0) state.x_B += model::multiply(surface.Phi, motion.q).reshaped(3, surface.X.cols());
+  if ((motion.q.array() != 0).any())
+    state.x_B += model::multiply(surface.Phi, motion.q).reshaped(3, surface.X.cols());
   return state;
 }
 

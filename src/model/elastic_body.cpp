@@ -7,6 +7,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/finite.h"
 #include "elastogear/model/row_products.h"
+#include "elastogear/model/validate_rows.h"
 
 namespace elastogear::model {
 namespace {
@@ -76,8 +77,7 @@ void validate_surface(const Surface& surface, Eigen::Index n_q, const std::strin
           ": surface groups or stiffnesses do not have ", n_f, " entries");
   require(in_range(surface.group, static_cast<int>(surface.group_name.size())), source,
           ": surface group number out of range");
-  require(surface.X.allFinite() && surface.c_f.allFinite() && finite(surface.Phi), source,
-          ": surface data is not finite");
+  require(surface.X.allFinite() && surface.c_f.allFinite(), source, ": surface data is not finite");
 }
 
 void validate_stress(const Stress& stress, Eigen::Index n_q, const std::string& source) {
@@ -86,7 +86,6 @@ void validate_stress(const Stress& stress, Eigen::Index n_q, const std::string& 
           ": stress arrays do not all have ", n_e, " nodes");
   require(std::visit([](const auto& r) { return r.cols(); }, stress.Psi) == n_q || n_e == 0, source,
           ": stress modes do not have n_q = ", n_q, " columns");
-  require(finite(stress.Psi), source, ": stress modes are not finite");
   for (const auto& [name, members] : stress.sets)
     require(in_range(members, n_e), source, ": stress set '", name, "' names a node outside 0..", n_e - 1);
 }
@@ -198,7 +197,7 @@ Eigen::Matrix3d J_1(const Inertia& inertia, int k) {
   return 2 * S.trace() * Eigen::Matrix3d::Identity() - S - S.transpose();
 }
 
-void validate(const ElasticBody& body, const std::string& source) {
+void validate_except_rows(const ElasticBody& body, const std::string& source) {
   const Eigen::Index n_q = body.n_q();
   require(n_q >= 0 && body.K_r.cols() == n_q && body.M_r.rows() == n_q && body.M_r.cols() == n_q, source,
           ": reduced matrices are not square of size n_q = ", n_q);
@@ -215,6 +214,12 @@ void validate(const ElasticBody& body, const std::string& source) {
   validate_markers(body.markers, n_q, source);
   validate_flexibility(body, source);
   validate_relaxing(body, source);
+}
+
+void validate(const ElasticBody& body, const std::string& source) {
+  validate_except_rows(body, source);
+  require(finite(body.surface.Phi), source, ": surface data is not finite");
+  require(finite(body.stress.Psi), source, ": stress modes are not finite");
 }
 
 }  // namespace elastogear::model

@@ -1,6 +1,8 @@
 #include <algorithm>
 
 #include "elastogear/io/body_file.h"
+#include "elastogear/io/body_materials.h"
+#include "elastogear/model/validate_rows.h"
 #include "io/body/basis_rows.h"
 #include "io/body/body_schema.h"
 #include "io/body/flexibility_group.h"
@@ -157,7 +159,7 @@ model::ElasticBody read_body(const std::string& path, BodyUse use) {
   body.markers = read_markers(file);
   body.flexibility = read_flexibility(file);
   body.relaxing = read_relaxing(file, use == BodyUse::all);
-  model::validate(body, path);
+  model::validate_except_rows(body, path);  // reading has tested them
   return body;
 }
 
@@ -174,6 +176,12 @@ BodySource read_body_source(const std::string& path) {
   source.checks = read_checks(file);
   source.recovery = read_recovery(file, source.mesh.X.cols());
   return source;
+}
+
+BodyMaterials read_body_materials(const std::string& path) {
+  const h5::File file = open_format(path, kBodyFormat);
+  const h5::Shape cells = h5::shape(file, "/mesh/cell_type");
+  return {read_materials(file), cells.size() == 1 && cells[0] > 0};
 }
 
 ModeChecks read_mode_checks(const std::string& path) {
