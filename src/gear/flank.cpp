@@ -7,6 +7,8 @@
 #include <limits>
 #include <string_view>
 
+#include "gear/flank_place.h"
+
 namespace elastogear::gear {
 namespace {
 
@@ -15,6 +17,14 @@ constexpr double kSolved = 1e-12;    // the same, of flanks that are found by it
 constexpr double kLeastCosine = 0.5;
 constexpr int kNewtonSteps = 20;
 constexpr double kCurvatureStep = 1e-3;  // of the tooth's height
+
+// half: at x, which is r away from the axis.
+Eigen::Vector3d normal_at(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x, double r,
+                          const HalfAngle& half) {
+  const Eigen::Vector3d radial(x[0] / r, x[1] / r, 0), around(-radial[1], radial[0], 0);
+  const double d_z = 1 / t.p + half.d_z;
+  return (flank.side * (around / r - d_z * Eigen::Vector3d::UnitZ()) - half.d_r * radial).normalized();
+}
 
 }  // namespace
 
@@ -37,10 +47,7 @@ std::optional<Flank> flank_of(const Toothing& toothing, const std::string& group
 
 Eigen::Vector3d flank_normal(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {
   const double r = std::hypot(x[0], x[1]);
-  const HalfAngle half = half_angle(t, r, flank.side * x[2]);
-  const Eigen::Vector3d radial(x[0] / r, x[1] / r, 0), around(-radial[1], radial[0], 0);
-  const double d_z = 1 / t.p + half.d_z;
-  return (flank.side * (around / r - d_z * Eigen::Vector3d::UnitZ()) - half.d_r * radial).normalized();
+  return normal_at(t, flank, x, r, half_angle(t, r, flank.side * x[2]));
 }
 
 Eigen::Matrix3d flank_curvature(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {
@@ -60,11 +67,11 @@ double flank_distance_along(const Toothing& t, const Flank& flank, const Eigen::
   double s = 0;
   for (int step = 0; step < kNewtonSteps; ++step) {
     const Eigen::Vector3d at = x + s * n;
-    const double d = flank_distance(t, flank.tooth, flank.side, at);
-    if (std::abs(d) <= close) return s;
-    const double cosine = n.dot(flank_normal(t, flank, at));
+    const FlankPlace place = flank_place(t, flank.tooth, flank.side, at);
+    if (std::abs(place.distance) <= close) return s;
+    const double cosine = n.dot(normal_at(t, flank, at, place.r, place.half));
     if (!(cosine >= kLeastCosine)) break;
-    s -= d / cosine;
+    s -= place.distance / cosine;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "gear/flank_place.h"
+
 namespace elastogear::gear {
 
 using std::numbers::pi;
@@ -20,13 +22,19 @@ HalfAngle half_angle(const Toothing& t, double r, double z) {
           .d_r = -t.sign() * tan_alpha / r};
 }
 
-double flank_distance(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
+FlankPlace flank_place(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
   const double turned = std::atan2(x[1], x[0]) - x[2] / t.p - tooth_angle(t, tooth);
-  const double theta = std::remainder(turned, 2 * pi), r = std::hypot(x[0], x[1]);
-  const HalfAngle half = half_angle(t, r, side * x[2]);
-  const double F = side * theta - half.psi;
-  if (!t.half_angle) return t.r_b * std::cos(t.beta_b) * F;
-  return F / std::hypot(1 / r, 1 / t.p + half.d_z, half.d_r);
+  const double theta = std::abs(turned) <= pi ? turned : std::remainder(turned, 2 * pi);
+  FlankPlace place{std::hypot(x[0], x[1])};
+  place.half = half_angle(t, place.r, side * x[2]);
+  const double F = side * theta - place.half.psi;
+  place.distance = t.half_angle ? F / std::hypot(1 / place.r, 1 / t.p + place.half.d_z, place.half.d_r)
+                                : t.r_b * std::cos(t.beta_b) * F;
+  return place;
+}
+
+double flank_distance(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
+  return flank_place(t, tooth, side, x).distance;
 }
 
 }  // namespace elastogear::gear

@@ -1,10 +1,12 @@
 #include "app/gear/true_surface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
@@ -130,13 +132,46 @@ contact::Stretch stretch_by_roll(const model::Surface& surface, int f, const gea
   return stretch;
 }
 
+// Which faces of teeth are the same but for the turn from tooth to tooth.
+class TurnedFaces {
+ public:
+  explicit TurnedFaces(const gear::Toothing& toothing) : toothing_(toothing) {}
+
+  // The first face that was asked for whose corners, seen from its tooth, are those of face f; f when there
+  // is none.
+  int first(const model::Surface& surface, int f, const gear::Flank& flank) {
+    const double unit = kSame * std::max(toothing_.r_a, toothing_.r_f);
+    const Eigen::AngleAxisd back(-gear::tooth_angle(toothing_, flank.tooth), Eigen::Vector3d::UnitZ());
+    Key key{flank.side};
+    for (int c = 0; c < 4; ++c) {
+      const Eigen::Vector3d x = back * Eigen::Vector3d(surface.X.col(surface.face(c, f))) / unit;
+      for (int i = 0; i < 3; ++i) key[static_cast<std::size_t>(1 + 3 * c + i)] = std::llround(x[i]);
+    }
+    return first_.emplace(key, f).first->second;
+  }
+
+ private:
+  static constexpr double kSame = 1e-12;  // of the radius: some hundred times the roundoff of coordinates
+  using Key = std::array<long long, 13>;
+
+  const gear::Toothing& toothing_;
+  std::map<Key, int> first_;
+};
+
 // Adds the heights of all flanks.
 Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::TrueSurface& known) {
   Heights heights;
   known.height.resize(static_cast<std::size_t>(surface.face.cols()));
+  TurnedFaces turned(teeth.toothing);
   for (int f = 0; f < surface.face.cols(); ++f) {
     const auto flank = gear::flank_of(teeth.toothing, surface.group_name[surface.group[f]]);
     if (!flank) continue;
+    ++heights.n_faces;
+    if (!teeth.deviations)
+      if (const int first = turned.first(surface, f, *flank); first != f) {
+        known.height[f] = known.height[first];
+        continue;
+      }
     const auto distance = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& n) {
       return teeth.deviations ? gear::flank_distance_along(teeth.toothing, *teeth.deviations, *flank, x, n)
                               : gear::flank_distance_along(teeth.toothing, *flank, x, n);
@@ -145,7 +180,6 @@ Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::
         contact::sampled_heights(surface, f, distance, stretch_by_roll(surface, f, teeth.toothing));
     if (teeth.deviations && !is_silenced())
       heights.error = std::max(heights.error, contact::height_error(surface, f, known.height[f], distance));
-    ++heights.n_faces;
   }
   return heights;
 }
