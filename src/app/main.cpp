@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "app/console/blas_kernels.h"
+#include "app/console/lone_process.h"
 #include "app/options/command_line.h"
 #include "app/verbs/registry.h"
 #include "elastogear/base/error.h"
@@ -91,6 +92,7 @@ int main(int argc, char** argv) {
     return app::print_usage(verbs), 1;
   }
   app::use_fast_blas(argv);
+  app::start_alone_without_networks();
   // With words that PETSc would fail on it is started without any, to report them once on all ranks.
   const std::string problem = app::problem_of_words(argc, argv);
   int n_words = problem.empty() ? argc : 1;
