@@ -9,12 +9,19 @@ void Candidates::collect(const SlaveFaces& faces, const SurfaceView& slave, cons
   near_.clear();
   for (const NodePair& pair : faces.pairs) {
     const int f = pair[1 - faces.entry], slave_face = pair[faces.entry];
+    // A node is within the margin of the boxes of all faces around it, of which the first one finds it.
+    const auto finds = [&](int node) {
+      return slave.topology.node_corners[node][0] / 4 == slave_face &&
+             (faces.tried.empty() || faces.tried[node]);
+    };
+    const int sides = side_count(slave.face, slave_face);
+    if (std::none_of(&slave.face(0, slave_face), &slave.face(0, slave_face) + sides, finds)) continue;
     const Eigen::Matrix<double, 3, 4> corners = master.x(Eigen::all, master.face.col(f));
     const Eigen::Vector3d lo = corners.rowwise().minCoeff().array() - margin;
     const Eigen::Vector3d hi = corners.rowwise().maxCoeff().array() + margin;
-    for (int i = 0; i < side_count(slave.face, slave_face); ++i) {
+    for (int i = 0; i < sides; ++i) {
       const int node = slave.face(i, slave_face);
-      if (!faces.tried.empty() && !faces.tried[node]) continue;
+      if (!finds(node)) continue;
       const auto q = slave.x.col(node).array();
       if ((q >= lo.array()).all() && (q <= hi.array()).all()) near_.push_back({node, f});
     }

@@ -1,6 +1,9 @@
 #include "contact/search/neighbour_list.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "elastogear/contact/kdop.h"
 
 namespace elastogear::contact {
 namespace {
@@ -31,6 +34,22 @@ double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion
   const Eigen::Matrix3d dR =
       to.R - from.R;  // its largest stretch is its Frobenius norm over the square root of 2
   return (dR * ball.centre + to.r - from.r).norm() + dR.norm() / std::sqrt(2.0) * ball.radius;
+}
+
+Eigen::Matrix3Xd corners_around(const Eigen::Matrix3Xd& X) {
+  constexpr int kDirections = 24;
+  const std::vector<Eigen::Vector3d> vertices = polyhedron(tight_kdop(kDirections, X)).vertices;
+  Eigen::Matrix3Xd corners(3, static_cast<Eigen::Index>(vertices.size()));
+  for (std::size_t i = 0; i < vertices.size(); ++i) corners.col(static_cast<Eigen::Index>(i)) = vertices[i];
+  return corners;
+}
+
+// The way of a point is a convex function of its place: of all points of the hull a corner goes farthest.
+double travel(const Eigen::Matrix3Xd& corners, double beyond, const RelativeMotion& from,
+              const RelativeMotion& to) {
+  const Eigen::Matrix3d dR = to.R - from.R;
+  const double farthest2 = ((dR * corners).colwise() + (to.r - from.r)).colwise().squaredNorm().maxCoeff();
+  return std::sqrt(farthest2) + dR.norm() / std::sqrt(2.0) * beyond;
 }
 
 std::span<const int> Neighbours::faces(std::size_t i) const {

@@ -59,6 +59,13 @@ RelativeMotion relative_motion(const SurfaceMotion& a, const SurfaceMotion& b);
 /// Bound of the distance that the ball's points have gone from one placement to the other, m.
 double travel(const Ball& ball, const RelativeMotion& from, const RelativeMotion& to);
 
+/// Corners of the 24-DOP around the undeformed nodes of a surface, m, in its own frame.
+Eigen::Matrix3Xd corners_around(const Eigen::Matrix3Xd& X);
+/// The same bound for points that are within `beyond` (m) of their hull. A long body that spins about its
+/// axis moves them far less than the ball around it.
+double travel(const Eigen::Matrix3Xd& corners, double beyond, const RelativeMotion& from,
+              const RelativeMotion& to);
+
 /// All candidates, with all faces they are near.
 Neighbours everything(const Candidates& candidates);
 /// Candidates or neighbours without the nodes whose entry of apart_until exceeds `path`.

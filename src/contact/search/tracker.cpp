@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "contact/settings.h"
@@ -42,7 +43,7 @@ double extension_reach(const SurfaceView& surface) {
 Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>* K_r) {
   return {&surface, topology(surface.face, static_cast<int>(surface.X.cols())),
           deformation_bound(surface.Phi, K_r ? *K_r : Eigen::SparseMatrix<double>()),
-          enclosing_ball(surface.X)};
+          enclosing_ball(surface.X), corners_around(surface.X)};
 }
 
 std::vector<int> slave_sides(const Settings& settings) {
@@ -195,10 +196,14 @@ void Tracker::place_for(int slave, const Neighbours& near) {
 // Bound of the relative motion of both surfaces since `then`: docs/theory.md, Eq. (5.5).
 double Tracker::distance_since(const SurfaceMotion then[2]) const {
   double distance = 0;
-  for (int i : {0, 1}) distance += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);
-  Ball ball = side_[0].ball;
-  ball.radius += largest_displacement(side_[0].bound, then[0].q);
-  return distance + travel(ball, relative_motion(then[0], then[1]), relative_motion(*now_[0], *now_[1]));
+  double rigid = std::numeric_limits<double>::infinity();
+  for (int i : {0, 1}) {
+    const double deformed = largest_displacement(side_[i].bound, then[i].q);
+    distance += largest_displacement(side_[i].bound, now_[i]->q - then[i].q);
+    rigid = std::min(rigid, travel(side_[i].corners, deformed, relative_motion(then[i], then[1 - i]),
+                                   relative_motion(*now_[i], *now_[1 - i])));
+  }
+  return distance + rigid;
 }
 
 // Measures the clearance of all candidates and leaves out those that cannot touch while the surfaces move by

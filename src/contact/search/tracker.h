@@ -19,6 +19,7 @@ struct Tracked {
   Topology topology;
   DeformationBound bound;
   Ball ball;
+  Eigen::Matrix3Xd corners;  ///< of a polyhedron around it
 };
 Tracked tracked(const model::Surface& surface, const Eigen::SparseMatrix<double>* K_r);
 
