@@ -23,9 +23,10 @@ namespace {
 
 using Patch = std::vector<const ContactPoint*>;
 
-constexpr double kLeast = 1e-6;   // of a face's length, approach under forces of roundoff
-constexpr double kAtRest = 1e-8;  // of a flank's length, differences by which laws do not change
-constexpr double kSlight = 0.05;  // of all forces of a pair, below which those of a patch go on as F^m
+constexpr double kLeast = 1e-6;       // of a face's length, approach under forces of roundoff
+constexpr double kAtRest = 1e-8;      // of a flank's length, differences by which laws do not change
+constexpr double kMostChange = 0.25;  // of an approach, by extrapolation
+constexpr double kSlight = 0.05;      // of all forces of a pair, below which those of a patch go on as F^m
 
 // Outward unit normals of the nodes, by the faces of their groups.
 Matrix3Xd node_normals(const model::Surface& surface, const std::vector<int>& group) {
@@ -267,13 +268,30 @@ double LocalApproach::find(const ContactState& state, Flexibilities& flexibility
   return change;
 }
 
-void LocalApproach::accept() {
+void LocalApproach::accept(double time) {
+  before_at_ = std::exchange(accepted_at_, time);
   for (auto& flanks : flanks_)
     for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
       Flank& flank = flanks->flank[g];
       const ApproachLaw before = std::exchange(flank.accepted, flank.law);
+      flank.before = before;
       if (before.F_n > 0 && flank.law.F_n > 0)
         taken_ += flank.law.complementary_energy(flank.force) - before.complementary_energy(flank.force);
+    }
+}
+
+void LocalApproach::extrapolate(double time) {
+  if (!(accepted_at_ > before_at_)) return;
+  const double share = (time - accepted_at_) / (accepted_at_ - before_at_);
+  for (std::size_t b = 0; b < flanks_.size(); ++b)
+    for (std::size_t g = 0; acts_on(b) && g < flanks_[b]->flank.size(); ++g) {
+      const Flank& flank = flanks_[b]->flank[g];
+      if (!(flank.before.F_n > 0 && flank.accepted.F_n > 0)) continue;
+      ApproachLaw law = flank.accepted;
+      const double way = share * (law.e_n - flank.before.value(law.F_n));
+      if (std::abs(way) > kMostChange * law.e_n) continue;
+      law.e_n += way;
+      set_law(b, g, law);
     }
 }
 
@@ -350,13 +368,13 @@ double LocalApproach::energy(std::size_t b) const {
 }
 
 void LocalApproach::serialize(Archive& archive) {
-  archive(taken_);
+  for (double* x : {&taken_, &accepted_at_, &before_at_}) archive(*x);
   for (auto& flanks : flanks_)
     for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
       Flank& flank = flanks->flank[g];
-      for (double* x : {&flank.law.F_n, &flank.law.e_n, &flank.law.m, &flank.force, &flank.approach})
-        archive(*x);
-      flank.accepted = flank.law;
+      for (ApproachLaw* law : {&flank.law, &flank.accepted, &flank.before})
+        for (double* x : {&law->F_n, &law->e_n, &law->m}) archive(*x);
+      for (double* x : {&flank.force, &flank.approach}) archive(*x);
     }
 }
 

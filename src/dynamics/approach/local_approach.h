@@ -34,8 +34,10 @@ class LocalApproach {
   double find(const ContactState& state, Flexibilities& flexibility, double share);
   /// The same of flanks that have none yet; the others keep theirs.
   void find_new(const ContactState& state, Flexibilities& flexibility);
-  /// Takes the present laws for those of the end of a step, under the forces set: Eq. (7.2b).
-  void accept();
+  /// Takes the present laws for those of the end of a step at this time, under the forces set: Eq. (7.2b).
+  void accept(double time);
+  /// Lets the laws change on from those of the last two ends of steps, as these do, to this time.
+  void extrapolate(double time);
 
   /// m, largest change of a displacement of a body by the laws found since the last call.
   double take_change(std::size_t b);
@@ -63,9 +65,9 @@ class LocalApproach {
   };
   struct Flank {
     ApproachLaw law;
-    ApproachLaw accepted = {};
-    double force = 0;     // N, of those set
-    double approach = 0;  // m, by the law at that force
+    ApproachLaw accepted = {}, before = {};  // at the ends of the last two steps
+    double force = 0;                        // N, of those set
+    double approach = 0;                     // m, by the law at that force
   };
   struct Flanks {             // of a body
     Eigen::Matrix3Xd normal;  // of each surface node, BRF, outwards
@@ -100,6 +102,7 @@ class LocalApproach {
   std::vector<std::optional<Surface>> surface_;  // of each body
   std::vector<std::optional<Flanks>> flanks_;    // of each body
   double taken_ = 0;
+  double accepted_at_ = 0, before_at_ = 0;  // s
 };
 
 }  // namespace elastogear::dynamics

@@ -321,6 +321,8 @@ void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accura
 }
 
 void ResidualContact::predict(double time) {
+  approach_.extrapolate(time);
+  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
   if (before_.forces.empty() || !(last_.time > before_.time)) return;
   const double share = (time - before_.time) / (last_.time - before_.time);
   for (std::size_t b = 0; b < flexibility_.size(); ++b)
@@ -353,9 +355,9 @@ double ResidualContact::find_approach(const ContactState& state, double share) {
   return difference;
 }
 
-void ResidualContact::accept_approach(const ContactState& state) {
+void ResidualContact::accept_approach(const ContactState& state, double time) {
   find_approach(state, 1);
-  approach_.accept();
+  approach_.accept(time);
 }
 
 double ResidualContact::energy(std::size_t b) {

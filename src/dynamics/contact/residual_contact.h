@@ -56,7 +56,7 @@ class ResidualContact {
   /// evaluations. Returns its largest difference, m.
   double find_approach(const ContactState& state, double share);
   /// Takes that approach for the one at the end of a step.
-  void accept_approach(const ContactState& state);
+  void accept_approach(const ContactState& state, double time);
   double approach_taken() const { return approach_.taken(); }
   /// Does the residual displacement of a body creep, whatever the moduli are?
   bool creeps(std::size_t b) const { return has_flexibility(b) && flexibility_[b]->is_viscoelastic(); }
