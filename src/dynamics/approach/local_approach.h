@@ -36,7 +36,8 @@ class LocalApproach {
   void find_new(const ContactState& state, Flexibilities& flexibility);
   /// Takes the present laws for those of the end of a step at this time, under the forces set: Eq. (7.2b).
   void accept(double time);
-  /// Lets the laws change on from those of the last two ends of steps, as these do, to this time.
+  /// Lets the laws change on from those of the last two ends of steps, as these do, to this time: Eq.
+  /// (6.37a).
   void extrapolate(double time);
 
   /// m, largest change of a displacement of a body by the laws found since the last call.
