@@ -115,6 +115,30 @@ TEST(Travel, bounds_the_way_of_every_point_of_the_ball) {
   EXPECT_GT(largest_share, 0.8);
 }
 
+TEST(Travel, corners_bound_the_way_of_every_point_of_a_body_that_spins) {
+  constexpr int kNodes = 400;
+  constexpr double kRadius = 0.01, kHalf = 0.05,
+                   kOctagon = 1.0824;  // m, m, circumscribed over inscribed circle
+  Eigen::Matrix3Xd X(3, kNodes);
+  for (int i = 0; i < kNodes; ++i) {
+    const double turn = 2.4 * i;
+    X.col(i) << kRadius * std::cos(turn), kRadius * std::sin(turn), kHalf * (2.0 * i / (kNodes - 1) - 1);
+  }
+  const Eigen::Matrix3Xd corners = corners_around(X);
+  Random random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    const RelativeMotion from{test::rotation(random.vector(3)), random.vector(1)};
+    const double angle = std::pow(10.0, random.uniform(-6, 0)),
+                 lift = random.uniform(0, 0.1 * angle * kRadius);
+    const RelativeMotion to{from.R * test::rotation({0, 0, angle}), from.r + random.vector(lift)};
+    const Eigen::Matrix3Xd way = ((to.R - from.R) * X).colwise() + (to.r - from.r);
+    const double farthest = std::sqrt(way.colwise().squaredNorm().maxCoeff());
+    EXPECT_GE(travel(corners, 0, from, to) * (1 + 1e-9), farthest);
+    EXPECT_LT(travel(corners, 0, from, to), 1.01 * kOctagon * farthest);
+    EXPECT_GT(travel(enclosing_ball(X), from, to), 4 * farthest);
+  }
+}
+
 TEST(Skin, way_of_a_deformed_surface_is_bounded) {
   Random random(6);
   const Elastic a = elastic_patch(16, true, random), b = elastic_patch(14, false, random);
