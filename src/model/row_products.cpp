@@ -57,8 +57,10 @@ template <class R>
   }
 }
 
+// y lies apart from the rows. Code for both cases would round differently, by where they lie in memory.
 template <class R>
-[[gnu::always_inline]] inline void add_three(const double* rows, const double* f, double* y, Index n) {
+[[gnu::always_inline]] inline void add_three(const double* rows, const double* f, double* __restrict y,
+                                             Index n) {
   using Lanes = typename R::Lanes;
   constexpr Index L = R::kLanes;
   Index k = 0;
@@ -78,7 +80,7 @@ template <class R>
 constexpr Kernels kPortable{
     [](const double* rows, const double* x, Index n, double* sum) { multiply_three<R>(rows, x, n, sum); },
     [](const double* rows, const double* w, Index n, double* sum) { square_three<R>(rows, w, n, sum); },
-    [](const double* rows, const double* f, double* y, Index n) { add_three<R>(rows, f, y, n); }};
+    [](const double* rows, const double* f, double* __restrict y, Index n) { add_three<R>(rows, f, y, n); }};
 
 #ifdef __x86_64__
 [[gnu::target("avx2,fma")]] void products_avx2(const double* rows, const double* x, Index n, double* sum) {
@@ -87,7 +89,8 @@ constexpr Kernels kPortable{
 [[gnu::target("avx2,fma")]] void squares_avx2(const double* rows, const double* w, Index n, double* sum) {
   square_three<Register<32>>(rows, w, n, sum);
 }
-[[gnu::target("avx2,fma")]] void add_avx2(const double* rows, const double* f, double* y, Index n) {
+[[gnu::target("avx2,fma")]] void add_avx2(const double* rows, const double* f, double* __restrict y,
+                                          Index n) {
   add_three<Register<32>>(rows, f, y, n);
 }
 [[gnu::target("avx512f")]] void products_avx512(const double* rows, const double* x, Index n, double* sum) {
@@ -96,7 +99,8 @@ constexpr Kernels kPortable{
 [[gnu::target("avx512f")]] void squares_avx512(const double* rows, const double* w, Index n, double* sum) {
   square_three<Register<64>>(rows, w, n, sum);
 }
-[[gnu::target("avx512f")]] void add_avx512(const double* rows, const double* f, double* y, Index n) {
+[[gnu::target("avx512f")]] void add_avx512(const double* rows, const double* f, double* __restrict y,
+                                           Index n) {
   add_three<Register<64>>(rows, f, y, n);
 }
 #endif
