@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "elastogear/dynamics/column_runs.h"
 #include "elastogear/dynamics/dense_lu.h"
 #include "elastogear/dynamics/effective_matrix.h"
 
@@ -43,11 +44,13 @@ class CondensedSystem {
     Eigen::Index joint, n_s;
     std::shared_ptr<const Eigen::MatrixXd> compliance;  // n_d x n_e: G, and R below it with rows of its own
     Eigen::MatrixXd rho;                                // n_d x n_s
-    Eigen::SparseMatrix<double> V;                      // n_d x r: L_V, and L_x below it
+    Eigen::SparseMatrix<double> V_own = {};             // n_d x r: L_V and L_x below it, or empty
+    ColumnRuns L_runs = {}, V_runs = {};                // of L and V
     Eigen::SparseMatrix<double> V_leading = {};         // n_d x l
     Eigen::MatrixXd response = {};                      // of [beta, L k_leading], n_d x (n_s + l)
   };
   static Body make_body(const BodyTerms& terms, CondensedBody given);
+  const Eigen::SparseMatrix<double>& V(const EffectiveMatrix& A, std::size_t b) const;
   bool choose_leading(const EffectiveMatrix& A);
   void factorise_all(const EffectiveMatrix& A) const;
   void factorise_leading(const EffectiveMatrix& A);

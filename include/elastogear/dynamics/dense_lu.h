@@ -21,7 +21,10 @@ class DenseLu {
   std::vector<PetscBLASInt> pivot_;
 };
 
-/// y += A x
-void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x, Eigen::VectorXd& y);
+/// y += factor A x
+void add_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x, Eigen::VectorXd& y,
+                 double factor = 1);
+/// A' x
+Eigen::VectorXd project(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x);
 
 }  // namespace elastogear::dynamics

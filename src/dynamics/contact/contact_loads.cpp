@@ -66,7 +66,10 @@ void set_columns(const ContactOfBody& contact, const BodyTerms& terms, const Eig
   for (BodyColumns::Node& node : columns.nodes) node.row = n_u + 3 * slot(terms.node, node.node);
   const bool has_rates = columns.n() > 0 && !point.V_dot.isZero(0);
   add_up(contact, columns, R_BW, point.W, columns.W);
-  add_up(contact, columns, R_BW, point.V, columns.V);
+  if (point.V == point.W)
+    columns.V = columns.W;
+  else
+    add_up(contact, columns, R_BW, point.V, columns.V);
   if (has_rates) add_up(contact, columns, R_BW, point.V_dot, columns.V_dot);
   if (!has_rates) columns.V_dot.resize(0, 0);
 }
@@ -102,10 +105,15 @@ void add_joint_rates(const JointTwists& twists, const BodyColumns& c, const cont
 // Appends the rows of a contact to the columns from `first` on, which are the next ones.
 void append(const BodyColumns& c, const contact::LocalColumns& rows, Eigen::Index first, Eigen::Index count,
             Eigen::SparseMatrix<double>& A) {
-  for (Eigen::Index j = 0; j < count; ++j) {
-    A.startVec(first + j);
-    for (Eigen::Index a = 0; a < c.n(); ++a)
-      for (int d = 0; d < 3; ++d) A.insertBack(c.nodes[a].row + d, first + j) = rows(3 * a + d, j);
+  constexpr double kMore = 1;  // of the entries so far, where there is no room for the next ones
+  const Eigen::Index n = 3 * c.n(), before = A.outerIndexPtr()[first];
+  A.data().resize(before + n * count, kMore);
+  for (Eigen::Index j = 0, at = before; j < count; ++j, at += n) {
+    int* row = A.innerIndexPtr() + at;
+    for (const BodyColumns::Node& node : c.nodes)
+      for (int d = 0; d < 3; ++d) *row++ = static_cast<int>(node.row) + d;
+    std::copy_n(rows.col(j).data(), n, A.valuePtr() + at);
+    A.outerIndexPtr()[first + j + 1] = static_cast<int>(at + n);
   }
 }
 
@@ -291,7 +299,6 @@ void set_contact_columns(const std::vector<JointTwists>& twists, const std::vect
     if (differ.V || differ.V_dot) begin(n_e, r, terms.L_V);
     if (differ.V_dot) begin(n_e, r, terms.L_x);
     set_body_columns(static_cast<int>(b), twists[b], pairs, states[b], terms);
-    for (auto* L : elastic_rows(terms)) L->finalize();
   }
 }
 

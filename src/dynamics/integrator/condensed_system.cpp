@@ -74,10 +74,12 @@ Sparse stacked(const Sparse& A, const Sparse& B, Index n) {
   return all;
 }
 
-// Adds g |column|^2 of each column of A.
-void add_squares(const Sparse& A, double g, VectorXd& sum) {
+// |column|^2 of each column of A.
+VectorXd squares(const Sparse& A) {
+  VectorXd sum = VectorXd::Zero(A.cols());
   for (Index j = 0; j < A.cols(); ++j)
-    for (Sparse::InnerIterator it(A, j); it; ++it) sum[j] += g * it.value() * it.value();
+    for (Sparse::InnerIterator it(A, j); it; ++it) sum[j] += it.value() * it.value();
+  return sum;
 }
 
 // The largest |k_ij| |W_i| |V_j| in row and column of each column, W and V of the rows of the bodies' own
@@ -109,14 +111,19 @@ double largest_compliance(const BodyTerms& terms, const MatrixXd& compliance) {
 
 CondensedSystem::Body CondensedSystem::make_body(const BodyTerms& terms, CondensedBody given) {
   const Index n = terms.R.rows(), n_e = terms.beta.rows();
-  if (n == 0) return {given.joint, given.n_s, std::move(given.G), terms.rho, displacement_rows(terms)};
+  if (n == 0) return {given.joint, given.n_s, std::move(given.G), terms.rho};
   const Index n_own = terms.L_x.rows() > 0 ? n : 0;  // rows of the residual displacement
   MatrixXd compliance = MatrixXd::Zero(n_e + n_own, n_e), rho(n_e + n_own, given.n_s);
   compliance.topRows(n_e) = *given.G;
   compliance.bottomRightCorner(n, n) += terms.R;
   rho << terms.rho, terms.rho.bottomRows(n_own);
   return {given.joint, given.n_s, std::make_shared<const MatrixXd>(std::move(compliance)), std::move(rho),
-          n_own > 0 ? stacked(terms.L_V, terms.L_x, n) : displacement_rows(terms)};
+          n_own > 0 ? stacked(terms.L_V, terms.L_x, n) : Sparse()};
+}
+
+// Rows of V on the displacements of a body.
+const Sparse& CondensedSystem::V(const EffectiveMatrix& A, std::size_t b) const {
+  return body_[b].V_own.cols() > 0 ? body_[b].V_own : displacement_rows(A.body[b]);
 }
 
 // Leading are columns that are not of contact, and those of contact that are not weak, Eq. (8.16a). Returns
@@ -129,9 +136,11 @@ bool CondensedSystem::choose_leading(const EffectiveMatrix& A) {
   weight_.setZero(r);
   for (std::size_t b = 0; b < body_.size(); ++b) {
     const double g = largest_compliance(A.body[b], *body_[b].compliance);
-    add_squares(A.body[b].L, 1, weight_);
-    add_squares(A.body[b].L, g, weights.W);
-    add_squares(body_[b].V, g, weights.V);
+    const Sparse &L = A.body[b].L, &of_V = V(A, b);
+    const VectorXd squares_of_L = squares(L);
+    weight_ += squares_of_L;
+    weights.W += g * squares_of_L;
+    weights.V += g * (&of_V == &L ? squares_of_L : squares(of_V));
   }
   for (VectorXd* w : {&weight_, &weights.W, &weights.V}) *w = w->cwiseSqrt().eval();
   const VectorXd strength = weights.strength(A.k);
@@ -147,10 +156,11 @@ void CondensedSystem::factorise_all(const EffectiveMatrix& A) const {
   small.bottomRightCorner(r, r).setIdentity();
   for (std::size_t b = 0; b < body_.size(); ++b) {
     const BodyTerms& t = A.body[b];
-    const auto& [joint, n_s, compliance, rho, V, V_leading, response] = body_[b];
+    const Index joint = body_[b].joint, n_s = body_[b].n_s;
+    const MatrixXd &compliance = *body_[b].compliance, &rho = body_[b].rho;
     // Products of a sparse matrix that run down the columns of the dense one are the fast ones.
-    const MatrixXd compliance_t = compliance->transpose(), V_responses = (compliance_t * V).transpose(),
-                   rho_responses = rho.transpose() * *compliance;
+    const MatrixXd compliance_t = compliance.transpose(), V_responses = (compliance_t * V(A, b)).transpose(),
+                   rho_responses = rho.transpose() * compliance;
     const Sparse L_k = t.L * A.k;
     small.block(joint, joint, n_s, n_s) += t.C - rho_responses * t.beta;
     small.block(joint, n_s_, n_s, r) += t.W_s * A.k - rho_responses * L_k;
@@ -171,7 +181,9 @@ void CondensedSystem::factorise_leading(const EffectiveMatrix& A) {
     const BodyTerms& t = A.body[b];
     Body& body = body_[b];
     const Index n_s = body.n_s;
-    body.V_leading = select_columns(body.V, leading_);
+    body.L_runs = ColumnRuns(t.L);
+    body.V_runs = &V(A, b) == &t.L ? body.L_runs : ColumnRuns(V(A, b));
+    body.V_leading = select_columns(V(A, b), leading_);
     body.response.resize(body.compliance->rows(), n_s + l);
     body.response.leftCols(n_s).noalias() = *body.compliance * t.beta;
     body.response.rightCols(l) = *body.compliance * Sparse(t.L * k_leading_);
@@ -219,8 +231,8 @@ VectorXd CondensedSystem::solve_leading(const EffectiveMatrix& A, const VectorXd
     const Body& body = body_[b];
     VectorXd displacement = VectorXd::Zero(body.compliance->rows());
     add_response(body, small, displacement);
-    lambda +=
-        A.body[b].V_s.transpose() * small.segment(body.joint, body.n_s) - body.V.transpose() * displacement;
+    lambda += A.body[b].V_s.transpose() * small.segment(body.joint, body.n_s);
+    body.V_runs.subtract_transposed(V(A, b), displacement, lambda);
   }
   return x;
 }
@@ -234,7 +246,7 @@ VectorXd CondensedSystem::moved_by(const EffectiveMatrix& A, const VectorXd& for
   for (std::size_t b = 0; b < body_.size(); ++b) {
     const Body& body = body_[b];
     displacement.push_back(VectorXd::Zero(body.compliance->rows()));
-    add_product(*body.compliance, A.body[b].L * forces, displacement[b]);
+    add_product(*body.compliance, body.L_runs.multiply(A.body[b].L, forces), displacement[b]);
     small.segment(body.joint, body.n_s) -= A.body[b].W_s * forces - body.rho.transpose() * displacement[b];
     small.tail(l) -= body.V_leading.transpose() * displacement[b];
   }
@@ -243,8 +255,8 @@ VectorXd CondensedSystem::moved_by(const EffectiveMatrix& A, const VectorXd& for
   for (std::size_t b = 0; b < body_.size(); ++b) {
     const Body& body = body_[b];
     add_response(body, small, displacement[b]);
-    x.tail(A.k.rows()) += A.body[b].V_s.transpose() * small.segment(body.joint, body.n_s) -
-                          body.V.transpose() * displacement[b];
+    x.tail(A.k.rows()) += A.body[b].V_s.transpose() * small.segment(body.joint, body.n_s);
+    body.V_runs.subtract_transposed(V(A, b), displacement[b], x.tail(A.k.rows()));
   }
   return x;
 }

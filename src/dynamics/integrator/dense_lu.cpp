@@ -22,11 +22,30 @@ Eigen::VectorXd DenseLu::solve(Eigen::VectorXd y) const {
   return y;
 }
 
-void add_product(const Eigen::MatrixXd& A, const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-  const auto m = static_cast<PetscBLASInt>(A.rows()), n = static_cast<PetscBLASInt>(A.cols());
+namespace {
+
+// y += factor op(A) x
+void add_product(const char* op, double factor, const Eigen::Ref<const Eigen::MatrixXd>& A,
+                 const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+  const auto m = static_cast<PetscBLASInt>(A.rows()), n = static_cast<PetscBLASInt>(A.cols()),
+             stride = static_cast<PetscBLASInt>(A.outerStride());
   const PetscBLASInt one = 1;
-  const double factor = 1;
-  if (m > 0 && n > 0) BLASgemv_("N", &m, &n, &factor, A.data(), &m, x.data(), &one, &factor, y.data(), &one);
+  const double keep = 1;
+  if (m > 0 && n > 0)
+    BLASgemv_(op, &m, &n, &factor, A.data(), &stride, x.data(), &one, &keep, y.data(), &one);
+}
+
+}  // namespace
+
+void add_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x, Eigen::VectorXd& y,
+                 double factor) {
+  add_product("N", factor, A, x, y);
+}
+
+Eigen::VectorXd project(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
+  add_product("T", 1, A, x, y);
+  return y;
 }
 
 }  // namespace elastogear::dynamics

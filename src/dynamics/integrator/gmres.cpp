@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "elastogear/dynamics/dense_lu.h"
+
 namespace elastogear::dynamics {
 namespace {
 
@@ -45,8 +47,8 @@ std::optional<VectorXd> gmres(const std::function<VectorXd(const VectorXd&)>& mu
   for (Index j = 0; j < limits.steps; ++j) {
     VectorXd next = multiply(basis.col(j)), column = VectorXd::Zero(j + 2);
     for (int pass = 0; pass < 2; ++pass) {  // the second one takes out the roundoff of the first
-      const VectorXd along = basis.leftCols(j + 1).transpose() * next;
-      next -= basis.leftCols(j + 1) * along;
+      const VectorXd along = project(basis.leftCols(j + 1), next);
+      add_product(basis.leftCols(j + 1), along, next, -1);
       column.head(j + 1) += along;
     }
     column[j + 1] = next.norm();

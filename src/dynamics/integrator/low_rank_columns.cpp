@@ -11,6 +11,20 @@ void append_zeros(Index n, MatrixXd& A) {
   A.rightCols(n).setZero();
 }
 
+// Appends columns with a block in the rows from `row` on, and zeros elsewhere.
+void append_block(Index row, const MatrixXd& block, Eigen::SparseMatrix<double>& A) {
+  const Index first = A.cols();
+  A.makeCompressed();
+  A.conservativeResize(A.rows(), first + block.cols());
+  A.reserve(block.size());
+  for (Index j = 0; j < block.cols(); ++j) {
+    A.startVec(first + j);
+    for (Index i = 0; i < block.rows(); ++i)
+      if (block(i, j) != 0) A.insertBack(row + i, first + j) = block(i, j);
+  }
+  A.finalize();
+}
+
 }  // namespace
 
 Index add_columns(Index n, EffectiveMatrix& A) {
@@ -47,9 +61,16 @@ const Eigen::SparseMatrix<double>& position_rows(const BodyTerms& terms) {
 
 void add_border_stiffness(const MatrixXd& Z, std::size_t b, EffectiveMatrix& A) {
   if (Z.size() == 0) return;
-  const Index first = add_columns(Z.rows(), A);
-  for (auto* L : elastic_rows(A.body[b])) add_block(0, first, MatrixXd::Identity(Z.rows(), Z.cols()), *L);
-  add_block(first, first, Z, A.k);
+  const Index first = A.k.rows(), n = Z.rows();
+  A.k.conservativeResize(first + n, first);
+  append_block(first, Z, A.k);
+  for (std::size_t other = 0; other < A.body.size(); ++other) {
+    BodyTerms& terms = A.body[other];
+    append_zeros(n, terms.W_s);
+    append_zeros(n, terms.V_s);
+    const MatrixXd border = MatrixXd::Identity(other == b ? n : 0, n);
+    for (auto* L : elastic_rows(terms)) append_block(0, border, *L);
+  }
 }
 
 }  // namespace elastogear::dynamics
