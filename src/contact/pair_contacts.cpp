@@ -19,9 +19,9 @@ void rotate(ContactPoint& contact, const Eigen::Matrix3d& R) {
   contact.slip = R * contact.slip;
   contact.elastic_slip = R * contact.elastic_slip;
   if (contact.tangential) contact.tangential->T = R * contact.tangential->T;
-  const auto rotate_rows = [&](auto& columns) {
-    for (int i = 0; i < contact.n_local(); ++i)
-      columns.template middleRows<3>(3 * i) = (R * columns.template middleRows<3>(3 * i)).eval();
+  const auto rotate_rows = [&](auto& columns) {  // three by three they are vectors, one after the other
+    for (auto vector : Eigen::Map<Eigen::Matrix3Xd>(columns.data(), 3, columns.size() / 3).colwise())
+      vector = (R * vector).eval();
   };
   for (LocalColumns* columns : {&contact.W, &contact.V, &contact.V_dot})
     if (!columns->isZero(0)) rotate_rows(*columns);

@@ -41,8 +41,8 @@ Topology topology(const Eigen::Matrix4Xi& face, int n_nodes);
 /// Finds the positions of nodes where they are asked for.
 class NodePlacer {
  public:
-  /// Position of a node of one of two surfaces (side 0 or 1), m.
-  virtual const Eigen::Matrix3Xd& placed(int side, int node) = 0;
+  /// Sets the position of a node of one of two surfaces (side 0 or 1), m, and gives it the present stamp.
+  virtual void place_node(int side, int node) = 0;
 
  protected:
   ~NodePlacer() = default;
@@ -56,9 +56,14 @@ struct SurfaceView {
   double extension = 0;          ///< by which open sides are moved outwards, part of the face's length
   NodePlacer* placer = nullptr;  ///< null: all nodes are placed
   int side = 0;                  ///< of the placer
+  const long *stamp = nullptr,
+             *present = nullptr;  ///< of the placer: nodes with the present stamp are placed
 
   /// Position of a node, m.
-  auto at(int node) const { return placer ? placer->placed(side, node).col(node) : x.col(node); }
+  auto at(int node) const {
+    if (placer && stamp[node] != *present) placer->place_node(side, node);
+    return x.col(node);
+  }
 };
 
 Face face_of(const SurfaceView& surface, int f);

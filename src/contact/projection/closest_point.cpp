@@ -168,6 +168,21 @@ void try_all_foot_points(const Face& face, const Bilinear& x, const Eigen::Vecto
 
 }  // namespace
 
+bool is_farther(const Face& face, const Eigen::Vector3d& q, double distance) {
+  if (face.sides == 3) return false;
+  const Bilinear x = bilinear(face, q);
+  Eigen::Vector2d foot;
+  if (!step(derivatives(x, Eigen::Vector2d::Zero(), false), foot)) return false;
+  const auto way = [&](double u, double v) -> Eigen::Vector3d { return x.c + u * x.a + v * (x.b + u * x.t); };
+  const auto& e = face.extension;
+  const double u[2] = {-1 - 2 * e[3], 1 + 2 * e[1]}, v[2] = {-1 - 2 * e[0], 1 + 2 * e[2]};
+  const Eigen::Vector3d to_face = way(std::clamp(foot[0], u[0], u[1]), std::clamp(foot[1], v[0], v[1]));
+  double least = std::numeric_limits<double>::infinity();
+  for (double u_i : u)
+    for (double v_j : v) least = std::min(least, to_face.dot(way(u_i, v_j)));
+  return least > distance * to_face.norm();
+}
+
 ClosestPoint closest_point(const Face& face, const Eigen::Vector3d& q) {
   const Bilinear x = bilinear(face, q);
   ClosestPoint best;

@@ -25,4 +25,8 @@ struct ClosestPoint {
 /// Two faces that share a side find bitwise the same point on it.
 ClosestPoint closest_point(const Face& face, const Eigen::Vector3d& q);
 
+/// Tells that q is farther than `distance` (m) from a face, where a plane between both shows it:
+/// docs/theory.md, Eq. (6.2c). Of triangles it is not told.
+bool is_farther(const Face& face, const Eigen::Vector3d& q, double distance);
+
 }  // namespace elastogear::contact

@@ -45,14 +45,18 @@ struct Trial {
 
 template <class Accept>
 Nearest nearest(const Trial& trial, const Accept& accept) {
-  constexpr double kRoundoff = 1e-14;  // which must not decide between faces that are as near
+  constexpr double kRoundoff = 1e-14;      // which must not decide between faces that are as near
+  constexpr double kRoundoffOfWay = 1e-9;  // of a distance; that of positions adds to it
   Nearest best(trial.depth * trial.depth);
   const Eigen::Vector3d q_B = trial.bounds ? trial.bounds->in_surface(trial.q) : trial.q;
   const auto is_beyond = [&](double bound) { return (1 - kRoundoff) * bound * bound > best.distance2; };
+  const double of_positions = kRoundoff * trial.q.cwiseAbs().maxCoeff();
   const auto offer = [&](int f) {
-    if (trial.bounds && is_beyond(trial.bounds->least(f, q_B))) return;
+    const double far = (1 + kRoundoffOfWay) * std::sqrt(best.distance2) + of_positions;
+    if (trial.bounds && (is_beyond(trial.bounds->least(f, q_B)) || trial.bounds->is_farther(f, q_B, far)))
+      return;
     const Face face = face_of(trial.master, f);
-    if (is_beyond(distance_bound(face, trial.q))) return;
+    if (is_beyond(distance_bound(face, trial.q)) || is_farther(face, trial.q, far)) return;
     const ClosestPoint p = closest_point(face, trial.q);
     if (accept(face, p)) best.offer(f, p);
   };

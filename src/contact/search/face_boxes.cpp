@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/projection/closest_point.h"
+
 namespace elastogear::contact {
 
 FaceBoxes face_boxes(const SurfaceView& surface) {
@@ -32,6 +34,10 @@ double squared_distance(const FaceBoxes& boxes, const Eigen::Vector3d& x, int f)
 
 double FaceBounds::least(int f, const Eigen::Vector3d& x_B) const {
   return std::max(0.0, std::sqrt(squared_distance(*boxes, x_B, f)) - deformed);
+}
+
+bool FaceBounds::is_farther(int f, const Eigen::Vector3d& x_B, double distance) const {
+  return contact::is_farther(face_of(undeformed, f), x_B, distance + deformed);
 }
 
 double distance(const FaceBoxes& boxes, const Eigen::Vector3d& x, std::span<const int> faces) {

@@ -18,6 +18,7 @@ FaceBoxes face_boxes(const SurfaceView& surface);
 /// Bounds of the distances from the faces of a surface in motion.
 struct FaceBounds {
   const FaceBoxes* boxes;
+  SurfaceView undeformed;
   double deformed;    ///< m, no face or extension has a point displaced by more
   Eigen::Matrix3d R;  ///< of the surface's frame in that of positions
   Eigen::Vector3d r;  ///< m
@@ -26,6 +27,8 @@ struct FaceBounds {
   Eigen::Vector3d in_surface(const Eigen::Vector3d& x) const { return R.transpose() * (x - r); }
   /// m, no more than the distance from face f to a point in the frame of the surface.
   double least(int f, const Eigen::Vector3d& x_B) const;
+  /// Is face f surely farther than `distance` (m) from a point in the frame of the surface?
+  bool is_farther(int f, const Eigen::Vector3d& x_B, double distance) const;
 };
 
 /// Distance of a point from the nearest of these boxes, m; infinite without faces.

@@ -80,7 +80,8 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
 
 SurfaceView Tracker::view(int i, double extension) {
   return {
-      side_[i].surface->face, side_[i].topology, configuration_.x[i], extension, now_[0] ? this : nullptr, i};
+      side_[i].surface->face, side_[i].topology, configuration_.x[i], extension, now_[0] ? this : nullptr, i,
+      look_[i].node.data(),   &n_looks_};
 }
 
 void Tracker::place(const SurfaceState& a, const SurfaceState& b) {
@@ -135,7 +136,7 @@ void Tracker::start_look() {
   for (Look& look : look_) look.nodes.clear();
   for (int i : {0, 1}) {
     bounds_[i].reset();
-    if (is_cheap(side_[i].bound, now_[i]->q)) bounds_[i] = face_bounds(i);
+    if (is_cheap(side_[i].bound, now_[i]->q)) bounds_[i].emplace(face_bounds(i));
   }
 }
 
@@ -144,7 +145,12 @@ FaceBounds Tracker::face_bounds(int i) const {
   const double of_extension = 1 + 2 * settings_.extension;
   const Eigen::Matrix3d R = i == 0 ? configuration_.R : Eigen::Matrix3d::Identity();
   const Eigen::Vector3d r = i == 0 ? configuration_.r : Eigen::Vector3d::Zero();
-  return {&boxes_[i], of_extension * of_extension * largest_deformation(i), R, r};
+  const Tracked& tracked = side_[i];
+  return {&boxes_[i],
+          {tracked.surface->face, tracked.topology, tracked.surface->X, settings_.extension},
+          of_extension * of_extension * largest_deformation(i),
+          R,
+          r};
 }
 
 Eigen::Vector3d Tracker::undeformed_normal(int i, int node) const {
@@ -162,11 +168,6 @@ void Tracker::place_node(int i, int node) {
   require(x_B.allFinite(), "contact: position of node ", node, " of surface ", i == 0 ? "a" : "b",
           " is not finite");
   configuration_.x[i].col(node) = i == 0 ? Eigen::Vector3d(configuration_.R * x_B + configuration_.r) : x_B;
-}
-
-const Eigen::Matrix3Xd& Tracker::placed(int i, int node) {
-  place_node(i, node);
-  return configuration_.x[i];
 }
 
 // Places a node and all nodes of the faces around it.
@@ -243,7 +244,7 @@ double Tracker::largest_deformation(int i) const {
 // are not displaced.
 void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
-  const SurfaceView master = view(1 - slave, settings_.extension);
+  const SurfaceView master = view(1 - slave, settings_.extension), placed = view(slave, 0);
   const FaceBounds bounds = face_bounds(1 - slave);
   const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around, &bounds};
   const RelativeMotion to_master = relative_motion(*now_[slave], *now_[1 - slave]);
@@ -258,7 +259,7 @@ void Tracker::leave_out(int slave, double clear) {
       neighbours_->apart_until[slave][node] = neighbours_->path + surely_beyond;
       continue;
     }
-    const Approach found = approach(master, placed(slave, node).col(node), move, all.faces(i));
+    const Approach found = approach(master, placed.at(node), move, all.faces(i));
     const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
     const double beyond = std::min(found.distance, move.reach) - limits_.depth + limits_.outside;
     const double surely_seen = std::min(found.clearance, settings_.skin + limits_.outside);
@@ -316,7 +317,7 @@ void Tracker::find_candidates() {
 void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   const SurfaceState* state[2] = {&a, &b};
   std::fill_n(now_, 2, nullptr);
-  bounds_ = {};
+  for (auto& bounds : bounds_) bounds.reset();
   residual_ = nullptr;
   double margin = reach_;
   for (int i : {0, 1}) {

@@ -82,8 +82,7 @@ class Tracker : private NodePlacer {
  private:
   void place(const SurfaceState& a, const SurfaceState& b);
   void place(bool deformed);
-  const Eigen::Matrix3Xd& placed(int i, int node) final;
-  void place_node(int i, int node);
+  void place_node(int i, int node) final;
   void place_around(int i, int node);
   void place_face(int i, int face);
   void place_for(int slave, const Neighbours& near);
