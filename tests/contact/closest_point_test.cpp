@@ -163,6 +163,36 @@ TEST(ClosestPoint, on_an_open_side_reaches_as_far_as_the_extension) {
   }
 }
 
+// A plane between both tells nothing but what holds.
+TEST(ClosestPoint, is_no_nearer_than_a_face_is_told_to_be) {
+  Random random(9);
+  int n_told = 0, n_near = 0;
+  for (double warp : {0.0, 0.1, 0.5, 1.5})
+    for (int trial = 0; trial < 500; ++trial) {
+      Face face = trial % 5 == 0 ? random_triangle(random) : random_face(random, warp);
+      for (double& e : face.extension) e = trial % 3 == 0 ? random.uniform(0, 0.3) : 0;
+      const Eigen::Vector3d q = random.vector(trial % 2 == 0 ? 5 : 1.5);
+      const double distance = std::sqrt(closest_point(face, q).distance2);
+      n_told += is_farther(face, q, 0.9 * distance);
+      n_near += is_farther(face, q, (1 + 1e-12) * distance);
+    }
+  EXPECT_EQ(n_near, 0);
+  EXPECT_GT(n_told, 1000) << "of 1600 quadrilaterals";
+}
+
+TEST(ClosestPoint, of_a_plane_rectangle_is_as_far_as_the_face_is_told_to_be) {
+  Face face;
+  face.x = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(3, 2, 0),
+            Eigen::Vector3d(0, 2, 0)};
+  face.extension[1] = 0.2;  // until x = 3.6
+  for (const Eigen::Vector3d& q : {Eigen::Vector3d(1, 1, 0.5), Eigen::Vector3d(4, 1, 0.5),
+                                   Eigen::Vector3d(-2, -1, 0.1), Eigen::Vector3d(1, 7, -2)}) {
+    const double distance = std::sqrt(closest_point(face, q).distance2);
+    EXPECT_TRUE(is_farther(face, q, (1 - 1e-12) * distance)) << q.transpose();
+    EXPECT_FALSE(is_farther(face, q, (1 + 1e-12) * distance)) << q.transpose();
+  }
+}
+
 TEST(Face, natural_coordinates_of_a_triangle_are_those_of_the_collapsed_quadrilateral) {
   Random random(7);
   const Face triangle = random_triangle(random);
