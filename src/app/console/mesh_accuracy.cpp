@@ -10,18 +10,18 @@ constexpr const char* kWorm[2][4] = {{"22 % low", "21 % low", "14 % low", "11 % 
 constexpr const char* kWheel[2][4] = {{"48 % low", "30 % low", "20 % low", "8 % low"},
                                       {"9 % low", "within 1 %", "within 1 %", "within 1 %"}};
 
-// Secant mesh stiffness of the reference drive beside that of the finest mesh with the local approach of
+// Secant mesh stiffness of the reference drive beside what meshes go to with the local approach of
 // flanks, with that and without; rows and columns as above (docs/validation.md, section 42).
 constexpr const char* kStiffness[2][4] = {
-    {"7 % high (without the approach by H. Hertz 48 %)", "3 % high (without the approach by H. Hertz 25 %)",
-     "2 % high (without the approach by H. Hertz 17 %)",
-     "within 1 % (without the approach by H. Hertz 9 % high)"},
-    {"3 % high (without the approach by H. Hertz 32 %)",
+    {"7 % high (without the approach by H. Hertz 49 %)", "4 % high (without the approach by H. Hertz 25 %)",
+     "2 % high (without the approach by H. Hertz 17 %)", "1 % high (without the approach by H. Hertz 9 %)"},
+    {"3 % high (without the approach by H. Hertz 33 %)",
      "within 1 % (without the approach by H. Hertz 21 % high)",
-     "within 1 % (without the approach by H. Hertz 20 % high)", "not measured"}};
+     "within 1 % (without the approach by H. Hertz 20 % high)",
+     "within 1 % (without the approach by H. Hertz 14 % high)"}};
 constexpr const char* kMeasured = "within 1 % (without the approach by H. Hertz 4 %)";
 constexpr const char* kHertz[2][4] = {{kMeasured, kMeasured, kMeasured, kMeasured},
-                                      {kMeasured, kMeasured, kMeasured, "not measured"}};
+                                      {kMeasured, kMeasured, kMeasured, kMeasured}};
 
 }  // namespace
 
