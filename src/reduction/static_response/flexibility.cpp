@@ -218,14 +218,14 @@ std::vector<int> stress_nodes(const FlexibilityTask& task, const model::Flexibil
 
 StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibility& plan, std::size_t n_free,
                             int n_ranks) {
-  constexpr double kSingle = 4;  // bytes
+  constexpr double kSingle = 4, kFreeSurface = 3;  // bytes; independent stresses at a node
   const int Z = plan.n_sectors, n_harmonics = Z / 2 + 1;
   const double n_loads = 3 * static_cast<double>(plan.surface.node.cols()),
                parts = Z > 2 ? 2 : 1,  // real form of a complex harmonic
       unknowns = parts * static_cast<double>(n_free) / Z,
-               rows = 3. * static_cast<double>(plan.node.size()) +
-                      6. * static_cast<double>(stress_nodes(task, plan).size()),
-               wanted = parts * rows / Z;
+               n_stress = static_cast<double>(stress_nodes(task, plan).size()),
+               n_displacements = 3 * static_cast<double>(plan.node.size()),
+               wanted = parts * (n_displacements + kFreeSurface * n_stress) / Z;
   const auto [nested, whole] = response_flops(unknowns, wanted, n_loads);
   const double flops = n_harmonics * std::min(nested, whole), separator = std::pow(unknowns, 2. / 3);
   const int at_work = std::min(n_ranks, n_harmonics);
@@ -233,7 +233,7 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
   cost.n_nodes = plan.node.size();
   cost.n_columns = static_cast<std::size_t>(n_loads) * static_cast<std::size_t>(n_harmonics);
   cost.seconds = flops / (kShareOfSpeed * single_precision_speed() * at_work);
-  cost.kept_bytes = rows * n_loads * kSingle;
+  cost.kept_bytes = (n_displacements + 6 * n_stress) * n_loads * kSingle;
   cost.bytes = cost.kept_bytes + 4 * wanted * separator * kSingle * at_work;
   return cost;
 }

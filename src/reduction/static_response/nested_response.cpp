@@ -304,13 +304,13 @@ Contributions<T> ordered(Contributions<T> contributions, const std::vector<int>&
 }  // namespace
 
 // Nested: separators by the square of the unknowns, leaves by their rows and by the loads in them, products
-// of wanted rows and loads by the size of the largest separator. Whole: factor and solutions after nested
-// dissection (docs/performance.md).
+// of wanted rows and loads, of loads with each other half of them, by the size of the largest separator.
+// Whole: factor and solutions after nested dissection (docs/performance.md).
 ResponseFlops response_flops(double unknowns, double wanted, double n_loads) {
   constexpr double kSeparators = 20, kLeafRow = 0.8e6, kLeafLoad = 4e6, kEntries = 17, kFactor = 8;
   const double squared = unknowns * unknowns;
   return {kSeparators * squared + kLeafRow * unknowns + kLeafLoad * n_loads +
-              2 * wanted * n_loads * std::pow(unknowns, 2. / 3),
+              (2 * wanted - n_loads) * n_loads * std::pow(unknowns, 2. / 3),
           kFactor * squared + 4 * kEntries * std::pow(unknowns, 4. / 3) * n_loads};
 }
 
