@@ -8,6 +8,7 @@
 
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/collectively.h"
+#include "elastogear/base/dense_product.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/memory.h"
 #include "elastogear/base/rotation.h"
@@ -121,47 +122,33 @@ Eigen::Matrix<double, 6, 6> tensor_turn(const Eigen::Matrix3d& T) {
   return turn;
 }
 
-// Amplitudes Y of one harmonic, Y_i of the fields i Y or none. The field turned by j sectors has the
-// amplitude z exp(2 pi i j k/Z): re and im are the parts of what follows from Y and Y_i.
-struct TurnedAmplitudes {
-  Eigen::Ref<const MatrixXf> Y, Y_i;
-  int j;
-  double phase;
-};
-
-// Adds to these columns of responses what the orbits' nodes, turned by j sectors, are displaced.
-void add_displacements(const TurnedAmplitudes& of, const Eigen::Matrix3d& turn, const model::Images& images,
-                       Eigen::Ref<MatrixXf> responses) {
-  const Eigen::Matrix3f re = (std::cos(of.phase) * turn).cast<float>(),
-                        im = (std::sin(of.phase) * turn).cast<float>();
-  for (Eigen::Index column = 0; column < of.Y.cols(); ++column)
-    for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit) {
-      auto to = responses.col(column).segment<3>(3 * Eigen::Index{images.node(of.j, orbit)});
-      to.noalias() += re * of.Y.col(column).segment<3>(3 * orbit);
-      if (of.Y_i.cols() > 0) to.noalias() += im * of.Y_i.col(column).segment<3>(3 * orbit);
-    }
+// Enters displacements of the sector's nodes, turned by j sectors.
+void enter_displacements(const Eigen::Ref<const Eigen::VectorXf>& u, const Eigen::Matrix3f& turn,
+                         const Eigen::RowVectorXi& nodes, Eigen::Ref<Eigen::VectorXf> column) {
+  for (Eigen::Index orbit = 0; orbit < nodes.size(); ++orbit)
+    column.segment<3>(3 * Eigen::Index{nodes[orbit]}).noalias() = turn * u.segment<3>(3 * orbit);
 }
 
-// The same of stresses, for which the rows of Y stand.
-void add_stresses(const TurnedAmplitudes& of, const Eigen::Matrix<double, 6, 6>& turn,
-                  const WantedRows& wanted, const model::Images& images, Eigen::Ref<MatrixXf> responses) {
-  const auto n = static_cast<Eigen::Index>(wanted.stress.size());
-  Eigen::Matrix<float, 6, Eigen::Dynamic> re(6, n), im(6, n);
-  for (Eigen::Index row = 0; row < n; ++row) {
-    const Vector6 turned =
-        turn * Eigen::Map<const Vector6>(wanted.stress[static_cast<std::size_t>(row)].data());
-    re.col(row) = (std::cos(of.phase) * turned).cast<float>();
-    im.col(row) = (std::sin(of.phase) * turned).cast<float>();
+using Stresses = Eigen::Matrix<float, 6, Eigen::Dynamic>;
+
+// Which stress each row stands for, turned.
+Stresses turned_stresses(const WantedRows& wanted, const Eigen::Matrix<double, 6, 6>& turn) {
+  Stresses stress(6, static_cast<Eigen::Index>(wanted.stress.size()));
+  for (std::size_t row = 0; row < wanted.stress.size(); ++row)
+    stress.col(static_cast<Eigen::Index>(row)) =
+        (turn * Eigen::Map<const Vector6>(wanted.stress[row].data())).cast<float>();
+  return stress;
+}
+
+// The same of stresses, by as many rows as are independent at each node.
+void enter_stresses(const Eigen::Ref<const Eigen::VectorXf>& rows, const Stresses& stress,
+                    const std::vector<int>& first_row, const Eigen::RowVectorXi& nodes,
+                    Eigen::Ref<Eigen::VectorXf> column) {
+  for (Eigen::Index orbit = 0; orbit < nodes.size(); ++orbit) {
+    Eigen::Matrix<float, 6, 1> sum = Eigen::Matrix<float, 6, 1>::Zero();
+    for (int row = first_row[orbit]; row < first_row[orbit + 1]; ++row) sum += rows[row] * stress.col(row);
+    column.segment<6>(6 * Eigen::Index{nodes[orbit]}) = sum;
   }
-  for (Eigen::Index column = 0; column < of.Y.cols(); ++column)
-    for (Eigen::Index orbit = 0; orbit < images.node.cols(); ++orbit) {
-      Eigen::Matrix<float, 6, 1> sum = Eigen::Matrix<float, 6, 1>::Zero();
-      for (int row = wanted.first_stress_row[orbit]; row < wanted.first_stress_row[orbit + 1]; ++row) {
-        sum += of.Y(row, column) * re.col(row);
-        if (of.Y_i.cols() > 0) sum += of.Y_i(row, column) * im.col(row);
-      }
-      responses.col(column).segment<6>(6 * Eigen::Index{images.node(of.j, orbit)}) += sum;
-    }
 }
 
 // Rows P_i with P_i z = P (i z).
@@ -239,24 +226,73 @@ class HarmonicResponses {
   Eigen::Index n_u_ = 0;
 };
 
-// Adds the harmonic's part of these columns of F and G.
-void add_part(const MatrixXf& Y, const Amplitudes& harmonic, const mesh::Turn& sectors,
-              const WantedRows& wanted, const model::Flexibility& plan, Eigen::Ref<MatrixXf> F,
-              Eigen::Ref<MatrixXf> G) {
-  const int Z = sectors.n_sectors;  // that of the plan, which rank 0 alone has
-  const Eigen::Index n_rows = harmonic.real ? Y.rows() : Y.rows() / 2, n_u = 3 * plan.surface.node.cols(),
-                     n_i = harmonic.real ? 0 : Y.cols();
-  const auto Y_i = Y.bottomRows(n_rows).leftCols(n_i);
-  for (int j = 0; j < Z; ++j) {
-    const double alpha = 2 * std::numbers::pi / Z,
-                 phase = alpha * static_cast<double>(static_cast<long>(j) * harmonic.k % Z);
-    const Eigen::Matrix3d T = rotation_matrix(alpha * j * sectors.axis);
-    add_displacements({Y.topRows(n_u), Y_i.topRows(n_u), j, phase}, T, plan.surface, F);
-    if (n_rows > n_u)
-      add_stresses({Y.middleRows(n_u, n_rows - n_u), Y_i.bottomRows(n_rows - n_u), j, phase}, tensor_turn(T),
-                   wanted, plan.stress, G);
+// Parts of the amplitudes of this rank's harmonics by the sectors j, a row each: the field of a harmonic k
+// turned by j sectors has the amplitude z exp(2 pi i j k/Z).
+MatrixXf phases(const std::vector<Amplitudes>& own, int n_sectors) {
+  Eigen::Index n = 0;
+  for (const Amplitudes& harmonic : own) n += harmonic.real ? 1 : 2;
+  MatrixXf result(n, n_sectors);
+  for (int j = 0; j < n_sectors; ++j) {
+    Eigen::Index row = 0;
+    for (const Amplitudes& harmonic : own) {
+      const double phase = 2 * std::numbers::pi / n_sectors *
+                           static_cast<double>(static_cast<long>(j) * harmonic.k % n_sectors);
+      result(row++, j) = static_cast<float>(std::cos(phase));
+      if (!harmonic.real) result(row++, j) = static_cast<float>(std::sin(phase));
+    }
   }
+  return result;
 }
+
+// The rows wanted of each sector, one sector below the other and in the frame of the first, by this rank's
+// harmonics: columns of one piece of their amplitudes, which are released.
+MatrixXf unfolded(std::vector<Amplitudes>& own, std::size_t piece, const MatrixXf& phase, Eigen::Index n_rows,
+                  Eigen::Index width) {
+  MatrixXf U = MatrixXf::Zero(n_rows * phase.cols(), width), Y(n_rows, phase.rows()),
+           sectors(n_rows, phase.cols());
+  for (Eigen::Index column = 0; column < width && !own.empty(); ++column) {
+    Eigen::Index at = 0;
+    for (const Amplitudes& harmonic : own) {
+      const auto y = harmonic.piece[piece].col(column);
+      Y.col(at++) = y.head(n_rows);
+      if (!harmonic.real) Y.col(at++) = y.tail(n_rows);
+    }
+    multiply(Op::plain, Op::plain, 1.0F, Y, phase, 0.0F, sectors);
+    U.col(column) = sectors.reshaped();
+  }
+  for (Amplitudes& harmonic : own) harmonic.piece[piece] = MatrixXf();
+  return U;
+}
+
+// Columns of F and G from the rows wanted of each sector.
+class Turning {
+ public:
+  Turning(const mesh::Turn& sectors, const WantedRows& wanted) : wanted_(wanted) {
+    for (int j = 0; j < sectors.n_sectors; ++j) {
+      const Eigen::Matrix3d T = rotation_matrix(2 * std::numbers::pi / sectors.n_sectors * j * sectors.axis);
+      turn_.emplace_back(T.cast<float>());
+      stress_.push_back(turned_stresses(wanted, tensor_turn(T)));
+    }
+  }
+
+  void enter(const MatrixXf& U, Eigen::Index first, model::Flexibility& to) const {
+    const Eigen::Index n = wanted_.n_rows(), n_u = wanted_.n_loads();
+    for (Eigen::Index column = 0; column < U.cols(); ++column)
+      for (std::size_t j = 0; j < turn_.size(); ++j) {
+        const auto sector = static_cast<Eigen::Index>(j);
+        const auto rows = U.col(column).segment(n * sector, n);
+        enter_displacements(rows.head(n_u), turn_[j], to.surface.node.row(sector), to.F.col(first + column));
+        if (n > n_u)
+          enter_stresses(rows.tail(n - n_u), stress_[j], wanted_.first_stress_row, to.stress.node.row(sector),
+                         to.G.col(first + column));
+      }
+  }
+
+ private:
+  const WantedRows& wanted_;
+  std::vector<Eigen::Matrix3f> turn_;  // of each sector
+  std::vector<Stresses> stress_;
+};
 
 // Sum of the ranks' matrices on rank 0.
 void sum_on_root(MPI_Comm comm, Eigen::MatrixXf& A) {
@@ -273,34 +309,19 @@ void combine(MPI_Comm comm, const mesh::Turn& sectors, const WantedRows& wanted,
              model::Flexibility& flexibility) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  const Eigen::Index n_F = 3 * flexibility.surface.node.size(), n_G = 6 * flexibility.stress.node.size(),
-                     n = 3 * flexibility.surface.node.cols();
+  const Eigen::Index n = wanted.n_loads();
   if (rank == 0) {
-    flexibility.F.resize(n_F, n);
-    flexibility.G.resize(n_G, n);
+    flexibility.F.resize(3 * flexibility.surface.node.size(), n);
+    flexibility.G.resize(6 * flexibility.stress.node.size(), n);
   }
-  MatrixXf F, G;
+  const Turning turning(sectors, wanted);
+  const MatrixXf phase = phases(own, sectors.n_sectors);
   for (Eigen::Index first = 0; first < n; first += kPiece) {
-    const Eigen::Index width = std::min(kPiece, n - first);
-    F.setZero(n_F, width);
-    G.setZero(n_G, width);
-    for (Amplitudes& harmonic : own) {
-      MatrixXf& Y = harmonic.piece[static_cast<std::size_t>(first / kPiece)];
-      add_part(Y, harmonic, sectors, wanted, flexibility, F, G);
-      Y = MatrixXf();
-    }
-    sum_on_root(comm, F);
-    sum_on_root(comm, G);
-    if (rank != 0) continue;
-    flexibility.F.middleCols(first, width) = F;
-    flexibility.G.middleCols(first, width) = G;
+    MatrixXf U = unfolded(own, static_cast<std::size_t>(first / kPiece), phase, wanted.n_rows(),
+                          std::min(kPiece, n - first));
+    sum_on_root(comm, U);
+    if (rank == 0) turning.enter(U, first, flexibility);
   }
-}
-
-void broadcast(MPI_Comm comm, model::Images& images, int n_sectors) {
-  elastogear::broadcast(comm, images.orbit);
-  elastogear::broadcast(comm, images.sector_index);
-  images = model::make_images(images.orbit, images.sector_index, n_sectors, "nodes of the flexibility");
 }
 
 }  // namespace
@@ -323,8 +344,6 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
   });
   fem::broadcast(comm, sector);
   broadcast(comm, wanted);
-  broadcast(comm, flexibility.surface, sector.turn.n_sectors);
-  broadcast(comm, flexibility.stress, sector.turn.n_sectors);
   const int n_harmonics = sector.turn.n_sectors / 2 + 1;
   std::vector<Amplitudes> own;
   collectively(comm, [&] {
