@@ -1,5 +1,6 @@
 #pragma once
-// What distance and normal of a flank at one point share.
+// Where a point is beside a flank: the half angle there, from which its distance and the flank's normal
+// follow.
 
 #include "elastogear/gear/toothing.h"
 

@@ -132,7 +132,7 @@ contact::Stretch stretch_by_roll(const model::Surface& surface, int f, const gea
   return stretch;
 }
 
-// Which faces of teeth are the same but for the turn from tooth to tooth.
+// Finds faces of flanks that are turned copies of each other, from tooth to tooth.
 class TurnedFaces {
  public:
   explicit TurnedFaces(const gear::Toothing& toothing) : toothing_(toothing) {}

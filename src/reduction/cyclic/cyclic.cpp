@@ -92,7 +92,8 @@ HarmonicModes solve(CyclicSearch& search, int k, const Cutoff& cutoff, const Pro
   return modes;
 }
 
-// Whether harmonic k has few enough modes to be found at one shift, and the user asked for no other solver.
+// Returns whether one shift is enough for the modes of harmonic k, at most as many as a window holds, and the
+// user has asked for no other solver.
 bool suits_one_shift(const CyclicSearch& search, int k, const Cutoff& cutoff) {
   const EigenOptions& options = search.options.eigen;
   PetscBool asked = PETSC_FALSE;

@@ -131,7 +131,7 @@ void enter_displacements(const Eigen::Ref<const Eigen::VectorXf>& u, const Eigen
 
 using Stresses = Eigen::Matrix<float, 6, Eigen::Dynamic>;
 
-// Which stress each row stands for, turned.
+// The stress, turned, that each of the wanted rows of stresses stands for, a column each.
 Stresses turned_stresses(const WantedRows& wanted, const Eigen::Matrix<double, 6, 6>& turn) {
   Stresses stress(6, static_cast<Eigen::Index>(wanted.stress.size()));
   for (std::size_t row = 0; row < wanted.stress.size(); ++row)
@@ -140,7 +140,8 @@ Stresses turned_stresses(const WantedRows& wanted, const Eigen::Matrix<double, 6
   return stress;
 }
 
-// The same of stresses, by as many rows as are independent at each node.
+// Enters stresses of the sector's nodes, turned as `stress` is, from as many rows as are independent at each
+// node.
 void enter_stresses(const Eigen::Ref<const Eigen::VectorXf>& rows, const Stresses& stress,
                     const std::vector<int>& first_row, const Eigen::RowVectorXi& nodes,
                     Eigen::Ref<Eigen::VectorXf> column) {

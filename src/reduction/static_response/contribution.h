@@ -3,6 +3,7 @@
 // (docs/theory.md, Eqs. (6.20a) and (6.20c)).
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 namespace elastogear::reduction {
@@ -44,5 +45,11 @@ void add_responses(const Contribution<T>& contribution, const std::vector<int>& 
 /// Forgets the rows of P that are marked; what a leaf adds to loads stays.
 template <class T>
 void remove_rows(const std::vector<char>& marked, Contribution<T>& contribution);
+
+/// Enters the responses of earlier groups of loads to the loads of later ones, which are those of the later
+/// to the earlier: the matrix is symmetric. Load i is row i of P. column: where the responses to a load are
+/// stored, in the order of the rows of P.
+void fill_symmetric(const std::vector<std::vector<int>>& groups,
+                    const std::function<float*(int load)>& column);
 
 }  // namespace elastogear::reduction

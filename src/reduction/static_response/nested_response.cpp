@@ -394,20 +394,4 @@ MatrixXf NestedResponse::next() {
   return Y;
 }
 
-void fill_symmetric(const std::vector<std::vector<int>>& groups,
-                    const std::function<float*(int load)>& column) {
-  constexpr std::size_t kBlock = 64;  // loads whose columns stay in the cache
-  for (std::size_t later = 1; later < groups.size(); ++later)
-    for (std::size_t earlier = 0; earlier < later; ++earlier)
-      for (std::size_t first = 0; first < groups[earlier].size(); first += kBlock) {
-        const std::size_t end = std::min(first + kBlock, groups[earlier].size());
-        std::vector<const float*> from;
-        for (std::size_t i = first; i < end; ++i) from.push_back(column(groups[earlier][i]));
-        for (int load : groups[later]) {
-          float* const to = column(load);
-          for (std::size_t i = first; i < end; ++i) to[groups[earlier][i]] = from[i - first][load];
-        }
-      }
-}
-
 }  // namespace elastogear::reduction

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
-#include <functional>
 #include <variant>
 #include <vector>
 
@@ -77,10 +76,5 @@ class NestedResponse {
   Eigen::MatrixXd P_R_;    // of a free body: P R
   Eigen::MatrixXd drift_;  // and P K^-1 M R without the rigid motion in it
 };
-
-/// Enters the rows of loads that NestedResponse::next leaves out, the responses of loads to each other being
-/// symmetric. column: where the responses to a load are stored, in the order of the rows of P.
-void fill_symmetric(const std::vector<std::vector<int>>& groups,
-                    const std::function<float*(int load)>& column);
 
 }  // namespace elastogear::reduction
