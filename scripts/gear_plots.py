@@ -149,12 +149,13 @@ def plot_roots(pair, gear, folder):
             way.plot(place, pair[f"{root}/way/{name}"] / 1e6, style, color=colour, label=label)
         far = np.abs(place[pair[root + "/way/tension"] > NOTICEABLE * 1e6 * peak]).max(initial=0.5)
         way.set_xlim(-far - 0.5, far + 0.5)
-        way.legend(frameon=False, fontsize=8, loc="upper right")
+        way.legend(frameon=False, fontsize=8, loc="best")
     way.set(xlabel="place of a tooth on its way, pitches", title="nodes of the largest ones on the way of a tooth")
     node, tension = int(pair[root + "/largest_tension_node"]), root + "/largest_tension"
     parts = (("error", "reduction"), ("mesh_error", "mesh"), ("contact_error", "resolution of the contact"))
-    errors = [f"{by} {pair[f'{tension}_{name}'] / 1e6:.2g} MPa" for name, by in parts if pair.has(f"{tension}_{name}")]
-    told = "\nestimated errors: " + ", ".join(errors) if errors else ""
+    errors = [(by, pair[f"{tension}_{name}"] / 1e6) for name, by in parts if pair.has(f"{tension}_{name}")]
+    two_digits = [f"{by} {float(f'{error:.2g}'):g} MPa" for by, error in errors]
+    told = "\nestimated errors: " + ", ".join(two_digits) if errors else ""
     figure.suptitle(f"Stress at the roots of the {gear}: tension at most {pair[tension] / 1e6:.4g} MPa at node {node}{told}", fontsize=10)
     save(figure, folder, "root_stress_" + gear)
 
