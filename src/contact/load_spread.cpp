@@ -56,15 +56,7 @@ Eigen::VectorXd weigh_across(const Eigen::Matrix3Xd& away, const Eigen::Vector3d
 
 }  // namespace
 
-Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
-              const std::vector<char>& may_bear, const Eigen::Vector3d& along) {
-  Spread result;
-  for (const std::vector<int>& side : sides)
-    for (int other : side)
-      if (may_bear[static_cast<std::size_t>(other)] != 0) result.node.push_back(other);
-  std::sort(result.node.begin(), result.node.end());
-  result.node.erase(std::unique(result.node.begin(), result.node.end()), result.node.end());
-  const Eigen::Matrix3Xd away = X(Eigen::all, result.node).colwise() - X.col(node);
+Eigen::VectorXd spread_weights(const Eigen::Matrix3Xd& away, const Eigen::Vector3d& along) {
   const Eigen::JacobiSVD<Eigen::Matrix3Xd> axes(away, Eigen::ComputeFullU);
   Eigen::Matrix3Xd A(3, away.cols());
   A.row(0).setOnes();
@@ -72,7 +64,18 @@ Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& si
       axes.matrixU().leftCols<2>().transpose() * away / std::max(axes.singularValues()[0], 1e-300);
   const Eigen::VectorXd D = weigh_across(away, along);
   A *= D.asDiagonal();
-  result.weight = D.cwiseProduct(A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(1, 0, 0)));
+  return D.cwiseProduct(A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(1, 0, 0)));
+}
+
+Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
+              const std::vector<char>& may_bear) {
+  Spread result;
+  for (const std::vector<int>& side : sides)
+    for (int other : side)
+      if (may_bear[static_cast<std::size_t>(other)] != 0) result.node.push_back(other);
+  std::sort(result.node.begin(), result.node.end());
+  result.node.erase(std::unique(result.node.begin(), result.node.end()), result.node.end());
+  result.weight = spread_weights(X(Eigen::all, result.node).colwise() - X.col(node), Eigen::Vector3d::Zero());
   return result;
 }
 
@@ -85,14 +88,10 @@ LoadSpread::LoadSpread(const model::ElasticBody& body)
 const Spread& LoadSpread::of(int node) {
   const auto known = known_.find(node);
   if (known != known_.end()) return known->second;
-  return known_.emplace(node, across(node, Eigen::Vector3d::Zero())).first->second;
-}
-
-Spread LoadSpread::across(int node, const Eigen::Vector3d& along) const {
   std::vector<std::vector<int>> around;
   for (int side : at_node_[static_cast<std::size_t>(node)])
     around.push_back(sides_[static_cast<std::size_t>(side)]);
-  return spread(*X_, around, node, may_bear_, along);
+  return known_.emplace(node, spread(*X_, around, node, may_bear_)).first->second;
 }
 
 }  // namespace elastogear::contact

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 namespace elastogear::contact::load_spread_test {
@@ -53,17 +54,17 @@ TEST(Spread, keeps_force_and_place_where_nodes_lie_to_one_side) {
 }
 
 // An even load along a line stays even up to its ends.
-TEST(Spread, across_a_line_is_even_across_it_and_leaves_what_lies_along_it) {
+TEST(SpreadWeights, across_a_line_are_even_across_it_and_leave_what_lies_along_it) {
   const Grid grid;
   const Eigen::Vector3d along = Eigen::Vector3d::UnitY();
   Eigen::VectorXd spread_load = Eigen::VectorXd::Zero(9);
   for (int node : {1, 4, 7}) {
-    std::vector<std::vector<int>> at_node;
+    std::set<int> around;
     for (const auto& face : grid.face)
-      if (std::find(face.begin(), face.end(), node) != face.end()) at_node.push_back(face);
-    const Spread of = spread(grid.X, at_node, node, grid.may_bear, along);
-    for (std::size_t i = 0; i < of.node.size(); ++i)
-      spread_load[of.node[i]] += of.weight[static_cast<Eigen::Index>(i)] * (node == 4 ? 2 : 1);
+      if (std::find(face.begin(), face.end(), node) != face.end()) around.insert(face.begin(), face.end());
+    const std::vector<int> nodes(around.begin(), around.end());
+    spread_load(nodes) +=
+        (node == 4 ? 2 : 1) * spread_weights(grid.X(Eigen::all, nodes).colwise() - grid.X.col(node), along);
   }
   for (int n = 0; n < 9; ++n) EXPECT_NEAR(spread_load[n], (n / 3 == 1 ? 2 : 1) / 3., 0.02) << n;
 }

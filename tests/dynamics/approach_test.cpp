@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 
 #include "../contact/surfaces.h"
@@ -49,49 +50,97 @@ model::Surface plane(int n, double h, double stretch) {
   return surface;
 }
 
-// Mean of 1/r of the pressure cos^2 x cos^2 y over 6 x 6 faces of a coarse plane, given by its consistent
-// nodal forces, which are those of a plane with `finer` times as many faces added up.
-double coarse_or_fine(int finer, double stretch) {
-  constexpr int kFaces = 6, kQuadrature = 24;
-  const model::Surface surface = plane(kFaces * finer, 1. / finer, stretch);
-  VectorXd f = VectorXd::Zero(surface.X.cols());
-  const auto pressure = [](double x) { return std::pow(std::sin(std::numbers::pi * x / kFaces), 2); };
-  const int per_side = kFaces * finer + 1;
-  VectorXd line = VectorXd::Zero(per_side);  // consistent forces along one direction
-  for (int e = 0; e + 1 < per_side; ++e)
-    for (int i = 0; i < kQuadrature; ++i) {
-      const double s = (i + 0.5) / kQuadrature, p = pressure((e + s) / finer) / (finer * kQuadrature);
-      line[e] += (1 - s) * p;
-      line[e + 1] += s * p;
-    }
-  for (Eigen::Index n = 0; n < f.size(); ++n) {
-    const auto at = [&](int d, double h) {
-      return static_cast<Eigen::Index>(std::lround(surface.X(d, n) / h));
-    };
-    f[n] = line[at(0, 1. / finer)] * line[at(1, stretch / finer)];
-  }
-  f /= f.sum();
-  HalfSpace half_space(surface);
-  double sum = 0;
-  for (int i = 0; i < f.size(); ++i)
-    for (int j = 0; j < f.size(); ++j) sum += f[i] * f[j] * half_space.mean_inverse_distance(i, j);
-  return sum;
+// The number of the node at x, y.
+int node_at(const model::Surface& surface, double x, double y) {
+  Eigen::Index node = 0;
+  (surface.X.colwise() - Eigen::Vector3d(x, y, 0)).colwise().norm().minCoeff(&node);
+  return static_cast<int>(node);
 }
 
-// A pressure over three faces to either side is a patch that coarse faces just show.
-TEST(HalfSpace, has_the_work_of_a_pressure_given_by_its_consistent_forces) {
-  for (double stretch : {1., 3.}) {
-    const double coarse = coarse_or_fine(1, stretch), fine = coarse_or_fine(4, stretch);
-    std::printf("faces of 1 x %g: work %+.2f %%\n", stretch, 100 * (coarse / fine - 1));
-    EXPECT_NEAR(coarse, fine, 5e-3 * fine);
-  }
+// Mean of 1/r between the pressures of the corners at (x, y) and at `other` of a coarse plane, or between the
+// same pressures as a plane with `finer` times as many faces has them.
+double mean_between(int finer, double stretch, const Eigen::Vector2d& other) {
+  const model::Surface surface = plane(6 * finer, 1. / finer, stretch);
+  HalfSpace half_space(surface);
+  const auto hat = [&](const Eigen::Vector2d& at) {
+    std::map<int, double> p;
+    double sum = 0;
+    for (int i = 1 - finer; i < finer; ++i)
+      for (int j = 1 - finer; j < finer; ++j) {
+        const double weight =
+            (1 - std::abs(i) / static_cast<double>(finer)) * (1 - std::abs(j) / static_cast<double>(finer));
+        p[node_at(surface, at[0] + i / static_cast<double>(finer),
+                  stretch * (at[1] + j / static_cast<double>(finer)))] = weight;
+        sum += weight;
+      }
+    for (auto& [node, force] : p) force /= sum;
+    return p;
+  };
+  const auto a = hat({3, 3}), b = hat(other);
+  double mean = 0;
+  for (const auto& [i, p] : a)
+    for (const auto& [j, q] : b) mean += p * q * half_space.mean_inverse_distance(i, j);
+  return mean;
+}
+
+// The parts of sides are many enough, of one pressure and of two that overlap or are next to each other.
+TEST(HalfSpace, has_the_work_of_pressures_cut_more_finely) {
+  for (double stretch : {1., 3.})
+    for (double y : {3., 4., 5.}) {
+      const double coarse = mean_between(1, stretch, {3, y}), fine = mean_between(4, stretch, {3, y});
+      std::printf("sides of 1 x %g, corners %g apart: work %+.2f %%\n", stretch, y - 3,
+                  100 * (coarse / fine - 1));
+      EXPECT_NEAR(coarse, fine, 0.01 * fine);
+    }
 }
 
 TEST(HalfSpace, far_away_is_that_of_a_point) {
   const model::Surface surface = plane(12, 1, 2);
-  const auto n = static_cast<int>(surface.X.cols()) - 1;
+  const int i = node_at(surface, 1, 2), j = node_at(surface, 11, 22);
   HalfSpace half_space(surface);
-  EXPECT_NEAR(half_space.mean_inverse_distance(0, n), 1 / surface.X.col(n).norm(), 1e-12);
+  EXPECT_NEAR(half_space.mean_inverse_distance(i, j), 1 / (surface.X.col(i) - surface.X.col(j)).norm(),
+              1e-12);
+}
+
+// A quadrilateral of eight nodes alone and a triangle of six: the pressure of a corner is bilinear or linear.
+TEST(HalfSpace, has_consistent_forces_on_second_order_sides) {
+  model::Surface surface;
+  surface.X.resize(3, 8);
+  surface.X << 0, 2, 2, 0, 1, 2, 1, 0, 0, 0, 2, 2, 0, 1, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0;
+  surface.node = {0, 1, 2, 3, 4, 5, 6, 7};
+  surface.face.resize(4, 1);
+  surface.face << 4, 5, 6, 7;
+  surface.side.resize(8, 1);
+  surface.side << 0, 1, 2, 3, 4, 5, 6, 7;
+  HalfSpace square(surface);
+  const double of_square[] = {0, -1. / 9, -1. / 9, -1. / 9, 4. / 9, 2. / 9, 2. / 9, 4. / 9};
+  for (const auto& [node, force] : square.pressure(0).nodal_force)
+    EXPECT_NEAR(force, of_square[node], 2e-3) << node;
+  EXPECT_LT((square.pressure(0).x - Eigen::Vector3d(2. / 3, 2. / 3, 0)).norm(), 1e-12);
+  surface.side << 0, 1, 3, 4, 5, 7, -1, -1;
+  surface.X.col(5) << 1, 1, 0;
+  surface.face << 4, 5, 7, 7;
+  HalfSpace triangle(surface);
+  const double of_triangle[] = {0.1, -0.05, 0, -0.05, 0.4, 0.2, 0, 0.4};
+  for (const auto& [node, force] : triangle.pressure(0).nodal_force)
+    EXPECT_NEAR(force, of_triangle[node], 2e-3) << node;
+  EXPECT_LT((triangle.pressure(0).x - Eigen::Vector3d(0.5, 0.5, 0)).norm(), 2e-3);
+}
+
+// Four equal sides bear it evenly; at an edge of the surface pressures are of one side and keep its place.
+TEST(HalfSpace, spreads_a_force_over_the_corners_around_it) {
+  const model::Surface surface = plane(6, 1, 2);
+  HalfSpace half_space(surface);
+  const int node = node_at(surface, 3, 6);
+  const contact::Spread of = half_space.spread(node, Eigen::Vector3d::Zero());
+  ASSERT_EQ(of.node.size(), 9U);
+  for (double weight : of.weight) EXPECT_NEAR(weight, 1. / 9, 1e-12);
+  const contact::Spread at_edge = half_space.spread(node_at(surface, 0, 6), Eigen::Vector3d::Zero());
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < at_edge.node.size(); ++i)
+    centre += at_edge.weight[static_cast<Eigen::Index>(i)] * half_space.pressure(at_edge.node[i]).x;
+  EXPECT_NEAR(at_edge.weight.sum(), 1, 1e-12);
+  EXPECT_LT((centre - Eigen::Vector3d(0, 6, 0)).norm(), 1e-12);
 }
 
 // Forces along the major axis of a long ellipse; the rest of the ellipse's approach is what the gap takes.

@@ -16,11 +16,15 @@ struct Spread {
   Eigen::VectorXd weight;  ///< n, sums to 1, with its centre at the node
 };
 
+/// n, Eq. (4.13): weights of least square sum of places that lie away from a force by 3 x n m. They sum to 1,
+/// with their centre at the force in the plane that the places lie in. along: unit vector of a line, across
+/// which the force is spread, Eq. (6.36a); 0: to all directions.
+Eigen::VectorXd spread_weights(const Eigen::Matrix3Xd& away, const Eigen::Vector3d& along);
+
 /// sides: of the surface, lists of local nodes; those at `node` count. Nodes for which `may_bear` is 0 are
-/// left out. along: unit vector of a line, across which the force is spread, Eq. (6.36a); 0: to all
-/// directions.
+/// left out.
 Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
-              const std::vector<char>& may_bear, const Eigen::Vector3d& along = Eigen::Vector3d::Zero());
+              const std::vector<char>& may_bear);
 
 /// The spreads of all nodes of a body's contact surface, over nodes of which its file has the static
 /// response.
@@ -30,8 +34,6 @@ class LoadSpread {
   explicit LoadSpread(const model::ElasticBody& body);
   /// Of a local node of the surface; found when it is first asked for.
   const Spread& of(int node);
-  /// The spread of a local node's force across a line along this unit vector.
-  Spread across(int node, const Eigen::Vector3d& along) const;
 
  private:
   const Eigen::Matrix3Xd* X_;

@@ -13,12 +13,10 @@ constexpr const char* kWheel[2][4] = {{"48 % low", "30 % low", "20 % low", "8 % 
 // Secant mesh stiffness of the reference drive beside what meshes go to with the local approach of
 // flanks, with that and without; rows and columns as above (docs/validation.md, section 42).
 constexpr const char* kStiffness[2][4] = {
-    {"7 % high (without the approach by H. Hertz 49 %)", "4 % high (without the approach by H. Hertz 25 %)",
-     "2 % high (without the approach by H. Hertz 17 %)", "1 % high (without the approach by H. Hertz 9 %)"},
-    {"3 % high (without the approach by H. Hertz 33 %)",
-     "within 1 % (without the approach by H. Hertz 21 % high)",
-     "within 1 % (without the approach by H. Hertz 20 % high)",
-     "within 1 % (without the approach by H. Hertz 14 % high)"}};
+    {"8 % high (without the approach by H. Hertz 50 %)", "5 % high (without the approach by H. Hertz 26 %)",
+     "3 % high (without the approach by H. Hertz 17 %)", "2 % high (without the approach by H. Hertz 10 %)"},
+    {"5 % high (without the approach by H. Hertz 34 %)", "2 % high (without the approach by H. Hertz 22 %)",
+     "2 % high (without the approach by H. Hertz 21 %)", "1 % high (without the approach by H. Hertz 14 %)"}};
 constexpr const char* kMeasured = "within 1 % (without the approach by H. Hertz 4 %)";
 constexpr const char* kHertz[2][4] = {{kMeasured, kMeasured, kMeasured, kMeasured},
                                       {kMeasured, kMeasured, kMeasured, kMeasured}};

@@ -3,9 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
-#include <utility>
 
+#include "elastogear/base/error.h"
 #include "elastogear/contact/face.h"
 #include "elastogear/contact/topology.h"
 
@@ -23,84 +24,174 @@ double mean_within(double a, double b) {
   return integral / (a * a * b * b);
 }
 
+// The sides of cells that the surface's faces are parts of, each once: corners, then the nodes between them.
+std::vector<std::vector<int>> sides_of(const model::Surface& surface) {
+  std::map<std::vector<int>, std::vector<int>> sides;  // by their nodes in order
+  for (Index f = 0; f < surface.face.cols(); ++f) {
+    std::vector<int> side;
+    for (Index i = 0; i < surface.side.rows() && surface.side.cols() > 0; ++i)
+      if (surface.side(i, f) >= 0) side.push_back(surface.side(i, f));
+    if (side.empty()) {
+      side.assign(surface.face.col(f).begin(), surface.face.col(f).end());
+      if (side[3] == side[2]) side.pop_back();
+    }
+    std::vector<int> key = side;
+    std::sort(key.begin(), key.end());
+    sides.try_emplace(std::move(key), std::move(side));
+  }
+  std::vector<std::vector<int>> result;
+  for (auto& [key, side] : sides) result.push_back(std::move(side));
+  return result;
+}
+
+int corners_of(const std::vector<int>& side) {
+  const auto n = static_cast<int>(side.size());
+  return n > 4 ? n / 2 : n;
+}
+
+// A side by its corners; a triangle is a quadrilateral with a side of no length.
+struct Plane {
+  Eigen::Matrix<double, 3, 4> X;
+  int corners;
+
+  Plane(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side) : corners(corners_of(side)) {
+    for (int c = 0; c < 4; ++c)
+      X.col(c) = nodes.col(side[static_cast<std::size_t>(std::min(c, corners - 1))]);
+  }
+  // Linear functions of the corners, of a triangle the third and fourth added up.
+  Eigen::Vector4d linear(const contact::Shape& shape) const {
+    Eigen::Vector4d N = shape.N;
+    if (corners == 3) N[2] += std::exchange(N[3], 0);
+    return N;
+  }
+  double area(const contact::Shape& shape) const {  // per that of (u, v)
+    return (X * shape.N_u).cross(X * shape.N_v).norm();
+  }
+};
+
 // Into how many parts the sides of a face are cut, so that these are about as long as wide.
-std::pair<int, int> cuts(double length_u, double length_v) {
-  constexpr int kLeast = 2, kMost = 12;
-  const double least = std::min(length_u, length_v);
+std::pair<int, int> cuts(const Plane& plane) {
+  constexpr int kLeast = 4, kMost = 16;
+  const auto& X = plane.X;
+  const double u = (X.col(1) - X.col(0) + X.col(2) - X.col(3)).norm(),
+               v = (X.col(3) - X.col(0) + X.col(2) - X.col(1)).norm(), least = std::min(u, v);
   const auto n = [&](double length) {
-    return std::clamp(2 * static_cast<int>(std::lround(kLeast * length / least / 2)), kLeast, kMost);
+    return std::clamp(static_cast<int>(std::lround(kLeast * length / least)), kLeast, kMost);
   };
-  return {n(length_u), n(length_v)};
+  return {n(u), n(v)};
 }
 
-}  // namespace
-
-HalfSpace::HalfSpace(const model::Surface& surface) : surface_(&surface), faces_(surface.node.size()) {
-  for (Index f = 0; f < surface.face.cols(); ++f)
-    for (int node : std::set<int>(surface.face.col(f).begin(), surface.face.col(f).end()))
-      faces_[static_cast<std::size_t>(node)].push_back(static_cast<int>(f));
+// Interpolation functions of a side's nodes from the linear ones of its corners.
+std::vector<double> functions(const std::vector<int>& side, const Eigen::Vector4d& linear, int corners) {
+  std::vector<double> N(side.size());
+  for (int i = 0; i < corners; ++i) N[static_cast<std::size_t>(i)] = linear[i];
+  for (int i = 0; i < static_cast<int>(side.size()) - corners; ++i) {
+    const int j = (i + 1) % corners;
+    const double both = corners == 4 ? linear[i] + linear[j] : 1,
+                 between = both > 0 ? 4 * linear[i] * linear[j] / both : 0;
+    N[static_cast<std::size_t>(corners + i)] = between;
+    N[static_cast<std::size_t>(i)] -= between / 2;
+    N[static_cast<std::size_t>(j)] -= between / 2;
+  }
+  return N;
 }
 
-// The middles of equal parts of the faces around a node; a triangle is a quadrilateral with a side of no
-// length.
-const HalfSpace::Samples& HalfSpace::samples(int node) {
-  const auto [at, is_new] = samples_.try_emplace(node);
-  Samples& samples = at->second;
-  if (!is_new) return samples;
-  double linear = 0, even = 0;
-  for (int f : faces_[static_cast<std::size_t>(node)]) {
-    const Eigen::Matrix<double, 3, 4> X = surface_->X(Eigen::all, surface_->face.col(f));
-    const Vector3d u = (X.col(1) - X.col(0) + X.col(2) - X.col(3)) / 2,
-                   v = (X.col(3) - X.col(0) + X.col(2) - X.col(1)) / 2;
-    const auto [n_u, n_v] = cuts(u.norm(), v.norm());
-    for (int i = 0; i < n_u; ++i)
-      for (int j = 0; j < n_v; ++j) {
-        const contact::Shape shape = contact::shape(4, (2 * i + 1.0) / n_u - 1, (2 * j + 1.0) / n_v - 1);
-        const Vector3d x_u = 2 * X * shape.N_u / n_u, x_v = 2 * X * shape.N_v / n_v;
-        const double area = x_u.cross(x_v).norm();
-        Index nearest = 0;
-        shape.N.maxCoeff(&nearest);
-        double N = 0;
-        for (int c = 0; c < 4; ++c)
-          if (surface_->face(c, f) == node) N += shape.N[c];
-        samples.push_back({X * shape.N, N * area, surface_->face(nearest, f) == node ? area : 0,
-                           mean_within(x_u.norm(), x_v.norm())});
-        linear += samples.back().linear;
-        even += samples.back().even;
+// Adds the parts of one side, whose forces are yet areas times the pressure, and the forces on its nodes.
+void add_side(const Plane& plane, const std::vector<int>& side, int corner, int number, HatPressure& hat,
+              std::map<int, double>& nodal_force) {
+  const double point = 1 / std::sqrt(3.);  // of Gauss's rule
+  const auto [n_u, n_v] = cuts(plane);
+  const auto at = static_cast<Index>(std::find(side.begin(), side.end(), corner) - side.begin());
+  for (int i = 0; i < n_u; ++i)
+    for (int j = 0; j < n_v; ++j) {
+      HatPressure::Part part{Vector3d::Zero(), 0, 0, 0, number++};
+      const double u = (2 * i + 1.) / n_u - 1, v = (2 * j + 1.) / n_v - 1;
+      for (int g = 0; g < 4; ++g) {
+        const contact::Shape shape =
+            contact::shape(4, u + (g % 2 == 0 ? -point : point) / n_u, v + (g < 2 ? -point : point) / n_v);
+        const Eigen::Vector4d N = plane.linear(shape);
+        const double area = plane.area(shape) / (n_u * n_v), force = N[at] * area;
+        part.x += force * (plane.X * shape.N);
+        part.force += force;
+        part.area += area;
+        const std::vector<double> of_node = functions(side, N, plane.corners);
+        for (std::size_t k = 0; k < side.size(); ++k) nodal_force[side[k]] += of_node[k] * force;
       }
-  }
-  for (Sample& sample : samples) {
-    sample.linear /= linear;
-    sample.even /= even;
-  }
-  return samples;
+      part.x /= part.force;
+      const contact::Shape middle = contact::shape(4, u, v);
+      part.inverse_own =
+          mean_within(2 * (plane.X * middle.N_u).norm() / n_u, 2 * (plane.X * middle.N_v).norm() / n_v);
+      hat.parts.push_back(part);
+    }
 }
 
-double HalfSpace::integral(int i, int j) {
-  constexpr double kFar = 16;  // squared distance over the squared size of a node's faces, where 1/r is right
-  const Vector3d away = surface_->X.col(i) - surface_->X.col(j);
-  const Samples &a = samples(i), &b = samples(j);
-  double size = 0;
-  for (const Sample& sample : a) size = std::max(size, (sample.x - surface_->X.col(i)).squaredNorm());
-  for (const Sample& sample : b) size = std::max(size, (sample.x - surface_->X.col(j)).squaredNorm());
-  if (away.squaredNorm() > kFar * size) return 1 / away.norm();
-  const double touching = 1e-12 * size;  // squared distance of samples that are the same part of a face
+// Mean of 1/r between two pressures. Between parts it is expanded about their centres.
+double mean_between(const HatPressure& a, const HatPressure& b) {
   double sum = 0;
-  for (const Sample& p : a)
-    for (const Sample& q : b) {
-      const double r2 = (p.x - q.x).squaredNorm();
-      sum += (4 * p.even * q.even - 3 * p.linear * q.linear) *
-             (r2 > touching ? 1 / std::sqrt(r2) : p.inverse_own);
+  for (const HatPressure::Part& p : a.parts)
+    for (const HatPressure::Part& q : b.parts) {
+      if (p.number == q.number) {
+        sum += p.force * q.force * p.inverse_own;
+        continue;
+      }
+      const double inverse = 1 / (p.x - q.x).norm();
+      sum += p.force * q.force * inverse * (1 + (p.area + q.area) / 24 * inverse * inverse);
     }
   return sum;
 }
 
+}  // namespace
+
+HalfSpace::HalfSpace(const model::Surface& surface)
+    : surface_(&surface), side_(sides_of(surface)), at_node_(surface.node.size()) {
+  for (std::size_t s = 0; s < side_.size(); ++s)
+    for (int node : side_[s]) at_node_[static_cast<std::size_t>(node)].push_back(static_cast<int>(s));
+}
+
+const HatPressure& HalfSpace::pressure(int corner) {
+  constexpr int kMostParts = 256;  // of a side
+  const auto [found, is_new] = pressure_.try_emplace(corner);
+  HatPressure& hat = found->second;
+  if (!is_new) return hat;
+  std::map<int, double> nodal_force;
+  for (int s : at_node_[static_cast<std::size_t>(corner)]) {
+    const std::vector<int>& side = side_[static_cast<std::size_t>(s)];
+    add_side(Plane(surface_->X, side), side, corner, kMostParts * s, hat, nodal_force);
+  }
+  double all = 0;
+  for (const HatPressure::Part& part : hat.parts) all += part.force;
+  for (HatPressure::Part& part : hat.parts) hat.x += (part.force /= all) * part.x;
+  for (const HatPressure::Part& part : hat.parts) hat.size = std::max(hat.size, (part.x - hat.x).norm());
+  for (const auto& [node, force] : nodal_force) hat.nodal_force.emplace_back(node, force / all);
+  return hat;
+}
+
+contact::Spread HalfSpace::spread(int node, const Vector3d& along) {
+  std::set<int> corners;
+  for (int s : at_node_[static_cast<std::size_t>(node)]) {
+    const std::vector<int>& side = side_[static_cast<std::size_t>(s)];
+    corners.insert(side.begin(), side.begin() + corners_of(side));
+  }
+  require(
+      !corners.empty(), "node ", surface_->node[static_cast<std::size_t>(node)],
+      " of the mesh (counted from 0) bears a contact force and belongs to no face of the contact surface");
+  contact::Spread result{{corners.begin(), corners.end()}, {}};
+  Eigen::Matrix3Xd away(3, std::ssize(result.node));
+  for (Index i = 0; i < away.cols(); ++i)
+    away.col(i) = pressure(result.node[static_cast<std::size_t>(i)]).x - surface_->X.col(node);
+  result.weight = contact::spread_weights(away, along);
+  return result;
+}
+
 double HalfSpace::mean_inverse_distance(int i, int j) {
+  constexpr double kFar = 4;  // distance over the size of a pressure, from which it acts as a force
   if (i > j) std::swap(i, j);
   const auto n = static_cast<std::int64_t>(surface_->node.size());
   const auto [at, is_new] = known_.try_emplace(i * n + j, 0);
-  if (is_new) at->second = integral(i, j);
-  return at->second;
+  if (!is_new) return at->second;
+  const HatPressure &a = pressure(i), &b = pressure(j);
+  const double away = (a.x - b.x).norm();
+  return at->second = away > kFar * std::max(a.size, b.size) ? 1 / away : mean_between(a, b);
 }
 
 }  // namespace elastogear::dynamics

@@ -98,8 +98,8 @@ LocalApproach::LocalApproach(const SystemModel& model)
     for (int b : pair.body) {
       const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
       surface_[static_cast<std::size_t>(b)].emplace(
-          Surface{body.eq.body.get(), contact::LoadSpread(*body.eq.body), &body.node_group,
-                  &body.true_surface->curvature, HalfSpace(body.eq.body->surface), body.surface_compliance});
+          Surface{body.eq.body.get(), &body.node_group, &body.true_surface->curvature,
+                  HalfSpace(body.eq.body->surface), body.surface_compliance});
     }
     const auto groups = [&](int side) {
       return model.bodies[static_cast<std::size_t>(pair.body[side])].eq.body->surface.group_name.size();
@@ -139,34 +139,41 @@ Eigen::Matrix3d LocalApproach::curvature(const ContactPoint& point, int side, st
   return S;
 }
 
-// f' F f - s' F s + s' H s of the normal forces f of the patch on a body, spread to s: Eq. (6.36).
+// f' F f - s' F s + p' H p of the normal forces f of the patch on a body, spread to the pressures p with the
+// nodal forces s: Eq. (6.36).
 double LocalApproach::mesh_work(const Patch& patch, int side, std::size_t b, const Eigen::Matrix3d& R_BW,
                                 const Vector3d& along_line, ResidualFlexibility& flexibility) {
   Surface& surface = *surface_[b];
-  std::map<int, Vector3d> f, s;
+  HalfSpace& half_space = surface.half_space;
+  std::map<int, Vector3d> f, p, s;
+  const auto add = [](std::map<int, Vector3d>& forces, int node, const Vector3d& force) {
+    forces.try_emplace(node, Vector3d::Zero()).first->second += force;
+  };
   Vector3d total = Vector3d::Zero();
   for (const ContactPoint* point : patch)
     for (int i = 0; i < point->n_local(); ++i) {
       const LocalNode local = local_node(*point, i);
       if (local.side != side) continue;
       const Vector3d force = R_BW * (point->n.dot(local_force(*point, i)) * point->n);
-      f.try_emplace(local.node, Vector3d::Zero()).first->second += force;
+      add(f, local.node, force);
       total += force;
     }
   for (const auto& [node, force] : f) {
-    const contact::Spread to =
-        along_line.isZero(0) ? surface.spread.of(node) : surface.spread.across(node, R_BW * along_line);
+    const contact::Spread to = half_space.spread(node, R_BW * along_line);
     for (std::size_t i = 0; i < to.node.size(); ++i)
-      s.try_emplace(to.node[i], Vector3d::Zero()).first->second += to.weight[static_cast<Index>(i)] * force;
+      add(p, to.node[i], to.weight[static_cast<Index>(i)] * force);
   }
+  for (const auto& [corner, force] : p)
+    for (const auto& [node, share] : half_space.pressure(corner).nodal_force) add(s, node, share * force);
   const Vector3d along = total.normalized();
-  return work(f, [&](int a, int c, const Vector3d& f_a,
-                     const Vector3d& f_c) { return f_a.dot(flexibility.static_response(a, c) * f_c); }) -
-         work(s, [&](int a, int c, const Vector3d& s_a, const Vector3d& s_c) {
-           return s_a.dot(flexibility.static_response(a, c) * s_c) -
-                  surface.compliance / std::numbers::pi * s_a.dot(along) * s_c.dot(along) *
-                      surface.half_space.mean_inverse_distance(a, c);
-         });
+  const auto of_body = [&](int a, int c, const Vector3d& f_a, const Vector3d& f_c) {
+    return f_a.dot(flexibility.static_response(a, c) * f_c);
+  };
+  const auto of_half_space = [&](int a, int c, const Vector3d& p_a, const Vector3d& p_c) {
+    return surface.compliance / std::numbers::pi * p_a.dot(along) * p_c.dot(along) *
+           half_space.mean_inverse_distance(a, c);
+  };
+  return work(f, of_body) - work(s, of_body) + work(p, of_half_space);
 }
 
 // Where a line of contact along a unit vector (world frame) through x goes on over both flanks of a patch.

@@ -12,7 +12,6 @@
 #include "dynamics/approach/line_extent.h"
 #include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/archive.h"
-#include "elastogear/contact/load_spread.h"
 #include "elastogear/dynamics/system_model.h"
 
 namespace elastogear::dynamics {
@@ -58,7 +57,6 @@ class LocalApproach {
  private:
   struct Surface {  // of a body of such a pair
     const model::ElasticBody* body;
-    contact::LoadSpread spread;
     const std::vector<int>* group;                  // of each node
     const std::vector<Eigen::Matrix3d>* curvature;  // of each node
     HalfSpace half_space;
