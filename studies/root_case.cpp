@@ -215,7 +215,7 @@ Errors recovered_errors(const mesh::Mesh& mesh, const std::vector<int>& nodes, c
   return result;
 }
 
-// Share of errors in the mean at x, from the nodes on free surfaces that are nearest to it. docs/theory.md,
+// Share of errors in means near x, from the nodes on free surfaces that are nearest to it. docs/theory.md,
 // Eq. (1.18a).
 double share_nearby(const mesh::Mesh& mesh, const Errors& errors, const Vector3d& x) {
   constexpr std::ptrdiff_t kNearest = 8;
@@ -225,7 +225,20 @@ double share_nearby(const mesh::Mesh& mesh, const Errors& errors, const Vector3d
   const auto end = order.begin() + std::min(kNearest, std::ssize(order));
   std::partial_sort(order.begin(), end, order.end(), [&](int a, int b) { return distance(a) < distance(b); });
   order.erase(end, order.end());
-  return std::sqrt(errors.error(order).dot(errors.of_mean(order))) / errors.largest(order).norm();
+  return errors.of_mean(order).norm() / errors.largest(order).norm();
+}
+
+// Errors of the means at loaded nodes by the strains within the surface, Pa: first factor of Eq. (1.18a).
+Eigen::VectorXd errors_within(const mesh::Mesh& mesh, const std::vector<int>& nodes,
+                              const Eigen::VectorXd& difference, const Eigen::VectorXd& stress) {
+  auto patches = mesh::surface_patches(mesh, nodes);
+  const std::vector<int> order = mesh::cell_orders(mesh, nodes);
+  Eigen::VectorXd within = Eigen::VectorXd::Zero(stress.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::erase_if(patches[i], [&](int node) { return difference[node] == 0; });
+    within[nodes[i]] = recovery::error_within_surface(difference(patches[i]), stress(patches[i]), order[i]);
+  }
+  return within;
 }
 
 }  // namespace
@@ -242,19 +255,26 @@ Solutions solve(const Case& c) {
   std::set_difference(c.root.begin(), c.root.end(), flanks.begin(), flanks.end(), std::back_inserter(root));
   fem::StressedBody body = reduction::stressed_body(source);
   const Eigen::MatrixXd recovered = fem::nodal_stress(body, u);
+  Eigen::VectorXd difference = Eigen::VectorXd::Zero(recovered.cols());
+  difference(flanks) = recovery::von_mises(Eigen::MatrixXd(fem::difference_within_surface(body, flanks) * u));
   body.recovery.method = model::RecoveryMethod::average;
   const Eigen::MatrixXd averaged = fem::nodal_stress(body, u);
   const Eigen::VectorXd stress = von_mises_at_nodes(recovered);
   const Errors errors = recovered_errors(c.mesh, c.root, stress, von_mises_at_nodes(recovered - averaged));
+  const Eigen::VectorXd within = errors_within(c.mesh, flanks, difference, stress);
   const auto at = [&](const std::vector<int>& nodes) {
     Solution s{nodes, c.mesh.X(Eigen::all, nodes), averaged(Eigen::all, nodes), recovered(Eigen::all, nodes),
                Eigen::VectorXd(std::ssize(nodes))};
     for (Eigen::Index i = 0; i < s.error.size(); ++i) {
       const int node = nodes[static_cast<std::size_t>(i)];
       const auto found = std::lower_bound(errors.node.begin(), errors.node.end(), node);
-      s.error[i] = found != errors.node.end() && *found == node
-                       ? errors.error[found - errors.node.begin()]
-                       : share_nearby(c.mesh, errors, c.mesh.X.col(node)) * stress[node];
+      if (found != errors.node.end() && *found == node) {
+        s.error[i] = errors.error[found - errors.node.begin()];
+        continue;
+      }
+      const double share = share_nearby(c.mesh, errors, c.mesh.X.col(node));
+      s.error[i] =
+          within[node] > 0 ? recovery::loaded_error(within[node], stress[node], share) : share * stress[node];
     }
     if (c.plane) s.X.row(2).setZero();
     return s;

@@ -37,6 +37,13 @@ model::SparseRows recovery_difference(const io::BodySource& source, const std::v
   return fem::recovery_difference(std::move(body), nodes);
 }
 
+model::SparseRows difference_within_surface(const io::BodySource& source, const std::vector<int>& loaded,
+                                            const std::vector<int>& nodes) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
+  return fem::difference_within_surface(std::move(body), nodes);
+}
+
 model::SparseRows stress_operator(const io::BodySource& source, const std::vector<int>& nodes) {
   return fem::stress_operator(reduction::stressed_body(source), nodes);
 }
@@ -58,8 +65,8 @@ recovery::SurfacePatches surface_patches(const io::BodySource& source, const std
 }  // namespace
 
 recovery::FiniteElements finite_elements() {
-  return {unreduced_response, nodal_stress,      node_regions,   recovery_difference,
-          stress_operator,    stress_difference, surface_patches};
+  return {unreduced_response,        nodal_stress,    node_regions,      recovery_difference,
+          difference_within_surface, stress_operator, stress_difference, surface_patches};
 }
 
 }  // namespace elastogear::app

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "elastogear/base/error.h"
 #include "elastogear/fem/element.h"
@@ -111,6 +112,25 @@ model::SparseRows recovery_difference(StressedBody body, const std::vector<int>&
   const model::SparseRows recovered = stress_operator(body, nodes);
   body.recovery.method = model::RecoveryMethod::average;
   model::SparseRows difference = recovered - stress_operator(body, nodes);
+  difference.prune(0.0);
+  return difference;
+}
+
+model::SparseRows difference_within_surface(StressedBody body, const std::vector<int>& nodes) {
+  const std::set<int> loaded(body.recovery.loaded.begin(), body.recovery.loaded.end());
+  body.recovery = {model::RecoveryMethod::surface, {}};
+  const Averaging average = find_averaging(body.mesh, body.regions);
+  const SurfaceRecovery recover(body, average);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const auto rows = loaded.contains(nodes[i]) ? recover(nodes[i]) : std::nullopt)
+      for (int a = 0; a < 6; ++a)
+        for (int b = 0; b < 6; ++b)
+          entries.emplace_back(6 * static_cast<int>(i) + a, 6 * static_cast<int>(i) + b, rows->within(a, b));
+  const auto n = 6 * static_cast<Eigen::Index>(nodes.size());
+  model::SparseRows within(n, n);
+  within.setFromTriplets(entries.begin(), entries.end());
+  model::SparseRows difference = within * recovery_difference(std::move(body), nodes);
   difference.prune(0.0);
   return difference;
 }

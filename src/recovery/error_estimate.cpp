@@ -90,7 +90,7 @@ StressError reduction_error(const model::ElasticBody& body, const Eigen::Ref<con
 }
 
 Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises,
-                                 SurfacePatches patches) {
+                                 SurfacePatches patches, const LoadedNodes& loaded) {
   std::vector<int> free;
   for (int i = 0; i < difference.size(); ++i)
     if (difference[i] > 0) free.push_back(i);
@@ -103,8 +103,11 @@ Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen:
     of_mean[static_cast<Eigen::Index>(i)] = e.of_mean;
   }
   const double of_stress = von_mises(free).squaredNorm(),
-               share = of_stress > 0 ? std::sqrt(error.dot(of_mean) / of_stress) : 0;
+               share = of_stress > 0 ? std::sqrt(of_mean.squaredNorm() / of_stress) : 0;
   Eigen::VectorXd result = share * von_mises;
+  for (std::size_t i = 0; i < loaded.node.size(); ++i)
+    result[loaded.node[i]] =
+        loaded_error(loaded.within[static_cast<Eigen::Index>(i)], von_mises[loaded.node[i]], share);
   result(free) = error;
   return result;
 }

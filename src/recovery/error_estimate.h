@@ -68,11 +68,16 @@ Eigen::MatrixXd upper_modes_stress(const model::Stress& stress, const std::vecto
 StressError reduction_error(const model::ElasticBody& body, const Eigen::Ref<const Eigen::MatrixXd>& upper,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);
 
+/// Errors of means at loaded nodes by the strains within the surface.
+struct LoadedNodes {
+  std::vector<int> node;   ///< n, mesh numbers
+  Eigen::VectorXd within;  ///< n, Pa, first factor of Eq. (1.18a)
+};
+
 /// Estimated error of a whole field by the mesh at one time, Pa, at all nodes. difference: von Mises stress
-/// of Eq. (1.16), 0 where no free surface is, inside the body and on flanks; there the error is the share
-/// (1.18a) of all other nodes in the von Mises stress. patches: of the nodes with a difference, ascending,
-/// for Eq. (1.17); of means none.
+/// of Eq. (1.16), 0 where no free surface is, inside the body and on flanks. patches: of the nodes with a
+/// difference, ascending, for Eq. (1.17); of means none. What is near by (1.18a) are all of these nodes.
 Eigen::VectorXd mesh_error_field(const Eigen::VectorXd& difference, const Eigen::VectorXd& von_mises,
-                                 SurfacePatches patches);
+                                 SurfacePatches patches, const LoadedNodes& loaded = {});
 
 }  // namespace elastogear::recovery

@@ -1,8 +1,11 @@
 #include "elastogear/recovery/field.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
+#include "elastogear/recovery/patch_error.h"
 #include "elastogear/recovery/stress.h"
 #include "recovery/error_estimate.h"
 
@@ -57,7 +60,31 @@ Eigen::VectorXd estimated_error(const Fields& fields, const FieldReference& refe
       reference.share);
 }
 
-// Eq. (1.17), of displacements u.
+// Of the nodes that the body's stresses take for loaded, whose faces have a tangent plane.
+LoadedNodes loaded_nodes(const Fields& fields, const std::vector<int>& touched, const Eigen::Matrix3Xd& u,
+                         const Eigen::VectorXd& found) {
+  const bool averaged = fields.source.recovery.method == model::RecoveryMethod::average;
+  const std::vector<int>& all = averaged ? touched : fields.source.recovery.loaded;
+  const Eigen::VectorXd stress =
+      fields.finite_elements.difference_within_surface(fields.source, touched, all) * u.reshaped();
+  Eigen::VectorXd difference = Eigen::VectorXd::Zero(found.size());
+  difference(all) = von_mises(Eigen::MatrixXd(stress));
+  LoadedNodes loaded;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(loaded.node),
+               [&](int node) { return difference[node] > 0; });
+  loaded.within = difference(loaded.node);
+  if (averaged) return loaded;
+  SurfacePatches patches = fields.finite_elements.surface_patches(fields.source, loaded.node);
+  for (std::size_t i = 0; i < loaded.node.size(); ++i) {
+    std::vector<int>& patch = patches.node[i];
+    std::erase_if(patch, [&](int node) { return difference[node] == 0; });
+    loaded.within[static_cast<Eigen::Index>(i)] =
+        error_within_surface(difference(patch), found(patch), patches.order[i]);
+  }
+  return loaded;
+}
+
+// Eqs. (1.17) and (1.18a), of displacements u.
 Eigen::VectorXd estimated_mesh_error(const Fields& fields, const std::vector<int>& touched,
                                      const Eigen::Matrix3Xd& u, const Eigen::VectorXd& found) {
   const Eigen::VectorXd difference =
@@ -69,7 +96,7 @@ Eigen::VectorXd estimated_mesh_error(const Fields& fields, const std::vector<int
       if (difference[i] > 0) free.push_back(i);
     patches = fields.finite_elements.surface_patches(fields.source, free);
   }
-  return mesh_error_field(difference, found, std::move(patches));
+  return mesh_error_field(difference, found, std::move(patches), loaded_nodes(fields, touched, u, found));
 }
 
 }  // namespace

@@ -20,18 +20,28 @@ constexpr std::size_t kNearest = 8;          // nodes on free surfaces that tell
 // Around the n nodes of a set.
 struct Patches {
   std::vector<int> node;                  // mesh numbers: those of the set, then others around them
-  std::vector<std::vector<int>> members;  // n, indices into `node`: of the patch, on free surfaces
+  std::vector<std::vector<int>> members;  // n, indices into `node`: of the patch, free or loaded as its node
   std::vector<int> order;                 // n, of the cells; of means none
-  SparseRows difference;                  // at `node`, Eq. (1.16)
+  SparseRows difference;                  // at `node`: of free ones (1.16), of loaded ones (1.16a), else zero
+  std::vector<char> free, loaded;         // marks at `node`
 
   Eigen::Index n() const { return static_cast<Eigen::Index>(members.size()); }
-  bool is_free(int i) const { return difference.middleRows(6 * i, 6).nonZeros() > 0; }
+  bool is_free(std::size_t i) const { return free[i] != 0; }
+  bool is_loaded(std::size_t i) const { return loaded[i] != 0; }
 };
+
+// A mark for each node that has rows.
+std::vector<char> marks(const SparseRows& rows) {
+  std::vector<char> result(static_cast<std::size_t>(rows.rows() / 6));
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = rows.middleRows(6 * static_cast<Eigen::Index>(i), 6).nonZeros() > 0 ? 1 : 0;
+  return result;
+}
 
 // Means have no patch but their node.
 Patches make_patches(const RecoveredBody& body, const model::ElasticBody& elastic,
                      const io::BodySource& source, const std::vector<int>& nodes) {
-  Patches patches{nodes, {}, {}, {}};
+  Patches patches{nodes, {}, {}, {}, {}, {}};
   std::map<int, int> index;
   for (std::size_t i = 0; i < nodes.size(); ++i) index[nodes[i]] = static_cast<int>(i);
   const bool averaged = source.recovery.method == model::RecoveryMethod::average;
@@ -46,9 +56,16 @@ Patches make_patches(const RecoveredBody& body, const model::ElasticBody& elasti
       members.push_back(at->second);
     }
   }
-  patches.difference = body.finite_elements.recovery_difference(source, elastic.surface.node, patches.node);
-  for (std::vector<int>& members : patches.members)
-    std::erase_if(members, [&](int i) { return !patches.is_free(i); });
+  const FiniteElements& elements = body.finite_elements;
+  const SparseRows free = elements.recovery_difference(source, elastic.surface.node, patches.node),
+                   loaded = elements.difference_within_surface(source, elastic.surface.node, patches.node);
+  patches.free = marks(free);
+  patches.loaded = marks(loaded);
+  patches.difference = free + loaded;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::vector<char>& same = patches.is_free(i) ? patches.free : patches.loaded;
+    std::erase_if(patches.members[i], [&](int j) { return same[static_cast<std::size_t>(j)] == 0; });
+  }
   return patches;
 }
 
@@ -83,26 +100,32 @@ class Rows {
 
 // Terms of the errors at the n nodes of a set at n_t times, Pa; sums over time are in Pa^2.
 struct Parts {
-  Eigen::MatrixXd error;  // n x n_t, Eq. (1.17), of the modes' displacements; 0 off free surfaces
-  Eigen::MatrixXd more;   // n x n_t, von Mises stress of what the set has beside the stress of the modes
+  Eigen::MatrixXd
+      error;  // n x n_t, of the modes' displacements, Eq. (1.17) or first factor of (1.18a); else 0
+  Eigen::MatrixXd more;  // n x n_t, von Mises stress of what the set has beside the stress of the modes
   Eigen::VectorXd sum_error, sum_stress, sum_largest;  // n: of squares of errors, stresses, patches' largest
-  Eigen::VectorXd sum_near;                            // n: of errors times those of means, for means near by
+  Eigen::VectorXd sum_mean;                            // n: of squares of errors of means
 };
 
 void add_errors(const Patches& patches, const Eigen::MatrixXd& difference, const Eigen::MatrixXd& stress,
                 bool averaged, Eigen::Index begin, Parts& parts) {
   for (Eigen::Index i = 0; i < patches.n(); ++i) {
-    const std::vector<int>& members = patches.members[static_cast<std::size_t>(i)];
-    if (!patches.is_free(static_cast<int>(i))) continue;
+    const auto node = static_cast<std::size_t>(i);
+    const std::vector<int>& members = patches.members[node];
+    const bool is_free = patches.is_free(node);
+    if (!is_free && !patches.is_loaded(node)) continue;
+    const int order = averaged ? 1 : patches.order[node];
     for (Eigen::Index t = 0; t < stress.cols(); ++t) {
-      const PatchError e = averaged ? PatchError{difference(i, t), difference(i, t), stress(i, t)}
-                                    : patch_error(difference(members, t), stress(members, t),
-                                                  patches.order[static_cast<std::size_t>(i)]);
+      PatchError e{difference(i, t), difference(i, t), stress(i, t)};
+      if (!is_free)
+        e.error = error_within_surface(difference(members, t), stress(members, t), order);
+      else if (!averaged)
+        e = patch_error(difference(members, t), stress(members, t), order);
       parts.error(i, begin + t) = e.error;
       parts.sum_error[i] += e.error * e.error;
       parts.sum_stress[i] += stress(i, t) * stress(i, t);
       parts.sum_largest[i] += e.largest * e.largest;
-      parts.sum_near[i] += e.error * e.of_mean;
+      parts.sum_mean[i] += e.of_mean * e.of_mean;
     }
   }
 }
@@ -133,15 +156,15 @@ Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, c
 // Root of a ratio of sums of squares, at most 1. Recovered stresses vanish at corners of three free surfaces.
 double share(double error, double stress) { return std::sqrt(error / std::max({stress, error, 1e-300})); }
 
-// The share of errors in the mean at a node at x, from the nodes of free surfaces nearest to it.
-// docs/theory.md, Eq. (1.18a).
+// The share of errors in means near x, from the nodes of free surfaces nearest to it. docs/theory.md, Eq.
+// (1.18a).
 double share_nearby(const Parts& parts, const Eigen::Matrix3Xd& X, std::vector<int> free,
                     const Eigen::Vector3d& x) {
   const auto distance = [&](int j) { return (X.col(j) - x).squaredNorm(); };
   const auto end = free.begin() + static_cast<std::ptrdiff_t>(std::min(kNearest, free.size()));
   std::partial_sort(free.begin(), end, free.end(), [&](int a, int b) { return distance(a) < distance(b); });
   free.erase(end, free.end());
-  return share(parts.sum_near(free).sum(), parts.sum_largest(free).sum());
+  return share(parts.sum_mean(free).sum(), parts.sum_largest(free).sum());
 }
 
 }  // namespace
@@ -161,16 +184,20 @@ Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& 
   const Patches patches = make_patches(body, elastic, source, set.node);
   std::vector<int> free;
   for (int i = 0; i < patches.n(); ++i)
-    if (patches.is_free(i)) free.push_back(i);
+    if (patches.is_free(static_cast<std::size_t>(i))) free.push_back(i);
   if (free.empty()) return {};
   const Parts parts = find_parts(body, elastic, set, source, patches);
   const Eigen::Matrix3Xd X = source.mesh.X(Eigen::all, set.node);
   Eigen::MatrixXd error(set.von_mises.rows(), set.von_mises.cols());
-  for (int i = 0; i < patches.n(); ++i)
-    if (patches.is_free(i))
-      error.row(i) = parts.error.row(i) + share(parts.sum_error[i], parts.sum_stress[i]) * parts.more.row(i);
-    else
-      error.row(i) = share_nearby(parts, X, free, X.col(i)) * set.von_mises.row(i);
+  for (int i = 0; i < patches.n(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    error.row(i) = parts.error.row(i) + share(parts.sum_error[i], parts.sum_stress[i]) * parts.more.row(i);
+    if (patches.is_free(node)) continue;
+    const double near_by = share_nearby(parts, X, free, X.col(i));
+    for (Eigen::Index t = 0; t < error.cols(); ++t)
+      error(i, t) = patches.is_loaded(node) ? loaded_error(error(i, t), set.von_mises(i, t), near_by)
+                                            : near_by * set.von_mises(i, t);
+  }
   return error;
 }
 

@@ -125,6 +125,35 @@ TEST(SurfaceStress, has_no_traction_and_none_at_all_at_corners) {
   EXPECT_LT(sigma.col(0).norm(), kRoundoff * scale);
 }
 
+// Any stress that is the same everywhere is told alike by both recoveries, whatever its traction, and any
+// other makes a difference without traction.
+TEST(DifferenceWithinSurface, sees_no_even_stress_and_has_no_traction) {
+  const auto mesh = test::brick({4, 3, 3}, {1, 0.4, 0.3});
+  const std::vector<int> loaded = mesh.node_sets.at("ymax"), all = all_nodes(mesh);
+  const fem::StressedBody body{
+      mesh, test::kSteelBody, Element::incompatible, {RecoveryMethod::surface, loaded}};
+  const model::SparseRows within = fem::difference_within_surface(body, all);
+  const Eigen::Matrix3d gradient = Eigen::Matrix3d::Random();
+  const Eigen::VectorXd even = (gradient * mesh.X).reshaped(), uneven = Eigen::VectorXd::Random(even.size());
+  const double scale = fem::nodal_stress(body, even).norm();
+  EXPECT_GT(
+      (fem::recovery_difference({mesh, test::kSteelBody, Element::incompatible, {}}, all) * even).norm(),
+      0.1 * scale);
+  EXPECT_LT((within * even).norm(), kRoundoff * scale);
+  const Eigen::VectorXd stress = within * uneven;
+  int n_inside = 0;
+  for (int node = 0; node < mesh.n_nodes(); ++node) {
+    const Eigen::VectorXd at_node = stress.segment<6>(6 * node);
+    if (!is_in(loaded, node)) {
+      EXPECT_EQ(at_node.norm(), 0) << node;
+      continue;
+    }
+    for (int k : {3, 1, 4}) EXPECT_LT(std::abs(at_node[k]), kRoundoff * stress.norm()) << node;
+    n_inside += at_node.norm() > 1e-3 * stress.norm();
+  }
+  EXPECT_GE(n_inside, 6);
+}
+
 // The nodes of a block whose recovered stress differs from the mean of their cells, under random
 // displacements.
 std::vector<int> recovered(const fem::StressedBody& body) {

@@ -49,6 +49,11 @@ FiniteElements finite_elements() {
             body.recovery.loaded = loaded;
             return fem::recovery_difference(std::move(body), nodes);
           },
+          [](const io::BodySource& source, const auto& loaded, const auto& nodes) {
+            fem::StressedBody body = reduction::stressed_body(source);
+            body.recovery.loaded = loaded;
+            return fem::difference_within_surface(std::move(body), nodes);
+          },
           [](const io::BodySource& source, const auto& nodes) {
             return fem::stress_operator(reduction::stressed_body(source), nodes);
           },
@@ -311,10 +316,24 @@ TEST(MeshErrorField, takes_the_share_of_free_surfaces_elsewhere) {
 }
 
 // Patches of one node and cells of order 1: errors of 0.2 and 0.4 with means' of 1 and 2.
-TEST(MeshErrorField, takes_a_share_between_those_of_means_and_of_recovered_stresses_elsewhere) {
-  const Eigen::Vector3d error =
-      mesh_error_field(Eigen::Vector3d(1, 0, 2), Eigen::Vector3d(10, 5, 20), {{{0}, {2}}, {1, 1}});
-  EXPECT_LT((error - Eigen::Vector3d(0.2, 5 * std::sqrt((0.2 * 1 + 0.4 * 2) / 500), 0.4)).norm(), 1e-14);
+TEST(MeshErrorField, takes_the_share_of_means_elsewhere_and_its_mean_with_what_loaded_nodes_tell) {
+  const Eigen::Vector3d difference(1, 0, 2), stress(10, 5, 20);
+  const SurfacePatches patches{{{0}, {2}}, {1, 1}};
+  const double share = std::sqrt(5. / 500);
+  const Eigen::Vector3d error = mesh_error_field(difference, stress, patches);
+  EXPECT_LT((error - Eigen::Vector3d(0.2, 5 * share, 0.4)).norm(), 1e-14);
+  const Eigen::Vector3d loaded =
+      mesh_error_field(difference, stress, patches, {{1}, Eigen::VectorXd::Constant(1, 0.3)});
+  EXPECT_LT((loaded - Eigen::Vector3d(0.2, 1.2 * std::sqrt(0.3 * 5 * share), 0.4)).norm(), 1e-14);
+}
+
+// Cells of order 1 have means whose difference falls as their error does.
+TEST(PatchError, within_a_loaded_surface_is_the_mean_square_difference_and_falls_for_quadratic_cells) {
+  const Eigen::Vector2d difference(3, 4), stress(100, 50);
+  const double mean = std::sqrt(12.5);
+  EXPECT_NEAR(error_within_surface(difference, stress, 1), mean, 1e-14);
+  EXPECT_NEAR(error_within_surface(difference, stress, 2), 2 * mean * std::sqrt(mean / 100), 1e-14);
+  EXPECT_EQ(error_within_surface(Eigen::VectorXd(), Eigen::VectorXd(), 1), 0);
 }
 
 // p of the cells: 2 mean (mean / largest)^(1/p), at most the mean.

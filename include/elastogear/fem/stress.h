@@ -24,6 +24,11 @@ model::SparseRows stress_operator(const StressedBody& body, const std::vector<in
 /// x 3 n_nodes, Pa/m; rows of zeros where no free surface is. docs/theory.md, Eq. (1.16).
 model::SparseRows recovery_difference(StressedBody body, const std::vector<int>& nodes);
 
+/// The same at nodes that are loaded, as if they were not, of what both make of the strains within the
+/// surface: 6 n_e x 3 n_nodes, Pa/m; rows of zeros at nodes that are not loaded and inside the body.
+/// docs/theory.md, Eq. (1.16a).
+model::SparseRows difference_within_surface(StressedBody body, const std::vector<int>& nodes);
+
 /// Index into `regions` of the region whose stress each node of the mesh has; -1 outside all cells.
 std::vector<int> stress_regions(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions);
 

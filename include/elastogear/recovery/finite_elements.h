@@ -38,6 +38,10 @@ struct FiniteElements {
   std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& loaded,
                                   const std::vector<int>& nodes)>
       recovery_difference = {};
+  /// The same at `loaded` nodes as if they were not, of the strains within the surface, Eq. (1.16a).
+  std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& loaded,
+                                  const std::vector<int>& nodes)>
+      difference_within_surface = {};
   /// Rows of the stress operator at nodes, as the body takes its stresses: 6 n x 3 n_nodes, Pa/m.
   std::function<model::SparseRows(const io::BodySource& source, const std::vector<int>& nodes)>
       stress_operator = {};

@@ -19,4 +19,14 @@ struct PatchError {
 PatchError patch_error(const Eigen::Ref<const Eigen::VectorXd>& difference,
                        const Eigen::Ref<const Eigen::VectorXd>& stress, int order);
 
+/// Pa, first factor of Eq. (1.18a): of a mean at a loaded node, by what its patch tells of the strains within
+/// the surface. difference, stress: von Mises stresses, Pa, of (1.16a) and of the means at the loaded nodes
+/// of the patch.
+double error_within_surface(const Eigen::Ref<const Eigen::VectorXd>& difference,
+                            const Eigen::Ref<const Eigen::VectorXd>& stress, int order);
+
+/// Pa, Eq. (1.18a), of the mean at a loaded node with the von Mises stress `stress`, Pa. within: Pa, by the
+/// strains within the surface there; share: of errors in the means near by.
+double loaded_error(double within, double stress, double share);
+
 }  // namespace elastogear::recovery

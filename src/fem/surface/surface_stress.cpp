@@ -128,6 +128,13 @@ Eigen::Matrix<double, 6, k> stress_per_strain(const Eigen::Matrix<double, 6, k>&
   return G * (G.transpose() * compliance).inverse();
 }
 
+// Of any stress what its strains in the directions G make of it, the others being without traction. Eq.
+// (1.16a).
+template <int k>
+Matrix6 within(const Eigen::Matrix<double, 6, k>& G, const Matrix6& H) {
+  return stress_per_strain(G, H) * H.ldlt().solve(G).transpose();
+}
+
 // Stress of a surface with the traction of its normal zero.
 SurfaceRows rows_of_plane(const SurfaceDerivative& d, const Matrix6& H) {
   Eigen::Matrix<double, 6, 3> G;
@@ -137,14 +144,14 @@ SurfaceRows rows_of_plane(const SurfaceDerivative& d, const Matrix6& H) {
   for (Eigen::Index i = 0; i < d.D.cols(); ++i)
     strain.middleCols<3>(3 * i) << d.D(0, i) * d.t_1.transpose(), d.D(1, i) * d.t_2.transpose(),
         d.D(0, i) * d.t_2.transpose() + d.D(1, i) * d.t_1.transpose();
-  return {d.node, stress_per_strain(G, H) * strain};
+  return {d.node, stress_per_strain(G, H) * strain, within(G, H)};
 }
 
 // Stress at an edge of two surfaces, along it alone: the strain is the mean of theirs.
 SurfaceRows rows_of_edge(const std::vector<SurfaceDerivative>& sheets, const Matrix6& H) {
   const Vector3d t = sheets[0].n.cross(sheets[1].n).normalized();
   const Eigen::Matrix<double, 6, 1> G = six_entries(t * t.transpose()), stiffness = stress_per_strain(G, H);
-  SurfaceRows rows;
+  SurfaceRows rows{{}, {}, within(G, H)};
   Eigen::RowVectorXd strain;
   for (const SurfaceDerivative& d : sheets) {
     const Eigen::RowVectorXd along = Eigen::RowVector2d(t.dot(d.t_1), t.dot(d.t_2)) * d.D / 2;

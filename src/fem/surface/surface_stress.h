@@ -13,6 +13,8 @@ namespace elastogear::fem {
 struct SurfaceRows {
   std::vector<int> node;                       ///< n nodes of the surface, whose displacements count
   Eigen::Matrix<double, 6, Eigen::Dynamic> S;  ///< 6 x 3 n, Pa/m, order xx yy zz xy yz xz
+  /// 6 x 6, of any stress what the strains within the surface make of it without traction: Eq. (1.16a).
+  Eigen::Matrix<double, 6, 6> within = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /// Stress at a node of a free surface; nothing where averages are to be taken: where FreeSurface finds no
