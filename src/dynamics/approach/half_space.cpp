@@ -125,7 +125,7 @@ void add_side(const Plane& plane, const std::vector<int>& side, int corner, int 
     }
 }
 
-// Mean of 1/r between two pressures. Between parts it is expanded about their centres.
+// Mean of 1/r between two pressures. Eq. (6.36b).
 double mean_between(const HatPressure& a, const HatPressure& b) {
   double sum = 0;
   for (const HatPressure::Part& p : a.parts)
