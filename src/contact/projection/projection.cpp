@@ -192,10 +192,11 @@ Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Mov
   const Eigen::Vector3d x_B = bounds ? bounds->in_surface(x) : x;
   const double farthest = std::max(distance, around) + 2 * limit;
   for (int f : faces) {  // all move by `limit`
-    if (bounds && bounds->least(f, x_B) > farthest) continue;
-    const double bound = distance_bound(face_of(master, f), x);
+    const double of_undeformed = bounds ? bounds->least(f, x_B) : 0;
+    if (of_undeformed > farthest) continue;
+    const double bound = bounds && around == 0 ? of_undeformed : distance_bound(face_of(master, f), x);
     if (bound <= distance + 2 * limit) result.faces.push_back(f);
-    if (bound <= around + 2 * limit) result.around.push_back(f);
+    if (around > 0 && bound <= around + 2 * limit) result.around.push_back(f);
   }
   return result;
 }

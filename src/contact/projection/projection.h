@@ -57,7 +57,7 @@ struct Approach {
   double distance = 0;      ///< m, infinite when no face is within the reach
   double clearance = 0;     ///< m: before moving by as much a node that is outside cannot touch
   std::vector<int> faces;   ///< ascending: those that can be the nearest until it has moved by the limit
-  std::vector<int> around;  ///< those within the distance `around` of Move, as long
+  std::vector<int> around;  ///< those within the distance `around` of Move, as long; none where that is 0
 };
 
 /// The same for a point near one whose nearest face is known: goes from that face to its neighbours as long

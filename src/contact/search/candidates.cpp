@@ -3,27 +3,56 @@
 #include <algorithm>
 
 namespace elastogear::contact {
+namespace {
+
+// Corners of the boxes around the faces of a surface, m, 3 x n_f each.
+struct Boxes {
+  Eigen::Matrix3Xd low, high;
+};
+
+Boxes boxes_around(const SurfaceView& surface, double margin) {
+  const Eigen::Index n = surface.face.cols();
+  Boxes boxes{Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)};
+  for (Eigen::Index f = 0; f < n; ++f) {
+    Eigen::Array3d low = surface.x.col(surface.face(0, f)), high = low;
+    for (int i = 1; i < 4; ++i) {
+      const auto corner = surface.x.col(surface.face(i, f)).array();
+      low = low.min(corner);
+      high = high.max(corner);
+    }
+    boxes.low.col(f) = low - margin;
+    boxes.high.col(f) = high + margin;
+  }
+  return boxes;
+}
+
+// The corners of each face, as bits, whose nodes it finds: a node is within the margin of the boxes of all
+// faces around it, of which the first one finds it.
+std::vector<unsigned char> corners_found(const SurfaceView& slave, const std::vector<bool>& tried) {
+  std::vector<unsigned char> found(static_cast<std::size_t>(slave.face.cols()), 0);
+  for (int node = 0; node < slave.topology.node_corners.size(); ++node) {
+    const auto corners = slave.topology.node_corners[node];
+    if (corners.empty() || !(tried.empty() || tried[node])) continue;
+    found[corners[0] / 4] |= static_cast<unsigned char>(1U << (corners[0] % 4));
+  }
+  return found;
+}
+
+}  // namespace
 
 void Candidates::collect(const SlaveFaces& faces, const SurfaceView& slave, const SurfaceView& master,
                          double margin) {
+  const Boxes boxes = boxes_around(master, margin);
+  const std::vector<unsigned char> found = corners_found(slave, faces.tried);
   near_.clear();
   for (const NodePair& pair : faces.pairs) {
     const int f = pair[1 - faces.entry], slave_face = pair[faces.entry];
-    // A node is within the margin of the boxes of all faces around it, of which the first one finds it.
-    const auto finds = [&](int node) {
-      return slave.topology.node_corners[node][0] / 4 == slave_face &&
-             (faces.tried.empty() || faces.tried[node]);
-    };
-    const int sides = side_count(slave.face, slave_face);
-    if (std::none_of(&slave.face(0, slave_face), &slave.face(0, slave_face) + sides, finds)) continue;
-    const Eigen::Matrix<double, 3, 4> corners = master.x(Eigen::all, master.face.col(f));
-    const Eigen::Vector3d lo = corners.rowwise().minCoeff().array() - margin;
-    const Eigen::Vector3d hi = corners.rowwise().maxCoeff().array() + margin;
-    for (int i = 0; i < sides; ++i) {
+    for (int i = 0; i < 4; ++i) {
+      if (!(found[slave_face] >> i & 1)) continue;
       const int node = slave.face(i, slave_face);
-      if (!finds(node)) continue;
       const auto q = slave.x.col(node).array();
-      if ((q >= lo.array()).all() && (q <= hi.array()).all()) near_.push_back({node, f});
+      if ((q >= boxes.low.col(f).array()).all() && (q <= boxes.high.col(f).array()).all())
+        near_.push_back({node, f});
     }
   }
   sort_by_node(static_cast<int>(slave.x.cols()));

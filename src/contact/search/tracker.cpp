@@ -246,7 +246,8 @@ void Tracker::leave_out(int slave, double clear) {
   const Neighbours all = std::exchange(neighbours_->near[slave], {});
   const SurfaceView master = view(1 - slave, settings_.extension), placed = view(slave, 0);
   const FaceBounds bounds = face_bounds(1 - slave);
-  const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, limits_.around, &bounds};
+  const double around = settings_.points == SlavePoints::faces ? limits_.around : 0;
+  const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, around, &bounds};
   const RelativeMotion to_master = relative_motion(*now_[slave], *now_[1 - slave]);
   const double deformed = largest_deformation(slave) + bounds.deformed;
   Neighbours& near = neighbours_->near[slave];
