@@ -22,7 +22,7 @@ SlaveRows carried(const SlaveGeometry& s) {
 template <class Columns>
 FaceColumns on_nodes(const SlaveRows& S, const Columns& c) {
   FaceColumns all(24, c.cols());
-  all.template topRows<12>() = S.transpose() * c.template topRows<3>();
+  all.template topRows<12>() = S.transpose().lazyProduct(c.template topRows<3>());
   all.template bottomRows<12>() = c.template bottomRows<12>();
   return all;
 }
@@ -165,8 +165,28 @@ Eigen::Matrix2d gap_curvature(const SlaveGeometry& s, int n_dir, const GapBy<3>&
   return curvature;
 }
 
+namespace {
+
+// Is the point's tangent F_p c^-1 g_x' alone? A force that is zero does not turn.
+bool is_without_force(const ContactPoint& c) {
+  return c.c > 0 && c.p == 0 && c.fade == 1 && !c.tangential && (c.W.col(0) - c.F_p.reshaped()).isZero(0);
+}
+
+void spread_without_force(const SlaveGeometry& s, ContactPoint& c) {
+  const SlaveRows S = carried(s);
+  for (LocalVectors* vectors : {&c.F, &c.F_p, &c.g_x}) *vectors = vectors_on_nodes(S, *vectors);
+  c.W = c.F_p.reshaped();
+  c.V = c.g_x.reshaped();
+  c.V_dot = LocalColumns::Zero(24, 1);
+  c.k = LocalStiffness::Constant(1, 1, 1 / c.c);
+  c.slave_N = s.N;
+}
+
+}  // namespace
+
 // The point follows the nodes: docs/theory.md, Eq. (6.27).
 void spread_over_face(const SlaveGeometry& s, int n_dir, const Gap& gap, ContactPoint& c) {
+  if (is_without_force(c)) return spread_without_force(s, c);
   const Eigen::Matrix2d curvature = gap_curvature(s, n_dir, {gap.g, gap.n, gap.n_x.leftCols<3>()});
   Following following{mixed_derivatives(s, carried(s), n_dir, gap), Eigen::Matrix2d::Identity()};
   following.k.topLeftCorner(n_dir, n_dir) = curvature.topLeftCorner(n_dir, n_dir).inverse();

@@ -22,6 +22,8 @@ constexpr double kForceTolerance = 1e-8;  // of contact forces without a penalty
 constexpr double kMovingTolerance = 1e-10;   // of those of points that move over faces, and turn with them
 constexpr double kObservedTolerance = 1e-6;  // of those of states that are read and not solved for
 constexpr double kMovingShare = 0.1;         // of the tolerance asked for, of those of points that move
+constexpr double kTurningTolerance = 1e-10;  // of forces that turn as gaps close
+constexpr double kTurningShare = 0.01;       // of the tolerance of contact forces, of those that turn
 constexpr double kFirstRate = 1e-3;          // by which a first change of forces is expected to fall
 constexpr double kBend = 0.1;     // and by this times itself, where points move and forces turn with it
 constexpr int kFullTrials = 12;   // before they go half of the way, as nodes pass to and fro between faces
@@ -137,11 +139,12 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
 
 std::vector<VectorXd> ResidualContact::displacements(const ContactState& state) {
   std::vector<VectorXd> w(state.force.size());
-  for (std::size_t b = 0; b < w.size(); ++b)
-    for (int node : has_flexibility(b) ? state.force[b].node : std::vector<int>()) {
-      w[b].conservativeResize(w[b].size() + 3);
-      w[b].tail<3>() = displacement(b, node);
-    }
+  for (std::size_t b = 0; b < w.size(); ++b) {
+    if (!has_flexibility(b)) continue;
+    const std::vector<int>& nodes = state.force[b].node;
+    w[b].resize(3 * static_cast<Eigen::Index>(nodes.size()));
+    for (Eigen::Index i = 0; int node : nodes) w[b].segment<3>(3 * i++) = displacement(b, node);
+  }
   return w;
 }
 
@@ -259,7 +262,7 @@ std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState&
     const MatrixXd& R = tangent(b, node);
     unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R, w[b]));
   }
-  if (!unilateral.solve()) return {};
+  if (!unilateral.solve(std::max(kTurningTolerance, kTurningShare * allowed_))) return {};
   const bool slides_anew = unilateral.slides_anew(), bends = unilateral.takes_turning_in();
   unilateral.set_forces(state.pair);
   double missing = 0, all = 0;
@@ -292,7 +295,7 @@ void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accura
                                        const std::function<void()>& detect) {
   std::optional<Change> change;
   double before = 0;
-  const double allowed = std::max(sought_, tolerance(state, accuracy, asked_));
+  const double allowed = allowed_ = std::max(sought_, tolerance(state, accuracy, asked_));
   bool settled = false, follows = sought_ > 0 && approach_.any();
   for (int trial = 0; !settled && trial < kMostTrials; ++trial) {
     change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);

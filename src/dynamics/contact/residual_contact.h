@@ -128,6 +128,7 @@ class ResidualContact {
   double expected_ = 0;                   // expected change of the forces found last, as part of them
   double asked_ = 0;                      // tolerance of forces that Newton's method of the system needs
   double sought_ = 0;                     // tolerance of forces in iterations towards rest; 0: there are none
+  double allowed_ = 0;                    // tolerance of the forces that are being found
   std::vector<Eigen::MatrixXd> tangent_;  // of each body, R with the tangent of the local approach
   std::vector<NodalForces> left_;         // of each body, the forces before the last Newton step
   std::vector<double> change_;            // m, not yet seen by all pairs

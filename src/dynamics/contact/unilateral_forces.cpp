@@ -141,12 +141,14 @@ void UnilateralForces::set_changes() {
   }
 }
 
-// The present displacements of the contacts, of all bodies.
-void UnilateralForces::set_moved() {
+// The present displacements of the contacts, of all bodies; bearing: of those alone that were found with a
+// force, which is what turns.
+void UnilateralForces::set_moved(bool bearing) {
   for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c].point->k.rows())};
   for (const Body& body : bodies_) {
     const VectorXd dx = body.missing + *body.R * body.change;
     for (const Touch& t : body.touches) {
+      if (bearing && contacts_[t.contact].point->p == 0) continue;
       Displacement& moved = moved_[t.contact];
       moved.k_V += t.V.transpose().lazyProduct(dx.segment<3>(t.row));
       moved.way.head(t.y_x.cols()) += t.y_x.transpose().lazyProduct(dx.segment<3>(t.row));
@@ -154,6 +156,7 @@ void UnilateralForces::set_moved() {
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const contact::ContactPoint& point = *contacts_[c].point;
+    if (bearing && point.p == 0) continue;
     Displacement& moved = moved_[c];
     moved.k_V = (point.k * moved.k_V).eval();
     moved.answered[0] = moved.way[0] / point.c;
@@ -168,11 +171,12 @@ void UnilateralForces::set_moved() {
 // other. W k V' takes p and t for those of a penalty 1 / c, K, which is added again:
 // dF = -(W k V' - F_z [1 / c; K] [g_x; u_x]') dx.
 VectorXd UnilateralForces::turned_forces() {
-  set_moved();
+  set_moved(true);
   VectorXd all = VectorXd::Zero(all_turned().size());
   Index first = 0;
   for (const Body& body : bodies_) {
     for (const Touch& t : body.touches) {
+      if (contacts_[t.contact].point->p == 0) continue;
       const Displacement& moved = moved_[t.contact];
       all.segment<3>(first + t.row) +=
           t.F_z.lazyProduct(moved.answered.head(t.F_z.cols())) - t.W.lazyProduct(moved.k_V);
@@ -207,9 +211,8 @@ void UnilateralForces::do_not_turn() {
 
 // Forces turn, and points move, while gaps close: both are brought together by turns, with the extrapolation
 // of D. G. Anderson (J. ACM 12, 1965, 547-560). Returns whether they come to rest.
-bool UnilateralForces::turn_step_by_step() {
+bool UnilateralForces::turn_step_by_step(double tolerance) {
   constexpr int kMostRounds = 24;
-  constexpr double kTolerance = 1e-10;  // of the forces
   Extrapolation extrapolation;
   for (int round = 0; round < kMostRounds; ++round) {
     const std::optional<VectorXd> z = forces(C_, gaps());
@@ -219,7 +222,10 @@ bool UnilateralForces::turn_step_by_step() {
     if (z_.size() == 0 || bodies_.empty()) return true;
     const VectorXd before = all_turned(), turned = turned_forces();
     turn(turned);
-    if ((turned - before).cwiseAbs().maxCoeff() <= kTolerance * z_.cwiseAbs().maxCoeff()) return true;
+    if ((turned - before).cwiseAbs().maxCoeff() <= tolerance * z_.cwiseAbs().maxCoeff()) {
+      set_moved();
+      return true;
+    }
     turn(extrapolation.next(before, turned));
   }
   return false;
@@ -330,9 +336,9 @@ bool UnilateralForces::turn_at_once() {
 
 // Forces turn as gaps close. Where that is not found, by substitution or in one solution, their directions
 // stay those that the contacts were detected with.
-bool UnilateralForces::solve() {
+bool UnilateralForces::solve(double tolerance) {
   do_not_turn();
-  turns_ = turn_step_by_step();
+  turns_ = turn_step_by_step(tolerance);
   if (turns_) return true;
   if (turn_at_once()) {
     turns_ = std::all_of(contacts_.begin(), contacts_.end(),

@@ -22,8 +22,8 @@ class UnilateralForces {
   /// missing: 3 n, m, BRF, R f - w of the forces f found and the static response w they were found with.
   void add(const ResponseNewton::Compliant& compliant, const Eigen::VectorXd& missing);
 
-  /// Returns whether there is a solution; the following are that.
-  bool solve();
+  /// Returns whether there is a solution; the following are that. tolerance: of the forces as they turn.
+  bool solve(double tolerance = 1e-10);
   /// Does a contact slide that stuck in the forces found, or stick that slid?
   bool slides_anew() const;
   /// Is what these forces leave of second order in their change? Not where directions stay as they were
@@ -75,12 +75,12 @@ class UnilateralForces {
   std::optional<Eigen::VectorXd> forces(const Eigen::MatrixXd& C, const Eigen::VectorXd& q);
   Eigen::VectorXd gaps() const;
   void set_changes();
-  void set_moved();
+  void set_moved(bool bearing = false);
   Eigen::VectorXd turned_forces();
   Eigen::VectorXd all_turned() const;
   void turn(const Eigen::VectorXd& all);
   void do_not_turn();
-  bool turn_step_by_step();
+  bool turn_step_by_step(double tolerance);
   // Complementarity of y = q + C z, and the displacements a + B z by which forces turn: Eq. (6.25a).
   struct Turning {
     Eigen::MatrixXd C, B;
