@@ -133,6 +133,13 @@ void Pair::keep_minima(const std::vector<ContactPoint>& contacts) {
   for (int side : {0, 1}) keep_loaded(contacts, side, data_->minima[side], data_->kept[side]);
 }
 
+void Pair::follow_points() {
+  constexpr double kOfReach = 0.5;  // of open candidates: others stay open
+  data_->follow_within = kOfReach * data_->reach.gap;
+}
+
+void Pair::look_at_all() { data_->tracker.forget_near(); }
+
 void Pair::release_minima() {
   for (KeptMinima& kept : data_->kept) kept.clear();
 }
@@ -248,7 +255,9 @@ std::vector<ContactPoint> Pair::detect(const SurfaceState& a, const SurfaceState
 
 std::vector<ContactPoint> Pair::detect(const SurfaceMotion& a, const SurfaceMotion& b,
                                        const std::array<ResidualDisplacement, 2>& residual) {
-  data_->tracker.follow(a, b, residual);
+  data_->tracker.move_to(a, b, residual);
+  if (auto contacts = data_->followed_contacts(b.R_WB)) return std::move(*contacts);
+  data_->tracker.find_near();
   return data_->contacts(b.R_WB);
 }
 

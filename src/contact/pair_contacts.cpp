@@ -139,13 +139,28 @@ std::optional<ContactPoint> Pair::Data::contact(const MasterSide& master, int sl
   return found;
 }
 
-void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
+// Follows the minima of the last look. Returns whether all are surely there still, and no two have met.
+bool Pair::Data::follow_minima(const GapField& field, std::vector<Minimum>& followed) const {
+  for (auto m = followed.begin(); m != followed.end(); ++m) {
+    const auto now = followed_minimum(field, *m);
+    if (!now) return false;
+    *m = *now;
+    if (std::any_of(followed.begin(), m, [&](const Minimum& other) { return have_met(other, *m); }))
+      return false;
+  }
+  return true;
+}
+
+// gaps: null where the minima of the last look are followed. Returns whether that can be done.
+bool Pair::Data::add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>* gaps,
                             std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0);
   const GapField field{master,     slave,           side[slave_side].heights, reach,
                        slave_side, settings.offset, is_whole(slave_side)};
   const History& last = history[slave_side];
-  minima[slave_side] = last.in_step ? standing_minima(field, last.standing) : gap_minima(field, gaps);
+  if (!gaps && !follow_minima(field, minima[slave_side])) return false;
+  if (gaps)
+    minima[slave_side] = last.in_step ? standing_minima(field, last.standing) : gap_minima(field, *gaps);
   add_kept(field, kept[slave_side], minima[slave_side]);
   for (const Minimum& m : minima[slave_side]) {
     auto found = contact(master, slave_side, m);
@@ -153,6 +168,7 @@ void Pair::Data::add_minima(const MasterSide& master, int slave_side, const std:
     found->slave_side = slave_side;
     contacts.push_back(std::move(*found));
   }
+  return true;
 }
 
 // faces: of the master, that can be nearest.
@@ -179,36 +195,52 @@ bool Pair::Data::is_left_to_slave(int tried, const SurfaceView& other, const Pro
          is_at_open_side(other, w.face, w.point.N);
 }
 
-void Pair::Data::run_pass(int slave_side, std::vector<ContactPoint>& contacts) {
+// Adds the contacts of the i-th slave node near.
+void Pair::Data::add_node(const MasterSide& master, const SurfaceView& slave, std::size_t i,
+                          std::map<int, NodeGap>& gaps, std::vector<ContactPoint>& contacts) {
+  const int slave_side = slave.side;
+  const Neighbours& near = tracker.near(slave_side);
+  const int node = near.slave[i];
+  const PlacedNode placed{slave_side, node, slave.at(node) + node_height(slave_side, slave, node)};
+  const auto projection = project(master, slave, placed, near.faces(i));
+  if (!projection || is_left_to_slave(slave_side, master.surface, *projection)) return;
+  const Valley valley = has_valleys() ? valley_at(master, *projection, placed.x) : Valley{};
+  const auto add = [&](std::optional<ContactPoint> found) {
+    if (!found) return;
+    found->slave_side = found->stick.slave_side = slave_side;
+    found->slave_node = found->stick.slave_node = node;
+    found->slave_nodes[0] = node;
+    if (sticks()) history[slave_side].open[node] = found->stick;
+    contacts.push_back(std::move(*found));
+  };
+  auto found = node_contact(master, placed, *projection, valley.share, gaps);
+  if (found) found->slave_point = node;
+  add(std::move(found));
+  for (const FaceOfValley& face : valley.beside) add(beside_contact(master, placed, face));
+}
+
+// follows: the contacts of the last look at all. Returns whether that can be done.
+bool Pair::Data::run_pass(int slave_side, bool follows, std::vector<ContactPoint>& contacts) {
   const SurfaceView slave = tracker.view(slave_side, 0),
                     surface = tracker.view(1 - slave_side, settings.extension);
   const bool at_minima = settings.points == SlavePoints::minima;
   const Heights& heights = side[1 - slave_side].heights;
   const MasterSide master{surface, heights, radians(settings.feature_angle), !at_minima,
                           at_minima && !heights.empty()};
-  const Neighbours& near = tracker.near(slave_side);
   std::map<int, NodeGap> gaps;
+  std::vector<std::size_t>& touch = touching[slave_side];
   history[slave_side].open.clear();
-  for (std::size_t i = 0; i < near.slave.size(); ++i) {
-    const int node = near.slave[i];
-    const PlacedNode placed{slave_side, node, slave.at(node) + node_height(slave_side, slave, node)};
-    const auto projection = project(master, slave, placed, near.faces(i));
-    if (!projection || is_left_to_slave(slave_side, surface, *projection)) continue;
-    const Valley valley = has_valleys() ? valley_at(master, *projection, placed.x) : Valley{};
-    const auto add = [&](std::optional<ContactPoint> found) {
-      if (!found) return;
-      found->slave_side = found->stick.slave_side = slave_side;
-      found->slave_node = found->stick.slave_node = node;
-      found->slave_nodes[0] = node;
-      if (sticks()) history[slave_side].open[node] = found->stick;
-      contacts.push_back(std::move(*found));
-    };
-    auto found = node_contact(master, placed, *projection, valley.share, gaps);
-    if (found) found->slave_point = node;
-    add(std::move(found));
-    for (const FaceOfValley& face : valley.beside) add(beside_contact(master, placed, face));
+  if (follows) {
+    for (std::size_t i : touch) add_node(master, slave, i, gaps, contacts);
+    return add_minima(master, slave_side, nullptr, contacts);
   }
-  if (settings.points == SlavePoints::minima) add_minima(master, slave_side, gaps, contacts);
+  touch.clear();
+  for (std::size_t i = 0; i < tracker.near(slave_side).slave.size(); ++i) {
+    const std::size_t before = contacts.size();
+    add_node(master, slave, i, gaps, contacts);
+    if (contacts.size() > before) touch.push_back(i);
+  }
+  return !at_minima || add_minima(master, slave_side, &gaps, contacts);
 }
 
 // The gaps at the slave nodes beside which one may lie within the reach.
@@ -264,8 +296,28 @@ std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R) {
   if (settings.points == SlavePoints::faces)
     contacts = integrated_contacts();
   else
-    for (int slave : slave_sides(settings)) run_pass(slave, contacts);
+    for (int slave : slave_sides(settings)) run_pass(slave, false, contacts);
   if (is_between_steps()) keep_gaps(history, contacts);
+  for (ContactPoint& contact : contacts) rotate(contact, R_WB);
+  return contacts;
+}
+
+// Can contacts be followed? Nodes that stick, points that stay and steps of impacts have a history of their
+// own.
+bool Pair::Data::may_follow() const {
+  return settings.points == SlavePoints::minima && settings.law == ContactLaw::unilateral && !sticks() &&
+         kept[0].empty() && kept[1].empty();
+}
+
+// The contacts of the last look at all where they are now; nothing if the bodies have moved too far since
+// then, or some have vanished.
+std::optional<std::vector<ContactPoint>> Pair::Data::followed_contacts(const Eigen::Matrix3d& R) {
+  if (!(follow_within > 0) || !may_follow() || !tracker.stays_within(follow_within)) return {};
+  std::vector<ContactPoint> contacts;
+  contacts.reserve(minima[0].size() + minima[1].size() + touching[0].size() + touching[1].size());
+  for (int slave : slave_sides(settings))
+    if (!run_pass(slave, true, contacts)) return {};
+  R_WB = R;
   for (ContactPoint& contact : contacts) rotate(contact, R_WB);
   return contacts;
 }

@@ -58,6 +58,9 @@ struct Pair::Data {
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();  // from the frame that contacts are found in
   std::vector<Minimum> minima[2] = {};                 // of the last look
   KeptMinima kept[2] = {};                             // that bore a force since the last release
+  std::vector<std::size_t> touching[2] =
+      {};                    // slave nodes with a contact in the last look at all, among those near
+  double follow_within = 0;  // m, motion since then over which its contacts are followed
 
   static std::unique_ptr<Data> make(const Settings& given, const Settings& settings,
                                     std::array<Tracked, 2> both, std::array<Side, 2> side);
@@ -79,13 +82,18 @@ struct Pair::Data {
   std::optional<Projection> project(const MasterSide& master, const SurfaceView& slave,
                                     const PlacedNode& placed, std::span<const int> faces);
   bool is_left_to_slave(int tried, const SurfaceView& other, const Projection& w) const;
-  void run_pass(int slave_side, std::vector<ContactPoint>& contacts);
-  void add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>& gaps,
+  bool may_follow() const;
+  void add_node(const MasterSide& master, const SurfaceView& slave, std::size_t i,
+                std::map<int, NodeGap>& gaps, std::vector<ContactPoint>& contacts);
+  bool run_pass(int slave_side, bool follows, std::vector<ContactPoint>& contacts);
+  bool follow_minima(const GapField& field, std::vector<Minimum>& followed) const;
+  bool add_minima(const MasterSide& master, int slave_side, const std::map<int, NodeGap>* gaps,
                   std::vector<ContactPoint>& contacts);
   std::map<int, NodeGap> node_gaps(int slave_side, const MasterSide& master);
   Eigen::Vector3d curved(int i, int node) const;
   std::vector<ContactPoint> integrated_contacts();
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R);
+  std::optional<std::vector<ContactPoint>> followed_contacts(const Eigen::Matrix3d& R);
 };
 
 }  // namespace elastogear::contact

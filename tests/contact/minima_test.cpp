@@ -243,6 +243,48 @@ TEST(GapMinima, that_vanish_under_their_force_stay_until_they_are_released) {
   for (const ContactPoint& point : points) EXPECT_EQ(count(after, point), 0) << point.slave_point;
 }
 
+// Points that are followed are those of a look at all, as far as the surfaces have moved little since the
+// last one, and are looked for anew where they have moved far or leave their side or face.
+TEST(GapMinima, are_followed_to_where_a_look_at_all_finds_them) {
+  const Two t = two(3, 1e-4);
+  const auto motions = [&](double way) {
+    return std::array<SurfaceMotion, 2>{SurfaceMotion{{}, t.a.r_WB + way * Vector3d(1, 0.3, -0.02), t.a.R_WB},
+                                        SurfaceMotion{{}, t.b.r_WB, t.b.R_WB}};
+  };
+  Pair pair(t.slave, t.master, minima()), anew(t.slave, t.master, minima());
+  pair.follow_points();
+  std::size_t most = 0;
+  for (double way : {0.0, 1e-6, 1e-4, 5e-4, 2e-3, 1e-3, 0.06, 0.061, 0.0605, 0.2}) {
+    const auto at = motions(way);
+    const std::vector<ContactPoint> now = pair.detect(at[0], at[1]), all = anew.detect(at[0], at[1]);
+    ASSERT_EQ(now.size(), all.size()) << way;
+    most = std::max(most, now.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      EXPECT_EQ(now[i].slave_point, all[i].slave_point) << way;
+      EXPECT_NEAR(now[i].g_n, all[i].g_n, 1e-13) << way;
+      EXPECT_LT((now[i].n - all[i].n).norm(), 1e-9) << way;
+    }
+  }
+  EXPECT_GT(most, 3U);
+}
+
+// A look at all is made where it is asked for: of two motions that differ little the same points touch, and
+// one that comes within the reach of open candidates is not among them until then.
+TEST(GapMinima, that_come_near_are_found_by_a_look_at_all) {
+  constexpr double kWay = 0.004;  // m, less than half of that reach
+  const Two t = two(3, 0.0105);   // beyond it
+  const SurfaceMotion b{{}, t.b.r_WB, t.b.R_WB}, before{{}, t.a.r_WB, t.a.R_WB},
+      after{{}, t.a.r_WB - kWay * Vector3d::UnitZ(), t.a.R_WB};
+  Settings settings = minima();
+  settings.skin = 0.1;
+  Pair pair(t.slave, t.master, settings);
+  pair.follow_points();
+  ASSERT_TRUE(pair.detect(before, b).empty());
+  EXPECT_TRUE(pair.detect(after, b).empty());
+  pair.look_at_all();
+  EXPECT_FALSE(pair.detect(after, b).empty());
+}
+
 // A node that slides over the faces of a pyramid, which was a plane before it was deformed, along their sides
 // and past the corner of all four: its force turns, but never at once.
 TEST(GapMinima, forces_turn_gradually_over_the_kinks_of_the_deformed_master) {

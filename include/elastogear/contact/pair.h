@@ -45,6 +45,13 @@ class Pair {
   /// m, in its BRF, of a node that a contact of the last detect (by motion) names; residual included.
   Eigen::Vector3d position(int side, int node) const;
 
+  /// Points of least gap without a penalty: of motions that differ little from one at which all that can
+  /// touch was looked at the same points touch. From now on detect by motion follows them to where the gap is
+  /// least, as long as that is sure.
+  void follow_points();
+  /// The next call of detect by motion looks at all that can touch.
+  void look_at_all();
+
   /// Points of least gap that bear a force here are also found where they are no minima any more, at their
   /// last places, until they are released: they are kept from entering like all points of the slave.
   void keep_minima(const std::vector<ContactPoint>& contacts);

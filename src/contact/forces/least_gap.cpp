@@ -161,6 +161,21 @@ std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const
                                                                   : std::nullopt;
 }
 
+// The side of the slave face that the point moves along, without gaps.
+SideGaps side_with(const GapField& field, const SlavePoint& point) {
+  SideGaps side;
+  side.point = point;
+  side.sides = side_count(field.slave.face, point.face);
+  for (int i = 0; i < side.sides; ++i)
+    if (on_side(side.sides, i, 1) - on_side(side.sides, i, 0) == point.along.col(0)) side.side = i;
+  return side;
+}
+
+double share_of_side(const SideGaps& side, const Vector2d& at) {
+  const Vector2d along = side.point.along.col(0);
+  return (at - on_side(side.sides, side.side, 0)).dot(along) / along.squaredNorm();
+}
+
 bool is_inside(int sides, const Vector2d& at) {
   if (sides == 3) return at[0] > 0 && at[1] > 0 && at[0] + at[1] < 1;
   return at.cwiseAbs().maxCoeff() < 1;
@@ -281,7 +296,51 @@ void add_beside(const GapField& field, std::vector<Minimum>& minima, const Searc
     minima[i].point.number = first.point.number + static_cast<int>(i) * stride;
 }
 
+// Rises of the gap from a minimum to each side of its range, by its curvature H, are above this.
+bool is_sure(const GapField& field, const Minimum& m) {
+  constexpr double kSurely = 4 * kDistinct;
+  const GapBy<3> gap{m.open.gap.g, m.open.gap.n, m.open.gap.n_x.leftCols<3>()};
+  const Eigen::Matrix2d H = gap_curvature(m.geometry, m.point.n_dir, gap);
+  const double length = m.geometry.a.colwise().norm().maxCoeff();
+  const auto rises = [&](double left, double compliance) {
+    return 0.5 * left * left > kSurely * length * compliance;
+  };
+  const int sides = side_count(field.slave.face, m.point.face);
+  if (m.point.n_dir == 1) {
+    const SideGaps side = side_with(field, m.point);
+    const double s = share_of_side(side, m.point.at);
+    return H(0, 0) > 0 && rises(std::min(s, 1 - s), 1 / H(0, 0));
+  }
+  if (!(H(0, 0) > 0 && H.determinant() > 0)) return false;
+  const Eigen::Matrix2d C = H.inverse();
+  for (int side = 0; side < sides; ++side) {
+    const Vector2d along = on_side(sides, side, 1) - on_side(sides, side, 0);
+    const Vector2d across(-along[1], along[0]);
+    if (!rises(across.dot(m.point.at - on_side(sides, side, 0)), across.dot(C * across))) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+std::optional<Minimum> followed_minimum(const GapField& field, const Minimum& last) {
+  std::optional<Minimum> now;
+  const int face = last.open.projection.face;
+  if (last.point.n_dir == 1) {
+    const SideGaps side = side_with(field, last.point);
+    now = least_on_side(field, side, {share_of_side(side, last.point.at), face});
+  } else {
+    now = least_within(field, last.point, {0, last.point.at, face}, kFarGap).minimum;
+  }
+  if (!now || now->crossing.has_value() != last.crossing.has_value()) return {};
+  if (!now->crossing && !is_sure(field, *now)) return {};
+  return now;
+}
+
+bool have_met(const Minimum& a, const Minimum& b) {
+  return a.point.face == b.point.face && a.point.n_dir == b.point.n_dir &&
+         (a.point.at - b.point.at).norm() < kApart;
+}
 
 Vector2d held_inside(int sides, const Vector2d& at) {
   if (sides == 4) return at.cwiseMax(-1).cwiseMin(1);
@@ -294,8 +353,7 @@ std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side,
   const auto first = least_on_side(field, side, estimate(side, face));
   if (!first) return minima;
   minima.push_back(*first);
-  const Vector2d along = side.point.along.col(0);
-  const double s = (first->point.at - on_side(side.sides, side.side, 0)).dot(along) / along.squaredNorm();
+  const double s = share_of_side(side, first->point.at);
   add_beside(field, minima, [&](const Eigen::VectorXd& step, int beyond) {
     return least_on_side(field, side, {std::clamp(s + step[0], 0.0, 1.0), beyond});
   });

@@ -51,6 +51,12 @@ struct FaceStart {
 /// The coordinates (u, v) or, where they are beyond a face of so many sides, some on its border.
 Eigen::Vector2d held_inside(int sides, const Eigen::Vector2d& at);
 
+/// Where the minimum, which is one of the functions below, is now that both surfaces have moved a little;
+/// nothing where it has surely not stayed within its side or face.
+std::optional<Minimum> followed_minimum(const GapField& field, const Minimum& last);
+/// Are they minima over two faces of the master that are at the same place now?
+bool have_met(const Minimum& a, const Minimum& b);
+
 /// The minimum on the side and those over the master's faces beside it; none that differ from the ends by
 /// less than a millionth of the length. On open sides that is also the point at which a side leaves the
 /// master through an open side of that, where the gap falls up to there. face: of the master, near the side.

@@ -329,8 +329,8 @@ void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
   find_candidates(margin);
 }
 
-void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b,
-                     const std::array<ResidualDisplacement, 2>& residual) {
+void Tracker::move_to(const SurfaceMotion& a, const SurfaceMotion& b,
+                      const std::array<ResidualDisplacement, 2>& residual) {
   now_[0] = &a;
   now_[1] = &b;
   residual_ = &residual;
@@ -339,16 +339,31 @@ void Tracker::follow(const SurfaceMotion& a, const SurfaceMotion& b,
   n_displaced_ = 0;
   start_stage();
   start_look();
-  for (double* sum : {&residual_since_found_, &residual_since_measured_})
+  for (double* sum : {&residual_since_found_, &residual_since_measured_, &residual_since_seen_})
     for (const ResidualDisplacement& y : residual) *sum += y.change;
+}
+
+bool Tracker::stays_within(double distance) const {
+  return neighbours_ && is_seen_ && distance_since(seen_at_) + residual_since_seen_ <= distance &&
+         distance_since(neighbours_->measured_at) + residual_since_measured_ <= neighbours_->limit &&
+         distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin;
+}
+
+void Tracker::find_near() {
   update_neighbours();
   for (int i : {0, 1})
     for (int node : kept_[i]) place_node(i, node);
+  for (int i : {0, 1}) seen_at_[i] = *now_[i];
+  residual_since_seen_ = 0;
+  is_seen_ = true;
   if (settings_.points != SlavePoints::faces) return;
   for (int slave : slave_sides(settings_)) place_for(slave, neighbours_->near[slave]);
 }
 
-void Tracker::forget() { neighbours_.reset(); }
+void Tracker::forget() {
+  neighbours_.reset();
+  forget_near();
+}
 
 Eigen::Vector3d Tracker::position_B(int i, int node) {
   if (now_[0]) place_node(i, node);

@@ -42,14 +42,22 @@ class Tracker : private NodePlacer {
 
   /// Places all nodes and finds the candidates of these states. Throws Error for states that are not finite.
   void find(const SurfaceState& a, const SurfaceState& b);
-  /// Finds the nodes that can touch, with a search where one is due. Nodes are placed where they are asked
-  /// for; of contact integrated over faces all that can touch. Throws Error for motions that are not finite.
-  /// Motions and residual displacements must live as long as velocity and all_faces are called.
-  void follow(const SurfaceMotion& a, const SurfaceMotion& b,
-              const std::array<ResidualDisplacement, 2>& residual);
-  /// The next call of follow searches anew.
+  /// From now on nodes are placed by these motions where they are asked for. Throws Error for motions that
+  /// are not finite. Motions and residual displacements must live as long as velocity and all_faces are
+  /// called.
+  void move_to(const SurfaceMotion& a, const SurfaceMotion& b,
+               const std::array<ResidualDisplacement, 2>& residual);
+  /// Do the surfaces touch no farther than `distance` (m) from where they were in the last call of find_near,
+  /// with faces that can still be nearest?
+  bool stays_within(double distance) const;
+  /// Finds the nodes that can touch, with a search where one is due; of contact integrated over faces all
+  /// that can touch are placed.
+  void find_near();
+  /// Surfaces do not stay within any distance until the next call of find_near.
+  void forget_near() { is_seen_ = false; }
+  /// The next call of find_near searches anew.
   void forget();
-  /// Nodes of either surface that follow places whether they can touch or not, until told otherwise.
+  /// Nodes of either surface that find_near places whether they can touch or not, until told otherwise.
   void keep(std::array<std::vector<int>, 2> nodes) { kept_ = std::move(nodes); }
 
   const Tracked& side(int i) const { return side_[i]; }
@@ -68,15 +76,15 @@ class Tracker : private NodePlacer {
   /// Velocity of a node, m/s, components in the BRF of surface b; zero after find, which knows no motion.
   Eigen::Vector3d velocity(int i, int node);
 
-  /// Keeps the positions of the nodes placed since the last call of follow, for moved.
+  /// Keeps the positions of the nodes placed since the last call of move_to, for moved.
   void remember();
   /// How far a node has moved since then, m, in the frame of all positions; nothing where it was not placed.
   std::optional<Eigen::Vector3d> moved(int i, int node) const;
 
   int n_searches() const { return n_searches_; }
-  int n_displaced() const { return n_displaced_; }  ///< in the last call of follow
+  int n_displaced() const { return n_displaced_; }  ///< since the last call of move_to
 
-  /// All that later calls of follow take from earlier ones.
+  /// All that later calls of find_near take from earlier ones.
   void serialize(Archive& archive);
 
  private:
@@ -114,8 +122,11 @@ class Tracker : private NodePlacer {
   std::array<std::vector<int>, 2> kept_;
   const SurfaceMotion* now_[2] = {};                               // while contacts are detected by motions
   const std::array<ResidualDisplacement, 2>* residual_ = nullptr;  // beside them
-  bool has_residual_ = false;                                      // did anything in the last call of follow?
+  bool has_residual_ = false;  // did anything in the last call of move_to?
   double residual_since_found_ = 0, residual_since_measured_ = 0;  // m, bounds of the change
+  SurfaceMotion seen_at_[2];                                       // in the last call of find_near,
+  bool is_seen_ = false;                                           // unless that is forgotten
+  double residual_since_seen_ = 0;                                 // m, bound of the change
   struct Deformed {  // X + Phi q of the nodes with the stamp of this stage, within which only residual
                      // displacements change
     Eigen::VectorXd q;

@@ -52,6 +52,7 @@ void Tracker::serialize(Archive& archive) {
   archive(then.uses);
   archive(has_residual_);
   if (!archive.is_loading()) return;
+  forget_near();
   if (has_residual_) return neighbours_.reset();  // the residual displacement of that time is not known
   for (int i : {0, 1}) now_[i] = &then.found_at[i];
   find_candidates();

@@ -35,6 +35,7 @@ SystemContact::SystemContact(const SystemModel& model) : pairs_(model.pairs), re
                             std::array{&a.eq.body->K_r, &b.eq.body->K_r},
                             std::array{a.true_surface.get(), b.true_surface.get()},
                             std::array{responds(*a.eq.body), responds(*b.eq.body)});
+    detectors_.back().follow_points();
     if (pair.settings.law != contact::ContactLaw::augmented) continue;
     for (int side : {0, 1}) detectors_.back().set_masses(side, node_masses(*(side == 0 ? a : b).eq.body));
   }
@@ -84,7 +85,10 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
   if (time != time_)
-    for (contact::Pair& pair : detectors_) pair.release_minima();
+    for (contact::Pair& pair : detectors_) {
+      pair.release_minima();
+      pair.look_at_all();
+    }
   detect(motion);
   if (unilateral_ || residual_contact_.any()) solve(motion);
   U_ = U;
