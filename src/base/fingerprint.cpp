@@ -20,20 +20,26 @@ void Fingerprint::add(const std::string& text) {
   for (char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
 }
 
-// Four chains, none of which waits for another.
-void Fingerprint::add_block(const double* numbers, std::size_t n) {
-  Fingerprint chain[4];
-  for (std::size_t i = 0; i + 4 <= n; i += 4)
-    for (std::size_t k = 0; k < 4; ++k) chain[k].add(numbers[i + k]);
-  for (std::size_t i = n - n % 4; i < n; ++i) chain[0].add(numbers[i]);
+void Fingerprint::add_block(const double* numbers, std::size_t n) { add_block(block_digest(numbers, n), n); }
+
+void Fingerprint::add_block(const std::array<std::uint64_t, 4>& digest, std::size_t n) {
   add(static_cast<std::uint64_t>(n));
-  for (const Fingerprint& c : chain) add(c.value());
+  for (std::uint64_t chain : digest) add(chain);
 }
 
 std::string Fingerprint::text() const {
   char digits[17];
   std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
   return digits;
+}
+
+// Four chains, none of which waits for another.
+std::array<std::uint64_t, 4> block_digest(const double* numbers, std::size_t n) {
+  Fingerprint chain[4];
+  for (std::size_t i = 0; i + 4 <= n; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) chain[k].add(numbers[i + k]);
+  for (std::size_t i = n - n % 4; i < n; ++i) chain[0].add(numbers[i]);
+  return {chain[0].value(), chain[1].value(), chain[2].value(), chain[3].value()};
 }
 
 }  // namespace elastogear

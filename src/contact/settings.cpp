@@ -23,9 +23,7 @@ constexpr double kCompliance = 1e-4;  // of the penalty's, that is left without 
 // flank.
 constexpr double kSharedBoundary = 1e-2, kRigidSharedBoundary = 1e-4;
 
-bool is_rigid(const model::Surface& surface) {
-  return std::visit([](const auto& rows) { return rows.cols(); }, surface.Phi) == 0;
-}
+bool is_rigid(const model::Surface& surface) { return model::column_count(surface.Phi) == 0; }
 
 }  // namespace
 
@@ -113,7 +111,7 @@ void validate(const SurfaceState& state, const model::Surface& surface, int side
 }
 
 void validate(const SurfaceMotion& motion, const model::Surface& surface, int side) {
-  const Eigen::Index n_q = std::visit([](const auto& rows) { return rows.cols(); }, surface.Phi);
+  const Eigen::Index n_q = model::column_count(surface.Phi);
   require(motion.q.size() == n_q, kSurfaceName[side], ": ", motion.q.size(),
           " elastic coordinates given, the surface has ", n_q);
   require(motion.q_dot.size() == 0 || motion.q_dot.size() == n_q, kSurfaceName[side], ": ",

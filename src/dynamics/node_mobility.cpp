@@ -25,7 +25,8 @@ Eigen::VectorXd mobility(const model::SparseRows& Phi, const Eigen::VectorXd& fl
 
 Eigen::VectorXd elastic_mobility(const model::ElasticBody& body) {
   const Eigen::VectorXd flexibility = Eigen::VectorXd(body.M_r.diagonal()).cwiseInverse();
-  return std::visit([&](const auto& Phi) { return mobility(Phi, flexibility); }, body.surface.Phi);
+  if (const model::RowBounds* bounds = model::known_bounds(body.surface.Phi)) return bounds->mobility;
+  return model::with_rows(body.surface.Phi, [&](const auto& Phi) { return mobility(Phi, flexibility); });
 }
 
 Eigen::VectorXd node_masses(const model::ElasticBody& body) {

@@ -135,13 +135,18 @@ double row_size(const model::Surface& surface) {
   const Eigen::Index n = surface.X.cols(), step = 1 + n / kNodes;
   double sum = 0;
   Eigen::Index count = 0;
-  std::visit(
-      [&](const auto& Phi) {
-        if (Phi.cols() == 0) return;
-        for (Eigen::Index node = 0; node < n; node += step, ++count)
-          sum += Phi.middleRows(3 * node, 3).squaredNorm();
-      },
-      surface.Phi);
+  const model::RowBounds* known = model::known_bounds(surface.Phi);
+  const auto* sparse = std::get_if<model::SparseRows>(&surface.Phi);
+  const Eigen::Index n_q = model::column_count(surface.Phi);
+  for (Eigen::Index node = 0; node < n && n_q > 0; node += step, ++count) {
+    if (known)
+      sum += known->square[node];
+    else if (sparse)
+      sum += sparse->middleRows(3 * node, 3).squaredNorm();
+    else
+      sum += Eigen::Map<const Eigen::VectorXd>(model::node_rows(surface.Phi, static_cast<int>(node)), 3 * n_q)
+                 .squaredNorm();
+  }
   return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 

@@ -24,7 +24,7 @@ bool finite(const Rows& rows) {
 }
 
 bool finite(const BasisRows& rows) {
-  return std::visit([](const auto& r) { return finite(r); }, rows);
+  return with_rows(rows, [](const auto& r) { return finite(r); });
 }
 
 bool in_range(const std::vector<int>& numbers, int n) {
@@ -43,8 +43,8 @@ void validate_inertia(const Inertia& inertia, Eigen::Index n_q, const std::strin
   require(inertia.S_2.empty() || inertia.S_2.size() == 6, source, ": S_2 has ", inertia.S_2.size(),
           " matrices, must have none or 6");
   for (const BasisRows& S : inertia.S_2)
-    require(row_count(S) == n_q && std::visit([](const auto& r) { return r.cols(); }, S) == n_q && finite(S),
-            source, ": S_2 is not finite or not square of size n_q = ", n_q);
+    require(row_count(S) == n_q && column_count(S) == n_q && finite(S), source,
+            ": S_2 is not finite or not square of size n_q = ", n_q);
 }
 
 // Returns whether the side of a cell is left out or has six or eight nodes, with those of the face among
@@ -64,8 +64,8 @@ void validate_surface(const Surface& surface, Eigen::Index n_q, const std::strin
   const auto n_f = surface.face.cols();
   require(surface.X.cols() == n_s && row_count(surface.Phi) == 3 * n_s, source,
           ": surface arrays do not all have ", n_s, " nodes");
-  require(std::visit([](const auto& r) { return r.cols(); }, surface.Phi) == n_q || n_s == 0, source,
-          ": surface basis does not have n_q = ", n_q, " columns");
+  require(column_count(surface.Phi) == n_q || n_s == 0, source, ": surface basis does not have n_q = ", n_q,
+          " columns");
   require(n_f == 0 || (surface.face.minCoeff() >= 0 && surface.face.maxCoeff() < n_s), source,
           ": surface face names a node outside 0..", n_s - 1);
   require(surface.side.cols() == 0 || surface.side.cols() == n_f, source, ": surface sides do not have ", n_f,
@@ -84,8 +84,8 @@ void validate_stress(const Stress& stress, Eigen::Index n_q, const std::string& 
   const auto n_e = static_cast<int>(stress.node.size());
   require(stress.X.cols() == n_e && row_count(stress.Psi) == 6 * n_e, source,
           ": stress arrays do not all have ", n_e, " nodes");
-  require(std::visit([](const auto& r) { return r.cols(); }, stress.Psi) == n_q || n_e == 0, source,
-          ": stress modes do not have n_q = ", n_q, " columns");
+  require(column_count(stress.Psi) == n_q || n_e == 0, source, ": stress modes do not have n_q = ", n_q,
+          " columns");
   for (const auto& [name, members] : stress.sets)
     require(in_range(members, n_e), source, ": stress set '", name, "' names a node outside 0..", n_e - 1);
 }
@@ -96,9 +96,8 @@ void validate_markers(const std::vector<Marker>& markers, Eigen::Index n_q, cons
     require(!marker.name.empty() && names.insert(marker.name).second, source, ": two markers are named '",
             marker.name, "'");
     require(marker.X.allFinite() && finite(marker.Phi), source, ": marker '", marker.name, "' is not finite");
-    require(
-        row_count(marker.Phi) == 6 && std::visit([](const auto& r) { return r.cols(); }, marker.Phi) == n_q,
-        source, ": marker '", marker.name, "' does not have 6 rows of n_q = ", n_q, " entries");
+    require(row_count(marker.Phi) == 6 && column_count(marker.Phi) == n_q, source, ": marker '", marker.name,
+            "' does not have 6 rows of n_q = ", n_q, " entries");
   }
 }
 
@@ -171,24 +170,44 @@ Eigen::Index row_count(const BasisRows& rows) {
   return std::visit([](const auto& r) { return r.rows(); }, rows);
 }
 
+Eigen::Index column_count(const BasisRows& rows) {
+  return std::visit([](const auto& r) { return r.cols(); }, rows);
+}
+
+const DenseRows* dense_rows(const BasisRows& rows) {
+  if (const auto* lazy = std::get_if<LazyRows>(&rows)) return &lazy->all();
+  return std::get_if<DenseRows>(&rows);
+}
+
+const RowBounds* known_bounds(const BasisRows& rows) {
+  const auto* lazy = std::get_if<LazyRows>(&rows);
+  return lazy ? &lazy->bounds() : nullptr;
+}
+
+const double* node_rows(const BasisRows& Phi, int node) {
+  if (const auto* lazy = std::get_if<LazyRows>(&Phi)) return lazy->node(node);
+  return std::get<DenseRows>(Phi).row(3 * node).data();
+}
+
 Eigen::VectorXd multiply(const BasisRows& rows, const Eigen::VectorXd& q) {
-  return std::visit([&](const auto& r) -> Eigen::VectorXd { return r * q; }, rows);
+  return with_rows(rows, [&](const auto& r) -> Eigen::VectorXd { return r * q; });
 }
 
 Eigen::VectorXd multiply_transposed(const BasisRows& rows, const Eigen::VectorXd& x) {
-  return std::visit([&](const auto& r) -> Eigen::VectorXd { return r.transpose() * x; }, rows);
+  return with_rows(rows, [&](const auto& r) -> Eigen::VectorXd { return r.transpose() * x; });
 }
 
 Eigen::Vector3d displacement(const BasisRows& Phi, int node, const Eigen::VectorXd& q) {
-  if (const auto* dense = std::get_if<DenseRows>(&Phi))
-    return three_products(dense->row(3 * node).data(), q.data(), q.size());
-  return std::get<SparseRows>(Phi).middleRows(3 * node, 3) * q;
+  if (const auto* sparse = std::get_if<SparseRows>(&Phi)) return sparse->middleRows(3 * node, 3) * q;
+  return three_products(node_rows(Phi, node), q.data(), q.size());
 }
 
 void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::Ref<Eigen::VectorXd> h) {
-  if (const auto* dense = std::get_if<DenseRows>(&Phi))
-    return add_three_rows(dense->row(3 * node).data(), f, h.data(), h.size());
-  h += std::get<SparseRows>(Phi).middleRows(3 * node, 3).transpose() * f;
+  if (const auto* sparse = std::get_if<SparseRows>(&Phi)) {
+    h += sparse->middleRows(3 * node, 3).transpose() * f;
+    return;
+  }
+  add_three_rows(node_rows(Phi, node), f, h.data(), h.size());
 }
 
 Eigen::Matrix3d J_1(const Inertia& inertia, int k) {

@@ -15,6 +15,8 @@ void add_sparse(Fingerprint& f, const Sparse& A) {
 }
 
 void add(Fingerprint& f, const BasisRows& rows) {
+  if (const RowBounds* bounds = known_bounds(rows))
+    return f.add_block(bounds->digest, static_cast<std::size_t>(row_count(rows) * column_count(rows)));
   if (const auto* dense = std::get_if<DenseRows>(&rows))
     return f.add_block(dense->data(), static_cast<std::size_t>(dense->size()));
   add_sparse(f, std::get<SparseRows>(rows));

@@ -74,7 +74,7 @@ std::optional<CreptResponse> crept_response(const BodyOfRun& body, const model::
   const model::ForceHistory all = with_nodes(forces, start.node);
   const body::Moduli moduli = moduli_of_run(elastic, body.history);
   const VectorXd time = io::read_times(body.result);
-  const auto& Phi = std::get<model::DenseRows>(elastic.surface.Phi);
+  const model::DenseRows& Phi = *model::dense_rows(elastic.surface.Phi);
   const MatrixXd zero = MatrixXd::Zero(all.force.rows(), all.force.cols());
   CreptResponse crept{{}, std::vector<CreptForces>(relaxed.size(), {zero, {}, {}})};
   std::vector<MatrixXd> h(relaxed.size(), MatrixXd::Zero(elastic.n_q(), all.force.cols()));

@@ -52,15 +52,13 @@ void join(Peaks& peaks, const Peaks& others) {
 
 Eigen::MatrixXd upper_modes_stress(const model::Stress& stress, const std::vector<int>& members) {
   Eigen::MatrixXd result;
-  std::visit(
-      [&](const auto& Psi) {
-        const Eigen::Index n = Psi.cols() - Psi.cols() / 2;
-        result.resize(static_cast<Eigen::Index>(members.size()), n);
-        for (std::size_t i = 0; i < members.size(); ++i)
-          result.row(static_cast<Eigen::Index>(i)) =
-              von_mises(Eigen::MatrixXd(Eigen::MatrixXd(Psi.middleRows(6 * members[i], 6)).rightCols(n)));
-      },
-      stress.Psi);
+  model::with_rows(stress.Psi, [&](const auto& Psi) {
+    const Eigen::Index n = Psi.cols() - Psi.cols() / 2;
+    result.resize(static_cast<Eigen::Index>(members.size()), n);
+    for (std::size_t i = 0; i < members.size(); ++i)
+      result.row(static_cast<Eigen::Index>(i)) =
+          von_mises(Eigen::MatrixXd(Eigen::MatrixXd(Psi.middleRows(6 * members[i], 6)).rightCols(n)));
+  });
   return result.cwiseAbs2();
 }
 

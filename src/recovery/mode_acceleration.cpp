@@ -6,12 +6,10 @@ Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::Matrix
                              const model::ForceHistory& forces) {
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(q.rows(), q.cols());
   for (std::size_t i = 0; i < forces.node.size(); ++i)
-    std::visit(
-        [&](const auto& Phi) {
-          h += Phi.middleRows(3 * forces.node[i], 3).transpose() *
-               forces.force.middleRows(3 * static_cast<Eigen::Index>(i), 3);
-        },
-        body.surface.Phi);
+    model::with_rows(body.surface.Phi, [&](const auto& Phi) {
+      h += Phi.middleRows(3 * forces.node[i], 3).transpose() *
+           forces.force.middleRows(3 * static_cast<Eigen::Index>(i), 3);
+    });
   return q - body.K_r.diagonal().cwiseInverse().asDiagonal() * h;
 }
 

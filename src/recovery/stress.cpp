@@ -76,7 +76,7 @@ Eigen::MatrixXd modal_stress(const model::Stress& stress, const std::vector<int>
                              const Coordinates& q) {
   const auto n = static_cast<Eigen::Index>(members.size());
   Eigen::MatrixXd sigma(6 * n, q.cols());
-  std::visit([&](const auto& Psi) { multiply_rows(Psi, members, q, sigma); }, stress.Psi);
+  model::with_rows(stress.Psi, [&](const auto& Psi) { multiply_rows(Psi, members, q, sigma); });
   return sigma;
 }
 

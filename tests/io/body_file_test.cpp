@@ -7,6 +7,8 @@
 #include "elastogear/base/file.h"
 #include "elastogear/io/describe.h"
 #include "elastogear/model/fingerprint.h"
+#include "elastogear/model/row_bounds.h"
+#include "io/hdf5/hdf5.h"
 #include "sample_body.h"
 
 namespace elastogear::body_file_test {
@@ -22,8 +24,8 @@ bool equal_sparse(const Sparse& A, const Sparse& B) {
 }
 
 bool equal(const model::BasisRows& a, const model::BasisRows& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* dense = std::get_if<model::DenseRows>(&a)) return *dense == std::get<model::DenseRows>(b);
+  const model::DenseRows *x = model::dense_rows(a), *y = model::dense_rows(b);
+  if (x || y) return x && y && *x == *y;
   return equal_sparse(std::get<model::SparseRows>(a), std::get<model::SparseRows>(b));
 }
 
@@ -91,6 +93,71 @@ TEST_F(BodyFile, read_for_motion_lacks_nothing_but_stress) {
   ASSERT_FALSE(body.stress.node.empty());
   body.stress = {};
   expect_equal(read_body(path, BodyUse::motion), body);
+}
+
+// Opens the file again, to change it.
+template <class Change>
+void change(const std::string& path, const Change& change_file) {
+  const h5::Id file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+  ASSERT_GE(file, 0);
+  change_file(file);
+}
+
+TEST_F(BodyFile, read_for_motion_knows_bounds_of_rows_and_reads_those_that_are_asked_for) {
+  const model::ElasticBody body = sample_modal_body();
+  write_modal(path, body, sample_modes());
+  const model::ElasticBody read = read_body(path, BodyUse::motion);
+  const model::RowBounds* known = model::known_bounds(read.surface.Phi);
+  ASSERT_TRUE(known);
+  const std::optional<model::RowBounds> bounds = model::row_bounds(body);
+  EXPECT_TRUE(known->compliance == bounds->compliance && known->mobility == bounds->mobility &&
+              known->square == bounds->square && known->largest == bounds->largest);
+  EXPECT_EQ(known->strain, bounds->strain);
+  EXPECT_EQ(model::fingerprint(read), model::fingerprint(body));
+  std::remove(path.c_str());  // the file stays open
+  const Eigen::Vector3d q(1, -2, 0.5);
+  for (int node = 0; node < body.surface.X.cols(); ++node)
+    EXPECT_EQ(model::displacement(read.surface.Phi, node, q), model::displacement(body.surface.Phi, node, q));
+}
+
+TEST_F(BodyFile, bounds_of_other_rows_are_refused_when_rows_are_read) {
+  for (const char* name :
+       {"/surface/bounds/compliance", "/surface/bounds/mobility", "/surface/bounds/square"}) {
+    write_modal(path, sample_modal_body(), sample_modes());
+    change(path, [&](hid_t file) {
+      const h5::Id dataset(H5Dopen(file, name, H5P_DEFAULT));
+      const Eigen::VectorXd ones = Eigen::VectorXd::Ones(5);
+      EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, ones.data()), 0);
+    });
+    const model::ElasticBody read = read_body(path, BodyUse::motion);
+    EXPECT_THROW(model::displacement(read.surface.Phi, 2, Eigen::Vector3d(1, 2, 3)), Error) << name;
+  }
+}
+
+TEST_F(BodyFile, without_bounds_of_rows_reads_all_of_them) {
+  model::ElasticBody body = sample_modal_body();
+  write_modal(path, body, sample_modes());
+  change(path, [](hid_t file) { EXPECT_GE(H5Ldelete(file, "/surface/bounds", H5P_DEFAULT), 0); });
+  const model::ElasticBody read = read_body(path, BodyUse::motion);
+  EXPECT_FALSE(model::known_bounds(read.surface.Phi));
+  body.stress = {};
+  expect_equal(read, body);
+}
+
+TEST_F(BodyFile, blocks_of_zeros_are_not_stored) {
+  constexpr Eigen::Index kModes = 600;  // three blocks along the diagonal
+  model::ElasticBody body = sample_modal_body(kModes);
+  body.K_r.coeffRef(3, 580) = 2;
+  write_modal(path, body, sample_modes(kModes));
+  expect_equal(read_body(path), body);
+  change(path, [](hid_t file) {
+    for (const auto& [name, blocks] : {std::pair{"/reduced/M", 3}, std::pair{"/reduced/K", 4}}) {
+      const h5::Id dataset(H5Dopen(file, name, H5P_DEFAULT)), space(H5Dget_space(dataset));
+      hsize_t n = 0;
+      EXPECT_GE(H5Dget_num_chunks(dataset, space, &n), 0);
+      EXPECT_EQ(n, static_cast<hsize_t>(blocks)) << name;
+    }
+  });
 }
 
 TEST_F(BodyFile, gives_second_moments_back) {

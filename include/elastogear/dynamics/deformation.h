@@ -2,6 +2,7 @@
 // How much a body is deformed: rotation and strain, which the theory takes to be small (docs/theory.md,
 // section 8.5).
 
+#include <functional>
 #include <memory>
 
 #include "elastogear/contact/deformation_bound.h"
@@ -18,8 +19,11 @@ class DeformationWatch {
   double largest(const Eigen::VectorXd& q, double limit) const;
 
  private:
-  std::unique_ptr<const model::BasisRows> rows_;  // 3 n x n_q
-  contact::DeformationBound bound_;               // of these rows
+  void read_edges() const;
+
+  mutable std::unique_ptr<const model::BasisRows> rows_;  // 3 n x n_q
+  mutable std::function<model::DenseRows()> edges_;       // the rows of the edges, while they are not read
+  mutable contact::DeformationBound bound_;               // of all rows
 };
 
 }  // namespace elastogear::dynamics

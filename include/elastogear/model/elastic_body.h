@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "elastogear/model/flexibility.h"
+#include "elastogear/model/lazy_rows.h"
 #include "elastogear/model/viscoelastic.h"
 
 namespace elastogear::model {
@@ -17,12 +18,24 @@ namespace elastogear::model {
 /// modal: eigenmodes of the restrained body. full: unit basis, every free finite-element degree of freedom.
 enum class Basis { modal, full };
 
-/// Rows of a basis at selected nodes, blocks of 3 (Phi: x y z) or 6 (Psi: xx yy zz xy yz xz) per node.
-using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using BasisRows = std::variant<DenseRows, SparseRows>;  ///< dense: reduced bases, sparse: full basis
+/// Dense or lazy: reduced bases, lazy only at surface nodes; sparse: full basis.
+using BasisRows = std::variant<DenseRows, SparseRows, LazyRows>;
 
 Eigen::Index row_count(const BasisRows& rows);
+Eigen::Index column_count(const BasisRows& rows);
+/// All rows of a reduced basis, which are read where they are not yet; null for those of the full basis.
+const DenseRows* dense_rows(const BasisRows& rows);
+/// Of rows that may not have been read; or null.
+const RowBounds* known_bounds(const BasisRows& rows);
+/// The three rows of a node one after the other, of a reduced basis.
+const double* node_rows(const BasisRows& Phi, int node);
+/// Calls `use` with all rows, dense or sparse, and returns what it returns.
+template <class Use>
+auto with_rows(const BasisRows& rows, const Use& use) {
+  if (const auto* sparse = std::get_if<SparseRows>(&rows)) return use(*sparse);
+  return use(*dense_rows(rows));
+}
 /// rows * q
 Eigen::VectorXd multiply(const BasisRows& rows, const Eigen::VectorXd& q);
 /// rows' * x

@@ -1,37 +1,22 @@
 #include "elastogear/dynamics/deformation.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "elastogear/body/affine.h"
+#include "elastogear/model/row_bounds.h"
 
 namespace elastogear::dynamics {
 namespace {
 
 using Eigen::Index;
 using model::DenseRows;
+using model::Edge;
 using model::SparseRows;
 
-constexpr Index kMostFaces = 100;  // whose edges are watched
-
-struct Edge {
-  Index node[2];
-  double length;  // m
-};
-
-// Two sides of some faces all over the surface.
-std::vector<Edge> some_edges(const model::Surface& surface) {
-  std::vector<Edge> edges;
-  const Index n_f = surface.face.cols(), stride = std::max<Index>(1, n_f / kMostFaces);
-  for (Index f = 0; f < n_f; f += stride)
-    for (int i : {0, 1, 2}) {
-      const int a = surface.face(i, f), b = surface.face(i + 1, f);
-      const double length = (surface.X.col(a) - surface.X.col(b)).norm();
-      if (length > 0) edges.push_back({{a, b}, length});
-    }
-  return edges;
-}
-
 // Differences of the edges' ends over their length.
-SparseRows edge_operator(const std::vector<Edge>& edges, Index n_rows) {
-  SparseRows difference(3 * static_cast<Index>(edges.size()), n_rows);
+SparseRows edge_rows(const SparseRows& Phi, const std::vector<Edge>& edges) {
+  SparseRows difference(3 * static_cast<Index>(edges.size()), Phi.rows());
   std::vector<Eigen::Triplet<double>> entries;
   for (Index row = 0; const Edge& edge : edges)
     for (int d : {0, 1, 2}) {
@@ -39,7 +24,7 @@ SparseRows edge_operator(const std::vector<Edge>& edges, Index n_rows) {
       entries.emplace_back(row++, 3 * edge.node[1] + d, -1 / edge.length);
     }
   difference.setFromTriplets(entries.begin(), entries.end());
-  return difference;
+  return difference * Phi;
 }
 
 void append(const DenseRows& part, DenseRows& all) {
@@ -56,34 +41,73 @@ void append(const SparseRows& part, SparseRows& all) {
 
 template <class Rows>
 Rows rotation_rows(const model::Marker& marker) {
-  return std::visit(
-      [](const auto& Phi) -> Rows {
-        return Rows(DenseRows(Phi)(Eigen::seqN(3, 3), Eigen::all).sparseView());
-      },
-      marker.Phi);
+  return model::with_rows(marker.Phi, [](const auto& Phi) -> Rows {
+    return Rows(DenseRows(Phi)(Eigen::seqN(3, 3), Eigen::all).sparseView());
+  });
 }
 
+bool has_faces(const model::Surface& surface) {
+  return model::row_count(surface.Phi) > 0 && surface.face.cols() > 0;
+}
+
+// Rows of the markers and of the body as a whole.
 template <class Rows>
-std::unique_ptr<const model::BasisRows> watched(const model::ElasticBody& body) {
-  Rows all(0, body.n_q());
-  const auto* Phi = std::get_if<Rows>(&body.surface.Phi);
-  const bool has_surface = Phi && Phi->rows() > 0 && body.surface.face.cols() > 0;
-  if (has_surface) append(Rows(edge_operator(some_edges(body.surface), Phi->rows()) * *Phi), all);
+void append_others(const model::ElasticBody& body, bool with_whole, Rows& all) {
   for (const model::Marker& marker : body.markers) append(rotation_rows<Rows>(marker), all);
-  const bool cheap = std::is_same_v<Rows, DenseRows> || !has_surface;
-  if (cheap && body.n_q() > 0) append(Rows(body::mean_gradient(body.inertia).sparseView()), all);
-  return std::make_unique<const model::BasisRows>(std::move(all));
+  if (with_whole && body.n_q() > 0) append(Rows(body::mean_gradient(body.inertia).sparseView()), all);
+}
+
+model::BasisRows watched_of_full(const model::ElasticBody& body) {
+  SparseRows all(0, body.n_q());
+  const auto* Phi = std::get_if<SparseRows>(&body.surface.Phi);
+  const bool has_surface = Phi && has_faces(body.surface);
+  if (has_surface) append(edge_rows(*Phi, model::watched_edges(body.surface)), all);
+  append_others(body, !has_surface, all);
+  return all;
+}
+
+model::BasisRows watched_of_reduced(const model::ElasticBody& body, bool with_edges) {
+  DenseRows all(0, body.n_q());
+  if (with_edges) append(model::edge_rows(body.surface.Phi, model::watched_edges(body.surface)), all);
+  append_others(body, true, all);
+  return all;
+}
+
+model::BasisRows watched(const model::ElasticBody& body) {
+  if (body.basis == model::Basis::full) return watched_of_full(body);
+  const bool is_known = model::known_bounds(body.surface.Phi) != nullptr,
+             is_sparse = std::holds_alternative<SparseRows>(body.surface.Phi);
+  return watched_of_reduced(body, has_faces(body.surface) && !is_known && !is_sparse);
 }
 
 }  // namespace
 
 DeformationWatch::DeformationWatch(const model::ElasticBody& body)
-    : rows_(body.basis == model::Basis::full ? watched<SparseRows>(body) : watched<DenseRows>(body)),
-      bound_(contact::deformation_bound(*rows_, body.K_r)) {}
+    : rows_(std::make_unique<const model::BasisRows>(watched(body))),
+      bound_(contact::deformation_bound(*rows_, body.K_r)) {
+  const model::RowBounds* known = model::known_bounds(body.surface.Phi);
+  if (!known || !has_faces(body.surface)) return;
+  edges_ = [Phi = body.surface.Phi, edges = model::watched_edges(body.surface)] {
+    return model::edge_rows(Phi, edges);
+  };
+  if (bound_.stiffness.size() > 0)
+    bound_.compliance = std::max(bound_.compliance, known->strain);
+  else
+    read_edges();
+}
+
+void DeformationWatch::read_edges() const {
+  DenseRows all = std::get<DenseRows>(*rows_);
+  append(std::exchange(edges_, nullptr)(), all);
+  rows_ = std::make_unique<const model::BasisRows>(std::move(all));
+  bound_.Phi = rows_.get();
+}
 
 double DeformationWatch::largest(const Eigen::VectorXd& q, double limit) const {
   const double bound = contact::largest_displacement(bound_, q);
-  return bound > limit ? contact::largest_displacement({rows_.get(), {}, 0}, q) : bound;
+  if (!(bound > limit)) return bound;
+  if (edges_) read_edges();
+  return contact::largest_displacement({rows_.get(), {}, 0}, q);
 }
 
 }  // namespace elastogear::dynamics

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::size_t kMostBlocks = 4'000'000;  // that are kept: 288 MB
 
-const model::DenseRows& modes(const model::ElasticBody& body) {
-  return std::get<model::DenseRows>(body.surface.Phi);
-}
-
 // A B' of three rows each, n numbers one after the other. All nine sums at once: every number is read once.
 Eigen::Matrix3d product(const double* A, const double* B, Eigen::Index n) {
   using Two = Eigen::Array2d;
@@ -86,7 +82,8 @@ int ResidualFlexibility::number(int node) {
   if (position < 0) return -1;
   at->second = static_cast<int>(loaded_.size());
   const int orbit = flexibility.surface.orbit[position];
-  const auto Phi = modes(*body_).middleRows<3>(3 * node);
+  const auto Phi =
+      Eigen::Map<const model::DenseRows>(model::node_rows(body_->surface.Phi, node), 3, body_->n_q());
   loaded_.push_back(
       {position, {&columns(orbit), Phi * body_->K_r.diagonal().cwiseInverse().asDiagonal()}, {}});
   for (std::size_t k = 0; k < states_.size(); ++k) {
@@ -114,7 +111,7 @@ Eigen::Matrix3d ResidualFlexibility::residual(int a, const Response& b, int posi
   const int position = model::find_loaded(body_->flexibility, a);
   if (position < 0) return Eigen::Matrix3d::Zero();
   return model::displacement_response(body_->flexibility, position, position_b, *b.F) -
-         product(modes(*body_).row(3 * a).data(), b.Phi_over_K.data(), b.Phi_over_K.cols());
+         product(model::node_rows(body_->surface.Phi, a), b.Phi_over_K.data(), b.Phi_over_K.cols());
 }
 
 // Block R_0(a, b) of the node with this number. It is the same to the bit whenever it is computed.

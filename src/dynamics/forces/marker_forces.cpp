@@ -152,8 +152,8 @@ MatrixXd MarkerForces::columns(std::size_t b) const {
   MatrixXd all(bodies_[b].body->n_q(), 6 * marker_count(number));
   for (const Place& place : place_) {
     if (place.body != number || !place.marker) continue;
-    std::visit([&](const auto& rows) { all.middleCols(place.row, 6) = MatrixXd(rows).transpose(); },
-               place.marker->Phi);
+    model::with_rows(place.marker->Phi,
+                     [&](const auto& rows) { all.middleCols(place.row, 6) = MatrixXd(rows).transpose(); });
   }
   return all;
 }

@@ -37,13 +37,14 @@ bool is_factorisation(KSP ksp, PC pc) {
 }
 
 // The rows of the nodes times X, 3 n x m, into the last rows of P.
-void project_on(const model::DenseRows& Phi, const std::vector<int>& node, const Eigen::MatrixXd& X,
+void project_on(const model::BasisRows& Phi, const std::vector<int>& node, const Eigen::MatrixXd& X,
                 Eigen::MatrixXd& P) {
-  model::DenseRows rows(3 * static_cast<Eigen::Index>(node.size()), Phi.cols());
+  model::DenseRows rows(3 * static_cast<Eigen::Index>(node.size()), model::column_count(Phi));
   P.bottomRows(rows.rows()).setZero();
   if (rows.size() == 0) return;
   for (std::size_t i = 0; i < node.size(); ++i)
-    rows.middleRows<3>(3 * static_cast<Eigen::Index>(i)) = Phi.middleRows<3>(3 * node[i]);
+    std::copy_n(model::node_rows(Phi, node[i]), 3 * rows.cols(),
+                rows.row(3 * static_cast<Eigen::Index>(i)).data());
   const auto n = static_cast<PetscBLASInt>(rows.rows()), m = static_cast<PetscBLASInt>(X.cols()),
              n_q = static_cast<PetscBLASInt>(rows.cols()), ld = static_cast<PetscBLASInt>(P.rows());
   const double one = 1, none = 0;
@@ -81,7 +82,10 @@ Eigen::MatrixXd BorderColumns::project(const std::vector<int>& node, const Eigen
           model::displacement(*Phi_, node[i], X.col(0));
     return P;
   }
-  std::visit([&](const auto& rows) { project_on(rows, node, X, P); }, *Phi_);
+  if (const auto* sparse = std::get_if<model::SparseRows>(Phi_))
+    project_on(*sparse, node, X, P);
+  else
+    project_on(*Phi_, node, X, P);
   return P;
 }
 
@@ -94,13 +98,14 @@ Eigen::VectorXd BorderColumns::expand(const std::vector<int>& node, const Eigen:
 
 Eigen::MatrixXd BorderColumns::node_columns(const std::vector<int>& node) const {
   Eigen::MatrixXd columns(U_.rows(), 3 * static_cast<Eigen::Index>(node.size()));
-  std::visit(
-      [&](const auto& rows) {
-        for (std::size_t i = 0; i < node.size(); ++i)
-          columns.middleCols(3 * static_cast<Eigen::Index>(i), 3) =
-              rows.middleRows(3 * node[i], 3).transpose();
-      },
-      *Phi_);
+  const auto* sparse = std::get_if<model::SparseRows>(Phi_);
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    auto three = columns.middleCols(3 * static_cast<Eigen::Index>(i), 3);
+    if (sparse)
+      three = sparse->middleRows(3 * node[i], 3).transpose();
+    else
+      three = Eigen::Map<const model::DenseRows>(model::node_rows(*Phi_, node[i]), 3, U_.rows()).transpose();
+  }
   return columns;
 }
 

@@ -39,9 +39,10 @@ double reach(const System::Body& body) {
 Eigen::VectorXd amplitudes(const model::ElasticBody& body) {
   if (body.basis == model::Basis::full) return Eigen::VectorXd::Ones(body.n_q());
   Eigen::VectorXd q = (body.inertia.m / Eigen::VectorXd(body.M_r.diagonal()).array()).sqrt();
-  const auto* Phi = std::get_if<model::DenseRows>(&body.surface.Phi);
-  if (!Phi || Phi->rows() == 0) return q;
-  const Eigen::VectorXd largest = Phi->cwiseAbs().colwise().maxCoeff();
+  if (model::row_count(body.surface.Phi) == 0) return q;
+  const model::RowBounds* known = model::known_bounds(body.surface.Phi);
+  const Eigen::VectorXd largest =
+      known ? known->largest : model::dense_rows(body.surface.Phi)->cwiseAbs().colwise().maxCoeff();
   for (Eigen::Index k = 0; k < q.size(); ++k)
     if (largest[k] > 0) q[k] = 1 / largest[k];
   return q;

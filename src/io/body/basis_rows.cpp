@@ -53,7 +53,7 @@ SparseRows read_sparse(const h5::File& file, const std::string& group) {
 void write_rows(const h5::File& file, const std::string& name, const model::BasisRows& rows, int block,
                 const std::string& unit) {
   if (const auto* sparse = std::get_if<SparseRows>(&rows)) return write_sparse(file, name, *sparse, unit);
-  const auto& dense = std::get<DenseRows>(rows);
+  const DenseRows& dense = *model::dense_rows(rows);
   h5::write<double>(
       file, name, {{extent(dense.rows() / block), extent(block), extent(dense.cols())}, dense.data()}, unit);
 }
@@ -73,7 +73,7 @@ model::BasisRows read_rows(const h5::File& file, const std::string& name, int bl
 void write_matrix(const h5::File& file, const std::string& name, const model::BasisRows& matrix,
                   const std::string& unit) {
   if (const auto* sparse = std::get_if<SparseRows>(&matrix)) return write_sparse(file, name, *sparse, unit);
-  const auto& dense = std::get<DenseRows>(matrix);
+  const DenseRows& dense = *model::dense_rows(matrix);
   h5::write<double>(file, name, {{extent(dense.rows()), extent(dense.cols())}, dense.data()}, unit);
 }
 
@@ -90,8 +90,7 @@ void write_square(const h5::File& file, const std::string& name, const Eigen::Sp
   const auto& [basis, unit] = basis_and_unit;
   if (basis == model::Basis::full) return write_sparse(file, name, A, unit);
   const DenseRows dense = A.toDense();
-  const hsize_t n = extent(dense.rows());
-  h5::write<double>(file, name, {{n, n}, dense.data()}, unit, true);
+  h5::write_blocks(file, name, {{extent(dense.rows()), extent(dense.cols())}, dense.data()}, unit);
 }
 
 Eigen::SparseMatrix<double> read_square(const h5::File& file, const std::string& name) {

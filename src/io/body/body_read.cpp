@@ -7,6 +7,7 @@
 #include "io/body/body_schema.h"
 #include "io/body/flexibility_group.h"
 #include "io/body/relaxing_group.h"
+#include "io/body/row_bounds_group.h"
 #include "io/hdf5/checks.h"
 
 namespace elastogear::io {
@@ -50,7 +51,6 @@ model::Surface read_surface(const h5::File& file) {
   surface.group = h5::read<int>(file, "/surface/group", {h5::kAny});
   surface.group_name = h5::read_strings(file, "/surface/group_name");
   surface.c_f = read_vector(file, "/surface/c_f");
-  surface.Phi = read_rows(file, "/surface/Phi", 3);
   return surface;
 }
 
@@ -155,6 +155,10 @@ model::ElasticBody read_body(const std::string& path, BodyUse use) {
   if (h5::exists(file, "/modes/damping_ratio")) body.zeta = read_vector(file, "/modes/damping_ratio");
   body.inertia = read_inertia(file, body.n_q());
   body.surface = read_surface(file);
+  if (use == BodyUse::motion && has_row_bounds(file))
+    body.surface.Phi = lazy_rows(file, body);
+  else
+    body.surface.Phi = read_rows(file, "/surface/Phi", 3);
   if (use == BodyUse::all) body.stress = read_stress(file);
   body.markers = read_markers(file);
   body.flexibility = read_flexibility(file);

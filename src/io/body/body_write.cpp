@@ -7,6 +7,7 @@
 #include "io/body/body_schema.h"
 #include "io/body/flexibility_group.h"
 #include "io/body/relaxing_group.h"
+#include "io/body/row_bounds_group.h"
 #include "io/hdf5/checks.h"
 
 namespace elastogear::io {
@@ -199,6 +200,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   write_reduced(file, body, unit);
   write_inertia(file, body.inertia, unit);
   write_surface(file, body.surface, unit);
+  write_row_bounds(file, body);
   write_stress(file, body.stress, source.recovery, unit);
   write_markers(file, body, unit);
   write_flexibility(file, body.flexibility);

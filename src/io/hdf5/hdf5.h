@@ -79,8 +79,13 @@ struct View {
 template <class T>
 void write(const File& file, const std::string& name, const View<T>& view, const std::string& unit,
            bool compress = false);
+/// A matrix in compressed square chunks. Those that are all zeros are not stored, and are read as zeros.
+void write_blocks(const File& file, const std::string& name, const View<double>& matrix,
+                  const std::string& unit);
 void write_strings(const File& file, const std::string& name, const std::vector<std::string>& strings);
 
+/// Rows of a dataset that are stored together, or as many as would be.
+hsize_t rows_together(const File& file, const std::string& name);
 Shape shape(const File& file, const std::string& name);
 /// Error unless the dataset is numeric, undamaged, finite and of this shape; kAny allows any extent.
 constexpr hsize_t kAny = H5S_UNLIMITED;

@@ -16,6 +16,7 @@ namespace elastogear::io::h5 {
 namespace {
 
 constexpr hsize_t kChunkBytes = 1 << 20;
+constexpr hsize_t kBlock = 256;  // rows and columns of a chunk of a matrix, 512 KiB
 // A compressed dataset is at most about 1000 times its bytes in the file: more is a damaged header.
 constexpr double kMaxRatio = 2000, kSlack = 1 << 20;
 constexpr const char* kNotFinite = "holds a number that is not finite";
@@ -134,6 +135,30 @@ void write(const File& file, const std::string& name, const View<T>& view, const
 template void write(const File&, const std::string&, const View<double>&, const std::string&, bool);
 template void write(const File&, const std::string&, const View<int>&, const std::string&, bool);
 
+void write_blocks(const File& file, const std::string& name, const View<double>& matrix,
+                  const std::string& unit) {
+  if (is_empty(matrix.shape)) return write(file, name, matrix, unit);
+  const hsize_t rows = matrix.shape[0], columns = matrix.shape[1];
+  const Shape chunk{std::min(rows, kBlock), std::min(columns, kBlock)};
+  const Id dataset = create_dataset(file, name, native<double>(), simple_space(matrix.shape),
+                                    creation_properties(matrix.shape, chunk, true));
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto index = [](hsize_t n) { return static_cast<Eigen::Index>(n); };
+  const Eigen::Map<const Matrix> all(matrix.data, index(rows), index(columns));
+  for (hsize_t row = 0; row < rows; row += chunk[0])
+    for (hsize_t column = 0; column < columns; column += chunk[1]) {
+      const Shape start{row, column},
+          count{std::min(chunk[0], rows - row), std::min(chunk[1], columns - column)};
+      const Matrix block = all.block(index(row), index(column), index(count[0]), index(count[1]));
+      if ((block.array() == 0).all()) continue;
+      const Id space(H5Dget_space(dataset)), memory = simple_space(count);
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+      check_written(H5Dwrite(dataset, native<double>(), memory, space, H5P_DEFAULT, block.data()) >= 0, file,
+                    name);
+    }
+  set_attribute(file, name, "unit", unit);
+}
+
 void write_strings(const File& file, const std::string& name, const std::vector<std::string>& strings) {
   std::size_t length = 1;
   for (const std::string& s : strings) length = std::max(length, s.size());
@@ -152,6 +177,13 @@ void write_strings(const File& file, const std::string& name, const std::vector<
 
 bool holds_text(const File& file, const std::string& name) {
   return H5Tget_class(Id(H5Dget_type(open_dataset(file, name)))) == H5T_STRING;
+}
+
+hsize_t rows_together(const File& file, const std::string& name) {
+  const Id dataset = open_dataset(file, name);
+  const Shape all = shape_of(Id(H5Dget_space(dataset)));
+  check(!all.empty(), file, name, "has no rows");
+  return rows_at_a_time(dataset, all);
 }
 
 Shape shape(const File& file, const std::string& name) {
