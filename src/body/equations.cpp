@@ -47,6 +47,35 @@ Force of_acceleration(const Equations& eq, const Vector3d& S, const Vector3d& a)
 
 Force to_q(const Equations& eq, Force h) { return {std::move(h.s), from_inertia(eq, h.q)}; }
 
+Force inertia_force(const Equations& eq, const Motion& m, const FrameMotion& f, const Shape& x) {
+  const model::Inertia& inertia = eq.inertia();
+  const VectorXd y_ddot = to_inertia(eq, m.q_ddot);
+  Force h = of_acceleration(eq, x.S, f.a_s);
+  h.s += on_joint(eq, f.alpha.cross(x.S) + inertia.C_l.transpose() * y_ddot,
+                  x.J * f.alpha + project_C_r(eq, x, y_ddot));
+  h.q += inertia.C_r * f.alpha;
+  if (eq.second_order()) h.q += x.at_y.B * f.alpha;
+  h = to_q(eq, std::move(h));
+  h.q += eq.body->M_r * m.q_ddot;
+  return h;
+}
+
+Force quadratic_force(const Equations& eq, const FrameMotion& f, const Shape& x) {
+  const Vector3d w = f.w;
+  Force h = of_acceleration(eq, x.S, -f.a_c);
+  h.s -= on_joint(eq, w.cross(w.cross(x.S) + 2 * x.S_dot), w.cross(x.J * w + x.spin) + x.J_dot * w);
+  if (eq.level == InertiaLevel::constant) return h;
+  const Vector6 half_w_w = 0.5 * factor(w).transpose() * w;
+  h.q += eq.J_1 * half_w_w;
+  if (eq.second_order()) h.q += x.at_y.D * half_w_w - 2 * x.at_y_dot.B * w;
+  return to_q(eq, std::move(h));
+}
+
+Force weight_force(const Equations& eq, const Motion& m, const Vector3d& g_W, const Vector3d& S) {
+  const Vector3d g_B = placement(eq.joint, m.s).R_WB.transpose() * g_W;
+  return to_q(eq, of_acceleration(eq, S, g_B));
+}
+
 }  // namespace
 
 const std::vector<std::string>& inertia_level_names() {
@@ -75,40 +104,31 @@ FrameMotion frame_motion(const Equations& eq, const Motion& m) {
 }
 
 Force inertia_force(const Equations& eq, const Motion& m) {
-  const model::Inertia& inertia = eq.inertia();
-  const FrameMotion f = frame_motion(eq, m);
-  const Shape x = shape(eq, m);
-  const VectorXd y_ddot = to_inertia(eq, m.q_ddot);
-  Force h = of_acceleration(eq, x.S, f.a_s);
-  h.s += on_joint(eq, f.alpha.cross(x.S) + inertia.C_l.transpose() * y_ddot,
-                  x.J * f.alpha + project_C_r(eq, x, y_ddot));
-  h.q += inertia.C_r * f.alpha;
-  if (eq.second_order()) h.q += x.at_y.B * f.alpha;
-  h = to_q(eq, std::move(h));
-  h.q += eq.body->M_r * m.q_ddot;
-  return h;
+  return inertia_force(eq, m, frame_motion(eq, m), shape(eq, m));
 }
 
 Force quadratic_force(const Equations& eq, const Motion& m) {
+  return quadratic_force(eq, frame_motion(eq, m), shape(eq, m));
+}
+
+Force gravity_force(const Equations& eq, const Motion& m, const Vector3d& g_W) {
+  return weight_force(eq, m, g_W, first_moment(eq, to_inertia(eq, m.q)));
+}
+
+// Nothing moves the frame of a body without joint coordinates.
+MotionForces motion_forces(const Equations& eq, const Motion& m, const Vector3d& g_W) {
+  const Force none{VectorXd::Zero(eq.n_s()), VectorXd::Zero(eq.n_q())};
+  const bool is_weightless = g_W.isZero(0);
+  if (eq.n_s() == 0)
+    return {{none.s, eq.body->M_r * m.q_ddot}, none, is_weightless ? none : gravity_force(eq, m, g_W)};
   const FrameMotion f = frame_motion(eq, m);
-  const Vector3d w = f.w;
   const Shape x = shape(eq, m);
-  Force h = of_acceleration(eq, x.S, -f.a_c);
-  h.s -= on_joint(eq, w.cross(w.cross(x.S) + 2 * x.S_dot), w.cross(x.J * w + x.spin) + x.J_dot * w);
-  if (eq.level == InertiaLevel::constant) return h;
-  const Vector6 half_w_w = 0.5 * factor(w).transpose() * w;
-  h.q += eq.J_1 * half_w_w;
-  if (eq.second_order()) h.q += x.at_y.D * half_w_w - 2 * x.at_y_dot.B * w;
-  return to_q(eq, std::move(h));
+  return {inertia_force(eq, m, f, x), quadratic_force(eq, f, x),
+          is_weightless ? none : weight_force(eq, m, g_W, x.S)};
 }
 
 Force inner_force(const Equations& eq, const Motion& m) {
   return {VectorXd::Zero(eq.n_s()), eq.D_r * m.q_dot + eq.body->K_r * m.q};
-}
-
-Force gravity_force(const Equations& eq, const Motion& m, const Vector3d& g_W) {
-  const Vector3d g_B = placement(eq.joint, m.s).R_WB.transpose() * g_W;
-  return to_q(eq, of_acceleration(eq, first_moment(eq, to_inertia(eq, m.q)), g_B));
 }
 
 double kinetic_energy(const Equations& eq, const Motion& m) {

@@ -11,19 +11,25 @@
 namespace elastogear::dynamics {
 namespace {
 
-using Terms = std::vector<Eigen::VectorXd>;
+// Forces that are to balance those that are subtracted.
+struct Terms {
+  std::vector<const Eigen::VectorXd*> added, subtracted;
+};
 
 Eigen::VectorXd sum(const Terms& terms) {
-  Eigen::VectorXd total = Eigen::VectorXd::Zero(terms.front().size());
-  for (const Eigen::VectorXd& term : terms) total += term;
+  Eigen::VectorXd total = *terms.added.front();
+  for (std::size_t i = 1; i < terms.added.size(); ++i) total += *terms.added[i];
+  for (const Eigen::VectorXd* term : terms.subtracted) total -= *term;
   return total;
 }
 
 // Norm of the sum and sum of the norms, of the given entries.
-void set_norms(Residual& r, std::size_t block, const Terms& terms, const std::vector<Eigen::Index>* entries) {
+void set_norms(Residual& r, std::size_t block, const Terms& terms, const Eigen::VectorXd& sum,
+               const std::vector<Eigen::Index>* entries) {
   const auto norm = [&](const Eigen::VectorXd& x) { return entries ? x(*entries).norm() : x.norm(); };
-  for (const Eigen::VectorXd& term : terms) r.scale[block] += norm(term);
-  r.norm[block] = norm(sum(terms));
+  for (const auto* list : {&terms.added, &terms.subtracted})
+    for (const Eigen::VectorXd* term : *list) r.scale[block] += norm(*term);
+  r.norm[block] = norm(sum);
 }
 
 constexpr double kLeast = 1e-3;  // of forces that cancel, as a scale of what is left
@@ -267,30 +273,21 @@ body::Force System::inner_force(std::size_t b, double time, const body::Motion& 
 body::Force System::balance(std::size_t b, const State& x, const MarkerForce& marker_force, Residual* r) {
   const Body& body = model_.bodies[b];
   const body::Motion m = motion(b, x);
-  const body::Force inertia = body::inertia_force(body.eq, m), quadratic = body::quadratic_force(body.eq, m),
-                    inner = inner_force(b, x.time, m),
-                    weight = body::gravity_force(body.eq, m, gravity(model_.environment, x.time)),
+  const body::MotionForces moving = body::motion_forces(body.eq, m, gravity(model_.environment, x.time));
+  const body::Force inner = inner_force(b, x.time, m),
                     touch = contact_force(body.eq, observed_contacts(x).force[b]);
-  const Terms s{inertia.s,
-                -quadratic.s,
-                -touch.s,
-                -weight.s,
-                -marker_force.loads.s,
-                -marker_force.bushings.s,
-                -load(body, x.time, m)},
-      q{inertia.q,
-        inner.q,
-        -quadratic.q,
-        -touch.q,
-        -weight.q,
-        -marker_force.loads.q,
-        -marker_force.bushings.q};
+  const Eigen::VectorXd loads = load(body, x.time, m);
+  const Terms s{{&moving.inertia.s},
+                {&moving.quadratic.s, &touch.s, &moving.weight.s, &marker_force.loads.s,
+                 &marker_force.bushings.s, &loads}},
+      q{{&moving.inertia.q, &inner.q},
+        {&moving.quadratic.q, &touch.q, &moving.weight.q, &marker_force.loads.q, &marker_force.bushings.q}};
   const body::Force total{sum(s), sum(q)};
   if (!r) return total;
   r->F.segment(body.first, body.n_open()) = total.s(body.open);
   r->F.segment(body.first + body.n_open(), body.eq.n_q()) = total.q;
-  set_norms(*r, 2 * b, s, &body.open);
-  set_norms(*r, 2 * b + 1, q, nullptr);
+  set_norms(*r, 2 * b, s, total.s, &body.open);
+  set_norms(*r, 2 * b + 1, q, total.q, nullptr);
   raise_cancelled(*r, 2 * b + 1, observed_contacts(x).force[b], body.row_size);
   return total;
 }

@@ -68,6 +68,12 @@ Force inner_force(const Equations& eq, const Motion& m);      ///< h_e = [0; D_r
 /// Weight in the field g_W (m/s^2, world).
 Force gravity_force(const Equations& eq, const Motion& m, const Eigen::Vector3d& g_W);
 
+/// All that moves the inertia, each force as by the functions above.
+struct MotionForces {
+  Force inertia, quadratic, weight;
+};
+MotionForces motion_forces(const Equations& eq, const Motion& m, const Eigen::Vector3d& g_W);
+
 /// Kinetic energy T from the velocity of a material point; the last equation is that of level affine: Eqs.
 /// (3.2), (3.3) and (3.11d).
 double kinetic_energy(const Equations& eq, const Motion& m);            ///< J
