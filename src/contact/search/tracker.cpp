@@ -58,11 +58,11 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
       settings_(settings),
       limits_(limits),
       slaves_(std::move(slaves)),
-      search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update) {
+      search_(*side_[0].surface, *side_[1].surface, settings.k, settings.update),
+      displaced_{NodeDisplacements(*side_[0].surface), NodeDisplacements(*side_[1].surface)} {
   for (int i : {0, 1}) {
-    configuration_.x[i] = deformed_[i].x_B = side_[i].surface->X;
+    configuration_.x[i] = side_[i].surface->X;
     const auto n = static_cast<std::size_t>(side_[i].surface->X.cols());
-    deformed_[i].stamp.assign(n, stage_);
     const std::vector<long> of_faces(static_cast<std::size_t>(side_[i].surface->face.cols()), 0);
     look_[i] = {std::vector<long>(n, 0), std::vector<long>(n, 0), of_faces, {}};
     rates_[i] = {{}, Eigen::Matrix3Xd(3, n), std::vector<long>(n, 0), 1};
@@ -109,22 +109,15 @@ void Tracker::start_stage() {
     rates_[i].q_dot = q_dot;
     ++rates_[i].number;
   }
-  if (stage_ > 0 && now_[0]->q == deformed_[0].q && now_[1]->q == deformed_[1].q) return;
-  ++stage_;
-  for (int i : {0, 1}) deformed_[i].q = now_[i]->q;
+  for (int i : {0, 1}) displaced_[i].start(now_[i]->q);
 }
 
 // Deformed position of a node, residual displacement included, in the BRF of its surface.
 Eigen::Vector3d Tracker::position(int i, int node) {
-  Deformed& deformed = deformed_[i];
-  if (deformed.stamp[node] != stage_) {
-    const model::Surface& surface = *side_[i].surface;
-    deformed.x_B.col(node) = surface.X.col(node) + model::displacement(surface.Phi, node, deformed.q);
-    deformed.stamp[node] = stage_;
-    ++n_displaced_;
-  }
-  if (!residual_ || !(*residual_)[i].at) return deformed.x_B.col(node);
-  return deformed.x_B.col(node) + (*residual_)[i].at(node);
+  if (!displaced_[i].has(node)) ++n_displaced_;
+  const Eigen::Vector3d x_B = side_[i].surface->X.col(node) + displaced_[i].at(node);
+  if (!residual_ || !(*residual_)[i].at) return x_B;
+  return x_B + (*residual_)[i].at(node);
 }
 
 // Begins to place nodes by the present motion.

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "contact/node_displacements.h"
 #include "contact/projection/projection.h"
 #include "contact/search/coarse_search.h"
 #include "contact/search/face_boxes.h"
@@ -105,6 +106,7 @@ class Tracker : private NodePlacer {
   void leave_out(int slave, double clear);
   double largest_deformation(int i) const;
   void update_neighbours();
+  void serialize_neighbours(Archive& archive);
   void find_candidates(double margin);
   void find_candidates();
 
@@ -127,13 +129,7 @@ class Tracker : private NodePlacer {
   SurfaceMotion seen_at_[2];                                       // in the last call of find_near,
   bool is_seen_ = false;                                           // unless that is forgotten
   double residual_since_seen_ = 0;                                 // m, bound of the change
-  struct Deformed {  // X + Phi q of the nodes with the stamp of this stage, within which only residual
-                     // displacements change
-    Eigen::VectorXd q;
-    Eigen::Matrix3Xd x_B;
-    std::vector<long> stamp;
-  };
-  std::array<Deformed, 2> deformed_;
+  std::array<NodeDisplacements, 2> displaced_;  // by q, while residual displacements may change
   struct Rates {  // Phi q_dot of the nodes with the present number, which changes with q_dot
     Eigen::VectorXd q_dot;
     Eigen::Matrix3Xd x_dot_B;
@@ -152,7 +148,6 @@ class Tracker : private NodePlacer {
     Eigen::Matrix3Xd x;
   };
   std::array<Placed, 2> remembered_;
-  long stage_ = 0;
   int n_searches_ = 0, n_displaced_ = 0;
 };
 

@@ -34,13 +34,18 @@ std::optional<Eigen::Vector3d> Tracker::moved(int i, int node) const {
   return Eigen::Vector3d(configuration_.x[i].col(node) - x.col(at - nodes.begin()));
 }
 
-// Stores the motions at which candidates were found and measured; on loading, candidates and clearances are
-// found anew from these.
 void Tracker::serialize(Archive& archive) {
   for (Placed& placed : remembered_) {
     archive(placed.node);
     archive(placed.x);
   }
+  serialize_neighbours(archive);
+  for (NodeDisplacements& displaced : displaced_) displaced.serialize(archive);
+}
+
+// Stores the motions at which candidates were found and measured; on loading, candidates and clearances are
+// found anew from these.
+void Tracker::serialize_neighbours(Archive& archive) {
   bool found = neighbours_.has_value();
   archive(found);
   if (!found) return neighbours_.reset();
