@@ -16,7 +16,7 @@ namespace elastogear::io::h5 {
 namespace {
 
 constexpr hsize_t kChunkBytes = 1 << 20;
-constexpr hsize_t kBlock = 256;  // rows and columns of a chunk of a matrix, 512 KiB
+constexpr hsize_t kBlock = 128;  // rows and columns of a chunk of a matrix, 128 KiB
 // A compressed dataset is at most about 1000 times its bytes in the file: more is a damaged header.
 constexpr double kMaxRatio = 2000, kSlack = 1 << 20;
 constexpr const char* kNotFinite = "holds a number that is not finite";
