@@ -12,9 +12,9 @@ namespace elastogear::test {
 
 /// Dense rows of one surface node.
 inline Eigen::MatrixXd node_rows(const model::ElasticBody& body, int node) {
-  return std::visit(
-      [&](const auto& rows) -> Eigen::MatrixXd { return Eigen::MatrixXd(rows.middleRows(3 * node, 3)); },
-      body.surface.Phi);
+  return model::with_rows(body.surface.Phi, [&](const auto& rows) -> Eigen::MatrixXd {
+    return Eigen::MatrixXd(rows.middleRows(3 * node, 3));
+  });
 }
 
 /// The marker of the face group, named after it: least-squares motion of its nodes.

@@ -62,7 +62,7 @@ reduction::ReductionReport run(const mesh::Mesh& mesh, const reduction::Reductio
 Eigen::MatrixXd trace(const model::ElasticBody& body) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(body.n_q(), body.n_q());
   for (int i = 0; i < 3; ++i)
-    std::visit([&](const auto& S) { sum += Eigen::MatrixXd(S); }, body.inertia.S_2[i]);
+    model::with_rows(body.inertia.S_2[i], [&](const auto& S) { sum += Eigen::MatrixXd(S); });
   return sum;
 }
 

@@ -128,7 +128,7 @@ TEST(ImportedBody, has_the_static_answers_of_its_stiffness) {
 using Moments = std::vector<model::BasisRows>;
 
 Eigen::MatrixXd dense(const model::BasisRows& rows) {
-  return std::visit([](const auto& r) { return Eigen::MatrixXd(r); }, rows);
+  return model::with_rows(rows, [](const auto& r) { return Eigen::MatrixXd(r); });
 }
 
 void expect_same_moments(const Moments& a, const Moments& b, double tolerance) {
