@@ -1,6 +1,6 @@
 // Responses by nested dissection beside those of dense inverses, with leaves so small that there are many
 // separators.
-#include "reduction/static_response/nested_response.h"
+#include "reduction/static_response/nested/nested_response.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@
 
 #include "../fem/system.h"
 #include "elastogear/base/error.h"
-#include "reduction/static_response/dissection.h"
+#include "reduction/static_response/nested/directions.h"
+#include "reduction/static_response/nested/dissection.h"
 
 namespace elastogear::nested_response_test {
 namespace {
@@ -173,9 +174,12 @@ TEST(NestedResponse, orders_the_columns_of_a_separator_by_what_rows_know_of_them
   C = (C * turn).eval();
   std::vector<int> rows(n_rows);
   std::iota(rows.begin(), rows.end(), 0);
-  Contribution<float> plain{.row = rows, .C = C.cast<float>()}, ordered = plain;
+  const Contribution<float> plain{.row = rows, .C = C.cast<float>()};
   const Eigen::VectorXd scale = row_scales(Contributions<float>{plain}, n_rows);
-  order_columns(std::vector<char>(n_rows, 1), scale, ordered);
+  const MatrixXd V = directions(C.transpose() * scale.cwiseAbs2().cwiseInverse().asDiagonal() * C);
+  EXPECT_LE((V.transpose() * V - MatrixXd::Identity(n_columns, n_columns)).cwiseAbs().maxCoeff(), 1e-13);
+  Contribution<float> ordered{.row = rows, .C = (C * V).cast<float>(), .is_ordered = true};
+  order_rows(scale, ordered);
   ASSERT_EQ(ordered.left_out.rows(), n_rows);
   EXPECT_NEAR(ordered.left_out(0, 0), 1, 1e-5);
   EXPECT_LT(ordered.left_out(0, 2), 0.01F * ordered.left_out(n_rows - 1, 2));
@@ -183,8 +187,10 @@ TEST(NestedResponse, orders_the_columns_of_a_separator_by_what_rows_know_of_them
   const std::vector<int> loads{0, 39, 40, 500};
   ASSERT_EQ(ordered.row.size(), plain.row.size());
   Eigen::MatrixXf Y = Eigen::MatrixXf::Zero(n_rows, 4), Y_plain = Y;
-  add_responses(ordered, loads, Y);
-  add_responses(plain, loads, Y_plain);
+  std::vector<int> column(n_rows, -1);
+  for (int j = 0; j < 4; ++j) column[loads[j]] = j;
+  add_responses(ordered, column, Y);
+  add_responses(plain, column, Y_plain);
   const MatrixXd exact = C * C(loads, Eigen::all).transpose();
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < n_rows; ++i) {

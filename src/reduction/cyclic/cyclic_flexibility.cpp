@@ -20,7 +20,7 @@
 #include "reduction/cyclic/wanted_rows.h"
 #include "reduction/static_response/independent_rows.h"
 #include "reduction/static_response/inertia_relief.h"
-#include "reduction/static_response/nested_response.h"
+#include "reduction/static_response/nested/nested_response.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -192,7 +192,7 @@ class HarmonicResponses {
     n_u_ = static_cast<Eigen::Index>(3 * wanted.surface_orbit.size());
   }
 
-  // progress: takes the share of the columns that are found.
+  // progress: takes the share of the work that is done.
   Amplitudes find(const fem::Matrices& matrices, const std::function<void(double)>& progress) const {
     RigidFields rigid;
     UniqueMat grounded;
@@ -204,17 +204,16 @@ class HarmonicResponses {
     std::vector<int> loads(static_cast<std::size_t>(n_u_));
     std::iota(loads.begin(), loads.end(), 0);
     NestedResponse response(grounded ? grounded.get() : matrices.K.get(),
-                            harmonic_.real ? P_ : below_each_other(P_, times_i(P_, harmonic_)), loads, rigid);
+                            harmonic_.real ? P_ : below_each_other(P_, times_i(P_, harmonic_)), loads, rigid,
+                            0, progress);
     Amplitudes amplitudes{harmonic_.real, harmonic_.k, {}};
     const Eigen::Index n_rows = harmonic_.real ? P_.rows() : 2 * P_.rows();
     for (Eigen::Index first = 0; first < n_u_; first += kPiece)
       amplitudes.piece.emplace_back(n_rows, std::min(kPiece, n_u_ - first));
-    std::size_t done = 0;
     for (const std::vector<int>& group : response.groups()) {
       const MatrixXf Y = response.next();
       for (std::size_t i = 0; i < group.size(); ++i)
         column(amplitudes, group[i]) = Y.col(static_cast<Eigen::Index>(i));
-      progress(static_cast<double>(++done) / static_cast<double>(response.groups().size()));
     }
     fill_symmetric(response.groups(), [&](int load) { return column(amplitudes, load).data(); });
     return amplitudes;
@@ -362,6 +361,7 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
         report_part(1);
         continue;
       }
+      report_part(0);
       const fem::Matrices matrices =
           fem::assemble(PETSC_COMM_SELF, sector, harmonic, body.regions, body.formulation);
       const MatrixXd rigid = floating ? fem::rigid_fields(harmonic, sector) : MatrixXd();

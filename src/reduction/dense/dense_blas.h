@@ -20,7 +20,12 @@ bool cholesky(DenseColumns A);
 
 /// B := L^-1 B.
 void solve_lower(const ConstDenseColumns& L, DenseColumns B);
+/// B := L^-T B.
+void solve_lower_transposed(const ConstDenseColumns& L, DenseColumns B);
 /// B := B L^-T.
 void solve_lower_transposed_right(const ConstDenseColumns& L, DenseColumns B);
+
+/// The lower triangle of C := C - A A'.
+void subtract_square(const ConstDenseColumns& A, DenseColumns C);
 
 }  // namespace elastogear::reduction

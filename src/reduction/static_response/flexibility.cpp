@@ -14,7 +14,7 @@
 #include "elastogear/base/error.h"
 #include "reduction/static_response/independent_rows.h"
 #include "reduction/static_response/inertia_relief.h"
-#include "reduction/static_response/nested_response.h"
+#include "reduction/static_response/nested/nested_response.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -254,15 +254,12 @@ model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSy
     const auto n_u = static_cast<Eigen::Index>(3 * flexibility.node.size());
     std::vector<int> loads(static_cast<std::size_t>(n_u));
     std::iota(loads.begin(), loads.end(), 0);
-    NestedResponse response(root.K, P, loads, root.rigid);
+    NestedResponse response(root.K, P, loads, root.rigid, 0,
+                            [&](double share) { report(progress, kStage, share); });
     flexibility.F.resize(n_u, n_u);
     flexibility.G.resize(n_stress, n_u);
-    double done = 0;
-    for (const std::vector<int>& group : response.groups()) {
+    for (const std::vector<int>& group : response.groups())
       enter(response.next(), group, stress, flexibility);
-      done += static_cast<double>(group.size());
-      report(progress, kStage, done / static_cast<double>(n_u));
-    }
     fill_symmetric(response.groups(), [&](int load) { return flexibility.F.col(load).data(); });
     model::set_self(flexibility);
   });

@@ -1,11 +1,10 @@
-#include "reduction/static_response/contribution.h"
+#include "reduction/static_response/nested/contribution.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "reduction/dense/dense_blas.h"
-#include "reduction/dense/dense_eigenproblem.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -19,44 +18,8 @@ using Eigen::VectorXd;
 // than single precision shows, and in double precision less than shows where responses of free bodies cancel.
 template <class T>
 constexpr double kNeglected = sizeof(T) == sizeof(float) ? 1e-8 : 1e-14;
-constexpr Index kStep = 32;         // columns of C that are kept or left out together
-constexpr Index kTile = 512;        // rows and loads of a product
-constexpr Index kLoadsOfOrder = 4;  // loads per column of C from which ordering saves time
-constexpr Index kSampleRows = 4;    // rows per column that show the directions
-
-// Rows of C, over their scales, at regular distances.
-template <class T>
-MatrixXd sample(const Contribution<T>& c, const VectorXd& scale) {
-  const Index every = std::max<Index>(1, c.C.rows() / (kSampleRows * c.C.cols())),
-              n = (c.C.rows() + every - 1) / every;
-  MatrixXd rows(n, c.C.cols());
-  for (Index i = 0; i < n; ++i) {
-    const double size = scale[c.row[i * every]];
-    rows.row(i) = c.C.row(i * every).template cast<double>() * (size > 0 ? 1 / size : 0);
-  }
-  return rows;
-}
-
-// Orthonormal columns, those last in which the rows are longest: a sum of products then begins with the small
-// ones and is rounded little.
-MatrixXd directions(const MatrixXd& rows) {
-  MatrixXd gram(rows.cols(), rows.cols());
-  multiply(Op::transposed, Op::plain, 1, rows, rows, 0, gram);
-  diagonalise(gram);
-  return gram;
-}
-
-// C := C V, in double precision.
-template <class T>
-void turn(const MatrixXd& V, Dense<T>& C) {
-  MatrixXd turned;
-  for (Index i = 0; i < C.rows(); i += kTile) {
-    auto rows = C.middleRows(i, std::min(kTile, C.rows() - i));
-    turned.resize(rows.rows(), V.cols());
-    multiply(Op::plain, Op::plain, 1, MatrixXd(rows.template cast<double>()), V, 0, turned);
-    rows = turned.template cast<T>();
-  }
-}
+constexpr Index kStep = 32;   // columns of C that are kept or left out together
+constexpr Index kTile = 512;  // rows and loads of a product
 
 template <class T>
 MatrixXf lengths_left_out(const Contribution<T>& c, const VectorXd& scale) {
@@ -100,13 +63,10 @@ void sort_rows(Contribution<T>& c) {
 // Rows of a contribution and columns of Y that belong together, by rows.
 using Columns = std::vector<std::pair<Index, Index>>;
 
-Columns columns_of(const std::vector<int>& rows, const std::vector<int>& loads, Index n_rows) {
-  std::vector<Index> at(static_cast<std::size_t>(n_rows), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i) at[rows[i]] = static_cast<Index>(i);
+Columns columns_of(const std::vector<int>& rows, const std::vector<int>& column) {
   Columns columns;
-  for (std::size_t j = 0; j < loads.size(); ++j)
-    if (at[loads[j]] >= 0) columns.emplace_back(at[loads[j]], static_cast<Index>(j));
-  std::sort(columns.begin(), columns.end());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (column[rows[i]] >= 0) columns.emplace_back(static_cast<Index>(i), column[rows[i]]);
   return columns;
 }
 
@@ -154,18 +114,15 @@ VectorXd row_scales(const Contributions<T>& contributions, int n_rows) {
 }
 
 template <class T>
-void order_columns(const std::vector<char>& is_load, const VectorXd& scale, Contribution<T>& c) {
-  const auto n_loads = std::count_if(c.row.begin(), c.row.end(), [&](int row) { return is_load[row] != 0; });
-  if (n_loads < kLoadsOfOrder * c.C.cols() || c.C.cols() <= kStep) return;
-  turn(directions(sample(c, scale)), c.C);
+void order_rows(const VectorXd& scale, Contribution<T>& c) {
   c.left_out = lengths_left_out(c, scale);
   sort_rows(c);
 }
 
 template <class T>
-void add_responses(const Contribution<T>& c, const std::vector<int>& loads, Dense<T>& Y) {
+void add_responses(const Contribution<T>& c, const std::vector<int>& column, Dense<T>& Y) {
   const bool leaf = !c.load.empty();
-  const Columns columns = columns_of(leaf ? c.load : c.row, loads, Y.rows());
+  const Columns columns = columns_of(leaf ? c.load : c.row, column);
   if (leaf) {
     for (const auto& [from, to] : columns) scatter(c.response.col(from), c.row.data(), Y.col(to).data());
     return;
@@ -207,8 +164,8 @@ void fill_symmetric(const std::vector<std::vector<int>>& groups,
 
 template VectorXd row_scales(const Contributions<float>&, int);
 template VectorXd row_scales(const Contributions<double>&, int);
-template void order_columns(const std::vector<char>&, const VectorXd&, Contribution<float>&);
-template void order_columns(const std::vector<char>&, const VectorXd&, Contribution<double>&);
+template void order_rows(const VectorXd&, Contribution<float>&);
+template void order_rows(const VectorXd&, Contribution<double>&);
 template void add_responses(const Contribution<float>&, const std::vector<int>&, Dense<float>&);
 template void add_responses(const Contribution<double>&, const std::vector<int>&, Dense<double>&);
 template void remove_rows(const std::vector<char>&, Contribution<float>&);

@@ -1,4 +1,4 @@
-#include "reduction/static_response/dissection.h"
+#include "reduction/static_response/nested/dissection.h"
 
 #include <metis.h>
 
