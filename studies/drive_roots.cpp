@@ -231,8 +231,8 @@ void run(const std::vector<std::string>& words) {
                           on_flank = interpolated(reference.flank, flank.X);
     std::printf("%-10s", words[i + 1].c_str());
     print_errors(root, at_root, scale);
-    print_estimates("estimates at the root", root, at_root, scale);
-    print_estimates("on the flank", flank, on_flank, largest(on_flank).von_mises);
+    print_estimates(words[i + 1], "estimates at the root", root, at_root, scale);
+    print_estimates(words[i + 1], "on the flank", flank, on_flank, largest(on_flank).von_mises);
     std::printf("\n");
   }
 }

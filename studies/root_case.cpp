@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <iterator>
 #include <numeric>
 #include <set>
@@ -297,9 +298,12 @@ void print(const std::string& kind, const mesh::Mesh& mesh, const Solution& s) {
 
 namespace {
 
-// Prints of a list of positive numbers its length, the share above one half in percent, and the median.
-void print_ratios(std::vector<double> ratio) {
+// Prints of a list of positive numbers its length, the share above one half in percent, and the median, and
+// adds the list to a file.
+void print_ratios(const std::string& kind, const std::string& what, std::vector<double> ratio) {
   if (ratio.empty()) return;
+  std::ofstream file("ratios.csv", std::ios::app);
+  for (double r : ratio) file << kind << "," << what << "," << r << "\n";
   std::sort(ratio.begin(), ratio.end());
   const auto above = std::count_if(ratio.begin(), ratio.end(), [](double r) { return r > 0.5; });
   std::printf(" %zu nodes, %.0f %%, %.2f;", ratio.size(),
@@ -316,7 +320,8 @@ void print_errors(const Solution& s, const Eigen::MatrixXd& exact, double scale)
   }
 }
 
-void print_estimates(const std::string& what, const Solution& s, const Eigen::MatrixXd& exact, double scale) {
+void print_estimates(const std::string& kind, const std::string& what, const Solution& s,
+                     const Eigen::MatrixXd& exact, double scale) {
   const Eigen::VectorXd difference = von_mises_at_nodes(s.recovered - s.averaged),
                         averaged = von_mises_at_nodes(s.averaged),
                         recovered = von_mises_at_nodes(s.recovered), truth = von_mises_at_nodes(exact);
@@ -328,9 +333,9 @@ void print_estimates(const std::string& what, const Solution& s, const Eigen::Ma
   }
   std::printf(", %s:", what.c_str());
   if (!of_averaged.empty()) std::printf(" of averaged");
-  print_ratios(of_averaged);
+  print_ratios(kind, what + " of averaged", of_averaged);
   std::printf(" of recovered");
-  print_ratios(of_recovered);
+  print_ratios(kind, what + " of recovered", of_recovered);
 }
 
 }  // namespace root_stress

@@ -55,13 +55,14 @@ std::pair<Solution, Solution> at_common_nodes(const Solution& s, const Solution&
   return {part(s, own), part(reference, others)};
 }
 
-void print_error(const Solutions& whole, const Solutions& reference) {
+void print_error(const std::string& kind, const Solutions& whole, const Solutions& reference) {
   const auto [root, exact_root] = at_common_nodes(whole.root, reference.root);
   const double scale = largest(reference.root.recovered).von_mises;
   print_errors(root, exact_root.recovered, scale);
-  print_estimates("estimates at the root", root, exact_root.recovered, scale);
+  print_estimates(kind, "estimates at the root", root, exact_root.recovered, scale);
   const auto [flank, exact_flank] = at_common_nodes(whole.flank, reference.flank);
-  print_estimates("on the flank", flank, exact_flank.recovered, largest(exact_flank.recovered).von_mises);
+  print_estimates(kind, "on the flank", flank, exact_flank.recovered,
+                  largest(exact_flank.recovered).von_mises);
 }
 
 gear::CylindricalDrive c14(double face_width = kFaceWidth) {
@@ -131,7 +132,7 @@ void run_nested(const std::function<Case(int)>& make, const std::vector<int>& ti
       if (cut) c.mesh = tetrahedra(c.mesh);
       const Solutions s = solve(c);
       print(cut ? "tet4" : "hex8", c.mesh, s.root);
-      print_error(s, reference);
+      print_error((cut ? "tet4 " : "hex8 ") + std::to_string(n), s, reference);
       std::printf("\n");
       std::fflush(stdout);
     }
