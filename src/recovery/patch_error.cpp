@@ -7,7 +7,7 @@ namespace elastogear::recovery {
 namespace {
 
 constexpr double kScale = 2;     // of Eq. (1.17)
-constexpr double kLoaded = 1.2;  // of Eq. (1.18a)
+constexpr double kLoaded = 1.3;  // of Eq. (1.18a)
 
 }  // namespace
 
