@@ -1,7 +1,8 @@
 """Body files with fewer modes than were computed (docs/file_format.md lists the datasets)."""
 import h5py
 
-LEFT_OUT = {"modes/Phi", "checks", "reduced/S_2"}  # large, and not read by simulate at its default inertia level
+# Large, or of all modes together, and not needed by simulate at its default inertia level.
+LEFT_OUT = {"modes/Phi", "checks", "reduced/S_2", "surface/bounds"}
 # Datasets with an axis of modes, and which.
 MODE_AXES = {"reduced/M": (0, 1), "reduced/K": (0, 1), "reduced/C_l": (0,), "reduced/C_r": (0,), "reduced/S_1": (0,),
              "modes/frequency": (0,), "modes/eigenvalue": (0,), "surface/Phi": (2,), "stress/Psi": (2,)}
