@@ -303,7 +303,7 @@ namespace {
 void print_ratios(const std::string& kind, const std::string& what, std::vector<double> ratio) {
   if (ratio.empty()) return;
   std::ofstream file("ratios.csv", std::ios::app);
-  for (double r : ratio) file << kind << "," << what << "," << r << "\n";
+  for (double r : ratio) file << '"' << kind << "\"," << what << "," << r << "\n";
   std::sort(ratio.begin(), ratio.end());
   const auto above = std::count_if(ratio.begin(), ratio.end(), [](double r) { return r > 0.5; });
   std::printf(" %zu nodes, %.0f %%, %.2f;", ratio.size(),
