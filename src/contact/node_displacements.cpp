@@ -80,14 +80,14 @@ VectorXd NodeDisplacements::combination(const VectorXd& q) const {
   std::erase_if(used, [&](Index j) { return std::abs(weight[j]) < kNoWeight; });
   if (used.empty()) return {};
   if (used.size() < static_cast<std::size_t>(n)) weight = weights(columns, q(samples), used);
-  if (weight.cwiseAbs().sum() > kMostWeight) return {};
+  if (!(weight.cwiseAbs().sum() <= kMostWeight)) return {};  // a coordinate that was zero has no finite ones
   VectorXd left = q, size = VectorXd::Zero(q.size());
   for (Index j : used) {
     const VectorXd& then = stages_[static_cast<std::size_t>(j)].q;
     left -= weight[j] * then;
     size += std::abs(weight[j]) * then.cwiseAbs();
   }
-  if (((left.cwiseAbs() - kResolved * size).array() > 0).any()) return {};
+  if (!(left.cwiseAbs().array() <= kResolved * size.array()).all()) return {};
   return weight;
 }
 

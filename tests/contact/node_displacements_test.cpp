@@ -67,6 +67,18 @@ TEST_F(NodesOfStages, need_rows_for_one_stage_of_a_step) {
   }
 }
 
+// No combination of zeros is a number that is not zero.
+TEST_F(NodesOfStages, are_right_where_coordinates_were_zero_before) {
+  NodeDisplacements displaced(surface);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(kModes);
+  for (int stage = 0; stage < 4; ++stage) {
+    q.head(kModes / 2).array() = 1e-6 * (stage + 1) * (stage + 1);
+    look(displaced, q);
+  }
+  q.setConstant(1e-6);
+  look(displaced, q);
+}
+
 TEST_F(NodesOfStages, are_right_where_steps_change_and_nodes_come_late) {
   NodeDisplacements displaced(surface);
   Stages stages;
