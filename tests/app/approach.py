@@ -18,7 +18,7 @@ import numpy as np
 
 ELASTOGEAR, DRIVE = os.path.abspath(sys.argv[1]), os.path.abspath(os.path.join(sys.argv[2], "drives", "spur_c14.yaml"))
 MESH, HERTZ = ["-contact_approach", "mesh"], ["-contact_approach", "hertz"]
-POSITIONS = 4
+POSITIONS = 16  # of a pitch: the mean of few depends on where pairs of teeth come and go
 
 
 def run(*arguments, fails=False):
@@ -48,7 +48,7 @@ def check_stiffness():
         assert hertz < 0.9 * mesh
     (tiny_mesh, tiny), (small_mesh, small) = found["tiny"], found["small"]
     assert tiny_mesh > 1.08 * small_mesh
-    assert abs(tiny / small - 1) < 0.45 * (tiny_mesh / small_mesh - 1)
+    assert abs(tiny / small - 1) < 0.4 * (tiny_mesh / small_mesh - 1)
 
 
 def check_resumed():
