@@ -1,5 +1,5 @@
 #pragma once
-// Where a point is beside a flank: the half angle there, from which its distance and the flank's normal
+// The place of a point beside a flank: the half angle there, from which its distance and the flank's normal
 // follow.
 
 #include "elastogear/gear/toothing.h"

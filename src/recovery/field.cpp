@@ -60,7 +60,7 @@ Eigen::VectorXd estimated_error(const Fields& fields, const FieldReference& refe
       reference.share);
 }
 
-// Of the nodes that the body's stresses take for loaded, whose faces have a tangent plane.
+// The loaded nodes whose faces have a tangent plane, with the error of their means by displacements u.
 LoadedNodes loaded_nodes(const Fields& fields, const std::vector<int>& touched, const Eigen::Matrix3Xd& u,
                          const Eigen::VectorXd& found) {
   const bool averaged = fields.source.recovery.method == model::RecoveryMethod::average;

@@ -1,5 +1,6 @@
 #pragma once
-// What is known of the rows of a basis without reading them: how it is found, and tested.
+// Bounds of the rows of a basis, which a body file holds so that a run need not read the rows: how they are
+// found, and tested against rows that are read.
 
 #include <Eigen/Core>
 #include <optional>

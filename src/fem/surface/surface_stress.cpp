@@ -128,8 +128,8 @@ Eigen::Matrix<double, 6, k> stress_per_strain(const Eigen::Matrix<double, 6, k>&
   return G * (G.transpose() * compliance).inverse();
 }
 
-// Of any stress what its strains in the directions G make of it, the others being without traction. Eq.
-// (1.16a).
+// The projection of stresses on those that have no traction and the same strains in the directions of the
+// tensors G (six entries each). docs/theory.md, Eq. (1.16a).
 template <int k>
 Matrix6 within(const Eigen::Matrix<double, 6, k>& G, const Matrix6& H) {
   return stress_per_strain(G, H) * H.ldlt().solve(G).transpose();

@@ -81,7 +81,8 @@ class Elimination {
     return std::move(contributions_);
   }
 
-  // Of the rows that are kept; to be called after run().
+  // The Schur complement and the wanted responses of the rows that are kept, once run() has eliminated all
+  // others.
   KeptRows left(const std::vector<int>& kept) {
     const auto n = static_cast<Index>(kept.size());
     const int first = static_cast<int>(tree_.at.size()) - static_cast<int>(n);
@@ -106,7 +107,8 @@ class Elimination {
     return std::count_if(part.row.begin(), part.row.end(), [&](int row) { return is_load_[row] != 0; });
   }
 
-  // Of wanted rows and loads, of loads with each other half of them.
+  // Flops of the products of wanted rows and loads, and of loads with each other, of which symmetry leaves
+  // half.
   double flops_of_products(const TreePart& part) const {
     const auto n_loads = static_cast<double>(count_loads(part));
     return part.n_rows() * n_loads * (2 * static_cast<double>(part.row.size()) - n_loads);

@@ -1,5 +1,6 @@
 #pragma once
-// Which rows of a matrix are eliminated together, in which order, and what each part is tied to.
+// The elimination tree of a matrix by nested dissection: its parts, whose rows are eliminated together, their
+// order, and the rows that each part is tied to.
 
 #include <Eigen/SparseCore>
 #include <vector>
