@@ -24,7 +24,6 @@ namespace {
 using Patch = std::vector<const ContactPoint*>;
 
 constexpr double kLeast = 1e-6;       // of a face's length, approach under forces of roundoff
-constexpr double kAtRest = 1e-8;      // of a flank's length, differences by which laws do not change
 constexpr double kMostChange = 0.25;  // of an approach, by extrapolation
 constexpr double kSlight = 0.05;      // of all forces of a pair, below which those of a patch go on as F^m
 
@@ -253,7 +252,8 @@ double LocalApproach::take_change(std::size_t b) {
   return acts_on(b) ? std::exchange(flanks_[b]->change, 0) : 0;
 }
 
-double LocalApproach::find(const ContactState& state, Flexibilities& flexibility, double share) {
+double LocalApproach::find(const ContactState& state, Flexibilities& flexibility, double share,
+                           double least) {
   std::vector<std::map<std::size_t, ApproachLaw>> found(flanks_.size());
   for (const Pair& pair : pairs_) {
     const PairContacts& contacts = state.pair[pair.number];
@@ -267,7 +267,7 @@ double LocalApproach::find(const ContactState& state, Flexibilities& flexibility
       const ApproachLaw& before = flanks_[b]->flank[g].law;
       ApproachLaw now = found[b][g];
       const double moved = now.e_n - before.value(now.F_n);
-      if (std::abs(moved) <= kAtRest * flanks_[b]->length[g] && (before.F_n > 0) == (now.F_n > 0)) continue;
+      if (std::abs(moved) <= least * flanks_[b]->length[g] && (before.F_n > 0) == (now.F_n > 0)) continue;
       change = std::max(change, std::abs(moved));
       if (before.F_n > 0) now.e_n -= (1 - share) * moved;
       set_law(b, g, now);
@@ -275,7 +275,8 @@ double LocalApproach::find(const ContactState& state, Flexibilities& flexibility
   return change;
 }
 
-void LocalApproach::accept(double time) {
+void LocalApproach::accept(const ContactState& state, Flexibilities& flexibility, double time) {
+  find(state, flexibility, 1, 0);
   before_at_ = std::exchange(accepted_at_, time);
   for (auto& flanks : flanks_)
     for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {

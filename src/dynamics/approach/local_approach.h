@@ -28,13 +28,16 @@ class LocalApproach {
   bool any() const { return !pairs_.empty(); }
 
   /// Finds the laws of all flanks that bear a force in the state, and goes the given share of the way from
-  /// those before to them. Laws that hardly differ stay. Returns the largest difference of an approach where
-  /// one has changed, m.
-  double find(const ContactState& state, Flexibilities& flexibility, double share);
+  /// those before to them. Laws that hardly differ stay, so that a search for a state of rest comes to an
+  /// end. Returns the largest difference of an approach where one has changed, m.
+  double find(const ContactState& state, Flexibilities& flexibility, double share) {
+    return find(state, flexibility, share, kAtRest);
+  }
   /// The same of flanks that have none yet; the others keep theirs.
   void find_new(const ContactState& state, Flexibilities& flexibility);
-  /// Takes the present laws for those of the end of a step at this time, under the forces set: Eq. (7.2b).
-  void accept(double time);
+  /// Finds the laws at the end of a step at this time: Eq. (7.2b). Those of small differences change as well:
+  /// in steps from law to law they would excite vibrations that do not die away.
+  void accept(const ContactState& state, Flexibilities& flexibility, double time);
   /// Lets the laws change on from those of the last two ends of steps, as these do, to this time: Eq.
   /// (6.37a).
   void extrapolate(double time);
@@ -55,6 +58,8 @@ class LocalApproach {
   void serialize(Archive& archive);
 
  private:
+  static constexpr double kAtRest = 1e-8;  // of a flank's length, differences by which laws do not change
+
   struct Surface {  // of a body of such a pair
     const model::ElasticBody* body;
     const std::vector<int>* group;                  // of each node
@@ -84,6 +89,7 @@ class LocalApproach {
   // Contacts of one pair of flanks.
   using Patches = std::map<int, std::vector<const contact::ContactPoint*>>;  // by group
 
+  double find(const ContactState& state, Flexibilities& flexibility, double share, double least);
   void set_law(std::size_t b, std::size_t group, const ApproachLaw& law);
   Patches patches(const Pair& pair, const PairContacts& contacts) const;
   ApproachLaw law(const Pair& pair, int group, const std::vector<const contact::ContactPoint*>& patch,

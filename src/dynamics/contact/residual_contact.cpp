@@ -359,8 +359,9 @@ double ResidualContact::find_approach(const ContactState& state, double share) {
 }
 
 void ResidualContact::accept_approach(const ContactState& state, double time) {
-  find_approach(state, 1);
-  approach_.accept(time);
+  if (!approach_.any()) return;
+  approach_.accept(state, flexibility_, time);
+  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
 }
 
 double ResidualContact::energy(std::size_t b) {
