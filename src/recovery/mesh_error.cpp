@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,11 @@ using model::SparseRows;
 
 constexpr Eigen::Index kTimesInMemory = 64;  // output times whose tensors are in memory
 constexpr std::size_t kNearest = 8;          // nodes on free surfaces that tell the error of one off them
+constexpr int kMostRings = 64;               // of faces around a set, until they meet a free surface
 
-// Around the n nodes of a set.
+// Around n nodes: those of a set and, where none of these is on a free surface, others that are.
 struct Patches {
-  std::vector<int> node;                  // mesh numbers: those of the set, then others around them
+  std::vector<int> node;                  // mesh numbers: those n nodes, then others around them
   std::vector<std::vector<int>> members;  // n, indices into `node`: of the patch, free or loaded as its node
   std::vector<int> order;                 // n, of the cells; of means none
   SparseRows difference;                  // at `node`: of free ones (1.16), of loaded ones (1.16a), else zero
@@ -69,6 +71,47 @@ Patches make_patches(const RecoveredBody& body, const model::ElasticBody& elasti
   return patches;
 }
 
+// Nodes on free surfaces that share a face with nodes around the given ones, in as few rings of faces as it
+// takes; none where no ring meets a free surface.
+std::vector<int> free_nodes_beside(const FiniteElements& elements, const io::BodySource& source,
+                                   const std::vector<int>& loaded, const std::vector<int>& nodes) {
+  const std::set<int> is_loaded(loaded.begin(), loaded.end());
+  std::set<int> inside(nodes.begin(), nodes.end());
+  std::vector<int> edge = nodes;
+  for (int ring = 0; ring < kMostRings && !edge.empty(); ++ring) {
+    std::vector<int> beside, without_load;
+    for (const std::vector<int>& around : elements.surface_patches(source, edge).node)
+      for (int node : around) {
+        if (!inside.insert(node).second) continue;
+        beside.push_back(node);
+        if (!is_loaded.contains(node)) without_load.push_back(node);
+      }
+    if (!without_load.empty()) {
+      const std::vector<char> is_free = marks(elements.recovery_difference(source, loaded, without_load));
+      std::vector<int> found;
+      for (std::size_t i = 0; i < without_load.size(); ++i)
+        if (is_free[i] != 0) found.push_back(without_load[i]);
+      if (!found.empty()) return found;
+    }
+    edge = std::move(beside);
+  }
+  return {};
+}
+
+// Of a set, and of nodes on free surfaces beside it where it has none itself.
+Patches patches_of_set(const RecoveredBody& body, const model::ElasticBody& elastic,
+                       const io::BodySource& source, std::vector<int> nodes) {
+  Patches patches = make_patches(body, elastic, source, nodes);
+  if (std::any_of(patches.free.begin(), patches.free.begin() + patches.n(),
+                  [](char mark) { return mark != 0; }))
+    return patches;
+  const std::vector<int> beside =
+      free_nodes_beside(body.finite_elements, source, elastic.surface.node, nodes);
+  if (beside.empty()) return patches;
+  nodes.insert(nodes.end(), beside.begin(), beside.end());
+  return make_patches(body, elastic, source, nodes);
+}
+
 // Applies rows to the displacements of a body at the times of coordinates.
 class Rows {
  public:
@@ -98,11 +141,11 @@ class Rows {
   Eigen::MatrixXd of_modes_;
 };
 
-// Terms of the errors at the n nodes of a set at n_t times, Pa; sums over time are in Pa^2.
+// Terms of the errors at the n nodes of patches at n_t times, Pa; sums over time are in Pa^2.
 struct Parts {
   Eigen::MatrixXd
       error;  // n x n_t, of the modes' displacements, Eq. (1.17) or first factor of (1.18a); else 0
-  Eigen::MatrixXd more;  // n x n_t, von Mises stress of what the set has beside the stress of the modes
+  Eigen::MatrixXd more;  // von Mises stress of what the set has beside the stress of the modes, a row a node
   Eigen::VectorXd sum_error, sum_stress, sum_largest;  // n: of squares of errors, stresses, patches' largest
   Eigen::VectorXd sum_mean;                            // n: of squares of errors of means
 };
@@ -134,12 +177,13 @@ Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, c
                  const io::BodySource& source, const Patches& patches) {
   const Eigen::MatrixXd& q = body.run.history.q;
   const std::vector<int>& members = elastic.stress.sets.at(set.set);
-  const std::vector<int> others(patches.node.begin() + patches.n(), patches.node.end());
+  const std::vector<int> others(patches.node.begin() + std::ssize(set.node), patches.node.end());
   const Rows difference(patches.difference, body.run.file, elastic),
       stress_of_others(body.finite_elements.stress_operator(source, others), body.run.file, elastic);
   const Eigen::Index n = patches.n(), n_t = q.cols();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-  Parts parts{Eigen::MatrixXd::Zero(n, n_t), Eigen::MatrixXd(n, n_t), zero, zero, zero, zero};
+  Parts parts{
+      Eigen::MatrixXd::Zero(n, n_t), Eigen::MatrixXd(std::ssize(set.node), n_t), zero, zero, zero, zero};
   const bool averaged = source.recovery.method == model::RecoveryMethod::average;
   for (Eigen::Index begin = 0; begin < n_t; begin += kTimesInMemory) {
     const Eigen::Index count = std::min(kTimesInMemory, n_t - begin);
@@ -181,15 +225,15 @@ Eigen::MatrixXd mesh_error(const RecoveredBody& body, const model::ElasticBody& 
   if (!tells_mesh_error(body, elastic) || set.node.empty() || set.von_mises.cols() == 0) return {};
   if (modal && !io::has_full_modes(file)) return {};
   const io::BodySource source = io::read_body_source(file);
-  const Patches patches = make_patches(body, elastic, source, set.node);
+  const Patches patches = patches_of_set(body, elastic, source, set.node);
   std::vector<int> free;
   for (int i = 0; i < patches.n(); ++i)
     if (patches.is_free(static_cast<std::size_t>(i))) free.push_back(i);
   if (free.empty()) return {};
   const Parts parts = find_parts(body, elastic, set, source, patches);
-  const Eigen::Matrix3Xd X = source.mesh.X(Eigen::all, set.node);
+  const Eigen::Matrix3Xd X = source.mesh.X(Eigen::all, patches.node);
   Eigen::MatrixXd error(set.von_mises.rows(), set.von_mises.cols());
-  for (int i = 0; i < patches.n(); ++i) {
+  for (int i = 0; i < set.von_mises.rows(); ++i) {
     const auto node = static_cast<std::size_t>(i);
     error.row(i) = parts.error.row(i) + share(parts.sum_error[i], parts.sum_stress[i]) * parts.more.row(i);
     if (patches.is_free(node)) continue;

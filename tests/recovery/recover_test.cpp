@@ -75,13 +75,23 @@ struct Recover : testing::Test {
     o.regions = {{"", test::kSteel}};
     o.restrain = {"xmin"};
     o.surface = {"zmax"};
-    o.stress_nodes = {"ymax"};
+    o.stress_nodes = {"ymax", "zmax", "beside"};
     o.basis = basis;
     o.n_modes = basis == model::Basis::full ? 1 : kModes;
     o.flexibility = with_responses;
     o.stress_recovery = stress_recovery;
-    reduction::reduce(MPI_COMM_SELF, test::distorted(test::brick({4, 2, 2}, {1, 0.4, 0.3}), 0.02), o, file);
+    reduction::reduce(MPI_COMM_SELF, bar(), o, file);
     return io::read_body(file);
+  }
+  // With the set `beside`, the loaded one and the nodes that share a face with it.
+  static mesh::Mesh bar() {
+    mesh::Mesh bar = test::distorted(test::brick({4, 2, 2}, {1, 0.4, 0.3}), 0.02);
+    std::vector<int>& beside = bar.node_sets["beside"];
+    for (const std::vector<int>& around : mesh::surface_patches(bar, bar.node_sets.at("zmax")))
+      beside.insert(beside.end(), around.begin(), around.end());
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    return bar;
   }
   // Coordinates at rest under the forces that the result of write() holds.
   static Eigen::VectorXd at_rest(const model::ElasticBody& body) {
@@ -263,6 +273,25 @@ TEST_F(Recover, estimates_the_error_of_recovered_stresses_by_the_square_of_the_d
     n_below += expected < mean;
   }
   EXPECT_GE(n_below, 4);
+}
+
+TEST_F(Recover, estimates_the_error_of_sets_of_loaded_nodes_by_free_ones_beside) {
+  for (const auto choice : {reduction::RecoveryChoice::automatic, reduction::RecoveryChoice::average}) {
+    stress_recovery = choice;
+    const model::ElasticBody full = reduce(model::Basis::full);
+    RecoveredBody recovered = prepare_recovery(write(full), Acceleration::automatic, true, finite_elements());
+    const io::StressSet loaded = recover_stress(recovered, full, "zmax", true),
+                        both = recover_stress(recovered, full, "beside", true);
+    ASSERT_EQ(loaded.mesh_error.rows(), std::ssize(loaded.node));
+    ASSERT_GT(both.node.size(), loaded.node.size());
+    for (std::size_t i = 0; i < loaded.node.size(); ++i) {
+      const auto in_both = std::find(both.node.begin(), both.node.end(), loaded.node[i]);
+      ASSERT_NE(in_both, both.node.end());
+      const double expected = both.mesh_error(in_both - both.node.begin(), 0);
+      EXPECT_NEAR(loaded.mesh_error(static_cast<Eigen::Index>(i), 0), expected, kRoundoff * expected);
+      EXPECT_GT(expected, 0);
+    }
+  }
 }
 
 TEST_F(Recover, estimates_the_error_of_the_mesh_of_reduced_bodies_alike) {
