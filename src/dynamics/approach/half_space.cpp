@@ -125,18 +125,39 @@ void add_side(const Plane& plane, const std::vector<int>& side, int corner, int 
     }
 }
 
+HatPressure::Columns columns(const std::vector<HatPressure::Part>& parts) {
+  const Index n = std::ssize(parts);
+  HatPressure::Columns all{
+      {Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd(n)}, Eigen::ArrayXd(n), Eigen::ArrayXd(n)};
+  for (Index i = 0; const HatPressure::Part& part : parts) {
+    for (int k = 0; k < 3; ++k) all.x[k][i] = part.x[k];
+    all.force[i] = part.force;
+    all.area[i++] = part.area;
+  }
+  return all;
+}
+
+// Position of the part with this number, which ascend; that of the first one after it where there is none.
+Index find_part(const std::vector<HatPressure::Part>& parts, int number) {
+  const auto before = [](const HatPressure::Part& part, int n) { return part.number < n; };
+  return std::lower_bound(parts.begin(), parts.end(), number, before) - parts.begin();
+}
+
 // Mean of 1/r between two pressures. Eq. (6.36b).
 double mean_between(const HatPressure& a, const HatPressure& b) {
+  const HatPressure::Columns& q = b.columns;
+  Eigen::ArrayXd inverse(q.force.size());
   double sum = 0;
-  for (const HatPressure::Part& p : a.parts)
-    for (const HatPressure::Part& q : b.parts) {
-      if (p.number == q.number) {
-        sum += p.force * q.force * p.inverse_own;
-        continue;
-      }
-      const double inverse = 1 / (p.x - q.x).norm();
-      sum += p.force * q.force * inverse * (1 + (p.area + q.area) / 24 * inverse * inverse);
-    }
+  for (const HatPressure::Part& p : a.parts) {
+    inverse = ((q.x[0] - p.x[0]).square() + (q.x[1] - p.x[1]).square() + (q.x[2] - p.x[2]).square())
+                  .sqrt()
+                  .inverse();
+    inverse += (q.area + p.area) * (1. / 24) * inverse.cube();
+    const Index own = find_part(b.parts, p.number);
+    if (own < inverse.size() && b.parts[static_cast<std::size_t>(own)].number == p.number)
+      inverse[own] = p.inverse_own;
+    sum += p.force * (q.force * inverse).sum();
+  }
   return sum;
 }
 
@@ -162,6 +183,7 @@ const HatPressure& HalfSpace::pressure(int corner) {
   for (const HatPressure::Part& part : hat.parts) all += part.force;
   for (HatPressure::Part& part : hat.parts) hat.x += (part.force /= all) * part.x;
   for (const HatPressure::Part& part : hat.parts) hat.size = std::max(hat.size, (part.x - hat.x).norm());
+  hat.columns = columns(hat.parts);
   for (const auto& [node, force] : nodal_force) hat.nodal_force.emplace_back(node, force / all);
   return hat;
 }

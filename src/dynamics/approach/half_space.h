@@ -22,6 +22,9 @@ struct HatPressure {
     int number;
   };
   std::vector<Part> parts;  ///< x: m, centre of the pressure on it; N; m^2; 1/m, mean of 1/r within it
+  struct Columns {          // numbers of all parts, one after the other
+    Eigen::ArrayXd x[3], force, area;
+  } columns{};
   Eigen::Vector3d x = Eigen::Vector3d::Zero();        ///< m, its centre
   double size = 0;                                    ///< m, from there to the farthest part
   std::vector<std::pair<int, double>> nodal_force{};  ///< local nodes and consistent forces on them, N
