@@ -227,6 +227,7 @@ Pair::Pair(const Pair& like, const Settings& given) {
   data_ = Data::make(given, settings, {tracker.side(0), tracker.side(1)}, {side(0), side(1)});
 }
 
+Pair::Pair(const Pair& other) : data_(std::make_unique<Data>(*other.data_)) {}
 Pair::~Pair() = default;
 Pair::Pair(Pair&&) noexcept = default;
 

@@ -124,6 +124,10 @@ System::System(SystemModel model)
 System::System(const std::vector<BodySetup>& bodies, const std::vector<PairSetup>& pairs,
                const Environment& environment, const MarkerSetups& markers)
     : System(make_system_model(bodies, pairs, environment, markers)) {}
+System::System(SystemModel model, const System& like)
+    : model_(std::move(model)),
+      contact_(std::make_unique<SystemContact>(model_, like.contact_.get())),
+      relaxation_(std::make_unique<SystemRelaxation>(model_)) {}
 System::~System() = default;
 System::System(System&&) noexcept = default;
 

@@ -27,6 +27,8 @@ class Pair {
   /// The surfaces of another pair with other settings, which take gaps from the same surface with the same
   /// feature angle. No node is known to be without a static response.
   Pair(const Pair& like, const Settings& settings);
+  /// As the other pair is now, with all that it has found; the surfaces are shared.
+  Pair(const Pair& other);
   ~Pair();
   Pair(Pair&&) noexcept;
 

@@ -1,6 +1,7 @@
 #pragma once
 // Equilibria of a system in slow motion, one position after the other (docs/theory.md, section 8.6).
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,13 @@ struct SlowMotion {
   std::vector<double> rate = {};
   /// rad per unit of p, of each bushing: turns what its second end is unloaded at about z of its axes.
   std::vector<double> bushing_rate = {};
+  /// A system of the same bodies and pairs that is never evaluated: the systems of a sweep take from it what
+  /// it has prepared for contact. Null: each sweep makes one of its own.
+  std::shared_ptr<const System> prepared = nullptr;
 };
+
+/// Makes that system.
+std::shared_ptr<const System> prepare(const SlowMotion& motion);
 
 struct SweepSettings {
   std::vector<double> positions = {};  ///< p, ascending

@@ -36,6 +36,9 @@ class System {
   /// The system of make_system_model's arguments, with its errors.
   System(const std::vector<BodySetup>& bodies, const std::vector<PairSetup>& pairs,
          const Environment& environment = {}, const MarkerSetups& markers = {});
+  /// The same, beginning with what another system of the same bodies and pairs has prepared for contact, and
+  /// with its history of contact if it has been evaluated. Throws Error for one of other bodies or pairs.
+  System(SystemModel model, const System& like);
   ~System();
   System(System&&) noexcept;
 

@@ -70,8 +70,8 @@ PreparedCase prepare(SweepJob& job, std::size_t number) {
   PreparedCase prepared{with_system(own, drive), {}, {}};
   prepared.motion = slow_motion(prepared.options, drive, system_setup(prepared.options, job.known));
   const dynamics::SlowMotion& motion = prepared.motion;
-  const auto model =
-      dynamics::make_system_model(motion.bodies, motion.pairs, motion.environment, motion.markers);
+  prepared.motion.prepared = dynamics::prepare(motion);
+  const dynamics::SystemModel& model = motion.prepared->model();
   prepared.header = result_header(prepared.options, model, job.known);
   if (number == 0) print_laws(prepared.options, model);
   return prepared;

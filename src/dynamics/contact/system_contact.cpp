@@ -26,22 +26,34 @@ bool same(const Eigen::VectorXd& a, ConstVector b) {
 
 }  // namespace
 
-SystemContact::SystemContact(const SystemModel& model) : pairs_(model.pairs), residual_contact_(model) {
+SystemContact::SystemContact(const SystemModel& model, const SystemContact* like)
+    : pairs_(model.pairs), residual_contact_(model) {
   for (const SystemModel::Body& body : model.bodies)
     surface_.push_back(body.in_contact ? &body.eq.body->surface : nullptr);
-  for (const PairSetup& pair : pairs_) {
-    const SystemModel::Body &a = model.bodies[pair.body[0]], &b = model.bodies[pair.body[1]];
-    detectors_.emplace_back(a.eq.body->surface, b.eq.body->surface, pair.settings,
-                            std::array{&a.eq.body->K_r, &b.eq.body->K_r},
-                            std::array{a.true_surface.get(), b.true_surface.get()},
-                            std::array{responds(*a.eq.body), responds(*b.eq.body)});
-    detectors_.back().follow_points();
-    if (pair.settings.law != contact::ContactLaw::augmented) continue;
-    for (int side : {0, 1}) detectors_.back().set_masses(side, node_masses(*(side == 0 ? a : b).eq.body));
-  }
+  if (like)
+    copy_detectors(*like);
+  else
+    for (const PairSetup& pair : pairs_) make_detector(model, pair);
   unilateral_ = is_unilateral();
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     residual_contact_.set_creep(b, model.bodies[b].relaxed);
+}
+
+void SystemContact::make_detector(const SystemModel& model, const PairSetup& pair) {
+  const SystemModel::Body &a = model.bodies[pair.body[0]], &b = model.bodies[pair.body[1]];
+  detectors_.emplace_back(a.eq.body->surface, b.eq.body->surface, pair.settings,
+                          std::array{&a.eq.body->K_r, &b.eq.body->K_r},
+                          std::array{a.true_surface.get(), b.true_surface.get()},
+                          std::array{responds(*a.eq.body), responds(*b.eq.body)});
+  detectors_.back().follow_points();
+  if (pair.settings.law != contact::ContactLaw::augmented) return;
+  for (int side : {0, 1}) detectors_.back().set_masses(side, node_masses(*(side == 0 ? a : b).eq.body));
+}
+
+void SystemContact::copy_detectors(const SystemContact& like) {
+  require(surface_ == like.surface_ && pairs_.size() == like.pairs_.size(),
+          "internal: the contact of other bodies");
+  for (const contact::Pair& detector : like.detectors_) detectors_.emplace_back(detector);
 }
 
 // Tells whether forces are solved for together with static responses. All pairs of bodies with residual

@@ -13,8 +13,9 @@ namespace elastogear::dynamics {
 
 class SystemContact {
  public:
-  /// The elastic bodies of the model must outlive this.
-  explicit SystemContact(const SystemModel& model);
+  /// The elastic bodies of the model must outlive this. like: of the same bodies and pairs, whose detectors
+  /// are copied; null: they are made anew.
+  explicit SystemContact(const SystemModel& model, const SystemContact* like = nullptr);
 
   /// What was evaluated last, if that was this state with forces as exact; null otherwise.
   const ContactState* known(double time, ConstVector U, ConstVector V, ForceAccuracy accuracy) const;
@@ -76,6 +77,8 @@ class SystemContact {
     std::vector<NodalForces> friction = {};        // of each body, regularised, of the last one
   };
 
+  void make_detector(const SystemModel& model, const PairSetup& pair);
+  void copy_detectors(const SystemContact& like);
   bool is_augmented(std::size_t p) const { return pairs_[p].settings.law == contact::ContactLaw::augmented; }
   bool is_unilateral() const;
   void place(const std::vector<contact::SurfaceMotion>& motion);

@@ -44,7 +44,7 @@ BodySetup at_position(BodySetup setup, double rate, double position) {
   return setup;
 }
 
-System system_at(const SlowMotion& motion, double position) {
+SystemModel model_at(const SlowMotion& motion, double position) {
   std::vector<BodySetup> bodies;
   for (std::size_t b = 0; b < motion.bodies.size(); ++b)
     bodies.push_back(at_position(motion.bodies[b], motion.rate[b], position));
@@ -52,7 +52,7 @@ System system_at(const SlowMotion& motion, double position) {
   scale_by_load_factor(markers, kLastValue);
   Environment environment = motion.environment;
   scale_by_load_factor(environment);
-  return System(bodies, motion.pairs, environment, markers);
+  return make_system_model(bodies, motion.pairs, environment, markers);
 }
 
 // Rates of the joint coordinates of all bodies, in units of the position.
@@ -71,8 +71,13 @@ std::vector<Eigen::VectorXd> sliding(const SlowMotion& motion, const System& sys
 
 // A system that is led from position to position, from the one at which it was loaded.
 struct Sweep {
-  Sweep(const SlowMotion& m, double p, const std::function<bool()>& stop)
-      : motion(m), system(system_at(m, p)), sanity(system), at(system), snes(make_snes(at, J)), first(p) {
+  Sweep(const SlowMotion& m, const System& like, double p, const std::function<bool()>& stop)
+      : motion(m),
+        system(model_at(m, p), like),
+        sanity(system),
+        at(system),
+        snes(make_snes(at, J)),
+        first(p) {
     system.set_sliding(sliding(motion, system));
     let_stop(at, stop);
   }
@@ -184,6 +189,7 @@ struct Leader {
   const SlowMotion& motion;
   const SweepSettings& settings;
   const std::function<bool()>& stop;
+  std::shared_ptr<const System> prepared;
   std::unique_ptr<Sweep> sweep = nullptr;  // null: the last position was not found
   SweepSummary summary = {};
   SweepLedger ledger = {};
@@ -206,7 +212,7 @@ bool load_anew(Leader& leader, double position) {
                                          {position, settings.more_steps, true}};
   std::string why;
   for (const Attempt& attempt : attempts) try {
-      leader.sweep = std::make_unique<Sweep>(leader.motion, attempt.from, leader.stop);
+      leader.sweep = std::make_unique<Sweep>(leader.motion, *leader.prepared, attempt.from, leader.stop);
       if (attempt.may_jump) leader.sweep->at.jump = kLargeJump;
       load(*leader.sweep, attempt.steps, leader.summary.run);
       if (attempt.from == position || go_on(*leader.sweep, position, leader.summary.run)) {
@@ -250,6 +256,10 @@ bool find(Leader& leader, double position, model::Snapshot& found) {
 
 }  // namespace
 
+std::shared_ptr<const System> prepare(const SlowMotion& motion) {
+  return std::make_shared<const System>(model_at(motion, 0));
+}
+
 void validate(const SlowMotion& motion, const SweepSettings& settings) {
   require(!settings.positions.empty(), "a sweep needs at least one position");
   require(settings.steps >= 1 && settings.more_steps >= 1, "load steps must be at least 1");
@@ -276,10 +286,9 @@ SweepSummary sweep(const SlowMotion& motion, const SweepSettings& settings, cons
                    const Progress& progress, const std::function<bool()>& stop) {
   validate(motion, settings);
   const auto start = Clock::now();
-  Leader leader{motion, settings, stop};
-  const System first = system_at(motion, settings.positions.front());
-  require(!first.relaxes_in_time(), kNoHistory);
-  leader.summary.run = new_summary(first);
+  Leader leader{motion, settings, stop, motion.prepared ? motion.prepared : prepare(motion)};
+  require(!leader.prepared->relaxes_in_time(), kNoHistory);
+  leader.summary.run = new_summary(*leader.prepared);
   model::Snapshot found;
   double done = 0;
   try {
