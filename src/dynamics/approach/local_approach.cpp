@@ -233,8 +233,8 @@ ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, 
                               at.largest, compliance);
   // Points of least gap on a line are at its place, where the gap of rigid flanks is zero.
   const double geometric = ellipse ? 0.5 * p.dot((x.transpose() * (Q / F) * x).diagonal()) / F : 0;
-  const double approach = hertz.approach - geometric - work / F;
-  if (approach < pair.least) return {};  // a mesh is never too soft, what is told of it may be
+  double approach = hertz.approach - geometric - work / F;
+  if (approach < pair.least) approach = 0;  // a mesh is never too soft, what is told of it may be
   double all = 0;
   for (const ContactPoint& point : contacts.points) all += point.p;
   const double F_n = std::max(F, kSlight * all);
