@@ -140,8 +140,11 @@ void Pair::follow_points() {
 
 void Pair::look_at_all() { data_->tracker.forget_near(); }
 
-void Pair::release_minima() {
-  for (KeptMinima& kept : data_->kept) kept.clear();
+bool Pair::release_minima() {
+  bool any = false;
+  for (KeptMinima& kept : data_->kept)
+    for (const auto& [number, point] : std::exchange(kept, {})) any |= point.stays;
+  return any;
 }
 
 double Pair::unclosed(const std::vector<ContactPoint>& contacts) const {

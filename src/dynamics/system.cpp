@@ -205,6 +205,7 @@ void System::stiffen(double factor) { contact_->stiffen(factor); }
 void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_forces(pairs); }
 void System::let_move(double unbalanced) { contact_->let_move(unbalanced); }
 void System::seek_rest(double tolerance) { contact_->seek_rest(tolerance); }
+bool System::release_points() { return contact_->release_points(); }
 double System::find_approach(double share) { return contact_->find_approach(share); }
 bool System::change_closed() { return contact_->change_closed(); }
 bool System::had_impulse() const { return contact_->had_impulse(); }

@@ -57,7 +57,8 @@ class Pair {
   /// Points of least gap that bear a force here are also found where they are no minima any more, at their
   /// last places, until they are released: they are kept from entering like all points of the slave.
   void keep_minima(const std::vector<ContactPoint>& contacts);
-  void release_minima();
+  /// Returns whether any is no minimum any more.
+  bool release_minima();
 
   /// Unilateral law: later calls of detect find these contacts with these forces, all others with none.
   void set_forces(const std::vector<ContactPoint>& contacts);

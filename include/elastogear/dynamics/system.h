@@ -92,6 +92,9 @@ class System {
   /// penalty need be no more exact than this share of them, and the local approach of flanks follows them.
   /// 0: they no longer are.
   void seek_rest(double tolerance);
+  /// Points of least gap that stay where a former evaluation of this time found them need no longer stay.
+  /// Returns whether there are any, so that forces may be others.
+  bool release_points();
   /// Goes a share of the way to the local approach of flanks (docs/theory.md, section 6.17) by the contacts
   /// evaluated last. Returns the largest change of one, m; 0 where no pair has one.
   double find_approach(double share);

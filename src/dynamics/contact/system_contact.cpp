@@ -96,11 +96,7 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   forget();
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
-  if (time != time_)
-    for (contact::Pair& pair : detectors_) {
-      pair.release_minima();
-      pair.look_at_all();
-    }
+  if (time != time_) release_points();
   detect(motion);
   if (unilateral_ || residual_contact_.any()) solve(motion);
   U_ = U;
@@ -240,6 +236,16 @@ void SystemContact::seek_rest(double tolerance) {
   residual_contact_.ask_forces(0);
   if (remembers_forces()) return;
   if (residual_contact_.seek_rest(tolerance)) forget();
+}
+
+bool SystemContact::release_points() {
+  bool any = false;
+  for (contact::Pair& pair : detectors_) {
+    any |= pair.release_minima();
+    pair.look_at_all();
+  }
+  if (any) forget();
+  return any;
 }
 
 void SystemContact::accept() {

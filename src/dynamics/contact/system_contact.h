@@ -56,6 +56,7 @@ class SystemContact {
 
   void let_move(double unbalanced) { residual_contact_.ask_forces(unbalanced); }
   void seek_rest(double tolerance);
+  bool release_points();
   /// Accepts the last evaluation as the end of a step.
   void accept();
   /// Goes a share of the way to the local approach of flanks by the last evaluation, which it forgets.

@@ -318,12 +318,23 @@ bool settle_approach(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   return false;
 }
 
+// Points of contact that vanish stay where they were found, in states that may be far from the equilibrium:
+// the search goes on from there without them, until none stays or they stay where they should.
+bool settle_points(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
+  constexpr int kMostReleases = 3;
+  for (int round = 0; round < kMostReleases; ++round) {
+    if (!at.problem.system.release_points()) return true;
+    if (!solve(at, snes, U, summary) || !settle_approach(at, snes, U, summary)) return false;
+  }
+  return true;
+}
+
 // Equilibria from which to which the gaps of the augmented law close, faster where they hardly do: Eq.
 // (6.31).
 bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   System& system = at.problem.system;
   if (!solve(at, snes, U, summary, at.begins_near ? kMostSeeking : 0) ||
-      !settle_approach(at, snes, U, summary))
+      !settle_approach(at, snes, U, summary) || !settle_points(at, snes, U, summary))
     return false;
   double before = kFar;
   for (int round = 0; system.any_augmented(); ++round) {
