@@ -100,6 +100,23 @@ TEST(Sweep, counts_energies_from_the_position_that_leads_in) {
     EXPECT_NEAR(rest.found[i].energy.work, whole.found[2 + i].energy.work - whole.found[1].energy.work, 1e-7);
 }
 
+// Nothing of one sweep is left in a system from which the next one takes what is prepared.
+TEST(Sweep, is_the_same_from_a_prepared_system) {
+  SlowMotion motion = turntable({1.2, 0.1, 0}, 4, 4);
+  const SweepSettings settings{.positions = {0, 1, 2}};
+  const Swept anew = swept(motion, settings);
+  motion.prepared = prepare(motion);
+  for (int time : {1, 2}) {
+    const Swept again = swept(motion, settings);
+    ASSERT_EQ(again.found.size(), anew.found.size());
+    for (std::size_t i = 0; i < anew.found.size(); ++i) {
+      EXPECT_EQ(again.found[i].pairs[0].force, anew.found[i].pairs[0].force) << "sweep " << time;
+      EXPECT_EQ(again.found[i].bodies[0].joint_force, anew.found[i].bodies[0].joint_force);
+      EXPECT_EQ(again.found[i].energy.work, anew.found[i].energy.work);
+    }
+  }
+}
+
 // A quarter of a turn on, the plate does not reach to the block, which nothing holds then.
 TEST(Sweep, goes_on_behind_positions_without_an_equilibrium) {
   SlowMotion motion = turntable({0, 1.75, 0}, 2, 4);
