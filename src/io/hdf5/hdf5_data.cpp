@@ -9,7 +9,7 @@
 
 #include "elastogear/base/finite.h"
 #include "elastogear/base/text.h"
-#include "io/hdf5/chunk_read.h"
+#include "io/hdf5/chunks.h"
 #include "io/hdf5/hdf5_objects.h"
 
 namespace elastogear::io::h5 {
@@ -244,6 +244,8 @@ Id create_growing(const File& file, const std::string& name, const Item& item, h
 
 template <class T>
 void write_rows(const File& file, hid_t dataset, const Rows& rows, const T* data) {
+  if (const std::optional<bool> written = write_chunks(dataset, rows, data))
+    return check_written(*written, file, "a dataset");
   const Id space = select(dataset, rows), memory = simple_space(rows.count);
   check_written(space >= 0 && H5Dwrite(dataset, native<T>(), memory, space, H5P_DEFAULT, data) >= 0, file,
                 "a dataset");

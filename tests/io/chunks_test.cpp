@@ -1,4 +1,4 @@
-#include "io/hdf5/chunk_read.h"
+#include "io/hdf5/chunks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "io/hdf5/fletcher32.h"
 #include "sample_body.h"
 
-namespace elastogear::chunk_read_test {
+namespace elastogear::chunks_test {
 using namespace io;
 
 namespace {
@@ -23,7 +23,7 @@ std::vector<T> some_numbers(hsize_t n) {
   return numbers;
 }
 
-struct ChunkRead : testing::Test {
+struct Chunks : testing::Test {
   mesh::Folder folder{"chunks"};
   h5::File file = h5::create(folder / "some.h5", folder / "some.h5");
 
@@ -33,7 +33,8 @@ struct ChunkRead : testing::Test {
     const h5::Chunked layout{
         {numbers.size() / kColumns, kColumns}, {rows_per_chunk, kColumns}, "1", std::is_same_v<T, float>};
     h5::Id id = h5::create_chunked(file, name, layout);
-    h5::write_rows(file, id, {0, layout.shape}, numbers.data());
+    H5Dwrite(id, std::is_same_v<T, float> ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL,
+             H5P_DEFAULT, numbers.data());
     H5Fflush(file.id, H5F_SCOPE_LOCAL);
     return id;
   }
@@ -50,7 +51,7 @@ struct ChunkRead : testing::Test {
   }
 };
 
-TEST_F(ChunkRead, has_the_checksum_of_hdf5) {
+TEST_F(Chunks, has_the_checksum_of_hdf5) {
   std::vector<std::vector<double>> samples;
   for (hsize_t rows : {1, 2, 5, 600, 3000}) samples.push_back(some_numbers<double>(rows * kColumns));
   samples.emplace_back(100 * kColumns, 0.0);
@@ -70,7 +71,7 @@ TEST_F(ChunkRead, has_the_checksum_of_hdf5) {
 }
 
 template <class T>
-void expect_all_ranges(const ChunkRead& test, const std::string& name) {
+void expect_all_ranges(const Chunks& test, const std::string& name) {
   const std::vector<T> numbers = some_numbers<T>(kRows * kColumns);
   for (hsize_t rows_per_chunk : {1, 4, 23}) {
     const h5::Id id = test.dataset(name + std::to_string(rows_per_chunk), numbers, rows_per_chunk);
@@ -84,12 +85,39 @@ void expect_all_ranges(const ChunkRead& test, const std::string& name) {
   }
 }
 
-TEST_F(ChunkRead, gives_any_rows) {
+TEST_F(Chunks, gives_any_rows) {
   expect_all_ranges<double>(*this, "/double");
   expect_all_ranges<float>(*this, "/float");
 }
 
-TEST_F(ChunkRead, finds_numbers_that_are_not_finite) {
+// HDF5 refuses a chunk whose checksum is wrong.
+TEST_F(Chunks, are_written_as_hdf5_reads_them) {
+  const std::vector<double> numbers = some_numbers<double>(24 * kColumns);
+  for (hsize_t rows_per_chunk : {1, 4}) {
+    const h5::Id id = h5::create_chunked(file, "/written" + std::to_string(rows_per_chunk),
+                                         {{24, kColumns}, {rows_per_chunk, kColumns}, "1"});
+    for (hsize_t first : {0, 8, 16})
+      EXPECT_EQ(h5::write_chunks(id, {first, {8, kColumns}}, numbers.data() + first * kColumns), true);
+    std::vector<double> read(numbers.size());
+    EXPECT_GE(H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
+    EXPECT_EQ(read, numbers);
+  }
+}
+
+TEST_F(Chunks, leaves_parts_of_chunks_and_other_layouts_to_hdf5_to_write) {
+  const std::vector<double> numbers = some_numbers<double>(kRows * kColumns);
+  const h5::Id id = dataset("/some", numbers, 4),
+               single = dataset("/single", some_numbers<float>(kColumns), 1);
+  EXPECT_EQ(h5::write_chunks(id, {2, {4, kColumns}}, numbers.data()), std::nullopt);
+  EXPECT_EQ(h5::write_chunks(id, {20, {3, kColumns}}, numbers.data()), std::nullopt);
+  EXPECT_EQ(h5::write_chunks(single, {0, {1, kColumns}}, numbers.data()), std::nullopt);
+  h5::write_rows(file, id, {2, {4, kColumns}}, numbers.data());
+  std::vector<double> read(4 * kColumns);
+  h5::read_rows(file, "/some", {2, {4, kColumns}}, read.data());
+  EXPECT_TRUE(std::equal(read.begin(), read.end(), numbers.begin()));
+}
+
+TEST_F(Chunks, finds_numbers_that_are_not_finite) {
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     std::vector<double> numbers = some_numbers<double>(kRows * kColumns), read(numbers.size());
     numbers[10 * kColumns + 3] = bad;
@@ -99,7 +127,7 @@ TEST_F(ChunkRead, finds_numbers_that_are_not_finite) {
   }
 }
 
-TEST_F(ChunkRead, leaves_other_layouts_to_hdf5) {
+TEST_F(Chunks, leaves_other_layouts_to_hdf5) {
   const std::vector<double> numbers = some_numbers<double>(kRows * kColumns);
   std::vector<double> read(numbers.size());
   h5::write<double>(file, "/compressed", {{kRows, kColumns}, numbers.data()}, "1", true);
@@ -110,7 +138,7 @@ TEST_F(ChunkRead, leaves_other_layouts_to_hdf5) {
   EXPECT_EQ(h5::read_chunks(single, {kRows, {1, kColumns}}, read.data()), std::nullopt);
 }
 
-TEST_F(ChunkRead, visits_all_rows_of_any_layout) {
+TEST_F(Chunks, visits_all_rows_of_any_layout) {
   const std::vector<double> numbers = some_numbers<double>(30'000 * kColumns);  // more than one chunk
   for (bool compressed : {false, true}) {
     const std::string name = compressed ? "/compressed" : "/plain";
@@ -125,4 +153,4 @@ TEST_F(ChunkRead, visits_all_rows_of_any_layout) {
 }
 
 }  // namespace
-}  // namespace elastogear::chunk_read_test
+}  // namespace elastogear::chunks_test

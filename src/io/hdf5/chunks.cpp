@@ -1,4 +1,4 @@
-#include "io/hdf5/chunk_read.h"
+#include "io/hdf5/chunks.h"
 
 #include <algorithm>
 #include <bit>
@@ -88,5 +88,25 @@ std::optional<bool> read_chunks(hid_t dataset, const Rows& rows, T* data) {
 }
 template std::optional<bool> read_chunks(hid_t, const Rows&, double*);
 template std::optional<bool> read_chunks(hid_t, const Rows&, float*);
+
+template <class T>
+std::optional<bool> write_chunks(hid_t dataset, const Rows& rows, const T* data) {
+  const hsize_t n_chunk = rows_of_chunk<T>(dataset, rows);
+  if (n_chunk == 0 || rows.first % n_chunk != 0 || rows.count[0] % n_chunk != 0) return std::nullopt;
+  const std::size_t bytes = n_chunk * product(rows.count, 1) * sizeof(T);
+  std::vector<char> chunk(bytes + kChecksumBytes);
+  Shape offset(rows.count.size(), 0);
+  const auto* from = reinterpret_cast<const char*>(data);
+  for (hsize_t row = 0; row < rows.count[0]; row += n_chunk, from += bytes) {
+    offset[0] = rows.first + row;
+    std::memcpy(chunk.data(), from, bytes);
+    const std::uint32_t checksum = fletcher32(chunk.data(), bytes);
+    std::memcpy(chunk.data() + bytes, &checksum, kChecksumBytes);
+    if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, offset.data(), chunk.size(), chunk.data()) < 0) return false;
+  }
+  return true;
+}
+template std::optional<bool> write_chunks(hid_t, const Rows&, const double*);
+template std::optional<bool> write_chunks(hid_t, const Rows&, const float*);
 
 }  // namespace elastogear::io::h5
