@@ -72,12 +72,15 @@ Eigen::MatrixXf displacement_columns(const RelaxedResponse& relaxed, int orbit) 
   return relaxed.F.size() > 0 ? Eigen::MatrixXf(relaxed.F.middleCols<3>(3 * orbit)) : relaxed.read_F(orbit);
 }
 
+double self_response(const Flexibility& flexibility, int orbit, const Columns3& F) {
+  return F.middleRows<3>(3 * flexibility.surface.node(0, orbit)).cast<double>().norm();
+}
+
 void set_self(Flexibility& flexibility) {
-  const Eigen::Index n = flexibility.surface.node.cols();
+  const auto n = static_cast<int>(flexibility.surface.node.cols());
   flexibility.self.resize(n);
-  for (Eigen::Index orbit = 0; orbit < n; ++orbit)
-    flexibility.self[orbit] =
-        flexibility.F.block<3, 3>(3 * flexibility.surface.node(0, orbit), 3 * orbit).cast<double>().norm();
+  for (int orbit = 0; orbit < n; ++orbit)
+    flexibility.self[orbit] = self_response(flexibility, orbit, flexibility.F.middleCols<3>(3 * orbit));
 }
 
 Matrix3d displacement_response(const Flexibility& flexibility, int a, int b, const Columns3& F) {

@@ -1,7 +1,7 @@
 #pragma once
 // One reduction while it runs: what its stages hand on to each other. reduce_body.cpp reads, numbers and
-// places the body, reduce_modal.cpp finds its modes, reduce_relaxing.cpp what relaxes in it, reduce.cpp
-// assembles and ends it.
+// places the body, reduce_modal.cpp finds its modes, static_response/reduce_flexibility.cpp its static
+// responses, reduce_relaxing.cpp what relaxes in it, reduce.cpp assembles and ends it.
 
 #include <functional>
 #include <map>
@@ -18,6 +18,7 @@
 #include "elastogear/mesh/hold.h"
 #include "elastogear/mesh/partition.h"
 #include "elastogear/mesh/repetition.h"
+#include "elastogear/reduction/flexibility.h"
 #include "elastogear/reduction/reduce.h"
 #include "reduction/static_response/relaxed_states.h"
 
@@ -105,6 +106,15 @@ fem::StressedBody stressed_body(const Job& job);
 
 /// Finds the modes and writes the body file. Collective.
 void reduce_modal(Job& job);
+
+fem::MeshedBody meshed_body(const Job& job);
+/// Says what the static responses will take before anything is solved. Collective.
+void announce_flexibility(Job& job);
+/// Do the loaded nodes repeat as the mesh does? Collective.
+bool flexibility_repeats(Job& job);
+/// Finds the static responses. whole: of the whole body; not needed where they repeat, and then the sink gets
+/// their columns, unless there are states of relaxation. Collective.
+void add_flexibility(Job& job, const ElasticSystem* whole, const ColumnSink& sink);
 
 /// Are there viscoelastic materials?
 bool relaxes(const ReductionOptions& options);

@@ -25,7 +25,6 @@ namespace elastogear::reduction {
 namespace {
 
 constexpr PetscInt kLargestCheckFactor = 500'000;  // displacements
-constexpr const char* kRelaxedResponses = "static responses of relaxed states";
 
 // Does this entry of the provenance change how the eigensolver works?
 bool asks_solver(const std::string& name) {
@@ -111,10 +110,17 @@ class ModalWriter {
     if (full_) writer_.write_mode(k, mode.phi);
     if (waiting_) waiting_->add(mode.phi);
   }
+  // Takes the columns of static responses as they are found.
+  ColumnSink responses() {
+    return [this](const model::Flexibility& plan, Eigen::Index, const Eigen::MatrixXf& F,
+                  const Eigen::MatrixXf& G) { writer_.write_responses(plan, F, G); };
+  }
   void finish() {
     if (waiting_) set_pairs(*waiting_);
-    model::validate(job_.plan.body, job_.output);
+    model::Flexibility& flexibility = job_.plan.body.flexibility;
+    if (flexibility.F.size() == 0) flexibility.read_F = writer_.written_responses();
     writer_.finish(job_.plan.body, source_of(job_), {job_.report.residual, job_.report.orthogonality});
+    flexibility.read_F = {};
   }
 
  private:
@@ -130,6 +136,11 @@ class ModalWriter {
   io::BodyWriter writer_;
   std::optional<WaitingModes> waiting_;
 };
+
+// The other ranks have no writer.
+ColumnSink responses_to(std::optional<ModalWriter>& writer) {
+  return writer ? writer->responses() : ColumnSink{};
+}
 
 Eigenmodes find_modes(Job& job, const ElasticSystem& system, ModeCheckpoints& checkpoints) {
   PetscInt n_own = 0;
@@ -176,100 +187,6 @@ void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
   if (completeness) add_load_checks(job, system);
 }
 
-FlexibilityTask flexibility_task(const Job& job) {
-  const model::ElasticBody& body = job.plan.body;
-  return {body.surface,        body.stress.node,   job.plan.S,        job.mesh,
-          job.plan.repetition, job.options.loaded, stressed_body(job)};
-}
-
-// Each state of relaxation takes as long, and what it has found stays in memory.
-void add_states(StaticResponseCost& cost, int n_states) {
-  cost.n_states = n_states;
-  cost.seconds *= 1 + n_states;
-  cost.bytes += n_states * cost.kept_bytes;
-}
-
-// Says what the static responses will take before anything is solved. Collective.
-void announce_flexibility(Job& job) {
-  if (!job.options.flexibility || !job.options.announce) return;
-  job.on_root([&] {
-    const FlexibilityTask task = flexibility_task(job);
-    StaticResponseCost cost = forecast(task, plan_flexibility(task), job.plan.free_dof.size(), job.size);
-    if (relaxes(job.options) && !relaxes_alike(job)) add_states(cost, relaxed_states(job).size());
-    job.options.announce(cost);
-  });
-}
-
-// Returns whether the loaded nodes repeat as the mesh does. Collective.
-bool flexibility_repeats(Job& job) {
-  int repeats = 0;
-  if (job.cyclic()) job.on_root([&] { repeats = plan_flexibility(flexibility_task(job)).n_sectors > 1; });
-  MPI_Bcast(&repeats, 1, MPI_INT, 0, job.comm);
-  return repeats != 0;
-}
-
-fem::MeshedBody meshed_body(const Job& job) {
-  return {job.mesh, job.regions, job.plan.region, job.plan.is_free, formulation(job)};
-}
-
-// Static responses of the body with the present moduli of job.regions. system: of the whole body; none where
-// they repeat. Collective.
-model::Flexibility solve_flexibility(Job& job, const FlexibilityTask& task, const ElasticSystem* system) {
-  return system == nullptr
-             ? find_cyclic_flexibility(job.comm, task, meshed_body(job), job.options.floating, job.progress)
-             : find_flexibility(task, *system, job.progress);
-}
-
-// Adds the static responses of one state of relaxation, Eqs. (2.21) and (4.12), with the amplitudes of
-// incompatible modes and the mass of the instantaneous moduli. system: as above, instantaneous. Collective.
-void add_relaxed(Job& job, const ElasticSystem* system, const Eigen::VectorXd& share,
-                 model::Flexibility& flexibility) {
-  const std::vector<model::MaterialRegion> instantaneous = job.regions;
-  set_relaxed(job.regions, share);
-  const FlexibilityTask task = flexibility_task(job);
-  fem::Matrices matrices;
-  std::optional<ElasticSystem> relaxed_system;
-  if (system != nullptr) {
-    matrices = assemble(job);
-    relaxed_system.emplace(ElasticSystem{matrices.K, system->M, system->gather, system->rigid});
-  }
-  job.begin_stage(kRelaxedResponses);
-  model::Flexibility relaxed = solve_flexibility(job, task, relaxed_system ? &*relaxed_system : nullptr);
-  job.on_root([&] {
-    relax_stresses(job, stress_nodes(task, relaxed), relaxed.G);
-    flexibility.relaxed.push_back({share, std::move(relaxed.self), std::move(relaxed.F)});
-    const Eigen::Index above = flexibility.G.rows();
-    flexibility.G.conservativeResize(above + relaxed.G.rows(), Eigen::NoChange);
-    flexibility.G.bottomRows(relaxed.G.rows()) = relaxed.G;
-  });
-  job.regions = instantaneous;
-}
-
-// Does the body relax in different ratios? Collective.
-bool relaxes_in_ratios(Job& job) {
-  int apart = 0;
-  job.on_root([&] { apart = relaxes(job.options) && !relaxes_alike(job); });
-  MPI_Bcast(&apart, 1, MPI_INT, 0, job.comm);
-  return apart != 0;
-}
-
-// whole: of the whole body; not needed where static responses repeat. Collective.
-void add_flexibility(Job& job, const ElasticSystem* whole) {
-  if (!job.options.flexibility) return;
-  const ElasticSystem* const system = flexibility_repeats(job) ? nullptr : whole;
-  job.begin_stage("static responses");
-  model::Flexibility flexibility = solve_flexibility(job, flexibility_task(job), system);
-  if (relaxes_in_ratios(job)) {
-    job.begin_stage(kRelaxedResponses);
-    const RelaxedStates states = relaxed_states(job);
-    flexibility.law = states.law;
-    for (int k = 0; k < states.size(); ++k) add_relaxed(job, system, states.share.col(k), flexibility);
-  } else if (relaxes(job.options)) {
-    flexibility.creep = 0;
-  }
-  if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
-}
-
 // From the matrices of the whole body.
 void reduce_whole(Job& job) {
   const fem::Matrices matrices = assemble(job);
@@ -292,7 +209,7 @@ void reduce_whole(Job& job) {
     });
   });
   check_basis(job, system, asks_for_completeness(job.options));
-  add_flexibility(job, &system);
+  add_flexibility(job, &system, responses_to(writer));
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();
@@ -327,7 +244,7 @@ bool completeness_of_sectors(const Job& job) {
 
 // The modes of sectors need no matrices of the whole body, and neither do their masses nor static responses
 // that repeat as well: K and M are assembled where something else asks for them.
-void check_sectors(Job& job) {
+void check_sectors(Job& job, const ColumnSink& sink) {
   const bool completeness = completeness_of_sectors(job);
   const bool whole = completeness || (job.options.flexibility && !flexibility_repeats(job));
   const fem::Matrices matrices = whole ? assemble(job) : fem::Matrices{};
@@ -342,7 +259,7 @@ void check_sectors(Job& job) {
   job.begin_stage("checks");
   job.report.checks = mass_checks(false, job.plan.body, [&] { return mobile_masses_by_sectors(job); });
   if (completeness) add_load_checks(job, *system);
-  add_flexibility(job, system ? &*system : nullptr);
+  add_flexibility(job, system ? &*system : nullptr, sink);
 }
 
 // From one sector of a body that repeats.
@@ -362,7 +279,7 @@ void reduce_sectors(Job& job) {
   };
   set_eigenmodes(job,
                  find_cyclic_eigenmodes(job.comm, {body, job.plan.repetition}, options, keep, job.progress));
-  check_sectors(job);
+  check_sectors(job, responses_to(writer));
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();

@@ -44,6 +44,12 @@ class BodyWriter {
   ~BodyWriter();
   /// Full displacement vector of one mode, 3 n_nodes (node-major), stored as row `index` of /modes/Phi.
   void write_mode(int index, const Eigen::VectorXd& phi);
+  /// The next columns of F and G of the body's flexibility, ascending: what would otherwise be written by
+  /// finish() need not be in memory as a whole. plan: loaded nodes and evaluation nodes. Error when they are
+  /// not finite.
+  void write_responses(const model::Flexibility& plan, const Eigen::MatrixXf& F, const Eigen::MatrixXf& G);
+  /// Flexibility::read_F of what write_responses() has written, until finish() and as long as this lives.
+  std::function<Eigen::MatrixXf(int orbit)> written_responses() const;
   void finish(const model::ElasticBody& body, const BodySource& source, const ModeChecks& checks = {});
 
  private:

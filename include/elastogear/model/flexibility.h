@@ -63,10 +63,12 @@ int find_loaded(const Flexibility& flexibility, int surface_node);
 Eigen::MatrixXf displacement_columns(const Flexibility& flexibility, int orbit);
 /// Those of a relaxed state.
 Eigen::MatrixXf displacement_columns(const RelaxedResponse& relaxed, int orbit);
+using Columns3 = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>;
+
+/// |F(b, b)| of an orbit's first node b, m/N, given the columns of F of the orbit.
+double self_response(const Flexibility& flexibility, int orbit, const Columns3& F);
 /// Sets `self` from F.
 void set_self(Flexibility& flexibility);
-
-using Columns3 = Eigen::Ref<const Eigen::Matrix<float, Eigen::Dynamic, 3>>;
 
 /// Displacement of node a by unit forces on node b (positions in flexibility.node), m/N, given the columns of
 /// F of b's orbit. F(a, b) = F(b, a)' to the accuracy of what is stored.

@@ -1,6 +1,7 @@
 #pragma once
 // Static responses to unit forces on the contact surface (docs/theory.md, section 6.9).
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct StaticResponseCost {
   std::size_t n_columns = 0;  ///< loads: three for one node of each orbit, for each harmonic
   double seconds = 0;         ///< on `n_ranks` ranks
   double bytes = 0;           ///< of all ranks together, at the same time
-  double kept_bytes = 0;      ///< of them, of F and G
+  double kept_bytes = 0;      ///< of F and G
   int n_states = 0;           ///< states of relaxation besides
 };
 /// n_free: free displacements of the whole body.
@@ -52,12 +53,17 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
 model::Flexibility find_flexibility(const FlexibilityTask& task, const ElasticSystem& system,
                                     const Progress& progress = {});
 
+/// Takes columns of F and G from column `first` on, three for each of the next orbits of loaded nodes.
+using ColumnSink = std::function<void(const model::Flexibility& plan, Eigen::Index first,
+                                      const Eigen::MatrixXf& F, const Eigen::MatrixXf& G)>;
+
 /// Flexibility of the plan from one sector: u = sum_k P_k K_k^-1 P_k' f over the harmonics, with the rows P_k
 /// that unfold harmonic k (section 2.6). Each rank takes its share of the harmonics, one at a time. floating:
-/// a free body, whose rigid motions are in harmonics 0 and 1. Needs a plan that uses the symmetry.
-/// Collective; the result is on rank 0.
+/// a free body, whose rigid motions are in harmonics 0 and 1. Needs a plan that uses the symmetry. The sink
+/// gets all columns, ascending, on rank 0, and the result then has neither F nor G; an empty one leaves them
+/// in it. Collective; the result is on rank 0. Its errors and those of the sink reach all ranks.
 model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,
                                            const fem::MeshedBody& body, bool floating,
-                                           const Progress& progress = {});
+                                           const ColumnSink& sink = {}, const Progress& progress = {});
 
 }  // namespace elastogear::reduction

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "elastogear/base/file.h"
 #include "elastogear/io/body_file.h"
@@ -148,6 +149,7 @@ struct BodyWriter::Data {
   hsize_t n_nodes;
   std::vector<bool> written;  // by mode
   h5::Id modes;
+  std::optional<ResponseColumns> responses = {};
 };
 
 BodyWriter::BodyWriter(const std::string& path, int n_nodes, int n_modes, Precision precision) {
@@ -174,6 +176,16 @@ void BodyWriter::write_mode(int index, const Eigen::VectorXd& phi) {
   data_->written[index] = true;
 }
 
+void BodyWriter::write_responses(const model::Flexibility& plan, const Eigen::MatrixXf& F,
+                                 const Eigen::MatrixXf& G) {
+  if (!data_->responses) data_->responses = create_responses(data_->file, plan, F, G);
+  io::write_responses(data_->file, *data_->responses, F, G);
+}
+
+std::function<Eigen::MatrixXf(int)> BodyWriter::written_responses() const {
+  return [&file = data_->file](int orbit) { return read_displacement_responses(file, orbit); };
+}
+
 void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source, const ModeChecks& checks) {
   const std::string& path = data_->file.path;
   model::validate(body, path);
@@ -186,6 +198,9 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
               (checks.residual.size() == 0 || checks.residual.size() == n_modes) &&
               source.mesh.n_nodes() == static_cast<int>(data_->n_nodes),
           path, ": the modes written are not those of the body");
+  const std::optional<ResponseColumns>& responses = data_->responses;
+  require(!responses || (responses->n_written == responses->n_columns && body.flexibility.F.size() == 0),
+          path, ": the responses written are not those of the body");
   const h5::File& file = data_->file;
   const BodyUnits& unit = body_units(body.basis);
   h5::set_attribute(file, "/", "name", body.name);
@@ -211,6 +226,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   h5::write<double>(file, "/rigid/origin", {{3}, source.origin.data()}, "m");
   write_checks(file, source.checks);
   data_->modes = h5::Id();
+  data_->responses.reset();
   h5::close(data_->file);
   data_->pending.commit();
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/finite.h"
 
 #include "elastogear/io/body_file.h"
 #include "io/hdf5/schema.h"
@@ -29,13 +30,21 @@ model::Images read_images(const h5::File& file, const std::string& name, int n_s
                             file.path + ": " + kGroup + name);
 }
 
-// A row of the dataset is a column of the matrix, in single precision.
+// A row of the dataset is a column of the matrix, in single precision. No rows: no dataset.
+h5::Id create_columns(const h5::File& file, const std::string& name, hsize_t rows, hsize_t n,
+                      const std::string& unit) {
+  if (rows == 0 || n == 0) return {};
+  return h5::create_chunked(file, kGroup + name, {{n, rows}, {1, rows}, unit, true});
+}
+
+void write_next(const h5::File& file, hid_t dataset, hsize_t first, const Eigen::MatrixXf& A) {
+  if (A.size() == 0) return;
+  h5::write_rows(file, dataset, {first, {extent(A.cols()), extent(A.rows())}}, A.data());
+}
+
 void write_columns(const h5::File& file, const std::string& name, const Eigen::MatrixXf& A,
                    const std::string& unit) {
-  const hsize_t rows = static_cast<hsize_t>(A.rows()), n = static_cast<hsize_t>(A.cols());
-  if (A.size() == 0) return;
-  const h5::Id dataset = h5::create_chunked(file, kGroup + name, {{n, rows}, {1, rows}, unit, true});
-  h5::write_rows(file, dataset, {0, {n, rows}}, A.data());
+  write_next(file, create_columns(file, name, extent(A.rows()), extent(A.cols()), unit), 0, A);
 }
 
 Eigen::MatrixXf read_columns(const h5::File& file, const std::string& name, hsize_t first, hsize_t n) {
@@ -102,9 +111,31 @@ void read_relaxed(const h5::File& file, const std::shared_ptr<const h5::File>& b
 
 }  // namespace
 
+ResponseColumns create_responses(const h5::File& file, const model::Flexibility& plan,
+                                 const Eigen::MatrixXf& F, const Eigen::MatrixXf& G) {
+  const auto n = 3 * extent(plan.surface.node.cols());
+  h5::make_group(file, kGroup);
+  return {create_columns(file, "/F", extent(F.rows()), n, "m/N"),
+          create_columns(file, "/G", extent(G.rows()), n, "Pa/N"), 0, n};
+}
+
+void write_responses(const h5::File& file, ResponseColumns& columns, const Eigen::MatrixXf& F,
+                     const Eigen::MatrixXf& G) {
+  require(columns.n_written + extent(F.cols()) <= columns.n_columns, file.path, ": ", kGroup, " has ",
+          columns.n_columns, " forces, responses came to more");
+  require(all_finite(F) && all_finite(G), file.path, ": static responses are not finite");
+  write_next(file, columns.F, columns.n_written, F);
+  write_next(file, columns.G, columns.n_written, G);
+  columns.n_written += extent(F.cols());
+}
+
+Eigen::MatrixXf read_displacement_responses(const h5::File& file, int orbit) {
+  return read_columns(file, "/F", 3 * static_cast<hsize_t>(orbit), 3);
+}
+
 void write_flexibility(const h5::File& file, const model::Flexibility& flexibility) {
   if (flexibility.empty()) return;
-  h5::make_group(file, kGroup);
+  if (!h5::exists(file, kGroup)) h5::make_group(file, kGroup);
   h5::set_attribute(file, kGroup, "n_sectors", flexibility.n_sectors);
   h5::write<double>(file, kGroup + "/axis", {{3}, flexibility.axis.data()}, "1");
   h5::write<int>(file, kGroup + "/node", view(flexibility.node), "1");

@@ -22,7 +22,8 @@ struct WantedRows {
   int n_rows() const { return n_loads() + static_cast<int>(stress.size()); }
 };
 
-constexpr Eigen::Index kPiece = 512;  ///< columns of responses that are put together at a time
+constexpr Eigen::Index kPiece =
+    3 * 170;  ///< columns of responses, of whole nodes, that are put together at a time
 
 /// Columns of the responses of one harmonic: of the fields z and, of a complex harmonic, below of the fields
 /// i z.

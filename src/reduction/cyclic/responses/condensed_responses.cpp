@@ -1,4 +1,4 @@
-#include "reduction/cyclic/condensed_responses.h"
+#include "reduction/cyclic/responses/condensed_responses.h"
 
 #include <Eigen/QR>
 #include <algorithm>

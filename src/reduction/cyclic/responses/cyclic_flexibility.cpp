@@ -8,16 +8,15 @@
 
 #include "elastogear/base/broadcast.h"
 #include "elastogear/base/collectively.h"
-#include "elastogear/base/dense_product.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/memory.h"
-#include "elastogear/base/rotation.h"
 #include "elastogear/base/tensor.h"
 #include "elastogear/fem/sector_assembly.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/flexibility.h"
-#include "reduction/cyclic/condensed_responses.h"
-#include "reduction/cyclic/wanted_rows.h"
+#include "reduction/cyclic/responses/condensed_responses.h"
+#include "reduction/cyclic/responses/delivery.h"
+#include "reduction/cyclic/responses/wanted_rows.h"
 #include "reduction/static_response/independent_rows.h"
 #include "reduction/static_response/inertia_relief.h"
 #include "reduction/static_response/nested/nested_response.h"
@@ -115,43 +114,6 @@ model::SparseRows rows_of(const WantedRows& wanted, const fem::Harmonic& harmoni
   return P;
 }
 
-// Turns the six components of a symmetric tensor by T.
-Eigen::Matrix<double, 6, 6> tensor_turn(const Eigen::Matrix3d& T) {
-  Eigen::Matrix<double, 6, 6> turn;
-  for (int j = 0; j < 6; ++j) turn.col(j) = six_entries(T * symmetric(Vector6::Unit(j)) * T.transpose());
-  return turn;
-}
-
-// Enters displacements of the sector's nodes, turned by j sectors.
-void enter_displacements(const Eigen::Ref<const Eigen::VectorXf>& u, const Eigen::Matrix3f& turn,
-                         const Eigen::RowVectorXi& nodes, Eigen::Ref<Eigen::VectorXf> column) {
-  for (Eigen::Index orbit = 0; orbit < nodes.size(); ++orbit)
-    column.segment<3>(3 * Eigen::Index{nodes[orbit]}).noalias() = turn * u.segment<3>(3 * orbit);
-}
-
-using Stresses = Eigen::Matrix<float, 6, Eigen::Dynamic>;
-
-// The stress, turned, that each of the wanted rows of stresses stands for, a column each.
-Stresses turned_stresses(const WantedRows& wanted, const Eigen::Matrix<double, 6, 6>& turn) {
-  Stresses stress(6, static_cast<Eigen::Index>(wanted.stress.size()));
-  for (std::size_t row = 0; row < wanted.stress.size(); ++row)
-    stress.col(static_cast<Eigen::Index>(row)) =
-        (turn * Eigen::Map<const Vector6>(wanted.stress[row].data())).cast<float>();
-  return stress;
-}
-
-// Enters stresses of the sector's nodes, turned as `stress` is, from as many rows as are independent at each
-// node.
-void enter_stresses(const Eigen::Ref<const Eigen::VectorXf>& rows, const Stresses& stress,
-                    const std::vector<int>& first_row, const Eigen::RowVectorXi& nodes,
-                    Eigen::Ref<Eigen::VectorXf> column) {
-  for (Eigen::Index orbit = 0; orbit < nodes.size(); ++orbit) {
-    Eigen::Matrix<float, 6, 1> sum = Eigen::Matrix<float, 6, 1>::Zero();
-    for (int row = first_row[orbit]; row < first_row[orbit + 1]; ++row) sum += rows[row] * stress.col(row);
-    column.segment<6>(6 * Eigen::Index{nodes[orbit]}) = sum;
-  }
-}
-
 // Rows P_i with P_i z = P (i z).
 model::SparseRows times_i(const model::SparseRows& P, const fem::Harmonic& harmonic) {
   Triplets entries;
@@ -226,108 +188,26 @@ class HarmonicResponses {
   Eigen::Index n_u_ = 0;
 };
 
-// Parts of the amplitudes of this rank's harmonics by the sectors j, a row each: the field of a harmonic k
-// turned by j sectors has the amplitude z exp(2 pi i j k/Z).
-MatrixXf phases(const std::vector<Amplitudes>& own, int n_sectors) {
-  Eigen::Index n = 0;
-  for (const Amplitudes& harmonic : own) n += harmonic.real ? 1 : 2;
-  MatrixXf result(n, n_sectors);
-  for (int j = 0; j < n_sectors; ++j) {
-    Eigen::Index row = 0;
-    for (const Amplitudes& harmonic : own) {
-      const double phase = 2 * std::numbers::pi / n_sectors *
-                           static_cast<double>(static_cast<long>(j) * harmonic.k % n_sectors);
-      result(row++, j) = static_cast<float>(std::cos(phase));
-      if (!harmonic.real) result(row++, j) = static_cast<float>(std::sin(phase));
-    }
+// From the columns of F of whole orbits.
+void set_self(Eigen::Index first, const MatrixXf& F, model::Flexibility& flexibility) {
+  for (Eigen::Index i = 0; i < F.cols(); i += 3) {
+    const auto orbit = static_cast<int>((first + i) / 3);
+    flexibility.self[orbit] = model::self_response(flexibility, orbit, F.middleCols<3>(i));
   }
-  return result;
 }
 
-// The rows wanted of each sector, one sector below the other and in the frame of the first, by this rank's
-// harmonics: columns of one piece of their amplitudes, which are released.
-MatrixXf unfolded(std::vector<Amplitudes>& own, std::size_t piece, const MatrixXf& phase, Eigen::Index n_rows,
-                  Eigen::Index width) {
-  MatrixXf U = MatrixXf::Zero(n_rows * phase.cols(), width), Y(n_rows, phase.rows()),
-           sectors(n_rows, phase.cols());
-  for (Eigen::Index column = 0; column < width && !own.empty(); ++column) {
-    Eigen::Index at = 0;
-    for (const Amplitudes& harmonic : own) {
-      const auto y = harmonic.piece[piece].col(column);
-      Y.col(at++) = y.head(n_rows);
-      if (!harmonic.real) Y.col(at++) = y.tail(n_rows);
-    }
-    multiply(Op::plain, Op::plain, 1.0F, Y, phase, 0.0F, sectors);
-    U.col(column) = sectors.reshaped();
-  }
-  for (Amplitudes& harmonic : own) harmonic.piece[piece] = MatrixXf();
-  return U;
-}
-
-// Columns of F and G from the rows wanted of each sector.
-class Turning {
- public:
-  Turning(const mesh::Turn& sectors, const WantedRows& wanted) : wanted_(wanted) {
-    for (int j = 0; j < sectors.n_sectors; ++j) {
-      const Eigen::Matrix3d T = rotation_matrix(2 * std::numbers::pi / sectors.n_sectors * j * sectors.axis);
-      turn_.emplace_back(T.cast<float>());
-      stress_.push_back(turned_stresses(wanted, tensor_turn(T)));
-    }
-  }
-
-  void enter(const MatrixXf& U, Eigen::Index first, model::Flexibility& to) const {
-    const Eigen::Index n = wanted_.n_rows(), n_u = wanted_.n_loads();
-    for (Eigen::Index column = 0; column < U.cols(); ++column)
-      for (std::size_t j = 0; j < turn_.size(); ++j) {
-        const auto sector = static_cast<Eigen::Index>(j);
-        const auto rows = U.col(column).segment(n * sector, n);
-        enter_displacements(rows.head(n_u), turn_[j], to.surface.node.row(sector), to.F.col(first + column));
-        if (n > n_u)
-          enter_stresses(rows.tail(n - n_u), stress_[j], wanted_.first_stress_row, to.stress.node.row(sector),
-                         to.G.col(first + column));
-      }
-  }
-
- private:
-  const WantedRows& wanted_;
-  std::vector<Eigen::Matrix3f> turn_;  // of each sector
-  std::vector<Stresses> stress_;
-};
-
-// Sum of the ranks' matrices on rank 0.
-void sum_on_root(MPI_Comm comm, Eigen::MatrixXf& A) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  for (Eigen::Index j = 0; j < A.cols(); ++j)
-    MPI_Reduce(rank == 0 ? MPI_IN_PLACE : A.col(j).data(), A.col(j).data(), static_cast<int>(A.rows()),
-               MPI_FLOAT, MPI_SUM, 0, comm);
-}
-
-// F and G on rank 0 from the amplitudes of all ranks, which are released with the columns that are done:
-// there are never many more numbers than those of F and G.
-void combine(MPI_Comm comm, const mesh::Turn& sectors, const WantedRows& wanted, std::vector<Amplitudes>& own,
-             model::Flexibility& flexibility) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  const Eigen::Index n = wanted.n_loads();
-  if (rank == 0) {
-    flexibility.F.resize(3 * flexibility.surface.node.size(), n);
-    flexibility.G.resize(6 * flexibility.stress.node.size(), n);
-  }
-  const Turning turning(sectors, wanted);
-  const MatrixXf phase = phases(own, sectors.n_sectors);
-  for (Eigen::Index first = 0; first < n; first += kPiece) {
-    MatrixXf U = unfolded(own, static_cast<std::size_t>(first / kPiece), phase, wanted.n_rows(),
-                          std::min(kPiece, n - first));
-    sum_on_root(comm, U);
-    if (rank == 0) turning.enter(U, first, flexibility);
-  }
+void store(Eigen::Index first, const MatrixXf& F, const MatrixXf& G, model::Flexibility& flexibility) {
+  const Eigen::Index n = 3 * flexibility.surface.node.cols();
+  flexibility.F.resize(F.rows(), n);
+  flexibility.G.resize(G.rows(), n);
+  flexibility.F.middleCols(first, F.cols()) = F;
+  flexibility.G.middleCols(first, G.cols()) = G;
 }
 
 }  // namespace
 
 model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask& task,
-                                           const fem::MeshedBody& body, bool floating,
+                                           const fem::MeshedBody& body, bool floating, const ColumnSink& sink,
                                            const Progress& progress) {
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
@@ -369,9 +249,15 @@ model::Flexibility find_cyclic_flexibility(MPI_Comm comm, const FlexibilityTask&
       give_back_memory();
     }
   });
-  combine(comm, sector.turn, wanted, own, flexibility);
-  if (rank == 0) model::set_self(flexibility);
-  return flexibility;
+  model::Flexibility found = flexibility;
+  if (rank == 0) found.self.resize(flexibility.surface.node.cols());
+  const auto keep = [&](const model::Flexibility& plan, Eigen::Index first, const MatrixXf& F,
+                        const MatrixXf& G) {
+    set_self(first, F, found);
+    sink ? sink(plan, first, F, G) : store(first, F, G, found);
+  };
+  deliver_columns(comm, sector.turn, wanted, own, flexibility, keep);
+  return found;
 }
 
 }  // namespace elastogear::reduction
