@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "contact/forces/bracket.h"
 #include "contact/forces/hermite.h"
 
 namespace elastogear::contact {
@@ -13,10 +14,9 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kSteps = 20;
-constexpr double kConverged = 1e-10;  // of local coordinates
-constexpr double kDistinct = 1e-6;    // of a length, that a minimum lies below its ends
-constexpr double kNearCut = 1e-5;     // of a side, from where it is looked for where it leaves the master
-constexpr double kApart = 1e-4;       // of a face, between minima that are not the same
+constexpr double kConverged = Bracket::kConverged;
+constexpr double kDistinct = 1e-6;  // of a length, that a minimum lies below its ends
+constexpr double kApart = 1e-4;     // of a face, between minima that are not the same
 
 // A slave point that may be a minimum.
 struct Trial {
@@ -40,6 +40,27 @@ Minimum minimum(const GapField& field, const Trial& t) {
   return {t.point, t.geometry, open_point(field.master, t.nearest, t.geometry.x, field.offset)};
 }
 
+// Which minima are sought.
+struct Sought {
+  double below = kFarGap;  // m, larger ones are of no interest
+  int known = -1;          // face of the master over which the least gap is known; -1: none
+};
+
+// Is the least gap surely of no interest, by a value that falls at most by `fall` (m) along its parabola? Not
+// so over the master's extensions, where it fades.
+bool is_surely_open(const Sought& sought, const Trial& t, double fall) {
+  constexpr double kUncertain = 0.5;  // of the fall
+  return t.over.gap.g - (1 + kUncertain) * fall > sought.below && !on_extension(t.nearest);
+}
+
+// A minimum of no interest, of which nothing but the estimated gap and a place nearby is known.
+Minimum open_minimum(const Trial& t, double fall) {
+  Minimum m{t.point, t.geometry, {}};
+  m.open.projection = t.over.projection;
+  m.open.gap.g = t.over.gap.g - fall;
+  return m;
+}
+
 // A point of a side, by the share s of its length, from which a search for the least gap begins, and a face
 // of the master near it.
 struct SideStart {
@@ -51,28 +72,6 @@ SideStart estimate(const SideGaps& side, int face) {
   const bool known = side.g[0] != kFarGap && side.g[1] != kFarGap;
   return {known ? least_of_cubic(side.g, side.slope).s : 0.5, face};
 }
-
-// The part of a side that a search is left with. Beyond an end that is cut no foot point was found.
-struct Bracket {
-  double low = 0, high = 1;
-  bool low_is_cut = false, high_is_cut = false;
-
-  double middle() const { return 0.5 * (low + high); }
-  void cut(double s, double from) {
-    (s > from ? high : low) = s;
-    (s > from ? high_is_cut : low_is_cut) = true;
-  }
-  void narrow(double s, double slope) {
-    (slope > 0 ? high : low) = s;
-    (slope > 0 ? high_is_cut : low_is_cut) = false;
-  }
-  void join_again() {
-    if (std::exchange(low_is_cut, false)) low = 0;
-    if (std::exchange(high_is_cut, false)) high = 1;
-  }
-  bool falls_to_cut(double slope) const { return slope > 0 ? low_is_cut : high_is_cut; }
-  bool is_left(double slope) const { return high - low > (falls_to_cut(slope) ? kNearCut : kConverged); }
-};
 
 // The open side of a master face that a point near it has crossed most of, of those that it is moved out by;
 // -1: there is none.
@@ -120,14 +119,15 @@ std::optional<Minimum> crossing(const GapField& field, const SideGaps& side, con
   return {};
 }
 
-bool is_below_ends(const SideGaps& side, const Trial& t) {
-  return t.over.gap.g < std::min(side.g[0], side.g[1]) - kDistinct * side.length;
+bool is_below_ends(const SideGaps& side, double g) {
+  return g < std::min(side.g[0], side.g[1]) - kDistinct * side.length;
 }
 
 // Newton's method for the slope of the gap, kept between places where it falls and rises, or that have no
 // foot point. A side leaves the master over an extension of that; elsewhere a foot point was missed from
-// afar.
-std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const SideStart& begin) {
+// afar. Over the face of a known minimum it would find that one.
+std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const SideStart& begin,
+                                     const Sought& sought) {
   constexpr int kMostSteps = 2 * kSteps;
   Bracket left;
   std::optional<Trial> last;
@@ -143,6 +143,7 @@ std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const
     }
     at = s;
     start = t->over.projection.face;
+    if (start == sought.known) return {};
     slope = t->over.gap.n.dot(t->geometry.a.col(0));
     left.narrow(s, slope);
     if (!left.is_left(slope) && !on_extension(t->nearest)) left.join_again();
@@ -153,9 +154,15 @@ std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const
       left = {};  // nothing is cut
       break;
     }
-    s = next > left.low && next < left.high ? next : left.middle();
+    const bool is_within = next > left.low && next < left.high;
+    const double fall = 0.5 * slope * (s - next);
+    if (curvature > 0 && is_within && !left.is_cut() && is_surely_open(sought, *last, fall)) {
+      if (!is_below_ends(side, last->over.gap.g - fall)) return {};
+      return open_minimum(*last, fall);
+    }
+    s = is_within ? next : left.middle();
   }
-  if (!last || !is_below_ends(side, *last)) return {};
+  if (!last || !is_below_ends(side, last->over.gap.g)) return {};
   if (!left.falls_to_cut(slope)) return minimum(field, *last);
   return field.slave.topology.is_open(side.point.face, side.side) ? crossing(field, side, *last, at)
                                                                   : std::nullopt;
@@ -216,8 +223,9 @@ struct Search {
 };
 
 // Newton's method while it is held on the face, half as far where that leads off the master. on_sides: m, the
-// least gap known on the face's sides.
-Search least_within(const GapField& field, SlavePoint point, const FaceStart& start, double on_sides) {
+// least gap known on the face's sides. Over the master's face of a known minimum it would find that one.
+Search least_within(const GapField& field, SlavePoint point, const FaceStart& start, double on_sides,
+                    const Sought& sought) {
   const int sides = side_count(field.slave.face, point.face);
   int face = start.face;
   Vector2d way = Vector2d::Zero();
@@ -231,12 +239,16 @@ Search least_within(const GapField& field, SlavePoint point, const FaceStart& st
       continue;
     }
     face = t->over.projection.face;
+    if (face == sought.known) return {};
     const Vector2d slope = t->geometry.a.transpose() * t->over.gap.n;
     const Eigen::Matrix2d H = gap_curvature(t->geometry, 2, t->over.gap);
     const auto newton = step_on_face(sides, point.at, slope, H);
     if (!newton) break;
     way = *newton;
     if (is_flat(t->geometry.a.leftCols<2>(), H)) return {};
+    if (const Vector2d down = H.inverse() * slope;
+        down.cwiseAbs().maxCoeff() <= 1 && is_surely_open(sought, *t, 0.5 * slope.dot(down)))
+      return {};
     if (way.cwiseAbs().maxCoeff() < kConverged) {
       const double length = t->geometry.a.colwise().norm().maxCoeff();
       const bool is_minimum = is_inside(sides, point.at) && t->over.gap.g < on_sides - kDistinct * length;
@@ -328,9 +340,9 @@ std::optional<Minimum> followed_minimum(const GapField& field, const Minimum& la
   const int face = last.open.projection.face;
   if (last.point.n_dir == 1) {
     const SideGaps side = side_with(field, last.point);
-    now = least_on_side(field, side, {share_of_side(side, last.point.at), face});
+    now = least_on_side(field, side, {share_of_side(side, last.point.at), face}, {});
   } else {
-    now = least_within(field, last.point, {0, last.point.at, face}, kFarGap).minimum;
+    now = least_within(field, last.point, {0, last.point.at, face}, kFarGap, {}).minimum;
   }
   if (!now || now->crossing.has_value() != last.crossing.has_value()) return {};
   if (!now->crossing && !is_sure(field, *now)) return {};
@@ -350,12 +362,13 @@ Vector2d held_inside(int sides, const Vector2d& at) {
 
 std::vector<Minimum> minima_on_side(const GapField& field, const SideGaps& side, int face) {
   std::vector<Minimum> minima;
-  const auto first = least_on_side(field, side, estimate(side, face));
+  const auto first = least_on_side(field, side, estimate(side, face), {field.reach.gap});
   if (!first) return minima;
   minima.push_back(*first);
   const double s = share_of_side(side, first->point.at);
+  const Sought other{field.reach.gap, first->open.projection.face};
   add_beside(field, minima, [&](const Eigen::VectorXd& step, int beyond) {
-    return least_on_side(field, side, {std::clamp(s + step[0], 0.0, 1.0), beyond});
+    return least_on_side(field, side, {std::clamp(s + step[0], 0.0, 1.0), beyond}, other);
   });
   return minima;
 }
@@ -365,13 +378,14 @@ std::vector<Minimum> minima_within(const GapField& field, const SlavePoint& poin
   std::vector<Minimum> minima;
   Search first{{}, false};
   for (auto start = starts.begin(); start != starts.end() && !first.ended; ++start)
-    first = least_within(field, point, *start, on_sides);
+    first = least_within(field, point, *start, on_sides, {field.reach.gap});
   if (!first.minimum) return minima;
   minima.push_back(*first.minimum);
   const int sides = side_count(field.slave.face, point.face);
+  const Sought other{field.reach.gap, first.minimum->open.projection.face};
   add_beside(field, minima, [&](const Eigen::VectorXd& step, int beyond) {
     const Vector2d at = held_inside(sides, first.minimum->point.at + step);
-    return least_within(field, point, {0, at, beyond}, on_sides).minimum;
+    return least_within(field, point, {0, at, beyond}, on_sides, other).minimum;
   });
   return minima;
 }
