@@ -181,7 +181,10 @@ std::optional<Projection> Pair::Data::project(const MasterSide& master, const Su
   const Limits limits = limits_at(reach, placed.side, slave.topology.node_corners[placed.node]);
   int& last_face = history[placed.side].last_face[placed.node];
   int& nearest = history[placed.side].nearest_face[placed.node];
-  auto projection = find_projection(master.surface, q, limits, faces, &nearest);
+  double clearance = 0;
+  auto projection = find_projection(master.surface, q, limits, faces, &nearest, &clearance);
+  if (clearance > 0)
+    tracker.set_clearance(placed.side, placed.node, clearance - (placed.x - slave.at(placed.node)).norm());
   if (projection && std::binary_search(faces.begin(), faces.end(), last_face))
     projection = kept_projection(master, *projection, placed.x, last_face);
   last_face = projection ? projection->face : -1;
@@ -237,6 +240,7 @@ bool Pair::Data::run_pass(int slave_side, bool follows, std::vector<ContactPoint
   touch.clear();
   for (std::size_t i = 0; i < tracker.near(slave_side).slave.size(); ++i) {
     const std::size_t before = contacts.size();
+    if (tracker.is_clear(slave_side, tracker.near(slave_side).slave[i])) continue;
     add_node(master, slave, i, gaps, contacts);
     if (contacts.size() > before) touch.push_back(i);
   }

@@ -233,6 +233,33 @@ TEST(Skin, nodes_deeper_than_the_limit_are_found_as_soon_as_they_are_not) {
   EXPECT_LT(n_displaced, n_steps * static_cast<int>(a.surface.X.cols() + b.surface.X.cols()) / 2);
 }
 
+// A patch rests just beyond another, is lifted by jumps of all sizes and comes back. Nodes that have been
+// seen to be clear are displaced no more until the surfaces have gone as far, there and back.
+TEST(Skin, nodes_seen_to_be_clear_are_left_out_until_the_way_is_used_up) {
+  Random random(5);
+  const Elastic a = elastic_patch(16, true, random), b = elastic_patch(14, false, random);
+  Pair searched(a.surface, b.surface, settings(Update::bound));
+  Pair kept(a.surface, b.surface, settings(Update::bound), {&a.K_r, &b.K_r});
+  const SurfaceMotion m_b{Eigen::VectorXd::Zero(n_modes), {0, 0, 0}, Eigen::Matrix3d::Identity()};
+  SurfaceMotion m_a{Eigen::VectorXd::Zero(n_modes), {-0.3, 0.1, 0}, test::rotation({0.01, -0.02, 0.3})};
+  const auto contacts_at = [&](double z) {
+    m_a.r_WB[2] = z;
+    const auto found = kept.detect(m_a, m_b);
+    expect_equal(found, searched.detect(surface_state(a.surface, m_a), surface_state(b.surface, m_b)));
+    return static_cast<int>(found.size());
+  };
+  constexpr double kLow = 0.02, kHigh = 0.05;
+  int n_contacts = 0;
+  for (int step = 0; step < 200; ++step) {
+    const double size = std::pow(10.0, random.uniform(-5, 0));
+    contacts_at(kLow + size * (kHigh - kLow));
+    contacts_at(kLow);
+    m_a.q = amplitudes(random, size);
+    n_contacts += contacts_at(kLow);
+  }
+  EXPECT_GT(n_contacts, 200);
+}
+
 // The tip of a cone rocks on a plane, until the normals of its node and the face are no longer opposite: that
 // node alone is near, and those around it give the normal.
 TEST(Skin, normals_of_nodes_follow_the_motion) {

@@ -112,14 +112,18 @@ bool surely_opposes(const Eigen::Vector3d& n, const SlaveNode& slave, const Limi
 }  // namespace
 
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
-                                          const Limits& limits, std::span<const int> faces, int* likely) {
+                                          const Limits& limits, std::span<const int> faces, int* likely,
+                                          double* clearance) {
   const int first = likely ? *likely : -1;
   const Trial trial{master, slave.x, limits.depth, faces, first, slave.bounds};
   const Nearest any = nearest(trial, [](auto&&...) { return true; });
   if (!any.found()) return {};
   if (likely) *likely = any.face;
   const bool is_far = any.distance2 > limits.outside * limits.outside;
-  if (is_far && place(master, slave.x, any) == Place::outside) return {};
+  if (is_far && place(master, slave.x, any) == Place::outside) {
+    if (clearance) *clearance = std::sqrt(any.distance2);
+    return {};
+  }
   std::optional<Eigen::Vector3d> n_slave;
   const auto opposes = [&](const Face& face, const ClosestPoint& p) {
     const Eigen::Vector3d n = normal(face, p.u, p.v);

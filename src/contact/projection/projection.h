@@ -44,10 +44,11 @@ struct Projection {
 /// Nothing when the node is outside the master body (further than the limit), beyond a surface boundary,
 /// deeper than the limit, or when only faces that do not oppose it are near. `faces` must hold all master
 /// faces within `depth` of the node; they ascend. `likely`, if not null: one of them or -1, is tried first
-/// and becomes the nearest. The search is quickest when it is right.
+/// and becomes the nearest. The search is quickest when it is right. `clearance`, if not null: becomes the
+/// distance of a node that is outside by more than the limit, m, and otherwise stays.
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
                                           const Limits& limits, std::span<const int> faces,
-                                          int* likely = nullptr);
+                                          int* likely = nullptr, double* clearance = nullptr);
 
 /// The foot point of q (m) on the face extended over its sides by at most a quarter of its length, from w on
 /// it; nothing when there is none.

@@ -65,6 +65,7 @@ Tracker::Tracker(std::array<Tracked, 2> sides, const Settings& settings, const L
     const auto n = static_cast<std::size_t>(side_[i].surface->X.cols());
     const std::vector<long> of_faces(static_cast<std::size_t>(side_[i].surface->face.cols()), 0);
     look_[i] = {std::vector<long>(n, 0), std::vector<long>(n, 0), of_faces, {}};
+    clear_until_[i].assign(n, 0);
     rates_[i] = {{}, Eigen::Matrix3Xd(3, n), std::vector<long>(n, 0), 1};
   }
   for (int i : {0, 1}) {
@@ -208,8 +209,12 @@ void Tracker::measure_clearance(double limit) {
   const double soon = limit + limits_.outside;
   v.limit = limit;
   v.uses = 0;
-  for (int slave : slave_sides(settings_))
-    v.near[slave] = not_apart(v.candidates[slave], v.apart_until[slave], v.path + soon);
+  for (int slave : slave_sides(settings_)) {
+    std::vector<double>& apart_until = v.apart_until[slave];
+    for (int node : v.candidates[slave].nodes())
+      apart_until[node] = std::max(apart_until[node], v.path + clear_until_[slave][node] - way_);
+    v.near[slave] = not_apart(v.candidates[slave], apart_until, v.path + soon);
+  }
   for (int slave : slave_sides(settings_)) leave_out(slave, soon);
   v.within = std::exchange(v.near, {});
   take_near(kFirstStretch * limit);
@@ -319,6 +324,7 @@ void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
     if (settings_.update == Update::realign) margin += largest_displacement(*state[i], *side_[i].surface);
   }
   place(a, b);
+  forget_way();
   find_candidates(margin);
 }
 
@@ -330,6 +336,7 @@ void Tracker::move_to(const SurfaceMotion& a, const SurfaceMotion& b,
   has_residual_ = residual[0].at || residual[1].at;
   for (int i : {0, 1}) validate(*now_[i], *side_[i].surface, i);
   n_displaced_ = 0;
+  is_near_found_ = false;
   start_stage();
   start_look();
   for (double* sum : {&residual_since_found_, &residual_since_measured_, &residual_since_seen_})
@@ -343,18 +350,20 @@ bool Tracker::stays_within(double distance) const {
 }
 
 void Tracker::find_near() {
+  go_on();
   update_neighbours();
   for (int i : {0, 1})
     for (int node : kept_[i]) place_node(i, node);
   for (int i : {0, 1}) seen_at_[i] = *now_[i];
   residual_since_seen_ = 0;
-  is_seen_ = true;
+  is_seen_ = is_near_found_ = true;
   if (settings_.points != SlavePoints::faces) return;
   for (int slave : slave_sides(settings_)) place_for(slave, neighbours_->near[slave]);
 }
 
 void Tracker::forget() {
   neighbours_.reset();
+  forget_way();
   forget_near();
 }
 

@@ -66,6 +66,10 @@ class Tracker : private NodePlacer {
   SurfaceView view(int i, double extension);
   /// Slave nodes that can touch, with the faces that can be nearest.
   const Neighbours& near(int slave) const { return neighbours_->near[slave]; }
+  /// Takes down that a slave node that was found near now is outside the master by that much, m.
+  void set_clearance(int slave, int node, double clearance);
+  /// Can the node surely not touch, by what has been taken down of it?
+  bool is_clear(int slave, int node) const { return clear_until_[slave][node] > way_ + limits_.outside; }
   /// All faces within the depth limit of a slave node.
   std::span<const int> all_faces(int slave, int node) const { return neighbours_->candidates[slave][node]; }
   /// Of the faces of a surface; null where no bound of its deformation is known without displacing all nodes.
@@ -101,6 +105,8 @@ class Tracker : private NodePlacer {
   void start_look();
   FaceBounds face_bounds(int i) const;
   double distance_since(const SurfaceMotion then[2]) const;
+  void go_on();
+  void forget_way();
   void measure_clearance(double limit);
   void take_near(double distance);
   void leave_out(int slave, double clear);
@@ -129,7 +135,11 @@ class Tracker : private NodePlacer {
   SurfaceMotion seen_at_[2];                                       // in the last call of find_near,
   bool is_seen_ = false;                                           // unless that is forgotten
   double residual_since_seen_ = 0;                                 // m, bound of the change
-  std::array<NodeDisplacements, 2> displaced_;  // by q, while residual displacements may change
+  double way_ = 0;              // m, of the surfaces, from one call of find_near to the next,
+  bool knows_way_ = false;      // unless there was none since the last call of forget
+  bool is_near_found_ = false;  // since the last call of move_to
+  std::array<std::vector<double>, 2> clear_until_;  // by slave side and node: the way without touch, m
+  std::array<NodeDisplacements, 2> displaced_;      // by q, while residual displacements may change
   struct Rates {  // Phi q_dot of the nodes with the present number, which changes with q_dot
     Eigen::VectorXd q_dot;
     Eigen::Matrix3Xd x_dot_B;

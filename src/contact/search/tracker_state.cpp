@@ -1,4 +1,5 @@
-// The Tracker's state beyond one look at the surfaces: displaced nodes of the last one, and checkpoints.
+// The Tracker's state beyond one look at the surfaces: displaced nodes of the last one, ways and clearances,
+// and checkpoints.
 #include <algorithm>
 
 #include "contact/search/tracker.h"
@@ -34,6 +35,23 @@ std::optional<Eigen::Vector3d> Tracker::moved(int i, int node) const {
   return Eigen::Vector3d(configuration_.x[i].col(node) - x.col(at - nodes.begin()));
 }
 
+// Adds the way from the last call of find_near to here.
+void Tracker::go_on() {
+  if (knows_way_) way_ += distance_since(seen_at_) + residual_since_seen_;
+  knows_way_ = true;
+}
+
+void Tracker::forget_way() {
+  knows_way_ = is_near_found_ = false;
+  for (std::vector<double>& until : clear_until_) std::fill(until.begin(), until.end(), 0);
+}
+
+void Tracker::set_clearance(int slave, int node, double clearance) {
+  if (!is_near_found_) return;
+  const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
+  clear_until_[slave][node] = way_ + clearance + spare;
+}
+
 void Tracker::serialize(Archive& archive) {
   for (Placed& placed : remembered_) {
     archive(placed.node);
@@ -58,6 +76,7 @@ void Tracker::serialize_neighbours(Archive& archive) {
   archive(has_residual_);
   if (!archive.is_loading()) return;
   forget_near();
+  forget_way();
   if (has_residual_) return neighbours_.reset();  // the residual displacement of that time is not known
   for (int i : {0, 1}) now_[i] = &then.found_at[i];
   find_candidates();
