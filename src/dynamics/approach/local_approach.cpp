@@ -234,7 +234,10 @@ ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, 
   // Points of least gap on a line are at its place, where the gap of rigid flanks is zero.
   const double geometric = ellipse ? 0.5 * p.dot((x.transpose() * (Q / F) * x).diagonal()) / F : 0;
   double approach = hertz.approach - geometric - work / F;
-  if (approach < pair.least) approach = 0;  // a mesh is never too soft, what is told of it may be
+  if (approach < pair.least) {  // a mesh is never too soft, what is told of it may be
+    if (!moves_) return {};
+    approach = 0;
+  }
   double all = 0;
   for (const ContactPoint& point : contacts.points) all += point.p;
   const double F_n = std::max(F, kSlight * all);
@@ -276,6 +279,7 @@ double LocalApproach::find(const ContactState& state, Flexibilities& flexibility
 }
 
 void LocalApproach::accept(const ContactState& state, Flexibilities& flexibility, double time) {
+  moves_ = !std::exchange(seeks_rest_, false);
   find(state, flexibility, 1, 0);
   before_at_ = std::exchange(accepted_at_, time);
   for (auto& flanks : flanks_)
@@ -377,6 +381,7 @@ double LocalApproach::energy(std::size_t b) const {
 
 void LocalApproach::serialize(Archive& archive) {
   for (double* x : {&taken_, &accepted_at_, &before_at_}) archive(*x);
+  for (bool* x : {&seeks_rest_, &moves_}) archive(*x);
   for (auto& flanks : flanks_)
     for (std::size_t g = 0; flanks && g < flanks->flank.size(); ++g) {
       Flank& flank = flanks->flank[g];

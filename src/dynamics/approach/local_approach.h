@@ -31,9 +31,11 @@ class LocalApproach {
   /// those before to them. Laws that hardly differ stay, so that a search for a state of rest comes to an
   /// end. Returns the largest difference of an approach where one has changed, m.
   double find(const ContactState& state, Flexibilities& flexibility, double share) {
+    seeks_rest_ = true;
     return find(state, flexibility, share, kAtRest);
   }
-  /// The same of flanks that have none yet; the others keep theirs.
+  /// The same of flanks that have none yet; the others keep theirs. Where the mesh is too soft there is none,
+  /// but in motion, where it is zero until the end of the step.
   void find_new(const ContactState& state, Flexibilities& flexibility);
   /// Finds the laws at the end of a step at this time: Eq. (7.2b). Those of small differences change as well:
   /// in steps from law to law they would excite vibrations that do not die away.
@@ -108,6 +110,8 @@ class LocalApproach {
   std::vector<std::optional<Flanks>> flanks_;    // of each body
   double taken_ = 0;
   double accepted_at_ = 0, before_at_ = 0;  // s
+  bool seeks_rest_ = false;                 // since the end of the last step
+  bool moves_ = false;                      // did that step not seek a state of rest?
 };
 
 }  // namespace elastogear::dynamics
