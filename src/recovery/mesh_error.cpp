@@ -98,7 +98,8 @@ std::vector<int> free_nodes_beside(const FiniteElements& elements, const io::Bod
   return {};
 }
 
-// Of a set, and of nodes on free surfaces beside it where it has none itself.
+// The patches around the nodes of a set and, where none of these is on a free surface, around nodes beside
+// the set that are.
 Patches patches_of_set(const RecoveredBody& body, const model::ElasticBody& elastic,
                        const io::BodySource& source, std::vector<int> nodes) {
   Patches patches = make_patches(body, elastic, source, nodes);

@@ -20,12 +20,12 @@ using Eigen::MatrixXf;
 
 constexpr int kPieceTag = 3;
 
-// Where the responses of a harmonic are.
+// The rank that has found the responses of harmonic k, and whether these are real.
 struct HarmonicAt {
   int k, real, rank;
 };
 
-// Those of all ranks, ascending.
+// The harmonics of all ranks by ascending k, with the rank that has found each.
 std::vector<HarmonicAt> all_harmonics(MPI_Comm comm, const std::vector<Amplitudes>& own) {
   constexpr int kNumbers = 3;  // of a HarmonicAt
   int rank = 0, size = 1;
