@@ -29,7 +29,8 @@ double single_precision_speed() {
   using Clock = std::chrono::steady_clock;
   constexpr Eigen::Index kSize = 384;
   constexpr int kTimes = 3;  // the first one enters memory
-  const Eigen::MatrixXf A = Eigen::MatrixXf::Ones(kSize, kSize), B = A;
+  const Eigen::MatrixXf A = Eigen::MatrixXf::Ones(kSize, kSize);
+  const Eigen::MatrixXf B = Eigen::MatrixXf::Ones(kSize, kSize);
   Eigen::MatrixXf C(kSize, kSize);
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kTimes; ++i) {
