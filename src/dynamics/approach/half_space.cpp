@@ -89,7 +89,7 @@ std::vector<double> functions(const std::vector<int>& side, const Eigen::Vector4
     const int j = (i + 1) % corners;
     const double both = corners == 4 ? linear[i] + linear[j] : 1,
                  between = both > 0 ? 4 * linear[i] * linear[j] / both : 0;
-    N[static_cast<std::size_t>(corners + i)] = between;
+    N[static_cast<std::size_t>(corners) + static_cast<std::size_t>(i)] = between;
     N[static_cast<std::size_t>(i)] -= between / 2;
     N[static_cast<std::size_t>(j)] -= between / 2;
   }
