@@ -75,11 +75,20 @@ void serialize_motion(TS ts, Archive& archive) {
   if (archive.is_loading()) generalized_alpha_set_state(ts, motion[0], motion[1], motion[2]);
 }
 
+void serialize_history(TS ts, Archive& archive) {
+  const StepHistory history = generalized_alpha_history(ts);
+  Eigen::VectorXd slope = *ReadView(history.slope);
+  archive(slope);
+  archive(*history.step);
+  if (archive.is_loading()) assign(history.slope, slope);
+}
+
 }  // namespace
 
 void serialize_state(Run& run, TS ts, Archive& archive) {
   serialize_instant(run, ts, archive);
   serialize_motion(ts, archive);
+  serialize_history(ts, archive);
   run.problem.system.serialize(archive);
   run.problem.solver.serialize(archive);
   run.ledger.serialize(archive);

@@ -110,6 +110,13 @@ void observe(Run& run) {
   run.last_observed = true;
 }
 
+double next_output(const Run& run, double time) {
+  if (!has_output_times(run.settings)) return std::numeric_limits<double>::infinity();
+  int i = run.n_outputs;
+  while (output_time(run.settings, i) <= time) ++i;
+  return output_time(run.settings, i);
+}
+
 void observe_since_last_step(Run& run, TS ts) {
   PetscReal time = 0, before = 0;
   if (!has_output_times(run.settings)) return;

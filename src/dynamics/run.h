@@ -77,12 +77,17 @@ void update(RunSummary& summary, const model::Snapshot& snapshot);
 void observe(Run& run);
 /// Observes the output times before the end of the last step; coordinates must not be re-based yet.
 void observe_since_last_step(Run& run, TS ts);
+/// The next time of output after `time`, at the end of a step, s; infinite: there is none.
+double next_output(const Run& run, double time);
 /// Enters the state after a step into ledger and summary, and observes it when it is due.
 void enter_step(Run& run, TS ts, int step, double time);
 void report_step(const Run& run, TS ts, int step);
 
 /// Control of the steps, where they are chosen.
 void control_steps(Run& run, TS ts);
+/// Takes errors of steps out of the coordinates of joints, where steps are chosen (docs/theory.md, Eq.
+/// (8.9a)). The forces of the law of impacts jump from step to step: with it nothing is taken out.
+void extrapolate_joints(const Run& run, TS ts);
 /// Tells the system how closely forces are balanced where steps are chosen; to be called once options are
 /// read.
 void let_move(Run& run, TS ts);

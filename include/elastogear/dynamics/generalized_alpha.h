@@ -32,9 +32,9 @@ void register_generalized_alpha();
 void generalized_alpha_state(TS ts, Vec* U, Vec* V, Vec* A);
 
 /// Replaces the accepted state; the next step continues from exactly these values, so a run resumed with the
-/// stored U, V, A, time, time step and step number equals the uninterrupted one bit for bit. Also the way to
-/// re-base coordinates in a TSPostStep callback. Needs TS2SetSolution, and TSSolve with the same U or
-/// nullptr.
+/// stored U, V, A, history, time, time step and step number equals the uninterrupted one bit for bit. Also
+/// the way to re-base coordinates in a TSPostStep callback. Needs TS2SetSolution, and TSSolve with the same U
+/// or nullptr.
 void generalized_alpha_set_state(TS ts, Vec U, Vec V, Vec A);
 
 struct MotionVectors {
@@ -50,6 +50,20 @@ bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x);
 
 /// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
+
+/// Local extrapolation (docs/theory.md, section 8.3): the error of every step that is taken is taken out of
+/// the entries of U where `entries` is 1 (0: they stay), and error control counts what is left of it. For
+/// coordinates of much inertia, whose steps the tolerances resolve; without effect where rho_inf = 1. Needs
+/// set_tolerances: errors that are small beside them stay.
+void generalized_alpha_extrapolate(TS ts, Vec entries);
+
+/// What a step takes from the one before, besides U, V and A (docs/theory.md, Eqs. (8.8) and (8.9a)).
+/// Borrowed: a run that goes on gets both back in place, after set_state.
+struct StepHistory {
+  Vec slope;     ///< of A in the last step
+  double* step;  ///< its size, s; 0: A has been solved for since
+};
+StepHistory generalized_alpha_history(TS ts);
 
 /// `check` is called with every solution of F = 0 at the stage of a step and tells whether F has become
 /// another function, whose zero is to be found from there.

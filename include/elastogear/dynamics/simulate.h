@@ -43,7 +43,7 @@ struct TimeSettings {
   /// than step_error, -, times the largest elastic displacement so far. The step in which bodies first touch
   /// is short, and surfaces of a pair go by less than the contact depth. velocity_tolerance, m/s, > 0:
   /// velocities too. docs/theory.md, section 8.3.
-  double step_error = 1e-4, step_tolerance = 0, velocity_tolerance = 0;
+  double step_error = 3e-4, step_tolerance = 0, velocity_tolerance = 0;
   std::function<void(const StepInfo&)> monitor = {};  ///< after every step
 };
 

@@ -52,7 +52,9 @@ std::vector<double> times(const Options& options, const std::string& name) {
 const Rows<TimeSettings> kTimeRows = {
     {"output_every", &TimeSettings::output_every, "-", "write every n-th step", kPositive},
     {"output_dt", &TimeSettings::output_dt, "s",
-     "write at multiples of this time in place of every n-th step, between steps by a step that ends there"},
+     "write at multiples of this time in place of every n-th step; steps that the run chooses end there, "
+     "others "
+     "are left by a step that does"},
     {"output_times", "s", "",
      "write at these times, the start and the end, likewise: t1,t2,... or a file with one a line",
      [](auto& o, auto& name, auto& time) { time.output_times = times(o, name); }},

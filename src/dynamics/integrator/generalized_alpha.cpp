@@ -56,6 +56,7 @@ PetscErrorCode set_solution(TS ts, const Motion& x) {
 PetscErrorCode attempt(TS ts, PetscBool* accept, PetscReal* next_step) {
   Method& m = method(ts);
   PetscBool solved = PETSC_FALSE;
+  PetscCall(move_lag(ts));
   PetscCall(solve_step(ts));
   PetscCall(TSAdaptCheckStage(ts->adapt, ts, m.stage.t, m.at_stage.U, &solved));
   if (!solved) {
@@ -66,6 +67,7 @@ PetscErrorCode attempt(TS ts, PetscBool* accept, PetscReal* next_step) {
   PetscCall(TSAdaptChoose(ts->adapt, ts, ts->time_step, nullptr, next_step, accept));
   if (*accept) return 0;
   PetscCall(set_solution(ts, m.start));
+  PetscCall(VecCopy(m.last.A, m.current.A));
   ts->time_step = *next_step;
   return 0;
 }
@@ -91,13 +93,15 @@ PetscErrorCode step(TS ts) {
   PetscInt rejections = 0;
   PetscCall(ensure_acceleration(ts));
   PetscCall(copy(m.current, m.start));
+  PetscCall(VecCopy(m.current.A, m.last.A));
   while (!ts->reason) {
     PetscCall(attempt(ts, &accept, &next_step));
     if (accept) break;
     PetscCall(count_rejection(ts, &rejections));
   }
   if (ts->reason) return 0;
-  PetscCall(move_lag(m, next_step / ts->time_step));
+  PetscCall(extrapolate(ts));
+  PetscCall(remember_slope(ts));
   m.step_time = ts->ptime;
   m.step_size = ts->time_step;
   ts->ptime += ts->time_step;
@@ -105,17 +109,25 @@ PetscErrorCode step(TS ts) {
   return 0;
 }
 
-PetscErrorCode roll_back(TS ts) { return set_solution(ts, method(ts).start); }
+PetscErrorCode roll_back(TS ts) {
+  Method& m = method(ts);
+  PetscCall(set_solution(ts, m.start));
+  return VecCopy(m.last.A, m.current.A);
+}
 
 // ---- error estimate
 
-// norm := weighted norm of scale * (A1 - A0), as an error of x
-PetscErrorCode error_norm(TS ts, Vec x, PetscReal scale, NormType type, PetscReal* norm) {
-  const Method& m = method(ts);
+// error := scale * (A1 - A0)
+PetscErrorCode local_error(const Method& m, PetscReal scale, Vec error) {
+  PetscCall(VecWAXPY(error, -1, m.start.A, m.end.A));
+  return VecScale(error, scale);
+}
+
+// norm := weighted norm of an error of x, which is overwritten.
+PetscErrorCode error_norm(TS ts, Vec x, Vec error, NormType type, PetscReal* norm) {
   PetscReal absolute = 0, relative = 0;
-  const Vec y = m.at_stage.U;  // free until the next stage
-  PetscCall(VecWAXPY(y, -1, m.start.A, m.end.A));
-  PetscCall(VecAYPX(y, scale, x));
+  const Vec y = error;
+  PetscCall(VecAXPY(y, 1, x));
   return TSErrorWeightedNorm(ts, x, y, type, norm, &absolute, &relative);
 }
 
@@ -128,7 +140,9 @@ PetscErrorCode velocity_error_norm(TS ts, NormType type, PetscReal* norm) {
   std::swap(vrtol, ts->vrtol);
   ts->atol = m.velocity_atol;
   ts->rtol = m.velocity_rtol;
-  const PetscErrorCode code = error_norm(ts, m.end.V, m.parameters.gamma * ts->time_step, type, norm);
+  const Vec error = m.at_stage.U;
+  PetscErrorCode code = local_error(m, m.parameters.gamma * ts->time_step, error);
+  if (!code) code = error_norm(ts, m.end.V, error, type, norm);
   ts->atol = atol;
   ts->rtol = rtol;
   std::swap(vatol, ts->vatol);
@@ -142,9 +156,12 @@ PetscErrorCode evaluate_wlte(TS ts, NormType type, PetscInt* order, PetscReal* w
   const Method& m = method(ts);
   const Parameters& p = m.parameters;
   const PetscReal dt = ts->time_step;
-  const PetscReal C_U = PetscAbsReal(p.beta - (p.alpha_m - p.alpha_f) / 2 - PetscReal(1) / 6);
+  const PetscReal C_U = PetscAbsReal(position_constant(p));
   PetscReal velocity = 0;
-  PetscCall(error_norm(ts, m.end.U, C_U * dt * dt, type, wlte));
+  const Vec error = m.at_stage.U;  // free until the next stage
+  PetscCall(local_error(m, C_U * dt * dt, error));
+  PetscCall(extrapolated_error(ts, error));
+  PetscCall(error_norm(ts, m.end.U, error, type, wlte));
   if (m.velocity_vatol || m.velocity_atol > 0 || m.velocity_rtol > 0)
     PetscCall(velocity_error_norm(ts, type, &velocity));
   *wlte = PetscMax(*wlte, PetscPowReal(velocity, 1.5));  // asks for the step that second order would
@@ -298,15 +315,15 @@ PetscErrorCode create(TS ts) {
   return compose(ts, set_radius, set_parameters, get_parameters);
 }
 
-Method& ready_method(TS ts) {
+}  // namespace
+
+Method& generalized_alpha::ready_method(TS ts) {
   TSType type = nullptr;
   check(TSGetType(ts, &type));
   require(ts->ops->step == step, "TS type ", type ? type : "(none)", ": must be ", kTypeName, " or alpha2");
   check(TSSetUp(ts));
   return method(ts);
 }
-
-}  // namespace
 
 void register_generalized_alpha() {
   check(TSRegister(kTypeName, create));
@@ -362,7 +379,8 @@ void generalized_alpha_set_check(TS ts, const std::function<PetscErrorCode(bool*
 }
 
 void generalized_alpha_set_acceleration(TS ts, StepAcceleration acceleration) {
-  const Method& m = ready_method(ts);
+  Method& m = ready_method(ts);
+  m.last.step = 0;
   if (acceleration == StepAcceleration::at_start) return check(VecCopy(m.start.A, m.current.A));
   check(VecWAXPY(m.current.A, -1, m.start.V, m.current.V));
   check(VecScale(m.current.A, 1 / m.step_size));

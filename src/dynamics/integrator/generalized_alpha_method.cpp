@@ -194,6 +194,7 @@ PetscErrorCode acceleration_outcome(TS ts) {
       (double)ts->ptime, SNESConvergedReasons[reason]);
   if (reason < 0) ts->reason = TS_DIVERGED_NONLINEAR_SOLVE;
   method(ts).acceleration_known = reason >= 0;
+  method(ts).last.step = 0;
   return 0;
 }
 
@@ -211,6 +212,8 @@ PetscErrorCode create_vectors(TS ts) {
     PetscCall(duplicate(ts->vec_sol, *x));
   PetscCall(VecDuplicate(ts->vec_sol, &m.Delta));
   PetscCall(VecDuplicate(ts->vec_sol, &m.residual));
+  PetscCall(VecDuplicate(ts->vec_sol, &m.last.A));
+  PetscCall(VecDuplicate(ts->vec_sol, &m.last.slope));
   return 0;
 }
 
@@ -218,6 +221,9 @@ PetscErrorCode destroy_vectors(Method& m) {
   for (Motion* x : {&m.current, &m.start, &m.end, &m.base, &m.at_stage}) PetscCall(destroy(*x));
   PetscCall(VecDestroy(&m.Delta));
   PetscCall(VecDestroy(&m.residual));
+  PetscCall(VecDestroy(&m.extrapolated));
+  PetscCall(VecDestroy(&m.last.A));
+  PetscCall(VecDestroy(&m.last.slope));
   return 0;
 }
 
@@ -259,12 +265,22 @@ PetscErrorCode solve_acceleration(TS ts) {
   return acceleration_outcome(ts);
 }
 
-PetscErrorCode move_lag(const Method& m, PetscReal ratio) {
+PetscErrorCode move_lag(TS ts) {
+  const Method& m = method(ts);
+  const SlopeHistory& last = m.last;
+  PetscCall(VecCopy(last.A, m.start.A));
+  if (last.step == 0) return 0;
   const PetscReal lag = m.parameters.alpha_m - m.parameters.alpha_f;
-  const PetscReal weight = PetscMin(1, lag * (ratio - 1));
-  if (weight == 0) return 0;
-  PetscCall(VecAXPY(m.current.A, -weight, m.end.A));
-  return VecAXPY(m.current.A, weight, m.start.A);
+  const PetscReal weight = PetscMin(1, lag * (ts->time_step / last.step - 1));
+  return VecAXPY(m.start.A, -weight * last.step, last.slope);
+}
+
+PetscErrorCode remember_slope(TS ts) {
+  Method& m = method(ts);
+  PetscCall(VecWAXPY(m.last.slope, -1, m.start.A, m.end.A));
+  PetscCall(VecScale(m.last.slope, 1 / ts->time_step));
+  m.last.step = ts->time_step;
+  return 0;
 }
 
 PetscErrorCode stage_function(SNES, Vec Delta, Vec F, TS ts) {

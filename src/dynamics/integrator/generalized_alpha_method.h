@@ -15,6 +15,11 @@ struct Parameters {
 /// Optimal parameters for a spectral radius rho_inf in 0..1, Eqs. (8.4) and (8.5).
 Parameters parameters_for(PetscReal rho_inf);
 
+/// C_U of Eq. (8.9).
+inline PetscReal position_constant(const Parameters& p) {
+  return p.beta - (p.alpha_m - p.alpha_f) / 2 - PetscReal(1) / 6;
+}
+
 enum class Predictor { none, constant_acceleration, zero_acceleration };
 
 struct Motion {
@@ -26,6 +31,13 @@ struct Stage {
   PetscReal t, c_U, c_V, c_A;
   PetscReal shift_V, shift_A;  ///< dV/dU and dA/dU for the Jacobian callback
   PetscReal scale;             ///< of F, so that its derivative in Delta is the callback's Jacobian
+};
+
+/// What a step takes from the one before, besides U and V.
+struct SlopeHistory {
+  Vec A;           ///< at its end, lagging by its lag
+  Vec slope;       ///< of A from its start to its end
+  PetscReal step;  ///< s, 0: A has been solved for since
 };
 
 struct Method {
@@ -43,10 +55,14 @@ struct Method {
   Stage stage;
   Motion base, at_stage;
   Vec Delta, residual;
+  Vec extrapolated;  ///< 1 for the entries whose error is taken out, else 0; or null
+  SlopeHistory last;
   std::function<PetscErrorCode(bool*)> check;  ///< has F changed with the solution? May be empty
 };
 
 inline Method& method(TS ts) { return *static_cast<Method*>(ts->data); }
+/// The same once TS is set up. Throws Error for another TS type.
+Method& ready_method(TS ts);
 
 PetscErrorCode create_vectors(TS ts);
 PetscErrorCode destroy_vectors(Method& m);
@@ -60,10 +76,20 @@ PetscErrorCode solve_step(TS ts);
 /// or with ts->reason where TSSetErrorIfStepFails is off.
 PetscErrorCode solve_acceleration(TS ts);
 
-/// A of the method belongs to a time that lags t by (alpha_m - alpha_f) dt. When the next step is `ratio`
-/// times the last one, current.A moves to the lag of the next step, Eq. (8.8), never past A at the start of
-/// the last.
-PetscErrorCode move_lag(const Method& m, PetscReal ratio);
+/// A of the method belongs to a time that lags t by (alpha_m - alpha_f) dt: start.A := that of the step
+/// before, moved to the lag of a step of ts->time_step, Eq. (8.8), never past A at the start of the one
+/// before.
+PetscErrorCode move_lag(TS ts);
+/// After a step that is taken.
+PetscErrorCode remember_slope(TS ts);
+
+/// Is the error of a step taken out of some entries?
+bool extrapolates(const Method& m);
+/// In place of the local error of U, Eq. (8.9), what extrapolation leaves of it in the entries it takes it
+/// from, Eq. (8.9d).
+PetscErrorCode extrapolated_error(TS ts, Vec error);
+/// Takes the local error of the step to `end` out of the accepted U and V, Eq. (8.9a).
+PetscErrorCode extrapolate(TS ts);
 
 /// U at a time between the ends of the last step, Eq. (8.10), and V and A, Eq. (8.17).
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U);

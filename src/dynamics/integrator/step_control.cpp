@@ -117,6 +117,14 @@ double longest_step(const Run& run, const State& x) {
   return step;
 }
 
+// Equal steps that end at the next time of output, none longer than `longest` and about as long as dt, s.
+double step_to_output(const Run& run, double time, double dt, double longest) {
+  constexpr double kLonger = 1.15;  // than dt, for the sake of fewer steps
+  const double left = next_output(run, time) - time;
+  if (!std::isfinite(left)) return std::min(dt, longest);
+  return left / std::ceil(left / std::min(kLonger * dt, longest));
+}
+
 PetscErrorCode accept_touch(TSAdapt, TS ts, PetscReal t, Vec U, PetscBool* accept) {
   Run* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
@@ -184,6 +192,14 @@ void control_steps(Run& run, TS ts) {
   }
 }
 
+void extrapolate_joints(const Run& run, TS ts) {
+  const System& system = run.problem.system;
+  if (!are_steps_chosen(run.settings) || system.any_augmented()) return;
+  Eigen::VectorXd open = Eigen::VectorXd::Zero(system.size());
+  for (const System::Body& body : system.bodies()) open.segment(body.first, body.n_open()).setOnes();
+  generalized_alpha_extrapolate(ts, vector(open));
+}
+
 void let_move(Run& run, TS ts) {
   SNES snes = nullptr;
   PetscReal unbalanced = 0;
@@ -216,7 +232,8 @@ void limit_steps(Run& run, TS ts) {
   const ReadView u(U), v(V);
   longest = std::min(control.longest_step, longest_step(run, {time, *u, *v, *v}));
   check(TSAdaptSetStepLimits(adapt, std::min(shortest, longest), longest));
-  if (dt > longest) check(TSSetTimeStep(ts, longest));
+  const double next = step_to_output(run, time, dt, longest);
+  if (next != dt) check(TSSetTimeStep(ts, next));
 }
 
 }  // namespace elastogear::dynamics

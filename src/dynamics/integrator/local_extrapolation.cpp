@@ -1,0 +1,99 @@
+// Local extrapolation: the error of a step, taken out of slow coordinates (docs/theory.md, section 8.3).
+#include "dynamics/integrator/generalized_alpha_method.h"
+#include "elastogear/base/petsc.h"
+#include "elastogear/dynamics/generalized_alpha.h"
+
+namespace elastogear::dynamics {
+namespace generalized_alpha {
+namespace {
+
+// Of sigma, by which vibrations are damped rather than excited, Eq. (8.9b).
+constexpr PetscReal kDamping = 0.2;
+// Errors below this share of the tolerance are hardly taken out, Eq. (8.9c).
+constexpr PetscReal kSmall = 0.05;
+
+PetscReal lag(const Parameters& p) { return p.alpha_m - p.alpha_f; }
+
+// C_V of Eq. (8.9a).
+PetscReal velocity_constant(const Parameters& p) {
+  return PetscReal(1) / 12 - lag(p) * (1 - 2 * p.alpha_f) / 2;
+}
+
+// slope := that of A in the step from start to end.
+PetscErrorCode find_slope(TS ts, Vec slope) {
+  const Method& m = method(ts);
+  PetscCall(VecWAXPY(slope, -1, m.start.A, m.end.A));
+  return VecScale(slope, 1 / ts->time_step);
+}
+
+// change := that of the slope in a step like the one from start to end, which has `slope`.
+PetscErrorCode find_change(TS ts, Vec slope, Vec change) {
+  const SlopeHistory& last = method(ts).last;
+  PetscCall(VecCopy(slope, change));
+  PetscCall(VecAXPY(change, -1, last.slope));
+  return VecScale(change, 2 * ts->time_step / (ts->time_step + last.step));
+}
+
+// Share of an error that is taken out of U, which is small beside the tolerance or not. Eq. (8.9c).
+PetscErrorCode share_of(TS ts, Vec error, PetscReal* share) {
+  const Method& m = method(ts);
+  PetscReal size = 0, absolute = 0, relative = 0;
+  const Vec y = m.at_stage.U;
+  PetscCall(VecWAXPY(y, 1, error, m.current.U));
+  PetscCall(TSErrorWeightedNorm(ts, m.current.U, y, ts->adapt->wnormtype, &size, &absolute, &relative));
+  *share = size * size / (size * size + kSmall * kSmall);
+  return 0;
+}
+
+}  // namespace
+
+bool extrapolates(const Method& m) { return m.extrapolated && lag(m.parameters) > 0; }
+
+PetscErrorCode extrapolated_error(TS ts, Vec error) {
+  Method& m = method(ts);
+  const PetscReal dt = ts->time_step, C = position_constant(m.parameters) + velocity_constant(m.parameters);
+  if (!extrapolates(m) || m.last.step == 0) return 0;
+  const Vec slope = m.at_stage.V, change = m.at_stage.A;
+  PetscCall(find_slope(ts, slope));
+  PetscCall(find_change(ts, slope, change));
+  PetscCall(VecAXPBY(change, -1, C * dt * dt * dt, error));
+  PetscCall(VecPointwiseMult(change, change, m.extrapolated));
+  return VecAXPY(error, 1, change);
+}
+
+PetscErrorCode extrapolate(TS ts) {
+  Method& m = method(ts);
+  if (!extrapolates(m) || m.last.step == 0) return 0;
+  const PetscReal C_U = position_constant(m.parameters), C_V = velocity_constant(m.parameters),
+                  a = lag(m.parameters), dt = ts->time_step,
+                  sigma = PetscReal(0.5) + a + C_V / C_U * (1 + a) + kDamping;
+  const Vec error = m.at_stage.V, change = m.at_stage.A;
+  PetscReal share = 0;
+  PetscCall(find_slope(ts, error));
+  PetscCall(find_change(ts, error, change));
+  PetscCall(VecPointwiseMult(error, error, m.extrapolated));
+  PetscCall(VecPointwiseMult(change, change, m.extrapolated));
+  PetscCall(VecAXPBY(error, C_U * dt * dt * dt * sigma, C_U * dt * dt * dt, change));
+  PetscCall(share_of(ts, error, &share));
+  PetscCall(VecAXPY(m.current.U, -share, error));
+  PetscCall(VecAXPY(m.current.V, -share * C_V * dt * dt, change));
+  PetscCall(VecCopy(m.current.U, ts->vec_sol));
+  PetscCall(VecCopy(m.current.V, ts->vec_dot));
+  return PetscObjectStateGet((PetscObject)ts->vec_sol, &m.solution_state);
+}
+
+}  // namespace generalized_alpha
+
+void generalized_alpha_extrapolate(TS ts, Vec entries) {
+  generalized_alpha::Method& m = generalized_alpha::ready_method(ts);
+  check(VecDestroy(&m.extrapolated));
+  check(VecDuplicate(entries, &m.extrapolated));
+  check(VecCopy(entries, m.extrapolated));
+}
+
+StepHistory generalized_alpha_history(TS ts) {
+  generalized_alpha::Method& m = generalized_alpha::ready_method(ts);
+  return {m.last.slope, &m.last.step};
+}
+
+}  // namespace elastogear::dynamics

@@ -1,0 +1,104 @@
+// Errors of steps that the time integrator takes out of coordinates: docs/theory.md, section 8.3.
+#include <cmath>
+#include <cstdlib>
+
+#include "second_order_problem.h"
+
+namespace elastogear::local_extrapolation_test {
+using namespace test;
+namespace {
+
+constexpr double kEnd = 20;
+
+// A'' + 2 xi U' + U = 0 from U = 1, U' = 0; the second entry has no part in it and the same motion.
+Problem twins(double xi) {
+  return {[xi](double, const VectorXd& U, const VectorXd& V, const VectorXd& A) -> VectorXd {
+            return A + 2 * xi * V + U;
+          },
+          [xi](double, const VectorXd&, double shift_V, double shift_A) -> MatrixXd {
+            return (1 + 2 * xi * shift_V + shift_A) * Matrix2d::Identity();
+          },
+          Vector2d(1, 1), Vector2d::Zero()};
+}
+
+Vector2d exact(double t) { return {std::cos(t), -std::sin(t)}; }
+
+struct Outcome {
+  Vector2d error;  // of (U, V), of the extrapolated entry and the other
+  double energy = 0;
+};
+
+// Steps of h and `ratio` times h by turns; `tolerance` is that of U.
+Outcome integrate(double h, double rho_inf, double ratio = 1, double tolerance = 1e-12) {
+  std::ostringstream options;
+  options.precision(17);
+  options << "-ts_dt " << h << " -ts_max_time " << kEnd << " -snes_rtol 1e-14 -ts_alpha_radius " << rho_inf;
+  Integration* run = nullptr;
+  int n = 0;
+  Integration integration(twins(0), options.str(), [&](double t, const VectorXd&, const VectorXd&) {
+    if (run && t < kEnd) check(TSSetTimeStep(run->ts, std::min(++n % 2 ? ratio * h : h, kEnd - t)));
+  });
+  run = &integration;
+  dynamics::generalized_alpha_extrapolate(integration.ts, test::vector(Vector2d(1, 0)));
+  dynamics::generalized_alpha_set_tolerances(integration.ts, test::vector(Vector2d(1, 1)), tolerance, 0);
+  integration.solve();
+  const VectorXd U = integration.displacement(), V = integration.velocity();
+  Outcome outcome;
+  for (int i = 0; i < 2; ++i) outcome.error[i] = (Vector2d(U[i], V[i]) - exact(kEnd)).norm();
+  outcome.energy = U[0] * U[0] + V[0] * V[0];
+  return outcome;
+}
+
+TEST(LocalExtrapolation, raises_the_order_of_a_vibration) {
+  for (const double rho_inf : {0.5, 0.8, 0.95}) {
+    const Outcome coarse = integrate(0.2, rho_inf), fine = integrate(0.1, rho_inf);
+    EXPECT_NEAR(std::log2(coarse.error[1] / fine.error[1]), 2, 0.1) << rho_inf;
+    EXPECT_GT(std::log2(coarse.error[0] / fine.error[0]), 2.9) << rho_inf;
+    EXPECT_LT(coarse.error[0], coarse.error[1] / 15) << rho_inf;
+  }
+}
+
+TEST(LocalExtrapolation, gains_where_steps_change) {
+  for (const double rho_inf : {0.5, 0.8, 0.95})
+    for (const double ratio : {0.5, 0.8}) {
+      const Outcome changing = integrate(0.2, rho_inf, ratio);
+      EXPECT_LT(changing.error[0], changing.error[1] / 5) << rho_inf << ", " << ratio;
+    }
+}
+
+TEST(LocalExtrapolation, damps_rather_than_excites_what_steps_resolve) {
+  for (const double h : {0.05, 0.2, 0.3})
+    for (const double rho_inf : {0.5, 0.8}) EXPECT_LT(integrate(h, rho_inf).energy, 1 + 1e-5) << h;
+}
+
+TEST(LocalExtrapolation, leaves_errors_that_are_small_beside_the_tolerance) {
+  const Outcome left = integrate(0.1, 0.8, 1, 1);
+  EXPECT_NEAR(left.error[0], left.error[1], 1e-3 * left.error[1]);
+}
+
+TEST(LocalExtrapolation, has_no_part_in_a_method_that_conserves_energy) {
+  const Outcome conserved = integrate(0.1, 1);
+  EXPECT_EQ(conserved.error[0], conserved.error[1]);
+}
+
+// Sets tolerances and lets PETSc choose the steps.
+PetscInt steps_chosen(const Vector2d& entries, double tolerance) {
+  Integration run(twins(0), "-ts_dt 1e-3 -ts_max_time 20 -ts_adapt_type basic -ts_alpha_radius 0.8");
+  dynamics::generalized_alpha_extrapolate(run.ts, test::vector(entries));
+  dynamics::generalized_alpha_set_tolerances(run.ts, test::vector(Vector2d(1, 1)), tolerance, 0);
+  run.solve();
+  PetscInt steps = 0;
+  check(TSGetStepNumber(run.ts, &steps));
+  return steps;
+}
+
+// An error of the fourth order asks for ten to the fourth part of the steps, one of the third for the third.
+TEST(LocalExtrapolation, is_counted_by_the_control_of_steps) {
+  const Vector2d both(1, 1), one(1, 0);
+  EXPECT_NEAR(double(steps_chosen(both, 1e-9)) / double(steps_chosen(both, 1e-8)), std::pow(10, 1. / 4), 0.1);
+  EXPECT_NEAR(double(steps_chosen(one, 1e-8)) / double(steps_chosen(one, 1e-7)), std::cbrt(10), 0.1);
+  EXPECT_LT(2 * steps_chosen(both, 1e-8), steps_chosen(one, 1e-8));
+}
+
+}  // namespace
+}  // namespace elastogear::local_extrapolation_test
