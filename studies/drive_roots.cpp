@@ -1,12 +1,13 @@
 // Stress at the roots of the reference worm drive on meshes of several sizes and orders, averaged and
 // recovered on the free surface:
 //
-//   drive_roots worm|wheel MESH ... [deck FILE]
+//   drive_roots worm|wheel [load=RADIUS,HALF_HEIGHT,HALF_LENGTH] MESH ... [deck FILE]
 //
 // MESH is a size of elastogear mesh, times a factor of all counts (x), with counts and growths of its own
 // and, behind a colon, the order of the hexahedra: tiny, smallx2, small,fillet=3,growth=2:2. thread is the
 // length of the worm's thread in mm. The load is 1 kN along the normals of a flank, spread smoothly over its
-// whole height and 12 mm of its length, which the coarsest mesh resolves. The worm is held at its seats; of
+// whole height and 12 mm of its length, which the coarsest mesh resolves, or over what `load` says, in mm, as
+// narrow as a patch of contact if need be. The worm is held at its seats; of
 // the wheel five teeth on their part of the disc are taken, held at the bore and where they are cut. Printed
 // are the largest von Mises and first principal stress (MPa) at all nodes of the root that are not on a
 // flank, and the largest and the root mean square error of the stress tensor there as shares of the largest
@@ -23,11 +24,13 @@
 #include <fstream>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/gear/design.h"
 #include "elastogear/gear/size.h"
@@ -42,8 +45,20 @@ using namespace root_stress;
 using Eigen::Vector3d;
 
 constexpr const char* kThread = "thread";
-constexpr double kHalfLength = 6e-3;  // m, of the load along the flank
-constexpr double kRoot = 10e-3;       // m, from its middle to the ends of the worm's root that is looked at
+constexpr double kRoot = 10e-3;  // m, from its middle to the ends of the worm's root that is looked at
+
+// Where the load is spread over: up the flank around a radius and along it around its middle, m.
+struct Spread {
+  double radius, half_height, half_length;
+};
+
+// load=RADIUS,HALF_HEIGHT,HALF_LENGTH in mm; nothing of another word.
+std::optional<Spread> spread_of(const std::string& word) {
+  Spread s{};
+  if (std::sscanf(word.c_str(), "load=%lf,%lf,%lf", &s.radius, &s.half_height, &s.half_length) != 3)
+    return {};
+  return Spread{1e-3 * s.radius, 1e-3 * s.half_height, 1e-3 * s.half_length};
+}
 
 // SIZE[xTIMES][,COUNT=N ...][:ORDER|:tet]
 struct MeshChoice {
@@ -109,7 +124,7 @@ Counts counts_of(const MeshChoice& choice, Counts n, const Members<Counts, int>&
 }
 
 // The load's middle is at z = 0; on the worm its length counts around the axis.
-Case case_of(const std::string& body, const MeshChoice& choice) {
+Case case_of(const std::string& body, const MeshChoice& choice, const std::optional<Spread>& load) {
   gear::Design design;
   if (const auto thread = choice.counts.find(kThread); thread != choice.counts.end())
     design.thread_length = 1e-3 * thread->second;
@@ -125,10 +140,10 @@ Case case_of(const std::string& body, const MeshChoice& choice) {
          {},
          {}};
   const gear::Toothing t = worm ? geometry.worm : geometry.wheel;
-  const double along = worm ? t.r / t.p : 1, r_middle = (t.r_form + t.r_a) / 2,
-               half_height = std::abs(t.r_a - t.r_form) / 2;
+  const double along = worm ? t.r / t.p : 1;
+  const Spread over = load.value_or(Spread{(t.r_form + t.r_a) / 2, std::abs(t.r_a - t.r_form) / 2, 6e-3});
   c.intensity = [=](const Vector3d& X) {
-    return bump(X.head<2>().norm(), r_middle, half_height) * bump(along * X[2], 0, kHalfLength);
+    return bump(X.head<2>().norm(), over.radius, over.half_height) * bump(along * X[2], 0, over.half_length);
   };
   const std::string root = worm ? "root_1" : "root_01";
   for (int node : c.mesh.node_sets.at(root)) {
@@ -214,8 +229,11 @@ void write_deck(const std::string& path, const Case& c, const Solution& s) {
 void run(const std::vector<std::string>& words) {
   const auto deck = std::find(words.begin(), words.end(), "deck");
   std::vector<std::pair<Case, Solutions>> solved;
-  for (auto word = words.begin() + 1; word != deck; ++word) {
-    Case c = case_of(words[0], mesh_choice(*word));
+  const std::optional<Spread> load = spread_of(words[1]);
+  const auto first = words.begin() + (load ? 2 : 1);
+  require(first != deck, "drive_roots: no mesh is named");
+  for (auto word = first; word != deck; ++word) {
+    Case c = case_of(words[0], mesh_choice(*word), load);
     Solutions s = solve(c);
     print(*word, c.mesh, s.root);
     std::printf("\n");
@@ -227,12 +245,13 @@ void run(const std::vector<std::string>& words) {
   const double scale = largest(reference.root.recovered).von_mises;
   for (std::size_t i = 0; i + 1 < solved.size(); ++i) {
     const auto& [root, flank] = solved[i].second;
+    const std::string& word = first[static_cast<std::ptrdiff_t>(i)];
     const Eigen::MatrixXd at_root = interpolated(reference.root, root.X),
                           on_flank = interpolated(reference.flank, flank.X);
-    std::printf("%-10s", words[i + 1].c_str());
+    std::printf("%-10s", word.c_str());
     print_errors(root, at_root, scale);
-    print_estimates(words[i + 1], "estimates at the root", root, at_root, scale);
-    print_estimates(words[i + 1], "on the flank", flank, on_flank, largest(on_flank).von_mises);
+    print_estimates(word, "estimates at the root", root, at_root, scale);
+    print_estimates(word, "on the flank", flank, on_flank, largest(on_flank).von_mises);
     std::printf("\n");
   }
 }
@@ -243,9 +262,9 @@ int main(int argc, char** argv) {
   const Session session(argc, argv);
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 2)
-    return std::fprintf(
-               stderr,
-               "usage: drive_roots worm|wheel SIZE[xTIMES][,COUNT=N ...][:ORDER|:tet] ... [deck FILE]\n"),
+    return std::fprintf(stderr,
+                        "usage: drive_roots worm|wheel [load=RADIUS,HALF_HEIGHT,HALF_LENGTH] "
+                        "SIZE[xTIMES][,COUNT=N ...][:ORDER|:tet] ... [deck FILE]\n"),
            2;
   try {
     run(words);
