@@ -19,19 +19,37 @@ using Corners = Eigen::Matrix<double, 3, 8>;
 constexpr int kCorner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
-// The three neighbours of each corner in a right-handed order, and the triple product of the regular cell.
+// The three neighbours of each corner in a right-handed order, the edges to them, and the triple product of
+// the regular cell.
 struct Frames {
-  std::vector<std::array<int, 3>> neighbours;
+  std::vector<std::array<int, 3>> neighbours, edges;
   double regular;
 };
 
+Frames frames_of(CellType type, const std::vector<std::array<int, 3>>& neighbours, double regular) {
+  Frames frames{neighbours, {}, regular};
+  const auto all = edges(type);
+  for (int a = 0; a < std::ssize(neighbours); ++a) {
+    auto& of_corner = frames.edges.emplace_back();
+    for (std::size_t e = 0; e < 3; ++e) {
+      const int b = neighbours[a][e];
+      const auto joins = [&](const auto& edge) { return std::minmax(edge[0], edge[1]) == std::minmax(a, b); };
+      of_corner[e] = static_cast<int>(std::find_if(all.begin(), all.end(), joins) - all.begin());
+    }
+  }
+  return frames;
+}
+
 const Frames& frames(CellType type) {
-  static const Frames hexahedron{
-      {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}, 1};
-  static const Frames tetrahedron{{{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}}, std::sqrt(0.5)};
-  static const Frames wedge{{{1, 2, 3}, {2, 0, 4}, {0, 1, 5}, {5, 4, 0}, {3, 5, 1}, {4, 3, 2}},
-                            std::sqrt(0.75)};
-  static const Frames pyramid{{{1, 3, 4}, {2, 0, 4}, {3, 1, 4}, {0, 2, 4}}, std::sqrt(0.5)};
+  static const Frames hexahedron =
+      frames_of(CellType::hex8,
+                {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}, 1);
+  static const Frames tetrahedron =
+      frames_of(CellType::tet4, {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}}, std::sqrt(0.5));
+  static const Frames wedge = frames_of(
+      CellType::wedge6, {{1, 2, 3}, {2, 0, 4}, {0, 1, 5}, {5, 4, 0}, {3, 5, 1}, {4, 3, 2}}, std::sqrt(0.75));
+  static const Frames pyramid =
+      frames_of(CellType::pyramid5, {{1, 3, 4}, {2, 0, 4}, {3, 1, 4}, {0, 2, 4}}, std::sqrt(0.5));
   switch (corner_count(type)) {
     case 4:
       return tetrahedron;
@@ -50,23 +68,22 @@ Corners hex8_corners(const Mesh& mesh, int cell) {
   return mesh.X(Eigen::all, mesh.cells[cell]);
 }
 
-// Tangent of the edge to corner b at corner a, for a reference length of 1; the edge is a parabola when it
-// has a midside node.
-Eigen::Vector3d edge_tangent(const Mesh& mesh, int cell, int a, int b) {
-  const auto nodes = mesh.cells[cell];
-  const auto x = [&](std::size_t i) -> Eigen::Vector3d { return mesh.X.col(nodes[i]); };
-  const CellType type = mesh.cells.type[cell];
-  if (node_count(type) == corner_count(type)) return x(b) - x(a);
-  const auto all = edges(type);
-  const auto joins = [&](const auto& e) { return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a); };
-  const auto edge = std::find_if(all.begin(), all.end(), joins) - all.begin();
-  return 4 * x(corner_count(type) + edge) - 3 * x(a) - x(b);
-}
-
+// Tangents of the three edges at a corner, for a reference length of 1; an edge is a parabola when it has a
+// midside node.
 Eigen::Matrix3d corner_jacobian(const Mesh& mesh, int cell, int corner) {
+  const auto nodes = mesh.cells[cell];
+  const CellType type = mesh.cells.type[cell];
+  const Frames& frame = frames(type);
+  const int n_corners = corner_count(type);
+  const auto x = [&](int i) { return mesh.X.col(nodes[static_cast<std::size_t>(i)]); };
   Eigen::Matrix3d J;
-  for (int e = 0; e < 3; ++e)
-    J.col(e) = edge_tangent(mesh, cell, corner, frames(mesh.cells.type[cell]).neighbours[corner][e]);
+  for (std::size_t e = 0; e < 3; ++e) {
+    const int b = frame.neighbours[corner][e];
+    if (node_count(type) == n_corners)
+      J.col(e) = x(b) - x(corner);
+    else
+      J.col(e) = 4 * x(n_corners + frame.edges[corner][e]) - 3 * x(corner) - x(b);
+  }
   return J;
 }
 
@@ -75,24 +92,28 @@ double normalised_triple_product(const Eigen::Matrix3d& A) {
   return lengths > 0 ? A.determinant() / lengths : 0;
 }
 
-Eigen::Matrix3d jacobian(const Corners& X, const Eigen::Vector3d& xi) {
-  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+// Derivatives of the shape functions of hex8 by the reference coordinates.
+Eigen::Matrix<double, 8, 3> hex8_derivatives(const Eigen::Vector3d& xi) {
+  Eigen::Matrix<double, 8, 3> dN;
   for (int a = 0; a < 8; ++a) {
     const Eigen::Vector3d c(kCorner[a][0], kCorner[a][1], kCorner[a][2]);
     const Eigen::Vector3d f = Eigen::Vector3d::Ones() + c.cwiseProduct(xi);
-    const Eigen::Vector3d dN(c[0] * f[1] * f[2], f[0] * c[1] * f[2], f[0] * f[1] * c[2]);
-    J += X.col(a) * dN.transpose() / 8;
+    dN.row(a) << c[0] * f[1] * f[2] / 8, f[0] * c[1] * f[2] / 8, f[0] * f[1] * c[2] / 8;
   }
-  return J;
+  return dN;
 }
 
 Eigen::Matrix<double, 8, 1> gauss_jacobians(const Mesh& mesh, int cell) {
+  static const auto derivatives = [] {
+    std::array<Eigen::Matrix<double, 8, 3>, 8> all;
+    for (std::size_t g = 0; g < 8; ++g)
+      all[g] =
+          hex8_derivatives(Eigen::Vector3d(kCorner[g][0], kCorner[g][1], kCorner[g][2]) / std::sqrt(3.0));
+    return all;
+  }();
   const Corners X = hex8_corners(mesh, cell);
   Eigen::Matrix<double, 8, 1> det;
-  for (int g = 0; g < 8; ++g) {
-    const Eigen::Vector3d xi = Eigen::Vector3d(kCorner[g][0], kCorner[g][1], kCorner[g][2]) / std::sqrt(3.0);
-    det[g] = jacobian(X, xi).determinant();
-  }
+  for (std::size_t g = 0; g < 8; ++g) det[g] = Eigen::Matrix3d(X.lazyProduct(derivatives[g])).determinant();
   return det;
 }
 
@@ -131,7 +152,7 @@ std::vector<Eigen::Matrix3d> hex20_jacobians(const Mesh& mesh, int cell) {
   }();
   const Eigen::Matrix<double, 3, 20> X = mesh.X(Eigen::all, mesh.cells[cell]);
   std::vector<Eigen::Matrix3d> J;
-  for (const auto& dN : derivatives) J.emplace_back(X * dN);
+  for (const auto& dN : derivatives) J.emplace_back(X.lazyProduct(dN));
   return J;
 }
 
@@ -144,8 +165,10 @@ double scaled_jacobian(const Mesh& mesh, int cell) {
   const CellType type = mesh.cells.type[cell];
   const Frames& frame = frames(type);
   double smallest = frame.regular;
-  if (type == CellType::hex8)
-    smallest = normalised_triple_product(jacobian(hex8_corners(mesh, cell), Eigen::Vector3d::Zero()));
+  if (type == CellType::hex8) {
+    static const Eigen::Matrix<double, 8, 3> at_centre = hex8_derivatives(Eigen::Vector3d::Zero());
+    smallest = normalised_triple_product(hex8_corners(mesh, cell).lazyProduct(at_centre));
+  }
   for (int a = 0; a < std::ssize(frame.neighbours); ++a)
     smallest = smaller(smallest, normalised_triple_product(corner_jacobian(mesh, cell, a)));
   if (type == CellType::hex20)
