@@ -88,7 +88,7 @@ double least_tip_radius(const Cutter& cutter, const Toothing& gear) {
 bool spares_flanks(const Cutter& cutter, const Toothing& gear) {
   TipPath path{.fillet = {}, .own = gear, .mate = cutter.teeth, .a = cutter.a, .alpha_wt = gear.alpha_t};
   path.own.r_form = path.own.r_f = form_radius(cutter, gear);
-  return tip_gap(path, cutter.teeth.r_a) >= -kSpared * gear.r / gear.z;
+  return tip_keeps_off(path, cutter.teeth.r_a, -kSpared * gear.r / gear.z);
 }
 
 Profile shaped_profile(const Cutter& cutter, const Toothing& gear, double r_inner) {

@@ -15,6 +15,7 @@ double largest(double low, double high, Holds holds) {
   constexpr int kHalvings = 60;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
     (holds(middle) ? low : high) = middle;
   }
   return low;

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace elastogear::gear {
 namespace {
@@ -59,7 +58,7 @@ TipPath tip_path(const Profile& profile, const Toothing& own, const Toothing& ma
 // line of action leaves own's base circle at the angle -alpha_wt and goes along u; s counts along it. A tooth
 // of `own` whose flank (left, of internal gears right) is at s stands at the angle -alpha_wt + s/r_b - psi_b
 // (internal: + psi_b). The flank behind it is nearer to the other corner by the backlash.
-double tip_gap(const TipPath& path, double r_a) {
+bool tip_keeps_off(const TipPath& path, double r_a, double least) {
   const Toothing &own = path.own, &mate = path.mate;
   const double sign = own.sign(), both = pair_sign(own, mate);
   const Vector2d from = own.r_b * Vector2d(std::cos(path.alpha_wt), -std::sin(path.alpha_wt));
@@ -68,7 +67,6 @@ double tip_gap(const TipPath& path, double r_a) {
   const Vector2d corner = from + begin * u - centre;
   const double step = 2 * M_PI * own.r_b / own.z / kSteps;
   const int n = static_cast<int>(std::ceil(reach(path, r_a) / step));
-  double least = std::numeric_limits<double>::infinity();
   for (int i = -n; i <= n; ++i) {
     const double rolled = step * i;
     const Vector2d x = centre + Eigen::Rotation2Dd(-both * rolled / mate.r_b) * corner;
@@ -77,9 +75,9 @@ double tip_gap(const TipPath& path, double r_a) {
     const double tooth = -path.alpha_wt + (begin + rolled) / own.r_b - sign * own.psi_b;
     const double angle = sign * std::remainder(std::atan2(x[1], x[0]) - tooth, 2 * M_PI / own.z);
     const double behind = angle < 0 ? path.j / own.r_b : 0;
-    least = std::min(least, r * (std::abs(angle) - half_width(path, r) - behind));
+    if (r * (std::abs(angle) - half_width(path, r) - behind) < least) return false;
   }
-  return least;
+  return true;
 }
 
 }  // namespace elastogear::gear

@@ -33,8 +33,8 @@ double along_action(const Toothing& toothing, double r);
 /// a sin(alpha_wt).
 double along_own(const Toothing& own, const Toothing& mate, double action, double xi);
 
-/// m, the least distance around the axis of the corner at the mate's tip radius r_a from fillet and flank; on
-/// an involute flank it is 0, < 0 where it cuts.
-double tip_gap(const TipPath& path, double r_a);
+/// Whether the corner at the mate's tip radius r_a stays as far from fillet and flank as `least` (m, around
+/// the axis); on an involute flank the distance is 0, < 0 where it cuts.
+bool tip_keeps_off(const TipPath& path, double r_a, double least);
 
 }  // namespace elastogear::gear

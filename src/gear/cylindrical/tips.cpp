@@ -71,7 +71,7 @@ void shorten_to_spare_tips(const CylindricalDrive& d, CylindricalGeometry& g) {
     in_own.own.r_f = ring.r_form;  // shorter tips are no help in the fillet
     const auto clear = [&](double r_a) {
       in_own.own.r_a = r_a;
-      return tip_gap(in_mate, r_a) >= least && tip_gap(in_own, g.gear[mate].r_a) >= least;
+      return tip_keeps_off(in_mate, r_a, least) && tip_keeps_off(in_own, g.gear[mate].r_a, least);
     };
     if (!clear(ring.r_a)) ring.r_a = largest(ring.r_f, ring.r_a, clear);
   });
@@ -153,7 +153,7 @@ void check_tip_path(const CylindricalDrive& d, const CylindricalGeometry& g, int
                     const PairGeometry& p) {
   const Toothing& other = g.gear[mate];
   const TipPath path = path_in(d, g, own, mate, p);
-  const auto clear = [&](double r_a) { return tip_gap(path, r_a) >= -kTouching * d.m_n; };
+  const auto clear = [&](double r_a) { return tip_keeps_off(path, r_a, -kTouching * d.m_n); };
   if (clear(other.r_a)) return;
   const double shortest = other.internal ? other.r_f : other.r_b;
   fail(d.gears[mate].name, ": the tip, diameter ", mm(2 * other.r_a), " mm, cuts into the ",
