@@ -138,6 +138,8 @@ void Pair::follow_points() {
   data_->follow_within = kOfReach * data_->reach.gap;
 }
 
+void Pair::follow_far(bool far) { data_->follows_far = far; }
+
 void Pair::look_at_all() { data_->tracker.forget_near(); }
 
 bool Pair::release_minima() {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "contact/faces/face_contacts.h"
@@ -316,7 +317,8 @@ bool Pair::Data::may_follow() const {
 // The contacts of the last look at all where they are now; nothing if the bodies have moved too far since
 // then, or some have vanished.
 std::optional<std::vector<ContactPoint>> Pair::Data::followed_contacts(const Eigen::Matrix3d& R) {
-  if (!(follow_within > 0) || !may_follow() || !tracker.stays_within(follow_within)) return {};
+  const double within = follows_far ? std::numeric_limits<double>::infinity() : follow_within;
+  if (!(follow_within > 0) || !may_follow() || !tracker.stays_within(within)) return {};
   std::vector<ContactPoint> contacts;
   contacts.reserve(minima[0].size() + minima[1].size() + touching[0].size() + touching[1].size());
   for (int slave : slave_sides(settings))

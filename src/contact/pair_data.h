@@ -61,6 +61,7 @@ struct Pair::Data {
   std::vector<std::size_t> touching[2] =
       {};                    // slave nodes with a contact in the last look at all, among those near
   double follow_within = 0;  // m, motion since then over which its contacts are followed
+  bool follows_far = false;  // in place of follow_within any
 
   static std::unique_ptr<Data> make(const Settings& given, const Settings& settings,
                                     std::array<Tracked, 2> both, std::array<Side, 2> side);

@@ -110,6 +110,8 @@ void observe(Run& run) {
   run.last_observed = true;
 }
 
+bool has_due_state(const Run& run) { return !has_output_times(run.settings) || run.step_is_due; }
+
 double next_output(const Run& run, double time) {
   if (!has_output_times(run.settings)) return std::numeric_limits<double>::infinity();
   int i = run.n_outputs;

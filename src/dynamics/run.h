@@ -77,6 +77,8 @@ void update(RunSummary& summary, const model::Snapshot& snapshot);
 void observe(Run& run);
 /// Observes the output times before the end of the last step; coordinates must not be re-based yet.
 void observe_since_last_step(Run& run, TS ts);
+/// May the end of the last step be observed? After observe_since_last_step.
+bool has_due_state(const Run& run);
 /// The next time of output after `time`, at the end of a step, s; infinite: there is none.
 double next_output(const Run& run, double time);
 /// Enters the state after a step into ledger and summary, and observes it when it is due.

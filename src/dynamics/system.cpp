@@ -249,8 +249,10 @@ Eigen::MatrixXd System::internal_variables(std::size_t b, const State& x) const 
   return relaxation_->internal_variables(b, x.time, q);
 }
 
-void System::accept(const State& x) {
+void System::accept(const State& x, bool is_observed) {
+  contact_->follow_contacts(!is_observed);
   observed_contacts(x);
+  contact_->follow_contacts(false);
   contact_->accept();
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) relaxation_->accept(b, x.time, motion(b, x).q);
   relaxation_->close_step();

@@ -285,6 +285,30 @@ TEST(GapMinima, that_come_near_are_found_by_a_look_at_all) {
   EXPECT_FALSE(pair.detect(after, b).empty());
 }
 
+// Where a state is not observed contacts are followed as far as they are found, and what comes into touch is
+// missed.
+TEST(GapMinima, are_followed_far_where_those_that_come_near_may_be_missed) {
+  constexpr double kWay = 0.008;  // m, more than half of the reach of open candidates
+  const Two t = two(3, 0.0105);   // beyond it
+  const SurfaceMotion b{{}, t.b.r_WB, t.b.R_WB}, before{{}, t.a.r_WB, t.a.R_WB},
+      after{{}, t.a.r_WB - kWay * Vector3d::UnitZ(), t.a.R_WB},
+      deeper{{}, t.a.r_WB - (kWay + 1e-4) * Vector3d::UnitZ(), t.a.R_WB};
+  Settings settings = minima();
+  settings.skin = 0.1;
+  Pair pair(t.slave, t.master, settings);
+  pair.follow_points();
+  ASSERT_TRUE(pair.detect(before, b).empty());
+  pair.follow_far(true);
+  EXPECT_TRUE(pair.detect(after, b).empty());
+  pair.follow_far(false);
+  const std::vector<ContactPoint> seen = pair.detect(after, b);
+  ASSERT_FALSE(seen.empty());
+  pair.follow_far(true);
+  const std::vector<ContactPoint> followed = pair.detect(deeper, b);
+  ASSERT_EQ(followed.size(), seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_NEAR(followed[i].g_n, seen[i].g_n - 1e-4, 1e-6);
+}
+
 // A node that slides over the faces of a pyramid, which was a plane before it was deformed, along their sides
 // and past the corner of all four: its force turns, but never at once.
 TEST(GapMinima, forces_turn_gradually_over_the_kinks_of_the_deformed_master) {

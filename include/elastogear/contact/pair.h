@@ -53,6 +53,10 @@ class Pair {
   void follow_points();
   /// The next call of detect by motion looks at all that can touch.
   void look_at_all();
+  /// Whether detect by motion follows points wherever bodies have gone since all was looked at, as long as
+  /// these are found and the nodes that could touch then are those that can now. What has come into touch
+  /// since is missed.
+  void follow_far(bool far);
 
   /// Points of least gap that bear a force here are also found where they are no minima any more, at their
   /// last places, until they are released: they are kept from entering like all points of the slave.

@@ -121,8 +121,9 @@ class System {
   bool had_impulse() const;
   bool had_impulse_before() const;
   /// To be called once for the initial state and after every accepted step: what sticks now does so from
-  /// here, and the energy that contact has taken is added up.
-  void accept(const State& x);
+  /// here, and the energy that contact has taken is added up. Where the state is not observed, what has come
+  /// into touch since the last stage may be missed, which the next stage finds.
+  void accept(const State& x, bool is_observed = true);
   /// J, taken by damping and friction of contact up to the last accepted state.
   double contact_loss() const;
   /// J, taken by changes of the local approach of flanks: Eq. (7.2b).

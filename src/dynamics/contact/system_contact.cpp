@@ -96,7 +96,8 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   forget();
   place(motion);
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
-  if (time != time_) release_points();
+  if (time != time_ && !follows_) release_points();
+  for (contact::Pair& pair : detectors_) pair.follow_far(follows_);
   detect(motion);
   if (unilateral_ || residual_contact_.any()) solve(motion);
   U_ = U;

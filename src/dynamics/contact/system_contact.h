@@ -57,6 +57,9 @@ class SystemContact {
   void let_move(double unbalanced) { residual_contact_.ask_forces(unbalanced); }
   void seek_rest(double tolerance);
   bool release_points();
+  /// Whether evaluations from now on follow the contacts of the last one wherever bodies go, and miss new
+  /// ones.
+  void follow_contacts(bool follow) { follows_ = follow; }
   /// Accepts the last evaluation as the end of a step.
   void accept();
   /// Goes a share of the way to the local approach of flanks by the last evaluation, which it forgets.
@@ -96,7 +99,8 @@ class SystemContact {
   bool unilateral_ = false;  // do the pairs of bodies with residual flexibility have no penalty?
   ResidualContact residual_contact_;
   History history_;
-  double time_ = 0;  // s, of the last evaluation
+  double time_ = 0;       // s, of the last evaluation
+  bool follows_ = false;  // are contacts of the last look at all followed, as far as they are found?
   ForceAccuracy accuracy_ = ForceAccuracy::balanced;
   std::optional<Eigen::VectorXd> U_;
   Eigen::VectorXd V_;

@@ -106,12 +106,14 @@ void stop_if_asked(const Run& run, TS ts) {
   if (reason == TS_CONVERGED_ITERATING) check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
 }
 
-void accept(System& system, TS ts) {
+void accept(Run& run, TS ts) {
   Vec U = nullptr, V = nullptr, A = nullptr;
-  PetscReal time = 0;
+  PetscReal time = 0, end = 0;
   check(TSGetTime(ts, &time));
+  check(TSGetMaxTime(ts, &end));
   generalized_alpha_state(ts, &U, &V, &A);
-  system.accept({time, *ReadView(U), *ReadView(V), *ReadView(A)});
+  const bool is_observed = has_due_state(run) || time >= end;
+  run.problem.system.accept({time, *ReadView(U), *ReadView(V), *ReadView(A)}, is_observed);
 }
 
 // An impulse is no part of the acceleration with which the next step begins.
@@ -137,7 +139,7 @@ PetscErrorCode post_step(TS ts) {
   PetscCall(TSGetApplicationContext(ts, &run));
   PetscCall(guard(run->problem.pending, [&] {
     observe_since_last_step(*run, ts);
-    accept(run->problem.system, ts);
+    accept(*run, ts);
     leave_out_impulse(run->problem.system, ts);
     rebase(run->problem.system, ts);
     if (run->settings.relax) relax(*run, ts);
