@@ -34,7 +34,7 @@ PetscErrorCode find_change(TS ts, Vec slope, Vec change) {
   return VecScale(change, 2 * ts->time_step / (ts->time_step + last.step));
 }
 
-// Share of an error that is taken out of U, which is small beside the tolerance or not. Eq. (8.9c).
+// Share of an error that is taken out: little of one that is small beside the tolerance. Eq. (8.9c).
 PetscErrorCode share_of(TS ts, Vec error, PetscReal* share) {
   const Method& m = method(ts);
   PetscReal size = 0, absolute = 0, relative = 0;
