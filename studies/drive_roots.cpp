@@ -47,7 +47,8 @@ using Eigen::Vector3d;
 constexpr const char* kThread = "thread";
 constexpr double kRoot = 10e-3;  // m, from its middle to the ends of the worm's root that is looked at
 
-// Where the load is spread over: up the flank around a radius and along it around its middle, m.
+// Patch of a flank that bears the load: around a radius, up the flank, and around the flank's middle, along
+// it; m.
 struct Spread {
   double radius, half_height, half_length;
 };

@@ -285,8 +285,7 @@ TEST(GapMinima, that_come_near_are_found_by_a_look_at_all) {
   EXPECT_FALSE(pair.detect(after, b).empty());
 }
 
-// Where a state is not observed contacts are followed as far as they are found, and what comes into touch is
-// missed.
+// Pairs that are told to follow contacts far find those that they have found before, and no others.
 TEST(GapMinima, are_followed_far_where_those_that_come_near_may_be_missed) {
   constexpr double kWay = 0.008;  // m, more than half of the reach of open candidates
   const Two t = two(3, 0.0105);   // beyond it

@@ -33,8 +33,8 @@ struct TimeSettings {
   /// rest_tolerance times the sum of the norms of its forces. Loads should be constant by then.
   bool relax = false;
   double rest_tolerance = 1e-6;
-  /// s; > 0: observe at its multiples in place of every n-th step. States between the ends of steps are those
-  /// of a step that ends there (docs/theory.md, section 8.2).
+  /// s; > 0: observe at its multiples in place of every n-th step. Steps that are chosen end there; between
+  /// the ends of others states are those of a step that ends there (docs/theory.md, section 8.2).
   double output_dt = 0;
   /// s, ascending; observe at these times and at no others but the start and the end, in the same way.
   std::vector<double> output_times = {};

@@ -53,8 +53,8 @@ const Rows<TimeSettings> kTimeRows = {
     {"output_every", &TimeSettings::output_every, "-", "write every n-th step", kPositive},
     {"output_dt", &TimeSettings::output_dt, "s",
      "write at multiples of this time in place of every n-th step; steps that the run chooses end there, "
-     "others "
-     "are left by a step that does"},
+     "with "
+     "ts_dt a step of its own does"},
     {"output_times", "s", "",
      "write at these times, the start and the end, likewise: t1,t2,... or a file with one a line",
      [](auto& o, auto& name, auto& time) { time.output_times = times(o, name); }},

@@ -40,7 +40,7 @@ Minimum minimum(const GapField& field, const Trial& t) {
   return {t.point, t.geometry, open_point(field.master, t.nearest, t.geometry.x, field.offset)};
 }
 
-// What limits a search for the minima of a gap.
+// Limits of a search for minima of a gap.
 struct Sought {
   double below = kFarGap;  // m, larger ones are of no interest
   int known = -1;          // face of the master over which the least gap is known; -1: none

@@ -123,12 +123,11 @@ PetscErrorCode local_error(const Method& m, PetscReal scale, Vec error) {
   return VecScale(error, scale);
 }
 
-// norm := weighted norm of an error of x, which is overwritten.
+// norm := weighted norm of an error of x. The vector `error` is overwritten.
 PetscErrorCode error_norm(TS ts, Vec x, Vec error, NormType type, PetscReal* norm) {
   PetscReal absolute = 0, relative = 0;
-  const Vec y = error;
-  PetscCall(VecAXPY(y, 1, x));
-  return TSErrorWeightedNorm(ts, x, y, type, norm, &absolute, &relative);
+  PetscCall(VecAXPY(error, 1, x));
+  return TSErrorWeightedNorm(ts, x, error, type, norm, &absolute, &relative);
 }
 
 // norm := weighted norm of the error of V against tolerances of its own, because V has other units than U.

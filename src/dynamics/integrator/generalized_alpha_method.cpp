@@ -275,12 +275,16 @@ PetscErrorCode move_lag(TS ts) {
   return VecAXPY(m.start.A, -weight * last.step, last.slope);
 }
 
+PetscErrorCode find_slope(TS ts, Vec slope) {
+  const Method& m = method(ts);
+  PetscCall(VecWAXPY(slope, -1, m.start.A, m.end.A));
+  return VecScale(slope, 1 / ts->time_step);
+}
+
 PetscErrorCode remember_slope(TS ts) {
   Method& m = method(ts);
-  PetscCall(VecWAXPY(m.last.slope, -1, m.start.A, m.end.A));
-  PetscCall(VecScale(m.last.slope, 1 / ts->time_step));
   m.last.step = ts->time_step;
-  return 0;
+  return find_slope(ts, m.last.slope);
 }
 
 PetscErrorCode stage_function(SNES, Vec Delta, Vec F, TS ts) {

@@ -80,7 +80,9 @@ PetscErrorCode solve_acceleration(TS ts);
 /// before, moved to the lag of a step of ts->time_step, Eq. (8.8), never past A at the start of the one
 /// before.
 PetscErrorCode move_lag(TS ts);
-/// After a step that is taken.
+/// slope := that of A from start to end, over the time step.
+PetscErrorCode find_slope(TS ts, Vec slope);
+/// Keeps the slope of a step that is taken for the next one.
 PetscErrorCode remember_slope(TS ts);
 
 /// Is the error of a step taken out of some entries?

@@ -7,7 +7,7 @@ namespace elastogear::dynamics {
 namespace generalized_alpha {
 namespace {
 
-// Of sigma, by which vibrations are damped rather than excited, Eq. (8.9b).
+// The last term of sigma in Eq. (8.9b), which damps vibrations.
 constexpr PetscReal kDamping = 0.2;
 // Errors below this share of the tolerance are hardly taken out, Eq. (8.9c).
 constexpr PetscReal kSmall = 0.05;
@@ -17,13 +17,6 @@ PetscReal lag(const Parameters& p) { return p.alpha_m - p.alpha_f; }
 // C_V of Eq. (8.9a).
 PetscReal velocity_constant(const Parameters& p) {
   return PetscReal(1) / 12 - lag(p) * (1 - 2 * p.alpha_f) / 2;
-}
-
-// slope := that of A in the step from start to end.
-PetscErrorCode find_slope(TS ts, Vec slope) {
-  const Method& m = method(ts);
-  PetscCall(VecWAXPY(slope, -1, m.start.A, m.end.A));
-  return VecScale(slope, 1 / ts->time_step);
 }
 
 // change := that of the slope in a step like the one from start to end, which has `slope`.
@@ -66,14 +59,14 @@ PetscErrorCode extrapolate(TS ts) {
   if (!extrapolates(m) || m.last.step == 0) return 0;
   const PetscReal C_U = position_constant(m.parameters), C_V = velocity_constant(m.parameters),
                   a = lag(m.parameters), dt = ts->time_step,
-                  sigma = PetscReal(0.5) + a + C_V / C_U * (1 + a) + kDamping;
+                  C_U_sigma = C_U * (PetscReal(0.5) + a + kDamping) + C_V * (1 + a);
   const Vec error = m.at_stage.V, change = m.at_stage.A;
   PetscReal share = 0;
   PetscCall(find_slope(ts, error));
   PetscCall(find_change(ts, error, change));
   PetscCall(VecPointwiseMult(error, error, m.extrapolated));
   PetscCall(VecPointwiseMult(change, change, m.extrapolated));
-  PetscCall(VecAXPBY(error, C_U * dt * dt * dt * sigma, C_U * dt * dt * dt, change));
+  PetscCall(VecAXPBY(error, C_U_sigma * dt * dt * dt, C_U * dt * dt * dt, change));
   PetscCall(share_of(ts, error, &share));
   PetscCall(VecAXPY(m.current.U, -share, error));
   PetscCall(VecAXPY(m.current.V, -share * C_V * dt * dt, change));
