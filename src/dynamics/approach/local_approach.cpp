@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -60,17 +59,6 @@ int node_of(const ContactPoint& point, int side) {
   return point.master_nodes[nearest];
 }
 
-// Sum of a symmetric function of two nodes and the forces on them over all pairs.
-template <class Function>
-double work(const std::map<int, Vector3d>& forces, const Function& of) {
-  double sum = 0;
-  for (auto a = forces.begin(); a != forces.end(); ++a) {
-    for (auto c = forces.begin(); c != a; ++c) sum += 2 * of(a->first, c->first, a->second, c->second);
-    sum += of(a->first, a->first, a->second, a->second);
-  }
-  return sum;
-}
-
 // Forces p at places t along a line, by their place.
 LineForces sorted(const VectorXd& t, const VectorXd& p) {
   std::vector<Index> order(static_cast<std::size_t>(t.size()));
@@ -98,7 +86,7 @@ LocalApproach::LocalApproach(const SystemModel& model)
       const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
       surface_[static_cast<std::size_t>(b)].emplace(
           Surface{body.eq.body.get(), &body.node_group, &body.true_surface->curvature,
-                  HalfSpace(body.eq.body->surface), body.surface_compliance});
+                  MeshWork(body.eq.body->surface, body.surface_compliance), body.surface_compliance});
     }
     const auto groups = [&](int side) {
       return model.bodies[static_cast<std::size_t>(pair.body[side])].eq.body->surface.group_name.size();
@@ -138,41 +126,23 @@ Eigen::Matrix3d LocalApproach::curvature(const ContactPoint& point, int side, st
   return S;
 }
 
-// f' F f - s' F s + p' H p of the normal forces f of the patch on a body, spread to the pressures p with the
-// nodal forces s: Eq. (6.36).
-double LocalApproach::mesh_work(const Patch& patch, int side, std::size_t b, const Eigen::Matrix3d& R_BW,
-                                const Vector3d& along_line, ResidualFlexibility& flexibility) {
-  Surface& surface = *surface_[b];
-  HalfSpace& half_space = surface.half_space;
-  std::map<int, Vector3d> f, p, s;
-  const auto add = [](std::map<int, Vector3d>& forces, int node, const Vector3d& force) {
-    forces.try_emplace(node, Vector3d::Zero()).first->second += force;
-  };
-  Vector3d total = Vector3d::Zero();
+// The normal forces of a patch on one side, BRF.
+NodalForces LocalApproach::normal_forces(const Patch& patch, int side, const Eigen::Matrix3d& R_BW) {
+  std::map<int, Vector3d> forces;
   for (const ContactPoint* point : patch)
     for (int i = 0; i < point->n_local(); ++i) {
       const LocalNode local = local_node(*point, i);
       if (local.side != side) continue;
-      const Vector3d force = R_BW * (point->n.dot(local_force(*point, i)) * point->n);
-      add(f, local.node, force);
-      total += force;
+      forces.try_emplace(local.node, Vector3d::Zero()).first->second +=
+          R_BW * (point->n.dot(local_force(*point, i)) * point->n);
     }
-  for (const auto& [node, force] : f) {
-    const contact::Spread to = half_space.spread(node, R_BW * along_line);
-    for (std::size_t i = 0; i < to.node.size(); ++i)
-      add(p, to.node[i], to.weight[static_cast<Index>(i)] * force);
+  NodalForces f;
+  f.f_B.resize(3, std::ssize(forces));
+  for (const auto& [node, force] : forces) {
+    f.f_B.col(std::ssize(f.node)) = force;
+    f.node.push_back(node);
   }
-  for (const auto& [corner, force] : p)
-    for (const auto& [node, share] : half_space.pressure(corner).nodal_force) add(s, node, share * force);
-  const Vector3d along = total.normalized();
-  const auto of_body = [&](int a, int c, const Vector3d& f_a, const Vector3d& f_c) {
-    return f_a.dot(flexibility.static_response(a, c) * f_c);
-  };
-  const auto of_half_space = [&](int a, int c, const Vector3d& p_a, const Vector3d& p_c) {
-    return surface.compliance / std::numbers::pi * p_a.dot(along) * p_c.dot(along) *
-           half_space.mean_inverse_distance(a, c);
-  };
-  return work(f, of_body) - work(s, of_body) + work(p, of_half_space);
+  return f;
 }
 
 // Where a line of contact along a unit vector (world frame) through x goes on over both flanks of a patch.
@@ -221,8 +191,10 @@ ApproachLaw LocalApproach::law(const Pair& pair, int group, const Patch& patch, 
   const bool ellipse = is_ellipse(at, F, compliance, flanks_[flank]->length[static_cast<std::size_t>(group)]);
   for (int side : {0, 1}) {
     const auto b = static_cast<std::size_t>(contacts.body[side]);
-    work += mesh_work(patch, side, b, state.surface[b].R_WB.transpose(),
-                      ellipse ? Vector3d(Vector3d::Zero()) : at.along, *flexibility[b]);
+    const Eigen::Matrix3d R_BW = state.surface[b].R_WB.transpose();
+    const Vector3d along = ellipse ? Vector3d(Vector3d::Zero()) : Vector3d(R_BW * at.along);
+    work += surface_[b]->mesh_work.of({pair.number, group}, normal_forces(patch, side, R_BW), along,
+                                      *flexibility[b]);
   }
   const Vector3d centre = x * p / F;
   x.colwise() -= centre;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dynamics/approach/approach_law.h"
-#include "dynamics/approach/half_space.h"
 #include "dynamics/approach/line_extent.h"
+#include "dynamics/approach/mesh_work.h"
 #include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/archive.h"
 #include "elastogear/dynamics/system_model.h"
@@ -66,7 +66,7 @@ class LocalApproach {
     const model::ElasticBody* body;
     const std::vector<int>* group;                  // of each node
     const std::vector<Eigen::Matrix3d>* curvature;  // of each node
-    HalfSpace half_space;
+    MeshWork mesh_work;
     double compliance;  // 1/Pa
   };
   struct Flank {
@@ -96,9 +96,8 @@ class LocalApproach {
   Patches patches(const Pair& pair, const PairContacts& contacts) const;
   ApproachLaw law(const Pair& pair, int group, const std::vector<const contact::ContactPoint*>& patch,
                   const ContactState& state, Flexibilities& flexibility);
-  double mesh_work(const std::vector<const contact::ContactPoint*>& patch, int side, std::size_t b,
-                   const Eigen::Matrix3d& R_BW, const Eigen::Vector3d& along_line,
-                   ResidualFlexibility& flexibility);
+  static NodalForces normal_forces(const std::vector<const contact::ContactPoint*>& patch, int side,
+                                   const Eigen::Matrix3d& R_BW);
   LineExtent line_extent_of(const contact::ContactPoint& point, const PairContacts& contacts,
                             const ContactState& state, const Eigen::Vector3d& x,
                             const Eigen::Vector3d& along) const;
