@@ -229,9 +229,11 @@ body::Motion motion(const SystemModel& model, std::size_t b, const State& x) {
   const Eigen::Index n_s = body.eq.n_s(), s = body.first, q = s + body.n_open(), n_q = body.eq.n_q();
   body::Motion m{Eigen::VectorXd(n_s), Eigen::VectorXd(n_s), Eigen::VectorXd(n_s),
                  x.U.segment(q, n_q),  x.V.segment(q, n_q),  x.A.segment(q, n_q)};
-  m.s(body.open) = x.U.segment(s, body.n_open());
-  m.s_dot(body.open) = x.V.segment(s, body.n_open());
-  m.s_ddot(body.open) = x.A.segment(s, body.n_open());
+  for (Eigen::Index i = s; const Eigen::Index open : body.open) {
+    m.s[open] = x.U[i];
+    m.s_dot[open] = x.V[i];
+    m.s_ddot[open] = x.A[i++];
+  }
   for (Eigen::Index i = 0; const Axis& axis : body.axis) {
     if (axis.drive) {
       const Prescribed p = at(*axis.drive, x.time);

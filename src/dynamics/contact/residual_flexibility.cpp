@@ -155,43 +155,28 @@ Eigen::Matrix3d ResidualFlexibility::at_once(Row& row, int a, int number) {
 }
 
 void ResidualFlexibility::set_forces(const NodalForces& forces) {
-  if (forces.node != forces_.node) {
-    ++n_changes_;
-    numbers_.clear();
-    for (int node : forces.node) numbers_.push_back(number(node));
+  bearing_.clear();
+  for (std::size_t i = 0; i < forces.node.size(); ++i) {
+    const Eigen::Vector3d f = forces.f_B.col(static_cast<Eigen::Index>(i));
+    const int loaded = number(forces.node[i]);
+    if (loaded >= 0 && !f.isZero(0)) bearing_.push_back({loaded, f});
   }
   forces_ = forces;
 }
 
-// Copies the blocks of one row into contiguous memory, because all nodes that may touch are asked for at
-// every stage.
-void ResidualFlexibility::pack(Row& row, int a) {
-  row.packed.setZero(3, 3 * static_cast<Eigen::Index>(numbers_.size()));
-  if (!relaxes_alike()) row.packed_D.assign(static_cast<std::size_t>(laws().size()), row.packed);
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    if (numbers_[i] < 0) continue;
-    const auto column = static_cast<Eigen::Index>(3 * i);
-    row.packed.middleCols<3>(column) = block(row, a, numbers_[i]);
-    for (std::size_t j = 0; j < row.packed_D.size(); ++j)
-      row.packed_D[j].middleCols<3>(column) =
-          creep_blocks(row, a, numbers_[i]).middleCols<3>(3 * static_cast<Eigen::Index>(j));
-  }
-  row.packed_at = n_changes_;
-}
-
 ResidualFlexibility::Displaced ResidualFlexibility::displaced(int node) {
   Displaced by{Eigen::Vector3d::Zero(), Eigen::Matrix3Xd::Zero(3, laws().size())};
-  if (numbers_.empty()) return by;
+  if (bearing_.empty()) return by;
   Row& known = row(node);
-  if (known.packed_at != n_changes_) pack(known, node);
-  const Eigen::Map<const Eigen::VectorXd> f(forces_.f_B.data(), forces_.f_B.size());
-  const auto times_f = [&](const ThreeRows& A) {
-    return Eigen::Vector3d(A.row(0).dot(f), A.row(1).dot(f), A.row(2).dot(f));
-  };
-  by.by_R = times_f(known.packed);
-  if (relaxes_alike()) by.by_D.colwise() = by.by_R;
-  for (std::size_t j = 0; j < known.packed_D.size(); ++j)
-    by.by_D.col(static_cast<Eigen::Index>(j)) = times_f(known.packed_D[j]);
+  for (const Bearing& b : bearing_) by.by_R += block(known, node, b.number) * b.f;
+  if (relaxes_alike()) {
+    by.by_D.colwise() = by.by_R;
+    return by;
+  }
+  for (const Bearing& b : bearing_) {
+    const Blocks& D = creep_blocks(known, node, b.number);
+    for (Eigen::Index j = 0; j < laws().size(); ++j) by.by_D.col(j) += D.middleCols<3>(3 * j) * b.f;
+  }
   return by;
 }
 

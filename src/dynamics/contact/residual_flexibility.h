@@ -78,9 +78,10 @@ class ResidualFlexibility {
   struct Row {                       // of one node a
     std::vector<Eigen::Matrix3d> R;  // R_0(a, b) by the number of b; not yet known: NaN
     std::vector<Blocks> D = {};      // D_j(a, b) of all laws, where that is not R_0; not yet known: empty
-    ThreeRows packed = {};           // of the nodes of forces_,
-    std::vector<ThreeRows> packed_D = {};  // by law,
-    long packed_at = -1;                   // when n_changes_ was this
+  };
+  struct Bearing {  // a node that bears a force
+    int number;
+    Eigen::Vector3d f;
   };
   struct RelaxedState {
     Eigen::MatrixXd K_inverse;  // of the reduced body
@@ -103,7 +104,6 @@ class ResidualFlexibility {
   Eigen::Matrix3d never_creeping(Row& row, int a, int number);
   Blocks creep_blocks(int a, const Loaded& b, const Eigen::Matrix3d& R_0) const;
   body::CreepState displaced_by(int a, int b, const body::CreepState& force);
-  void pack(Row& row, int a);
   Row& row(int node);
   Displaced displaced(int node);
   const body::CreepLaws& laws() const { return history_.laws(); }
@@ -117,8 +117,7 @@ class ResidualFlexibility {
   double largest_ = 0, largest_R_0_ = 0;  // m/N, of |R(b, b)|, of |R_0(b, b)|
   double lag_bound_ = 0;
   NodalForces forces_;
-  std::vector<int> numbers_;                  // of the nodes of forces_
-  long n_changes_ = 0;                        // of these nodes
+  std::vector<Bearing> bearing_;              // of the nodes of forces_
   std::unordered_map<int, int> number_of_;    // node -> number among those that were loaded so far, -1: R = 0
   std::unordered_map<int, Columns> columns_;  // of F, by orbit: images share them
   std::unordered_map<std::int64_t, Eigen::Matrix3d> responses_;  // F(a, b) by a n + b, n nodes of the surface

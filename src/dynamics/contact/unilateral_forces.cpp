@@ -133,11 +133,11 @@ std::optional<VectorXd> UnilateralForces::forces(const MatrixXd& C, const Vector
 }
 
 void UnilateralForces::set_changes() {
+  const VectorXd dz = z_ - z_found_;
   for (Body& body : bodies_) {
     body.change = body.turned;
     for (const Touch& t : body.touches)
-      body.change.segment<3>(t.row) +=
-          t.F_z.lazyProduct(forces_of(contacts_[t.contact], z_) - forces_of(contacts_[t.contact], z_found_));
+      body.change.segment<3>(t.row) += t.F_z.lazyProduct(forces_of(contacts_[t.contact], dz));
   }
 }
 
