@@ -8,12 +8,11 @@
 
 #include "contact/settings.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/sort_unique.h"
 
 namespace elastogear::contact {
 namespace {
 
-// The share of the measured motion for which the nodes that touch first serve; it doubles when it is used up.
-constexpr double kFirstStretch = 0.125;
 constexpr double kStretch = 1.1;  // of extensions when the surface is deformed, generously
 
 double largest_displacement(const SurfaceState& state, const model::Surface& surface) {
@@ -36,6 +35,15 @@ double extension_reach(const SurfaceView& surface) {
     }
   }
   return reach;
+}
+
+void serialize_motion(SurfaceMotion (&motion)[2], const std::array<Tracked, 2>& side, Archive& archive) {
+  for (int i : {0, 1}) {
+    archive(motion[i].q);
+    archive(motion[i].r_WB);
+    archive(motion[i].R_WB);
+    validate(motion[i], *side[i].surface, i);
+  }
 }
 
 }  // namespace
@@ -201,116 +209,9 @@ double Tracker::distance_since(const SurfaceMotion then[2]) const {
   return distance + rigid;
 }
 
-// Measures the clearance of all candidates and leaves out those that cannot touch while the surfaces move by
-// `limit`, and the faces that cannot be nearest. A node whose earlier clearance is not used up is not
-// measured again.
-void Tracker::measure_clearance(double limit) {
-  NeighbourList& v = *neighbours_;
-  const double soon = limit + limits_.outside;
-  v.limit = limit;
-  v.uses = 0;
-  for (int slave : slave_sides(settings_)) {
-    std::vector<double>& apart_until = v.apart_until[slave];
-    for (int node : v.candidates[slave].nodes())
-      apart_until[node] = std::max(apart_until[node], v.path + clear_until_[slave][node] - way_);
-    v.near[slave] = not_apart(v.candidates[slave], apart_until, v.path + soon);
-  }
-  for (int slave : slave_sides(settings_)) leave_out(slave, soon);
-  v.within = std::exchange(v.near, {});
-  take_near(kFirstStretch * limit);
-  for (int i : {0, 1}) v.measured_at[i] = *now_[i];
-  residual_since_measured_ = 0;
-}
-
-// Takes from the nodes within the limit those that can touch until the surfaces have moved by `distance`
-// since the measurement.
-void Tracker::take_near(double distance) {
-  NeighbourList& v = *neighbours_;
-  v.near_limit = distance;
-  for (int slave : slave_sides(settings_))
-    v.near[slave] = not_apart(v.within[slave], v.apart_until[slave], v.path + distance + limits_.outside);
-}
-
 // Bound of what the present coordinates and residual displacements move a node by, m.
 double Tracker::largest_deformation(int i) const {
   return largest_displacement(side_[i].bound, now_[i]->q) + (residual_ ? (*residual_)[i].largest : 0);
-}
-
-// Leaves out the near nodes that have more clearance than `clear`. A node for which less than limits.outside
-// serves has so much clearance more. Whichever side of the surface it is on, nothing comes of a node that is
-// farther away than the depth limit. Most are so from the undeformed surface, however both are deformed, and
-// are not displaced.
-void Tracker::leave_out(int slave, double clear) {
-  const Neighbours all = std::exchange(neighbours_->near[slave], {});
-  const SurfaceView master = view(1 - slave, settings_.extension), placed = view(slave, 0);
-  const FaceBounds bounds = face_bounds(1 - slave);
-  const double around = settings_.points == SlavePoints::faces ? limits_.around : 0;
-  const Move move{std::max(limits_.depth, limits_.outside) + settings_.skin, clear, around, &bounds};
-  const RelativeMotion to_master = relative_motion(*now_[slave], *now_[1 - slave]);
-  const double deformed = largest_deformation(slave) + bounds.deformed;
-  Neighbours& near = neighbours_->near[slave];
-  for (std::size_t i = 0; i < all.slave.size(); ++i) {
-    const int node = all.slave[i];
-    const Eigen::Vector3d undeformed = to_master.R * side_[slave].surface->X.col(node) + to_master.r;
-    const double least = distance(boxes_[1 - slave], undeformed, all.faces(i)) - deformed,
-                 surely_beyond = std::min(least, move.reach) - limits_.depth + limits_.outside;
-    if (surely_beyond > clear) {
-      neighbours_->apart_until[slave][node] = neighbours_->path + surely_beyond;
-      continue;
-    }
-    const Approach found = approach(master, placed.at(node), move, all.faces(i));
-    const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
-    const double beyond = std::min(found.distance, move.reach) - limits_.depth + limits_.outside;
-    const double surely_seen = std::min(found.clearance, settings_.skin + limits_.outside);
-    neighbours_->apart_until[slave][node] = neighbours_->path + std::max(surely_seen + spare, beyond);
-    if (std::max(found.clearance + spare, beyond) > clear) continue;
-    near.add(node, found.faces, found.around);
-  }
-}
-
-// Brings the neighbour lists up to date.
-void Tracker::update_neighbours() {
-  const bool search_is_due =
-      !neighbours_ || !(distance_since(neighbours_->found_at) + residual_since_found_ <= settings_.skin);
-  const double distance =
-      neighbours_ ? distance_since(neighbours_->measured_at) + residual_since_measured_ : 0;
-  if (search_is_due) find_candidates();
-  const bool is_used_up = search_is_due || !(distance <= neighbours_->limit);
-  if (is_used_up) {
-    if (!search_is_due) neighbours_->path += distance;
-    measure_clearance(next_limit(*neighbours_, distance, settings_.skin));
-  } else if (distance > neighbours_->near_limit) {
-    take_near(std::min(2 * distance, neighbours_->limit));
-  }
-  ++neighbours_->uses;
-}
-
-// Candidates within `margin` of each other where the nodes are placed now.
-void Tracker::find_candidates(double margin) {
-  const auto& face_pairs = search_.face_pairs(configuration_, margin);
-  if (!neighbours_) neighbours_.emplace();
-  neighbours_->path = 0;
-  for (int slave : slave_sides(settings_)) {
-    Candidates& candidates = neighbours_->candidates[slave];
-    candidates.collect({face_pairs, slave, slaves_[slave].tried}, view(slave, 0),
-                       view(1 - slave, settings_.extension), margin);
-    neighbours_->near[slave] = everything(candidates);
-    neighbours_->apart_until[slave].assign(static_cast<std::size_t>(configuration_.x[slave].cols()), 0);
-  }
-  ++n_searches_;
-}
-
-void Tracker::find_candidates() {
-  const bool deformed = settings_.update == Update::refit;
-  double margin = reach_ + settings_.skin;
-  for (int i : {0, 1})
-    if (!deformed) margin += largest_displacement(side_[i].bound, now_[i]->q);
-  for (int i : {0, 1})
-    if (residual_) margin += (*residual_)[i].largest;
-  place(deformed);
-  find_candidates(margin);
-  residual_since_found_ = 0;
-  for (int i : {0, 1}) neighbours_->found_at[i] = {now_[i]->q, now_[i]->r_WB, now_[i]->R_WB};
 }
 
 void Tracker::find(const SurfaceState& a, const SurfaceState& b) {
@@ -391,6 +292,75 @@ Eigen::Vector3d Tracker::velocity(int i, int node) {
   Eigen::Vector3d v = m.v_WB_B + m.w_WB_B.cross(x_B);
   if (m.q_dot.size() > 0) v += elastic_velocity(i, node);
   return i == 0 ? Eigen::Vector3d(R * v) : v;
+}
+
+void Tracker::remember() {
+  for (int i : {0, 1}) {
+    remembered_[i].node = look_[i].nodes;
+    sort_unique(remembered_[i].node);
+    remembered_[i].x = configuration_.x[i](Eigen::all, remembered_[i].node);
+  }
+}
+
+std::optional<Eigen::Vector3d> Tracker::moved(int i, int node) const {
+  const auto& [nodes, x] = remembered_[i];
+  const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
+  if (at == nodes.end() || *at != node) return {};
+  return Eigen::Vector3d(configuration_.x[i].col(node) - x.col(at - nodes.begin()));
+}
+
+// Adds the way from the last call of find_near to here.
+void Tracker::go_on() {
+  if (knows_way_) way_ += distance_since(seen_at_) + residual_since_seen_;
+  knows_way_ = true;
+}
+
+void Tracker::forget_way() {
+  knows_way_ = is_near_found_ = false;
+  for (std::vector<double>& until : clear_until_) std::fill(until.begin(), until.end(), 0);
+}
+
+void Tracker::set_clearance(int slave, int node, double clearance) {
+  if (!is_near_found_) return;
+  const double spare = slaves_[slave].spare.empty() ? 0 : slaves_[slave].spare[node];
+  clear_until_[slave][node] = way_ + clearance + spare;
+}
+
+void Tracker::serialize(Archive& archive) {
+  for (Placed& placed : remembered_) {
+    archive(placed.node);
+    archive(placed.x);
+  }
+  serialize_neighbours(archive);
+  for (NodeDisplacements& displaced : displaced_) displaced.serialize(archive);
+}
+
+// Stores the motions at which candidates were found and measured; on loading, candidates and clearances are
+// found anew from these.
+void Tracker::serialize_neighbours(Archive& archive) {
+  bool found = neighbours_.has_value();
+  archive(found);
+  if (!found) return neighbours_.reset();
+  NeighbourList then = neighbours_.value_or(NeighbourList{});
+  serialize_motion(then.found_at, side_, archive);
+  serialize_motion(then.measured_at, side_, archive);
+  archive(then.limit);
+  archive(then.near_limit);
+  archive(then.uses);
+  archive(has_residual_);
+  if (!archive.is_loading()) return;
+  forget_near();
+  forget_way();
+  if (has_residual_) return neighbours_.reset();  // the residual displacement of that time is not known
+  for (int i : {0, 1}) now_[i] = &then.found_at[i];
+  find_candidates();
+  for (int i : {0, 1}) now_[i] = &then.measured_at[i];
+  start_stage();
+  start_look();
+  measure_clearance(then.limit, 0);
+  take_near(then.near_limit);
+  neighbours_->uses = then.uses;
+  std::fill_n(now_, 2, nullptr);
 }
 
 }  // namespace elastogear::contact

@@ -107,7 +107,13 @@ class Tracker : private NodePlacer {
   double distance_since(const SurfaceMotion then[2]) const;
   void go_on();
   void forget_way();
-  void measure_clearance(double limit);
+  struct Ahead {  // a place on the way of both surfaces, and how far away it is, m
+    SurfaceMotion motion[2];
+    double way = 0;
+  };
+  std::optional<Ahead> motion_ahead() const;
+  void search();
+  void measure_clearance(double limit, double way_left);
   void take_near(double distance);
   void leave_out(int slave, double clear);
   double largest_deformation(int i) const;
