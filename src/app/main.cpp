@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "app/console/blas_kernels.h"
+#include "app/console/environment.h"
 #include "app/console/lone_process.h"
 #include "app/options/command_line.h"
 #include "app/verbs/registry.h"
@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
       if (verb.name == line.verb) return app::print_help(verb), 0;
     return app::print_usage(verbs), 1;
   }
-  app::use_fast_blas(argv);
+  app::start_with_settings(line.verb, argv);
   app::start_alone_without_networks();
   // With words that PETSc would fail on it is started without any, to report them once on all ranks.
   const std::string problem = app::problem_of_words(argc, argv);

@@ -1,17 +1,11 @@
 #include "app/console/blas_kernels.h"
 
 #include <dlfcn.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <set>
-#include <system_error>
 
 namespace elastogear::app {
 namespace {
-
-constexpr const char* kVariable = "OPENBLAS_CORETYPE";
 
 // The processor that OpenBLAS takes this one for; empty with another BLAS.
 std::string openblas_core() {
@@ -31,8 +25,6 @@ Instructions kernel_instructions() {
   return Instructions::portable;
 }
 
-std::string setting() { return faster_core(openblas_core(), kernel_instructions()); }
-
 }  // namespace
 
 std::string faster_core(const std::string& core, Instructions instructions) {
@@ -45,20 +37,13 @@ std::string faster_core(const std::string& core, Instructions instructions) {
   return instructions != Instructions::portable && older.contains(core) ? "HASWELL" : "";
 }
 
-std::string blas_advice() {
-  const std::string core = setting();
-  if (core.empty()) return "";
-  return "OpenBLAS takes this processor for a " + openblas_core() + "; " + kVariable + "=" + core +
-         " in the environment is faster";
-}
+std::string blas_setting() { return faster_core(openblas_core(), kernel_instructions()); }
 
-void use_fast_blas(char** argv) {
-  const std::string core = setting();
-  if (core.empty() || std::getenv(kVariable)) return;
-  std::error_code none;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-  if (none || setenv(kVariable, core.c_str(), 1) != 0) return;
-  execv(program.c_str(), argv);  // returns where it fails, and the kernels stay what they are
+std::string blas_advice() {
+  const std::string core = blas_setting();
+  if (core.empty()) return "";
+  return "OpenBLAS takes this processor for a " + openblas_core() + "; " + kBlasVariable + "=" + core +
+         " in the environment is faster";
 }
 
 }  // namespace elastogear::app

@@ -13,11 +13,13 @@ namespace elastogear::app {
 /// openblas_get_corename, do not; else, and for cores of unknown names, empty.
 std::string faster_core(const std::string& core, Instructions instructions);
 
-/// Setting to put into the environment where OpenBLAS does not use this processor; else empty.
-std::string blas_advice();
+/// The variable of the environment by which OpenBLAS is told its kernels.
+constexpr const char* kBlasVariable = "OPENBLAS_CORETYPE";
 
-/// Starts this program again with that setting; returns where there is none, or the user has given one. To
-/// be called before MPI starts. argv: that of main, ended by a null pointer.
-void use_fast_blas(char** argv);
+/// Its value that uses this processor, where OpenBLAS as it was loaded does not; else empty.
+std::string blas_setting();
+
+/// That setting as a sentence.
+std::string blas_advice();
 
 }  // namespace elastogear::app
