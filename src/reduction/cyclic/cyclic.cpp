@@ -77,11 +77,15 @@ HarmonicModes solve(CyclicSearch& search, int k, const Cutoff& cutoff, const Pro
   options.window = std::min(options.window > 0 ? options.window : kWindow, options.n_modes + options.block);
   options.whole_pairs = false;  // the cutoff cuts none
   if (options.interval && options.interval->lower <= 0) options.interval.reset();
-  const bool known_matrices = search.last.k == k && search.last.matrices.K;
-  const fem::Matrices matrices = known_matrices ? std::move(search.last.matrices) : search.assemble(k);
+  CountedHarmonic known = search.last.k == k ? std::exchange(search.last, {}) : CountedHarmonic{};
   search.last = {};
-  std::optional<HarmonicFactor> factor;
-  if (search.condensed) options.factor = &factor.emplace(*search.condensed, search.harmonics[k]);
+  const fem::Matrices matrices = known.matrices.K ? std::move(known.matrices) : search.assemble(k);
+  std::unique_ptr<ShiftedSolver> factor = std::move(known.factor);
+  if (search.condensed)
+    factor = std::make_unique<HarmonicFactor>(*search.condensed, search.harmonics[k]);
+  else if (!factor)
+    factor = search.make_factor(matrices);
+  options.factor = factor.get();
   const int first_orbit = fem::own_orbits(search.group->comm, search.sector).first;
   HarmonicModes modes = find_harmonic_modes(matrices, search.harmonics[k], first_orbit, options, progress);
   modes.cutoff = cutoff.sigma;

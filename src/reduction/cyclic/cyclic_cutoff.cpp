@@ -5,7 +5,6 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "reduction/cyclic/cyclic_search.h"
-#include "reduction/eigensolver/factorisation.h"
 #include "reduction/modes/cutoff.h"
 
 namespace elastogear::reduction {
@@ -29,11 +28,11 @@ int count_below(CyclicSearch& search, int k, double sigma) {
       last.factor = std::make_unique<HarmonicFactor>(*search.condensed, search.harmonics[k]);
     } else {
       last.matrices = search.assemble(k);
-      last.factor = std::make_unique<ShiftedFactor>(last.matrices.K, last.matrices.M);
+      last.factor = search.make_factor(last.matrices);
     }
     last.k = k;
   }
-  return last.factor->factorise(sigma);
+  return last.factor->count(sigma);
 }
 
 // Eigenvalues below sigma of each of the harmonics `which`. Pairs are never split, even where roundoff may.

@@ -10,6 +10,7 @@
 
 #include "reduction/cyclic/condensed_sector.h"
 #include "reduction/cyclic/cyclic.h"
+#include "reduction/eigensolver/nested_factor.h"
 
 namespace elastogear::reduction {
 
@@ -76,6 +77,12 @@ struct CyclicSearch {
   bool mine(int k) const { return group_of(k) == group->index && harmonics[k].size() > 0; }
   fem::Matrices assemble(int k) const {
     return fem::assemble(group->comm, sector, harmonics[k], body.body.regions, body.body.formulation);
+  }
+  std::unique_ptr<ShiftedSolver> make_factor(const fem::Matrices& matrices) const {
+    int n_ranks = 1;
+    MPI_Comm_size(group->comm, &n_ranks);
+    if (n_ranks == 1) return std::make_unique<NestedFactor>(matrices.K, matrices.M);
+    return std::make_unique<ShiftedFactor>(matrices.K, matrices.M);
   }
 };
 

@@ -19,6 +19,8 @@ class ShiftedSolver {
   /// Returns the number of eigenvalues of (K, M) below sigma: the negative pivots (Sylvester's law of
   /// inertia).
   virtual int factorise(double sigma) = 0;
+  /// The same number; solve() then needs factorise() first.
+  virtual int count(double sigma) { return factorise(sigma); }
   /// B := (K - sigma M)^-1 B. B: own rows x columns. All columns go through the factor together.
   virtual void solve(Eigen::Ref<Eigen::MatrixXd> B) = 0;
   virtual FactorSize size() const = 0;

@@ -180,10 +180,10 @@ void TallBasis::add_product(int first, const Eigen::Ref<const Eigen::MatrixXd>& 
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(kSlab, n_vectors);
   Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(n_vectors, C.rows());
   coefficients.topRows(C.cols()) = C.transpose();
-  for (Eigen::Index slab = 0; slab < n_slabs_; ++slab) {
+  for (Eigen::Index slab = 0; slab * kSlab < Y.rows(); ++slab) {
     load(Y, slab, rows);
     kernel.add({at(slab, first), rows.data(), coefficients.data(), static_cast<int>(C.rows()), n_vectors});
-    const Eigen::Index row = slab * kSlab, n = std::min(kSlab, n_rows_ - row);
+    const Eigen::Index row = slab * kSlab, n = std::min(kSlab, Y.rows() - row);
     Y.middleRows(row, n) = rows.topLeftCorner(n, Y.cols());
   }
 }

@@ -26,7 +26,7 @@ class TallBasis {
   Eigen::MatrixXd get(int first, int n) const;
   /// V' W of the first n columns V: n x columns of W.
   Eigen::MatrixXd dot(int n, const Eigen::Ref<const Eigen::MatrixXd>& W) const;
-  /// Y += V C for the C.rows() columns V from `first` on.
+  /// Y += V C for the C.rows() columns V from `first` on, as many rows of them as Y has.
   void add_product(int first, const Eigen::Ref<const Eigen::MatrixXd>& C,
                    Eigen::Ref<Eigen::MatrixXd> Y) const;
 
