@@ -127,6 +127,32 @@ void add(Mat A, const CellBasis& basis, const MatrixXd& A_e) {
   check(MatSetValues(A, n, basis.row.data(), n, basis.column.data(), A_e.data(), ADD_VALUES));
 }
 
+// Calls f(cell, basis) for cells of which this rank owns rows.
+template <class F>
+void visit_own_cells(const Sector& sector, const Harmonic& harmonic, const Rows& rows, F&& f) {
+  for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
+    const CellBasis basis = cell_basis(sector, harmonic, rows, cell);
+    if (std::any_of(basis.row.begin(), basis.row.end(), [](PetscInt row) { return row >= 0; }))
+      f(cell, basis);
+  }
+}
+
+struct Problem {
+  const Sector& sector;
+  const Harmonic& harmonic;
+  const std::vector<model::MaterialRegion>& regions;
+  const model::Formulation& formulation;
+};
+
+MatrixXd projected_mass(const Problem& of, int cell, const CellModuli& moduli, const CellBasis& basis) {
+  const Sector& sector = of.sector;
+  CellMass mass = cell_mass(sector.mesh.cells.type[cell], cell_coordinates(sector.mesh, cell),
+                            of.regions[sector.region[cell]].material.rho, moduli.elastic, of.formulation);
+  mass.scalar *= sector.weight[cell];
+  return mass.has_modes() ? project_blocks(basis, mass_matrix(mass))
+                          : project_scalar(of.harmonic, basis, mass.scalar);
+}
+
 }  // namespace
 
 std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector) {
@@ -141,26 +167,30 @@ Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
                   const std::vector<model::MaterialRegion>& regions, const model::Formulation& formulation) {
   const Rows rows = count_entries(comm, sector, harmonic);
   Matrices matrices{create_spd_matrix(comm, 1, rows.count), create_spd_matrix(comm, 1, rows.count)};
-  for (int cell = 0; cell < sector.mesh.cells.size(); ++cell) {
-    const CellBasis basis = cell_basis(sector, harmonic, rows, cell);
-    const auto is_own = [](PetscInt row) { return row >= 0; };
-    if (std::none_of(basis.row.begin(), basis.row.end(), is_own)) continue;
+  visit_own_cells(sector, harmonic, rows, [&](int cell, const CellBasis& basis) {
     const ElementFunctions& functions = element_functions(sector.mesh.cells.type[cell]);
-    const model::Material& material = regions[sector.region[cell]].material;
-    const Eigen::Matrix3Xd X = cell_coordinates(sector.mesh, cell);
-    const double weight = sector.weight[cell];
-    const CellModuli moduli(material);
-    const MatrixXd K_e = weight * cell_stiffness(functions, X, moduli, formulation.element);
+    const CellModuli moduli(regions[sector.region[cell]].material);
+    const MatrixXd K_e = sector.weight[cell] * cell_stiffness(functions, cell_coordinates(sector.mesh, cell),
+                                                              moduli, formulation.element);
     add(matrices.K, basis, project_blocks(basis, K_e));
-    CellMass mass = cell_mass(sector.mesh.cells.type[cell], X, material.rho, moduli.elastic, formulation);
-    mass.scalar *= weight;
-    add(matrices.M, basis,
-        mass.has_modes() ? project_blocks(basis, mass_matrix(mass))
-                         : project_scalar(harmonic, basis, mass.scalar));
-  }
+    add(matrices.M, basis, projected_mass({sector, harmonic, regions, formulation}, cell, moduli, basis));
+  });
   finish_assembly(matrices.K);
   finish_assembly(matrices.M);
   return matrices;
+}
+
+UniqueMat assemble_mass(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
+                        const std::vector<model::MaterialRegion>& regions,
+                        const model::Formulation& formulation) {
+  const Rows rows = count_entries(comm, sector, harmonic);
+  UniqueMat M = create_spd_matrix(comm, 1, rows.count);
+  visit_own_cells(sector, harmonic, rows, [&](int cell, const CellBasis& basis) {
+    const CellModuli moduli(regions[sector.region[cell]].material);
+    add(M, basis, projected_mass({sector, harmonic, regions, formulation}, cell, moduli, basis));
+  });
+  finish_assembly(M);
+  return M;
 }
 
 }  // namespace elastogear::fem

@@ -16,5 +16,9 @@ std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector);
 /// docs/theory.md, Eq. (2.11).
 Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
                   const std::vector<model::MaterialRegion>& regions, const model::Formulation& formulation);
+/// M_k alone.
+UniqueMat assemble_mass(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
+                        const std::vector<model::MaterialRegion>& regions,
+                        const model::Formulation& formulation);
 
 }  // namespace elastogear::fem

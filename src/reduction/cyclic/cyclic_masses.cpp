@@ -30,13 +30,13 @@ SixDirections cyclic_mobile_masses(MPI_Comm comm, const fem::MeshedBody& body,
   for (int k = 0; k < kRigidHarmonics; ++k) {
     const fem::Harmonic harmonic = fem::make_harmonic(sector, k);
     if (harmonic.size() == 0) continue;
-    const fem::Matrices matrices = fem::assemble(comm, sector, harmonic, body.regions, body.formulation);
+    const UniqueMat M = fem::assemble_mass(comm, sector, harmonic, body.regions, body.formulation);
     UniqueVec layout;
-    check(MatCreateVecs(matrices.M, layout.out(), nullptr));
+    check(MatCreateVecs(M, layout.out(), nullptr));
     std::vector<int> all(rank == 0 ? harmonic.size() : 0);
     std::iota(all.begin(), all.end(), 0);
     const fem::VectorGather gather(layout, all, harmonic.size());
-    masses += inverse_masses(matrices.M, [&](int direction, Vec p) {
+    masses += inverse_masses(M, [&](int direction, Vec p) {
       Eigen::VectorXd g;
       if (rank == 0) {
         const Eigen::VectorXd momentum = rigid_momentum(moments, c, direction);
