@@ -18,6 +18,11 @@ void zhetrs2_(const char* triangle, const PetscBLASInt* n, const PetscBLASInt* n
               const std::complex<double>* A, const PetscBLASInt* stride, const PetscBLASInt* pivot,
               std::complex<double>* B, const PetscBLASInt* B_stride, std::complex<double>* work,
               PetscBLASInt* info);
+void zpotrf_(const char* triangle, const PetscBLASInt* n, std::complex<double>* A, const PetscBLASInt* stride,
+             PetscBLASInt* info);
+void zpotrs_(const char* triangle, const PetscBLASInt* n, const PetscBLASInt* n_columns,
+             const std::complex<double>* A, const PetscBLASInt* stride, std::complex<double>* B,
+             const PetscBLASInt* B_stride, PetscBLASInt* info);
 }
 // NOLINTEND(readability-identifier-naming)
 
@@ -60,6 +65,19 @@ void solve_hermitian(const Eigen::MatrixXcd& factor, const std::vector<int>& piv
   Eigen::VectorXcd work(n);
   zhetrs2_("L", &n, &n_columns, factor.data(), &n, pivot.data(), B.data(), &n, work.data(), &info);
   require(info == 0, "LAPACK's zhetrs2 failed with code ", info, " on ", n, " rows");
+}
+
+bool cholesky_hermitian(Eigen::MatrixXcd& A) {
+  const auto n = static_cast<PetscBLASInt>(A.rows());
+  PetscBLASInt info = 0;
+  if (n > 0) zpotrf_("L", &n, A.data(), &n, &info);
+  return info == 0;
+}
+
+void solve_cholesky(const Eigen::MatrixXcd& L, Eigen::MatrixXcd& B) {
+  const auto n = static_cast<PetscBLASInt>(B.rows()), n_columns = static_cast<PetscBLASInt>(B.cols());
+  PetscBLASInt info = 0;
+  if (n > 0 && n_columns > 0) zpotrs_("L", &n, &n_columns, L.data(), &n, B.data(), &n, &info);
 }
 
 }  // namespace elastogear::reduction

@@ -154,20 +154,21 @@ CondensedResponses::CondensedResponses(const fem::Sector& sector, const WantedRo
 Amplitudes CondensedResponses::find(const fem::Harmonic& harmonic) const {
   const HarmonicBorder border = make_border(sector_, nodes_, harmonic);
   MatrixXcd S = fold(border, S_);
-  std::vector<int> pivot;
-  if (factorise_hermitian(S, pivot) > 0) fail_singular("a part of it is not positive definite");
+  if (!cholesky_hermitian(S)) fail_singular("a part of it is not positive definite");
   const Index n = wanted_.n_loads(), n_rows = wanted_.n_rows();
   MatrixXf E_load = MatrixXf::Zero(n, E_.cols());
   for (Index j = 0; j < n; ++j)
     if (load_[j] >= 0) E_load.row(j) = E_.row(load_[j]);
   MatrixXcd X = by_amplitudes(E_load, border).adjoint();
-  solve_hermitian(S, pivot, X);
+  solve_cholesky(S, X);
   // Smooth displacements of the border move the sector far more than they strain it. Large numbers cancel in
   // their stresses, which are found in double precision.
   MatrixXd exact = at_nodes(border, X);
-  const MatrixXd smooth = smooth_.transpose() * exact;
-  exact.noalias() -= smooth_ * smooth;
-  const MatrixXf moved = exact.cast<float>(), of_smooth = (E_smooth_ * smooth).cast<float>();
+  MatrixXd smooth(smooth_.cols(), exact.cols()), strained(E_smooth_.rows(), exact.cols());
+  multiply(Op::transposed, Op::plain, 1, smooth_, exact, 0, smooth);
+  multiply(Op::plain, Op::plain, -1, smooth_, smooth, 1, exact);
+  multiply(Op::plain, Op::plain, 1, E_smooth_, smooth, 0, strained);
+  const MatrixXf moved = exact.cast<float>(), of_smooth = strained.cast<float>();
   std::vector<std::complex<double>> phase_of;
   for (int turns = 0; turns < harmonic.n_sectors; ++turns) phase_of.push_back(phase_after(harmonic, turns));
   const auto scale = static_cast<float>((harmonic.real ? 1.0 : 2.0) / harmonic.n_sectors);
