@@ -48,14 +48,35 @@ void check(const std::string& name, const WheelCounts& n, int z) {
                {n.tooth, n.space, n.flank, n.fillet, n.rim, n.ring, n.web, n.hub, n.web_layers, n.face_layers,
                 n.hub_layers},
                z * layers * section);
-  check_growth(name, {n.growth, n.tooth_growth});
+  check_growth(name, {n.growth, n.tooth_growth, n.web_growth});
   require(n.tooth % 2 == 0, "the ", name, "'s count tooth = ", n.tooth, " must be even");
 }
 
-void add_rows(Sector& sector, int n, double r_outer, double width) {
+// Ends of a band of rows at which the web has corners.
+struct Corners {
+  bool inner = false, outer = false;
+};
+
+// Rows of a band get thinner towards the corners, each of them `growth` times as thick as the next; 0: equal
+// ones. A row of a second-order mesh is two of its points, which halve it.
+struct RowGrading {
+  double growth;
+  int order;
+
+  double thickness(int i, int n, const Corners& at) const {
+    const int row = i / order, last = n / order - 1;
+    const int inner = at.inner ? row : last, outer = at.outer ? last - row : last;
+    return growth == 0 || (!at.inner && !at.outer) ? 1 : std::pow(growth, std::min(inner, outer));
+  }
+};
+
+void add_rows(Sector& sector, int n, double r_outer, double width, const RowGrading& grading,
+              const Corners& at) {
+  std::vector<double> height{0};
+  for (int i = 0; i < n; ++i) height.push_back(height.back() + grading.thickness(i, n, at));
   const double r_inner = sector.radius.back();
   for (int i = 1; i <= n; ++i) {
-    sector.radius.push_back(std::lerp(r_inner, r_outer, static_cast<double>(i) / n));
+    sector.radius.push_back(std::lerp(r_inner, r_outer, height[static_cast<std::size_t>(i)] / height.back()));
     sector.half_width.push_back(width / 2);
   }
 }
@@ -97,8 +118,9 @@ std::vector<PlaneSection> sections(const std::function<Profile(double)>& profile
   return all;
 }
 
+// order: 2 of a grid with the midside nodes of a second-order mesh.
 Sector sector(const Toothing& toothing, std::vector<PlaneSection> sections, const Blank& blank,
-              const WheelCounts& n) {
+              const WheelCounts& n, int order) {
   Sector s{.tooth_grid = sections[0].grid,
            .sections = {},
            .radius = {blank.end_diameter() / 2},
@@ -107,12 +129,13 @@ Sector sector(const Toothing& toothing, std::vector<PlaneSection> sections, cons
   s.sections = std::move(sections);
   s.half_pitch = std::numbers::pi / toothing.z;
   s.internal = toothing.internal;
+  const RowGrading grading{n.web_growth, order};
   if (blank.has_web()) {
-    add_rows(s, n.hub, blank.hub_diameter / 2, blank.hub_width);
-    add_rows(s, n.web, blank.web_diameter / 2, blank.web_width);
+    add_rows(s, n.hub, blank.hub_diameter / 2, blank.hub_width, grading, {.outer = true});
+    add_rows(s, n.web, blank.web_diameter / 2, blank.web_width, grading, {.inner = true, .outer = true});
   }
   if (blank.rim_diameter != 2 * s.radius.back())
-    add_rows(s, n.ring, blank.rim_diameter / 2, blank.face_width);
+    add_rows(s, n.ring, blank.rim_diameter / 2, blank.face_width, grading, {.inner = blank.has_web()});
   s.rim = static_cast<int>(s.half_width.size());
   s.tooth = s.rim + n.rim;
   s.half_width.resize(static_cast<std::size_t>(s.tooth) + static_cast<std::size_t>(s.tooth_grid.rows),
@@ -277,13 +300,13 @@ mesh::Mesh make_mesh(const std::string& name, const Toothing& toothing,
   const std::vector<double> ends{blank.face_width / -2};
   if (n.order == 1) {
     const std::vector<double> z = is_constant ? ends : plane_positions(blank, n);
-    const Sector s = sector(toothing, sections(profile, z, n, 1), blank, n);
+    const Sector s = sector(toothing, sections(profile, z, n, 1), blank, n, 1);
     return mesh_of(name, s, {s, toothing, 1});
   }
   const WheelCounts twice = with_points_between(n);
   const std::vector<double> z = is_constant ? ends : plane_positions(blank, twice);
-  const Sector coarse = sector(toothing, sections(profile, ends, n, 1), blank, n);
-  const Sector fine = sector(toothing, sections(profile, z, n, 2), blank, twice);
+  const Sector coarse = sector(toothing, sections(profile, ends, n, 1), blank, n, 1);
+  const Sector fine = sector(toothing, sections(profile, z, n, 2), blank, twice, 2);
   return mesh_of(name, coarse, {fine, toothing, 2});
 }
 

@@ -58,21 +58,25 @@ WheelCounts equal_counts(Size size) {
 }
 
 // Counts of a mesh of 20-node hexahedra, which below the fillet are as deep as they are long and grow
-// inwards.
+// inwards. Rows of hub, web and ring get thinner towards the corners of the web, which have no fillets, for
+// the frequencies.
 WheelCounts graded_counts(Size size) {
   WheelCounts n{.tooth = 4,
                 .space = 2,
                 .flank = 3,
                 .fillet = 2,
                 .rim = 4,
-                .web = 2,
+                .ring = 2,
+                .web = 5,
+                .hub = 3,
                 .web_layers = 4,
                 .face_layers = 2,
                 .order = 2,
                 .growth = 3,
-                .tooth_growth = 4};
+                .tooth_growth = 4,
+                .web_growth = 3};
   if (size == Size::tiny) {
-    n.space = n.web = n.face_layers = 1;
+    n.space = n.ring = n.web = n.hub = n.face_layers = 1;
     n.flank = n.rim = n.web_layers = 2;
     n.growth = 4;
   }
@@ -84,6 +88,7 @@ WheelCounts graded_counts(Size size) {
     n.space = n.face_layers = 3;
     n.fillet = 4;
     n.web_layers = 6;
+    n.hub = 2;
     n.growth = 2;
   }
   return n;

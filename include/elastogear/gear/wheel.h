@@ -24,6 +24,7 @@ struct WheelCounts {
   int order = 1;            ///< of the cells: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact surface)
   double growth = 0;        ///< of rows from the root inwards, each to the one before; 0: nearly equal rows
   double tooth_growth = 0;  ///< of columns from the flank to the middle of the tooth; 0: equal ones
+  double web_growth = 0;    ///< of rows of hub, web and ring away from the corners of the web; 0: equal ones
 };
 
 /// Counts of a size for cells of an order: those of 20 nodes are graded towards the fillets.

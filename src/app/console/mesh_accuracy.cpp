@@ -1,5 +1,7 @@
 #include "app/console/mesh_accuracy.h"
 
+#include "app/console/console.h"
+
 namespace elastogear::app {
 namespace {
 
@@ -14,6 +16,14 @@ constexpr const char* kWheel[2][4] = {
     {"9 % low (under a patch of contact 13 %)", "within 1 % (under a patch of contact 6 % low)",
      "within 1 % (under a patch of contact 6 % low)", "within 1 % (under a patch of contact, too)"}};
 
+// Error of the first 20 frequencies, rows and columns as above (docs/validation.md, section 42).
+constexpr const char* kWormFrequencies[2][4] = {
+    {"up to 6 % high", "up to 2 % high", "up to 2 % high", "within 1 %"},
+    {"up to 1 % high", "within 1 %", "within 1 %", "within 1 %"}};
+constexpr const char* kWheelFrequencies[2][4] = {
+    {"up to 16 % high", "up to 5 % high", "up to 3 % high", "up to 1 % high"},
+    {"up to 6 % high", "within 1 %", "within 1 %", "within 1 %"}};
+
 // Secant mesh stiffness of the reference drive beside what meshes go to with the local approach of
 // flanks, with that and without; rows and columns as above (docs/validation.md, section 42).
 constexpr const char* kStiffness[2][4] = {
@@ -25,18 +35,24 @@ constexpr const char* kMeasured = "within 1 % (without the approach by H. Hertz 
 constexpr const char* kHertz[2][4] = {{kMeasured, kMeasured, kMeasured, kMeasured},
                                       {kMeasured, kMeasured, kMeasured, kMeasured}};
 
+std::string accuracy(const char* const (&errors)[2][4], gear::Size size, int order) {
+  return errors[order - 1][static_cast<int>(size)];
+}
+
 }  // namespace
 
-std::string root_accuracy(bool is_worm, gear::Size size, int order) {
-  std::string accuracy = (is_worm ? kWorm : kWheel)[order - 1][static_cast<int>(size)];
-  accuracy += is_worm ? " at the root of the reference worm" : " at the root of the reference wheel";
-  return accuracy;
+void print_mesh_accuracy(bool is_worm, gear::Size size, int order) {
+  const std::string body = is_worm ? "the reference worm" : "the reference wheel";
+  print_item("stress on such meshes",
+             accuracy(is_worm ? kWorm : kWheel, size, order) + " at the root of " + body);
+  print_item("frequencies on such meshes",
+             "the first 20 " + accuracy(is_worm ? kWormFrequencies : kWheelFrequencies, size, order) +
+                 " on " + body);
 }
 
 std::string drive_accuracy(gear::Size size, int order) {
-  return std::string("mesh stiffness ") + kStiffness[order - 1][static_cast<int>(size)] +
-         "; flank pressure by H. Hertz " + kHertz[order - 1][static_cast<int>(size)] +
-         "; on the reference worm drive";
+  return std::string("mesh stiffness ") + accuracy(kStiffness, size, order) +
+         "; flank pressure by H. Hertz " + accuracy(kHertz, size, order) + "; on the reference worm drive";
 }
 
 }  // namespace elastogear::app

@@ -1,5 +1,5 @@
 #pragma once
-// How far stresses and stiffness on a mesh of a size are from those of the continuum.
+// How far stresses, frequencies and stiffness on a mesh of a size are from those of the continuum.
 
 #include <string>
 
@@ -7,9 +7,10 @@
 
 namespace elastogear::app {
 
-/// The error of the largest von Mises stress at the root of the reference worm, or of its wheel, on the mesh
-/// of a size and order, as a line for the console (docs/validation.md, section 36).
-std::string root_accuracy(bool is_worm, gear::Size size, int order);
+/// Prints two errors of the reference worm, or of its wheel, on the mesh of a size and order: that of the
+/// largest von Mises stress at the root (docs/validation.md, section 36), and the largest of the first 20
+/// frequencies, the worm held at its seats, the wheel at its bore (section 42).
+void print_mesh_accuracy(bool is_worm, gear::Size size, int order);
 
 /// The errors of the reference worm drive's mesh stiffness and of its flank pressure by H. Hertz under
 /// contact without a penalty at the points of least gap, both gears of this size and order

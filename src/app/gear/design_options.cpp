@@ -105,6 +105,8 @@ const Rows<WheelCounts> kWheelCounts = {
      kDependent},
     {"wheel_tooth_growth", &WheelCounts::tooth_growth, "-",
      "wheel: the same of columns from the flanks to the middle of the tooth", kDependent},
+    {"wheel_web_growth", &WheelCounts::web_growth, "-",
+     "wheel: the same of rows of hub, web and ring away from the corners of the web", kDependent},
 };
 
 }  // namespace

@@ -66,8 +66,7 @@ void mesh_drive(const Options& options) {
     meshes.push_back(drive.members[i].mesh(size, element_order(options)));
     print_item("mesh of " + drive.members[i].name, "");
     print_mesh(meshes.back());
-    print_item("stress on such meshes",
-               root_accuracy(drive.members[i].is_worm, size, element_order(options)));
+    print_mesh_accuracy(drive.members[i].is_worm, size, element_order(options));
     mesh::write_mesh(paths[i], meshes.back());
     print_item("written", paths[i]);
   }
@@ -97,7 +96,7 @@ void run_mesh(const Options& given, const std::vector<std::string>&) {
   print_mesh(mesh);
   const OptionTable counts = table_of(worm_count_rows(), wheel_count_rows());
   if (std::none_of(counts.begin(), counts.end(), [&](const auto& spec) { return options.given(spec.name); }))
-    print_item("stress on such meshes", root_accuracy(worm, size, order));
+    print_mesh_accuracy(worm, size, order);
   mesh::write_mesh(path, mesh);
   print_item("written", path);
 }

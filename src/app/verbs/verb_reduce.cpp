@@ -250,7 +250,7 @@ void reduce_drive(const Options& options) {
   print_item("the drive on such meshes", drive_accuracy(size, element_order(options)));
   for (const DriveMember& member : drive.members) {
     print_item("body " + member.name, "");
-    print_item("stress on such meshes", root_accuracy(member.is_worm, size, element_order(options)));
+    print_mesh_accuracy(member.is_worm, size, element_order(options));
     reduce_body(member_options(options, member), [&] {
       Nodes nodes{.mesh = member.mesh(size, element_order(options)), .report = {}};
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));

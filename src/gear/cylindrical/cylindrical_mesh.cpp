@@ -28,6 +28,7 @@ WheelCounts cylindrical_counts(const CylindricalDrive& d, const CylindricalGeome
                                int order) {
   constexpr double kWidth = 8;  // modules, which the layers of a size are for
   WheelCounts n = wheel_counts(size, order);
+  n.web_growth = 0;
   const Blank& b = g.blank[i];
   const double total = (n.web_layers + 2 * n.face_layers) * b.face_width / (kWidth * d.m_n);
   const int layers = std::max(2, static_cast<int>(std::lround(total)));

@@ -182,7 +182,6 @@ WormCounts graded_counts(Size size) {
     n.space = n.flank = n.fillet = 3;
     n.ring = 4;
     n.turn = 40;
-    n.shaft = 6;
     n.growth = 3;
     n.tooth_growth = 8;
   }
