@@ -104,7 +104,10 @@ TEST(Simulate, impact_too_fast_for_the_time_step_is_cut_and_recovers) {
 // The torque about the axis is roundoff of the centrifugal forces: no share of it is out of balance.
 TEST(Simulate, free_rotation_begins_with_one_iteration) {
   const auto at = [](double x) {
-    const test::BoxSpec box{.corner = {x, 0.1, 0}, .cells = {2, 2, 2}, .material = {100, 0.3, 1}};
+    const test::BoxSpec box{.corner = {x, 0.1, 0},
+                            .cells = {2, 2, 2},
+                            .material = {100, 0.3, 1},
+                            .held = [x](const Eigen::Vector3d& X, int) { return X[0] == x; }};
     return std::make_shared<model::ElasticBody>(test::make_box(box, model::Basis::full));
   };
   System system(

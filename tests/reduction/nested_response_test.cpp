@@ -75,12 +75,12 @@ Eigen::MatrixXf all_responses(NestedResponse& response, Eigen::Index n_rows) {
 }
 
 // Differences of responses from exact ones.
-struct Error {
+struct Deviation {
   double largest = 0, rms = 0;
 };
 
 // Of the responses to the loads from P K^-1 P', over the root of the own responses of load and row.
-Error error_of(NestedResponse& response, const MatrixXd& exact) {
+Deviation deviation_of(NestedResponse& response, const MatrixXd& exact) {
   const Eigen::VectorXd size = exact.diagonal().cwiseMax(1e-300).cwiseSqrt();
   const std::vector<int> loads = all_in(response);
   MatrixXd error =
@@ -121,7 +121,7 @@ TEST(NestedResponse, is_that_of_the_inverse_whatever_the_parts) {
   for (int leaf : {kSmallLeaf, 100, 100'000}) {
     NestedResponse response(system.matrices.K, P, loads, {}, leaf);
     std::vector<int> asked = all_in(response);
-    EXPECT_LE(error_of(response, exact).largest, kSingle) << leaf;
+    EXPECT_LE(deviation_of(response, exact).largest, kSingle) << leaf;
     std::sort(asked.begin(), asked.end());
     EXPECT_EQ(asked, loads);
   }
@@ -142,7 +142,7 @@ TEST(NestedResponse, balances_loads_on_free_bodies_by_inertia) {
   std::iota(loads.begin(), loads.end(), 0);
   for (int leaf : {kSmallLeaf, 100'000}) {
     NestedResponse response(system.matrices.K, P, loads, rigid, leaf);
-    EXPECT_LE(error_of(response, exact).largest, kSingle) << leaf;
+    EXPECT_LE(deviation_of(response, exact).largest, kSingle) << leaf;
   }
 }
 
@@ -163,7 +163,7 @@ TEST(NestedResponse, leaves_out_nothing_that_single_precision_shows) {
   std::iota(loads.begin(), loads.end(), 0);
   NestedResponse response(system.matrices.K, P, loads, {}, 200);
   EXPECT_GT(response.groups().size(), 1u);
-  const Error error = error_of(response, exact);
+  const Deviation error = deviation_of(response, exact);
   EXPECT_LE(error.rms, kUnitRoundoff / 2);
   EXPECT_LE(error.largest, kLargest);
 }
