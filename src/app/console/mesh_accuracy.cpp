@@ -14,7 +14,8 @@ constexpr const char* kWheel[2][4] = {
     {"48 % low (under a patch of contact 53 %)", "30 % low (under a patch of contact 34 %)",
      "20 % low (under a patch of contact 19 %)", "8 % low (under a patch of contact 13 %)"},
     {"9 % low (under a patch of contact 13 %)", "within 1 % (under a patch of contact 6 % low)",
-     "within 1 % (under a patch of contact 6 % low)", "within 1 % (under a patch of contact 0.4 to 1.4 % low)"}};
+     "within 1 % (under a patch of contact 6 % low)",
+     "within 1 % (under a patch of contact 0.4 to 1.4 % low)"}};
 
 // Error of the first 20 frequencies, rows and columns as above (docs/validation.md, section 42).
 constexpr const char* kWormFrequencies[2][4] = {
