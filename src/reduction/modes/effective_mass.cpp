@@ -59,13 +59,13 @@ SixDirections inverse_masses(Mat M, const std::function<void(int direction, Vec 
   check(VecDuplicate(p, Mv.out()));
   SixDirections masses;
   for (int direction = 0; direction < 6; ++direction) {
-    PetscScalar with_p = 0, with_Mv = 0;
+    PetscScalar with_p = 0, with_mv = 0;
     set(direction, p);
     check(KSPSolve(ksp, p, v));
     check(MatMult(M, v, Mv));
     check(VecDot(p, v, &with_p));
-    check(VecDot(Mv, v, &with_Mv));
-    masses(direction) = 2 * with_p - with_Mv;
+    check(VecDot(Mv, v, &with_mv));
+    masses(direction) = 2 * with_p - with_mv;
   }
   return masses;
 }
