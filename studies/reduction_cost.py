@@ -56,9 +56,10 @@ def read(path):
 
 
 def fit(rows, name):
-    """A function of n and p: a n^e (s + (1 - s) / p), from the runs on one rank and those on more."""
-    one = [row for row in rows if row["ranks"] == 1]
-    exponent, logarithm = np.polyfit(np.log([row["n"] for row in one]), np.log([row[name] for row in one]), 1)
+    """A function of n and p: a n^e (s + (1 - s) / p), a and e from the two largest wheels on one rank, s from all on more."""
+    one = sorted((row for row in rows if row["ranks"] == 1), key=lambda row: row["n"])
+    largest = one[-2:]
+    exponent, logarithm = np.polyfit(np.log([row["n"] for row in largest]), np.log([row[name] for row in largest]), 1)
     alone = {row["wheel"]: row[name] for row in one}
     shares = [(row[name] / alone[row["wheel"]] - 1 / row["ranks"]) / (1 - 1 / row["ranks"])
               for row in rows if row["ranks"] > 1 and row["wheel"] in alone]
@@ -97,7 +98,7 @@ def main():
         args.table = os.path.join(args.out, "reductions.csv")
         rows = [measure(args, name, int(ranks)) for name in args.wheels.split(",") for ranks in args.on.split(",")]
         with open(args.table, "w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, rows[0])
+            writer = csv.DictWriter(file, rows[0], lineterminator="\n")
             writer.writeheader()
             writer.writerows(rows)
     rows = read(args.table)

@@ -77,6 +77,24 @@ class CostModel(unittest.TestCase):
         measured = 820  # s, docs/performance.md
         self.assertLess(abs(self.eigenmodes("--dofs", "349398", "--ranks", "1", "--sectors", "1")[0] / measured - 1), 0.5)
 
+class ReductionCost(unittest.TestCase):
+    def figures(self, *options):
+        """Seconds and GB of the rank that takes most."""
+        command = [sys.executable, os.path.join(SCRIPTS, "..", "studies", "reduction_cost.py"), *options]
+        text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        return [float(line.split()[-2]) for line in text.splitlines() if line.startswith(("time:", "memory:"))]
+
+    def test_says_what_was_measured_of_the_largest_wheel(self):
+        time, memory = self.figures("--dofs", "1373787", "--ranks", "1")
+        self.assertLess(abs(time / 44.02 - 1), 0.01)  # s and GB, benchmarks/reductions.csv
+        self.assertLess(abs(memory / 1.4239 - 1), 0.01)
+
+    def test_more_ranks_take_less_and_larger_wheels_more(self):
+        reference = self.figures("--dofs", "3e6", "--ranks", "2")
+        for less, more in ((self.figures("--dofs", "3e6", "--ranks", "8"), reference),
+                           (reference, self.figures("--dofs", "6e6", "--ranks", "2"))):
+            self.assertTrue(all(a < b for a, b in zip(less, more)))
+
 
 class Progress(unittest.TestCase):
     """Steps of a chain tell how far they are, whatever the time they take."""
