@@ -79,7 +79,8 @@ struct Deviation {
   double largest = 0, rms = 0;
 };
 
-// Of the responses to the loads from P K^-1 P', over the root of the own responses of load and row.
+// Deviation of the responses to all loads from P K^-1 P', each over the root of the own responses of its load
+// and row.
 Deviation deviation_of(NestedResponse& response, const MatrixXd& exact) {
   const Eigen::VectorXd size = exact.diagonal().cwiseMax(1e-300).cwiseSqrt();
   const std::vector<int> loads = all_in(response);

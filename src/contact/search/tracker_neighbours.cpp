@@ -115,8 +115,8 @@ void Tracker::find_candidates() {
   for (int i : {0, 1}) neighbours_->found_at[i] = {now_[i]->q, now_[i]->r_WB, now_[i]->R_WB};
 }
 
-// Where both surfaces come if they move on as they do, most of the skin away from here; nothing where they
-// rest against each other.
+// The placements that both surfaces reach with their present velocities when their relative motion has used
+// up kAhead of the skin; nothing where they do not move against each other.
 std::optional<Tracker::Ahead> Tracker::motion_ahead() const {
   double speed = 0, spin = 0;  // m/s, of no point more; rad/s
   for (int i : {0, 1}) {

@@ -1,6 +1,6 @@
 #pragma once
-// What a mesh makes of the approach of two flanks under the forces of a patch, beside smooth pressures on an
-// elastic half-space: docs/theory.md, section 6.17.
+// The work of the contact forces of a patch on the mesh's own local deformation, with that of smooth
+// pressures on an elastic half-space in its place: docs/theory.md, Eq. (6.36).
 
 #include <map>
 #include <unordered_map>

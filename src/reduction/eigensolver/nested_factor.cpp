@@ -15,8 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Of a pivot's matrix, where eigenvalues lie below the shift: a smaller one costs the digits that counting
-// and solving need.
+// The least reciprocal condition number of a pivot's matrix where eigenvalues lie below the shift. A smaller
+// one costs the digits that counting and solving need.
 constexpr double kLeastCondition = 1e-9;
 constexpr Index kTogetherInProduct = 256;  // of a symmetric product that are formed together
 
