@@ -13,7 +13,7 @@ namespace {
 
 recovery::UnreducedResponse unreduced_response(const io::BodySource& source, bool floating) {
   const auto factor = std::make_shared<reduction::StaticResponse>(source, floating);
-  return {[factor](const std::vector<int>& loaded, const Eigen::Matrix3Xd& f) {
+  return {[factor](const std::vector<int>& loaded, const Eigen::MatrixXd& f) {
             return factor->displacement(loaded, f);
           },
           [factor](const std::vector<int>& loaded, const std::vector<int>& evaluated) {

@@ -146,6 +146,18 @@ void prepare_errors(SetOfBody& set, io::StressSet& result) {
   if (set.known && set.known->is_stored()) result.contact_error.resize(n, n_t);
 }
 
+// Adds the whole body's static response u_static to a state whose dynamic part is q_d.
+void add_static(const RecoveredBody& body, const Eigen::VectorXd& q_d, const Eigen::VectorXd& u_static,
+                bool with_error, FieldState& state) {
+  if (with_error && !body.relaxes()) {
+    const Eigen::VectorXd share = dynamic_share(body.known()->body, {q_d, state.q - q_d});
+    state.reference = {state.q, q_d, u_static, share[0]};
+  }
+  if (!body.response) return;
+  state.q = q_d;
+  state.u_static = u_static;
+}
+
 }  // namespace
 
 RecoveredBody prepare_recovery(BodyOfRun run, Acceleration acceleration, bool with_error,
@@ -187,19 +199,17 @@ FieldState state_of_run(const BodyOfRun& body, Eigen::Index step) {
   return state;
 }
 
-FieldState recovered_state(const RecoveredBody& body, Eigen::Index step, bool with_error) {
-  FieldState state = state_of_run(body.run, step);
+std::vector<FieldState> recovered_states(const RecoveredBody& body, const std::vector<int>& steps,
+                                         bool with_error) {
   StaticResponseOfRun* const known = body.known();
-  if (!known) return state;
-  const Eigen::VectorXd u_static = static_displacement(*known, step), q_d = known->q.col(step);
-  if (with_error && !body.relaxes()) {
-    const Eigen::VectorXd share = dynamic_share(known->body, {q_d, state.q - q_d});
-    state.reference = {state.q, q_d, u_static, share[0]};
+  const Eigen::MatrixXd u_static = known ? static_displacements(*known, steps) : Eigen::MatrixXd();
+  std::vector<FieldState> states;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    FieldState& state = states.emplace_back(state_of_run(body.run, steps[i]));
+    if (known)
+      add_static(body, known->q.col(steps[i]), u_static.col(static_cast<Eigen::Index>(i)), with_error, state);
   }
-  if (!body.response) return state;
-  state.q = q_d;
-  state.u_static = u_static;
-  return state;
+  return states;
 }
 
 }  // namespace elastogear::recovery

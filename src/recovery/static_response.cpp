@@ -98,11 +98,10 @@ std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
   return known_response->source->free_dof.size() <= kLargestReference ? std::move(known_response) : nullptr;
 }
 
-Eigen::VectorXd static_displacement(StaticResponseOfRun& known_response, Eigen::Index step) {
-  if (known_response.node.empty()) return {};
+Eigen::MatrixXd static_displacements(StaticResponseOfRun& known_response, const std::vector<int>& steps) {
+  if (known_response.node.empty()) return Eigen::MatrixXd(0, static_cast<Eigen::Index>(steps.size()));
   return unreduced_response(known_response)
-      .displacement(known_response.node,
-                    known_response.force.col(step).reshaped(3, known_response.node.size()));
+      .displacement(known_response.node, known_response.force(Eigen::all, steps));
 }
 
 }  // namespace elastogear::recovery

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "elastogear/mesh/named_nodes.h"
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/marker.h"
+#include "reduction/cyclic/body_repetition.h"
 #include "reduction/reduce_job.h"
 #include "reduction/surface.h"
 
@@ -117,25 +117,6 @@ std::string describe(const mesh::Turn& turn) {
   return text.str();
 }
 
-// Returns whether the turn leaves the material's directions as they are.
-bool repeats(const model::Material& material, const mesh::Turn& turn) {
-  if (!material.orthotropic) return true;
-  const model::Orientation& o = material.orthotropic->orientation;
-  const Eigen::Vector3d axis = o.axis.normalized();
-  return o.system == model::Orientation::System::cylindrical && axis.cross(turn.axis).norm() < kRounding &&
-         axis.cross(o.origin - turn.point).norm() < kRounding;
-}
-
-// Finds the repetition of the mesh and of all materials, or the reason why there is none.
-mesh::RepetitionSearch search_repetition(const Job& job) {
-  auto search = mesh::find_repetition(job.mesh, {job.plan.region, job.plan.is_free});
-  if (!search.found) return search;
-  for (const model::MaterialRegion& region : job.regions)
-    if (!repeats(region.material, search.found->turn))
-      return {{}, "the directions of an orthotropic material do not turn with the mesh"};
-  return search;
-}
-
 // Finds the symmetry on rank 0; all ranks learn whether there is one.
 void find_symmetry(Job& job) {
   mesh::Repetition& repetition = job.plan.repetition;
@@ -151,7 +132,7 @@ void find_symmetry(Job& job) {
       job.report.symmetry = "none: nodes are held in single directions";
       return;
     }
-    auto [found, reason] = search_repetition(job);
+    auto [found, reason] = find_body_repetition(job.mesh, job.regions, {job.plan.region, job.plan.is_free});
     if (found) repetition = std::move(*found);
     job.report.symmetry = found ? describe(repetition.turn) : "none: " + reason;
     if (found && options.floating) job.report.symmetry += ", for static responses";

@@ -338,6 +338,21 @@ TEST_F(Recover, tells_no_error_of_the_contact_by_modes_alone) {
   EXPECT_EQ(recover_stress(recovered, body, "ymax", true).contact_error.size(), 0);
 }
 
+// Of forces half as large, as they are and twice as large the other way.
+TEST_F(Recover, fields_of_several_times_have_the_displacements_of_the_full_basis) {
+  const Eigen::Matrix3Xd u_full =
+      io::read_displacement_field(file, at_rest(reduce(model::Basis::full)));  // before the file is another
+  const model::ElasticBody body = reduce(model::Basis::modal, true);
+  const RecoveredBody recovered =
+      prepare_recovery(write(body, {0.5, 1, -2}), Acceleration::automatic, false, finite_elements());
+  const std::vector<FieldState> states = recovered_states(recovered, {2, 1}, false);
+  ASSERT_EQ(states.size(), 2);
+  const Eigen::Matrix3Xd of_modes = io::read_displacement_field(file, states[1].q);
+  ASSERT_GT((of_modes - u_full).norm(), 0.1 * u_full.norm()) << "a comparison that says nothing";
+  EXPECT_LT((of_modes.reshaped() + states[1].u_static - u_full.reshaped()).norm(), kRoundoff * u_full.norm());
+  EXPECT_LT((states[0].u_static + 2 * states[1].u_static).norm(), kRoundoff * states[0].u_static.norm());
+}
+
 TEST(MeshErrorField, takes_the_share_of_free_surfaces_elsewhere) {
   const Eigen::Vector3d error = mesh_error_field(Eigen::Vector3d(1, 0, 2), Eigen::Vector3d(10, 5, 20), {});
   EXPECT_LT((error - Eigen::Vector3d(1, 0.5, 2)).norm(), 1e-14);

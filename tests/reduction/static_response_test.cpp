@@ -53,7 +53,7 @@ class StaticResponse : public testing::Test {
     const Eigen::VectorXd q = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(body.K_r).solve(h);
 
     const Eigen::Matrix3Xd u = io::read_displacement_field(path_, q);
-    EXPECT_LT((response.displacement(loaded, f) - u.reshaped()).norm(), kRoundoff * u.norm());
+    EXPECT_LT((response.displacement(loaded, f.reshaped()) - u.reshaped()).norm(), kRoundoff * u.norm());
     const Eigen::VectorXd sigma = model::multiply(body.stress.Psi, q);
     const Eigen::VectorXd found = response.stress(loaded, body.stress.node) * f.reshaped();
     EXPECT_LT((found - sigma).norm(), kRoundoff * sigma.norm());

@@ -12,8 +12,8 @@ namespace elastogear::recovery {
 
 /// Static response of the unreduced body to forces on its nodes, K^-1 f and S K^-1 f. Nodes are mesh numbers.
 struct UnreducedResponse {
-  /// Displacement, 3 n_nodes, m, node-major, for forces f (3 x n, N) on the n nodes `loaded`.
-  std::function<Eigen::VectorXd(const std::vector<int>& loaded, const Eigen::Matrix3Xd& f)> displacement;
+  /// Displacement, 3 n_nodes x n_t, m, node-major, for forces f (3 n x n_t, N) on the n nodes `loaded`.
+  std::function<Eigen::MatrixXd(const std::vector<int>& loaded, const Eigen::MatrixXd& f)> displacement;
   /// Stress at the n_e nodes `evaluated` for unit forces in x, y, z on each of `loaded`: 6 n_e x 3 n, Pa/N.
   std::function<Eigen::MatrixXd(const std::vector<int>& loaded, const std::vector<int>& evaluated)> stress;
 };

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "elastogear/io/stress_file.h"
 #include "elastogear/recovery/field.h"
@@ -42,8 +43,9 @@ bool tells_mesh_error(const RecoveredBody& body, const model::ElasticBody& elast
 
 /// Placement and coordinates at one output time, without static responses.
 FieldState state_of_run(const BodyOfRun& body, Eigen::Index step);
-/// State for a field, with the whole body's static response in place of that of the modes when it was asked
-/// for.
-FieldState recovered_state(const RecoveredBody& body, Eigen::Index step, bool with_error);
+/// States for fields, with the whole body's static response in place of that of the modes when it was asked
+/// for. Those of several output times share the factors that it takes.
+std::vector<FieldState> recovered_states(const RecoveredBody& body, const std::vector<int>& steps,
+                                         bool with_error);
 
 }  // namespace elastogear::recovery

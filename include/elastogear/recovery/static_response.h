@@ -55,8 +55,8 @@ std::unique_ptr<StaticResponseOfRun> error_reference(const BodyOfRun& body,
 /// The body's whole finite elements with a factor of K, made when it is first asked for. Error where none can
 /// serve.
 const UnreducedResponse& unreduced_response(StaticResponseOfRun& known_response);
-/// Displacement of the static response at one output time, 3 n_nodes, m; takes a factor of K. Empty when no
-/// force acts.
-Eigen::VectorXd static_displacement(StaticResponseOfRun& known_response, Eigen::Index step);
+/// Displacements of the static response at n_t output times, 3 n_nodes x n_t, m; takes a factor of K. Without
+/// rows when no force acts.
+Eigen::MatrixXd static_displacements(StaticResponseOfRun& known_response, const std::vector<int>& steps);
 
 }  // namespace elastogear::recovery

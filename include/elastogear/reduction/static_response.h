@@ -10,8 +10,9 @@
 
 namespace elastogear::reduction {
 
-/// Factorises K of the whole body, once, on this process alone. Nodes are mesh numbers; forces on restrained
-/// nodes do nothing.
+/// Factorises K of the whole body, once, on this process alone; of a held body that repeats around an axis
+/// the stiffness of its harmonics, anew in each call and one after the other, which takes less memory
+/// (docs/theory.md, section 4.1). Nodes are mesh numbers; forces on restrained nodes do nothing.
 class StaticResponse {
  public:
   /// The source must outlive this. floating: nothing holds the body, whose loads are balanced by the inertia
@@ -22,8 +23,8 @@ class StaticResponse {
   StaticResponse(const StaticResponse&) = delete;
   StaticResponse& operator=(const StaticResponse&) = delete;
 
-  /// 3 n_nodes, m, node-major, for forces f (3 x n, N) on `loaded`.
-  Eigen::VectorXd displacement(const std::vector<int>& loaded, const Eigen::Matrix3Xd& f);
+  /// 3 n_nodes x n_t, m, node-major, for forces f (3 n x n_t, N) on the n nodes `loaded`.
+  Eigen::MatrixXd displacement(const std::vector<int>& loaded, const Eigen::MatrixXd& f);
   /// Stress at `evaluated` for unit forces in x, y, z on each of `loaded`: 6 n_e x 3 n, Pa/N.
   Eigen::MatrixXd stress(const std::vector<int>& loaded, const std::vector<int>& evaluated);
 

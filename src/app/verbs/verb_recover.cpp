@@ -1,6 +1,8 @@
 // elastogear recover: result file -> stress histories, fields, pictures of the trees.
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
@@ -132,6 +134,13 @@ std::string field_path(const std::string& base, std::size_t i, std::size_t n) {
   return n == 1 ? base + ".vtu" : base + "_" + std::to_string(i) + ".vtu";
 }
 
+constexpr std::size_t kFieldsTogether = 16;  // output times whose static responses are found together
+
+std::vector<int> found_together(const std::vector<int>& steps, std::size_t first) {
+  const auto begin = steps.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(std::min(kFieldsTogether, steps.size() - first))};
+}
+
 void write_fields(const RecoverSettings& settings, const Run& run, const std::vector<int>& steps,
                   const Progress& progress) {
   const LogStage stage("fields");
@@ -147,10 +156,13 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
     const bool tells_mesh = settings.error_estimate && tells_mesh_error(recovered, elastic);
     const recovery::BodyContact contact = recovery::read_body_contact(run.result, body.name, surface);
     const std::string base = settings.fields + "_" + body.name;
+    std::vector<recovery::FieldState> states;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       report(progress, "fields", before + each * share(steps, steps[i]));
       const std::string path = field_path(base, i, steps.size());
-      recovery::FieldState state = recovered_state(recovered, steps[i], settings.error_estimate);
+      if (i % kFieldsTogether == 0)
+        states = recovered_states(recovered, found_together(steps, i), settings.error_estimate);
+      recovery::FieldState state = std::move(states[i % kFieldsTogether]);
       state.more = contact_fields(contact, steps[i], state.R_WB, surface, source.mesh.X.cols());
       if (tells_mesh) state.touched = surface.node;
       write_field(path, body.file, source, state, finite_elements());
