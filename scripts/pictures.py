@@ -169,7 +169,7 @@ def error_label(surface, stress):
 
 def draw_stress(options):
     pattern, shown, scale = stress_surface(options.like or options.field, options.scale)
-    end = colour_range(shown)
+    end = options.end or colour_range(shown)
     table = scene.colour_table(end)
     views = stress_views(pattern, int(shown.argmax()), aspect=1.2)
     surface, stress, scale = stress_surface(options.field, scale)
@@ -254,6 +254,7 @@ def arguments():
     stress.add_argument("field", help=".vtu with point data displacement (m) and von_mises (Pa)")
     stress.add_argument("--scale", type=float, default=0, help="enlargement of the displacement; default: automatic")
     stress.add_argument("--like", metavar="FIELD", help="another .vtu whose view, enlargement and colours are taken")
+    stress.add_argument("--end", type=float, default=0, metavar="MPA", help="where the colours end; default: a round number beyond all but a few nodes")
     stress.add_argument("--title", help="default: the file name")
     stress.set_defaults(draw=draw_stress)
     boxes = commands.add_parser("boxes", help="bodies with their k-DOPs")

@@ -100,6 +100,13 @@ class Files(unittest.TestCase):
             self.assertEqual(self.run_pictures("stress", name, "--like", "cube.vtu", "--out", "s.png").returncode, 0)
             self.assertEqual((np.abs(self.pixels("s.png") - blue).max(axis=1) <= 2).any(), is_above)
 
+    def test_colours_end_where_they_are_told_to(self):
+        blue = [int(scene.ABOVE[i:i + 2], 16) for i in (1, 3, 5)]
+        write_field(self.path("cube.vtu"))  # 0 to 70 MPa
+        for end, is_above in (("50", True), ("90", False)):
+            self.assertEqual(self.run_pictures("stress", "cube.vtu", "--end", end, "--out", "s.png").returncode, 0)
+            self.assertEqual((np.abs(self.pixels("s.png") - blue).max(axis=1) <= 2).any(), is_above)
+
     def test_a_field_without_stress_is_refused(self):
         write_field(self.path("cube.vtu"), with_stress=False)
         run = self.run_pictures("stress", "cube.vtu", "--out", "s.png")
