@@ -31,7 +31,7 @@ constexpr const char* kStiffness[2][4] = {
     {"8 % high (without the approach by H. Hertz 50 %)", "5 % high (without the approach by H. Hertz 26 %)",
      "3 % high (without the approach by H. Hertz 17 %)", "2 % high (without the approach by H. Hertz 10 %)"},
     {"5 % high (without the approach by H. Hertz 34 %)", "2 % high (without the approach by H. Hertz 22 %)",
-     "2 % high (without the approach by H. Hertz 21 %)", "1 % high (without the approach by H. Hertz 14 %)"}};
+     "2 % high (without the approach by H. Hertz 20 %)", "1 % high (without the approach by H. Hertz 14 %)"}};
 constexpr const char* kMeasured = "within 1 % (without the approach by H. Hertz 4 %)";
 constexpr const char* kHertz[2][4] = {{kMeasured, kMeasured, kMeasured, kMeasured},
                                       {kMeasured, kMeasured, kMeasured, kMeasured}};
