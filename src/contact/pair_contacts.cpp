@@ -209,7 +209,7 @@ void Pair::Data::add_node(const MasterSide& master, const SurfaceView& slave, st
   const auto projection = project(master, slave, placed, near.faces(i));
   if (!projection || is_left_to_slave(slave_side, master.surface, *projection)) return;
   const Valley valley = has_valleys() ? valley_at(master, *projection, placed.x) : Valley{};
-  const auto add = [&](std::optional<ContactPoint> found) {
+  const auto add = [&](std::optional<ContactPoint>&& found) {
     if (!found) return;
     found->slave_side = found->stick.slave_side = slave_side;
     found->slave_node = found->stick.slave_node = node;
@@ -295,9 +295,16 @@ std::vector<ContactPoint> Pair::Data::integrated_contacts() {
   return found;
 }
 
+// An empty list with room for as many contacts as the last look at all found.
+std::vector<ContactPoint> Pair::Data::room() const {
+  std::vector<ContactPoint> contacts;
+  contacts.reserve(minima[0].size() + minima[1].size() + touching[0].size() + touching[1].size());
+  return contacts;
+}
+
 std::vector<ContactPoint> Pair::Data::contacts(const Eigen::Matrix3d& R) {
   R_WB = R;
-  std::vector<ContactPoint> contacts;
+  std::vector<ContactPoint> contacts = room();
   if (settings.points == SlavePoints::faces)
     contacts = integrated_contacts();
   else
@@ -319,8 +326,7 @@ bool Pair::Data::may_follow() const {
 std::optional<std::vector<ContactPoint>> Pair::Data::followed_contacts(const Eigen::Matrix3d& R) {
   const double within = follows_far ? std::numeric_limits<double>::infinity() : follow_within;
   if (!(follow_within > 0) || !may_follow() || !tracker.stays_within(within)) return {};
-  std::vector<ContactPoint> contacts;
-  contacts.reserve(minima[0].size() + minima[1].size() + touching[0].size() + touching[1].size());
+  std::vector<ContactPoint> contacts = room();
   for (int slave : slave_sides(settings))
     if (!run_pass(slave, true, contacts)) return {};
   R_WB = R;

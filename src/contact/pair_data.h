@@ -93,6 +93,7 @@ struct Pair::Data {
   std::map<int, NodeGap> node_gaps(int slave_side, const MasterSide& master);
   Eigen::Vector3d curved(int i, int node) const;
   std::vector<ContactPoint> integrated_contacts();
+  std::vector<ContactPoint> room() const;
   std::vector<ContactPoint> contacts(const Eigen::Matrix3d& R);
   std::optional<std::vector<ContactPoint>> followed_contacts(const Eigen::Matrix3d& R);
 };

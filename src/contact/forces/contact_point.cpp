@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact/forces/force_direction.h"
 #include "contact/forces/tangent.h"
@@ -137,8 +138,9 @@ ContactPoint potential_contact(const MasterSide& master, const Projection& w, co
     contact.energy = 0.5 * contact.c * law.p_given * law.p_given;
     k = 1 / contact.c;
   }
-  const Tangent tangent = contact_tangent(face, w, {contact.p, k}, full_tangent);
-  contact.W = contact.V = tangent.W;
+  Tangent tangent = contact_tangent(face, w, {contact.p, k}, full_tangent);
+  contact.V = tangent.W;
+  contact.W = std::move(tangent.W);
   contact.V_dot.resize(15, 0);
   contact.k = tangent.k;
   return contact;

@@ -13,6 +13,7 @@ struct Nearest {
   int face = std::numeric_limits<int>::max();
   ClosestPoint point;
   double distance2;
+  mutable std::optional<Eigen::Vector3d> outward = {};  // of the surface there, once it is known
 
   explicit Nearest(double limit2) : distance2(limit2) {}
   bool found() const { return face != std::numeric_limits<int>::max(); }
@@ -20,7 +21,7 @@ struct Nearest {
   // Ties go to the lower face number. Neighbours find bitwise the same point on a shared edge or vertex.
   void offer(int f, const ClosestPoint& p) {
     if (p.distance2 < distance2 || (p.distance2 == distance2 && f < face))
-      face = f, point = p, distance2 = p.distance2;
+      face = f, point = p, distance2 = p.distance2, outward.reset();
   }
 };
 
@@ -75,11 +76,17 @@ Eigen::Vector3d outward(const SurfaceView& master, int f, const ClosestPoint& p)
   return normal(face_of(master, f), p.u, p.v);
 }
 
+// The same once for all that ask for it.
+const Eigen::Vector3d& outward(const SurfaceView& master, const Nearest& best) {
+  if (!best.outward) best.outward = outward(master, best.face, best.point);
+  return *best.outward;
+}
+
 enum class Place { inside, outside, unknown };
 
 Place place(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
   if (!best.found() || best.point.feature == Feature::outside) return Place::unknown;
-  const double side = (q - best.point.x).dot(outward(master, best.face, best.point));
+  const double side = (q - best.point.x).dot(outward(master, best));
   return side < 0 ? Place::inside : side > 0 ? Place::outside : Place::unknown;
 }
 
@@ -92,7 +99,7 @@ Projection make_projection(const SurfaceView& master, const Eigen::Vector3d& q, 
   Projection w{best.face, best.point, {}, 0};
   const Eigen::Vector3d d = q - w.point.x;
   if (w.point.feature == Feature::face) {
-    w.n = outward(master, w.face, w.point);
+    w.n = outward(master, best);
     w.g_n = w.n.dot(d);
   } else {  // x_slave lies in the normal cone of the edge or vertex: n follows it
     const double side = place(master, q, best) == Place::outside ? 1 : -1;
@@ -125,13 +132,16 @@ std::optional<Projection> find_projection(const SurfaceView& master, const Slave
     return {};
   }
   std::optional<Eigen::Vector3d> n_slave;
-  const auto opposes = [&](const Face& face, const ClosestPoint& p) {
-    const Eigen::Vector3d n = normal(face, p.u, p.v);
+  const auto opposes_slave = [&](const Eigen::Vector3d& n) {
     if (surely_opposes(n, slave, limits)) return true;
     if (!n_slave) n_slave = slave.normal();
     return n.dot(*n_slave) <= limits.cos_angle;
   };
-  const bool settled = opposes(face_of(master, any.face), any.point);
+  const auto opposes = [&](const Face& face, const ClosestPoint& p) {
+    return opposes_slave(normal(face, p.u, p.v));
+  };
+  const bool settled = any.point.feature == Feature::face ? opposes_slave(outward(master, any))
+                                                          : opposes(face_of(master, any.face), any.point);
   const auto all = [&] { return slave.all_faces ? slave.all_faces() : faces; };
   const Nearest best =
       settled ? any : nearest({master, slave.x, trial.depth, all(), first, slave.bounds}, opposes);
