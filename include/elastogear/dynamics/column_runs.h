@@ -14,7 +14,8 @@ class ColumnRuns {
   ColumnRuns() = default;
   explicit ColumnRuns(const Eigen::SparseMatrix<double>& A);
 
-  Eigen::VectorXd multiply(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x) const;  ///< A x
+  Eigen::VectorXd multiply(const Eigen::SparseMatrix<double>& A,
+                           const Eigen::Ref<const Eigen::VectorXd>& x) const;  ///< A x
   /// x -= A' y
   void subtract_transposed(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& y,
                            Eigen::Ref<Eigen::VectorXd> x) const;

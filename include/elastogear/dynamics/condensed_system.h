@@ -4,8 +4,8 @@
 //
 // Most columns of a contact are weak: k times the compliance that they see is small, as it is where a force
 // turns. Where they are many, the system of the others, the leading ones, is factorised, and that of all is
-// solved by GMRES with it, Eq. (8.16b). What GMRES leaves is as small as roundoff of a factorisation of all
-// columns, which takes its place should it not get there.
+// solved by GMRES with it, Eq. (8.16b). A factorisation of all columns takes its place should it not leave as
+// little as is asked for.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -25,13 +25,18 @@ struct CondensedBody {
   std::shared_ptr<const Eigen::MatrixXd> G;  ///< n_e x n_e
 };
 
+/// Share of the contact forces by which a solution with factors is off.
+inline constexpr double kAsFactorised = 1e-11;
+
 /// solve() takes the matrix that was last set.
 class CondensedSystem {
  public:
   /// Throws Error when the matrix is singular or not finite.
   void set(const EffectiveMatrix& A, std::vector<CondensedBody> bodies);
-  /// right: [y_s - rho'p; L_V'p]; returns [x_s; lambda], n_s + r entries each.
-  Eigen::VectorXd solve(const EffectiveMatrix& A, const Eigen::VectorXd& right) const;
+  /// right: [y_s - rho'p; L_V'p]; returns [x_s; lambda], n_s + r entries each. left: share of the contact
+  /// forces that GMRES may leave.
+  Eigen::VectorXd solve(const EffectiveMatrix& A, const Eigen::VectorXd& right,
+                        double left = kAsFactorised) const;
   /// Are all columns factorised together?
   bool is_whole() const { return all_.has_value(); }
   /// Steps of GMRES in the last solution.
@@ -57,13 +62,15 @@ class CondensedSystem {
   void add_response(const Body& body, const Eigen::VectorXd& small, Eigen::VectorXd& displacement) const;
   Eigen::VectorXd solve_leading(const EffectiveMatrix& A, const Eigen::VectorXd& right) const;
   Eigen::VectorXd moved_by(const EffectiveMatrix& A, const Eigen::VectorXd& forces) const;
-  std::optional<Eigen::VectorXd> solve_by_steps(const EffectiveMatrix& A, const Eigen::VectorXd& right) const;
+  std::optional<Eigen::VectorXd> solve_by_steps(const EffectiveMatrix& A, const Eigen::VectorXd& right,
+                                                double left) const;
 
   Eigen::Index n_s_ = 0;
   std::vector<Body> body_;
   std::vector<Eigen::Index> leading_;
   Eigen::SparseMatrix<double> k_leading_;  // r x l, rows of the leading columns alone
   Eigen::SparseMatrix<double> k_weak_;     // r x r, what else there is of k
+  ColumnRuns weak_runs_;                   // of k_weak_
   Eigen::VectorXd weight_;                 // r, norms of the columns of L over all bodies
   DenseLu lu_;                             // of the leading columns
   mutable std::optional<DenseLu> all_;     // of all columns, once it is needed

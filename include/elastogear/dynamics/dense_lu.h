@@ -24,6 +24,9 @@ class DenseLu {
 /// y += factor A x
 void add_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x, Eigen::VectorXd& y,
                  double factor = 1);
+/// y += A x of a symmetric A, whose lower triangle is read: half the bytes. x fills the first entries of y.
+void add_symmetric_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x,
+                           Eigen::VectorXd& y);
 /// A' x
 Eigen::VectorXd project(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x);
 

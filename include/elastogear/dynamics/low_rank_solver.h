@@ -38,7 +38,8 @@ class LowRankSolver {
   /// Factorises A. Throws Error when it is singular.
   void set(EffectiveMatrix A);
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;  ///< A x
-  Eigen::VectorXd solve(const Eigen::VectorXd& y) const;     ///< A^-1 y, without the parts of level full
+  /// A^-1 y, without the parts of level full. left: of CondensedSystem::solve.
+  Eigen::VectorXd solve(const Eigen::VectorXd& y, double left = kAsFactorised) const;
   /// To be called between two solves with the blocks D; it may throw.
   void on_solve(const std::function<void()>& pulse);
   /// Stores or restores the data that set() takes from earlier calls.

@@ -30,13 +30,16 @@ void subtract_projection(const Columns<kRows>& A, const VectorXd& y, double* x) 
   for (Index j = 0; j < A.value.cols(); ++j) x[j] -= A.value.col(j).dot(of_rows);
 }
 
-// Calls task(Columns<n>), with n known to the compiler for one node and for the four of a face.
+// Calls task(Columns<n>), with n known to the compiler for one node, for the four of a face, and for what a
+// contact's stiffness joins: its normal with itself, and the four ways in which it turns.
 template <class Task>
 void with_columns(const Sparse& A, Index entry, Index n_rows, Index n_columns, const Task& task) {
-  constexpr int kNode = 3, kFace = 12;
+  constexpr int kNormal = 1, kNode = 3, kTurn = 4, kFace = 12;
   const int* row = A.innerIndexPtr() + entry;
   const double* value = A.valuePtr() + entry;
+  if (n_rows == kNormal) return task(Columns<kNormal>{row, {value, n_rows, n_columns}});
   if (n_rows == kNode) return task(Columns<kNode>{row, {value, n_rows, n_columns}});
+  if (n_rows == kTurn) return task(Columns<kTurn>{row, {value, n_rows, n_columns}});
   if (n_rows == kFace) return task(Columns<kFace>{row, {value, n_rows, n_columns}});
   task(Columns<Eigen::Dynamic>{row, {value, n_rows, n_columns}});
 }
@@ -62,7 +65,7 @@ ColumnRuns::ColumnRuns(const Sparse& A) {
   }
 }
 
-VectorXd ColumnRuns::multiply(const Sparse& A, const VectorXd& x) const {
+VectorXd ColumnRuns::multiply(const Sparse& A, const Eigen::Ref<const VectorXd>& x) const {
   VectorXd y = VectorXd::Zero(A.rows());
   for (const Run& run : run_)
     with_columns(A, run.entry, run.n_rows, run.n_columns,

@@ -21,7 +21,6 @@ constexpr Index kFew = 64;            // unknowns up to which all columns are fa
 constexpr double kMostLeading = 0.6;  // share of the columns beyond which all are
 constexpr double kWeak = 0.5;         // k times compliance of a column that does not lead
 constexpr int kMostSteps = 30;        // of GMRES
-constexpr double kLeft = 1e-11;       // of the contact forces that GMRES may leave
 
 // Columns of A, those of `columns`.
 Sparse select_columns(const Sparse& A, const std::vector<Index>& columns) {
@@ -105,6 +104,13 @@ double largest_compliance(const BodyTerms& terms, const MatrixXd& compliance) {
   double largest = compliance.topRows(n_e).diagonal().tail(n).maxCoeff();
   if (compliance.rows() > n_e) largest += compliance.bottomRows(n).rightCols(n).diagonal().maxCoeff();
   return largest;
+}
+
+// Adds the displacements by a load: a symmetric matrix, and rows below it for its last columns alone.
+void add_compliance(const MatrixXd& compliance, const VectorXd& load, VectorXd& displacement) {
+  const Index n_e = compliance.cols(), n = compliance.rows() - n_e;
+  add_symmetric_product(compliance.topRows(n_e), load, displacement);
+  if (n > 0) displacement.tail(n).noalias() += compliance.bottomRightCorner(n, n) * load.tail(n);
 }
 
 }  // namespace
@@ -210,6 +216,7 @@ void CondensedSystem::set(const EffectiveMatrix& A, std::vector<CondensedBody> b
   n_steps_ = 0;
   if (!choose_leading(A)) return factorise_all(A);
   std::tie(k_leading_, k_weak_) = split(A.k, leading_);
+  weak_runs_ = ColumnRuns(k_weak_);
   factorise_leading(A);
 }
 
@@ -246,7 +253,7 @@ VectorXd CondensedSystem::moved_by(const EffectiveMatrix& A, const VectorXd& for
   for (std::size_t b = 0; b < body_.size(); ++b) {
     const Body& body = body_[b];
     displacement.push_back(VectorXd::Zero(body.compliance->rows()));
-    add_product(*body.compliance, body.L_runs.multiply(A.body[b].L, forces), displacement[b]);
+    add_compliance(*body.compliance, body.L_runs.multiply(A.body[b].L, forces), displacement[b]);
     small.segment(body.joint, body.n_s) -= A.body[b].W_s * forces - body.rho.transpose() * displacement[b];
     small.tail(l) -= body.V_leading.transpose() * displacement[b];
   }
@@ -262,30 +269,30 @@ VectorXd CondensedSystem::moved_by(const EffectiveMatrix& A, const VectorXd& for
 }
 
 // Finds the forces phi = k_weak lambda, with lambda of the leading columns and of these forces: Eq. (8.16b).
-std::optional<VectorXd> CondensedSystem::solve_by_steps(const EffectiveMatrix& A,
-                                                        const VectorXd& right) const {
+std::optional<VectorXd> CondensedSystem::solve_by_steps(const EffectiveMatrix& A, const VectorXd& right,
+                                                        double left) const {
   const Index r = A.k.rows();
   VectorXd x = solve_leading(A, right);
   const VectorXd unweighted = weight_.unaryExpr([](double w) { return w > 0 ? 1 / w : 0; });
   const auto weak = [&](const VectorXd& of) -> VectorXd {
-    return weight_.cwiseProduct(k_weak_ * of.tail(r));
+    return weight_.cwiseProduct(weak_runs_.multiply(k_weak_, of.tail(r)));
   };
   std::vector<VectorXd> moved;  // by each of the vectors that GMRES takes
   const auto multiply = [&](const VectorXd& f) -> VectorXd {
     moved.push_back(moved_by(A, unweighted.cwiseProduct(f)));
-    return f - weak(moved.back());
+    return weak(moved.back());
   };
   const double forces = weight_.cwiseProduct(A.k * x.tail(r)).norm();
-  const auto share = gmres(multiply, weak(x), {kLeft * forces, kMostSteps});
+  const auto share = gmres(multiply, weak(x), {left * forces, kMostSteps});
   if (!share) return {};
   n_steps_ = static_cast<int>(share->size());
   for (std::size_t j = 0; j < moved.size(); ++j) x += (*share)[static_cast<Index>(j)] * moved[j];
   return x;
 }
 
-VectorXd CondensedSystem::solve(const EffectiveMatrix& A, const VectorXd& right) const {
+VectorXd CondensedSystem::solve(const EffectiveMatrix& A, const VectorXd& right, double left) const {
   if (!all_) {
-    const std::optional<VectorXd> x = solve_by_steps(A, right);
+    const std::optional<VectorXd> x = solve_by_steps(A, right, left);
     if (x && x->allFinite()) return *x;
     n_steps_ = 0;
     factorise_all(A);

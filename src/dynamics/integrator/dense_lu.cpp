@@ -4,6 +4,12 @@
 
 #include "elastogear/base/error.h"
 
+// PETSc does not declare this one.
+// NOLINTNEXTLINE(readability-identifier-naming): the name is BLAS's
+extern "C" void dsymv_(const char* triangle, const PetscBLASInt* n, const double* alpha, const double* A,
+                       const PetscBLASInt* a, const double* x, const PetscBLASInt* x_step, const double* beta,
+                       double* y, const PetscBLASInt* y_step);
+
 namespace elastogear::dynamics {
 
 void DenseLu::set(Eigen::MatrixXd A) {
@@ -40,6 +46,14 @@ void add_product(const char* op, double factor, const Eigen::Ref<const Eigen::Ma
 void add_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x, Eigen::VectorXd& y,
                  double factor) {
   add_product("N", factor, A, x, y);
+}
+
+void add_symmetric_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x,
+                           Eigen::VectorXd& y) {
+  const auto n = static_cast<PetscBLASInt>(A.cols()), stride = static_cast<PetscBLASInt>(A.outerStride());
+  const PetscBLASInt one = 1;
+  const double factor = 1;
+  if (n > 0) dsymv_("L", &n, &factor, A.data(), &stride, x.data(), &one, &factor, y.data(), &one);
 }
 
 Eigen::VectorXd project(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::VectorXd& x) {

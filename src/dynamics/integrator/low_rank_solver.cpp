@@ -92,7 +92,7 @@ void LowRankSolver::add_second_order(std::size_t b, const Eigen::VectorXd& x, Ei
   y.segment(s + n_s, n_q) += t.Q_s * x.segment(s, n_s) + body::contract(eq_[b]->body->inertia, t.Gamma, x_q);
 }
 
-Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
+Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y, double left) const {
   Eigen::VectorXd x(y.size()), right = Eigen::VectorXd::Zero(n_s_ + A_.k.rows());
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const auto [s, n_s, n_q, joint] = range_[b];
@@ -102,7 +102,7 @@ Eigen::VectorXd LowRankSolver::solve(const Eigen::VectorXd& y) const {
     right.segment(joint, n_s) = y.segment(s, n_s) - t.rho.transpose() * p;
     right.tail(A_.k.rows()) += displacement_rows(t).transpose() * p;
   }
-  const Eigen::VectorXd small = condensed_.solve(A_, right);
+  const Eigen::VectorXd small = condensed_.solve(A_, right, left);
   const Eigen::VectorXd k_lambda = A_.k * small.tail(A_.k.rows());
   for (std::size_t b = 0; b < block_.size(); ++b) {
     const auto [s, n_s, n_q, joint] = range_[b];

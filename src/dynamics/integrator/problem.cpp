@@ -42,11 +42,21 @@ PetscErrorCode function(TS ts, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* ct
   });
 }
 
-PetscErrorCode jacobian(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v, PetscReal shift_a, Mat J,
+// A step that none follows is solved for as with factors.
+void set_accuracy(TS ts, Problem& problem) {
+  SNES snes = nullptr;
+  PetscBool once = PETSC_FALSE;
+  check(TSGetSNES(ts, &snes));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(snes), SNESKSPONLY, &once));
+  problem.left = once ? kAsFactorised : kLeftOfStep;
+}
+
+PetscErrorCode jacobian(TS ts, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v, PetscReal shift_a, Mat J,
                         Mat P, void* ctx) {
   auto& problem = *static_cast<Problem*>(ctx);
   return guard(problem.pending, [&] {
     problem.pulse();
+    set_accuracy(ts, problem);
     const ReadView u(U), v(V), a(A);
     problem.solver.set(problem.system.effective_matrix({t, *u, *v, *a}, {shift_v, shift_a}));
     assemble(J, P);
@@ -65,7 +75,7 @@ PetscErrorCode solve(PC pc, Vec y, Vec x) {
   Problem& problem = context(pc, PCShellGetContext);
   return guard(problem.pending, [&] {
     problem.pulse();
-    assign(x, problem.solver.solve(*ReadView(y)));
+    assign(x, problem.solver.solve(*ReadView(y), problem.left));
   });
 }
 

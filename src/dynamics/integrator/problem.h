@@ -10,6 +10,9 @@ namespace elastogear::dynamics {
 
 /// Largest share of the forces that may be unbalanced, where nothing else is asked for.
 inline constexpr double kResidualTolerance = 1e-8;
+/// Share of a Newton step's contact forces that its linear solution may leave: as little as may be left of
+/// all forces, of which those of a step are a part.
+inline constexpr double kLeftOfStep = kResidualTolerance;
 
 /// Data that the callbacks share. It must outlive the TS.
 struct Problem {
@@ -17,10 +20,11 @@ struct Problem {
 
   System& system;
   LowRankSolver solver;
-  Residual residual;           ///< of the last evaluation
-  double slack = 0;            ///< share of the forces that may be unbalanced, where it is above -snes_rtol
-  std::string trouble;         ///< why a state was last called inadmissible; empty: it was not
-  std::exception_ptr pending;  ///< what a callback threw
+  Residual residual;            ///< of the last evaluation
+  double slack = 0;             ///< share of the forces that may be unbalanced, where it is above -snes_rtol
+  double left = kAsFactorised;  ///< share of its contact forces that the solution of a step may leave
+  std::string trouble;          ///< why a state was last called inadmissible; empty: it was not
+  std::exception_ptr pending;   ///< what a callback threw
   std::function<void()> pulse = [] {};  ///< called at every evaluation, product and solve; may throw
 };
 
