@@ -17,11 +17,11 @@ import numpy as np
 
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "benchmarks", "reductions.csv")
 FIGURES = ("time", "memory")  # s and GB of the rank that takes most
-# By name: options of `mesh`. Counts of the last are those of size paper times 1.4.
+# By name: options of `mesh`. Counts of the last are twice those of size paper.
 WHEELS = {size: ["-size", size] for size in ("small", "medium", "paper")}
 WHEELS["large"] = ["-size", "paper"] + [f"-wheel_count_{name}={count}" for name, count in (
-    ("tooth", 14), ("space", 6), ("flank", 18), ("fillet", 9), ("rim", 12), ("ring", 8), ("web", 20), ("hub", 8),
-    ("web_layers", 11), ("face_layers", 6), ("hub_layers", 4))]
+    ("tooth", 20), ("space", 8), ("flank", 26), ("fillet", 12), ("rim", 18), ("ring", 12), ("web", 28), ("hub", 12),
+    ("web_layers", 16), ("face_layers", 8), ("hub_layers", 6))]
 
 
 def report_rank(command):
