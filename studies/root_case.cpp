@@ -251,7 +251,8 @@ Solutions solve(const Case& c) {
   source.free_dof = fem::free_dofs(fem::held_directions(c.mesh, c.held));
   const std::vector<int> loaded = nodes_of(c.mesh, c.flank), flanks = nodes_of(c.mesh, "flanks");
   source.recovery = {model::RecoveryMethod::surface, flanks};
-  const Eigen::VectorXd u = reduction::StaticResponse(source).displacement(loaded, nodal_forces(c, loaded));
+  const Eigen::VectorXd u =
+      reduction::StaticResponse(source).displacement(loaded, nodal_forces(c, loaded).reshaped());
   std::vector<int> root;
   std::set_difference(c.root.begin(), c.root.end(), flanks.begin(), flanks.end(), std::back_inserter(root));
   fem::StressedBody body = reduction::stressed_body(source);

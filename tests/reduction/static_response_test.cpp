@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "../fem/brick.h"
+#include "elastogear/base/error.h"
 #include "elastogear/reduction/reduce.h"
 
 namespace elastogear::static_response_test {
@@ -80,6 +81,12 @@ TEST_F(StaticResponse, of_all_modes_together_is_that_of_the_body) {
   const Eigen::VectorXd found =
       reduction::StaticResponse(source).stress({body.surface.node[node]}, body.stress.node) * f;
   EXPECT_LT((found - sigma).norm(), kEigensolver * sigma.norm());
+}
+
+TEST_F(StaticResponse, asks_for_three_forces_on_each_node) {
+  reduce(model::Basis::full);
+  const io::BodySource source = io::read_body_source(path_);
+  EXPECT_THROW(reduction::StaticResponse(source).displacement({0, 1}, Eigen::Matrix3Xd::Ones(3, 2)), Error);
 }
 
 TEST_F(StaticResponse, to_a_force_on_a_restrained_node_is_nothing) {

@@ -23,7 +23,8 @@ class StaticResponse {
   StaticResponse(const StaticResponse&) = delete;
   StaticResponse& operator=(const StaticResponse&) = delete;
 
-  /// 3 n_nodes x n_t, m, node-major, for forces f (3 n x n_t, N) on the n nodes `loaded`.
+  /// 3 n_nodes x n_t, m, node-major, for forces f (3 n x n_t, N) on the n nodes `loaded`. Throws Error for
+  /// another number of rows.
   Eigen::MatrixXd displacement(const std::vector<int>& loaded, const Eigen::MatrixXd& f);
   /// Stress at `evaluated` for unit forces in x, y, z on each of `loaded`: 6 n_e x 3 n, Pa/N.
   Eigen::MatrixXd stress(const std::vector<int>& loaded, const std::vector<int>& evaluated);

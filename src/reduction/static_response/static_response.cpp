@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "elastogear/base/error.h"
 #include "elastogear/fem/material.h"
 #include "elastogear/fem/restraint.h"
 #include "elastogear/fem/stress.h"
@@ -55,6 +56,8 @@ StaticResponse::StaticResponse(const io::BodySource& source, bool floating)
 StaticResponse::~StaticResponse() = default;
 
 Eigen::MatrixXd StaticResponse::displacement(const std::vector<int>& loaded, const Eigen::MatrixXd& f) {
+  require(f.rows() == 3 * static_cast<Eigen::Index>(loaded.size()), "forces with ", f.rows(), " rows on ",
+          loaded.size(), " nodes");
   Eigen::MatrixXd forces = data_->no_forces(f.cols()), u = forces;
   for (std::size_t i = 0; i < loaded.size(); ++i)
     forces.middleRows<3>(3 * loaded[i]) += f.middleRows<3>(3 * static_cast<Eigen::Index>(i));
