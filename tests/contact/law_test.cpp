@@ -142,7 +142,8 @@ struct Errors {
 Errors tangent_errors(const Local& local, const ForceOf& force_of) {
   const ContactPoint c = force_of(local).contact;
   const Quotients K = difference_quotients(local, force_of);
-  const Matrix15 K_x = -c.W * c.k * c.V.transpose(), K_v = -c.W * c.k * c.V_dot.transpose();
+  const Matrix15 K_x = -c.W * c.k * c.displacement_columns().transpose(),
+                 K_v = -c.W * c.k * c.V_dot.transpose();
   return {(K_x - K.by_x).norm() / K.by_x.norm(), (K_v - K.by_v).norm() / std::max(K.by_v.norm(), 1e-9)};
 }
 

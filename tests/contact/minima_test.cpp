@@ -97,7 +97,8 @@ TEST(GapMinima, gradient_and_tangent_are_those_of_the_least_gap) {
   for (const ContactPoint& named : points) {
     const ContactPoint c = again(pair, t, named.slave_point);
     const Eigen::VectorXd g_x = c.g_x.reshaped();
-    const Eigen::MatrixXd K = -c.W * c.k * c.V.transpose() + c.F_p.reshaped() * g_x.transpose() / c.c;
+    const Eigen::MatrixXd K =
+        -c.W * c.k * c.displacement_columns().transpose() + c.F_p.reshaped() * g_x.transpose() / c.c;
     Eigen::MatrixXd K_h(K.rows(), K.cols());
     Eigen::VectorXd g_h(K.rows());
     for (int j = 0; j < 3 * c.n_local(); ++j) {

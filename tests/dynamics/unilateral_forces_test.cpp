@@ -36,7 +36,6 @@ ContactPoint moving(int first, double gain, double gap, double p) {
   c.W.setZero(24, 2);
   c.W.col(0) = c.F_p.reshaped();
   c.W.col(1).head<12>() = Eigen::Matrix<double, 12, 1>::LinSpaced(-1, 1).normalized();
-  c.V = c.W;
   c.V_dot.setZero(24, 0);
   c.k = Eigen::Vector2d(1 / c.c, gain / kCompliance).asDiagonal();
   return c;

@@ -181,9 +181,12 @@ struct ContactPoint {
   LocalVectors F_p;  ///< -, unilateral or over faces: change of F with p
   LocalVectors g_x;  ///< -, unilateral or over faces: gradient of g_n + c p at this p
   std::optional<TangentialForce> tangential;
-  LocalColumns W, V, V_dot;  ///< V_dot has no column for forces that do not depend on v
-  LocalStiffness k;          ///< N/m
+  LocalColumns W;
+  LocalColumns V = {};  ///< empty where it is W, that is where F has a potential
+  LocalColumns V_dot;   ///< no column for forces that do not depend on v
+  LocalStiffness k;     ///< N/m
 
+  const LocalColumns& displacement_columns() const { return V.size() > 0 ? V : W; }
   int n_slave() const { return static_cast<int>(slave_nodes.size()); }
   int n_local() const { return n_slave() + static_cast<int>(master_nodes.size()); }
 };

@@ -139,7 +139,6 @@ ContactPoint potential_contact(const MasterSide& master, const Projection& w, co
     k = 1 / contact.c;
   }
   Tangent tangent = contact_tangent(face, w, {contact.p, k}, full_tangent);
-  contact.V = tangent.W;
   contact.W = std::move(tangent.W);
   contact.V_dot.resize(15, 0);
   contact.k = tangent.k;

@@ -66,7 +66,7 @@ void set_columns(const ContactOfBody& contact, const BodyTerms& terms, const Eig
   for (BodyColumns::Node& node : columns.nodes) node.row = n_u + 3 * slot(terms.node, node.node);
   const bool has_rates = columns.n() > 0 && !point.V_dot.isZero(0);
   add_up(contact, columns, R_BW, point.W, columns.W);
-  if (point.V == point.W)
+  if (point.V.size() == 0)
     columns.V = columns.W;
   else
     add_up(contact, columns, R_BW, point.V, columns.V);
@@ -138,7 +138,7 @@ Differences differences(const std::vector<PairContacts>& pairs) {
   Differences any;
   for (const PairContacts& pair : pairs)
     for (const auto& point : pair.points) {
-      any.V = any.V || point.V != point.W;
+      any.V = any.V || point.V.size() > 0;
       any.V_dot = any.V_dot || !point.V_dot.isZero(0);
     }
   return any;

@@ -40,7 +40,7 @@ void ResponseNewton::add(const Compliant& compliant, const VectorXd& missing) {
       const Eigen::Matrix3d R_BW = compliant.R_WB.transpose();
       body.touches.push_back({contact, 3 * (at - compliant.node.begin()),
                               R_BW * contact.point->W.middleRows<3>(3 * i),
-                              R_BW * contact.point->V.middleRows<3>(3 * i)});
+                              R_BW * contact.point->displacement_columns().middleRows<3>(3 * i)});
     }
   for (const SlaveContact& t : body.touches)
     right_.segment(t.contact.column, t.V_B.cols()) += t.V_B.transpose() * missing.segment<3>(t.row);

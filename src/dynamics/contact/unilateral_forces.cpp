@@ -66,7 +66,7 @@ void UnilateralForces::add(const ResponseNewton::Compliant& compliant, const Vec
                   R_BW * point.F_p.col(i),
                   R_BW * point.g_x.col(i),
                   R_BW * point.W.middleRows<3>(3 * i),
-                  R_BW * point.V.middleRows<3>(3 * i),
+                  R_BW * point.displacement_columns().middleRows<3>(3 * i),
                   i};
       if (point.tangential) {
         touch.F_z.conservativeResize(3, 3);
@@ -251,7 +251,7 @@ void UnilateralForces::let_turn(Contact& contact) {
   }
   contact.W_k = point.W * point.k;
   const MatrixXd b = MatrixXd(contact.W_k).colPivHouseholderQr().solve(F_z * A);
-  contact.V_turn = point.V - y_x * b.transpose();
+  contact.V_turn = point.displacement_columns() - y_x * b.transpose();
   contact.n_turns = point.k.rows();
 }
 
