@@ -142,11 +142,11 @@ bool CondensedSystem::choose_leading(const EffectiveMatrix& A) {
   weight_.setZero(r);
   for (std::size_t b = 0; b < body_.size(); ++b) {
     const double g = largest_compliance(A.body[b], *body_[b].compliance);
-    const Sparse &L = A.body[b].L, &of_V = V(A, b);
-    const VectorXd squares_of_L = squares(L);
-    weight_ += squares_of_L;
-    weights.W += g * squares_of_L;
-    weights.V += g * (&of_V == &L ? squares_of_L : squares(of_V));
+    const Sparse &L = A.body[b].L, &V_b = V(A, b);
+    const VectorXd L_squares = squares(L);
+    weight_ += L_squares;
+    weights.W += g * L_squares;
+    weights.V += g * (&V_b == &L ? L_squares : squares(V_b));
   }
   for (VectorXd* w : {&weight_, &weights.W, &weights.V}) *w = w->cwiseSqrt().eval();
   const VectorXd strength = weights.strength(A.k);
