@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/integrator/problem.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/rotation.h"
@@ -29,7 +30,6 @@ using namespace elastogear::dynamics;
 
 constexpr double kSpeed = 14, kStage = 0.5e-6;  // rad/s, s
 constexpr double kVibration = 1e-13;            // m sqrt(kg), next to nothing, but all positions change
-constexpr double kLeft = 1e-8;                  // of a step's contact forces, as in a run
 constexpr int kStages = 200, kThere = 10;       // stages in all, and before the wheel turns back
 
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -121,7 +121,7 @@ Times run(System& system, Eigen::VectorXd U, Eigen::Index angle) {
     times.matrix.push_back(lap(clock));
     solver.set(std::move(matrix));
     times.factorisation.push_back(lap(clock));
-    const Eigen::VectorXd step = solver.solve(r.F, kLeft);
+    const Eigen::VectorXd step = solver.solve(r.F, kLeftOfStep);
     times.solve.push_back(lap(clock));
     require(step.allFinite(), "the step is not finite");
   }

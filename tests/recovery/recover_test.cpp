@@ -338,7 +338,7 @@ TEST_F(Recover, tells_no_error_of_the_contact_by_modes_alone) {
   EXPECT_EQ(recover_stress(recovered, body, "ymax", true).contact_error.size(), 0);
 }
 
-// Of forces half as large, as they are and twice as large the other way.
+// Three output times with forces that are halved, kept, and doubled with the other sign.
 TEST_F(Recover, fields_of_several_times_have_the_displacements_of_the_full_basis) {
   const Eigen::Matrix3Xd u_full =
       io::read_displacement_field(file, at_rest(reduce(model::Basis::full)));  // before the file is another

@@ -76,7 +76,7 @@ Eigen::Vector3d outward(const SurfaceView& master, int f, const ClosestPoint& p)
   return normal(face_of(master, f), p.u, p.v);
 }
 
-// The same once for all that ask for it.
+// Points outwards at the nearest point; found once for all that ask for it.
 const Eigen::Vector3d& outward(const SurfaceView& master, const Nearest& best) {
   if (!best.outward) best.outward = outward(master, best.face, best.point);
   return *best.outward;

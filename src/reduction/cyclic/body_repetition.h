@@ -1,6 +1,6 @@
 #pragma once
-// Whether a whole body repeats around an axis: its mesh, its restraint and its materials (docs/theory.md,
-// section 2.6).
+// Finds whether a whole body, its mesh, its restraint and its materials, repeats around an axis:
+// docs/theory.md, section 2.6.
 
 #include <vector>
 
