@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "elastogear/contact/small_matrix.h"
 #include "elastogear/model/elastic_body.h"
 
 namespace elastogear::contact {
@@ -115,7 +116,10 @@ struct ResidualDisplacement {
 };
 
 inline constexpr int kColumns = 17;  ///< most columns of a contact's tangent
-using LocalVectors = Eigen::Matrix3Xd;
+inline constexpr int kFewNodes = 8;  ///< of a face of the slave and one of the master
+using LocalVectors = SmallMatrix<double, 3, Eigen::Dynamic, 3 * kFewNodes>;
+using NodeNumbers = SmallMatrix<int, Eigen::Dynamic, 1, kFewNodes / 2>;
+using NodeWeights = SmallMatrix<double, Eigen::Dynamic, 1, kFewNodes / 2>;
 using LocalColumns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, kColumns>;
 using LocalStiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kColumns, kColumns>;
 
@@ -154,11 +158,11 @@ struct ContactPoint {
   int slave_side = 0;
   int slave_point = 0;  ///< its number among all points of the slave that may be in contact (SlavePoint)
   int slave_node = 0;   ///< the slave point, or that nearest to it on its face
-  Eigen::VectorXi slave_nodes = Eigen::VectorXi::Zero(1);  ///< that F acts on; a triangle's third one twice
-  Eigen::VectorXd slave_N = Eigen::VectorXd::Ones(1);      ///< their weights in the slave point
-  int face = 0;                                            ///< of the master
-  Eigen::VectorXi master_nodes;
-  Eigen::VectorXd N;  ///< their weights in the closest point
+  NodeNumbers slave_nodes = Eigen::VectorXi::Zero(1);  ///< that F acts on; a triangle's third one twice
+  NodeWeights slave_N = Eigen::VectorXd::Ones(1);      ///< their weights in the slave point
+  int face = 0;                                        ///< of the master
+  NodeNumbers master_nodes;
+  NodeWeights N;  ///< their weights in the closest point
   double xi = 0, eta = 0;
   Eigen::Vector3d n;  ///< outward master normal, world frame
   double g_n = 0;     ///< m, < 0 (of an open candidate of the unilateral law: > 0)

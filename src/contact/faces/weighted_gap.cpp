@@ -116,7 +116,7 @@ void WeightedGap::set_nodes(ContactPoint& c) const {
   c.slave_side = slave_side_;
   c.slave_point = c.slave_node = c.stick.slave_node = node_;
   c.stick.slave_side = slave_side_;
-  const auto set = [&](const std::vector<Node>& nodes, Eigen::VectorXi& numbers, Eigen::VectorXd& N) {
+  const auto set = [&](const std::vector<Node>& nodes, NodeNumbers& numbers, NodeWeights& N) {
     numbers.resize(static_cast<Eigen::Index>(nodes.size()));
     N.resize(numbers.size());
     for (Eigen::Index i = 0; const Node& node : nodes) {

@@ -120,8 +120,8 @@ Eigen::Matrix3d LocalApproach::curvature(const ContactPoint& point, int side, st
   };
   Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
   const bool is_slave = point.slave_side == side;
-  const Eigen::VectorXi& nodes = is_slave ? point.slave_nodes : point.master_nodes;
-  const VectorXd& N = is_slave ? point.slave_N : point.N;
+  const contact::NodeNumbers& nodes = is_slave ? point.slave_nodes : point.master_nodes;
+  const contact::NodeWeights& N = is_slave ? point.slave_N : point.N;
   for (Index i = 0; i < nodes.size(); ++i) S += N[i] * at(nodes[i]);
   return S;
 }
