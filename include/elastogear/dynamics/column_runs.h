@@ -20,10 +20,12 @@ class ColumnRuns {
   void subtract_transposed(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& y,
                            Eigen::Ref<Eigen::VectorXd> x) const;
 
- private:
-  struct Run {  // columns whose entries, in the same rows, lie one after the other
+  /// Columns whose entries, in the same rows, lie one after the other.
+  struct Run {
     Eigen::Index column, n_columns, entry, n_rows;
   };
+
+ private:
   std::vector<Run> run_;
 };
 

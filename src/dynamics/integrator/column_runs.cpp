@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elastogear/base/instructions.h"
+
 namespace elastogear::dynamics {
 namespace {
 
@@ -9,39 +11,158 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-// The columns of a run: rows, and a dense matrix.
-template <int kRows>
+// Four numbers at once, wherever they lie.
+typedef double Lanes __attribute__((vector_size(4 * sizeof(double)), aligned(alignof(double)), may_alias));
+constexpr Index kLanes = 4;
+
+// The values of a run, n_rows by n_columns, and the rows where they are.
 struct Columns {
   const int* row;
-  Eigen::Map<const Eigen::Matrix<double, kRows, Eigen::Dynamic>> value;
+  const double* value;
+  Index n_rows, n_columns;
 };
 
-template <int kRows>
-void add_product(const Columns<kRows>& A, const double* x, VectorXd& y) {
-  Eigen::Matrix<double, kRows, 1> sum = A.value.col(0) * x[0];
-  for (Index j = 1; j < A.value.cols(); ++j) sum += A.value.col(j) * x[j];
-  for (Index i = 0; i < A.value.rows(); ++i) y[A.row[i]] += sum[i];
+// y += A x. kRows: rows of A, known to the compiler.
+template <Index kRows>
+[[gnu::always_inline]] inline void add_product(const Columns& A, const double* x, double* y) {
+  if constexpr (kRows % kLanes == 0) {
+    Lanes sum[kRows / kLanes] = {};
+    for (Index j = 0; j < A.n_columns; ++j)
+#pragma GCC unroll 3
+      for (Index i = 0; i < kRows / kLanes; ++i)
+        sum[i] += *reinterpret_cast<const Lanes*>(A.value + j * kRows + i * kLanes) * x[j];
+#pragma GCC unroll 12
+    for (Index i = 0; i < kRows; ++i) y[A.row[i]] += sum[i / kLanes][i % kLanes];
+  } else {
+    double sum[kRows] = {};
+    for (Index j = 0; j < A.n_columns; ++j)
+#pragma GCC unroll 3
+      for (Index i = 0; i < kRows; ++i) sum[i] += A.value[j * kRows + i] * x[j];
+#pragma GCC unroll 3
+    for (Index i = 0; i < kRows; ++i) y[A.row[i]] += sum[i];
+  }
 }
 
-template <int kRows>
-void subtract_projection(const Columns<kRows>& A, const VectorXd& y, double* x) {
-  Eigen::Matrix<double, kRows, 1> of_rows(A.value.rows());
-  for (Index i = 0; i < A.value.rows(); ++i) of_rows[i] = y[A.row[i]];
-  for (Index j = 0; j < A.value.cols(); ++j) x[j] -= A.value.col(j).dot(of_rows);
+// x -= A' y
+template <Index kRows>
+[[gnu::always_inline]] inline void subtract_projection(const Columns& A, const double* y, double* x) {
+  double of_rows[kRows];
+#pragma GCC unroll 12
+  for (Index i = 0; i < kRows; ++i) of_rows[i] = y[A.row[i]];
+  for (Index j = 0; j < A.n_columns; ++j) {
+    const double* column = A.value + j * kRows;
+    if constexpr (kRows % kLanes == 0) {
+      Lanes sum = {};
+#pragma GCC unroll 3
+      for (Index i = 0; i < kRows; i += kLanes)
+        sum += *reinterpret_cast<const Lanes*>(column + i) * *reinterpret_cast<const Lanes*>(of_rows + i);
+      x[j] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    } else {
+      double sum = 0;
+#pragma GCC unroll 3
+      for (Index i = 0; i < kRows; ++i) sum += column[i] * of_rows[i];
+      x[j] -= sum;
+    }
+  }
 }
 
-// Calls task(Columns<n>), with n known to the compiler for one node, for the four of a face, and for what a
-// contact's stiffness joins: its normal with itself, and the four ways in which it turns.
-template <class Task>
-void with_columns(const Sparse& A, Index entry, Index n_rows, Index n_columns, const Task& task) {
-  constexpr int kNormal = 1, kNode = 3, kTurn = 4, kFace = 12;
-  const int* row = A.innerIndexPtr() + entry;
-  const double* value = A.valuePtr() + entry;
-  if (n_rows == kNormal) return task(Columns<kNormal>{row, {value, n_rows, n_columns}});
-  if (n_rows == kNode) return task(Columns<kNode>{row, {value, n_rows, n_columns}});
-  if (n_rows == kTurn) return task(Columns<kTurn>{row, {value, n_rows, n_columns}});
-  if (n_rows == kFace) return task(Columns<kFace>{row, {value, n_rows, n_columns}});
-  task(Columns<Eigen::Dynamic>{row, {value, n_rows, n_columns}});
+// The same of columns with any number of rows.
+[[gnu::always_inline]] inline void add_any_product(const Columns& A, const double* x, double* y) {
+  for (Index j = 0; j < A.n_columns; ++j)
+    for (Index i = 0; i < A.n_rows; ++i) y[A.row[i]] += A.value[j * A.n_rows + i] * x[j];
+}
+
+[[gnu::always_inline]] inline void subtract_any_projection(const Columns& A, const double* y, double* x) {
+  for (Index j = 0; j < A.n_columns; ++j)
+    for (Index i = 0; i < A.n_rows; ++i) x[j] -= A.value[j * A.n_rows + i] * y[A.row[i]];
+}
+
+// Sizes known to the compiler are those of one node, of the four of a face, and of what a contact's stiffness
+// joins: its normal with itself, and the four ways in which it turns.
+constexpr Index kNormal = 1, kNode = 3, kTurn = 4, kFace = 12;
+
+// The runs of a matrix, and where its entries are.
+struct RunMatrix {
+  const std::vector<ColumnRuns::Run>& run;
+  const int* row;
+  const double* value;
+
+  Columns columns(const ColumnRuns::Run& of) const {
+    return {row + of.entry, value + of.entry, of.n_rows, of.n_columns};
+  }
+};
+
+[[gnu::always_inline]] inline void multiply_all(const RunMatrix& A, const double* x, double* y) {
+  for (const ColumnRuns::Run& run : A.run) {
+    const Columns columns = A.columns(run);
+    const double* x_run = x + run.column;
+    switch (run.n_rows) {
+      case kNormal:
+        add_product<kNormal>(columns, x_run, y);
+        break;
+      case kNode:
+        add_product<kNode>(columns, x_run, y);
+        break;
+      case kTurn:
+        add_product<kTurn>(columns, x_run, y);
+        break;
+      case kFace:
+        add_product<kFace>(columns, x_run, y);
+        break;
+      default:
+        add_any_product(columns, x_run, y);
+    }
+  }
+}
+
+[[gnu::always_inline]] inline void subtract_all(const RunMatrix& A, const double* y, double* x) {
+  for (const ColumnRuns::Run& run : A.run) {
+    const Columns columns = A.columns(run);
+    double* x_run = x + run.column;
+    switch (run.n_rows) {
+      case kNormal:
+        subtract_projection<kNormal>(columns, y, x_run);
+        break;
+      case kNode:
+        subtract_projection<kNode>(columns, y, x_run);
+        break;
+      case kTurn:
+        subtract_projection<kTurn>(columns, y, x_run);
+        break;
+      case kFace:
+        subtract_projection<kFace>(columns, y, x_run);
+        break;
+      default:
+        subtract_any_projection(columns, y, x_run);
+    }
+  }
+}
+
+struct Kernels {
+  void (*multiply)(const RunMatrix& A, const double* x, double* y);
+  void (*subtract)(const RunMatrix& A, const double* y, double* x);
+};
+
+void multiply_portable(const RunMatrix& A, const double* x, double* y) { multiply_all(A, x, y); }
+void subtract_portable(const RunMatrix& A, const double* y, double* x) { subtract_all(A, y, x); }
+
+#ifdef __x86_64__
+[[gnu::target("avx2,fma")]] void multiply_avx2(const RunMatrix& A, const double* x, double* y) {
+  multiply_all(A, x, y);
+}
+[[gnu::target("avx2,fma")]] void subtract_avx2(const RunMatrix& A, const double* y, double* x) {
+  subtract_all(A, y, x);
+}
+#endif
+
+const Kernels& kernels() {
+  static const Kernels best = [] {
+#ifdef __x86_64__
+    if (best_instructions() != Instructions::portable) return Kernels{multiply_avx2, subtract_avx2};
+#endif
+    return Kernels{multiply_portable, subtract_portable};
+  }();
+  return best;
 }
 
 }  // namespace
@@ -67,16 +188,12 @@ ColumnRuns::ColumnRuns(const Sparse& A) {
 
 VectorXd ColumnRuns::multiply(const Sparse& A, const Eigen::Ref<const VectorXd>& x) const {
   VectorXd y = VectorXd::Zero(A.rows());
-  for (const Run& run : run_)
-    with_columns(A, run.entry, run.n_rows, run.n_columns,
-                 [&](const auto& columns) { add_product(columns, x.data() + run.column, y); });
+  kernels().multiply({run_, A.innerIndexPtr(), A.valuePtr()}, x.data(), y.data());
   return y;
 }
 
 void ColumnRuns::subtract_transposed(const Sparse& A, const VectorXd& y, Eigen::Ref<VectorXd> x) const {
-  for (const Run& run : run_)
-    with_columns(A, run.entry, run.n_rows, run.n_columns,
-                 [&](const auto& columns) { subtract_projection(columns, y, x.data() + run.column); });
+  kernels().subtract({run_, A.innerIndexPtr(), A.valuePtr()}, y.data(), x.data());
 }
 
 }  // namespace elastogear::dynamics

@@ -75,9 +75,11 @@ Sparse stacked(const Sparse& A, const Sparse& B, Index n) {
 
 // |column|^2 of each column of A.
 VectorXd squares(const Sparse& A) {
-  VectorXd sum = VectorXd::Zero(A.cols());
+  const int *first = A.outerIndexPtr(), *count = A.innerNonZeroPtr();
+  VectorXd sum(A.cols());
   for (Index j = 0; j < A.cols(); ++j)
-    for (Sparse::InnerIterator it(A, j); it; ++it) sum[j] += it.value() * it.value();
+    sum[j] = Eigen::Map<const VectorXd>(A.valuePtr() + first[j], count ? count[j] : first[j + 1] - first[j])
+                 .squaredNorm();
   return sum;
 }
 
@@ -104,6 +106,13 @@ double largest_compliance(const BodyTerms& terms, const MatrixXd& compliance) {
   double largest = compliance.topRows(n_e).diagonal().tail(n).maxCoeff();
   if (compliance.rows() > n_e) largest += compliance.bottomRows(n).rightCols(n).diagonal().maxCoeff();
   return largest;
+}
+
+// Are the entries of A and B in the same places?
+bool is_alike(const Sparse& A, const Sparse& B) {
+  if (A.rows() != B.rows() || A.cols() != B.cols() || !A.isCompressed() || !B.isCompressed()) return false;
+  return std::equal(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1, B.outerIndexPtr()) &&
+         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(), B.innerIndexPtr());
 }
 
 // Adds the displacements by a load: a symmetric matrix, and rows below it for its last columns alone.
@@ -188,7 +197,7 @@ void CondensedSystem::factorise_leading(const EffectiveMatrix& A) {
     Body& body = body_[b];
     const Index n_s = body.n_s;
     body.L_runs = ColumnRuns(t.L);
-    body.V_runs = &V(A, b) == &t.L ? body.L_runs : ColumnRuns(V(A, b));
+    body.V_runs = is_alike(V(A, b), t.L) ? body.L_runs : ColumnRuns(V(A, b));
     body.V_leading = select_columns(V(A, b), leading_);
     body.response.resize(body.compliance->rows(), n_s + l);
     body.response.leftCols(n_s).noalias() = *body.compliance * t.beta;

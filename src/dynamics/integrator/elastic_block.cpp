@@ -77,9 +77,9 @@ Eigen::MatrixXd BorderColumns::project(const std::vector<int>& node, const Eigen
   Eigen::MatrixXd P(size(node), X.cols());
   P.topRows(n_u()) = U_.transpose() * X;
   if (X.cols() == 1) {
+    const Eigen::VectorXd x = X.col(0);  // once, as displacement() takes vectors
     for (std::size_t i = 0; i < node.size(); ++i)
-      P.col(0).segment<3>(n_u() + 3 * static_cast<Eigen::Index>(i)) =
-          model::displacement(*Phi_, node[i], X.col(0));
+      P.col(0).segment<3>(n_u() + 3 * static_cast<Eigen::Index>(i)) = model::displacement(*Phi_, node[i], x);
     return P;
   }
   if (const auto* sparse = std::get_if<model::SparseRows>(Phi_))
