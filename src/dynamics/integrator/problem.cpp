@@ -48,7 +48,9 @@ void set_accuracy(TS ts, Problem& problem) {
   PetscBool once = PETSC_FALSE;
   check(TSGetSNES(ts, &snes));
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(snes), SNESKSPONLY, &once));
-  problem.left = once ? kAsFactorised : kLeftOfStep;
+  PetscReal unbalanced = 0;
+  check(SNESGetTolerances(snes, nullptr, &unbalanced, nullptr, nullptr, nullptr));
+  problem.left = once ? kAsFactorised : left_of_step(unbalanced);
 }
 
 PetscErrorCode jacobian(TS ts, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v, PetscReal shift_a, Mat J,

@@ -1,6 +1,7 @@
 #pragma once
 // A System as a PETSc problem: the callbacks of TS, SNES, the shell matrix and its exact preconditioner.
 
+#include <algorithm>
 #include <functional>
 
 #include "elastogear/base/petsc.h"
@@ -10,9 +11,13 @@ namespace elastogear::dynamics {
 
 /// Largest share of the forces that may be unbalanced, where nothing else is asked for.
 inline constexpr double kResidualTolerance = 1e-8;
-/// Share of a Newton step's contact forces that its linear solution may leave: as little as may be left of
-/// all forces, of which those of a step are a part.
-inline constexpr double kLeftOfStep = kResidualTolerance;
+/// Share of the forces that may be unbalanced where steps are chosen by their error, a share of the elastic
+/// displacement: forces that are unbalanced by a share move bodies by no more than that share of it.
+inline double unbalanced_at(double step_error) { return std::max(kResidualTolerance, 0.1 * step_error); }
+
+/// Share of a Newton step's contact forces that its linear solution may leave, where Newton's method may
+/// leave the share `unbalanced` of all forces: little beside it, and no less than is ever asked of forces.
+inline double left_of_step(double unbalanced) { return std::max(kResidualTolerance, 0.1 * unbalanced); }
 
 /// Data that the callbacks share. It must outlive the TS.
 struct Problem {

@@ -15,11 +15,8 @@ constexpr double kFirstTouch = 0.1;  // share of the contact depth that bodies m
 constexpr double kShortestStep = 1e-3;  // of the first one, down to which touch is looked for
 constexpr double kFirstStep = 0.1;      // of what advice asks for
 constexpr double kFirstShare = 1e-3;    // of the run, that the first step takes at most
-// The share of the forces that may be unbalanced, over step_error. An unbalanced share of the forces moves
-// bodies by no more than that share of their elastic displacement.
-constexpr double kUnbalanced = 0.1;
-constexpr double kMostError = 2;  // of the tolerated error, with which a step is still taken
-constexpr double kSafety = 0.9;   // of the step that would have the tolerated error
+constexpr double kMostError = 2;        // of the tolerated error, with which a step is still taken
+constexpr double kSafety = 0.9;         // of the step that would have the tolerated error
 // Displacements over the size of the bodies: one that stands for the largest elastic displacement so far
 // until that is larger, and one that stands for it where no body is elastic.
 constexpr double kSmallDisplacement = 1e-5, kRigidDisplacement = 1e-3;
@@ -152,8 +149,7 @@ void aim_below_most(TSAdapt adapt) {
 void balance_by_error(const Run& run, TS ts) {
   SNES snes = nullptr;
   check(TSGetSNES(ts, &snes));
-  check(SNESSetTolerances(snes, PETSC_DEFAULT,
-                          std::max(kResidualTolerance, kUnbalanced * run.settings.step_error), PETSC_DEFAULT,
+  check(SNESSetTolerances(snes, PETSC_DEFAULT, unbalanced_at(run.settings.step_error), PETSC_DEFAULT,
                           PETSC_DEFAULT, PETSC_DEFAULT));
 }
 
