@@ -17,9 +17,10 @@ Column column(double slave, const Eigen::Vector4d& weight, const Eigen::Vector3d
   return c;
 }
 
-Tangent zero_tangent(int n_columns) {
+// A tangent with room for W, whose entries are still to be set, and k = 0.
+Tangent empty_tangent(int n_columns) {
   Tangent t;
-  t.W.setZero(15, n_columns);
+  t.W.resize(15, n_columns);
   t.k.setZero(n_columns, n_columns);
   return t;
 }
@@ -31,7 +32,7 @@ double across(const Projection& w, const NormalStiffness& normal) {
 }
 
 Tangent normal_part(const Projection& w, const NormalStiffness& normal) {
-  Tangent t = zero_tangent(1);
+  Tangent t = empty_tangent(1);
   t.W = column(1, -w.point.N, w.n);
   t.k(0, 0) = normal.k;
   return t;
@@ -51,7 +52,7 @@ Tangent face_tangent(const Face& face, const Projection& w, const NormalStiffnes
   const double g = w.g_n, p = normal.p;
   const Eigen::Matrix2d A = m - g * b, m_inverse = m.inverse(), I = Eigen::Matrix2d::Identity();
 
-  Tangent t = zero_tangent(5);
+  Tangent t = empty_tangent(5);
   t.W << column(1, -s.N, w.n), (T - g * N_alpha) * A.inverse(), N_alpha;
   t.k(0, 0) = normal.k;
   t.k.block<2, 2>(1, 1) = -p * (g * b * m_inverse * b - b);
@@ -72,7 +73,7 @@ Tangent edge_tangent(const Face& face, const Projection& w, const NormalStiffnes
   ends[side] = -1;
   ends[next] = 1;
 
-  Tangent t = zero_tangent(4);
+  Tangent t = empty_tangent(4);
   t.W << column(1, -w.point.N, w.n), column(1, -w.point.N, w.n.cross(e)), column(1, -w.point.N, e),
       column(0, ends, w.n);
   t.k(0, 0) = normal.k;
@@ -85,7 +86,7 @@ Tangent edge_tangent(const Face& face, const Projection& w, const NormalStiffnes
 // The closest point is a corner: a spring between two nodes.
 Tangent vertex_tangent(const Projection& w, const NormalStiffness& normal) {
   const Eigen::Vector3d p = w.n.unitOrthogonal();
-  Tangent t = zero_tangent(3);
+  Tangent t = empty_tangent(3);
   t.W << column(1, -w.point.N, w.n), column(1, -w.point.N, p), column(1, -w.point.N, w.n.cross(p));
   t.k.diagonal() << normal.k, across(w, normal), across(w, normal);
   return t;

@@ -27,10 +27,12 @@ struct BodyColumns {
     bool operator==(const Node& other) const { return node == other.node; }
   };
   std::vector<Node> nodes;            // ascending
-  contact::LocalColumns W, V, V_dot;  // 3 rows a node; V_dot has no columns where it is zero
+  std::vector<Eigen::Index> place;    // among these of each local node; -1: on the other body
+  contact::LocalColumns W, V, V_dot;  // 3 rows a node; V without columns is W, V_dot without columns zero
 
   Eigen::Index n() const { return static_cast<Eigen::Index>(nodes.size()); }
   bool has_rates() const { return V_dot.cols() > 0; }
+  const contact::LocalColumns& displacement_columns() const { return V.cols() > 0 ? V : W; }
 };
 
 // A contact, its pair and one of the bodies there.
@@ -44,46 +46,55 @@ struct ContactOfBody {
 };
 
 // Rows of all local nodes on the body, added up by node.
-void add_up(const ContactOfBody& contact, const BodyColumns& columns, const Eigen::Matrix3d& R_BW,
-            const contact::LocalColumns& of_local, contact::LocalColumns& rows) {
+void add_up(const BodyColumns& columns, const Eigen::Matrix3d& R_BW, const contact::LocalColumns& of_local,
+            contact::LocalColumns& rows) {
   rows.setZero(3 * columns.n(), of_local.cols());
-  for (int i = 0; i < contact.point.n_local(); ++i) {
-    if (!contact.has(i)) continue;
-    const BodyColumns::Node node{local_node(contact.point, i).node, i, 0};
+  for (std::size_t i = 0; i < columns.place.size(); ++i)
+    if (columns.place[i] >= 0)
+      rows.middleRows<3>(3 * columns.place[i]) +=
+          R_BW.lazyProduct(of_local.middleRows<3>(3 * static_cast<Eigen::Index>(i)));
+}
+
+void set_nodes(const ContactOfBody& contact, const BodyTerms& terms, BodyColumns& columns) {
+  const contact::ContactPoint& point = contact.point;
+  const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
+  columns.nodes.clear();
+  columns.place.clear();
+  if (!contact.touches()) return;
+  for (int i = 0; i < point.n_local(); ++i)
+    if (contact.has(i)) columns.nodes.push_back({local_node(point, i).node, i, 0});
+  sort_unique(columns.nodes);
+  for (BodyColumns::Node& node : columns.nodes) node.row = n_u + 3 * slot(terms.node, node.node);
+  for (int i = 0; i < point.n_local(); ++i) {
+    const BodyColumns::Node node{local_node(point, i).node, i, 0};
     const auto at = std::lower_bound(columns.nodes.begin(), columns.nodes.end(), node);
-    rows.middleRows<3>(3 * (at - columns.nodes.begin())) += R_BW.lazyProduct(of_local.middleRows<3>(3 * i));
+    columns.place.push_back(contact.has(i) ? at - columns.nodes.begin() : -1);
   }
 }
 
 void set_columns(const ContactOfBody& contact, const BodyTerms& terms, const Eigen::Matrix3d& R_BW,
                  BodyColumns& columns) {
   const contact::ContactPoint& point = contact.point;
-  const Eigen::Index n_u = terms.beta.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
-  columns.nodes.clear();
-  for (int i = 0; i < point.n_local() && contact.touches(); ++i)
-    if (contact.has(i)) columns.nodes.push_back({local_node(point, i).node, i, 0});
-  sort_unique(columns.nodes);
-  for (BodyColumns::Node& node : columns.nodes) node.row = n_u + 3 * slot(terms.node, node.node);
+  set_nodes(contact, terms, columns);
   const bool has_rates = columns.n() > 0 && !point.V_dot.isZero(0);
-  add_up(contact, columns, R_BW, point.W, columns.W);
-  if (point.V.size() == 0)
-    columns.V = columns.W;
-  else
-    add_up(contact, columns, R_BW, point.V, columns.V);
-  if (has_rates) add_up(contact, columns, R_BW, point.V_dot, columns.V_dot);
+  add_up(columns, R_BW, point.W, columns.W);
+  if (point.V.size() > 0) add_up(columns, R_BW, point.V, columns.V);
+  if (point.V.size() == 0) columns.V.resize(0, 0);
+  if (has_rates) add_up(columns, R_BW, point.V_dot, columns.V_dot);
   if (!has_rates) columns.V_dot.resize(0, 0);
 }
 
 // Rows of W and V along the twists of the joint.
 void add_joint_rows(const JointTwists& twists, const BodyColumns& c, const contact::SurfaceState& state,
                     Eigen::Index first, BodyTerms& terms) {
+  const contact::LocalColumns& V = c.displacement_columns();
   for (Eigen::Index a = 0; a < c.n(); ++a) {
     const Eigen::Vector3d x_B = state.x_B.col(c.nodes[a].node);
     for (Eigen::Index i = 0; i < twists.H.cols(); ++i) {
       terms.W_s.row(i).segment(first, c.W.cols()) +=
           twist_at(twists.H, i, x_B).transpose().lazyProduct(c.W.middleRows<3>(3 * a));
-      terms.V_s.row(i).segment(first, c.V.cols()) +=
-          twist_at(twists.P, i, x_B).transpose().lazyProduct(c.V.middleRows<3>(3 * a));
+      terms.V_s.row(i).segment(first, V.cols()) +=
+          twist_at(twists.P, i, x_B).transpose().lazyProduct(V.middleRows<3>(3 * a));
     }
   }
 }
@@ -241,13 +252,16 @@ void append_rows(const JointTwists& twists, const BodyColumns& c, Eigen::Index f
                  BodyTerms& terms) {
   append(c, c.W, first, count, terms.L);
   if (terms.L_V.rows() == 0) return;
-  contact::LocalColumns V = c.V;
-  if (c.has_rates())
-    for (Eigen::Index a = 0; a < c.n(); ++a)
-      for (Eigen::Index j = 0; j < count; ++j)
-        V.col(j).segment<3>(3 * a) += Eigen::Vector3d(c.V_dot.col(j).segment<3>(3 * a)).cross(twists.w);
+  if (!c.has_rates()) {
+    if (terms.L_x.rows() > 0) append(c, c.displacement_columns(), first, count, terms.L_x);
+    return append(c, c.displacement_columns(), first, count, terms.L_V);
+  }
+  contact::LocalColumns V = c.displacement_columns();
+  for (Eigen::Index a = 0; a < c.n(); ++a)
+    for (Eigen::Index j = 0; j < count; ++j)
+      V.col(j).segment<3>(3 * a) += Eigen::Vector3d(c.V_dot.col(j).segment<3>(3 * a)).cross(twists.w);
   if (terms.L_x.rows() > 0) append(c, V, first, count, terms.L_x);
-  if (c.has_rates()) V += twists.shift_v * c.V_dot;
+  V += twists.shift_v * c.V_dot;
   append(c, V, first, count, terms.L_V);
 }
 
