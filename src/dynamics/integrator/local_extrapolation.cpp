@@ -14,9 +14,9 @@ constexpr PetscReal kSmall = 0.05;
 
 PetscReal lag(const Parameters& p) { return p.alpha_m - p.alpha_f; }
 
-// C_V of Eq. (8.9a).
-PetscReal velocity_constant(const Parameters& p) {
-  return PetscReal(1) / 12 - lag(p) * (1 - 2 * p.alpha_f) / 2;
+// C_U + C_V of Eq. (8.9a).
+PetscReal constant_of_both(const Parameters& p) {
+  return position_constant(p) + PetscReal(1) / 12 - lag(p) * (1 - 2 * p.alpha_f) / 2;
 }
 
 // change := that of the slope in a step like the one from start to end, which has `slope`.
@@ -44,7 +44,7 @@ bool extrapolates(const Method& m) { return m.extrapolated && lag(m.parameters) 
 
 PetscErrorCode extrapolated_error(TS ts, Vec error) {
   Method& m = method(ts);
-  const PetscReal dt = ts->time_step, C = position_constant(m.parameters) + velocity_constant(m.parameters);
+  const PetscReal dt = ts->time_step, C = constant_of_both(m.parameters);
   if (!extrapolates(m) || m.last.step == 0) return 0;
   const Vec slope = m.at_stage.V, change = m.at_stage.A;
   PetscCall(find_slope(ts, slope));
@@ -57,21 +57,18 @@ PetscErrorCode extrapolated_error(TS ts, Vec error) {
 PetscErrorCode extrapolate(TS ts) {
   Method& m = method(ts);
   if (!extrapolates(m) || m.last.step == 0) return 0;
-  const PetscReal C_U = position_constant(m.parameters), C_V = velocity_constant(m.parameters),
-                  a = lag(m.parameters), dt = ts->time_step,
-                  C_U_sigma = C_U * (PetscReal(0.5) + a + kDamping) + C_V * (1 + a);
+  const PetscReal C = constant_of_both(m.parameters), dt = ts->time_step, third = dt * dt * dt,
+                  sigma = PetscReal(0.5) + lag(m.parameters) + kDamping * position_constant(m.parameters) / C;
   const Vec error = m.at_stage.V, change = m.at_stage.A;
   PetscReal share = 0;
   PetscCall(find_slope(ts, error));
   PetscCall(find_change(ts, error, change));
   PetscCall(VecPointwiseMult(error, error, m.extrapolated));
   PetscCall(VecPointwiseMult(change, change, m.extrapolated));
-  PetscCall(VecAXPBY(error, C_U_sigma * dt * dt * dt, C_U * dt * dt * dt, change));
+  PetscCall(VecAXPBY(error, C * sigma * third, C * third, change));
   PetscCall(share_of(ts, error, &share));
   PetscCall(VecAXPY(m.current.U, -share, error));
-  PetscCall(VecAXPY(m.current.V, -share * C_V * dt * dt, change));
   PetscCall(VecCopy(m.current.U, ts->vec_sol));
-  PetscCall(VecCopy(m.current.V, ts->vec_dot));
   return PetscObjectStateGet((PetscObject)ts->vec_sol, &m.solution_state);
 }
 
