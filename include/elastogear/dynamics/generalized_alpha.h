@@ -52,7 +52,7 @@ bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x);
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
 
 /// Local extrapolation (docs/theory.md, section 8.3): the error of every step that is taken is taken out of
-/// the entries of U and V where `entries` is 1 (0: they stay), and error control counts what is left of it.
+/// the entries of U where `entries` is 1 (0: they stay), and error control counts what is left of it.
 /// For coordinates of much inertia, whose steps the tolerances resolve; without effect where rho_inf = 1.
 /// Needs set_tolerances: errors that are small beside them stay.
 void generalized_alpha_extrapolate(TS ts, Vec entries);

@@ -90,7 +90,7 @@ bool extrapolates(const Method& m);
 /// In place of the local error of U, Eq. (8.9), what extrapolation leaves of it in the entries it takes it
 /// from, Eq. (8.9d).
 PetscErrorCode extrapolated_error(TS ts, Vec error);
-/// Takes the local error of the step to `end` out of the accepted U and V, Eq. (8.9a).
+/// Takes the local error of the step to `end` out of the accepted U, Eq. (8.9a).
 PetscErrorCode extrapolate(TS ts);
 
 /// U at a time between the ends of the last step, Eq. (8.10), and V and A, Eq. (8.17).

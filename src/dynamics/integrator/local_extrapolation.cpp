@@ -58,7 +58,7 @@ PetscErrorCode extrapolate(TS ts) {
   Method& m = method(ts);
   if (!extrapolates(m) || m.last.step == 0) return 0;
   const PetscReal C = constant_of_both(m.parameters), dt = ts->time_step, third = dt * dt * dt,
-                  sigma = PetscReal(0.5) + lag(m.parameters) + kDamping * position_constant(m.parameters) / C;
+                  sigma = PetscReal(0.5) + lag(m.parameters) + kDamping;
   const Vec error = m.at_stage.V, change = m.at_stage.A;
   PetscReal share = 0;
   PetscCall(find_slope(ts, error));
