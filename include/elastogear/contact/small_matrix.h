@@ -68,7 +68,7 @@ class SmallMatrix : public Eigen::Map<Eigen::Matrix<Scalar, kRows, kCols>> {
   }
   void resize(Index size) { kRows == Eigen::Dynamic ? resize(size, kCols) : resize(kRows, size); }
   using Base::setZero;
-  void setZero(Index rows, Index cols) {
+  void setZero(Index rows, Index cols) {  // NOLINT(readability-identifier-naming): as Eigen's matrices
     resize(rows, cols);
     Base::setZero();
   }
