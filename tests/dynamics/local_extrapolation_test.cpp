@@ -82,11 +82,13 @@ TEST(LocalExtrapolation, damps_rather_than_excites_what_steps_resolve) {
 TEST(LocalExtrapolation, leaves_errors_that_are_small_beside_the_tolerance) {
   const Outcome left = integrate(0.1, 0.8, 1, 1);
   EXPECT_NEAR(left.error[0], left.error[1], 1e-3 * left.error[1]);
+  EXPECT_NEAR(left.velocity_error[0], left.velocity_error[1], 1e-3 * left.velocity_error[1]);
 }
 
 TEST(LocalExtrapolation, has_no_part_in_a_method_that_conserves_energy) {
   const Outcome conserved = integrate(0.1, 1);
   EXPECT_EQ(conserved.error[0], conserved.error[1]);
+  EXPECT_EQ(conserved.velocity_error[0], conserved.velocity_error[1]);
 }
 
 // A constant force on a free mass, whose coordinate is extrapolated, and on it a spring with a mass of its

@@ -66,7 +66,7 @@ template <Index kRows>
   }
 }
 
-// The same of columns with any number of rows.
+// y += A x, and below x -= A' y, of columns with any number of rows.
 [[gnu::always_inline]] inline void add_any_product(const Columns& A, const double* x, double* y) {
   for (Index j = 0; j < A.n_columns; ++j)
     for (Index i = 0; i < A.n_rows; ++i) y[A.row[i]] += A.value[j * A.n_rows + i] * x[j];
