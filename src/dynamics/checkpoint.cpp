@@ -97,6 +97,7 @@ void serialize_state(Run& run, TS ts, Archive& archive) {
   archive(run.n_outputs);
   archive(run.touches);
   archive(run.control.displacement);
+  archive(run.control.stress);
   archive(run.short_steps);
   archive(run.longest_short);
   serialize_summary(run.summary, archive);

@@ -17,13 +17,14 @@ void enter(Run& run, EnergyLedger& ledger, const State& x) {
   ledger.enter(run.problem.system, now);
   try {
     run.sanity.require_small(now);
-    if (!run.settings.relax) run.sanity.require_balance(now.energy);
+    if (!run.settings.relax) run.sanity.require_balance(now.time, now.energy);
   } catch (const Error& error) {
     throw Insane(error.what());
   }
   run.last = std::make_shared<const model::Snapshot>(std::move(now));
   run.last_observed = false;
   update(run.summary, *run.last);
+  run.summary.turned_over = run.sanity.turned_over();
 }
 
 // Solves for the state, for contact is too stiff to tell its forces from interpolated coordinates. Forces of

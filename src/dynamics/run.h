@@ -21,7 +21,10 @@ inline double seconds_since(Clock::time_point start) {
 struct StepControl {
   Eigen::VectorXd per_length = {};  // changes of the coordinates that move a body's surface by up to 1 m
   double size = 0;                  // m, largest distance from the centre of a joint
-  double displacement = 0;          // m, largest elastic one so far
+  double displacement = 0;          // m, largest elastic amplitude of the last state
+  Eigen::VectorXd stiffness = {};   // J/m^2, of each body: twice the elastic energy of the softest coordinate
+                                    // that moves the surface by up to 1 m; 0: has none, or the full basis
+  Eigen::VectorXd stress = {};      // J^(1/2), of each body: tolerated energy norm of a local error
   double longest_step = 0;          // s, that PETSc's options allow (-ts_adapt_dt_max)
   std::vector<Eigen::Matrix3Xd> corners =
       {};  // m, of boxes around the surfaces of the bodies, in their frames
@@ -87,15 +90,15 @@ void report_step(const Run& run, TS ts, int step);
 
 /// Control of the steps, where they are chosen.
 void control_steps(Run& run, TS ts);
-/// Takes errors of steps out of the coordinates of joints, where steps are chosen (docs/theory.md, Eq.
-/// (8.9a)). The forces of the law of impacts jump from step to step: with it nothing is taken out.
-void extrapolate_joints(const Run& run, TS ts);
+/// Lets the control of steps see errors of the elastic coordinates by the stresses that they mean
+/// (docs/theory.md, Eq. (8.9a)), where steps are chosen by a share of what there is.
+void measure_stress(Run& run, TS ts);
 /// Tells the system how closely forces are balanced where steps are chosen; to be called once options are
 /// read.
 void let_move(Run& run, TS ts);
 /// The first step, s, where there is no dt.
 double first_step(const Run& run);
-/// Takes the elastic displacements of the last state for the tolerance of the next steps.
+/// Takes the elastic displacements and energies of the last state for the tolerances of the next steps.
 void follow_displacement(Run& run);
 /// Sets tolerance and limits of the next steps, where they are chosen.
 void limit_steps(Run& run, TS ts);

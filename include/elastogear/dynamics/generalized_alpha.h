@@ -51,13 +51,12 @@ bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x);
 /// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
 
-/// Local extrapolation (docs/theory.md, section 8.3): the error of every step that is taken is taken out of
-/// the entries of U where `entries` is 1 (0: they stay), and error control counts what is left of it.
-/// For coordinates of much inertia, whose steps the tolerances resolve; without effect where rho_inf = 1.
-/// Needs set_tolerances: errors that are small beside them stay.
-void generalized_alpha_extrapolate(TS ts, Vec entries);
+/// `measure` gives a norm of the local error of U over what is tolerated of it. Error control takes the larger
+/// one of it and of the weighted norm with the tolerances above.
+void generalized_alpha_set_measure(TS ts,
+                                   const std::function<PetscErrorCode(Vec error, PetscReal* norm)>& measure);
 
-/// What a step takes from the one before, besides U, V and A (docs/theory.md, Eqs. (8.8) and (8.9a)).
+/// What a step takes from the one before, besides U, V and A (docs/theory.md, Eq. (8.8)).
 /// Borrowed: a run that goes on gets both back in place, after set_state.
 struct StepHistory {
   Vec slope;     ///< of A in the last step

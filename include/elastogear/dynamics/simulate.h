@@ -40,10 +40,11 @@ struct TimeSettings {
   std::vector<double> output_times = {};
   /// Steps are chosen (PETSc's basic adaptivity, -ts_adapt_*) where there is no dt or step_tolerance, m, is
   /// positive: so that the local error moves no surface node farther than step_tolerance or, where that is 0,
-  /// than step_error, -, times the largest elastic displacement so far. The step in which bodies first touch
+  /// so that it is at most the share step_error, -, of the elastic displacements and, in the energy norm, of
+  /// the elastic state of each body, which bounds the stresses. The step in which bodies first touch
   /// is short, and surfaces of a pair go by less than the contact depth. velocity_tolerance, m/s, > 0:
   /// velocities too. docs/theory.md, section 8.3.
-  double step_error = 3e-4, step_tolerance = 0, velocity_tolerance = 0;
+  double step_error = 1e-4, step_tolerance = 0, velocity_tolerance = 0;
   std::function<void(const StepInfo&)> monitor = {};  ///< after every step
 };
 
@@ -62,6 +63,7 @@ struct RunSummary {
   double initial_energy = 0;     ///< J, stored at the start
   double work = 0;               ///< J, of the loads up to the last state
   double largest_imbalance = 0;  ///< J, largest |balance| of the energy ledger
+  double turned_over = 0;     ///< J, stored at the start and turned over by loads and motions
   double unbalanced = 0;      ///< largest share of the forces that an equilibrium leaves where contact jumps
   double wall_time = 0;       ///< s
   bool complete = false;      ///< reached the end time, or rest; else stopped before

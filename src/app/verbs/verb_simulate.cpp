@@ -75,8 +75,8 @@ const Rows<TimeSettings> kTimeRows = {
      kDependent},
     {"output", "-", "", "result file to write (HDF5)"},
     {"step_error", &TimeSettings::step_error, "-",
-     "without ts_dt and step_tolerance: choose the steps so that the local error moves no surface node "
-     "farther than this share of the largest elastic displacement so far",
+     "without ts_dt and step_tolerance: choose the steps so that the local error is at most this share of "
+     "elastic displacements and, in the energy norm, of the elastic state of each body, as stresses are",
      kPositive},
     {"step_tolerance", &TimeSettings::step_tolerance, "m",
      "choose the steps so that the local error moves no surface node farther; 0: steps of ts_dt, or by "
@@ -137,6 +137,18 @@ void print_resolution(const Options& options, const dynamics::RunSummary& run) {
                      "stresses under the contact are not to be trusted; take a finer mesh there");
 }
 
+// Numerical damping takes energy away, an unstable integration makes it: neither may matter.
+void warn_of_balance(const dynamics::RunSummary& run) {
+  constexpr double kNoticed = 0.01;
+  if (run.largest_imbalance <= kNoticed * run.turned_over) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.2g %%", 100 * run.largest_imbalance / run.turned_over);
+  print_item("warning", "the energy balance is off by " + std::string(share) + " of the " +
+                            with_unit(run.turned_over, "J") +
+                            " that were turned over: by numerical damping of vibrations that steps do not "
+                            "resolve, by impacts, or by instability; try a smaller step_error or ts_dt");
+}
+
 void print_summary(const Options& options, const dynamics::RunSummary& run) {
   print_item("time steps",
              std::to_string(run.steps) + " (" + std::to_string(run.rejected_steps) + " rejected)");
@@ -163,6 +175,7 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
                                  " of the forces at most, where points of contact come and go");
   if (analysis(options) != Analysis::relax)
     print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
+  if (analysis(options) == Analysis::dynamic) warn_of_balance(run);
   print_item("time", duration(run.wall_time));
   print_item("largest memory", largest_memory());
   print_item("written", options.text("output"));

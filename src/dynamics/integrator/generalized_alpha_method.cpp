@@ -221,7 +221,6 @@ PetscErrorCode destroy_vectors(Method& m) {
   for (Motion* x : {&m.current, &m.start, &m.end, &m.base, &m.at_stage}) PetscCall(destroy(*x));
   PetscCall(VecDestroy(&m.Delta));
   PetscCall(VecDestroy(&m.residual));
-  PetscCall(VecDestroy(&m.extrapolated));
   PetscCall(VecDestroy(&m.last.A));
   PetscCall(VecDestroy(&m.last.slope));
   return 0;

@@ -55,9 +55,10 @@ struct Method {
   Stage stage;
   Motion base, at_stage;
   Vec Delta, residual;
-  Vec extrapolated;  ///< 1 for the entries whose error is taken out, else 0; or null
   SlopeHistory last;
   std::function<PetscErrorCode(bool*)> check;  ///< has F changed with the solution? May be empty
+  /// Another norm of the local error of U over its tolerance. May be empty.
+  std::function<PetscErrorCode(Vec error, PetscReal* norm)> measure;
 };
 
 inline Method& method(TS ts) { return *static_cast<Method*>(ts->data); }
@@ -84,14 +85,6 @@ PetscErrorCode move_lag(TS ts);
 PetscErrorCode find_slope(TS ts, Vec slope);
 /// Keeps the slope of a step that is taken for the next one.
 PetscErrorCode remember_slope(TS ts);
-
-/// Is the error of a step taken out of some entries?
-bool extrapolates(const Method& m);
-/// In place of the local error of U, Eq. (8.9), what extrapolation leaves of it in the entries it takes it
-/// from, Eq. (8.9d).
-PetscErrorCode extrapolated_error(TS ts, Vec error);
-/// Takes the local error of the step to `end` out of the accepted U, Eq. (8.9a).
-PetscErrorCode extrapolate(TS ts);
 
 /// U at a time between the ends of the last step, Eq. (8.10), and V and A, Eq. (8.17).
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U);

@@ -223,7 +223,7 @@ UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J) {
   control_steps(run, ts);
   check(TSSetFromOptions(ts));
   if (!run.settings.relax) let_move(run, ts);
-  extrapolate_joints(run, ts);
+  measure_stress(run, ts);
   if (!run.settings.relax) follow_stages(run.problem.system, ts);
   check(TSGetTimeStep(ts, &run.nominal_dt));
   require(run.nominal_dt > 0, "time step dt = ", run.nominal_dt, " s must be positive");
