@@ -169,10 +169,13 @@ const H5FD_class_t kDriver = make_class();
 
 }  // namespace
 
+// Registered once and for good: H5FD_close() first gives up the file's hold on the driver, and then calls its
+// function to close the file, which is gone when no other hold is left. HDF5 forgets the driver when a
+// program closes the library and opens it again.
 void use_write_driver(hid_t access_properties) {
-  const hid_t driver = H5FDregister(&kDriver);
+  static hid_t driver = H5I_INVALID_HID;
+  if (H5Iget_type(driver) != H5I_VFL) driver = H5FDregister(&kDriver);
   H5Pset_driver(access_properties, driver, nullptr);
-  H5FDunregister(driver);  // the list holds it
 }
 
 std::string write_failure(hid_t file) {
