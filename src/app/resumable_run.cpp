@@ -6,18 +6,17 @@
 
 #include "app/console/console.h"
 #include "app/console/embedding.h"
+#include "app/options/input_differences.h"
 #include "app/options/rows.h"
-#include "elastogear/base/file.h"
-#include "elastogear/base/fingerprint.h"
 #include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
 
-// Options on which results do not depend, as parts of their names.
-const std::vector<std::string> kWithoutEffect = {
-    "option_output", "option_checkpoint_every", "option_resume",      "option_monitor", "_monitor", "_view",
-    "option_log_",   "option_sensor_csv",       "option_ts_max_steps"};
+// Options on which results do not depend, and parts of the names of others and of entries of the provenance.
+const std::vector<std::string> kWithoutEffect = {"output",       "checkpoint_every", "resume", "sensor_csv",
+                                                 "ts_max_steps", "drawing",          "mesh"},
+                               kPartsWithoutEffect = {"monitor", "_view", "option_log_", "in_files_"};
 
 volatile std::sig_atomic_t stop_signal = 0;
 
@@ -46,15 +45,23 @@ std::vector<std::string> files_in(const Options& options, const std::string& key
   if (key == "option_output_times" || key == "option_variants") return {value};
   const bool names_files =
       key.starts_with("option_") &&
-      (key.ends_with("_flanks") || key.ends_with("_deviation") || key.ends_with("_topography"));
+      (key.ends_with("_flanks") || key.ends_with("_deviation") || key.ends_with("_topography") ||
+       key.ends_with("_wear") || key.ends_with("_master_curve") || key == "option_bearing_catalogue");
   return names_files ? options.list(key.substr(7)) : std::vector<std::string>{};
+}
+
+// key: of the provenance, "option_output".
+bool is_without_effect(const std::string& key) {
+  const auto is_part = [&](const std::string& part) { return key.find(part) != std::string::npos; };
+  return std::any_of(kPartsWithoutEffect.begin(), kPartsWithoutEffect.end(), is_part) ||
+         std::any_of(kWithoutEffect.begin(), kWithoutEffect.end(),
+                     [&](const std::string& name) { return key == "option_" + name; });
 }
 
 // Returns whether results depend on an entry of the provenance. A shared file has keys of other verbs as
 // well.
 bool has_effect(const Options& options, const std::string& key) {
-  return std::none_of(kWithoutEffect.begin(), kWithoutEffect.end(),
-                      [&](const std::string& part) { return key.find(part) != std::string::npos; }) &&
+  return !is_without_effect(key) &&
          !options.is_of_other_verb(key.starts_with("option_") ? key.substr(7) : key);
 }
 
@@ -70,6 +77,8 @@ const Rows<ResumableSettings> kRows = {
 
 }  // namespace
 
+bool affects_results(const std::string& name) { return !is_without_effect("option_" + name); }
+
 OptionTable resumable_run_table() { return table_of(kRows); }
 
 void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
@@ -79,9 +88,7 @@ void add_inputs(const Options& options, const std::map<std::string, std::string>
   for (const auto& [key, value] : options.provenance())
     for (const std::string& file : files_in(options, key, value)) {
       if (!std::filesystem::is_regular_file(file)) continue;
-      Fingerprint f;
-      f.add(read_file(file));
-      provenance["fingerprint_" + file] = f.text();
+      provenance[fingerprint_key(file)] = file_fingerprint(file);
     }
 }
 

@@ -13,6 +13,9 @@ namespace elastogear::app {
 /// Rows for the options.
 OptionTable resumable_run_table();
 
+/// Do results depend on this option?
+bool affects_results(const std::string& name);
+
 /// Adds the identities of bodies, by name, and fingerprints of the files of tables to the provenance.
 void add_inputs(const Options& options, const std::map<std::string, std::string>& identities,
                 std::map<std::string, std::string>& provenance);

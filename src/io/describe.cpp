@@ -212,6 +212,10 @@ std::string file_format(const std::string& path) {
   return h5::string_attribute(h5::open(path), "/", "format");
 }
 
+std::map<std::string, std::string> read_provenance(const std::string& path) {
+  return h5::read_map(h5::open(path), "/provenance");
+}
+
 std::string describe(const std::string& path) {
   std::error_code error;
   require(std::filesystem::is_regular_file(path, error), path, ": there is no such file");

@@ -250,7 +250,7 @@ refused() {
   if "$elastogear" "${@:2}" >log 2>&1; then echo "accepted: ${*:2}"; exit 1; fi
   grep -q "$1" log || { echo "no '$1' in:"; cat log; exit 1; }
 }
-refused "off the flank of this gear data" simulate spur.yaml -pinion_profile_shift 0.31
+refused "is not the body of pinion in this drive: .*pinion_profile_shift" simulate spur.yaml -pinion_profile_shift 0.31
 refused "unknown option -pinoin_teeth" simulate spur.yaml -pinoin_teeth 18
 refused "module = 3 m: .*module: 3 mm" mesh spur.yaml -module 3
 refused "tip_diameter of at most" mesh spur.yaml -wheel_tip_diameter "136.9 mm"

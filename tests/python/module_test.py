@@ -25,6 +25,8 @@ class Runs(WithDrive):
                 pinion: {teeth: 17, profile_shift: 0.3}
                 wheel: {teeth: 43, profile_shift: 0.1}
                 analysis: dynamic
+                modes: 4
+                basis: modal
                 """)
         words = [word for key, value in MOTION.items() for word in (f"-{key}", str(value))]
         done = command("simulate", "spur.yaml", "-output", "program.h5", *words)
@@ -84,7 +86,7 @@ class Runs(WithDrive):
             return str(caught.exception)
 
         with open("plain.yaml", "w", encoding="utf-8") as file:
-            file.write("{drive: cylindrical, module: 3 mm, face_width: 25 mm, torque: 300 N m, "
+            file.write("{drive: cylindrical, module: 3 mm, face_width: 25 mm, torque: 300 N m, modes: 4, basis: modal, "
                        "pinion: {teeth: 17, profile_shift: 0.3}, wheel: {teeth: 43, profile_shift: 0.1}}")
         for option, value in [("rol", 0.1), ("static_steps", 0), ("torque", "3 mm"), ("analysis", "statistic"),
                               ("pinion_file", "nowhere.h5"), ("contact_friction", -1)]:

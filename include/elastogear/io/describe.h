@@ -1,6 +1,7 @@
 #pragma once
 // Description of the contents of a file, for users.
 
+#include <map>
 #include <string>
 
 namespace elastogear::io {
@@ -11,5 +12,8 @@ std::string describe(const std::string& path);
 
 /// Root attribute `format` of an HDF5 file of the program, "elastogear result"; Error for other files.
 std::string file_format(const std::string& path);
+
+/// What a body, a result or what was made of one comes from: options, versions of the program.
+std::map<std::string, std::string> read_provenance(const std::string& path);
 
 }  // namespace elastogear::io

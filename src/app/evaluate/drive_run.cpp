@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "app/drive_input.h"
 #include "app/evaluate/flank_material.h"
 #include "app/finite_elements.h"
-#include "app/gear/drive_options.h"
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"
 #include "app/options/rows.h"
@@ -68,20 +68,12 @@ std::vector<int> steps_of(const Source& source, const EvaluateSettings& settings
   return steps;
 }
 
-// Refuses a run whose side is not that of the drive file: the gears stand elsewhere at the roll angle 0 then,
-// and their transmission error would be that of the other flanks.
-void require_side(const Options& options, const Source& source) {
-  const std::string of_run = given_in(source.header, "side"), here = options.text("side");
-  require(of_run.empty() || of_run == here, source.path, ": is a run with side: ", of_run,
-          ", the drive file has side: ", here, "; give evaluate the option -side ", of_run);
-}
-
 Source open_source(const DriveOfRun& of, const std::string& path) {
   Source source{path, io::read_result_header(path), Kind::positions, io::read_times(path), {}};
   require(source.time.size() > 0, path, ": holds no times");
   source.kind = kind_of(path, source.header);
   source.steps = steps_of(source, of.settings);
-  require_side(of.options, source);
+  require_input(of.options, path);
   return source;
 }
 
@@ -180,7 +172,7 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
   pair.first_teeth = of.drive.members.front().toothing.z;
   pair.sense = of.options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
   pair.turning = source.kind == Kind::positions ? 1 : pair.sense;
-  pair.speed = std::abs(of.options.number("speed"));
+  pair.speed = std::abs(number_of(source.header, "speed"));
   const io::PairHistory history = io::read_pair_history(source.path, of_pair.name);
   const auto contacts = io::read_contacts(source.path, of_pair.name);
   pair.slave_side = slave_side(contacts);

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <set>
 
+#include "app/drive_input.h"
 #include "app/finite_elements.h"
-#include "app/gear/drive_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/text.h"
@@ -41,14 +41,7 @@ double torque_of(const std::string& file, const Provenance& provenance) {
 }
 
 SweptTorque of_file(const std::string& file, const double* torque) {
-  SweptTorque at{file, 0, is_stress_file(file)};
-  if (torque)
-    at.torque = *torque;
-  else if (at.recovered)
-    at.torque = torque_of(file, io::read_stress(file).provenance);
-  else
-    at.torque = torque_of(file, io::read_result_header(file).provenance);
-  return at;
+  return {file, torque ? *torque : torque_of(file, io::read_provenance(file)), is_stress_file(file)};
 }
 
 // Commas between quotes belong to a field.
@@ -117,9 +110,7 @@ io::StressFile recovered(const LifeSettings& settings, const std::string& result
   return file;
 }
 
-}  // namespace
-
-std::vector<SweptTorque> swept_torques(const Options& options, const LifeSettings& settings) {
+std::vector<SweptTorque> named_torques(const Options& options, const LifeSettings& settings) {
   std::vector<SweptTorque> all;
   for (std::size_t i = 0; i < settings.files.size(); ++i)
     all.push_back(of_file(settings.files[i], settings.torques.empty() ? nullptr : &settings.torques[i]));
@@ -130,6 +121,14 @@ std::vector<SweptTorque> swept_torques(const Options& options, const LifeSetting
           ": sweep the drive first, elastogear simulate ", options.files().empty() ? "" : options.files()[0],
           " with analysis: sweep, or name result or stress files by -files");
   return {of_file(stem + ".h5", nullptr)};
+}
+
+}  // namespace
+
+std::vector<SweptTorque> swept_torques(const Options& options, const LifeSettings& settings) {
+  std::vector<SweptTorque> all = named_torques(options, settings);
+  for (const SweptTorque& at : all) require_input(options, at.file);
+  return all;
 }
 
 std::vector<SweptStress> read_stresses(const LifeSettings& settings, const SweptTorque& at) {

@@ -104,11 +104,12 @@ Options Options::of_files(std::string verb, const OptionTable& own, const std::v
   return options;
 }
 
-void Options::insert(const std::string& text, const std::string& name, bool is_file) {
+void Options::insert(const std::string& text, const std::string& name, Source source) {
   for (const YamlEntry& entry : parse_yaml(text, name)) {
     check(PetscOptionsSetValue(nullptr, ("-" + entry.name).c_str(), entry.value.c_str()));
     place_.erase(entry.name);
-    if (is_file) place_[entry.name] = name + ", line " + std::to_string(entry.line);
+    if (source == Source::file) place_[entry.name] = name + ", line " + std::to_string(entry.line);
+    if (source != Source::chosen) written_[entry.name] = entry.value;
   }
 }
 
@@ -120,6 +121,7 @@ void Options::promote_own_section() {
       check(PetscOptionsSetValue(nullptr, ("-" + own).c_str(), value.c_str()));
       check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
       if (place_.contains(name)) place_[own] = place_[name];
+      if (written_.contains(name)) written_[own] = written_[name];
     }
 }
 
@@ -134,12 +136,27 @@ void Options::note_options_files(int argc, char** argv) {
     }
 }
 
+std::string Options::in_own_unit(const std::string& name, const std::string& value) const {
+  const std::string unit = unit_of(name);
+  return unit.empty() ? value : in_unit(label(name), value, unit);
+}
+
+std::string Options::unit_of(const std::string& name) const {
+  const OptionSpec* known = find_spec(own_, name);
+  if (!known) known = find_spec(known_, name);
+  return known ? known->unit : "";
+}
+
 void Options::convert_units() {
-  for (auto& [name, value] : given_) {
-    const OptionSpec* known = find_spec(own_, name);
-    if (!known) known = find_spec(known_, name);
-    if (!known) continue;
-    value = in_unit(label(name), value, known->unit);
+  for (auto& [name, value] : given_) value = in_own_unit(name, value);
+}
+
+// The command line and what a program chooses win over files, which say something else.
+void Options::note_overrides() {
+  for (const auto& [name, value] : given_) {
+    const auto written = written_.find(name);
+    const std::string in_files = written == written_.end() ? "" : in_own_unit(name, written->second);
+    if (written == written_.end() || in_files != value) in_files_[name] = in_files;
   }
 }
 
@@ -147,11 +164,11 @@ void Options::load(const OptionSources& sources) {
   int argc = sources.argc;
   char** argv = sources.argv;
   for (const std::string& file : sources.files) {
-    insert(text_on_all_ranks(file), file, true);
+    insert(text_on_all_ranks(file), file, Source::file);
     files_.push_back(file);
   }
   for (const OptionText& text : sources.texts) {
-    insert(text.yaml, text.name, false);
+    insert(text.yaml, text.name, Source::text);
     files_.push_back(text.name);
   }
   promote_own_section();
@@ -162,11 +179,12 @@ void Options::load(const OptionSources& sources) {
     const auto now = given_.find(place.first), then = given_in_files_.find(place.first);
     return now == given_.end() || then == given_in_files_.end() || now->second != then->second;
   });
-  for (const OptionText& text : sources.chosen) insert(text.yaml, text.name, false);
+  for (const OptionText& text : sources.chosen) insert(text.yaml, text.name, Source::chosen);
   given_ = options_in_database();
   note_options_files(argc, argv);
   const std::map<std::string, std::string> as_written = given_;
   convert_units();
+  note_overrides();
   for (auto& [name, value] : given_) {
     if (value != as_written.at(name))  // PETSc reads some of them itself
       check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value.c_str()));
@@ -288,25 +306,63 @@ Options Options::of_section(const std::string& section, const std::vector<std::s
     if (!name.starts_with(section + "_")) continue;
     const std::string own = name.substr(section.size() + 1);
     if (!has(own_, own) || std::find(excluded.begin(), excluded.end(), own) != excluded.end()) continue;
-    options.given_[own] = value;
-    options.place_.erase(own);
-    if (const auto place = place_.find(name); place != place_.end()) options.place_[own] = place->second;
+    options.take(own, *this, name, value);
+  }
+  return options;
+}
+
+// The value of another option, with where it comes from.
+void Options::take(const std::string& own, const Options& from, const std::string& name,
+                   const std::string& value) {
+  given_[own] = value;
+  place_.erase(own);
+  in_files_.erase(own);
+  by_default_.erase(own);
+  if (const auto place = from.place_.find(name); place != from.place_.end()) place_[own] = place->second;
+  if (const auto other = from.in_files_.find(name); other != from.in_files_.end())
+    in_files_[own] = other->second;
+}
+
+// What the command line gives without the section wins over the files' section.
+Options Options::of_verb(const std::string& verb, const OptionTable& own) const {
+  Options options = *this;
+  options.verb_ = verb;
+  options.own_ = own;
+  for (const auto& [name, value] : given_) {
+    if (!name.starts_with(verb + "_")) continue;
+    const std::string bare = name.substr(verb.size() + 1);
+    if (has(own, bare) && !overrides_files(bare))
+      options.take(bare, *this, name, options.in_own_unit(bare, value));
   }
   return options;
 }
 
 void Options::set(const std::string& name, const std::string& value) {
+  in_files_.try_emplace(name, given(name) ? given_[name] : "");
+  by_default_.erase(name);
   given_[name] = value;
   place_.erase(name);
 }
 
 void Options::set_default(const std::string& name, const std::string& value) {
-  given_.try_emplace(name, value);
+  if (!given_.try_emplace(name, value).second) return;
+  in_files_[name].clear();
+  by_default_.insert(name);
 }
 
 void Options::append(const std::string& name, const std::string& word) {
+  in_files_.try_emplace(name, given(name) ? given_[name] : "");
   std::string& words = given_[name];
   words += (words.empty() ? "" : ",") + word;
+}
+
+bool Options::overrides_files(const std::string& name) const {
+  return in_files_.contains(name) && !by_default_.contains(name);
+}
+
+std::string Options::default_of(const std::string& name) const {
+  const OptionSpec* found = find_spec(own_, name);
+  return found ? found->default_value : "";
 }
 
 int Options::choice(const std::string& name, const std::vector<std::string>& allowed) const {
@@ -329,6 +385,7 @@ std::map<std::string, std::string> Options::provenance() const {
     if (s.name.find('<') == std::string::npos && !s.default_value.empty())
       all["option_" + s.name] = s.default_value;
   for (const auto& [name, value] : given_) all["option_" + name] = value;
+  for (const auto& [name, value] : in_files_) all["in_files_" + name] = value;
   char petsc[256], slepc[256];
   check(PetscGetVersion(petsc, sizeof petsc));
   check(SlepcGetVersion(slepc, sizeof slepc));

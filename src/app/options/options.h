@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,8 @@ class Options {
   /// The same with the keys of a section, "pinion_modes", in place of the verb's own ones, "modes", but for
   /// `excluded` ones.
   Options of_section(const std::string& section, const std::vector<std::string>& excluded) const;
+  /// The same options as another verb reads them: of files its own sections ("reduce_modes") are its own.
+  Options of_verb(const std::string& verb, const OptionTable& own) const;
   /// Takes this value, in the unit that the option has, whatever is given.
   void set(const std::string& name, const std::string& value);
   /// Takes this value where none is given.
@@ -75,8 +78,18 @@ class Options {
   /// Adds a word to the list that an option holds.
   void append(const std::string& name, const std::string& word);
 
-  /// Everything in force, defaults included, and the versions of the program and its libraries.
+  /// Everything in force, defaults included ("option_torque"), what files say of options that have another
+  /// value ("in_files_torque", empty where they say nothing), and the versions of the program and its
+  /// libraries.
   std::map<std::string, std::string> provenance() const;
+  /// Is the value another one than that of the files, by the command line or a case of a sweep?
+  bool overrides_files(const std::string& name) const;
+  /// The default of one of the verb's own options; empty: none.
+  std::string default_of(const std::string& name) const;
+  /// The unit of an option of any verb; empty: it has none.
+  std::string unit_of(const std::string& name) const;
+  /// Is it one of the verb's own options?
+  bool is_own(const std::string& name) const { return has(own_, name); }
   /// Is this key, `given` or not, one of another verb alone?
   bool is_of_other_verb(const std::string& name) const;
   const std::string& verb() const { return verb_; }
@@ -89,15 +102,22 @@ class Options {
 
  private:
   const OptionSpec& spec(const std::string& name) const;
-  void insert(const std::string& text, const std::string& name, bool is_file);
+  enum class Source { file, text, chosen };
+  void insert(const std::string& text, const std::string& name, Source source);
   void promote_own_section();
   void note_options_files(int argc, char** argv);
   void convert_units();
+  std::string in_own_unit(const std::string& name, const std::string& value) const;
+  void note_overrides();
+  void take(const std::string& own, const Options& from, const std::string& name, const std::string& value);
 
   std::string verb_;
   OptionTable own_, known_;
   std::map<std::string, std::string> given_, given_in_files_;
-  std::map<std::string, std::string> place_;  // of given_in_files_: "file.yaml, line 3"
+  std::map<std::string, std::string> place_;     // of given_in_files_: "file.yaml, line 3"
+  std::map<std::string, std::string> written_;   // by files and texts
+  std::map<std::string, std::string> in_files_;  // of options whose value is another one; empty: none
+  std::set<std::string> by_default_;             // of in_files_, those that set_default() has set
   std::vector<std::string> files_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
-#include "app/gear/drive_options.h"
+#include "app/drive_input.h"
 #include "app/resumable_run.h"
 #include "app/sweep/sweep_cases.h"
 #include "app/sweep/sweep_options.h"
@@ -102,6 +102,7 @@ SweepJob make_job(const Options& given) {
   print_drive(drive);
   const Options all = with_system(first, drive);
   all.reject_unknown(simulate_names(all));
+  require_bodies(first, drive);
   require(!all.given("initial_file"), all.label("initial_file"), ": a sweep begins with the gears in touch");
   std::string output = all.text("output");
   if (cases.several) output = fs::path(output).replace_extension().string();

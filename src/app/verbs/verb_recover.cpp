@@ -6,14 +6,15 @@
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
+#include "app/drive_input.h"
 #include "app/finite_elements.h"
-#include "app/gear/drive_options.h"
 #include "app/tables/recover_options.h"
 #include "app/verbs/recover_boxes.h"
 #include "app/verbs/recover_tables.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/log_stage.h"
+#include "elastogear/io/describe.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/recovery/contact_field.h"
@@ -78,10 +79,22 @@ std::string table_path(const RecoverSettings& settings, const std::string& body,
   return stem(settings.output) + "_" + body + "_" + set + ".csv";
 }
 
+// That of the run, with what recover itself has been told: a stress file is of the torque that the run had.
+std::map<std::string, std::string> provenance_of_stresses(const Options& options, const std::string& result) {
+  std::map<std::string, std::string> all = io::read_provenance(result);
+  const OptionTable own = recover_table();
+  for (const auto& [key, value] : options.provenance()) {
+    const bool of_option = key.starts_with("option_") || key.starts_with("in_files_");
+    const std::size_t prefix = key.starts_with("option_") ? 7 : 9;
+    if (!of_option || has(own, key.substr(prefix))) all[key] = value;
+  }
+  return all;
+}
+
 void write_stresses(const Options& options, const RecoverSettings& settings, Run& run,
                     const Progress& progress) {
   const LogStage stage("stresses");
-  io::StressFile file{run.time, {}, options.provenance()};
+  io::StressFile file{run.time, {}, provenance_of_stresses(options, settings.result)};
   std::vector<const RecoveredBody*> owner;
   double done = 0;
   for (const auto& [name, sets] : settings.stress) {
@@ -194,7 +207,10 @@ void protect_inputs(const Options& options, const RecoverSettings& settings, con
 
 Options of_run(const Options& given) {
   const Options options = with_gears(given);
-  return is_drive(options) ? with_recovery(options, read_drive(options)) : options;
+  if (!is_drive(options)) return options;
+  const Options all = with_recovery(options, read_drive(options));
+  require_input(options, all.text("result"));
+  return all;
 }
 
 OptionTable all_recover_options() {

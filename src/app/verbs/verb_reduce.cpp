@@ -17,6 +17,7 @@
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
+#include "app/resumable_run.h"
 #include "app/tables/material_options.h"
 #include "app/tables/reduce_options.h"
 #include "app/verbs/named_sets.h"
@@ -221,6 +222,7 @@ void reduce_body(const Options& options, const NodeSource& read) {
     outputs.push_back({with_word("<gear>_file", body), {}});
   protect_inputs(options, outputs);
   ReductionOptions reduction = reduction_options(options);
+  add_inputs(options, {}, reduction.provenance);
   reduction.announce = print_cost;
   const OutputLock lock(output);
   const Nodes nodes = [&] {

@@ -10,7 +10,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
-#include "app/gear/drive_options.h"
+#include "app/drive_input.h"
 #include "app/options/rows.h"
 #include "app/resumable_run.h"
 #include "app/sweep/sweep_cases.h"
@@ -251,6 +251,7 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   const Options options = of_system(given);
   require(!options.list("bodies").empty(), "option -bodies is missing: names of the bodies");
   options.reject_unknown(simulate_names(options));
+  if (is_drive(options)) require_bodies(options, read_drive(options));
   const std::string output = options.text("output");
   protect_inputs(options, {{"output", {output}}, {"sensor_csv", sensor_tables(options)}});
   const OutputLock lock(output);
@@ -313,6 +314,7 @@ PreparedSimulation prepare_simulation(const Options& given, const MakeLaws& make
   if (is_drive(motion)) motion.set_default("analysis", "dynamic");
   const Options options = of_system(motion);
   options.reject_unknown(simulate_names(options));
+  if (is_drive(options)) require_bodies(options, read_drive(options));
   const Analysis kind = analysis(options);
   require(kind == Analysis::dynamic || kind == Analysis::relax, options.label("analysis"), " = '",
           options.text("analysis"), "': has no time steps; give analysis: dynamic or relax");
