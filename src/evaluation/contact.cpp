@@ -5,21 +5,13 @@
 #include <map>
 
 #include "elastogear/base/error.h"
+#include "elastogear/model/face_point.h"
 
 namespace elastogear::evaluation {
 namespace {
 
 constexpr double kSameLayer = 1e-4;  // of the range of z
 constexpr std::size_t kMostLayers = 200;
-
-// The surface's faces are interpolated as those of contact, docs/theory.md, Eq. (6.1).
-Eigen::Vector3d point_on_face(const model::Surface& surface, int face, double u, double v) {
-  const Eigen::Vector4i node = surface.face.col(face);
-  const auto X = [&](int i) -> Eigen::Vector3d { return surface.X.col(node[i]); };
-  if (node[3] == node[2]) return (1 - u - v) * X(0) + u * X(1) + v * X(2);
-  return 0.25 * ((1 - u) * (1 - v) * X(0) + (1 + u) * (1 - v) * X(1) + (1 + u) * (1 + v) * X(2) +
-                 (1 - u) * (1 + v) * X(3));
-}
 
 void require_on_surface(const model::ContactRecord& record, const std::array<Flanks, 2>& flanks) {
   const int slave = record.slave_side;
@@ -70,7 +62,7 @@ std::vector<FlankContact> flank_contacts(const std::vector<model::ContactRecord>
     if (!flank[0] || !flank[1]) continue;
     FlankContact c{.flank = {*flank[0], *flank[1]}, .x_B = {}, .x_W = {}, .n = {}, .f = {}};
     const auto& R = gear[master]->rotation[step];
-    c.x_B[master] = point_on_face(*flanks[master].surface, record.face, record.xi, record.eta);
+    c.x_B[master] = model::point_on_face(*flanks[master].surface, record.face, record.xi, record.eta);
     c.x_W = gear[master]->position[step] + R * c.x_B[master];
     c.x_B[slave] = gear[slave]->rotation[step].transpose() * (c.x_W - gear[slave]->position[step]);
     c.n = (master == 0 ? 1 : -1) *

@@ -78,6 +78,25 @@ TEST(FlankContacts, have_the_teeth_of_their_groups_and_the_place_on_the_masters_
             std::string::npos);
 }
 
+// A triangle has the coordinates of the quadrilateral whose last two corners meet: these are half way along
+// its first side, and its third corner.
+TEST(FlankContacts, are_at_the_place_on_a_triangle) {
+  const test::RollingPair pair = test::spur_pair();
+  TwoFaces faces(0.01);
+  faces.surface[0].face = Eigen::Vector4i(0, 1, 2, 2);
+  const std::array<Flanks, 2> of{flanks(pair.gear[0].toothing, faces.surface[0]),
+                                 flanks(pair.gear[1].toothing, faces.surface[1])};
+  model::ContactRecord record;
+  record.slave_side = 1;
+  for (const auto& [xi, eta, expected] : {std::tuple(0.0, -1.0, Eigen::Vector3d(0.025, 0, -0.01)),
+                                          std::tuple(0.5, 1.0, Eigen::Vector3d(0.026, 0, 0.01))}) {
+    record.xi = xi, record.eta = eta;
+    const auto all = flank_contacts({record}, pair.both(), of, 2);
+    ASSERT_EQ(all.size(), 1);
+    EXPECT_LT((all[0].x_B[0] - expected).norm(), 1e-15);
+  }
+}
+
 TEST(ContactPattern, holds_the_largest_pressure_of_all_teeth_at_each_place) {
   const test::RollingPair pair = test::spur_pair();
   const Gear& gear = pair.gear[0];

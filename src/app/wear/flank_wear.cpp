@@ -7,9 +7,9 @@
 #include <set>
 
 #include "elastogear/base/error.h"
-#include "elastogear/contact/face.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/life/revolution.h"
+#include "elastogear/model/face_point.h"
 
 namespace elastogear::app {
 namespace {
@@ -30,16 +30,6 @@ std::optional<gear::Flank> flank_of_face(const model::Surface& surface, int face
   return gear::flank_of(surface.group_name[static_cast<std::size_t>(surface.group[face])]);
 }
 
-// Point of a master face in its body frame, m.
-Eigen::Vector3d point_on_face(const model::Surface& surface, const model::ContactRecord& contact) {
-  const auto nodes = surface.face.col(contact.face);
-  const int sides = nodes[2] == nodes[3] ? 3 : 4;
-  const contact::Shape shape = contact::shape(sides, contact.xi, contact.eta);
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  for (int i = 0; i < sides; ++i) x += shape.N[i] * surface.X.col(nodes[i]);
-  return x;
-}
-
 // Moves a point near the flank onto it: faces lie off the flank.
 Eigen::Vector3d on_flank(const gear::Toothing& t, const gear::Flank& flank, const Eigen::Vector3d& x) {
   return x - gear::flank_distance(t, flank.tooth, flank.side, x) * gear::flank_normal(t, flank, x);
@@ -55,7 +45,8 @@ struct Touch {
 Touch touch_of_point(const Placed* const at[2], const gear::Flank (&flank)[2],
                      const model::ContactRecord& contact) {
   Touch touch;
-  Eigen::Vector3d x_W = at[1]->r + at[1]->R * point_on_face(at[1]->gear->surface, contact);
+  Eigen::Vector3d x_W =
+      at[1]->r + at[1]->R * model::point_on_face(at[1]->gear->surface, contact.face, contact.xi, contact.eta);
   for (int i : {1, 0}) {
     const gear::Toothing& t = at[i]->gear->member->toothing;
     const Eigen::Vector3d x = on_flank(t, flank[i], at[i]->R.transpose() * (x_W - at[i]->r));

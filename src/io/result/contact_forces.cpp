@@ -2,15 +2,10 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/io/result_file.h"
+#include "elastogear/model/face_point.h"
 
 namespace elastogear::io {
 namespace {
-
-// Eq. (6.1) at a point of a face; a triangle repeats its third node.
-Eigen::Vector4d face_shares(double xi, double eta) {
-  return 0.25 * Eigen::Vector4d((1 - xi) * (1 - eta), (1 + xi) * (1 - eta), (1 + xi) * (1 + eta),
-                                (1 - xi) * (1 + eta));
-}
 
 // Calls add(node, f) for the forces of one contact, N, on the nodes of a body, in the world frame. face: of
 // the body's surface, if the contact's master is the body.
@@ -18,7 +13,7 @@ template <class Add>
 void visit_forces(const model::ContactRecord& contact, int side, const Eigen::Matrix4Xi& face,
                   const Add& add) {
   if (contact.slave_side == side) return add(contact.slave_node, contact.f);
-  const Eigen::Vector4d N = face_shares(contact.xi, contact.eta);
+  const Eigen::Vector4d N = model::face_shares(contact.xi, contact.eta);
   for (int i = 0; i < 4; ++i) add(face(i, contact.face), Eigen::Vector3d(-N[i] * contact.f));
 }
 
