@@ -2,6 +2,7 @@
 
 #include "elastogear/contact/topology.h"
 #include "elastogear/io/result_file.h"
+#include "elastogear/model/corner_shares.h"
 
 namespace elastogear::recovery {
 namespace {
@@ -23,6 +24,20 @@ SlaveFields slave_fields(const BodyContact& contact, Eigen::Index step, Eigen::I
   return fields;
 }
 
+// Forces of the surface's nodes over their shares of the area, Pa: those of corners, and between two corners
+// their mean.
+Eigen::Matrix3Xd tractions(const model::Surface& surface, const Eigen::Matrix3Xd& force) {
+  const std::vector<model::CornersOfNode> corners = model::corners_of_nodes(surface);
+  const Eigen::VectorXd of_nodes = contact::node_areas(surface.X, surface.face);
+  const Eigen::MatrixXd area = model::sums_at_corners(corners, of_nodes.transpose()),
+                        sum = model::sums_at_corners(corners, force);
+  Eigen::Matrix3Xd traction = Eigen::Matrix3Xd::Zero(3, force.cols());
+  for (Eigen::Index i = 0; i < force.cols(); ++i)
+    for (int corner : corners[static_cast<std::size_t>(i)])
+      if (area(0, corner) > 0) traction.col(i) += sum.col(corner) / area(0, corner) / 2;
+  return traction;
+}
+
 }  // namespace
 
 BodyContact read_body_contact(const std::string& result, const std::string& body,
@@ -41,12 +56,10 @@ std::vector<io::NodeField> contact_fields(const BodyContact& contact, Eigen::Ind
                                           Eigen::Index n_nodes) {
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3, n_nodes), traction = force,
                   pressure = Eigen::MatrixXd::Zero(1, n_nodes), speed = pressure;
-  const Eigen::VectorXd area = contact::node_areas(surface.X, surface.face);
-  for (std::size_t i = 0; i < contact.forces.node.size(); ++i) {
-    const int local = contact.forces.node[i], node = surface.node[local];
-    force.col(node) = R_WB * contact.forces.force.block<3, 1>(3 * static_cast<Eigen::Index>(i), step);
-    if (area[local] > 0) traction.col(node) = force.col(node) / area[local];
-  }
+  for (std::size_t i = 0; i < contact.forces.node.size(); ++i)
+    force.col(surface.node[contact.forces.node[i]]) =
+        R_WB * contact.forces.force.block<3, 1>(3 * static_cast<Eigen::Index>(i), step);
+  traction(Eigen::all, surface.node) = tractions(surface, force(Eigen::all, surface.node));
   const SlaveFields slave = slave_fields(contact, step, surface.X.cols());
   pressure(0, surface.node) = slave.pressure.transpose();
   speed(0, surface.node) = slave.speed.transpose();

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <vector>
+
+#include "elastogear/model/corner_shares.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -54,34 +57,52 @@ SlaveForces slave_forces(const std::vector<contact::ContactPoint>& points) {
   return forces;
 }
 
+// Normal forces of the slave nodes of one side, N, and the pressure that they are at each node, Pa: that of
+// the corners, and between two of them their mean.
+struct SideForces {
+  const std::map<int, double>* node;
+  const Eigen::VectorXd* area;  // m^2, of each node
+  std::vector<model::CornersOfNode> corners;
+  Eigen::RowVectorXd corner_pressure;
+
+  SideForces(const std::map<int, double>& force, const System::Body& body)
+      : node(&force), area(&body.node_area), corners(model::corners_of_nodes(body.eq.body->surface)) {
+    Eigen::MatrixXd of_nodes = Eigen::MatrixXd::Zero(2, area->size());  // forces and areas
+    for (const auto& [i, f] : force) of_nodes(0, i) = f;
+    of_nodes.row(1) = area->transpose();
+    const Eigen::MatrixXd sums = model::sums_at_corners(corners, of_nodes);
+    corner_pressure = (sums.row(1).array() > 0).select(sums.row(0).cwiseQuotient(sums.row(1)), 0.0);
+  }
+  double pressure(int i) const {
+    const auto [a, b] = corners[static_cast<std::size_t>(i)];
+    return (corner_pressure[a] + corner_pressure[b]) / 2;
+  }
+};
+
 // The share of its slave nodes' area that a contact has, m^2, and the pressure there, Pa.
 struct Pressed {
   double area = 0, pressure = 0;
 };
 
-Pressed pressed(const contact::ContactPoint& point, const std::map<int, double>& force,
-                const Eigen::VectorXd& node_area) {
-  if (point.area > 0) return {point.area, force.at(point.slave_node) / point.area};
+Pressed pressed(const contact::ContactPoint& point, const SideForces& force) {
+  if (point.area > 0) return {point.area, force.node->at(point.slave_node) / point.area};
   Pressed sum;
   for (int i = 0; i < point.n_slave(); ++i) {
-    const double N = point.slave_N[i], area = node_area[point.slave_nodes[i]];
+    const int node = point.slave_nodes[i];
+    const double N = point.slave_N[i], area = (*force.area)[node];
     if (N == 0 || !(area > 0)) continue;
-    const double all = force.at(point.slave_nodes[i]);
+    const double all = force.node->at(node);
     sum.area += all != 0 ? N * point.f.dot(point.n) / all * area : area;
-    sum.pressure += N * all / area;
+    sum.pressure += N * force.pressure(node);
   }
   return sum;
 }
 
 // The pressure that the nodes of the master bear as slaves, at the closest point.
-double pressure_of_master(const contact::ContactPoint& point, const std::map<int, double>& force,
-                          const Eigen::VectorXd& node_area) {
+double pressure_of_master(const contact::ContactPoint& point, const SideForces& force) {
   double pressure = 0;
-  for (Eigen::Index i = 0; i < point.N.size(); ++i) {
-    const auto at = force.find(point.master_nodes[i]);
-    if (at != force.end() && node_area[at->first] > 0)
-      pressure += point.N[i] * at->second / node_area[at->first];
-  }
+  for (Eigen::Index i = 0; i < point.N.size(); ++i)
+    pressure += point.N[i] * force.pressure(point.master_nodes[i]);
   return pressure;
 }
 
@@ -134,14 +155,14 @@ model::PairState pair_state(System& system, const State& x, std::size_t p) {
   const contact::SurfaceMotion motion[2] = {system.surface_motion(pair.body[0], x.time, x.U, x.V),
                                             system.surface_motion(pair.body[1], x.time, x.U, x.V)};
   const SlaveForces normal_force = slave_forces(pair.points);
+  const SideForces force[2] = {{normal_force[0], *body[0]}, {normal_force[1], *body[1]}};
   for (contact::ContactPoint point : pair.points) {
     const int slave = point.slave_side, master = 1 - slave;
     const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
     if (point.V_dot.cols() == 0) point.slip = slip(point, body, motion);
-    model::ContactFigures f = figures(point, pressed(point, normal_force[slave], body[slave]->node_area));
-    f.pressure += pressure_of_other_pass(system.pairs()[p].settings, f.pressure, [&] {
-      return pressure_of_master(point, normal_force[master], body[master]->node_area);
-    });
+    model::ContactFigures f = figures(point, pressed(point, force[slave]));
+    f.pressure += pressure_of_other_pass(system.pairs()[p].settings, f.pressure,
+                                         [&] { return pressure_of_master(point, force[master]); });
     f.torque = moment_on_b(point, contact.surface[pair.body[1]]);
     const int group[2] = {body[slave]->node_group[point.slave_node],
                           body[master]->eq.body->surface.group[point.face]};
