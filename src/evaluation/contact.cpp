@@ -5,6 +5,7 @@
 #include <map>
 
 #include "elastogear/base/error.h"
+#include "elastogear/model/corner_shares.h"
 #include "elastogear/model/face_point.h"
 
 namespace elastogear::evaluation {
@@ -35,9 +36,10 @@ Flanks flanks(const gear::Toothing& toothing, const model::Surface& surface) {
 }
 
 Eigen::VectorXd node_layers(const Flanks& flanks) {
+  const std::vector<model::CornersOfNode> corners = model::corners_of_nodes(*flanks.surface);
   std::vector<double> z;
   for (std::size_t node = 0; node < flanks.of_node.size(); ++node)
-    if (flanks.of_group[flanks.of_node[node]])
+    if (flanks.of_group[flanks.of_node[node]] && corners[node][0] == corners[node][1])
       z.push_back(flanks.surface->X(2, static_cast<Eigen::Index>(node)));
   if (z.empty()) return {};
   std::sort(z.begin(), z.end());
@@ -73,6 +75,13 @@ std::vector<FlankContact> flank_contacts(const std::vector<model::ContactRecord>
     contacts.push_back(c);
   }
   return contacts;
+}
+
+int slave_side(const std::vector<std::vector<model::ContactRecord>>& records) {
+  std::size_t of_second = 0, all = 0;
+  for (const auto& step : records)
+    for (const auto& record : step) of_second += record.slave_side == 1, ++all;
+  return 2 * of_second > all ? 1 : 0;
 }
 
 ToothPairs tooth_pairs(const ContactHistory& contacts) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "elastogear/evaluation/face_stations.h"
 #include "evaluation/load/hertz.h"
 #include "evaluation/load/line_load.h"
 #include "evaluation/load/pattern.h"
@@ -70,8 +71,9 @@ void add_place(const Gear& gear, const FlankContact& c, int g, const std::string
 
 void add_patterns(const PairOfRun& pair, int g, Items& items) {
   const Gear& gear = pair.gear[static_cast<std::size_t>(g)];
+  const Eigen::VectorXd over_face = stations(both(pair), pair.slave_side, g);
   for (int side : {1, -1}) {
-    const auto pattern = contact_pattern(pair.contacts, gear, g, side, half_way(pair, gear));
+    const auto pattern = contact_pattern(pair.contacts, gear, g, side, half_way(pair, gear), over_face);
     if (!pattern) continue;
     const std::string path = "pattern/" + gear.name + "_" + side_name(side);
     Eigen::VectorXd radius = pattern->profile;
@@ -140,7 +142,7 @@ void add_teeth(const PairOfRun& pair, Items& items) {
 }
 
 void add_line_load(const PairOfRun& pair, Items& items) {
-  const LineLoad load = line_load(pair.contacts, stations(both(pair), pair.slave_side));
+  const LineLoad load = line_load(pair.contacts, stations(both(pair), pair.slave_side, 1));
   const double factor = face_load_factor(load);
   if (!std::isfinite(factor)) return;
   items.curve("line_load/z", "m", "stations along the second gear's axis, its body frame", load.z);

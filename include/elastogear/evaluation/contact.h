@@ -33,7 +33,9 @@ struct Flanks {
 };
 Flanks flanks(const gear::Toothing& toothing, const model::Surface& surface);
 
-/// z of the layers of nodes on the flanks, m, ascending; empty where they do not lie in few planes.
+/// z of the layers of nodes on the flanks at corners of cells, m, ascending; empty where they do not lie in
+/// few planes. Nodes between corners are none: what a side of the second order bears is shared unevenly among
+/// its nodes.
 Eigen::VectorXd node_layers(const Flanks& flanks);
 
 /// The contacts of one time. Points are those of the undeformed master's face; on the slave the point of the
@@ -42,6 +44,10 @@ Eigen::VectorXd node_layers(const Flanks& flanks);
 std::vector<FlankContact> flank_contacts(const std::vector<model::ContactRecord>& records,
                                          const std::array<const Gear*, 2>& gear,
                                          const std::array<Flanks, 2>& flanks, std::size_t step);
+
+/// Which gear's nodes come into contact, 0 or 1: those of most records. Ends of the other one's face are
+/// slaves, too.
+int slave_side(const std::vector<std::vector<model::ContactRecord>>& records);
 
 using ContactHistory = std::vector<std::vector<FlankContact>>;  ///< by time
 

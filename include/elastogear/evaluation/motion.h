@@ -21,7 +21,7 @@ struct Gear {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< body to world at the angle 0
   std::vector<Eigen::Vector3d> position;            ///< n_t, m, of the body frame in the world
   std::vector<Eigen::Matrix3d> rotation;            ///< n_t, body to world
-  Eigen::VectorXd layers;                           ///< m, z of the layers of nodes on its flanks, ascending
+  Eigen::VectorXd layers;  ///< m, z of the layers of corners of cells on its flanks, ascending
 
   Eigen::Vector3d axis(std::size_t step) const { return rotation[step].col(2); }
 };

@@ -149,13 +149,6 @@ void require_roll_angles(const PairOfRun& pair, const std::string& path) {
   }
 }
 
-int slave_side(const std::vector<std::vector<model::ContactRecord>>& contacts) {
-  std::size_t of_second = 0, all = 0;
-  for (const auto& step : contacts)
-    for (const auto& record : step) of_second += record.slave_side == 1, ++all;
-  return 2 * of_second > all ? 1 : 0;
-}
-
 PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
                     const model::ResultHeader::Pair& of_pair) {
   PairOfRun pair;
@@ -175,7 +168,7 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
   pair.speed = std::abs(number_of(source.header, "speed"));
   const io::PairHistory history = io::read_pair_history(source.path, of_pair.name);
   const auto contacts = io::read_contacts(source.path, of_pair.name);
-  pair.slave_side = slave_side(contacts);
+  pair.slave_side = evaluation::slave_side(contacts);
   pair.friction = number_of(source.header, "contact_friction") != 0;
   const auto n = static_cast<Eigen::Index>(source.steps.size());
   pair.force.resize(3, n), pair.torque.resize(3, n);

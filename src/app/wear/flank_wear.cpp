@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "elastogear/base/error.h"
+#include "elastogear/evaluation/contact.h"
+#include "elastogear/evaluation/face_stations.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/life/revolution.h"
 #include "elastogear/model/face_point.h"
@@ -15,8 +16,6 @@ namespace elastogear::app {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double kSamePlane = 1e-6;  // m, of nodes across the face
 
 // The two gears of a pair at one position.
 struct Placed {
@@ -89,18 +88,35 @@ void move_onto_line(const Placed* const at[2], const gear::Flank (&flank)[2], co
   touch = moved;
 }
 
-// The track of a contact over one step: along the profile as far as it rolls on, across the face by the layer
-// of the mesh that its force stands for.
-life::ContactTrack track(const Placed& at, const Touch& touch, int i, double layer, double step) {
-  const double b = at.gear->member->width / 2, du = at.gear->member->toothing.r_b * at.w.norm() * step / 2;
-  const double z = std::clamp((at.R.transpose() * (touch.x_W[i] - at.r))[2], -b, b);
-  return {{touch.u[i] - du, touch.u[i] + du}, {std::max(-b, z - layer / 2), std::min(b, z + layer / 2)}};
+// The track over one step of what a contact leaves in one part of the face: along the profile as far as it
+// rolls on, from its place moved along the line of contact to the middle of that part.
+life::ContactTrack track(const Placed& at, int side, double u, double z, const double* part, double step) {
+  const gear::Toothing& t = at.gear->member->toothing;
+  const double du = t.r_b * at.w.norm() * step / 2,
+               moved = u + side * t.r_b / t.p * ((part[0] + part[1]) / 2 - z);
+  return {{moved - du, moved + du}, {part[0], part[1]}};
 }
 
-// step: pitches from one position to the next. weight: of what is worn there.
-void add_contact(const model::ContactRecord& contact, const Placed (&of_pair)[2], double step, double weight,
+// Shares the volume of a contact out to the stations of one gear's face, and lays it on the parts that these
+// stand for.
+void lay_over_face(const Placed& at, const gear::Flank& flank, double u, const Eigen::Vector3d& x_W,
+                   const Eigen::VectorXd& stations, double step, double volume, Eigen::MatrixXd& sum) {
+  const double z = (at.R.transpose() * (x_W - at.r))[2];
+  const Eigen::VectorXd ends = evaluation::ends_of_parts(stations);
+  const auto [station, share] = evaluation::share_out(stations, z);
+  for (std::size_t k : {0, 1})
+    if (share[k] > 0)
+      life::lay_volume(at.gear->cells, track(at, flank.side, u, z, &ends[station[k]], step),
+                       share[k] * volume, sum);
+}
+
+// stations: over the face of each gear of the pair, m. step: pitches from one position to the next. weight:
+// of what is worn there.
+void add_contact(const model::ContactRecord& contact, const Placed (&of_pair)[2],
+                 const Eigen::VectorXd (&stations)[2], double step, double weight,
                  std::vector<PassedVolume>& volumes) {
-  const Placed* const at[2] = {&of_pair[contact.slave_side], &of_pair[1 - contact.slave_side]};
+  const int of[2] = {contact.slave_side, 1 - contact.slave_side};
+  const Placed* const at[2] = {&of_pair[of[0]], &of_pair[of[1]]};
   const auto slave = at[0]->gear->flank[static_cast<std::size_t>(contact.slave_node)],
              master = flank_of_face(at[1]->gear->surface, contact.face);
   if (!slave || !master) return;
@@ -112,8 +128,20 @@ void add_contact(const model::ContactRecord& contact, const Placed (&of_pair)[2]
   const double volume = contact.f.norm() * (v - n * n.dot(v)).norm() * step * weight;
   if (!(volume > 0)) return;
   for (int i = 0; i < 2; ++i)
-    life::lay_volume(at[i]->gear->cells, track(*at[i], touch, i, at[0]->gear->layer, step), volume,
-                     volumes[at[i]->member].of[flanks[i].side > 0 ? 0 : 1]);
+    lay_over_face(*at[i], flanks[i], touch.u[i], touch.x_W[i], stations[of[i]], step, volume,
+                  volumes[at[i]->member].of[flanks[i].side > 0 ? 0 : 1]);
+}
+
+// The gear as evaluations know it, where its face is.
+evaluation::Gear gear_of(const Placed& at) {
+  evaluation::Gear gear;
+  gear.toothing = at.gear->member->toothing;
+  gear.width = at.gear->member->width;
+  gear.ratio = at.gear->member->ratio;
+  gear.R = at.R;
+  gear.position = {at.r};
+  gear.layers = at.gear->layers;
+  return gear;
 }
 
 std::size_t number_of(const Drive& drive, const std::string& name) {
@@ -136,16 +164,13 @@ WearingGear wearing_gear(const DriveMember& member, const WearMaterial& material
   WearingGear gear{.member = &member, .material = material, .surface = std::move(surface)};
   const model::Surface& s = gear.surface;
   gear.flank.resize(s.node.size());
-  std::set<long> planes;
   for (int f = 0; f < s.face.cols(); ++f)
     if (const auto flank = flank_of_face(s, f))
-      for (int node : s.face.col(f)) {
-        gear.flank[static_cast<std::size_t>(node)] = flank;
-        planes.insert(std::lround(s.X(2, node) / kSamePlane));
-      }
-  require(planes.size() > 1, "wear of ", member.name, ": its body has no faces of flanks");
-  gear.layer = static_cast<double>(*planes.rbegin() - *planes.begin()) * kSamePlane /
-               static_cast<double>(planes.size() - 1);
+      for (int node : s.face.col(f)) gear.flank[static_cast<std::size_t>(node)] = flank;
+  require(
+      std::any_of(gear.flank.begin(), gear.flank.end(), [](const auto& flank) { return flank.has_value(); }),
+      "wear of ", member.name, ": its body has no faces of flanks");
+  gear.layers = evaluation::node_layers(evaluation::flanks(t, s));
   const double along[] = {gear::length_of_roll(t, t.r_form), gear::length_of_roll(t, t.r_a)};
   const double slant = 1 / std::cos(t.beta_b);
   gear.cells = life::flank_cells({std::min(along[0], along[1]), std::max(along[0], along[1])},
@@ -170,16 +195,20 @@ std::vector<PassedVolume> passed_volume(const std::string& result, const Drive& 
     const auto colon = pair.name.find(':');
     const std::size_t of[2] = {number_of(drive, pair.name.substr(0, colon)),
                                number_of(drive, pair.name.substr(colon + 1))};
+    const auto placed = [&](int i, std::size_t t) -> Placed {
+      const auto column = static_cast<Eigen::Index>(t);
+      const Eigen::Matrix3d R = rotation_at(history[of[i]], column);
+      return {&gears[of[i]], of[i], history[of[i]].r_WB.col(column),
+              pitch * drive.members[of[i]].ratio * R.col(2), R};
+    };
+    const evaluation::Gear first = gear_of(placed(0, 0)), second = gear_of(placed(1, 0));
+    const int slave = evaluation::slave_side(contacts);
+    const Eigen::VectorXd stations[2] = {evaluation::stations({&first, &second}, slave, 0),
+                                         evaluation::stations({&first, &second}, slave, 1)};
     for (std::size_t t = 0; t < contacts.size(); ++t) {
-      Placed at[2];
-      for (int i = 0; i < 2; ++i) {
-        const auto column = static_cast<Eigen::Index>(t);
-        const Eigen::Matrix3d R = rotation_at(history[of[i]], column);
-        at[i] = {&gears[of[i]], of[i], history[of[i]].r_WB.col(column),
-                 pitch * drive.members[of[i]].ratio * R.col(2), R};
-      }
+      const Placed at[2] = {placed(0, t), placed(1, t)};
       for (const model::ContactRecord& contact : contacts[t])
-        add_contact(contact, at, step, 1.0 / sweep.pitches, volumes);
+        add_contact(contact, at, stations, step, 1.0 / sweep.pitches, volumes);
     }
   }
   return volumes;

@@ -19,7 +19,7 @@ struct WearingGear {
   WearMaterial material;
   model::Surface surface = {};                         ///< of its body file
   std::vector<std::optional<gear::Flank>> flank = {};  ///< of each node of the surface
-  double layer = 0;                                    ///< m, distance of the mesh's nodes across the face
+  Eigen::VectorXd layers = {};                         ///< m, z of the corners of cells across the face
   life::FlankCells cells = {};                         ///< u: length of roll, v: z
   Eigen::MatrixXd depth[2] = {};                       ///< cells, m, of left and right flanks
 };

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "elastogear/evaluation/face_stations.h"
 #include "elastogear/model/hertz.h"
 #include "evaluation/load/line_load.h"
 
@@ -104,7 +105,7 @@ Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const
 std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& gear,
                                             const ContactHistory& contacts, int slave_side, double E_star) {
   const bool parallel = transmission(*gear[0], *gear[1], 1).parallel;
-  const Eigen::VectorXd z = stations(gear, slave_side);
+  const Eigen::VectorXd z = stations(gear, slave_side, 1);
   HertzPressure found{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()))};
   int n_pairs = 0, n_left_out = 0;
   for (std::size_t step = 0; step < contacts.size(); ++step)

@@ -18,10 +18,6 @@ struct LineLoad {
 Eigen::VectorXd line_load(const Eigen::VectorXd& stations, const Eigen::VectorXd& z,
                           const Eigen::VectorXd& force);
 
-/// Stations for the line load of two gears: the layers of nodes of the gear whose nodes come into contact
-/// where axes are parallel, those of the second one else; 17 even ones where there are no layers.
-Eigen::VectorXd stations(const std::array<const Gear*, 2>& gear, int slave_side);
-
 LineLoad line_load(const ContactHistory& contacts, const Eigen::VectorXd& stations);
 
 /// Largest over mean line load, of the mean over all times: KHbeta, Eq. (10.8); NaN without load.

@@ -1,8 +1,10 @@
 #include "evaluation/load/pattern.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "elastogear/evaluation/face_stations.h"
 #include "elastogear/gear/modification.h"
 
 namespace elastogear::evaluation {
@@ -15,13 +17,11 @@ Eigen::VectorXd middles(double begin, double end, int n) {
   return Eigen::VectorXd::LinSpaced(n, begin + half, end - half);
 }
 
-// Half of the width that a contact at z stands for, m, below and above.
-std::pair<double, double> part_of_width(const Gear& gear, double z) {
-  if (gear.layers.size() < 2) return {gear.width / kFaceCells, gear.width / kFaceCells};
-  const auto after = std::upper_bound(gear.layers.begin(), gear.layers.end(), z) - gear.layers.begin();
-  const auto left = std::clamp<Eigen::Index>(after - 1, 0, gear.layers.size() - 2);
-  const double half = (gear.layers[left + 1] - gear.layers[left]) / 2;
-  return {half, half};
+// The part of the face that a contact at z stands for: half of the way to the next stations, within them.
+std::array<double, 2> part_of_face(const Eigen::VectorXd& stations, double z) {
+  const Eigen::Index left = share_out(stations, z).station[0];
+  const double half = (stations[left + 1] - stations[left]) / 2;
+  return {std::max(z - half, stations[0]), std::min(z + half, stations[stations.size() - 1])};
 }
 
 // First and last cell whose middles lie in a span; first > last: none does, then the nearest one is taken.
@@ -34,10 +34,11 @@ std::pair<Eigen::Index, Eigen::Index> cells(const Eigen::VectorXd& middle, doubl
   return {index(begin), index(end)};
 }
 
-void cover(ContactPattern& pattern, const Gear& gear, const FlankPlace& at, double reach, double pressure) {
-  const auto [below, above] = part_of_width(gear, at.z);
+void cover(ContactPattern& pattern, const Eigen::VectorXd& stations, const FlankPlace& at, double reach,
+           double pressure) {
+  const auto [begin, end] = part_of_face(stations, at.z);
   const auto [p_0, p_1] = cells(pattern.profile, at.profile - reach, at.profile + reach);
-  const auto [z_0, z_1] = cells(pattern.z, at.z - below, at.z + above);
+  const auto [z_0, z_1] = cells(pattern.z, begin, end);
   auto block = pattern.pressure.block(p_0, z_0, p_1 - p_0 + 1, z_1 - z_0 + 1);
   block = block.cwiseMax(pressure);
 }
@@ -52,7 +53,7 @@ FlankPlace flank_place(const gear::Toothing& toothing, const Eigen::Vector3d& x_
 }
 
 std::optional<ContactPattern> contact_pattern(const ContactHistory& contacts, const Gear& gear, int g,
-                                              int side, double reach) {
+                                              int side, double reach, const Eigen::VectorXd& stations) {
   const gear::Toothing& t = gear.toothing;
   const auto profile = [&](double r) { return flank_place(t, {r, 0, 0}).profile; };
   const auto [begin, end] = std::minmax({profile(t.r_form), profile(t.r_a)});
@@ -64,7 +65,7 @@ std::optional<ContactPattern> contact_pattern(const ContactHistory& contacts, co
     for (const FlankContact& c : step) {
       if (c.flank[g].side != side) continue;
       touched = true;
-      cover(pattern, gear, flank_place(t, c.x_B[g]), reach, c.pressure);
+      cover(pattern, stations, flank_place(t, c.x_B[g]), reach, c.pressure);
     }
   if (!touched) return {};
   return pattern;

@@ -26,9 +26,10 @@ struct ContactPattern {
 };
 
 /// Pattern of gear g (0 or 1) on the flanks of one side; nothing where none of these is touched. A contact
-/// covers half the way to the next position along the profile, `reach` (m), and its part of the width.
+/// covers half the way to the next position along the profile, `reach` (m), and to the next stations along
+/// this gear's face.
 std::optional<ContactPattern> contact_pattern(const ContactHistory& contacts, const Gear& gear, int g,
-                                              int side, double reach);
+                                              int side, double reach, const Eigen::VectorXd& stations);
 
 /// Largest pressure of a run and its place.
 struct PressurePeak {

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""Load over the face of aligned spur gears is nearly even, whatever the mesh and the widths: with hexahedra of 8 and of 20 nodes, a
+pinion wider than its wheel, an offset along the axis, and bearings, line load, KHbeta, Hertz's pressure, contact pattern and worn depth
+are those of equal widths.
+
+    face_load.py PATH/TO/elastogear
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+DRIVE = """
+drive: cylindrical
+module: 3 mm
+size: tiny
+pinion: {{teeth: 17, face_width: {width} mm}}
+wheel: {{teeth: 23, face_width: 20 mm}}
+torque: 80 N m
+modes: 4
+sweep_positions: 2
+element_order: {order}
+wear: {{coefficient: 1e-9 mm^3/(N m), increment: 1 mm, cells_across: 12}}
+{more}
+"""
+COMMON = 20e-3  # m
+CASES = {
+    "equal": {}, "wider by 0.5 mm": {"width": 20.5}, "wider by 2 mm": {"width": 22}, "equal, 20 nodes": {"order": 2},
+    "wider by 2 mm, 20 nodes": {"width": 22, "order": 2},
+    "offset": {"more": "wheel_axial_offset: 1 mm"},
+    "on bearings": {"more": "pinion_bearing_radial: 200 N/um\nwheel_bearing_radial: 200 N/um"},
+}
+
+
+wrong = []
+
+
+def near(what, value, expected, allowed):
+    line = f"{what}: {value:.6g}, expected {expected:.6g} within {allowed:.2g}"
+    print(line)
+    if not abs(value - expected) <= allowed:
+        wrong.append(line)
+
+
+def run(program, *arguments):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, f"{arguments}: {done.stdout[-800:]}{done.stderr}"
+
+
+def look(program, name, order=1, width=20, more=""):
+    """Largest pressure by H. Hertz, Pa."""
+    with open("drive.yaml", "w", encoding="utf-8") as file:
+        file.write(DRIVE.format(order=order, width=width, more=more))
+    run(program, "reduce", "drive.yaml")
+    run(program, "wear", "drive.yaml", "-revolutions", "100")
+    run(program, "evaluate", "drive.yaml", "-result", "drive_wear_sweep.h5")
+    common = COMMON - (1e-3 if "offset" in more else 0)
+    with h5py.File("drive_evaluation.h5") as file:
+        pair = next(iter(file["cases"].values()))["pinion:wheel"]
+        z, mean = pair["line_load/z"][:], pair["line_load/mean"][:]
+        force, hertz = pair["teeth/force"][:].sum(axis=1).mean(), pair["pressure/hertz_peak"][()]
+        factor, pattern, z_pattern = pair["line_load/KHbeta"][()], pair["pattern/wheel_left/pressure"][:], pair["pattern/wheel_left/z"][:]
+    near(f"{name}: width of the stations", z[-1] - z[0], common, 1e-7)
+    near(f"{name}: force", np.trapz(mean, z), force, 1e-6 * force)
+    near(f"{name}: KHbeta", factor, 1.07, 0.07)  # the wider gear supports the ends of the other one
+    near(f"{name}: least line load", mean.min() * common / force, 0.95, 0.05)
+    cell, largest = z_pattern[1] - z_pattern[0], pattern.max(axis=0)
+    within, beyond = (z_pattern > z[0]) & (z_pattern < z[-1]), (z_pattern < z[0] - cell) | (z_pattern > z[-1] + cell)
+    near(f"{name}: least over largest pressure of the pattern", largest[within].min() / largest.max(), 0.7, 0.3)  # ends and layers have other faces
+    near(f"{name}: pressure of the pattern beyond the common face", largest[beyond].max(initial=0), 0, 0)
+    # z: along the wheel; the pinion stands where its offset lets it.
+    for gear, span, shift in (("pinion", width * 1e-3, COMMON - common), ("wheel", COMMON, 0)):
+        with h5py.File("drive_wear.h5") as file:
+            depth = file[gear]["left"][:] + file[gear]["right"][:]
+        edges = np.linspace(-span / 2, span / 2, depth.shape[1] + 1) - shift
+        over_face = depth.sum(axis=0)[(edges[:-1] > z[0] - 1e-9) & (edges[1:] < z[-1] + 1e-9)]
+        near(f"{name}: largest worn depth of {gear} over the face", over_face.max() / over_face.mean(), 1.1, 0.1)
+        near(f"{name}: least worn depth of {gear} over the face", over_face.min() / over_face.mean(), 0.95, 0.05)
+    return hertz
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    hertz = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for number, (name, case) in enumerate(CASES.items()):
+            os.makedirs(os.path.join(folder, str(number)))
+            os.chdir(os.path.join(folder, str(number)))
+            hertz[name] = look(program, name, **case)
+        os.chdir("/")
+    for name, peak in hertz.items():
+        expected = hertz["equal"] * np.sqrt(COMMON / (COMMON - 1e-3) if name == "offset" else 1)
+        near(f"{name}: Hertz's pressure", peak, expected, 0.03 * expected)
+    assert not wrong, "\n".join(wrong)
+    print("load over the face is right")
+
+
+if __name__ == "__main__":
+    main()
