@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "elastogear/evaluation/contact.h"
 #include "evaluation/load/line_load.h"
 #include "rigid_drives.h"

@@ -1,6 +1,7 @@
 #include "elastogear/evaluation/face_stations.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "elastogear/base/error.h"
 
