@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import vtk_to_numpy
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 FIELDS = {"von_mises": 1, "rankine": 1, "error_of_von_mises": 1, "error_of_von_mises_by_mesh": 1, "contact_traction": 3}  # components
 
@@ -57,14 +57,19 @@ def read_grid(path):
 
 def skin(data):
     """Nodes (numbers of points, in the order of their first use) and triangles of a volume mesh's outer surface."""
+    # Their numbers go along as an array of our own: VTK 9.1 numbers the points of second-order cells anew in vtkOriginalPointIds.
+    numbered = vtk.vtkUnstructuredGrid()
+    numbered.ShallowCopy(data)
+    array = numpy_to_vtk(np.arange(data.GetNumberOfPoints()), deep=True, array_type=vtk.VTK_ID_TYPE)
+    array.SetName("number")
+    numbered.GetPointData().AddArray(array)
     outer = vtk.vtkDataSetSurfaceFilter()
-    outer.PassThroughPointIdsOn()
-    outer.SetInputData(data)
+    outer.SetInputData(numbered)
     triangles = vtk.vtkTriangleFilter()
     triangles.SetInputConnection(outer.GetOutputPort())
     triangles.Update()
     surface = triangles.GetOutput()
-    numbers = vtk_to_numpy(surface.GetPointData().GetArray("vtkOriginalPointIds"))
+    numbers = vtk_to_numpy(surface.GetPointData().GetArray("number"))
     cells = numbers[vtk_to_numpy(surface.GetPolys().GetData()).reshape(-1, 4)[:, 1:]]
     used, first, inverse = np.unique(cells.ravel(), return_index=True, return_inverse=True)
     order = np.argsort(first)
