@@ -15,6 +15,7 @@ namespace {
 constexpr double kStepsPerPeriod = 10;
 constexpr double kLargestGradient = 0.05;  // elastic rotation (rad) and strain: second-order terms reach 5 %
 constexpr double kLargestSpeed = 0.1;      // of the lowest mode: centrifugal softening of its stiffness, 1 %
+constexpr double kLargestLoss = 0.01;      // of a frequency: Coriolis forces that the inertia leaves out
 constexpr double kLargestShare = 0.05;     // of the contact forces, on nodes without a static response
 
 void raise(Vibration& to, const std::string& name, double frequency) {
@@ -32,6 +33,16 @@ double contact_frequency(const System& system, std::size_t p) {
         contact::node_stiffness(settings, body.surface).cwiseProduct(elastic_mobility(body)).maxCoeff());
   }
   return std::sqrt(rate) / (2 * std::numbers::pi);
+}
+
+// s: the speed of rotation times this bounds by how much of itself any frequency is off for the Coriolis
+// forces that the level leaves out, Eq. (8.18a).
+double lost_coriolis(const body::Equations& eq) {
+  const Eigen::VectorXd& frequency = eq.body->frequency;
+  if (frequency.size() == 0 || eq.level == body::InertiaLevel::full) return 0;
+  Eigen::ArrayXd lost = Eigen::ArrayXd::Ones(frequency.size());
+  if (eq.level == body::InertiaLevel::affine) lost -= eq.affine.Y.rowwise().squaredNorm().array();
+  return std::max(0., (lost / (2 * std::numbers::pi * frequency.array())).maxCoeff());
 }
 
 // Share of the contact forces that acts on nodes without a static response, of a body that has some; -.
@@ -77,6 +88,7 @@ ValidityGuard::ValidityGuard(const System& system, double dt)
     Watch watch{DeformationWatch(*body.eq.body)};
     const Eigen::VectorXd& frequency = body.eq.body->frequency;
     if (frequency.size() > 0) watch.lowest_mode = 2 * std::numbers::pi * frequency.minCoeff();
+    watch.lost_coriolis = lost_coriolis(body.eq);
     if (surface.X.cols() > 0) watch.radius = std::sqrt(surface.X.colwise().squaredNorm().maxCoeff());
     watch_.push_back(std::move(watch));
   }
@@ -109,6 +121,13 @@ void ValidityGuard::watch_body(std::size_t b, const model::Snapshot& snapshot, W
         sentence(who, snapshot.time, speed / watch.lowest_mode,
                  "turns too fast to leave out how rotation changes the stiffness; speed over that of the "
                  "lowest mode:"));
+  }
+  if (!watch.too_coarse && speed * watch.lost_coriolis > kLargestLoss) {
+    watch.too_coarse = true;
+    said.push_back(sentence(who, snapshot.time, speed * watch.lost_coriolis,
+                            "its inertia level leaves out Coriolis forces of the deformation, which "
+                            "split and shift frequencies; take -inertia full, of a body file made by "
+                            "reduce -invariants full; a frequency is off by at most this share of itself:"));
   }
   const double share = watch.beside_loaded ? 0 : share_without_response(*body.eq.body, state.contact);
   if (share > kLargestShare) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../body/random_body.h"
 #include "box_body.h"
 #include "dynamics/snapshot.h"
 
@@ -22,12 +23,12 @@ std::shared_ptr<const model::ElasticBody> block(model::Basis basis = model::Basi
   return std::make_shared<model::ElasticBody>(test::make_box(spec, basis));
 }
 
-System turning(double speed) {
+System turning(double speed, body::InertiaLevel level = body::InertiaLevel::affine) {
   return System({{.name = "block",
                   .body = block(),
                   .joint = {.type = body::JointType::revolute},
                   .rotation = {.s_dot_0 = speed}}},
-                {});
+                {}, {.inertia = level});
 }
 
 model::Snapshot start(System& system, double stretch) {
@@ -101,12 +102,99 @@ TEST(ValidityGuard, warns_where_the_edges_change_by_a_twentieth_whatever_the_ene
 }
 
 TEST(ValidityGuard, warns_once_of_a_fast_rotation) {
-  System system = turning(2 * std::numbers::pi * 0.2 * block()->frequency.minCoeff());
+  System system =
+      turning(2 * std::numbers::pi * 0.2 * block()->frequency.minCoeff(), body::InertiaLevel::full);
   ValidityGuard guard(system);
   const auto warnings = guard.warnings(start(system, 0));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("lowest mode: 0.2"), std::string::npos) << warnings[0];
   EXPECT_TRUE(guard.warnings(start(system, 0)).empty());
+}
+
+// A thin ring of radius 1 m and 1 kg in its plane, of point masses: two inextensional bending modes each of n
+// = 2, 3 and 4 waves, omega_n ~ n (n^2 - 1) / sqrt(n^2 + 1), the lowest 1 rad/s (A. E. H. Love, Theory of
+// Elasticity, section 293).
+constexpr int kWaves[] = {2, 3, 4};
+
+double ring_frequency(int n) { return n * (n * n - 1) / std::sqrt(n * n + 1) / (6 / std::sqrt(5)); }
+
+std::shared_ptr<const model::ElasticBody> ring() {
+  constexpr int kPoints = 24;
+  Eigen::Matrix3Xd X(3, kPoints);
+  Eigen::MatrixXd Phi(3 * kPoints, 6);
+  for (int p = 0; p < kPoints; ++p) {
+    const double angle = 2 * std::numbers::pi * p / kPoints;
+    const Eigen::Vector3d radial(std::cos(angle), std::sin(angle), 0),
+        tangential(-std::sin(angle), std::cos(angle), 0);
+    X.col(p) = radial;
+    for (int k = 0; k < 6; ++k) {
+      const int n = kWaves[k / 2];
+      const double phase = n * angle - (k % 2) * std::numbers::pi / 2;
+      Phi.block<3, 1>(3 * p, k) =
+          (std::cos(phase) * radial - std::sin(phase) / n * tangential) / std::sqrt(0.5 + 0.5 / (n * n));
+    }
+  }
+  auto body = std::make_shared<model::ElasticBody>();
+  test::set_inertia(Eigen::VectorXd::Constant(kPoints, 1. / kPoints), X, Phi, *body);
+  body->inertia.J(0, 0) += 1e-6;  // of the thickness
+  body->inertia.J(1, 1) += 1e-6;
+  Eigen::VectorXd omega(6);
+  for (int k = 0; k < 6; ++k) omega[k] = ring_frequency(kWaves[k / 2]);
+  body->frequency = omega / (2 * std::numbers::pi);
+  body->K_r = Eigen::MatrixXd(omega.cwiseAbs2().asDiagonal()).sparseView();
+  return body;
+}
+
+System spinning_ring(body::InertiaLevel level, double speed) {
+  return System({{.name = "ring",
+                  .body = ring(),
+                  .joint = {.type = body::JointType::revolute, .axis = {0, 0, 1}},
+                  .rotation = {.s_dot_0 = speed}}},
+                {}, {.inertia = level});
+}
+
+// b of (8.18a): Coriolis force on the second of a pair of modes from the velocity of the first, per 2 Omega.
+double coupling(body::InertiaLevel level, int n) {
+  const System system = spinning_ring(level, 1);
+  const body::Equations& eq = system.bodies()[0].eq;
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1), none = Eigen::VectorXd::Zero(6);
+  const Eigen::VectorXd q_dot = Eigen::VectorXd::Unit(6, 2 * (n - 2));
+  const auto force = [&](const Eigen::VectorXd& rates) {
+    return body::quadratic_force(eq, {0 * one, one, 0 * one, none, rates, none}).q[2 * (n - 2) + 1];
+  };
+  return std::abs(force(q_dot) - force(none)) / 2;
+}
+
+TEST(ValidityGuard, bounds_what_a_spinning_ring_loses_of_its_split_frequencies) {
+  constexpr double kSpeed = 0.09;  // of the lowest frequency
+  double largest = 0;
+  for (int n : kWaves) {
+    const double b = coupling(body::InertiaLevel::full, n);
+    EXPECT_NEAR(b, 2. * n / (n * n + 1), kRoundoff) << n;
+    EXPECT_NEAR(coupling(body::InertiaLevel::affine, n), n == 2 ? 0.9 : 0, kRoundoff) << n;
+    const double lost = std::abs(b - coupling(body::InertiaLevel::affine, n));
+    largest = std::max(largest, kSpeed * lost / ring_frequency(n));
+  }
+  EXPECT_NEAR(largest, 0.019, 0.0005);
+  System system = spinning_ring(body::InertiaLevel::affine, kSpeed);
+  ValidityGuard guard(system);
+  const Eigen::VectorXd U = system.initial_position(), V = system.initial_velocity();
+  const auto warnings = guard.warnings(snapshot(system, {0, U, V, V}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("-inertia full"), std::string::npos) << warnings[0];
+  const double said = std::stod(warnings[0].substr(warnings[0].rfind(' ')));
+  EXPECT_NEAR(said, kSpeed / ring_frequency(3), 1e-4);
+  EXPECT_GT(said, largest);
+  EXPECT_TRUE(guard.warnings(snapshot(system, {0, U, V, V})).empty());
+}
+
+TEST(ValidityGuard, says_nothing_of_level_full_and_of_gears_that_turn_slowly) {
+  for (const auto& [level, speed] :
+       {std::pair(body::InertiaLevel::full, 0.09), {body::InertiaLevel::affine, 0.001}}) {
+    System system = spinning_ring(level, speed);
+    const Eigen::VectorXd U = system.initial_position(), V = system.initial_velocity();
+    EXPECT_TRUE(ValidityGuard(system).warnings(snapshot(system, {0, U, V, V})).empty()) << speed;
+  }
 }
 
 TEST(ValidityGuard, warns_once_of_contact_beside_the_nodes_with_static_responses) {

@@ -24,9 +24,9 @@ struct Advice {
 };
 Advice advise(const System& system);
 
-/// Watches whether elastic rotations and strains stay small, bodies turn slowly against their lowest mode,
-/// contact stays where bodies with residual flexibility have static responses, and surfaces of a pair go by
-/// less than the contact depth in a step.
+/// Watches whether elastic rotations and strains stay small, bodies turn slowly against their lowest mode
+/// and against what their inertia level keeps, contact stays where bodies with residual flexibility have
+/// static responses, and surfaces of a pair go by less than the contact depth in a step.
 class ValidityGuard {
  public:
   /// dt: s, of a step; 0: there are no steps in time.
@@ -37,9 +37,10 @@ class ValidityGuard {
  private:
   struct Watch {
     DeformationWatch deformation;
-    double lowest_mode = 0;  // rad/s; 0: none
-    double radius = 0;       // m, of the surface around the body frame's origin
-    bool deformed = false, fast = false, beside_loaded = false;  // said
+    double lowest_mode = 0;    // rad/s; 0: none
+    double lost_coriolis = 0;  // s, over the speed: largest relative error of a frequency
+    double radius = 0;         // m, of the surface around the body frame's origin
+    bool deformed = false, fast = false, too_coarse = false, beside_loaded = false;  // said
   };
   using Warnings = std::vector<std::string>;
   double surface_speed(std::size_t b, const model::BodyState& state) const;
