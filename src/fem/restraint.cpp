@@ -3,33 +3,16 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
 
 #include "elastogear/base/error.h"
+#include "elastogear/mesh/joints.h"
 
 namespace elastogear::fem {
 namespace {
 
 constexpr double kFree = 1e-6;  // of the restrained nodes' extent: motions that are held by less are free
-
-int root(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-// Union-find over the nodes: nodes of one connected part have one root.
-std::vector<int> connected_parts(const mesh::Mesh& mesh) {
-  std::vector<int> parent(static_cast<std::size_t>(mesh.n_nodes()));
-  std::iota(parent.begin(), parent.end(), 0);
-  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
-    const int first = root(parent, mesh.cells[cell].front());
-    for (int node : mesh.cells[cell]) parent[root(parent, node)] = first;
-  }
-  for (int i = 0; i < mesh.n_nodes(); ++i) parent[i] = root(parent, i);
-  return parent;
-}
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -160,7 +143,7 @@ std::vector<mesh::Directions> held_directions(const std::vector<int>& free_dof, 
 }
 
 void require_held(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& held) {
-  const std::vector<int> part = connected_parts(mesh);
+  const std::vector<int> part = mesh::connected_parts(mesh);
   std::map<int, std::vector<int>> nodes_of;
   for (int node : mesh.cells.nodes) nodes_of[part[node]];
   for (int node = 0; node < mesh.n_nodes(); ++node)
@@ -175,7 +158,7 @@ void require_held(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& h
 }
 
 void require_connected(const mesh::Mesh& mesh) {
-  const std::vector<int> part = connected_parts(mesh);
+  const std::vector<int> part = mesh::connected_parts(mesh);
   std::set<int> parts;
   for (int node : mesh.cells.nodes) parts.insert(part[node]);
   require(parts.size() == 1, "a free body must hang together, the mesh has ", parts.size(),

@@ -11,6 +11,7 @@
 #include "elastogear/io/body_file.h"
 #include "elastogear/mesh/file.h"
 #include "elastogear/mesh/hold.h"
+#include "elastogear/mesh/joints.h"
 #include "elastogear/mesh/quality.h"
 #include "io/body/body_schema.h"
 #include "io/body/relaxing_group.h"
@@ -89,12 +90,19 @@ void describe_quality(Out& out, const mesh::Mesh& mesh) {
          mesh::smallest_jacobian(mesh, *cell), " m^3");
 }
 
+void describe_joints(Out& out, const mesh::Mesh& mesh, const mesh::ReadReport& report) {
+  const mesh::JointFaults faults = mesh::joint_faults(mesh, report);
+  if (!faults.overlap.empty()) line(out, "overlap: ", faults.overlap);
+  for (const std::string& open : faults.open) line(out, "open: ", open);
+}
+
 void describe_mesh_file(Out& out, const std::string& path, const std::string& format) {
   mesh::ReadReport report;
   const mesh::Mesh mesh = mesh::read_mesh(path, 1, &report);
   line(out, "format: ", format, " (units as in the file, taken as SI)");
   describe_mesh(out, mesh);
   describe_quality(out, mesh);
+  describe_joints(out, mesh, report);
   describe_materials(out, report.regions);
   for (const std::string& hold : report.restrained) line(out, "restrained by the file: node set ", hold);
   for (const std::string& what : report.read_as) line(out, "element type ", what);

@@ -49,6 +49,21 @@ TEST_F(Describe, mesh_files) {
   }
 }
 
+TEST_F(Describe, meshes_whose_cells_overlap_or_do_not_hang_together) {
+  mesh::Mesh mesh = mesh::box_mesh({2, 1, 1});
+  const std::vector<int> last(mesh.cells[1].begin(), mesh.cells[1].end());
+  mesh.cells.add(mesh::CellType::hex8, last);
+  mesh::write_mesh(path("twice.msh"), mesh);
+  EXPECT_THAT(describe(path("twice.msh")), HasSubstr("overlap: cells 2 and 3 fill the same place"));
+  mesh = mesh::box_mesh({3, 1, 1});
+  mesh.cells.type.erase(mesh.cells.type.begin() + 1);
+  mesh.cells.nodes.erase(mesh.cells.nodes.begin() + 8, mesh.cells.nodes.begin() + 16);
+  mesh.cells.offset.pop_back();
+  mesh::write_mesh(path("parts.msh"), mesh);
+  EXPECT_THAT(describe(path("parts.msh")), HasSubstr("open: the mesh has 2 parts that share no node: 1 cell "
+                                                     "from cell 1 on, 1 cell from cell 2 on"));
+}
+
 TEST_F(Describe, decks_with_materials_restraint_and_an_inverted_cell) {
   write_file(path("deck.inp"), R"(*NODE
 1, 0., 0., 0.

@@ -14,6 +14,7 @@ struct ReadReport {
   std::vector<std::string> ignored;       ///< "*STATIC (line 12)": nothing is dropped without an entry
   std::vector<std::string> read_as;       ///< .inp: "C3D20R (line 3): ...", element types computed otherwise
   std::vector<std::int64_t> node_number;  ///< the file's numbers of the nodes, ascending like ours
+  std::vector<std::int64_t> cell_number;  ///< those of the cells
   std::vector<model::MaterialRegion> regions;  ///< .inp: one for each *SOLID SECTION
   /// .inp: node sets of the mesh that *BOUNDARY holds, with directions ("BOUNDARY_z:z", see mesh/hold.h).
   std::vector<std::string> restrained;

@@ -29,6 +29,7 @@
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/mesh/file.h"
+#include "elastogear/mesh/joints.h"
 #include "elastogear/reduction/reduce.h"
 
 namespace elastogear::app {
@@ -64,12 +65,22 @@ void drop_static_responses(ReductionOptions& o) {
 struct Nodes {
   mesh::Mesh mesh;
   mesh::ReadReport report;
+  std::vector<std::string> open;  // what cells leave open between them
 };
+
+// Matrices of another program may join what the mesh does not.
+void look_at_joints(const Options& options, Nodes& nodes) {
+  if (options.given("stiffness")) return;
+  mesh::JointFaults faults = mesh::joint_faults(nodes.mesh, nodes.report);
+  require(faults.overlap.empty(), options.text("mesh"), ": ", faults.overlap);
+  nodes.open = std::move(faults.open);
+}
 
 Nodes read_nodes(const Options& options) {
   Nodes nodes;
   if (!options.given("nodes")) {
     nodes.mesh = mesh::read_mesh(options.text("mesh"), unit_in_m(options), &nodes.report);
+    look_at_joints(options, nodes);
     return nodes;
   }
   const std::string path = options.text("nodes");
@@ -118,6 +129,7 @@ Nodes read_on_rank_0(const Options& options, const NodeSource& read) {
   });
   for (const std::string& ignored : nodes.report.ignored) print_item("ignored in the mesh", ignored);
   for (const std::string& other : nodes.report.read_as) print_item("warning", other);
+  for (const std::string& open : nodes.open) print_item("warning", open);
   return nodes;
 }
 
@@ -254,7 +266,7 @@ void reduce_drive(const Options& options) {
     print_item("body " + member.name, "");
     print_mesh_accuracy(member.is_worm, size, element_order(options));
     reduce_body(member_options(options, member), [&] {
-      Nodes nodes{.mesh = member.mesh(size, element_order(options)), .report = {}};
+      Nodes nodes{.mesh = member.mesh(size, element_order(options)), .report = {}, .open = {}};
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));
       std::iota(nodes.report.node_number.begin(), nodes.report.node_number.end(), 1);
       return nodes;

@@ -150,6 +150,7 @@ Mesh build(const InpLines& in, const InpDeck& deck, double unit_in_m, ReadReport
   build_surfaces(in, deck, cells, mesh, budget);
   report.regions = material_regions(in, deck.materials, deck.cell_sets, mesh, unit_in_m);
   report.node_number = nodes.tags();
+  report.cell_number = cells.tags();
   apply_boundary(in, deck.boundary, deck.node_sets, nodes, mesh, report);
   validate(mesh, in.path());
   return mesh;

@@ -248,6 +248,7 @@ Mesh parse_msh(const std::string& path, std::string content, double unit_in_m, R
   validate(mesh, path);
   if (!report) return mesh;
   report->node_number = nodes.tags();
+  report->cell_number = cells.tags();
   for (const auto& [what, count] : raw.left_out)
     report->ignored.push_back(what + " (" + std::to_string(count) + ")");
   return mesh;
