@@ -1,5 +1,8 @@
 #include "app/console/plausibility.h"
 
+#include <algorithm>
+#include <numeric>
+
 #include "app/console/console.h"
 
 namespace elastogear::app {
@@ -9,6 +12,10 @@ namespace {
 constexpr double kSoftest = 1e6, kStiffest = 2e12;         // Pa
 constexpr double kLightest = 50, kHeaviest = 30e3;         // kg/m^3
 constexpr double kLargestBody = 10, kSmallestBody = 1e-4;  // m, a mesh's longest side
+
+// Poisson's ratios from which frequencies of a block that is held at one end are 2 % and more too high
+// (docs/theory.md, section 1.1).
+constexpr double kLocksIncompatible = 0.49, kLocks = 0.45;
 
 constexpr const char* kDirectional[] = {"E1", "E2", "E3"};
 
@@ -38,7 +45,59 @@ void warn(const model::MaterialRegion& region, bool from_mesh, const std::string
                             (from_mesh ? "; a mesh file in mm, N and t needs -unit mm" : ""));
 }
 
+// At once, and after all relaxation: by what is left of the shear and the bulk modulus.
+double largest_poisson(const model::Material& material) {
+  if (material.orthotropic) return 0;
+  if (!material.viscoelastic) return material.nu;
+  const auto left = [](const std::vector<double>& shares) {
+    return 1 - std::accumulate(shares.begin(), shares.end(), 0.0);
+  };
+  const double G = left(material.viscoelastic->g) / (2 * (1 + material.nu));
+  const double K = left(material.viscoelastic->k) / (3 * (1 - 2 * material.nu));
+  return G + K > 0 ? std::max(material.nu, (3 * K - 2 * G) / (2 * (3 * K + G))) : material.nu;
+}
+
+// Has the set, or without such a set the mesh, cells of one of these types?
+bool has_cells(const mesh::Mesh& mesh, const std::string& cell_set,
+               const std::vector<mesh::CellType>& types) {
+  const auto is_one = [&](mesh::CellType type) {
+    return std::find(types.begin(), types.end(), type) != types.end();
+  };
+  const auto set = mesh.cell_sets.find(cell_set);
+  if (set == mesh.cell_sets.end()) return std::any_of(mesh.cells.type.begin(), mesh.cells.type.end(), is_one);
+  return std::any_of(set->second.begin(), set->second.end(),
+                     [&](int cell) { return is_one(mesh.cells.type[cell]); });
+}
+
 }  // namespace
+
+void warn_of_locking(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
+                     model::Element element) {
+  using enum mesh::CellType;
+  using model::Element;
+  for (const auto& [cell_set, material] : regions) {
+    const double nu = largest_poisson(material);
+    const std::string nearly =
+        "Poisson's ratio " + std::to_string(nu) + " is nearly that of no compressibility: ";
+    const bool hexahedra = has_cells(mesh, cell_set, {hex8});
+    if (hexahedra && element == Element::incompatible && nu >= kLocksIncompatible)
+      print_item("warning",
+                 nearly +
+                     "8-node hexahedra with incompatible modes are too stiff (frequencies of a block "
+                     "2 % high at 0.49, 13 % at 0.4999); give -element bbar");
+    if (hexahedra && element == Element::plain && nu >= kLocks)
+      print_item("warning",
+                 nearly +
+                     "plain 8-node hexahedra are too stiff (frequencies of a block 8 % high at 0.45, 87 % "
+                     "at 0.4999); give -element bbar");
+    if (has_cells(mesh, cell_set, {tet4, wedge6, pyramid5}) && nu >= kLocks)
+      print_item("warning",
+                 nearly +
+                     "linear tetrahedra, prisms and pyramids are too stiff (frequencies of a block 7 to 18 % "
+                     "high at 0.45, 19 to 38 % at 0.49); take second-order ones, or hexahedra with "
+                     "-element bbar");
+  }
+}
 
 void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool from_mesh) {
   for (const model::MaterialRegion& region : regions) {

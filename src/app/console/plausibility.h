@@ -14,6 +14,11 @@ namespace elastogear::app {
 /// from_mesh: the mesh file gives them, else options material_...
 void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool from_mesh);
 
+/// Cells that lock in materials of nearly no compressibility, at once or when they have relaxed, and what to
+/// take instead.
+void warn_of_locking(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
+                     model::Element element);
+
 /// A mesh (m) as large as a house, or as small as a grain, was read in another unit. unit_in_m: that it was
 /// read in.
 void warn_of_size(const mesh::Mesh& mesh, double unit_in_m);
