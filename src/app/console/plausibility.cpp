@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "app/console/console.h"
+#include "elastogear/mesh/quality.h"
 
 namespace elastogear::app {
 namespace {
@@ -16,6 +17,8 @@ constexpr double kLargestBody = 10, kSmallestBody = 1e-4;  // m, a mesh's longes
 // Poisson's ratios from which frequencies of a block that is held at one end are 2 % and more too high
 // (docs/theory.md, section 1.1).
 constexpr double kLocksIncompatible = 0.49, kLocks = 0.45;
+
+constexpr double kPoorShape = 0.1;  // scaled Jacobian
 
 constexpr const char* kDirectional[] = {"E1", "E2", "E3"};
 
@@ -109,6 +112,24 @@ void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool f
     if (m.rho < kLightest || m.rho > kHeaviest)
       warn(region, from_mesh, "rho", with_unit(m.rho, "kg/m^3"), density_meant(m.rho));
   }
+}
+
+void warn_of_shapes(const mesh::Mesh& mesh, const std::vector<std::int64_t>& cell_number) {
+  int n_poor = 0, worst = -1;
+  double least = kPoorShape;
+  for (int cell = 0; cell < mesh.cells.size(); ++cell) {
+    const double shape = mesh::scaled_jacobian(mesh, cell);
+    if (shape >= kPoorShape) continue;
+    ++n_poor;
+    if (shape < least) worst = cell;
+    least = std::min(least, shape);
+  }
+  if (worst < 0) return;
+  const auto number = cell_number.empty() ? worst : cell_number[static_cast<std::size_t>(worst)];
+  print_item("warning", std::to_string(n_poor) + (n_poor == 1 ? " cell is" : " cells are") +
+                            " nearly flat or folded, worst cell " + std::to_string(number) +
+                            " with the scaled Jacobian " + with_unit(least, "") +
+                            "(1: a regular cell): stresses there are not to be trusted");
 }
 
 void warn_of_size(const mesh::Mesh& mesh, double unit_in_m) {

@@ -1,6 +1,7 @@
 #pragma once
 // Inputs that can be computed with but are hardly meant: said once, as warnings.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ void warn_of_materials(const std::vector<model::MaterialRegion>& regions, bool f
 /// take instead.
 void warn_of_locking(const mesh::Mesh& mesh, const std::vector<model::MaterialRegion>& regions,
                      model::Element element);
+
+/// Cells with corners that are nearly flat or folded. cell_number: those of the file; empty: ours.
+void warn_of_shapes(const mesh::Mesh& mesh, const std::vector<std::int64_t>& cell_number);
 
 /// A mesh (m) as large as a house, or as small as a grain, was read in another unit. unit_in_m: that it was
 /// read in.

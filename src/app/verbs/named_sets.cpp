@@ -17,6 +17,7 @@ void print_named_set(const mesh::Mesh& mesh, const std::string& what, const std:
                      const std::string& how) {
   if (!mesh::names_nodes(mesh, name)) return;
   const mesh::NamedNodes meant = mesh::named_nodes(mesh, name);
+  require(!meant.node.empty(), what, " '", name, "': the set is empty");
   print_item(what,
              name + how + ": " + (meant.of_faces ? "face set, " : "node set, ") + nodes(meant.node.size()));
   if (meant.other_of_faces > 0)

@@ -247,8 +247,12 @@ void reduce_body(const Options& options, const NodeSource& read) {
   take_restraint(options, nodes.report, reduction);
   print_restraint(nodes.mesh, reduction.restrain);
   print_named_sets(nodes.mesh, "marker", reduction.markers);
+  print_named_sets(nodes.mesh, "stress nodes", reduction.stress_nodes);
   warn_of_size(nodes.mesh, unit_in_m(options));
-  if (!reduction.imported) warn_of_locking(nodes.mesh, reduction.regions, reduction.element);
+  if (!reduction.imported) {
+    warn_of_shapes(nodes.mesh, nodes.report.cell_number);
+    warn_of_locking(nodes.mesh, reduction.regions, reduction.element);
+  }
   if (reduction.stress_nodes.empty())
     print_item("warning", "no -stress_nodes are named: recover will have no stresses of this body");
   if (const std::string advice = blas_advice(); !advice.empty()) print_item("advice", advice);
