@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "contact/projection/projection_kinematics.h"
 #include "surfaces.h"
 
 namespace elastogear::contact::projection_test {
@@ -79,6 +80,25 @@ TEST(Projection, decides_inside_and_outside_at_concave_edges_and_vertices) {
   }
   EXPECT_GT(inside, 500);
   EXPECT_GT(at_edge_or_vertex, 50);
+}
+
+// A node in the place of one of the master's, or on an edge, but for roundoff, which may point anywhere.
+TEST(Projection, of_a_node_on_the_surface_has_the_normal_of_the_surface) {
+  Random random(3);
+  const Master roof(
+      test::grid(4, 4, [](double u, double v) { return Eigen::Vector3d(u, v, 0.3 * u * (1 - u)); }));
+  const SurfaceView view = roof.view();
+  constexpr int kNode = 12, kNext = 13;  // in the middle
+  for (int trial = 0; trial < 400; ++trial) {
+    const Eigen::Vector3d x = roof.surface.X.col(kNode), next = roof.surface.X.col(kNext);
+    const Eigen::Vector3d q = (trial % 2 == 0 ? x : 0.5 * (x + next)) + random.vector(2e-16);
+    const auto w = roof.touch(q, -Eigen::Vector3d::UnitZ(), {1, any_angle, 0.1});
+    ASSERT_TRUE(w) << q.transpose();
+    EXPECT_GT(w->n.z(), 0.98);
+    EXPECT_LT(std::abs(w->g_n), 1e-15);
+    const ProjectionKinematics kinematics = projection_kinematics(face_of(view, w->face), *w, q);
+    EXPECT_LT(kinematics.n_x.cwiseAbs().maxCoeff(), 100);  // 1/m, with faces of 0.25 m
+  }
 }
 
 TEST(Projection, is_the_lower_face_on_a_tie_whatever_the_order) {

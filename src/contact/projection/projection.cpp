@@ -82,23 +82,26 @@ const Eigen::Vector3d& outward(const SurfaceView& master, const Nearest& best) {
   return *best.outward;
 }
 
-enum class Place { inside, outside, unknown };
+enum class Place { inside, outside, on, unknown };
 
 Place place(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
   if (!best.found() || best.point.feature == Feature::outside) return Place::unknown;
-  const double side = (q - best.point.x).dot(outward(master, best));
-  return side < 0 ? Place::inside : side > 0 ? Place::outside : Place::unknown;
+  const Eigen::Vector3d& n = outward(master, best);
+  const double side = (q - best.point.x).dot(n);
+  if (side != 0) return side < 0 ? Place::inside : Place::outside;
+  return vanishes(q - best.point.x, q) && !n.isZero(0) ? Place::on : Place::unknown;
 }
 
 bool is_taken(const SurfaceView& master, const SlaveNode& slave, const Nearest& best, double outside) {
   const Place at = place(master, slave.x, best);
-  return at == Place::inside || (at == Place::outside && best.point.distance2 <= outside * outside);
+  return at == Place::inside || (at == Place::on && outside > 0) ||
+         (at == Place::outside && best.point.distance2 <= outside * outside);
 }
 
 Projection make_projection(const SurfaceView& master, const Eigen::Vector3d& q, const Nearest& best) {
   Projection w{best.face, best.point, {}, 0};
   const Eigen::Vector3d d = q - w.point.x;
-  if (w.point.feature == Feature::face) {
+  if (w.point.feature == Feature::face || vanishes(d, q)) {
     w.n = outward(master, best);
     w.g_n = w.n.dot(d);
   } else {  // x_slave lies in the normal cone of the edge or vertex: n follows it
@@ -117,6 +120,12 @@ bool surely_opposes(const Eigen::Vector3d& n, const SlaveNode& slave, const Limi
 }
 
 }  // namespace
+
+bool vanishes(const Eigen::Vector3d& d, const Eigen::Vector3d& q) {
+  constexpr double kRoundoff = 1e-13;
+  const Eigen::Vector3d foot = q - d;
+  return d.squaredNorm() <= kRoundoff * kRoundoff * std::max(q.squaredNorm(), foot.squaredNorm());
+}
 
 std::optional<Projection> find_projection(const SurfaceView& master, const SlaveNode& slave,
                                           const Limits& limits, std::span<const int> faces, int* likely,
@@ -166,8 +175,7 @@ std::optional<Projection> walk_to_projection(const SurfaceView& master, const Ei
       if (entry / 4 != from) best.offer(entry / 4, closest_point(face_of(master, entry / 4), x));
   }
   if (best.distance2 > limits.depth * limits.depth) return {};
-  const bool is_on_face = best.point.feature == Feature::face && place(master, x, best) == Place::unknown;
-  if (!is_on_face && !is_taken(master, {x, {}}, best, limits.outside)) return {};
+  if (place(master, x, best) != Place::on && !is_taken(master, {x, {}}, best, limits.outside)) return {};
   return make_projection(master, x, best);
 }
 

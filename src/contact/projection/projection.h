@@ -37,9 +37,13 @@ struct Limits {
 struct Projection {
   int face = 0;
   ClosestPoint point;
-  Eigen::Vector3d n;  ///< outward, x_slave - x_c = g_n n
+  Eigen::Vector3d n;  ///< outward, x_slave - x_c = g_n n; of the surface where that vanishes
   double g_n = 0;     ///< m, < 0 inside
 };
+
+/// Is the way d (m) from the closest point to a point q (m) roundoff of positions? It then has no direction,
+/// and the surface has its own normal there.
+bool vanishes(const Eigen::Vector3d& d, const Eigen::Vector3d& q);
 
 /// Nothing when the node is outside the master body (further than the limit), beyond a surface boundary,
 /// deeper than the limit, or when only faces that do not oppose it are near. `faces` must hold all master

@@ -55,15 +55,16 @@ void set_motion(const Projection& w, KinematicsBy<kColumns>& kinematics) {
 }
 
 template <int kColumns>
-void set_normal(KinematicsBy<kColumns>& kinematics) {
+void set_normal(const Vector3d& x_slave, KinematicsBy<kColumns>& kinematics) {
+  kinematics.n_x.setZero();
   if (kinematics.n_dir < 2) {
+    if (vanishes(kinematics.d, x_slave)) return;
     kinematics.n_x =
         (kinematics.d_x - kinematics.n * (kinematics.n.transpose() * kinematics.d_x)) / kinematics.g;
     return;
   }
   const Eigen::Matrix<double, 3, 2> dual = kinematics.a * (kinematics.a.transpose() * kinematics.a).inverse();
   const double b = kinematics.n.dot(kinematics.x_uv);
-  kinematics.n_x.setZero();
   for (int i : {0, 1})
     kinematics.n_x -= dual.col(i) * (kinematics.n.transpose() * columns<kColumns>(0, kinematics.N_a.col(i)) +
                                      b * kinematics.D.row(1 - i));
@@ -78,7 +79,7 @@ void set_kinematics(const Face& face, const Projection& projection, const Vector
   kinematics.N = projection.point.N;
   set_directions(face, projection, kinematics);
   set_motion(projection, kinematics);
-  set_normal(kinematics);
+  set_normal(x_slave, kinematics);
 }
 
 // Angular velocity Omega of the face at the closest point (docs/theory.md, Eq. (6.13)): that of its normal
