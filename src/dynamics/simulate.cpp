@@ -66,6 +66,15 @@ bool is_undamped(TS ts) {
   return alpha_f <= 0.5;
 }
 
+// Friction that follows the speed is stiff where it turns over.
+std::string friction_advice(const System& system) {
+  for (std::size_t p = 0; p < system.pairs().size(); ++p)
+    if (const contact::FrictionSettings& friction = system.contact_settings(p).friction;
+        friction.mu > 0 && friction.law == contact::FrictionLaw::regularised)
+      return ", -contact_friction_law stick, a larger -contact_friction_speed";
+  return "";
+}
+
 void require_solved(const Run& run, TS ts) {
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   PetscReal time = 0, dt = 0;
@@ -75,7 +84,7 @@ void require_solved(const Run& run, TS ts) {
   const std::string& trouble = run.problem.trouble;
   require(reason > 0, "the step at t = ", time, " s cannot be solved, not even with dt cut to ", dt,
           " s: ", trouble.empty() ? "Newton's method does not converge" : trouble, " (",
-          TSConvergedReasons[reason], "). Try a smaller time step",
+          TSConvergedReasons[reason], "). Try a smaller time step", friction_advice(run.problem.system),
           is_undamped(ts) ? ", numerical damping (-ts_alpha_radius 0.8)" : "",
           run.summary.pair.empty() ? "" : ", a softer contact or a larger contact depth");
 }

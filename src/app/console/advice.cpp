@@ -5,6 +5,7 @@
 
 #include "app/console/console.h"
 #include "elastogear/dynamics/advice.h"
+#include "elastogear/dynamics/chatter.h"
 
 namespace elastogear::app {
 namespace {
@@ -47,8 +48,10 @@ void print_advice(const dynamics::System& system, double dt) {
 
 dynamics::Observer guarded(const dynamics::System& system, dynamics::Observer observer, double dt) {
   auto guard = std::make_shared<dynamics::ValidityGuard>(system, dt);
-  return [guard, observer = std::move(observer)](const model::Snapshot& snapshot) {
+  auto chatter = std::make_shared<dynamics::ChatterWatch>(system);
+  return [guard, chatter, observer = std::move(observer)](const model::Snapshot& snapshot) {
     for (const std::string& warning : guard->warnings(snapshot)) print_item("warning", warning);
+    for (const std::string& warning : chatter->warnings(snapshot)) print_item("warning", warning);
     observer(snapshot);
   };
 }

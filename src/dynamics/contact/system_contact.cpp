@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "dynamics/contact/responding_nodes.h"
 #include "dynamics/node_mobility.h"
 #include "elastogear/base/error.h"
 
@@ -10,14 +11,6 @@ namespace elastogear::dynamics {
 namespace {
 
 constexpr int kFreeTrials = 3;  // of contact forces before points that come and go are kept
-
-// Marks the surface nodes at which forces have a static response in the file of the body.
-std::vector<bool> responds(const model::ElasticBody& body) {
-  std::vector<bool> result(static_cast<std::size_t>(body.surface.X.cols()));
-  for (std::size_t node = 0; node < result.size(); ++node)
-    result[node] = model::find_loaded(body.flexibility, static_cast<int>(node)) >= 0;
-  return result;
-}
 
 // Vectorised, which == is not.
 bool same(const Eigen::VectorXd& a, ConstVector b) {
@@ -44,7 +37,7 @@ void SystemContact::make_detector(const SystemModel& model, const PairSetup& pai
   detectors_.emplace_back(a.eq.body->surface, b.eq.body->surface, pair.settings,
                           std::array{&a.eq.body->K_r, &b.eq.body->K_r},
                           std::array{a.true_surface.get(), b.true_surface.get()},
-                          std::array{responds(*a.eq.body), responds(*b.eq.body)});
+                          std::array{responding_nodes(*a.eq.body), responding_nodes(*b.eq.body)});
   detectors_.back().follow_points();
   if (pair.settings.law != contact::ContactLaw::augmented) return;
   for (int side : {0, 1}) detectors_.back().set_masses(side, node_masses(*(side == 0 ? a : b).eq.body));
