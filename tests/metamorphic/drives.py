@@ -1,0 +1,197 @@
+"""Random drives of size tiny, and what must hold of them."""
+
+import copy
+
+import numpy as np
+
+from lab import Broken, Unfit, alike, between, choice, near
+
+SAME = 3e-4  # share, of equilibria of different rounding: where flanks touch, by which their local approach goes, is found in iterations
+LENGTHS = ("tip_relief", "lead_crowning", "profile_crowning", "end_relief", "axial_offset", "radial_offset", "tangential_offset",
+           "face_width", "bore", "run_out", "module", "centre_distance")
+
+
+def gear(random, teeth):
+    return {"teeth": int(teeth), "profile_shift": float(round(random.uniform(0.0, 0.3), 2))}
+
+
+def cylindrical(random, orders=(1, 1, 2)):
+    """A spur, helical or internal pair; numbers are in SI units, angles in degrees."""
+    module = between(random, 1e-3, 6e-3, 2)
+    kind = choice(random, "spur", "spur", "helical", "helical", "internal")
+    pinion, wheel = gear(random, random.integers(16, 21)), gear(random, random.integers(20, 28))
+    if kind == "internal":
+        wheel = {"teeth": int(random.integers(44, 60)), "internal": True, "profile_shift": pinion["profile_shift"]}
+    width = float(round(module * random.uniform(3, 9), 4))
+    keys = {"drive": "cylindrical", "module": module, "face_width": width, "pinion": pinion, "wheel": wheel,
+            "modes": int(random.integers(2, 8)), "torque": float(f"{random.uniform(0.3, 2) * 3e8 * module**2 * width:.3g}")}
+    if kind == "helical":
+        keys["helix_angle"] = float(round(random.uniform(8, 25) * choice(random, -1, 1), 1))
+    order = choice(random, *orders)
+    if order == 2:
+        keys["element_order"] = 2
+    keys["side"] = choice(random, "drive", "coast")
+    return keys
+
+
+def micro_geometry(random, keys):
+    """Adds random modifications that are symmetric: of both flanks, and of both ends of a face."""
+    for name in ("pinion", "wheel"):
+        for key in ("tip_relief", "lead_crowning", "profile_crowning", "end_relief"):
+            if random.random() < 0.2:
+                keys[name][key] = float(f"{random.uniform(2e-3, 8e-3) * keys['module']:.3g}")
+
+
+def misalignment(random, keys):
+    """Adds random offsets, leaning axes and bearings."""
+    for key, size in (("axial_offset", 0.05 * keys["face_width"]), ("tangential_offset", 0.01 * keys["module"]),
+                      ("radial_offset", 0.01 * keys["module"]), ("skew", 0.02), ("inclination", 0.02)):
+        if random.random() < 0.25:
+            keys["wheel"][key] = float(f"{random.uniform(-1, 1) * size:.3g}")
+    if random.random() < 0.3:
+        keys["pinion"]["bearing_radial"] = float(f"{random.uniform(1, 10) * 1e11 * keys['module']:.3g}")
+    if random.random() < 0.3:
+        keys["wheel"]["face_width"] = float(f"{keys['face_width'] * random.uniform(0.8, 1.2):.4g}")
+
+
+def drive(random, orders=(1, 1, 2), friction=False):
+    keys = cylindrical(random, orders)
+    micro_geometry(random, keys)
+    misalignment(random, keys)
+    if friction and random.random() < 0.4:
+        keys["contact"] = {"friction": float(round(random.uniform(0.02, 0.1), 3))}
+        keys.update(analysis="sweep", sweep_positions=2)
+    return keys
+
+
+def worm(random):
+    """A worm drive with an involute worm, which costs least."""
+    return {"drive": "worm", "module": between(random, 1e-3, 4e-3, 2), "diameter_quotient": float(round(random.uniform(8, 11), 1)),
+            "worm": {"starts": int(random.integers(1, 4))}, "wheel": {"teeth": int(random.integers(28, 42))},
+            "modes": int(random.integers(2, 5)), "hand": choice(random, "right", "left"), "torque": 1.0,
+            "side": choice(random, "drive", "coast")}
+
+
+class Chain:
+    """reduce, simulate and evaluate of one drive file in a folder of its own, and its figures."""
+
+    def __init__(self, lab, name, keys, first=False, **simulate):
+        self.lab, self.name = lab, name
+        gears = ("worm", "wheel") if keys["drive"] == "worm" else ("pinion", "wheel")
+        keys = copy.deepcopy(keys)
+        for body in gears:
+            keys[body]["file"] = f"{name}_{body}.h5"
+        self.pair = f"{gears[0]}:{gears[1]}"
+        keys = {"analysis": "static", "static_steps": 1, **keys, **simulate}
+        lab.write(f"{name}.yaml", keys)
+        (lab.first if first else lab.run)("reduce", f"{name}.yaml")
+        self.simulate()
+        lab.run("evaluate", f"{name}.yaml", "-result", f"{name}.h5", "-output", f"{name}_evaluation.h5")
+        self.figures = lab.summary(f"{name}_evaluation.json")
+
+    def simulate(self):
+        """Single angles at which contact forces do not settle are a limit that docs/drives.md names, and that the run says."""
+        done = self.lab.call("simulate", f"{self.name}.yaml", "-output", f"{self.name}.h5")
+        if done.returncode == 1 and "no equilibrium found" in done.stderr:
+            raise Unfit(done.stderr.strip()[-200:])
+        if done.returncode != 0:
+            raise Broken(f"simulate ends with exit code {done.returncode}: {done.stderr.strip()[-400:]}")
+
+    def value(self, path):
+        return self.lab.read(f"{self.name}_evaluation.h5", f"cases/{self.name}/{self.pair}/{path}")
+
+    def stresses(self):
+        """Largest stress of each gear, Pa."""
+        return np.array([self.figures[f"root/{body}/largest_von_mises"] for body in self.pair.split(":")])
+
+    def transmission_error(self):
+        return self.value("transmission_error/loaded")
+
+
+def same_chains(one, other, length=1.0, force=1.0, share=SAME):
+    """Lengths of the other are `length` times those of the one, forces `force` times."""
+    stress = force / length**2
+    alike("transmission error", other.transmission_error(), length * one.transmission_error(), share)
+    alike("normal force", other.value("force/value"), force * one.value("force/value"), share)
+    alike("root stress", other.stresses(), stress * one.stresses(), share)
+    near("KHbeta", other.figures["line_load/KHbeta"], one.figures["line_load/KHbeta"], share)
+    if "pressure/hertz_peak" in one.figures:
+        alike("Hertz pressure", other.figures["pressure/hertz_peak"], stress * one.figures["pressure/hertz_peak"], share)
+
+
+def mirrored(keys):
+    """Seen in a mirror through the line of centres and the first axis: turns are opposite, and what leans or stands aside does so to
+    the other side; hands swap."""
+    keys = copy.deepcopy(keys)
+    keys["side"] = {"drive": "coast", "coast": "drive"}[keys["side"]]
+    keys["roll"] = -keys["roll"]
+    if keys["drive"] == "worm":
+        keys["hand"] = {"right": "left", "left": "right"}[keys["hand"]]
+    elif "helix_angle" in keys:
+        keys["helix_angle"] = -keys["helix_angle"]
+    for key in ("tangential_offset", "skew"):
+        if key in keys["wheel"]:
+            keys["wheel"][key] = -keys["wheel"][key]
+    return keys
+
+
+def a_mirrored_drive_is_the_same(lab):
+    """Mechanics has no hand: the mirrored drive has the same figures. Meshes of teeth are symmetric, so that only rounding differs."""
+    keys = worm(lab.random) if lab.random.random() < 0.15 else drive(lab.random)
+    keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    same_chains(Chain(lab, "one", keys, first=True), Chain(lab, "other", mirrored(keys)))
+
+
+def other_units(keys):
+    """The same numbers in mm, um, N mm, N/um."""
+    units = {"torque": ("N mm", 1e3), "bearing_radial": ("N/um", 1e-6), **{key: ("mm", 1e3) for key in LENGTHS}}
+    keys = copy.deepcopy(keys)
+    for own in (keys, keys["pinion"], keys["wheel"]):
+        for key, (unit, factor) in units.items():
+            if key in own:
+                own[key] = f"{own[key] * factor!r} {unit}"
+    keys["material"] = {"E": "210 GPa", "nu": 0.3, "rho": 7850}
+    return keys
+
+
+def units_of_a_drive_change_nothing(lab):
+    """The unit in which a number is written is no part of the drive; only the rounding of the conversion differs."""
+    keys = drive(lab.random, friction=True)
+    keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    keys["material"] = {"E": 210e9, "nu": 0.3, "rho": 7850.0}
+    same_chains(Chain(lab, "one", keys, first=True), Chain(lab, "other", other_units(keys)))
+
+
+def scaled(keys, by):
+    keys = copy.deepcopy(keys)
+    keys["torque"] *= by**3
+    for own in (keys, keys["pinion"], keys["wheel"]):
+        for key in LENGTHS:
+            if key in own:
+                own[key] *= by
+        if "bearing_radial" in own:
+            own["bearing_radial"] *= by
+    return keys
+
+
+def a_scaled_drive_is_the_same(lab):
+    """A drive with all lengths s times as long, under torques s^3 times as large, has the same stresses; displacements are s times as
+    large, forces s^2 times. Bearings are s times as stiff. No tolerance of the program may be a length."""
+    keys = drive(lab.random)
+    keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    by = float(round(np.exp(lab.random.uniform(np.log(0.2), np.log(8))), 3))
+    same_chains(Chain(lab, "one", keys, first=True), Chain(lab, "other", scaled(keys, by)), length=by, force=by**2)
+
+
+def a_stiffer_drive_is_the_same(lab):
+    """Modulus, stiffness of bearings and torque c times as large: the same displacements, forces and stresses c times as large."""
+    keys = drive(lab.random)
+    keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    by = float(round(np.exp(lab.random.uniform(np.log(0.01), np.log(10))), 4))
+    keys["material"] = {"E": 210e9, "nu": 0.3, "rho": 7850.0}
+    other = copy.deepcopy(keys)
+    other["torque"] *= by
+    other["material"]["E"] *= by
+    if "bearing_radial" in other["pinion"]:
+        other["pinion"]["bearing_radial"] *= by
+    same_chains(Chain(lab, "one", keys, first=True), Chain(lab, "other", other), force=by)
