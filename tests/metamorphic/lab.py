@@ -66,15 +66,6 @@ class Lab:
             raise Broken(f"{arguments[0]} ends with exit code {done.returncode}: {done.stderr.strip()[-600:]}")
         return done.stdout
 
-    def first(self, *arguments):
-        """Runs the verb that a random design may fail in."""
-        done = self.call(*arguments)
-        if done.returncode == 1:
-            raise Unfit(done.stderr.strip()[-300:])
-        if done.returncode != 0:
-            raise Broken(f"{arguments[0]} ends with exit code {done.returncode}: {done.stderr.strip()[-600:]}")
-        return done.stdout
-
     def read(self, name, *paths):
         with h5py.File(self.path(name)) as file:
             values = [file[path][()] for path in paths]

@@ -1,0 +1,176 @@
+"""What must hold between the verbs of a chain: tables, ranks, and inputs that change in between."""
+
+import copy
+import csv
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+
+from drives import Chain, cylindrical, drive, same_chains
+from lab import Broken, Unfit, alike, at_most, choice, near
+
+KHBETA = 1.15  # of an aligned pair: the pinion's twist over up to half its diameter takes some hundredths, meshes of size tiny as much
+EVEN = 0.05  # share: what wider teeth and bodies add in stiffness at the ends of the narrower face
+
+
+def columns(path):
+    """Columns of a table by their names, without units."""
+    with open(path) as file:
+        rows = list(csv.reader(file))
+    return {name.split(" [")[0].strip(): np.array([float(row[i]) if row[i] else np.nan for row in rows[1:]])
+            for i, name in enumerate(rows[0])}
+
+
+PYTHON = """
+import json, sys, numpy, elastogear
+evaluation = elastogear.Evaluation(sys.argv[1])
+print(json.dumps({path: numpy.asarray(evaluation[path]).tolist() for path in sys.argv[3:]}))
+print(json.dumps(elastogear.Result(sys.argv[2]).pair("pinion:wheel").force.tolist()))
+"""
+
+
+def tables_files_and_python_say_the_same(lab):
+    """Numbers of tables and of the JSON file are written with all digits: equal to the bit to those of the HDF5 file and in Python."""
+    keys = drive(lab.random, friction=True)
+    keys.update(analysis="sweep", sweep_positions=int(lab.random.integers(2, 5)))
+    chain = Chain(lab, "one", keys, first=True)
+    for path, value in chain.figures.items():
+        if isinstance(value, (int, float)):
+            near(f"JSON: {path}", value, chain.value(path), 0)
+    table = columns(lab.path("one_evaluation_pinion_wheel_line_load.csv"))
+    near("table: line load", list(table.values())[1], chain.value("line_load/mean"), 0)
+    table = columns(lab.path("one_evaluation_pinion_wheel.csv"))
+    near("table: roll angle", list(table.values())[0], chain.value("roll"), 0)
+    near("table: transmission error", next(v for k, v in table.items() if "transmission error" in k), chain.transmission_error(), 0)
+    module = os.path.join(os.path.dirname(lab.program), "..", "..", "python")
+    if not os.path.isdir(module):
+        return
+    paths = ["transmission_error/loaded", "line_load/mean", "line_load/KHbeta", "force/value", "teeth/force"]
+    done = subprocess.run([sys.executable, "-c", PYTHON, "one_evaluation.h5", "one.h5", *paths], capture_output=True, text=True,
+                          cwd=lab.folder, env={**os.environ, "PYTHONPATH": module}, check=False)
+    if done.returncode != 0:
+        raise Broken(f"Python: {done.stderr[-500:]}")
+    read, forces = [json.loads(line) for line in done.stdout.strip().splitlines()[-2:]]
+    for path in paths:
+        near(f"Python: {path}", read[path], chain.value(path), 0)
+    near("Python: forces", forces, lab.read("one.h5", "contact/pinion:wheel/force"), 0)
+
+
+def two_ranks_change_nothing(lab):
+    """Ranks share the work of reduce; what they sum up in another order differs by rounding, modes by the solver's 1e-8 at most."""
+    keys = cylindrical(lab.random, (1,))
+    keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    same_chains(Chain(lab, "one", keys, first=True), Chain(lab, "two", keys, ranks=2))
+
+
+def line_loads_sum_to_the_normal_force(lab):
+    """Stations of the line load have all forces of all pairs of teeth, Eq. (10.7): their integral over the face, of piecewise linear
+    loads by the trapezoidal rule, is the sum of the pairs' normal forces at each position, but for rounding."""
+    keys = drive(lab.random)
+    keys.update(analysis="sweep", sweep_positions=int(lab.random.integers(2, 5)))
+    chain = Chain(lab, "one", keys, first=True)
+    z, load = chain.value("line_load/z"), chain.value("line_load/value")
+    sums = ((load[:, 1:] + load[:, :-1]) / 2 * np.diff(z)).sum(axis=1)
+    alike("line load over the face", sums, chain.value("teeth/force").sum(axis=1), 1e-6)
+
+
+def an_aligned_pair_is_loaded_evenly(lab):
+    """Without modifications and misalignment KHbeta is near 1, and faces that are wider than the mate's or offset along the axis within
+    it change it, and the pressure by H. Hertz, by what they stiffen the ends, a few hundredths."""
+    keys = cylindrical(lab.random)
+    if keys["wheel"].get("internal"):
+        raise Unfit("an internal pair")
+    keys.update(analysis="sweep", sweep_positions=8, face_width=float(f"{keys['module'] * lab.random.uniform(4, 8):.3g}"))
+    other = copy.deepcopy(keys)
+    width = keys["face_width"]
+    more = float(round(lab.random.uniform(1.02, 1.25), 3))
+    other["pinion"]["face_width"] = float(f"{more * width:.4g}")
+    if lab.random.random() < 0.5:
+        other["wheel"]["axial_offset"] = float(f"{lab.random.uniform(-0.4, 0.4) * (more - 1) * width:.3g}")
+    even = Chain(lab, "even", keys, first=True)
+    at_most("KHbeta of equal widths", even.figures["line_load/KHbeta"], KHBETA)
+    wide = Chain(lab, "wide", other)
+    alike("KHbeta of unequal widths", wide.figures["line_load/KHbeta"], even.figures["line_load/KHbeta"], EVEN)
+    alike("Hertz pressure of unequal widths", wide.figures["pressure/hertz_peak"], even.figures["pressure/hertz_peak"], EVEN)
+
+
+def two_meshes_differ_by_less_than_their_errors(lab):
+    """Hexahedra of 8 and of 20 nodes approximate the same stress at the roots: they differ by less than their estimated errors by the
+    mesh, the reduction and the contact's resolution together."""
+    keys = cylindrical(lab.random, (1,))
+    keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    chains = [Chain(lab, "one", keys, first=True), Chain(lab, "two", {**keys, "element_order": 2})]
+    for body in ("pinion", "wheel"):
+        path = f"root/{body}/largest_tension"
+        stress = [chain.figures[path] for chain in chains]
+        errors = sum(chain.figures.get(f"{path}{kind}", 0) for chain in chains for kind in ("_error", "_mesh_error", "_contact_error"))
+        at_most(f"tension at the roots of {body}, {stress[0] / 1e6:.1f} and {stress[1] / 1e6:.1f} MPa: difference over estimate",
+                abs(stress[0] - stress[1]) / errors, 1)
+
+
+def times(path, by):
+    def change(keys):
+        own = keys
+        for name in path[:-1]:
+            own = own[name]
+        own[path[-1]] = float(f"{own[path[-1]] * by:.6g}")
+
+    return path[-1], change
+
+
+def given(path, value):
+    def change(keys):
+        own = keys
+        for name in path[:-1]:
+            own = own.setdefault(name, {})
+        own[path[-1]] = value(keys) if callable(value) else value
+
+    return path[-1], change
+
+
+CHANGES = [  # the last part of a key, and what changes it: of bodies, of places, of the contact, of the run
+    times(["face_width"], 1.2), times(["module"], 1.1), given(["size"], "small"), given(["element_order"], 2),
+    given(["material", "E"], 70e9), given(["material", "nu"], 0.2), given(["pinion", "bore"], lambda keys: 6 * keys["module"]),
+    given(["modes"], 12), given(["pinion", "profile_shift"], 0.35), given(["wheel", "profile_shift"], -0.1),
+    given(["pinion", "teeth"], 21), given(["wheel", "teeth"], 31), given(["pressure_angle"], 22.0), given(["rack"], "C"),
+    given(["helix_angle"], 5.0), given(["backlash"], lambda keys: 0.05 * keys["module"]),
+    given(["wheel", "rim_diameter"], lambda keys: 14 * keys["module"]), given(["pinion", "face_width"], lambda k: 1.1 * k["face_width"]),
+    given(["restrain_nodes"], [7]), given(["element"], "plain"),
+    given(["centre_distance"], lambda k: (k["pinion"]["teeth"] + k["wheel"]["teeth"] + 1.0) * k["module"] / 2),
+    given(["wheel", "radial_offset"], lambda k: 0.02 * k["module"]), given(["wheel", "skew"], 0.05), given(["wheel", "inclination"], 0.05),
+    given(["pinion", "lead_crowning"], lambda k: 4e-3 * k["module"]), given(["pinion", "tip_relief"], lambda k: 8e-3 * k["module"]),
+    given(["pinion", "bearing_radial"], lambda k: 2e11 * k["module"]), given(["contact", "friction"], 0.1),
+    given(["contact", "approach"], "mesh"), given(["contact", "points"], "nodes"), given(["pinion", "rigid"], True),
+    times(["torque"], 1.5), given(["side"], lambda k: {"drive": "coast", "coast": "drive"}[k["side"]]), given(["roll"], 0.3),
+    given(["sweep_positions"], 3), given(["sweep_pitches"], 2)
+]
+
+
+def a_result_belongs_to_its_input(lab):
+    """A key that changes after reduce, or after simulate: the next verb refuses and names it, or it makes what a chain made anew makes.
+    There is no third way."""
+    keys = cylindrical(lab.random, (1,))
+    if keys["wheel"].get("internal"):
+        raise Unfit("an internal pair")
+    keys.update(roll=0.1, analysis="sweep", sweep_positions=2)
+    name, change = CHANGES[int(lab.random.integers(len(CHANGES)))]
+    after = choice(lab.random, "reduce", "simulate")
+    changed = copy.deepcopy(keys)
+    change(changed)
+    anew = Chain(lab, "anew", changed, first=True, strict=False)
+    chain = Chain(lab, "chain", keys, first=True, verbs=("reduce", after))
+    chain.write(changed)
+    for verb in ("simulate", "evaluate")[("reduce", "simulate").index(after):]:
+        done = chain.verb(verb)
+        if done.returncode == 1 and name in done.stderr:
+            return
+        if done.returncode != 0:
+            raise Broken(f"{verb} after {after} with another {name} does not name it: {done.stderr.strip()[-300:]}")
+    chain.read()
+    try:
+        same_chains(anew, chain)
+    except Broken as broken:
+        raise Broken(f"{name} changed after {after}, exit code 0: {broken}") from None
