@@ -51,8 +51,8 @@ bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x);
 /// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
 
-/// `measure` gives a norm of the local error of U over what is tolerated of it. Error control takes the larger
-/// one of it and of the weighted norm with the tolerances above.
+/// `measure` gives a norm of the local error of U over what is tolerated of it. Error control takes the
+/// larger one of it and of the weighted norm with the tolerances above.
 void generalized_alpha_set_measure(TS ts,
                                    const std::function<PetscErrorCode(Vec error, PetscReal* norm)>& measure);
 

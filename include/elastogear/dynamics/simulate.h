@@ -63,7 +63,7 @@ struct RunSummary {
   double initial_energy = 0;     ///< J, stored at the start
   double work = 0;               ///< J, of the loads up to the last state
   double largest_imbalance = 0;  ///< J, largest |balance| of the energy ledger
-  double turned_over = 0;     ///< J, stored at the start and turned over by loads and motions
+  double turned_over = 0;        ///< J, stored at the start and turned over by loads and motions
   double unbalanced = 0;      ///< largest share of the forces that an equilibrium leaves where contact jumps
   double wall_time = 0;       ///< s
   bool complete = false;      ///< reached the end time, or rest; else stopped before

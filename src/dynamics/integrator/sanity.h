@@ -23,10 +23,11 @@ class Sanity {
   /// Error, which says why, for a body deformed by half its size or more, and for a mass matrix of inertia
   /// level linear that is no longer positive definite.
   void require_small(const model::Snapshot& now) const;
-  /// Error when energy came from nowhere: in ten successive steps more than a tenth of what is turned over, or
-  /// a hundred times as much at once. docs/theory.md, section 8.5.
+  /// Error when energy came from nowhere: in ten successive steps more than a tenth of what is turned over,
+  /// or a hundred times as much at once. docs/theory.md, section 8.5.
   void require_balance(double time, const model::Energies& now);
-  /// J, stored at the start and turned over by loads and motions since: what a balance is to be compared with.
+  /// J, stored at the start and turned over by loads and motions since: what a balance is to be compared
+  /// with.
   double turned_over() const { return std::max(start_, 0.0) + turnover_; }
   void serialize(Archive& archive);
 

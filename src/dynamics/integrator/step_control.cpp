@@ -242,7 +242,8 @@ void control_steps(Run& run, TS ts) {
 void measure_stress(Run& run, TS ts) {
   if (!has_step_error(run.settings)) return;
   const std::vector<System::Body>& bodies = run.problem.system.bodies();
-  run.control.stress = run.control.stiffness = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bodies.size()));
+  run.control.stress = run.control.stiffness =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(bodies.size()));
   for (std::size_t b = 0; b < bodies.size(); ++b)
     run.control.stiffness[static_cast<Eigen::Index>(b)] = softest(bodies[b], run.control.per_length);
   generalized_alpha_set_measure(ts, [&run](Vec error, PetscReal* norm) {
