@@ -46,10 +46,11 @@ RELATIONS = {  # and how many cases of a hundred, by what they cost
     bodies.a_sensor_is_where_the_field_is: 5,
 }
 
-AWAITS = {  # relations that fail today, and the fault that breaks them: leave out here what is mended
-    systems.energy_is_not_made: "chosen steps make energy: local extrapolation amplifies vibrations",
-    chains.an_aligned_pair_is_loaded_evenly: "faces of unequal width lose their end layers; midside nodes of order 2 bear unevenly",
-    chains.a_result_belongs_to_its_input: "bodies and results are not held against what they were made of",
+AWAITS = {  # relations that ctest leaves out, and why: leave out here what is mended and measured
+    systems.energy_is_not_made: "not measured since chosen steps do without extrapolation",
+    drives.a_mirrored_drive_is_the_same: "end relief with an axial offset at element order 2: 4 % of the transmission error",
+    chains.an_aligned_pair_is_loaded_evenly: "KHbeta of unequal widths is up to 1.3 at order 1",
+    chains.a_result_belongs_to_its_input: "not measured since bodies and results are held against their input",
     bodies.a_sensor_is_where_the_field_is: "sensors leave the static response out",
     chains.two_meshes_differ_by_less_than_their_errors: "not measured yet",
 }
