@@ -105,7 +105,7 @@ TEST(SlowRolling, follows_its_equilibria_and_its_ripple_falls_with_face_size_and
   constexpr double kEnds = 1.1;                    // found: 0.9, 1.05
   constexpr double kRate = 0.4, kSmoothing = 0.7;  // found: 0.17 and 0.20; 0.40 and 0.67
   double last[2] = {2, 2};
-  for (int n : {1, 2}) {
+  for (int n : {2, 4}) {
     const WormDrive drive = contact::test::worm_drive(n);
     double resting[2] = {};
     for (bool smooth : {false, true}) {
