@@ -23,11 +23,12 @@ constexpr double kPoorShape = 0.1;  // scaled Jacobian
 constexpr const char* kDirectional[] = {"E1", "E2", "E3"};
 
 std::string modulus_meant(double E) {
-  const double in_MPa = 1e6 * E, in_GPa = 1e9 * E;
+  const double if_mega = 1e6 * E, if_giga = 1e9 * E;
   if (E > kStiffest) return "";
-  if (in_MPa >= kSoftest * 100 && in_MPa <= kStiffest)
-    return "; MPa meant? Then give " + with_unit(in_MPa, "Pa");
-  if (in_GPa >= kSoftest && in_GPa <= kStiffest) return "; GPa meant? Then give " + with_unit(in_GPa, "Pa");
+  if (if_mega >= kSoftest * 100 && if_mega <= kStiffest)
+    return "; MPa meant? Then give " + with_unit(if_mega, "Pa");
+  if (if_giga >= kSoftest && if_giga <= kStiffest)
+    return "; GPa meant? Then give " + with_unit(if_giga, "Pa");
   return "";
 }
 
