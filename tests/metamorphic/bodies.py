@@ -8,6 +8,7 @@ import numpy as np
 from vtk import vtkXMLUnstructuredGridReader
 from vtk.util.numpy_support import vtk_to_numpy
 
+from drives import Chain, cylindrical
 from lab import alike, between, choice
 
 MAKE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "meshes", "make.py")
@@ -29,6 +30,17 @@ def bar(lab):
             break
         rows.append([float(x) for x in line.split(",")[1:4]])
     return np.array(rows)
+
+
+def field_of(lab, begins):
+    """Undeformed points in their placement and displacements of the last field file whose name begins so, m."""
+    names = sorted(name for name in os.listdir(lab.folder) if name.startswith(begins) and name.endswith(".vtu"))
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(lab.path(names[-1]))
+    reader.Update()
+    data = reader.GetOutput().GetPointData()
+    name = next(data.GetArrayName(i) for i in range(data.GetNumberOfArrays()) if data.GetArrayName(i).startswith("displacement"))
+    return vtk_to_numpy(reader.GetOutput().GetPoints().GetData()), vtk_to_numpy(data.GetArray(name))
 
 
 def a_sensor_is_where_the_field_is(lab):
@@ -56,12 +68,47 @@ def a_sensor_is_where_the_field_is(lab):
         "sensors": {"seen": f"bar.{marker[1]}"}, "output": "run.h5"
     })
     lab.run("simulate", "run.yaml")
-    lab.run("recover", "-result", "run.h5", "-output", "stress.h5", "-field_times", "all", "-fields", "field")
-    names = sorted(name for name in os.listdir(lab.folder) if name.startswith("field") and name.endswith(".vtu"))
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(lab.path(names[-1]))
-    reader.Update()
-    data = reader.GetOutput().GetPointData()
-    name = next(data.GetArrayName(i) for i in range(data.GetNumberOfArrays()) if data.GetArrayName(i).startswith("displacement"))
-    field = vtk_to_numpy(data.GetArray(name))[seen]
+    lab.run("recover", "-result", "run.h5", "-output", "stress.h5", "-field_times", "all", "-fields", "field", "-stress_bar", "FIX")
+    _, field = field_of(lab, "field")
+    field = field[seen]
     alike(f"displacement of node {marker[1]}, load at {marker[0]}", lab.read("run.h5", "sensors/seen/position")[-1] - X[seen], field, 1e-6)
+
+
+def the_static_response_to_loads_at_markers_is_whole(lab):
+    """At rest a body gives way as its mesh does, however few modes it has: the modes and the static response that the default basis
+    adds make up the answer of all degrees of freedom, within a hundredth."""
+    X = bar(lab)
+    loaded = int(lab.random.choice(np.flatnonzero(X[:, 0] > X[:, 0].min() + 1e-9))) + 1
+    force = [float(f) for f in lab.random.normal(size=3) * 100]
+    keys = {"mesh": "bar.inp", "material": {"E": 210e9, "nu": 0.3, "rho": 7850.0}, "restrain": ["FIX"], "surface": ["TOP"],
+            "stress_nodes": ["FIX"], "markers": [loaded]}
+    places = []
+    for name, basis in (("few", {"modes": int(lab.random.integers(3, 15))}), ("full", {"basis": "full"})):
+        lab.write(f"{name}.yaml", {**keys, **basis, "output": f"{name}.h5"})
+        lab.run("reduce", f"{name}.yaml")
+        lab.write(f"{name}_run.yaml", {
+            "bodies": ["bar"], "bar": {"file": f"{name}.h5", "joint": "fixed"}, "analysis": "static", "static_steps": 1,
+            "loads": ["push"], "push": {"marker": f"bar.{loaded}", "force": force}, "sensors": {"seen": f"bar.{loaded}"},
+            "output": f"{name}_run.h5"
+        })
+        lab.run("simulate", f"{name}_run.yaml")
+        places.append(lab.read(f"{name}_run.h5", "sensors/seen/position")[-1] - X[loaded - 1])
+    alike("displacement of the loaded node", *places, 0.01)
+
+
+def a_sensor_on_a_flank_is_where_the_field_is(lab):
+    """A sensor at the node of a flank that bears the largest force, and the field of the same run at that node, by its largest elastic
+    displacement: equal to 1e-4."""
+    keys = cylindrical(lab.random)
+    keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    Chain(lab, "one", keys, first=True, verbs=("reduce", "simulate"))
+    body = choice(lab.random, "pinion", "wheel")
+    rows = slice(*lab.read("one.h5", f"bodies/{body}/contact_forces/offset")[-2:])
+    force, number = (lab.read("one.h5", f"bodies/{body}/contact_forces/{name}")[rows] for name in ("force", "node"))
+    node = int(lab.read(f"one_{body}.h5", "surface/nodes")[number[np.linalg.norm(force, axis=1).argmax()]])
+    keys[body]["markers"] = [node + 1]
+    keys["sensors"] = {"seen": f"{body}.{node + 1}"}
+    Chain(lab, "two", keys, verbs=("reduce", "simulate"))
+    lab.run("recover", "two.yaml", "-result", "two.h5", "-output", "stress.h5", "-field_times", "all", "-fields", "field")
+    points, field = field_of(lab, f"field_{body}")
+    alike("elastic displacement of the flank", lab.read("two.h5", "sensors/seen/position")[-1] - points[node], field[node], 1e-4)

@@ -13,7 +13,7 @@ ENVIRONMENT = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1", "OPENBLAS_NUM_THREADS": "1"
 }
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1"}  # a program that mpirun does not start waits for no daemon
-LIMIT = 300  # s, ends a run that hangs
+LIMIT = 900  # s, ends a run that hangs
 
 
 class Broken(Exception):
