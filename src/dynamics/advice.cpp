@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "dynamics/node_mobility.h"
 #include "elastogear/contact/stiffness.h"
@@ -16,6 +17,9 @@ constexpr double kStepsPerPeriod = 10;
 constexpr double kLargestGradient = 0.05;  // elastic rotation (rad) and strain: second-order terms reach 5 %
 constexpr double kLargestSpeed = 0.1;      // of the lowest mode: centrifugal softening of its stiffness, 1 %
 constexpr double kLargestLoss = 0.01;      // of a frequency: Coriolis forces that the inertia leaves out
+constexpr int kWindow = 50;                // states in which a force is looked at
+constexpr double kChange = 0.7;            // of the force from state to state, in the mean
+constexpr double kTurns = 0.2 * kWindow;   // a period of ten states has as many
 constexpr double kLargestShare = 0.05;     // of the contact forces, on nodes without a static response
 
 void raise(Vibration& to, const std::string& name, double frequency) {
@@ -155,6 +159,40 @@ std::vector<std::string> ValidityGuard::warnings(const model::Snapshot& snapshot
   Warnings said;
   for (std::size_t b = 0; b < watch_.size(); ++b) watch_body(b, snapshot, said);
   for (std::size_t p = 0; p < too_fast_.size(); ++p) watch_pair(p, snapshot, said);
+  return said;
+}
+
+ChatterWatch::ChatterWatch(const System& system) : system_(&system), force_(system.pairs().size()) {
+  for (std::size_t p = 0; p < force_.size(); ++p)
+    force_[p].watched = system.contact_settings(p).law == contact::ContactLaw::unilateral;
+}
+
+// Enters the force of a state. Returns true at the end of a window in which it went to and fro.
+bool ChatterWatch::chatters(Force& force, double now) {
+  const double change = now - std::exchange(force.last, now);
+  if (change != 0 && std::exchange(force.change, change) * change < 0) ++force.turns;
+  force.sum += now;
+  force.changes += std::abs(change);
+  if (++force.states < kWindow) return false;
+  const bool result = force.changes > kChange * force.sum && force.turns > kTurns;
+  force = {force.watched, force.last, force.change};
+  return result;
+}
+
+std::vector<std::string> ChatterWatch::warnings(const model::Snapshot& snapshot) {
+  std::vector<std::string> said;
+  for (std::size_t p = 0; p < force_.size(); ++p) {
+    if (!force_[p].watched || !chatters(force_[p], snapshot.pairs[p].force.norm())) continue;
+    force_[p].watched = false;
+    std::ostringstream text;
+    text.precision(3);
+    text << "contact " << system_->pairs()[p].name << " at t = " << snapshot.time
+         << " s: chatters, its force goes to and fro from output to output; neither it nor the energy is to "
+            "be "
+            "trusted. Give bodies with damping_ratio, or a penalty (-contact_law penalty), which bodies that "
+            "begin in touch may need a gap of 1e-7 m for, or outputs nearer to each other";
+    said.push_back(text.str());
+  }
   return said;
 }
 

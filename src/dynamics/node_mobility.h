@@ -1,5 +1,5 @@
 #pragma once
-// How easily impulses move the surface nodes of a body.
+// How easily impulses and forces move the surface nodes of a body.
 
 #include "elastogear/model/elastic_body.h"
 
@@ -12,5 +12,9 @@ Eigen::VectorXd elastic_mobility(const model::ElasticBody& body);
 /// kg, of each surface node: that an impulse moves, the motion of the whole body included as if it did not
 /// turn; no less than a hundredth of the body.
 Eigen::VectorXd node_masses(const model::ElasticBody& body);
+
+/// Marks the surface nodes at which forces have a static response in the file of the body, of which its modes
+/// leave more than a part of what the cells at the surface have. docs/theory.md, section 6.11.
+std::vector<bool> responding_nodes(const model::ElasticBody& body);
 
 }  // namespace elastogear::dynamics

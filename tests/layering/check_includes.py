@@ -6,6 +6,7 @@
 3. A header in include/ is public: another module, an example or a study includes it, directly or by another public header.
    The Python module is a second program: it uses the headers of `app`.
 4. Units (a header with its source) include each other at most in twos: a larger ring is a knot.
+5. A folder of a module holds at most 20 files.
 
 Usage: check_includes.py REPOSITORY
 """
@@ -28,6 +29,7 @@ RUNNING = {"body", "contact", "dynamics", "life", "recovery"}  # uses body files
 ROOTS = ("src", "include/elastogear")
 PROGRAMS = ("examples", "studies")  # use the library as programs outside the tree do
 API = ["dynamics/generalized_alpha.h"]  # a TS type for programs of others
+MOST_FILES = 20
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<][^">]+)[">]', re.MULTILINE)
 
 
@@ -148,6 +150,14 @@ def knots(includes):
     return found
 
 
+def crowded_folders(repository):
+    """Rule 5."""
+    for root in ROOTS:
+        for folder, _, names in os.walk(os.path.join(repository, root)):
+            if len(names) > MOST_FILES:
+                yield f"{os.path.relpath(folder, repository)}: {len(names)} files, at most {MOST_FILES}"
+
+
 def violations(repository):
     """One message for each breach of rules 1 and 2, empty when the layering holds."""
     return list(forbidden_edges({path: read_includes(path, repository) for path in source_files(repository)}))
@@ -155,7 +165,8 @@ def violations(repository):
 
 def all_violations(repository):
     includes = {path: read_includes(path, repository) for path in source_files(repository)}
-    return [*forbidden_edges(includes), *needless_public_headers(includes, repository), *knots(includes)]
+    return [*forbidden_edges(includes), *needless_public_headers(includes, repository), *knots(includes),
+            *crowded_folders(repository)]
 
 
 if __name__ == "__main__":

@@ -95,6 +95,14 @@ class CheckIncludes(unittest.TestCase):
         threes = twos | {"src/fem/b.h": ['"fem/c.h"'], "src/fem/c.h": ['"fem/a.h"']}
         self.assertEqual(knots(threes), ["a knot of includes: fem/a, fem/b, fem/c"])
 
+    def test_crowded_folders_are_reported(self):
+        def crowded(n):
+            files = {f"src/fem/a{i}.cpp": [] for i in range(n)}
+            return [message for message in found_in(files, check_includes.all_violations) if "files, at most" in message]
+
+        self.assertEqual(crowded(check_includes.MOST_FILES), [])
+        self.assertEqual(len(crowded(check_includes.MOST_FILES + 1)), 1)
+
     def test_unknown_modules_are_reported(self):
         self.assert_forbidden("src/utils/a.cpp", '"elastogear/base/error.h"')
 

@@ -5,7 +5,6 @@
 
 #include "app/console/console.h"
 #include "elastogear/dynamics/advice.h"
-#include "elastogear/dynamics/chatter.h"
 
 namespace elastogear::app {
 namespace {

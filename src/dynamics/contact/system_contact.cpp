@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "dynamics/contact/responding_nodes.h"
 #include "dynamics/node_mobility.h"
 #include "elastogear/base/error.h"
 
