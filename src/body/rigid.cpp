@@ -32,7 +32,10 @@ void drop_elastic_coordinates(model::ElasticBody& body) {
   body.stress = {};
   body.flexibility = {};
   body.relaxing.clear();
-  for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows(6, 0);
+  for (model::Marker& marker : body.markers) {
+    marker.Phi = model::DenseRows(6, 0);
+    marker.F = {};
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/fem/stress.h"
 #include "elastogear/reduction/eigenmodes.h"
+#include "elastogear/reduction/marker.h"
 #include "elastogear/reduction/reduce.h"
 #include "elastogear/reduction/static_response.h"
 #include "elastogear/reduction/stressed_body.h"
@@ -19,6 +20,7 @@
 namespace elastogear::flexibility_test {
 namespace {
 
+constexpr double kRoundoff = 1e-7;         // of static responses by two factors
 constexpr double kSinglePrecision = 5e-7;  // of stored answers, relative to the largest
 
 bool is_root() {
@@ -117,6 +119,37 @@ TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry
     EXPECT_EQ(body.flexibility.n_sectors, symmetry == reduction::Symmetry::none ? 1 : 5);
     expect_static_response(body);
   }
+}
+
+// The marker of a set moves by a force on a node as the mean of its nodes does in the unreduced body.
+TEST_F(Flexibility, moves_markers_as_the_unreduced_body_does) {
+  for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none})
+    for (reduction::ReductionOptions o : {options(symmetry), free_options(symmetry)}) {
+      o.markers = {"inner", "one"};
+      const model::ElasticBody body = reduce(o);
+      if (!is_root()) continue;
+      const io::BodySource source = io::read_body_source(path_);
+      const model::SparseRows Q = reduction::marker_operator(source.mesh, o.markers, o.marker_weights);
+      reduction::StaticResponse response(source, body.floating);
+      const std::vector<int> loaded = {1, static_cast<int>(body.surface.node.size()) - 2};
+      Eigen::Matrix3Xd f(3, 2);
+      f << 3, 1, -1, 4, 2, -2;
+      std::vector<int> nodes;
+      Eigen::VectorXd h = Eigen::VectorXd::Zero(body.n_q());
+      for (int i = 0; i < 2; ++i) {
+        nodes.push_back(body.surface.node[static_cast<std::size_t>(loaded[static_cast<std::size_t>(i)])]);
+        model::add_force(body.surface.Phi, loaded[static_cast<std::size_t>(i)], f.col(i), h);
+      }
+      const Eigen::VectorXd q = h.cwiseQuotient(Eigen::VectorXd(body.K_r.diagonal())),
+                            moved = Q * response.displacement(nodes, f.reshaped());
+      for (std::size_t m = 0; m < 2; ++m) {
+        const Eigen::VectorXd expected = moved.segment<6>(static_cast<Eigen::Index>(6 * m)),
+                              by_modes = model::multiply(body.markers[m].Phi, q),
+                              residual = model::residual_motion(body, body.markers[m], loaded, f);
+        EXPECT_LT((by_modes + residual - expected).norm(), kRoundoff * expected.norm());
+        EXPECT_GT(residual.norm(), 1e-3 * expected.norm());
+      }
+    }
 }
 
 // Whose harmonics are condensed to the border of the sector.

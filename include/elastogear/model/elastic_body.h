@@ -94,6 +94,8 @@ struct Marker {
   Eigen::Vector3d X;   ///< m, mean reference position
   bool turns = true;   ///< has a rotation; not when the set lies on one line
   BasisRows Phi = {};  ///< 6 x n_q: mean displacement, mean small rotation (rad); zero where it does not turn
+  /// 6 x 3 n_c, m/N and rad/N, static motion by unit forces on the nodes of the flexibility; or empty
+  DenseRows F = {};
 };
 
 /// A part of a body's stiffness that relaxes, that of one material region by both moduli or by one of them.
@@ -128,6 +130,11 @@ struct ElasticBody {
 
   Eigen::Index n_q() const { return K_r.rows(); }
 };
+
+/// What the modes leave out of the static motion of a marker under forces on surface nodes, m and rad, as
+/// Phi q: Eq. (3.16a). Zero without flexibility, and for nodes that it does not provide for.
+Eigen::Matrix<double, 6, 1> residual_motion(const ElasticBody& body, const Marker& marker,
+                                            const std::vector<int>& node, const Eigen::Matrix3Xd& f_B);
 
 /// Throws Error naming `source` when shapes disagree, numbers are not finite, the inertia is not positive or
 /// node numbers are out of range.

@@ -64,6 +64,13 @@ model::Stress read_stress(const h5::File& file) {
   return stress;
 }
 
+// Static responses of a marker; empty where the file has none.
+model::DenseRows read_marker_responses(const h5::File& file, const std::string& name) {
+  if (!h5::exists(file, name)) return {};
+  const std::vector<double> F = h5::read<double>(file, name, {6, h5::kAny});
+  return Eigen::Map<const model::DenseRows>(F.data(), 6, static_cast<Eigen::Index>(F.size() / 6));
+}
+
 std::vector<model::Marker> read_markers(const h5::File& file) {
   std::vector<model::Marker> markers;
   if (!h5::exists(file, "/markers")) return markers;
@@ -72,7 +79,7 @@ std::vector<model::Marker> read_markers(const h5::File& file) {
     const auto X = h5::read<double>(file, group + "/X", {3});
     markers.push_back({name, Eigen::Map<const Eigen::Vector3d>(X.data()),
                        h5::int_attribute(file, group, "turns").front() != 0,
-                       read_rows(file, group + "/Phi", 6)});
+                       read_rows(file, group + "/Phi", 6), read_marker_responses(file, group + "/F")});
   }
   return markers;
 }

@@ -72,6 +72,8 @@ void write_markers(const h5::File& file, const model::ElasticBody& body, const B
     h5::set_attribute(file, group, "turns", static_cast<int>(marker.turns));
     h5::write<double>(file, group + "/X", {{3}, marker.X.data()}, "m");
     write_rows(file, group + "/Phi", marker.Phi, 6, unit.marker);
+    if (marker.F.size() > 0)
+      h5::write<double>(file, group + "/F", {{6, extent(marker.F.cols())}, marker.F.data()}, "m/N, rad/N");
   }
 }
 

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "reduction/reduce_job.h"
+#include "reduction/static_response/marker_responses.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -102,6 +103,7 @@ void add_flexibility(Job& job, const ElasticSystem* whole, const ColumnSink& sin
     flexibility.creep = 0;
   }
   if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
+  add_marker_responses(job, whole);
 }
 
 }  // namespace elastogear::reduction

@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+"""Sensors of a gear pair move as the nodes of the field that recover writes of the same run, loaded ones and others.
+
+    sensors.py PATH/TO/elastogear PATH/TO/examples/drives
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+ROUNDOFF = 1e-6  # relative to the displacement
+LEFT_OUT = 0.1  # of the displacement of a loaded node, at least, by ten modes
+
+
+def field(path):
+    """Places and displacements of all nodes, m."""
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    grid = reader.GetOutput()
+    return vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetPointData().GetArray("displacement [m]"))
+
+
+def most_loaded(result, body):
+    with h5py.File(result) as file:
+        forces = file["bodies/pinion/contact_forces"]
+        last = slice(*forces["offset"][-2:])
+        node = forces["node"][last][np.linalg.norm(forces["force"][last], axis=1).argmax()]
+    with h5py.File(body) as file:
+        return file["surface/nodes"][node]
+
+
+def look(program, drive):
+    def run(verb, *words):
+        done = subprocess.run([program, verb, drive, "-size", "tiny", "-modes", "10", *map(str, words)], capture_output=True, text=True,
+                              check=False)
+        assert done.returncode == 0, done.stderr
+
+    run("reduce")
+    run("simulate")
+    loaded = most_loaded("spur_c14_result.h5", "pinion.h5")
+    for basis in ("modal_residual", "modal"):
+        markers = {"loaded": loaded + 1, "other": 7, "root": "root"}  # single nodes by their numbers, from 1
+        run("reduce", "-basis", basis, "-pinion_markers", ",".join(map(str, markers.values())))
+        run("simulate", *(word for name, marker in markers.items() for word in (f"-sensors_{name}", f"pinion.{marker}")))
+        with h5py.File("spur_c14_result.h5") as file:
+            time = file["time"][-1]
+            position = {name: file[f"sensors/{name}/position"][-1] for name in markers}
+            turn, q = (file[f"bodies/pinion/{name}"][-1] for name in ("rotation", "q"))
+        run("recover", "-field_times", repr(float(time)))
+        X, u = field("spur_c14_result_pinion.vtu")
+        with h5py.File("pinion.h5") as file:
+            members = {name: file[f"mesh/node_sets/{marker}"][:] for name, marker in markers.items()}
+            by_modes = file[f"markers/{loaded + 1}/Phi"][:].reshape(6, -1)[:3] @ q
+        size = np.linalg.norm(u[loaded])
+        for name, nodes in members.items():
+            off = np.linalg.norm(position[name] - (X + u)[nodes].mean(axis=0)) / size
+            assert off < ROUNDOFF, f"{basis}: sensor {name} is {off} of the displacement beside its nodes"
+        left_out = np.linalg.norm(turn @ by_modes - u[loaded]) / size
+        print(f"{basis}: {1e6 * size:.4f} um at the loaded node, of which the modes leave out {left_out:.3f}")
+        assert (left_out > LEFT_OUT) == (basis == "modal_residual"), left_out
+
+
+def main():
+    program, drives = map(os.path.abspath, sys.argv[1:])
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        look(program, os.path.join(drives, "spur_c14.yaml"))
+        os.chdir("/")
+    print("sensors move as nodes do")
+
+
+if __name__ == "__main__":
+    main()
