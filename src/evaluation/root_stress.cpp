@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "elastogear/base/error.h"
+#include "elastogear/life/revolution.h"
 
 namespace elastogear::evaluation {
 namespace {
@@ -76,9 +77,10 @@ std::vector<ToothStress> way_of_tooth(const io::StressSet& set, const Gear& gear
     const Eigen::Index a = copy_of(set, gear.toothing, tension, tooth - stress.largest_tension.tooth),
                        b = copy_of(set, gear.toothing, von_mises, tooth - stress.largest_von_mises.tooth);
     if (a < 0 || b < 0) continue;
+    const Eigen::MatrixXd principal = life::signed_principal(set.stress.middleRows<6>(6 * a));
     for (Eigen::Index step = 0; step < set.rankine.cols(); ++step)
       way.push_back({place_of_tooth(gear, mate, tooth, static_cast<std::size_t>(step)), set.rankine(a, step),
-                     set.von_mises(b, step)});
+                     set.von_mises(b, step), principal(0, step)});
   }
   std::sort(way.begin(), way.end(), [](const auto& x, const auto& y) { return x.place < y.place; });
   return way;
@@ -94,8 +96,9 @@ gear::Flank nearest_flank(const gear::Toothing& t, const Eigen::Vector3d& x) {
 }
 
 RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& mate, int side) {
-  require(set.X.cols() == set.rankine.rows() && set.X.cols() > 0, "stresses of ", set.body, "/", set.set,
-          ": hold no positions of their nodes; recover them anew");
+  require(set.X.cols() == set.rankine.rows() && set.X.cols() > 0 && set.stress.rows() == 6 * set.X.cols(),
+          "stresses of ", set.body, "/", set.set,
+          ": hold no positions or no stresses of all their nodes; recover them anew");
   const Roots roots = sort_by_tooth(set, gear.toothing, side);
   require(!roots.loaded.empty(), "stresses of ", set.body, "/", set.set, ": no node is at the ",
           side > 0 ? "left" : "right", " side of a tooth");
@@ -110,8 +113,8 @@ RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& m
   if (!stress.way.empty()) {
     const auto [low, high] =
         std::minmax_element(stress.way.begin(), stress.way.end(),
-                            [](const auto& x, const auto& y) { return x.tension < y.tension; });
-    stress.range = high->tension - low->tension;
+                            [](const auto& x, const auto& y) { return x.stress < y.stress; });
+    stress.range = high->stress - low->stress;
   }
   return stress;
 }

@@ -15,6 +15,7 @@ struct ToothStress {
   double place = 0;      ///< pitches, of its way through the mesh
   double tension = 0;    ///< Pa, at the copies of the node of the largest one
   double von_mises = 0;  ///< Pa, at the copies of its node
+  double stress = 0;     ///< Pa, principal stress of largest size with its sign, where `tension` is
 };
 
 /// A largest stress: value and estimated errors of the reduction, of the mesh and of the contact's resolution
@@ -31,7 +32,7 @@ struct RootStress {
   Eigen::MatrixXd von_mises;  ///< n_t x teeth, Pa, largest at both sides
   StressPeak largest_tension, largest_von_mises;
   std::vector<ToothStress> way;  ///< ascending places
-  double range = 0;              ///< Pa, largest less smallest tension of one node on that way
+  double range = 0;              ///< Pa, largest less smallest `stress` of one node on that way
 };
 
 /// Tooth (0-based) whose centre is nearest to a point, and the side of it that the point is on.

@@ -109,16 +109,20 @@ void add_peak(const io::StressSet& set, const StressPeak& peak, const Eigen::Vec
 
 void add_way(const RootStress& stress, const std::string& path, Items& items) {
   const auto n = static_cast<Eigen::Index>(stress.way.size());
-  Eigen::VectorXd place(n), tension(n), von_mises(n);
+  Eigen::VectorXd place(n), tension(n), von_mises(n), principal(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const ToothStress& s = stress.way[static_cast<std::size_t>(i)];
     place[i] = s.place, tension[i] = s.tension, von_mises[i] = s.von_mises;
+    principal[i] = s.stress;
   }
   items.curve(path + "/way/place", "1", "place of a tooth on its way through the mesh, pitches", place);
   items.curve(path + "/way/tension", "Pa", "largest principal stress at the node of the largest tension",
               tension);
   items.curve(path + "/way/von_mises", "Pa", "at the node of the largest von Mises stress", von_mises);
-  if (n > 0) items.number(path + "/range", "Pa", "largest less smallest value of way/tension", stress.range);
+  items.curve(path + "/way/stress", "Pa",
+              "principal stress of largest size with its sign, at the node of the largest tension",
+              principal);
+  if (n > 0) items.number(path + "/range", "Pa", "largest less smallest value of way/stress", stress.range);
 }
 
 }  // namespace

@@ -12,14 +12,17 @@ namespace {
 
 // Each tooth of the pinion has a node at either side of its root; tension at the left ones falls with the
 // square of the tooth's place.
+constexpr double kOpposite = 6;  // pitches
 double tension(double place) { return 300e6 * std::exp(-place * place); }
 
-io::StressSet made_up(const test::RollingPair& pair) {
+// Of an idler, which another gear presses `compression` times as much at the opposite side.
+io::StressSet made_up(const test::RollingPair& pair, double compression = 0) {
   const Gear& gear = pair.gear[0];
   const int z = gear.toothing.z;
   const Eigen::Index n_t = pair.roll.size();
   io::StressSet set{"pinion", "root", {}, {}, {}, {}};
   set.X.resize(3, 2 * z);
+  set.stress = Eigen::MatrixXd::Zero(12 * z, n_t);
   set.rankine = set.von_mises = set.error = Eigen::MatrixXd::Zero(2 * z, n_t);
   for (int i = 0; i < 2 * z; ++i) {
     const double angle = gear::tooth_angle(gear.toothing, i / 2) + (i % 2 == 0 ? 0.08 : -0.08);
@@ -30,6 +33,7 @@ io::StressSet made_up(const test::RollingPair& pair) {
       set.rankine(i, step) = i % 2 == 0 ? tension(place) : -1e6;
       set.von_mises(i, step) = i % 2 == 0 ? tension(place) : 1.2 * tension(place);
       set.error(i, step) = 2e6;
+      set.stress(6 * i + 2, step) = tension(place) - compression * tension(place - kOpposite);
     }
   }
   return set;
@@ -53,6 +57,13 @@ TEST(RootStress, tells_the_largest_tension_of_the_loaded_side_and_the_way_of_a_t
   }
   EXPECT_NEAR(stress.range, 300e6 - tension(8.5), 1e3);
   EXPECT_NEAR(stress.tension(3, 0), tension(3.0 / 8), 1);
+}
+
+TEST(RootStress, ranges_over_tension_and_compression) {
+  const test::RollingPair pair = test::spur_pair();
+  const RootStress stress = root_stress(made_up(pair, 0.9), pair.gear[0], pair.gear[1], 1);
+  EXPECT_NEAR(stress.largest_tension.value, 300e6, 1);
+  EXPECT_NEAR(stress.range, 1.9 * 300e6, 1e3);
 }
 
 TEST(RootStress, of_the_other_side_is_small) {

@@ -215,7 +215,7 @@ void set_unloaded(const Source& source, const std::map<std::string, Eigen::Vecto
 
 io::StressSet some_times(const io::StressSet& all, const std::vector<int>& steps) {
   io::StressSet set = all;
-  set.stress.resize(0, 0);
+  set.stress = all.stress(Eigen::all, steps);
   set.von_mises = all.von_mises(Eigen::all, steps);
   set.rankine = all.rankine(Eigen::all, steps);
   if (all.mesh_error.size() > 0) set.mesh_error = all.mesh_error(Eigen::all, steps);

@@ -126,7 +126,8 @@ void print_roots(const Reader& of) {
     const std::string gear = path.substr(5);
     print_item("root of " + gear + ", tension", peak("/largest_tension"));
     if (of.has(path + "/range"))
-      print_item("", "range of a tooth on its way " + of.in(path + "/range", 1e-6, "MPa"));
+      print_item("",
+                 "range of the signed stress of a tooth on its way " + of.in(path + "/range", 1e-6, "MPa"));
     print_item("root of " + gear + ", von Mises", peak("/largest_von_mises"));
   }
 }
