@@ -254,7 +254,8 @@ class Evaluation:
 class Life:
     """Fatigue damage and life of a drive's gears (docs/life.md).
 
-    summary         the contents of the JSON file: for each set the most damaged node, its damage and life
+    summary         the contents of the JSON file: for each set the most damaged node, its damage and life, and both with the
+                    estimated error of the stress (damage_with_error, life_with_error; None: not estimated)
     path, report    as of Result
     """
 

@@ -149,4 +149,8 @@ Eigen::MatrixXd signed_principal(const Eigen::MatrixXd& stress) {
   return principal;
 }
 
+Eigen::MatrixXd enlarged(const Eigen::MatrixXd& stress, const Eigen::MatrixXd& error) {
+  return stress.binaryExpr(error, [](double s, double e) { return s + std::copysign(e, s); });
+}
+
 }  // namespace elastogear::life

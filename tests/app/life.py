@@ -40,7 +40,7 @@ def pulse(angle, height):
     return height * np.clip(1 - np.abs(angle) / 0.4, 0, None)
 
 
-def write_stresses(path, height, pitches=1, uneven=0.0):
+def write_stresses(path, height, pitches=1, uneven=0.0, error=None):
     """Two nodes a tooth, of which the second bears half, and compression of half that before it. height: Pa, by gear."""
     roll = np.arange(pitches * PER_PITCH) / PER_PITCH
     with h5py.File(path, "w") as file:
@@ -65,6 +65,9 @@ def write_stresses(path, height, pitches=1, uneven=0.0):
             group["nodes"] = np.arange(100, 100 + 2 * z, dtype=np.int32)
             group["X"], group["stress"] = X, stress
             group["von_mises"], group["rankine"] = np.abs(principal), np.maximum(principal, 0)
+            if error is not None:
+                group["error"] = group["mesh_error"] = group["contact_error"] = error / 3 * np.abs(principal)
+                group["peak_error"] = group["error"][:].max(axis=1)
     return max(np.abs(pulse(SENSE[b] * 2 * np.pi * roll / TEETH[b], 1)).max() for b in TEETH)
 
 
@@ -137,6 +140,23 @@ def look(program, scripts):
     assert "2 blocks, 280000 revolutions" in described and "damage of wheel/root: 46 nodes" in described, described
     subprocess.run([os.path.join(scripts, "life.py"), "drive_life.h5", "--out", "pictures"], capture_output=True, check=True)
     assert sorted(os.listdir("pictures")) == ["life_pinion_root.png", "life_wheel_root.png"]
+
+    # Stresses that err by a fifth have the life of such that are larger by a fifth.
+    assert "error of the stress is not estimated" in text and summary["sets"][0]["life_with_error"] is None
+    write_stresses("erring.h5", {body: h[0] for body, h in heights.items()}, error=0.2)
+    text = run("-files", "erring.h5", "-duty_cycle", "100 N m, 1e5")
+    assert "life at the stress and its estimated error" in text and "not estimated" not in text
+    with open("drive_life.json", encoding="utf-8") as file:
+        summary = json.load(file)
+    for one, (body, z) in zip(summary["sets"], TEETH.items()):
+        lives = []
+        for name, factor in (("", 1), ("_with_error", 1.2)):
+            damage = expected([factor * h for h in heights[body]], ((100, 1e5),), 17 / z)
+            assert abs(one["damage" + name] / damage - 1) < 1e-9, (body, name, one, damage)
+            lives.append(one["life" + name]["hours"] * damage)
+        assert abs(lives[0] / lives[1] - 1) < 1e-9
+        with h5py.File("drive_life.h5") as file:
+            assert abs(file[f"{body}/root/damage_with_error"][:].max() / one["damage_with_error"] - 1) < 1e-12
 
     # Survival, a CSV file, a gear's own curve.
     with open("cycle.csv", "w", encoding="utf-8") as file:

@@ -29,6 +29,8 @@ struct LifeSet {
   Eigen::VectorXd roll;          ///< n_t, pitches, of the history
   Eigen::MatrixXd history;       ///< n_t x n_blocks, Pa, signed principal stress of the critical node
   CycleTable cycles;             ///< of the critical node
+  /// n, by stresses that are larger by their estimated error; infinite where they break the part; or empty
+  Eigen::VectorXd damage_with_error = {};
 };
 
 struct LifeFile {

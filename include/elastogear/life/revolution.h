@@ -50,4 +50,7 @@ Revolutions over_revolutions(const std::string& name, const Eigen::MatrixXd& str
 /// xx yy zz xy yz xz of each node.
 Eigen::MatrixXd signed_principal(const Eigen::MatrixXd& stress);
 
+/// Stresses whose sizes are larger by errors >= 0.
+Eigen::MatrixXd enlarged(const Eigen::MatrixXd& stress, const Eigen::MatrixXd& error);
+
 }  // namespace elastogear::life

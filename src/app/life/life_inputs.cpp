@@ -102,12 +102,20 @@ io::StressFile recovered(const LifeSettings& settings, const std::string& result
     const auto sets = settings.sets.find(body.name);
     if (sets == settings.sets.end()) continue;
     recovery::RecoveredBody ready = recovery::prepare_recovery(
-        std::move(body), recovery::Acceleration::automatic, false, finite_elements());
+        std::move(body), recovery::Acceleration::automatic, true, finite_elements());
     const model::ElasticBody elastic = recovery::read_elastic_body(ready.run);
     for (const std::string& set : sets->second)
-      file.sets.push_back(recovery::recover_stress(ready, elastic, set, false));
+      file.sets.push_back(recovery::recover_stress(ready, elastic, set, true));
   }
   return file;
+}
+
+// The sum of the estimates, as recover says it; empty where that of the mesh or of the reduction is missing.
+Eigen::MatrixXd whole_error(const io::StressSet& set) {
+  if (set.error.size() == 0 || set.mesh_error.size() == 0) return {};
+  Eigen::MatrixXd error = set.error + set.mesh_error;
+  if (set.contact_error.size() > 0) error += set.contact_error;
+  return error;
 }
 
 std::vector<SweptTorque> named_torques(const Options& options, const LifeSettings& settings) {
@@ -141,7 +149,8 @@ std::vector<SweptStress> read_stresses(const LifeSettings& settings, const Swept
                        [&, &body = body](const io::StressSet& s) { return s.body == body && s.set == name; });
       require(set != file.sets.end() && set->X.cols() > 0, at.file, ": holds no stresses of ", body, " ",
               name, ": recover it with -stress_", body, " ", name);
-      all.push_back({body, name, set->node, set->X, file.time, life::signed_principal(set->stress)});
+      all.push_back(
+          {body, name, set->node, set->X, file.time, life::signed_principal(set->stress), whole_error(*set)});
     }
   return all;
 }

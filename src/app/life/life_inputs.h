@@ -24,10 +24,11 @@ std::vector<SweptTorque> swept_torques(const Options& options, const LifeSetting
 /// The signed principal stresses of one node set over the positions of one sweep.
 struct SweptStress {
   std::string body, set;
-  std::vector<int> node;   ///< n, mesh numbers
-  Eigen::Matrix3Xd X;      ///< 3 x n, m, body frame
-  Eigen::VectorXd roll;    ///< n_t, pitches
-  Eigen::MatrixXd stress;  ///< n x n_t, Pa
+  std::vector<int> node;       ///< n, mesh numbers
+  Eigen::Matrix3Xd X;          ///< 3 x n, m, body frame
+  Eigen::VectorXd roll;        ///< n_t, pitches
+  Eigen::MatrixXd stress;      ///< n x n_t, Pa
+  Eigen::MatrixXd error = {};  ///< n x n_t, Pa, estimated by reduction, mesh and contact; or empty
 };
 
 /// The node sets that are wanted, at one torque. Error when the file does not hold them.

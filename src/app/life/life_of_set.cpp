@@ -67,6 +67,20 @@ Eigen::Index worst(const life::Damage& damage) {
   return at;
 }
 
+// Of the nodes of the set, by histories that are larger by the estimated error; empty where it is not known.
+Eigen::VectorXd damage_with_error(const SetHistory& history, const Strength& strength,
+                                  const std::vector<double>& torques, const std::vector<life::Block>& blocks,
+                                  bool proportional) {
+  if (history.with_error.size() != history.at.size()) return {};
+  const life::Damage damage =
+      life::duty_cycle_damage(history.with_error, torques, blocks, std::abs(history.member->ratio),
+                              strength.curve, strength.mean_stress, proportional);
+  io::LifeSet set;
+  set.node = history.place.node;
+  spread(damage, history.with_error.front(), set);
+  return set.damage;
+}
+
 void require_static_strength(const life::Damage& damage, const life::Revolutions& r,
                              const SetHistory& history) {
   for (Eigen::Index i = 0; i < damage.total.size(); ++i)
@@ -98,6 +112,7 @@ LifeOfSet life_of_set(const SetHistory& history, const Strength& strength, const
   set.X = history.place.X;
   for (const auto& x : set.X.colwise()) set.tooth.push_back(nearest_tooth(history.member->toothing, x));
   spread(damage, r, set);
+  set.damage_with_error = damage_with_error(history, strength, torques, blocks, proportional);
   const Eigen::Index critical = worst(damage), n_t = r.stress.rows();
   set.critical = r.node[static_cast<std::size_t>(critical)];
   set.roll = Eigen::VectorXd::LinSpaced(n_t, 0, static_cast<double>(n_t - 1)) / history.sweep.per_pitch;

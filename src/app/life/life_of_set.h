@@ -12,8 +12,9 @@ struct SetHistory {
   const DriveMember* member = nullptr;
   SweptStress place;  ///< nodes and positions; the stress of one of the torques
   life::Sweep sweep = {};
-  std::vector<life::Revolutions> at = {};  ///< by torque
-  std::string body_file = {};              ///< of the gear
+  std::vector<life::Revolutions> at = {};          ///< by torque
+  std::vector<life::Revolutions> with_error = {};  ///< the same, larger by the estimated error; or fewer
+  std::string body_file = {};                      ///< of the gear
 };
 
 /// proportional: see life::between. Error when the stress reaches what the material bears at once.

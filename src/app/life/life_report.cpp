@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/console/console.h"
 #include "elastogear/base/file.h"
@@ -53,13 +54,16 @@ Eigen::VectorXd as_numbers(const std::vector<int>& values) {
 }
 
 void write_damage_table(const std::string& path, const io::LifeSet& set) {
-  io::write_csv(path, {{"node", "1", as_numbers(set.node)},
-                       {"tooth", "1", as_numbers(set.tooth)},
-                       {"x", "m", set.X.row(0)},
-                       {"y", "m", set.X.row(1)},
-                       {"z", "m", set.X.row(2)},
-                       {"damage", "1", set.damage},
-                       {"amplitude", "Pa", set.amplitude}});
+  std::vector<io::CsvColumn> columns = {{"node", "1", as_numbers(set.node)},
+                                        {"tooth", "1", as_numbers(set.tooth)},
+                                        {"x", "m", set.X.row(0)},
+                                        {"y", "m", set.X.row(1)},
+                                        {"z", "m", set.X.row(2)},
+                                        {"damage", "1", set.damage},
+                                        {"amplitude", "Pa", set.amplitude}};
+  if (set.damage_with_error.size() > 0)
+    columns.push_back({"damage with estimated error", "1", set.damage_with_error});
+  io::write_csv(path, columns);
 }
 
 void write_cycle_table(const std::string& path, const LifeReport& report, const io::LifeSet& set) {
@@ -106,8 +110,13 @@ std::string field_path(const std::string& output, const LifeOfSet& one) {
   return stem(output) + "_" + one.set.body + ".vtu";
 }
 
-ordered_json json_of_life(const LifeOfSet& one, const Total& sum) {
-  const double damage = largest_damage(one);
+// The largest of the set, whichever node has it; nothing where the error is not estimated.
+std::optional<double> largest_with_error(const LifeOfSet& one) {
+  if (one.set.damage_with_error.size() == 0) return {};
+  return one.set.damage_with_error.maxCoeff();
+}
+
+ordered_json json_of_life(double damage, const LifeOfSet& one, const Total& sum) {
   if (damage == 0) return nullptr;
   ordered_json life = {{"duty_cycles", 1 / damage},
                        {"revolutions_of_first_gear", sum.revolutions / damage},
@@ -119,6 +128,7 @@ ordered_json json_of_life(const LifeOfSet& one, const Total& sum) {
 ordered_json json_of_set(const LifeOfSet& one, const Total& sum) {
   const auto at = static_cast<std::size_t>(one.set.critical);
   const Eigen::Vector3d x = one.set.X.col(one.set.critical);
+  const std::optional<double> with_error = largest_with_error(one);
   const Eigen::VectorXd blocks = one.set.block_damage.row(one.set.critical);
   return {{"body", one.set.body},
           {"set", one.set.set},
@@ -130,7 +140,9 @@ ordered_json json_of_set(const LifeOfSet& one, const Total& sum) {
           {"largest_stress_Pa", one.largest},
           {"largest_amplitude_fully_reversed_Pa", one.set.amplitude[one.set.critical]},
           {"from_one_pitch", one.laid},
-          {"life", json_of_life(one, sum)}};
+          {"life", json_of_life(largest_damage(one), one, sum)},
+          {"damage_with_error", with_error ? ordered_json(*with_error) : nullptr},
+          {"life_with_error", with_error ? json_of_life(*with_error, one, sum) : nullptr}};
 }
 
 void write_summary(const std::string& path, const LifeReport& report) {
@@ -152,6 +164,13 @@ std::string place(const LifeOfSet& one) {
          (one.laid ? ", the same of every tooth" : ", tooth " + std::to_string(one.set.tooth[at]));
 }
 
+std::string life_text(double damage, const Total& sum) {
+  if (damage == 0) return "without end";
+  std::string text = with_unit(sum.revolutions / damage, "revolutions of the first gear");
+  if (sum.hours >= 0) text += ", " + with_unit(sum.hours / damage, "h");
+  return text;
+}
+
 void print_set(const LifeOfSet& one, const Total& sum) {
   const double damage = largest_damage(one);
   print_item(one.set.body + " " + one.set.set,
@@ -159,12 +178,13 @@ void print_set(const LifeOfSet& one, const Total& sum) {
   print_item("", "largest stress " + with_unit(1e-6 * one.largest, "MPa") +
                      ", fully reversed amplitude there " +
                      with_unit(1e-6 * one.set.amplitude[one.set.critical], "MPa"));
-  std::string text = "life without end";
-  if (damage > 0) {
-    text = "life " + with_unit(sum.revolutions / damage, "revolutions of the first gear");
-    if (sum.hours >= 0) text += ", " + with_unit(sum.hours / damage, "h");
-  }
-  print_item("", text);
+  print_item("", "life at the stress " + life_text(damage, sum));
+  if (const std::optional<double> with_error = largest_with_error(one))
+    print_item("", "life at the stress and its estimated error " + life_text(*with_error, sum));
+  else
+    print_item("warning", one.set.body + " " + one.set.set +
+                              ": the error of the stress is not estimated, and the life goes with a high "
+                              "power of it: recover with error estimates, or repeat with a finer mesh");
   if (one.laid && one.pitches > 1)
     print_item("", "from the first of " + std::to_string(one.pitches) +
                        " pitches; others differ by at most " + with_unit(1e-6 * one.difference, "MPa"));

@@ -50,6 +50,10 @@ void add(SetHistory& history, const Drive& drive, const std::string& file, Swept
   history.at.push_back(life::over_revolutions(member.name + " " + read.set, read.stress, read.X, sweep,
                                               member.toothing.z, member.ratio > 0 ? 1 : -1));
   refuse_different_teeth(drive, file, history.at.back());
+  if (read.error.size() > 0)
+    history.with_error.push_back(life::over_revolutions(member.name + " " + read.set,
+                                                        life::enlarged(read.stress, read.error), read.X,
+                                                        sweep, member.toothing.z, member.ratio > 0 ? 1 : -1));
   history.place = std::move(read);
 }
 

@@ -16,6 +16,10 @@ void check_life(const h5::File& file, const LifeSet& set, Eigen::Index n_blocks)
               set.history.rows() == set.roll.size() && set.critical >= 0 && set.critical < n,
           file.path, ": damage of ", set.body, "/", set.set, " does not have ", n, " nodes and ", n_blocks,
           " blocks");
+  require(set.damage_with_error.size() == 0 ||
+              (set.damage_with_error.size() == n && !set.damage_with_error.hasNaN()),
+          file.path, ": damage of ", set.body, "/", set.set, " with the estimated error does not have ", n,
+          " numbers");
   require(set.damage.allFinite() && set.block_damage.allFinite() && set.amplitude.allFinite() &&
               set.history.allFinite(),
           file.path, ": damage of ", set.body, "/", set.set, " is not finite");
@@ -30,6 +34,8 @@ void write_life_set(const h5::File& file, const LifeSet& set) {
   h5::write<double>(file, group + "/damage", view(set.damage), "1");
   h5::write<double>(file, group + "/block_damage", {{n_blocks, n}, set.block_damage.data()}, "1");
   h5::write<double>(file, group + "/amplitude", view(set.amplitude), "Pa");
+  if (set.damage_with_error.size() > 0)
+    h5::write<double>(file, group + "/damage_with_error", view(set.damage_with_error), "1");
   h5::write<double>(file, critical + "/roll", view(set.roll), "1");
   h5::write<double>(file, critical + "/history", {{n_blocks, extent(set.roll.size())}, set.history.data()},
                     "Pa");
