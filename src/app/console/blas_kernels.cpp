@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <set>
 
 namespace elastogear::app {
@@ -44,6 +45,12 @@ std::string blas_advice() {
   if (core.empty()) return "";
   return "OpenBLAS takes this processor for a " + openblas_core() + "; " + kBlasVariable + "=" + core +
          " in the environment is faster";
+}
+
+void use_one_blas_thread() {
+  using Set = void (*)(int);
+  const auto set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (set && !std::getenv("OPENBLAS_NUM_THREADS")) set(1);
 }
 
 }  // namespace elastogear::app

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/console/advice.h"
+#include "app/console/blas_kernels.h"
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
@@ -243,6 +244,7 @@ Options of_system(const Options& given) {
 }
 
 void run_simulate(const Options& given, const std::vector<std::string>&) {
+  use_one_blas_thread();
   if (analysis(given) == Analysis::sweep) return run_sweep(given);
   int n_ranks = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &n_ranks);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/console/blas_kernels.h"
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/gear/drive_options.h"
@@ -120,6 +121,7 @@ void refuse_single_teeth(const Drive& drive, const Options& options) {
 }
 
 void run_wear(const Options& given, const std::vector<std::string>&) {
+  use_one_blas_thread();
   require(is_drive(given), "needs a drive file: elastogear wear drive.yaml (docs/drives.md)");
   const Options options = with_gears(given);
   const Drive drive = read_drive(options);
