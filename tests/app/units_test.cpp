@@ -25,10 +25,13 @@ TEST(Units, convert_numbers_to_the_unit_of_an_option) {
   EXPECT_DOUBLE_EQ(converted("-20 degC", "K"), 253.15);
   EXPECT_DOUBLE_EQ(converted("300 K", "K"), 300);
   EXPECT_DOUBLE_EQ(converted("80 kJ/mol", "J/mol"), 8e4);
+  EXPECT_DOUBLE_EQ(converted("100 mm/s", "m/s"), 0.1);
+  EXPECT_DOUBLE_EQ(converted("9810 mm/s^2", "m/s^2"), 9.81);
+  EXPECT_DOUBLE_EQ(converted("2 kHz", "Hz"), 2000);
 }
 
 TEST(Units, leave_plain_numbers_words_and_files_as_they_are) {
-  for (const char* text : {"0.003", "[ramp, 4, 1e-3]", "table,torque.csv", "5.csv", "-inf", "auto"})
+  for (const char* text : {"0.003", "[ramp, 4, 1e-3]", "table,torque.csv", "5.csv", "5/a.csv", "-inf", "auto"})
     EXPECT_EQ(in_unit("option -x", text, "N m"), text);
   EXPECT_EQ(in_unit("option -x", "3 mm", "-"), "3 mm");
 }
@@ -46,6 +49,8 @@ TEST(Units, refuse_what_measures_something_else) {
             "option -module = '3 deg': 'deg' is no unit of it, write nm, um, mm, cm, m, in");
   EXPECT_EQ(message("3 m m"),
             "option -module = '3 m m': 'm m' is no unit of it, write nm, um, mm, cm, m, in");
+  EXPECT_EQ(message("3 mm/s"),
+            "option -module = '3 mm/s': 'mm/s' is no unit of it, write nm, um, mm, cm, m, in");
 }
 
 }  // namespace

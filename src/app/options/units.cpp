@@ -21,6 +21,9 @@ enum class Quantity {
   torque,
   pressure,
   speed,
+  velocity,
+  acceleration,
+  frequency,
   density,
   stiffness,
   wear,
@@ -71,6 +74,12 @@ constexpr Unit kUnits[] = {{"nm", length, 1e-9},
                            {"rad/s", speed, 1},
                            {"rpm", speed, std::numbers::pi / 30},
                            {"1/min", speed, std::numbers::pi / 30},
+                           {"m/s", velocity, 1},
+                           {"mm/s", velocity, 1e-3},
+                           {"m/s^2", acceleration, 1},
+                           {"mm/s^2", acceleration, 1e-3},
+                           {"Hz", frequency, 1},
+                           {"kHz", frequency, 1e3},
                            {"kg/m^3", density, 1},
                            {"g/cm^3", density, 1e3},
                            {"N/m", stiffness, 1},
@@ -104,7 +113,8 @@ std::string converted(const std::string& label, const std::string& text, const U
   const double value = std::strtod(word.c_str(), &end);
   const std::string name = trimmed(end);
   if (end == word.c_str() || name.empty()) return text;
-  const bool file = end[-1] == '.' || name.find_first_of("./\\") != name.npos;
+  // "5.csv" and "5/a.csv" are files, "5 in/s" would be a number with a unit.
+  const bool file = end[-1] == '.' || (*end != ' ' && name.find_first_of("./\\") != name.npos);
   if (file && !find(name)) return text;
   const Unit* unit = find(name);
   require(unit && (!wanted || unit->quantity == wanted->quantity), label, " = '", word, "': '", name,
