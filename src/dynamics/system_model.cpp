@@ -224,6 +224,21 @@ SystemModel make_system_model(const std::vector<BodySetup>& bodies, const std::v
   return model;
 }
 
+void begin_with(SystemModel& model, const std::vector<model::BodyState>& states) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    SystemModel::Body& body = model.bodies[b];
+    const model::BodyState& state = states[b];
+    model.U_0.segment(body.first + body.n_open(), body.eq.n_q()) = state.q;
+    if (state.s.size() != body.eq.n_s()) continue;
+    Eigen::VectorXd s = state.s;
+    if (body.eq.joint.type == body::JointType::free) {
+      body.eq.joint.R_WB0 = state.R_WB;
+      s << state.r_WB, Eigen::Vector3d::Zero();
+    }
+    model.U_0.segment(body.first, body.n_open()) = s(body.open);
+  }
+}
+
 body::Motion motion(const SystemModel& model, std::size_t b, const State& x) {
   const SystemModel::Body& body = model.bodies[b];
   const Eigen::Index n_s = body.eq.n_s(), s = body.first, q = s + body.n_open(), n_q = body.eq.n_q();

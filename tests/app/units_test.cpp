@@ -31,7 +31,8 @@ TEST(Units, convert_numbers_to_the_unit_of_an_option) {
 }
 
 TEST(Units, leave_plain_numbers_words_and_files_as_they_are) {
-  for (const char* text : {"0.003", "[ramp, 4, 1e-3]", "table,torque.csv", "5.csv", "5/a.csv", "-inf", "auto"})
+  for (const char* text :
+       {"0.003", "[ramp, 4, 1e-3]", "table,torque.csv", "5.csv", "5/a.csv", "-inf", "auto"})
     EXPECT_EQ(in_unit("option -x", text, "N m"), text);
   EXPECT_EQ(in_unit("option -x", "3 mm", "-"), "3 mm");
 }

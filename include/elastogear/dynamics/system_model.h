@@ -79,6 +79,11 @@ struct SystemModel {
 SystemModel make_system_model(const std::vector<BodySetup>& bodies, const std::vector<PairSetup>& pairs,
                               const Environment& environment = {}, const MarkerSetups& markers = {});
 
+/// Lets the motion begin with joint coordinates and deformations of these states, one for each body. Joint
+/// coordinates stay where the state has others, as that of a body that was held. Bushings are unloaded where
+/// they were before.
+void begin_with(SystemModel& model, const std::vector<model::BodyState>& states);
+
 using ConstVector = Eigen::Ref<const Eigen::VectorXd>;
 
 /// A state of the system. The vectors must outlive it.

@@ -22,8 +22,8 @@ std::string blas_setting();
 /// That setting as a sentence.
 std::string blas_advice();
 
-/// Keeps OpenBLAS from threads that a time step is too small for: they wait for work and yield their processor
-/// each time. Those that OPENBLAS_NUM_THREADS asks for remain.
+/// Keeps OpenBLAS from threads that a time step is too small for: they wait for work and yield their
+/// processor each time. Those that OPENBLAS_NUM_THREADS asks for remain.
 void use_one_blas_thread();
 
 }  // namespace elastogear::app

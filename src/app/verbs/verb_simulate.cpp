@@ -12,6 +12,7 @@
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
 #include "app/drive_input.h"
+#include "app/loaded_start.h"
 #include "app/options/rows.h"
 #include "app/resumable_run.h"
 #include "app/sweep/sweep_cases.h"
@@ -182,13 +183,10 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
   print_item("written", options.text("output"));
 }
 
-// Load steps in place of time steps.
-void make_static(const Options& options, SystemSetup& system) {
-  constexpr double kLastValue = std::numeric_limits<double>::infinity();
-  const double time = options.given("ts_max_time") ? options.positive("ts_max_time") : kLastValue;
-  for (dynamics::BodySetup& setup : system.bodies) dynamics::scale_by_load_factor(setup, time);
-  dynamics::scale_by_load_factor(system.markers, time);
-  dynamics::scale_by_load_factor(system.environment);
+// The time of the loads that a static analysis takes, s.
+double time_of_loads(const Options& options) {
+  return options.given("ts_max_time") ? options.positive("ts_max_time")
+                                      : std::numeric_limits<double>::infinity();
 }
 
 std::string step_text(const dynamics::StepInfo& step) {
@@ -243,6 +241,16 @@ Options of_system(const Options& given) {
   return with_system(options, drive);
 }
 
+// given: before options of the system were derived from those of a drive.
+std::unique_ptr<dynamics::System> make_system(const Options& given, Analysis kind, const SystemSetup& setup,
+                                              KnownBodies& known) {
+  dynamics::SystemModel model =
+      dynamics::make_system_model(setup.bodies, setup.pairs, setup.environment, setup.markers);
+  const auto still = kind == Analysis::dynamic ? begin_loaded(given, known, model) : nullptr;
+  return still ? std::make_unique<dynamics::System>(std::move(model), *still)
+               : std::make_unique<dynamics::System>(std::move(model));
+}
+
 void run_simulate(const Options& given, const std::vector<std::string>&) {
   use_one_blas_thread();
   if (analysis(given) == Analysis::sweep) return run_sweep(given);
@@ -263,9 +271,10 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   std::optional<LogStage> stage("bodies and set-up of contact");
   KnownBodies known;
   SystemSetup setup = system_setup(options, known);
-  if (analysis(options) == Analysis::equilibrium) make_static(options, setup);
+  if (analysis(options) == Analysis::equilibrium) make_static(setup, time_of_loads(options));
 
-  dynamics::System system(setup.bodies, setup.pairs, setup.environment, setup.markers);
+  const auto made = make_system(given, analysis(options), setup, known);
+  dynamics::System& system = *made;
   const model::ResultHeader head = result_header(options, system.model(), known);
   print_laws(options, system.model());
   stage.emplace(analysis(options) == Analysis::equilibrium ? "equilibria" : "motion");
@@ -324,10 +333,7 @@ PreparedSimulation prepare_simulation(const Options& given, const MakeLaws& make
   KnownBodies known;
   SystemSetup setup = system_setup(options, known);
   set_laws(make_laws(options.list("loads")), setup);
-  PreparedSimulation prepared{
-      std::make_unique<dynamics::System>(setup.bodies, setup.pairs, setup.environment, setup.markers),
-      time,
-      {}};
+  PreparedSimulation prepared{make_system(motion, kind, setup, known), time, {}};
   prepared.header = result_header(options, prepared.system->model(), known);
   print_laws(options, prepared.system->model());
   return prepared;
