@@ -1,7 +1,6 @@
 #include "app/console/outputs.h"
 
 #include <fcntl.h>
-#include <petscsys.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -78,10 +77,10 @@ void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
                 input.file == file ? "" : ", the same file as " + input.file, "; this run ", input.whence);
 }
 
-OutputLock::OutputLock(const std::string& path) {
-  collectively(PETSC_COMM_WORLD, [&] {
+OutputLock::OutputLock(const std::string& path, MPI_Comm comm) {
+  collectively(comm, [&] {
     int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    MPI_Comm_rank(comm, &rank);
     if (rank == 0) take(path);
   });
 }

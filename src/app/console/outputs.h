@@ -2,6 +2,8 @@
 // Outputs of a run are checked here: none may be one of its inputs, and none may be written by another run at
 // the same time.
 
+#include <petscsys.h>
+
 #include <string>
 #include <vector>
 
@@ -26,8 +28,8 @@ void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
 class OutputLock {
  public:
   /// Throws Error, on all ranks, when another run has it, and when nothing can be written there. Collective
-  /// over all ranks, of which the first takes the lock.
-  explicit OutputLock(const std::string& path);
+  /// over the ranks, of which the first takes the lock.
+  explicit OutputLock(const std::string& path, MPI_Comm comm = PETSC_COMM_WORLD);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;
   OutputLock& operator=(const OutputLock&) = delete;

@@ -20,6 +20,7 @@ CommandLine parse_command_line(int argc, char** argv) {
     if (asks(word, "version") && i == 1) line.version = true;
     options_began = options_began || is_option(word) || word.starts_with("--");
     if (options_began) continue;
+    if (line.verb.empty() && (word.ends_with(".yaml") || word.ends_with(".yml"))) line.verb = "run";
     if (line.verb.empty())
       line.verb = word;
     else

@@ -25,8 +25,8 @@ OptionTable all_options(const std::vector<Verb>& verbs) {
 }  // namespace
 
 std::vector<Verb> all_verbs() {
-  return {mesh_verb(), reduce_verb(), simulate_verb(), recover_verb(), evaluate_verb(),
-          life_verb(), wear_verb(),   compare_verb(),  info_verb()};
+  return {run_verb(),      mesh_verb(), reduce_verb(), simulate_verb(), recover_verb(),
+          evaluate_verb(), life_verb(), wear_verb(),   compare_verb(),  info_verb()};
 }
 
 const Verb& find_verb(const std::vector<Verb>& verbs, const std::string& name) {

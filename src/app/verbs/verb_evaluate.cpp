@@ -197,7 +197,7 @@ void run_evaluate(const Options& given, const std::vector<std::string>&) {
   const DriveOfRun of{options, read_drive(at_zero), evaluate_settings(options)};
   const std::vector<Case> all = read_cases(of.settings.result);
   protect(options, of.settings, all);
-  const OutputLock lock(of.settings.output);
+  const OutputLock lock(of.settings.output, PETSC_COMM_SELF);
   const Progress progress = console_progress();
   Bodies bodies;
   std::map<std::string, Eigen::VectorXd> unloaded;

@@ -18,6 +18,7 @@ struct Verb {
   bool configured = true;  ///< the arguments are YAML files, not data
 };
 
+Verb run_verb();
 Verb mesh_verb();
 Verb reduce_verb();
 Verb simulate_verb();

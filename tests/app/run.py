@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+"""One command makes what the verbs make, and makes anew what has changed and nothing else.
+
+    run.py PATH/TO/elastogear PATH/TO/mpirun
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+ELASTOGEAR, MPIRUN = os.path.abspath(sys.argv[1]), sys.argv[2]
+DRIVE = """drive: cylindrical
+module: 3 mm
+face_width: 9 mm
+pinion: {teeth: 17, profile_shift: 0.3}
+wheel: {teeth: 23, profile_shift: 0.1}
+torque: 50 N m
+modes: 4
+sweep_positions: 3
+"""
+
+
+def run(*arguments, ranks=0):
+    command = [ELASTOGEAR, *arguments]
+    if ranks:
+        command = [MPIRUN, "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), *command]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1"})
+    assert done.returncode == 0, f"{arguments}: {done.stdout[-800:]}{done.stderr}"
+    return done.stdout
+
+
+def made(said):
+    """Which of bodies and result were made anew."""
+    return "the bodies are there" not in said, "the result is there" not in said
+
+
+def figures(file="drive_evaluation.json"):
+    with open(file, encoding="utf-8") as text:
+        return json.load(text)
+
+
+def write(**changed):
+    with open("drive.yaml", "w", encoding="utf-8") as file:
+        lines = [line for line in DRIVE.splitlines() if line.split(":")[0] not in changed]
+        file.write("\n".join(lines) + "\n" + "".join(f"{key}: {value}\n" for key, value in changed.items()))
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        write()
+        assert made(run("drive.yaml")) == (True, True)
+        first = figures()
+        assert made(run("run", "drive.yaml")) == (False, False)
+        assert figures() == first
+        for verb in (("reduce",), ("simulate", "-analysis", "sweep"), ("evaluate",)):
+            run(verb[0], "drive.yaml", *verb[1:])
+        assert figures() == first, "the verbs give others"
+        write(torque="40 N m")
+        assert made(run("drive.yaml")) == (False, True)
+        assert figures() != first
+        write(face_width="10 mm")
+        assert made(run("drive.yaml")) == (True, True)
+        write()
+        assert made(run("drive.yaml", ranks=2)) == (True, True)
+        assert made(run("drive.yaml")) == (False, False)
+        # Bodies that were made anew by their own verb have another result.
+        run("reduce", "drive.yaml", "-modes", "5")
+        assert made(run("drive.yaml")) == (False, True)
+        os.chdir("/")
+    print("one command makes all")
+
+
+if __name__ == "__main__":
+    main()
