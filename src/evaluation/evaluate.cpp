@@ -36,7 +36,8 @@ void add_error(const PairOfRun& pair, const Transmission& t, const Eigen::Vector
   items.number(name + "/radius", "m", "radius at which it is measured, of the second gear", t.radius);
   items.curve(name + "/loaded", "m", "by how much the second gear leads", error);
   items.number(name + "/mean", "m", "its mean", error.mean());
-  items.number(name + "/peak_to_peak", "m", "largest less smallest", peak_to_peak(error));
+  if (error.size() > 1)
+    items.number(name + "/peak_to_peak", "m", "largest less smallest", peak_to_peak(error));
   items.add(spectrum_items(pair, name, error, "m"));
 }
 
@@ -45,7 +46,8 @@ void add_stiffness(const std::string& kind, const std::string& what, const Eigen
   if (c.size() == 0 || !c.allFinite()) return;
   items.curve("stiffness/" + kind, "N/m", what, c);
   items.number("stiffness/" + kind + "_mean", "N/m", "its mean", c.mean());
-  items.number("stiffness/" + kind + "_peak_to_peak", "N/m", "largest less smallest", peak_to_peak(c));
+  if (c.size() > 1)
+    items.number("stiffness/" + kind + "_peak_to_peak", "N/m", "largest less smallest", peak_to_peak(c));
   items.number("stiffness/" + kind + "_per_width", "N/m^2", "its mean over the common face width",
                c.mean() / width);
 }
@@ -67,7 +69,8 @@ void add_losses(const PairOfRun& pair, const Losses& losses, Items& items) {
   items.number("losses/largest_pv", "W/m^2", "its largest value" + of_speed, losses.pv.maxCoeff());
   items.curve("losses/friction_power", "W", "taken by friction" + of_speed, losses.friction);
   items.number("losses/mean_friction_power", "W", "its mean" + of_speed, losses.friction.mean());
-  items.number("losses/efficiency", "1", "output over input of work", efficiency(losses));
+  if (losses.friction.any())
+    items.number("losses/efficiency", "1", "output over input of work", efficiency(losses));
   items.number("losses/friction_loss", "1", "share of the input that friction takes", friction_loss(losses));
   items.number("losses/loss_factor", "1", "loss over input per coefficient of friction", loss_factor(losses));
 }
@@ -148,8 +151,9 @@ std::vector<io::EvaluationItem> unloaded_items(const PairEvaluation& pair, const
                                                double width) {
   Items items;
   items.curve("transmission_error/unloaded", "m", "without load", unloaded);
-  items.number("transmission_error/unloaded_peak_to_peak", "m", "largest less smallest without load",
-               peak_to_peak(unloaded));
+  if (unloaded.size() > 1)
+    items.number("transmission_error/unloaded_peak_to_peak", "m", "largest less smallest without load",
+                 peak_to_peak(unloaded));
   add_stiffness("secant", "force over the way from the unloaded transmission error",
                 stiffness(pair.force, pair.error, unloaded), width, items);
   return items.take();

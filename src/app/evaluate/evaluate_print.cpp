@@ -35,9 +35,12 @@ std::string digits_of(double value, int digits) {
 
 void print_error(const Reader& of) {
   const std::string name = "transmission_error/";
-  print_item("transmission error", "mean " + of.in(name + "mean", 1e6, "um") + ", peak to peak " +
-                                       of.in(name + "peak_to_peak", 1e6, "um") + " on the radius " +
-                                       of.in(name + "radius", 1e3, "mm") + "; > 0: the second gear leads");
+  // Of a single position there is neither a mean nor what is peak to peak.
+  const bool several = of.has(name + "peak_to_peak");
+  const std::string mean = of.in(name + "mean", 1e6, "um");
+  print_item("transmission error",
+             (several ? "mean " + mean + ", peak to peak " + of.in(name + "peak_to_peak", 1e6, "um") : mean) +
+                 " on the radius " + of.in(name + "radius", 1e3, "mm") + "; > 0: the second gear leads");
   if (of.has(name + "unloaded_peak_to_peak"))
     print_item("", "peak to peak without load " + of.in(name + "unloaded_peak_to_peak", 1e6, "um"));
   const EvaluationItem* amplitude = find_item(of.items, name + "amplitude");
@@ -64,8 +67,10 @@ void print_stiffness(const Reader& of) {
     if (const std::string name = std::string("stiffness/") + kind; of.has(name + "_mean"))
       print_item(std::string("mesh stiffness, ") + kind,
                  of.in(name + "_mean", 1e-6, "N/um") + ", over the face width " +
-                     of.in(name + "_per_width", 1e-9, "N/(mm um)") + ", peak to peak " +
-                     of.in(name + "_peak_to_peak", 1e-6, "N/um"));
+                     of.in(name + "_per_width", 1e-9, "N/(mm um)") +
+                     (of.has(name + "_peak_to_peak")
+                          ? ", peak to peak " + of.in(name + "_peak_to_peak", 1e-6, "N/um")
+                          : ""));
 }
 
 void print_load(const Reader& of) {
@@ -136,15 +141,13 @@ void print_losses(const Reader& of) {
   const std::string speed = of.in("losses/speed", 1, "rad/s");
   print_item("sliding", of.in("losses/largest_sliding_speed", 1, "m/s") + ", pressure times sliding speed " +
                             of.in("losses/largest_pv", 1e-6, "W/mm^2") + ", at " + speed);
-  if (of.has("losses/efficiency")) {
-    const std::string friction =
-        of.value("losses/friction_loss") != 0
-            ? "friction takes " + of.in("losses/friction_loss", 100, "%") + " of the input"
-            : "the run has no friction";
-    print_item("efficiency", of.in("losses/efficiency", 100, "%") + "; " + friction +
-                                 "; loss per coefficient of friction " +
-                                 digits_of(of.value("losses/loss_factor"), 4));
-  }
+  const std::string per_friction =
+      "loss per coefficient of friction " + digits_of(of.value("losses/loss_factor"), 4);
+  if (of.has("losses/efficiency"))
+    print_item("efficiency", of.in("losses/efficiency", 100, "%") + "; friction takes " +
+                                 of.in("losses/friction_loss", 100, "%") + " of the input; " + per_friction);
+  else
+    print_item("losses", "the run has no friction; " + per_friction);
   if (of.has("force/dynamic_factor"))
     print_item("dynamic factor", digits_of(of.value("force/dynamic_factor"), 4) + ", largest contact force " +
                                      of.in("force/largest", 1, "N"));
