@@ -29,6 +29,7 @@ TEETH, WIDTH, DISTANCE, TORQUE = (16, 24), 14e-3, 91.5e-3, 200.0  # m, N m on th
 SETTLING, WINDOW = 30, 5  # pitches
 FLYWHEEL, STIFF = 4.5e-3, 1e8  # kg m^2, N m/rad: of the rigid couplings of flywheel and motor
 GEARS = """drive: cylindrical
+element_order: 1
 size: tiny
 module: 4.5 mm
 centre_distance: 91.5 mm

@@ -24,6 +24,7 @@ E, NU = 206e9, 0.3
 NEAR = 0.3e-3  # m, between nodes of flanks that may touch
 PROFILE = 2.25 * 4.5e-3  # m, about the length of a flank
 DRIVE = """drive: cylindrical
+element_order: 1
 module: 4.5 mm
 centre_distance: 91.5 mm
 face_width: 14 mm

@@ -28,7 +28,7 @@ def run(*arguments, fails=False):
 
 
 def stiffness(size, approach):
-    size = ["-size", size, "-modes", "5"]
+    size = ["-size", size, "-element_order", "1", "-modes", "5"]
     said = run("simulate", DRIVE, *size, "-analysis", "sweep", "-sweep_positions", str(POSITIONS), *approach)
     assert ("approach by H. Hertz" in said) == (not approach), said
     with h5py.File("spur_c14_result.h5") as file:
@@ -41,7 +41,7 @@ def stiffness(size, approach):
 def check_stiffness():
     found = {}
     for size in ("small", "tiny"):  # bodies of size tiny stay for what follows
-        run("reduce", DRIVE, "-size", size, "-modes", "5")
+        run("reduce", DRIVE, "-size", size, "-element_order", "1", "-modes", "5")
         found[size] = stiffness(size, MESH), stiffness(size, [])
     for size, (mesh, hertz) in found.items():
         print(f"{size}: {mesh / 1e6:.1f} N/um, with the approach by H. Hertz {hertz / 1e6:.1f}")
@@ -52,7 +52,7 @@ def check_stiffness():
 
 
 def check_resumed():
-    moving = [DRIVE, "-size", "tiny", "-modes", "5", "-analysis", "dynamic", "-speed", "10 rad/s", "-ts_dt", "2e-6", "-ts_max_time",
+    moving = [DRIVE, "-size", "tiny", "-element_order", "1", "-modes", "5", "-analysis", "dynamic", "-speed", "10 rad/s", "-ts_dt", "2e-6", "-ts_max_time",
               "4e-5"]
     run("simulate", *moving, "-output", "whole.h5")
     with open("stopped.log", "w", encoding="utf-8") as log, subprocess.Popen(
@@ -68,7 +68,7 @@ def check_resumed():
 
 
 def check_refused():
-    still = [DRIVE, "-size", "tiny", "-modes", "5"]
+    still = [DRIVE, "-size", "tiny", "-element_order", "1", "-modes", "5"]
     for lacks, options in (("needs the law 'unilateral' and the points 'minima'", ["-contact_points", "nodes"]),
                            ("has no residual flexibility", ["-pinion_residual", "false"])):
         said = run("simulate", *still, *options)

@@ -11,6 +11,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 cat >spur.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 25 mm
 pinion: {teeth: 17, profile_shift: 0.3}
@@ -48,6 +49,7 @@ grep -q "flanks of pinion  *1360 faces, nodes within [0-9.]*e-1[0-9] m" log || {
 # At this angle points on the sides that the lines of contact cross come and go.
 cat >slanted.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 3 mm
 helix_angle: 18 deg
 face_width: 25 mm
@@ -62,6 +64,7 @@ run simulate slanted.yaml -roll 0.2
 # Undercut cuts this pinion's flanks off close to the base circle, and the wheel's tips pass beyond their ends.
 cat >undercut.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 3 mm
 helix_angle: 27 deg
 face_width: 30 mm
@@ -77,8 +80,8 @@ for roll in 0 0.3 0.6 0.9; do
 done
 
 # Here a point of least gap passes a node of the wheel, which is open by less than a nanometre.
-run reduce "$examples/spur_c14.yaml" -size tiny
-run simulate "$examples/spur_c14.yaml" -size tiny -roll 0.02 -pinion_rigid true -wheel_rigid true -contact_law unilateral \
+run reduce "$examples/spur_c14.yaml" -size tiny -element_order 1
+run simulate "$examples/spur_c14.yaml" -size tiny -element_order 1 -roll 0.02 -pinion_rigid true -wheel_rigid true -contact_law unilateral \
   -static_steps 1 -output passing.h5
 
 # The worm of one start has files of its own, since another drive's bodies bear its names.
@@ -86,19 +89,20 @@ one=(-worm_file one_1.h5 -wheel_file one_2.h5)
 for example in "$examples"/*.yaml; do
   files=()
   [[ $example != */one_start_worm.yaml ]] || files=("${one[@]}")
-  run reduce "$example" -size tiny "${files[@]}"
+  run reduce "$example" -size tiny -element_order 1 "${files[@]}"
   ! grep "nothing used" log || exit 1
-  run simulate "$example" -size tiny -roll 0.1 "${files[@]}"
-  run recover "$example" -size tiny "${files[@]}"
+  run simulate "$example" -size tiny -element_order 1 -roll 0.1 "${files[@]}"
+  run recover "$example" -size tiny -element_order 1 "${files[@]}"
 done
 for roll in 0 0.3 0.6 0.9; do
-  run simulate "$examples/steering_worm.yaml" -roll $roll -worm_rigid true -wheel_rigid true -static_steps 1 \
+  run simulate "$examples/steering_worm.yaml" -element_order 1 -roll $roll -worm_rigid true -wheel_rigid true -static_steps 1 \
     -output worm_$roll.h5
 done
 
 # An idler between two gears, and a sun that drives its ring by three planets.
 cat >train.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 2 mm
 face_width: 16 mm
 gears: [first, idler, last]
@@ -110,6 +114,7 @@ modes: 10
 END
 cat >planets.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 2 mm
 face_width: 16 mm
 gears: [sun, planet_1, planet_2, planet_3, ring]
@@ -129,6 +134,7 @@ run simulate planets.yaml -roll 0.35
 # Wheels that the hob leaves: line contact, of either hand.
 cat >left_worm.yaml <<'END'
 drive: worm
+element_order: 1
 hand: left
 module: 2 mm
 diameter_quotient: 10
@@ -143,7 +149,7 @@ run simulate left_worm.yaml -roll 0.1
 for roll in 0 0.3 0.6 0.9; do
   rigid=(-roll "$roll" -worm_rigid true -wheel_rigid true -contact_law unilateral -static_steps 1)
   run simulate left_worm.yaml "${rigid[@]}" -output left_worm_$roll.h5
-  run simulate "$examples/one_start_worm.yaml" -size tiny "${rigid[@]}" "${one[@]}" -output one_start_worm_$roll.h5
+  run simulate "$examples/one_start_worm.yaml" -size tiny -element_order 1 "${rigid[@]}" "${one[@]}" -output one_start_worm_$roll.h5
 done
 
 /usr/bin/python3 - <<'END'
@@ -234,6 +240,7 @@ END
 echo "part: wheel" >part.yaml
 cat >planets.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 2 mm
 face_width: 8 mm
 gears: [sun, planet_1, planet_2, ring]
@@ -267,6 +274,7 @@ refused "element_order = '3'" mesh spur.yaml -element_order 3
 # Contact forces that cancel on all of the few modes, up to roundoff, are in balance.
 cat >plane.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 9 mm
 pinion: {teeth: 17, profile_shift: 0.3}

@@ -16,6 +16,7 @@ import h5py
 import numpy as np
 
 DRIVE = """drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 25 mm
 pinion: {teeth: 17, profile_shift: 0.3}

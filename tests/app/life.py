@@ -22,6 +22,7 @@ KNEE, KNEE_CYCLES, SLOPE, STRENGTH = 100e6, 1e6, 5, 800e6
 
 DRIVE = """
 drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 15 mm
 pinion: {teeth: 17, profile_shift: 0.3%s}

@@ -14,6 +14,7 @@ import numpy as np
 
 ELASTOGEAR = os.path.abspath(sys.argv[1])
 DRIVE = """drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 20 mm
 pinion: {teeth: 17, profile_shift: 0.3}

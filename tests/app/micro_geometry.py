@@ -16,6 +16,7 @@ import h5py
 import numpy as np
 
 DRIVE = """drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 25 mm
 pinion: {teeth: 17, profile_shift: 0.3}
@@ -241,6 +242,7 @@ far: {at: -40 mm, catalogue: 6206}
 
 
 WORM = """drive: worm
+element_order: 1
 module: 2 mm
 centre_distance: 50 mm
 pressure_angle: 15

@@ -49,7 +49,7 @@ COMMANDS = {
             "-static_steps 2 -output kept_run.h5",
     "recover": "{elastogear} recover -result run.h5 -stress_a MIDDLE -output kept_stress.h5",
     "compare": "{elastogear} compare stress_full.h5 stress.h5 -output kept",
-    "mesh": "{elastogear} mesh -part wheel -size tiny -mesh kept.msh",
+    "mesh": "{elastogear} mesh -part wheel -size tiny -element_order 1 -mesh kept.msh",
 }
 
 

@@ -37,7 +37,7 @@ def most_loaded(result, body):
 
 def look(program, drive):
     def run(verb, *words):
-        done = subprocess.run([program, verb, drive, "-size", "tiny", "-modes", "10", *map(str, words)], capture_output=True, text=True,
+        done = subprocess.run([program, verb, drive, "-size", "tiny", "-element_order", "1", "-modes", "10", *map(str, words)], capture_output=True, text=True,
                               check=False)
         assert done.returncode == 0, done.stderr
 

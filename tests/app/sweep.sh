@@ -14,6 +14,7 @@ cd "$work" || exit 1
 fail() { cat run.log; echo "FAIL: $*"; exit 1; }
 cat >spur.yaml <<'END'
 drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 25 mm
 pinion: {teeth: 17, profile_shift: 0.3}

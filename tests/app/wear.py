@@ -18,6 +18,7 @@ import numpy as np
 
 DRIVE = """
 drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 9 mm
 pinion: {teeth: 17, profile_shift: 0.3}

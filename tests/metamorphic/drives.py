@@ -28,9 +28,7 @@ def cylindrical(random, orders=(1, 1, 2)):
             "modes": int(random.integers(2, 8)), "torque": float(f"{random.uniform(0.3, 2) * 3e8 * module**2 * width:.3g}")}
     if kind == "helical":
         keys["helix_angle"] = float(round(random.uniform(8, 25) * choice(random, -1, 1), 1))
-    order = choice(random, *orders)
-    if order == 2:
-        keys["element_order"] = 2
+    keys["element_order"] = int(choice(random, *orders))
     keys["side"] = choice(random, "drive", "coast")
     return keys
 

@@ -20,6 +20,7 @@ from page import bundle, evaluation, fields, pack, texts  # noqa: E402  (found t
 
 SKIPPED = 77
 DRIVE = """drive: cylindrical
+element_order: 1
 module: 3 mm
 face_width: 9 mm
 pinion: {teeth: 17, profile_shift: 0.3}

@@ -19,6 +19,7 @@ class Runs(WithDrive):
         with open("spur.yaml", "w", encoding="utf-8") as file:
             file.write("""
                 drive: cylindrical
+                element_order: 1
                 module: 3 mm
                 face_width: 25 mm
                 torque: 300 N m
@@ -86,7 +87,7 @@ class Runs(WithDrive):
             return str(caught.exception)
 
         with open("plain.yaml", "w", encoding="utf-8") as file:
-            file.write("{drive: cylindrical, module: 3 mm, face_width: 25 mm, torque: 300 N m, modes: 4, basis: modal, "
+            file.write("{drive: cylindrical, element_order: 1, module: 3 mm, face_width: 25 mm, torque: 300 N m, modes: 4, basis: modal, "
                        "pinion: {teeth: 17, profile_shift: 0.3}, wheel: {teeth: 43, profile_shift: 0.1}}")
         for option, value in [("rol", 0.1), ("static_steps", 0), ("torque", "3 mm"), ("analysis", "statistic"),
                               ("pinion_file", "nowhere.h5"), ("contact_friction", -1)]:

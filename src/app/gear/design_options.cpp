@@ -14,7 +14,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 const Rows<Design> kDesignRows = {
     {"part", "-", "", "worm or wheel"},
     {"size", "-", "tiny", "tiny, small, medium or paper; the counts below refine it"},
-    {"element_order", "-", "1",
+    {"element_order", "-", "2",
      "order of the hexahedra: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact flanks and fillets)"},
     {"mesh", "-", "", "mesh file to write, Gmsh 4.1 .msh or Abaqus .inp"},
     {"z1", &Design::z1, "-", "starts of the worm", kPositive},
