@@ -31,6 +31,7 @@ class BodyHistory(_Histories):
     rotation    (n_t, 3, 3), from the body frame to the world
     s, s_dot, s_ddot    (n_t, n_s), joint coordinates, rad or m, and their rates
     q, q_dot, q_ddot    (n_t, n_q), elastic coordinates and their rates
+    q_error     (n_t, n_q), estimated error of q by the steps in time, or None
     """
 
     position: Array
@@ -41,6 +42,7 @@ class BodyHistory(_Histories):
     q: Array
     q_dot: Array
     q_ddot: Array
+    q_error: Optional[Array]
 
 
 class PairHistory(_Histories):

@@ -93,6 +93,7 @@ void serialize_state(Run& run, TS ts, Archive& archive) {
   run.problem.solver.serialize(archive);
   run.ledger.serialize(archive);
   run.sanity.serialize(archive);
+  for (TimeError& error : run.time_error) error.serialize(archive);
   archive(run.kinetic_energy);
   archive(run.n_outputs);
   archive(run.touches);

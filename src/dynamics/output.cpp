@@ -11,9 +11,32 @@ namespace {
 
 constexpr double kSameTime = 1e-9;  // of a step: roundoff in times
 
+Eigen::Ref<const Eigen::VectorXd> elastic(const System::Body& body, ConstVector x) {
+  return x.segment(body.first + body.n_open(), body.eq.n_q());
+}
+
+void start_time_errors(Run& run, const State& x) {
+  for (std::size_t b = 0; b < run.time_error.size(); ++b) {
+    const System::Body& body = run.problem.system.bodies()[b];
+    if (run.time_error[b].size() > 0)
+      run.time_error[b].start(x.time, {elastic(body, x.U), elastic(body, x.V), elastic(body, x.A)});
+  }
+}
+
+// States between the ends of the last step have errors of their own.
+void add_time_errors(Run& run, const State& x, model::Snapshot& now) {
+  for (std::size_t b = 0; b < run.time_error.size(); ++b) {
+    const TimeError& error = run.time_error[b];
+    if (error.size() == 0) continue;
+    now.bodies[b].q_error =
+        x.time < error.end_time() ? error.within(x.time, now.bodies[b].q) : error.at_end();
+  }
+}
+
 // Enters a state into a ledger and the summary. A state that Sanity rejects does not become the last state.
 void enter(Run& run, EnergyLedger& ledger, const State& x) {
   model::Snapshot now = snapshot(run.problem.system, x);
+  add_time_errors(run, x, now);
   ledger.enter(run.problem.system, now);
   try {
     run.sanity.require_small(now);
@@ -138,10 +161,42 @@ void observe_since_last_step(Run& run, TS ts) {
   }
 }
 
+std::vector<TimeError> new_time_errors(const System& system) {
+  std::vector<TimeError> errors;
+  for (const System::Body& body : system.bodies()) {
+    const body::Equations& eq = body.eq;
+    const bool modal = eq.body->basis == model::Basis::modal;
+    errors.emplace_back(modal
+                            ? Oscillators{eq.body->M_r.diagonal(), eq.D_r.diagonal(), eq.body->K_r.diagonal()}
+                            : Oscillators{});
+  }
+  return errors;
+}
+
+void follow_time_errors(Run& run, TS ts) {
+  if (run.time_error.empty()) return;
+  const LastStep last = generalized_alpha_last_step(ts);
+  const ReadView U_0(last.start.U), V_0(last.start.V), A_0(last.start.A), U_1(last.end.U), V_1(last.end.V),
+      A_1(last.end.A);
+  const bool had_impulse = run.problem.system.had_impulse();
+  for (std::size_t b = 0; b < run.time_error.size(); ++b) {
+    const System::Body& body = run.problem.system.bodies()[b];
+    if (run.time_error[b].size() == 0) continue;
+    run.time_error[b].follow({last.time,
+                              last.size,
+                              last.alpha_m,
+                              last.alpha_f,
+                              {elastic(body, *U_0), elastic(body, *V_0), elastic(body, *A_0)},
+                              {elastic(body, *U_1), elastic(body, *V_1), elastic(body, *A_1)}},
+                             had_impulse);
+  }
+}
+
 void enter_step(Run& run, TS ts, int step, double time) {
   Vec U = nullptr, V = nullptr, A = nullptr;
   find_state(run, ts, &U, &V, &A);
   const ReadView u(U), v(V), a(A);
+  if (step == 0) start_time_errors(run, {time, *u, *v, *a});
   enter(run, run.ledger, {time, *u, *v, *a});
   follow_displacement(run);
   run.touches = std::any_of(run.last->pairs.begin(), run.last->pairs.end(),

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "dynamics/errors/time_error.h"
 #include "dynamics/integrator/problem.h"
 #include "dynamics/integrator/sanity.h"
 #include "dynamics/snapshot.h"
@@ -48,8 +49,9 @@ struct Run {
   int n_outputs = 1;                            // of those output_dt apart; the first is the start
   bool step_is_due = false;                     // an output falls on the end of the last step
   StepControl control;
-  bool touches = false;                          // some bodies touch at the end of the last step
-  double kinetic_energy = 0;                     // J, after the last step of a relaxing run
+  std::vector<TimeError> time_error = {};  // of each body, of size 0 without a modal basis; empty: relaxes
+  bool touches = false;                    // some bodies touch at the end of the last step
+  double kinetic_energy = 0;               // J, after the last step of a relaxing run
   double unbalanced = -1, least_unbalanced = 1;  // shares of its forces without velocities: last and least
   int short_steps = 0;                  // successive ones that Newton's failures keep far below nominal_dt
   double longest_short = 0;             // s, of those
@@ -87,6 +89,11 @@ double next_output(const Run& run, double time);
 /// Enters the state after a step into ledger and summary, and observes it when it is due.
 void enter_step(Run& run, TS ts, int step, double time);
 void report_step(const Run& run, TS ts, int step);
+
+/// One for each body: of the elastic coordinates of modal bases.
+std::vector<TimeError> new_time_errors(const System& system);
+/// After a step: lets the errors that steps leave in elastic coordinates follow it.
+void follow_time_errors(Run& run, TS ts);
 
 /// Control of the steps, where they are chosen.
 void control_steps(Run& run, TS ts);

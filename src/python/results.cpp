@@ -47,6 +47,8 @@ py::dict body_history(const std::string& path, const std::string& body) {
   all["q"] = history(std::move(h.q));
   all["q_dot"] = history(std::move(h.q_dot));
   all["q_ddot"] = history(std::move(h.q_ddot));
+  const bool has_error = h.q_error.size() > 0;
+  all["q_error"] = has_error ? py::object(history(std::move(h.q_error))) : py::none();
   return all;
 }
 

@@ -63,7 +63,8 @@ Observer into(Rows& rows) {
     std::vector<double> row{s.time, s.energy.work, s.energy.dissipated, s.energy.balance,
                             double(s.pairs[0].count)};
     for (const model::BodyState& body : s.bodies)
-      for (const Eigen::VectorXd& x : {body.s, body.s_dot, body.s_ddot, body.q, body.q_dot, body.q_ddot})
+      for (const Eigen::VectorXd& x :
+           {body.s, body.s_dot, body.s_ddot, body.q, body.q_dot, body.q_ddot, body.q_error})
         row.insert(row.end(), x.begin(), x.end());
     for (const model::ContactRecord& c : s.pairs[0].contacts)
       row.insert(row.end(), {double(c.face), c.xi, c.eta, c.g_n, c.f.x(), c.f.y(), c.f.z()});

@@ -90,7 +90,7 @@ TEST_F(ResultFile, gives_body_histories_back_to_the_bit) {
     const model::BodyState& body = snapshots[i].bodies[0];
     EXPECT_EQ(time[i], snapshots[i].time);
     EXPECT_TRUE(wheel.q.col(i) == body.q && wheel.q_dot.col(i) == body.q_dot &&
-                wheel.q_ddot.col(i) == body.q_ddot);
+                wheel.q_ddot.col(i) == body.q_ddot && wheel.q_error.col(i) == body.q_error);
     EXPECT_TRUE(wheel.s.col(i) == body.s && wheel.s_dot.col(i) == body.s_dot &&
                 wheel.s_ddot.col(i) == body.s_ddot);
     EXPECT_EQ(wheel.r_WB.col(i), body.r_WB);

@@ -19,7 +19,7 @@ inline model::BodyState sample_state(int n_q, int n_s) {
   model::BodyState body;
   body.r_WB.setRandom();
   body.R_WB.setRandom();
-  for (auto* v : {&body.q, &body.q_dot, &body.q_ddot}) v->setRandom(n_q);
+  for (auto* v : {&body.q, &body.q_dot, &body.q_ddot, &body.q_error}) v->setRandom(n_q);
   for (auto* v : {&body.s, &body.s_dot, &body.s_ddot}) v->setRandom(n_s);
   return body;
 }

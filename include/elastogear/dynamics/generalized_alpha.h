@@ -48,6 +48,15 @@ void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x);
 /// converge, and x is none.
 bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x);
 
+/// The last step as integrated: the motion at both ends, where A at the start is moved by Eq. (8.8), its
+/// start and size (s), and the weights of the new state in its stage. Borrowed until the next step.
+struct LastStep {
+  MotionVectors start, end;
+  double time, size;
+  double alpha_m, alpha_f;
+};
+LastStep generalized_alpha_last_step(TS ts);
+
 /// Absolute tolerances of U and V per entry: scale times these. velocity 0: V is not controlled.
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity);
 

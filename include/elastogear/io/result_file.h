@@ -53,7 +53,8 @@ struct BodyHistory {
   Eigen::MatrixXd s, s_dot, s_ddot;  ///< n_s x n_t, joint coordinates
   Eigen::MatrixXd r_WB;              ///< 3 x n_t
   Eigen::MatrixXd R_WB;              ///< 9 x n_t, row-major rotation matrix
-  Eigen::MatrixXd w = {};  ///< n_q n_p x n_t, part by part, of viscoelastic bodies: model::BodyState
+  Eigen::MatrixXd w = {};        ///< n_q n_p x n_t, part by part, of viscoelastic bodies: model::BodyState
+  Eigen::MatrixXd q_error = {};  ///< n_q x n_t, of q by the steps in time; empty: none is known
 };
 
 /// Histories of one pair, one column per output time. Forces on body b in the world frame, see

@@ -31,6 +31,7 @@ struct BodyState {
   ContactForces contact = {};
   Eigen::MatrixXd z = {};  ///< n_q x n_z, internal variables of viscoelastic materials (body/relaxation.h)
   Eigen::MatrixXd w = {};  ///< n_q x n_p, what the relaxing parts have lost of q: sum_i g_pi z_i
+  Eigen::VectorXd q_error = {};  ///< n_q, estimated error of q by the steps in time; empty: none is known
 };
 
 /// One active contact of a pair.

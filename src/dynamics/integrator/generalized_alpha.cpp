@@ -358,6 +358,17 @@ bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x) {
   return solved;
 }
 
+LastStep generalized_alpha_last_step(TS ts) {
+  const Method& m = ready_method(ts);
+  require(m.step_size > 0, "no step has been taken");
+  return {{m.start.U, m.start.V, m.start.A},
+          {m.end.U, m.end.V, m.end.A},
+          m.step_time,
+          m.step_size,
+          m.parameters.alpha_m,
+          m.parameters.alpha_f};
+}
+
 void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double velocity) {
   Method& m = ready_method(ts);
   UniqueVec absolute;

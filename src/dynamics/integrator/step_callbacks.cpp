@@ -138,6 +138,7 @@ PetscErrorCode post_step(TS ts) {
   Run* run = nullptr;
   PetscCall(TSGetApplicationContext(ts, &run));
   PetscCall(guard(run->problem.pending, [&] {
+    follow_time_errors(*run, ts);
     observe_since_last_step(*run, ts);
     accept(*run, ts);
     leave_out_impulse(run->problem.system, ts);
@@ -223,6 +224,7 @@ UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J) {
   control_steps(run, ts);
   check(TSSetFromOptions(ts));
   if (!run.settings.relax) let_move(run, ts);
+  if (!run.settings.relax) run.time_error = new_time_errors(run.problem.system);
   measure_stress(run, ts);
   if (!run.settings.relax) follow_stages(run.problem.system, ts);
   check(TSGetTimeStep(ts, &run.nominal_dt));

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Parts of older versions lack what those of this one have.
-constexpr Format kStateFormat{"elastogear state", 4, 4};
+constexpr Format kStateFormat{"elastogear state", 5, 5};
 constexpr const char* kStateFile = "state.h5";
 constexpr const char* kPartPrefix = "part_";
 constexpr hsize_t kNumbersAtOnce = 1 << 20;

@@ -138,6 +138,8 @@ BodyHistory read_body_history(const std::string& path, const std::string& body) 
   history.q = read("/q");
   history.q_dot = read("/q_velocity");
   history.q_ddot = read("/q_acceleration");
+  const std::string error = "/bodies/" + body + kTimeError;
+  if (h5::exists(file, error)) history.q_error = read_columns(file, error, {extent(history.q.rows())});
   const std::string relaxed = "/bodies/" + body + kRelaxed;
   if (h5::exists(file, relaxed)) history.w = read_columns(file, relaxed, {h5::kAny, h5::kAny});
   return history;

@@ -18,7 +18,7 @@ bool finite(const model::Snapshot& snapshot) {
     good = good && body.r_WB.allFinite() && body.R_WB.allFinite() && body.s.allFinite() &&
            body.s_dot.allFinite() && body.s_ddot.allFinite() && body.q.allFinite() &&
            body.q_dot.allFinite() && body.q_ddot.allFinite() && body.w.allFinite() &&
-           body.contact.f_B.allFinite();
+           body.q_error.allFinite() && body.contact.f_B.allFinite();
   for (const auto& pair : snapshot.pairs)
     good = good && pair.force.allFinite() && pair.torque.allFinite() && std::isfinite(pair.penetration);
   for (const auto& bushing : snapshot.bushings)
@@ -68,6 +68,7 @@ void ResultRows::append_body(std::size_t index, const model::BodyState& body) {
   append(group + "/q", body.q, "as in the body file");
   append(group + "/q_velocity", body.q_dot, "as q, per s");
   append(group + "/q_acceleration", body.q_ddot, "as q, per s^2");
+  if (body.q_error.size() > 0) append(group + kTimeError, body.q_error, "as q");
   if (header_.bodies[index].relaxes)
     series_at(group + kRelaxed, {{extent(body.w.cols()), extent(body.w.rows())}, "as q"})
         .append(body.w.data());

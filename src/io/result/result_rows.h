@@ -12,6 +12,7 @@
 namespace elastogear::io {
 
 constexpr const char* kSide[2] = {"a", "b"};    ///< the two bodies of a pair, as groups of the file
+constexpr const char* kTimeError = "/q_error";  ///< by the steps in time: model::BodyState::q_error
 constexpr const char* kRelaxed = "/q_relaxed";  ///< of a viscoelastic body: model::BodyState::w
 constexpr const char* kRelaxationLoss = "/energy/relaxation";
 constexpr const char* kApproachLoss = "/energy/approach";
