@@ -152,7 +152,7 @@ def plot_roots(pair, gear, folder):
         way.legend(frameon=False, fontsize=8, loc="best")
     way.set(xlabel="place of a tooth on its way, pitches", title="nodes of the largest ones on the way of a tooth")
     node, tension = int(pair[root + "/largest_tension_node"]), root + "/largest_tension"
-    parts = (("error", "reduction"), ("mesh_error", "mesh"), ("contact_error", "resolution of the contact"))
+    parts = (("error", "reduction"), ("mesh_error", "mesh"), ("contact_error", "resolution of the contact"), ("time_error", "steps in time"))
     errors = [(by, pair[f"{tension}_{name}"] / 1e6) for name, by in parts if pair.has(f"{tension}_{name}")]
     two_digits = [f"{by} {float(f'{error:.2g}'):g} MPa" for by, error in errors]
     told = "\nestimated errors: " + ", ".join(two_digits) if errors else ""

@@ -159,7 +159,8 @@ def error_label(surface, stress):
     """The estimated errors of the largest stress, when the field has them."""
     names = [surface.GetPointData().GetArrayName(i) for i in range(surface.GetPointData().GetNumberOfArrays())]
     errors = {}
-    for by, start, trusted in (("reduction", "error_of_von_mises [", results.TRUSTED), ("mesh", "error_of_von_mises_by_mesh [", results.TRUSTED_MESH)):
+    for by, start, trusted in (("reduction", "error_of_von_mises [", results.TRUSTED), ("mesh", "error_of_von_mises_by_mesh [", results.TRUSTED_MESH),
+                               ("steps", "error_of_von_mises_by_steps [", results.TRUSTED_MESH)):
         found = [name for name in names if name and name.startswith(start)]
         if found:
             error = vtk_to_numpy(surface.GetPointData().GetArray(found[0]))[int(stress.argmax())] / 1e6

@@ -25,7 +25,8 @@ SOURCE = os.path.join(SCRIPTS, "page", "src")
 MOST_BYTES = 15_000_000  # of the page
 QUANTITIES = (("von_mises", "Von Mises stress"), ("rankine", "Largest principal stress"), ("contact_traction", "Contact pressure"),
               ("pattern", "Contact pattern, largest pressure of all times"), ("error_of_von_mises", "Estimated error by the reduction"),
-              ("error_of_von_mises_by_mesh", "Estimated error by the mesh"))
+              ("error_of_von_mises_by_mesh", "Estimated error by the mesh"),
+              ("error_of_von_mises_by_steps", "Estimated error by the steps in time"))
 SHOWN_QUANTILE, STANDS_OUT = 0.999, 3  # as in scripts/pictures.py: colours end there where a few nodes stand out
 WARP_SHARE = 0.08  # of a body's size: the largest displacement that may be drawn
 

@@ -109,8 +109,8 @@ TRUSTED_MESH, WELL_TRUSTED_MESH = 0.1, 0.05  # the same of the mesh's error, whi
 
 class Peak:
     """Largest von Mises stress of an evaluated node set: value (Pa), step, row of the node, and the estimated errors of the
-    reduction, of the mesh, of the contact's resolution (docs/theory.md, sections 4.3, 1.7 and 4.6) and of all together (Pa;
-    None: not estimated)."""
+    reduction, of the mesh, of the contact's resolution, of the steps in time (docs/theory.md, sections 4.3, 1.7, 4.6 and 4.7) and
+    of all together (Pa; None: not estimated)."""
 
     def __init__(self, group, steps=slice(None)):
         von_mises = group["von_mises"][steps]
@@ -120,8 +120,9 @@ class Peak:
         self.error = float(group["peak_error"][self.step]) if "peak_error" in group else None
         self.mesh_error = float(group["mesh_error"][self.step, self.row]) if "mesh_error" in group else None
         self.contact_error = float(group["contact_error"][self.step, self.row]) if "contact_error" in group else None
+        self.time_error = float(group["time_error"][self.step, self.row]) if "time_error" in group else None
         known = self.error is not None and self.mesh_error is not None
-        self.whole_error = self.error + self.mesh_error + (self.contact_error or 0) if known else None
+        self.whole_error = self.error + self.mesh_error + (self.contact_error or 0) + (self.time_error or 0) if known else None
 
     def trust_mesh(self):
         """The estimated error of the mesh in words."""
@@ -137,6 +138,13 @@ class Peak:
         doubt = ": the stress beside a contact" if self.contact_error > TRUSTED_MESH * self.value else ""
         share = 100 * self.contact_error / max(self.value, 1e-300)
         return f"estimated error of the contact's resolution {self.contact_error / 1e6:.3g} MPa ({share:.2g} %){doubt}"
+
+    def trust_steps(self):
+        """The estimated error of the steps in time in words."""
+        if self.time_error is None:
+            return "error of the steps in time not estimated"
+        doubt = ": too long steps for this stress" if self.time_error > TRUSTED_MESH * self.value else ""
+        return f"estimated error of the steps in time {self.time_error / 1e6:.3g} MPa ({100 * self.time_error / max(self.value, 1e-300):.2g} %){doubt}"
 
     def trust(self):
         """The estimated error of the reduction in words."""

@@ -68,6 +68,8 @@ def stress_lines(stress):
         lines.append(f"{body} {name}: von Mises {peak.value / 1e6:.4g} MPa at node {group['nodes'][peak.row]}, "
                      f"{time[peak.step] * 1e6:.4g} µs; Rankine {group['rankine'][:].max() / 1e6:.4g} MPa")
         lines.append(f"  {peak.trust()}; {peak.trust_mesh()}; {peak.trust_contact()}")
+        if peak.time_error is not None:
+            lines.append(f"  {peak.trust_steps()}")
     return lines
 
 

@@ -35,7 +35,7 @@ def force(path):
 def stresses(path):
     """Times, and of each set the von Mises stress and the estimated errors of it (times x nodes, Pa)."""
     with results.open_file(path, "stress") as file:
-        return file["time"][:], {f"{body} {name}": {n: group[n][:] for n in {"von_mises"} | ESTIMATES if n in group} | {"nodes": group["nodes"][:]}
+        return file["time"][:], {f"{body} {name}": {n: group[n][:] for n in {"von_mises", "time_error"} | ESTIMATES if n in group} | {"nodes": group["nodes"][:]}
                                  for body, name, group in results.stress_sets(file)}
 
 
@@ -79,7 +79,7 @@ def main():
     axes[0].legend(frameon=False)
     for axis, (name, node) in zip(axes[1:], nodes.items()):
         part = {k: v[:, node] * MPA for k, v in parts[name].items() if v.ndim == 2}
-        together = part["error"] + part["mesh_error"] + part["contact_error"]
+        together = part["error"] + part["mesh_error"] + part["contact_error"] + part.get("time_error", 0)
         s, at = part["von_mises"], time[:n] * MICRO
         axis.fill_between(at, s - together, s + together, color="C0", alpha=0.15, lw=0, label="estimated error, all")
         axis.fill_between(at, s - part["error"], s + part["error"], color="C0", alpha=0.4, lw=0, label="of the reduction")

@@ -152,6 +152,8 @@ class StressSet:
     error         (n_t, n), Pa, estimated error of von_mises against the unreduced body, or None
     peak_error    (n_t,), Pa, of the largest von Mises stress of the set, or None
     mesh_error    (n_t, n), Pa, estimated error of von_mises by the mesh, or None
+    contact_error    (n_t, n), Pa, estimated error of von_mises by the contact's resolution, or None
+    time_error    (n_t, n), Pa, estimated error of von_mises by the steps in time, or None
     """
 
     body: str
@@ -164,6 +166,8 @@ class StressSet:
     error: Optional[Array]
     peak_error: Optional[Array]
     mesh_error: Optional[Array]
+    contact_error: Optional[Array]
+    time_error: Optional[Array]
 
     def __init__(self, values: dict[str, Any]) -> None:
         self.__dict__.update(values)

@@ -50,10 +50,10 @@ def contact_forces(case):
 
 
 def whole_error(group):
-    """Estimated error of a set's largest stress over time, Pa: of the reduction, and of mesh and contact at its node where they
-    are known."""
+    """Estimated error of a set's largest stress over time, Pa: of the reduction, and of mesh, contact and steps at its node where
+    they are known."""
     error, at = group["peak_error"][:], group["von_mises"][:].argmax(axis=1)[:, None]
-    for name in ("mesh_error", "contact_error"):
+    for name in ("mesh_error", "contact_error", "time_error"):
         if name in group:
             error = error + np.take_along_axis(group[name][:], at, axis=1)[:, 0]
     return error

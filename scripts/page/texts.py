@@ -49,15 +49,15 @@ def trust(value, error):
 
 
 def trust_mesh(peak, error):
-    """The light of a peak by its estimated error of the mesh or of the contact's resolution."""
+    """The light of a peak by its estimated error of the mesh, of the contact's resolution or of the steps in time."""
     if error is None or error > results.TRUSTED_MESH * peak.value:
         return "bad"
     return "good" if error <= results.WELL_TRUSTED_MESH * peak.value else "fair"
 
 
 def trust_all(peak):
-    """The worst light of reduction, mesh and contact, as far as their errors are estimated; that of the reduction always."""
-    others = [trust_mesh(peak, error) for error in (peak.mesh_error, peak.contact_error) if error is not None]
+    """The worst light of reduction, mesh, contact and steps, as far as their errors are estimated; that of the reduction always."""
+    others = [trust_mesh(peak, error) for error in (peak.mesh_error, peak.contact_error, peak.time_error) if error is not None]
     return worst([trust(peak.value, peak.error), *others])
 
 
@@ -200,6 +200,11 @@ def checks(case, meshes):
             doubt = ", the stress beside a contact" if light_of_contact == "bad" else ""
             share = f"off by an estimated {100 * peak.contact_error / max(peak.value, 1e-300):.2g} %{doubt}"
             rows.append((light_of_contact, "Contact", f"{body} {name.replace('_', ' ')}, {share}"))
+        if peak.time_error is not None:
+            light_of_steps = trust_mesh(peak, peak.time_error)
+            doubt = ", too long for this stress" if light_of_steps == "bad" else ""
+            share = f"off by an estimated {100 * peak.time_error / max(peak.value, 1e-300):.2g} %{doubt}"
+            rows.append((light_of_steps, "Steps in time", f"{body} {name.replace('_', ' ')}, {share}"))
     known = {body for body, _, _, peak in case.peaks if peak.mesh_error is not None}
     others = "; ".join(f"{body}: {size}" for body, size in meshes.items() if body not in known)
     if others:
@@ -229,8 +234,8 @@ def error_note(case):
     """What stands after ±."""
     if any(peak.whole_error is not None for _, _, _, peak in case.peaks):
         return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh, that of the mesh, the difference between "
-                "two recoveries of the stress, and that of the contact's resolution, the stress of forces spread over the next nodes, together; the table has all "
-                "three. It does not cover the law of contact.")
+                "two recoveries of the stress, that of the contact's resolution, the stress of forces spread over the next nodes, and that of the steps in time, "
+                "together; the table has each. It does not cover the law of contact.")
     return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh. It covers neither the mesh nor the law of "
             "contact.")
 
@@ -251,10 +256,10 @@ def stress_table(case):
     rows = []
     for body, name, group, peak in case.peaks:
         tension = group["rankine"][:]
-        errors = [(mega(error, 2) if error is not None else "–", error or 0) for error in (peak.error, peak.mesh_error, peak.contact_error, peak.whole_error)]
+        errors = [(mega(error, 2) if error is not None else "–", error or 0) for error in (peak.error, peak.mesh_error, peak.contact_error, peak.time_error, peak.whole_error)]
         rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), *errors, light(trust_all(peak)), str(int(group["nodes"][peak.row])),
                      case.axis.cell(case.time[peak.step]), (mega(float(tension.max())), float(tension.max()))])
-    return table(["body", "node set", "von Mises in MPa", "± of the reduction", "± of the mesh", "± of the contact", "± of all in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
+    return table(["body", "node set", "von Mises in MPa", "± of the reduction", "± of the mesh", "± of the contact", "± of the steps", "± of all in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
 
 
 def contact_table(case):

@@ -56,6 +56,7 @@ StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, co
   if (set.error.size() > 0) peak.error = set.error(row, peak.step);
   if (set.mesh_error.size() > 0) peak.mesh_error = set.mesh_error(row, peak.step);
   if (set.contact_error.size() > 0) peak.contact_error = set.contact_error(row, peak.step);
+  if (set.time_error.size() > 0) peak.time_error = set.time_error(row, peak.step);
   return peak;
 }
 

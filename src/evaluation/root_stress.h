@@ -18,10 +18,10 @@ struct ToothStress {
   double stress = 0;     ///< Pa, principal stress of largest size with its sign, where `tension` is
 };
 
-/// A largest stress: value and estimated errors of the reduction, of the mesh and of the contact's resolution
-/// (Pa; < 0: not estimated), tooth (0-based), mesh node, time.
+/// A largest stress: value and estimated errors of the reduction, of the mesh, of the contact's resolution
+/// and of the steps in time (Pa; < 0: not estimated), tooth (0-based), mesh node, time.
 struct StressPeak {
-  double value = 0, error = -1, mesh_error = -1, contact_error = -1;
+  double value = 0, error = -1, mesh_error = -1, contact_error = -1, time_error = -1;
   int tooth = 0, node = 0, step = 0;
 };
 

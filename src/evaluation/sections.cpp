@@ -105,6 +105,9 @@ void add_peak(const io::StressSet& set, const StressPeak& peak, const Eigen::Vec
   if (set.contact_error.size() > 0)
     items.number(path + "_contact_error", "Pa",
                  "estimated error of von Mises stress there by the contact's resolution", peak.contact_error);
+  if (set.time_error.size() > 0)
+    items.number(path + "_time_error", "Pa", "estimated error of von Mises stress there by the steps in time",
+                 peak.time_error);
 }
 
 void add_way(const RootStress& stress, const std::string& path, Items& items) {

@@ -122,7 +122,8 @@ py::dict stress_set(io::StressSet&& set) {
   all["set"] = set.set;
   const Shape n{static_cast<py::ssize_t>(set.node.size())};
   const bool has_error = set.error.size() > 0, has_peak = set.peak_error.size() > 0,
-             has_mesh_error = set.mesh_error.size() > 0, has_contact_error = set.contact_error.size() > 0;
+             has_mesh_error = set.mesh_error.size() > 0, has_contact_error = set.contact_error.size() > 0,
+             has_time_error = set.time_error.size() > 0;
   all["node"] = owning_view(std::move(set.node), n);
   all["stress"] = history(std::move(set.stress), {6});
   all["von_mises"] = history(std::move(set.von_mises));
@@ -133,6 +134,7 @@ py::dict stress_set(io::StressSet&& set) {
   all["peak_error"] = has_peak ? py::object(vector(std::move(set.peak_error))) : py::none();
   all["mesh_error"] = has_mesh_error ? py::object(history(std::move(set.mesh_error))) : py::none();
   all["contact_error"] = has_contact_error ? py::object(history(std::move(set.contact_error))) : py::none();
+  all["time_error"] = has_time_error ? py::object(history(std::move(set.time_error))) : py::none();
   return all;
 }
 

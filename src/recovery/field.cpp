@@ -121,6 +121,9 @@ void write_field(const std::string& path, const std::string& body_file, const io
   if (state.touched)
     fields.push_back({"error_of_von_mises_by_mesh [Pa]",
                       estimated_mesh_error(body, *state.touched, u_B, equivalent).transpose()});
+  if (state.q_error.size() > 0)
+    fields.push_back({"error_of_von_mises_by_steps [Pa]",
+                      von_mises_at_nodes(body.stress(body.displacement(state.q_error, {}))).transpose()});
   fields.insert(fields.end(), state.more.begin(), state.more.end());
   io::write_vtu(path, placed, fields);
 }

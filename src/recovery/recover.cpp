@@ -111,6 +111,10 @@ void recover_part(const SetOfBody& set, const Motion& motion, Range nodes, io::S
   part(result.stress) = stress;
   part(result.von_mises) = von_mises(stress);
   part(result.rankine) = rankine(stress);
+  if (result.time_error.size() > 0)  // Eq. (4.15)
+    part(result.time_error) = von_mises(
+        modal_stress(set.elastic.stress, members,
+                     set.body.run.history.q_error.middleCols(motion.times.begin, motion.times.count)));
   if (!set.estimates()) return;
   const StressError error = reduction_error(
       set.elastic, set.upper.middleRows(nodes.begin, nodes.count), {motion.inertial, motion.split.q_s},
@@ -144,6 +148,7 @@ void prepare_errors(SetOfBody& set, io::StressSet& result) {
     result.peak_error.setZero(n_t);
   }
   if (set.known && set.known->is_stored()) result.contact_error.resize(n, n_t);
+  if (set.body.run.history.q_error.size() > 0) result.time_error.resize(n, n_t);
 }
 
 // Adds the whole body's static response u_static to a state whose dynamic part is q_d.

@@ -67,7 +67,7 @@ def write_stresses(path, height, pitches=1, uneven=0.0, error=None):
             group["X"], group["stress"] = X, stress
             group["von_mises"], group["rankine"] = np.abs(principal), np.maximum(principal, 0)
             if error is not None:
-                group["error"] = group["mesh_error"] = group["contact_error"] = error / 3 * np.abs(principal)
+                group["error"] = group["mesh_error"] = group["contact_error"] = group["time_error"] = error / 4 * np.abs(principal)
                 group["peak_error"] = group["error"][:].max(axis=1)
     return max(np.abs(pulse(SENSE[b] * 2 * np.pi * roll / TEETH[b], 1)).max() for b in TEETH)
 

@@ -36,12 +36,14 @@ TEST_F(StressFileTest, gives_back_what_was_written) {
   EXPECT_EQ(read.sets[0].X, history.sets[0].X);
 }
 
-TEST_F(StressFileTest, keeps_the_estimated_errors_of_the_mesh) {
+TEST_F(StressFileTest, keeps_the_estimated_errors) {
   history.sets[0].mesh_error = Eigen::MatrixXd::Random(2, 2);
   history.sets[0].contact_error = Eigen::MatrixXd::Random(2, 2);
+  history.sets[0].time_error = Eigen::MatrixXd::Random(2, 2);
   write_stress(folder / "a.h5", history);
   EXPECT_EQ(read_stress(folder / "a.h5").sets[0].mesh_error, history.sets[0].mesh_error);
   EXPECT_EQ(read_stress(folder / "a.h5").sets[0].contact_error, history.sets[0].contact_error);
+  EXPECT_EQ(read_stress(folder / "a.h5").sets[0].time_error, history.sets[0].time_error);
   history.sets[0].mesh_error.resize(2, 1);
   EXPECT_THROW(write_stress(folder / "b.h5", history), Error);
 }

@@ -29,7 +29,7 @@ torque: 60 N m
 modes: 4
 static_steps: 3
 """
-FACTOR = {"von_mises": 1e-6, "rankine": 1e-6, "contact_traction": 1e-6, "error_of_von_mises": 1e-6, "error_of_von_mises_by_mesh": 1e-6, "displacement": 1e6}
+FACTOR = {"von_mises": 1e-6, "rankine": 1e-6, "contact_traction": 1e-6, "error_of_von_mises": 1e-6, "error_of_von_mises_by_mesh": 1e-6, "error_of_von_mises_by_steps": 1e-6, "displacement": 1e6}
 
 
 def run(command, folder):

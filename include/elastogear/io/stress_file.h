@@ -23,6 +23,8 @@ struct StressSet {
   Eigen::MatrixXd mesh_error = {};
   /// n x n_t, Pa, estimated error of von_mises by the place of contact forces within faces; or empty
   Eigen::MatrixXd contact_error = {};
+  /// n x n_t, Pa, estimated error of von_mises by the steps in time; or empty
+  Eigen::MatrixXd time_error = {};
 };
 
 struct StressFile {

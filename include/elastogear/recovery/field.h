@@ -30,6 +30,7 @@ struct FieldState {
   std::optional<FieldReference> reference = {};  ///< none: no error of the reduction is estimated
   std::optional<std::vector<int>> touched =
       {};  ///< mesh numbers of the contact surface's nodes; none: no error of the mesh is estimated
+  Eigen::VectorXd q_error = {};  ///< of q by the steps in time; empty: no error in time is estimated
 };
 
 /// Undeformed body in its placement (world frame) with displacement (world frame), stress (body frame),

@@ -220,6 +220,7 @@ io::StressSet some_times(const io::StressSet& all, const std::vector<int>& steps
   set.rankine = all.rankine(Eigen::all, steps);
   if (all.mesh_error.size() > 0) set.mesh_error = all.mesh_error(Eigen::all, steps);
   if (all.contact_error.size() > 0) set.contact_error = all.contact_error(Eigen::all, steps);
+  if (all.time_error.size() > 0) set.time_error = all.time_error(Eigen::all, steps);
   if (all.error.size() > 0) {
     set.error = all.error(Eigen::all, steps);
     set.peak_error = all.peak_error(steps);

@@ -115,6 +115,7 @@ Eigen::MatrixXd whole_error(const io::StressSet& set) {
   if (set.error.size() == 0 || set.mesh_error.size() == 0) return {};
   Eigen::MatrixXd error = set.error + set.mesh_error;
   if (set.contact_error.size() > 0) error += set.contact_error;
+  if (set.time_error.size() > 0) error += set.time_error;
   return error;
 }
 

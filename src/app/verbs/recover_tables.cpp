@@ -67,7 +67,8 @@ void print_whole_error(const io::StressSet& set) {
   if (set.error.size() == 0 || set.mesh_error.size() == 0) return;
   const auto [node, step] = peak(set.von_mises);
   const double whole = set.peak_error[step] + set.mesh_error(node, step) +
-                       (set.contact_error.size() > 0 ? set.contact_error(node, step) : 0);
+                       (set.contact_error.size() > 0 ? set.contact_error(node, step) : 0) +
+                       (set.time_error.size() > 0 ? set.time_error(node, step) : 0);
   print_item("", "all together " + with_unit(1e-6 * whole, "MPa") + ", " +
                      percent(whole / std::max(set.von_mises(node, step), 1e-300)));
 }
@@ -79,9 +80,10 @@ void warn_above(const io::StressSet& set, const Eigen::MatrixXd& error_by, const
     print_item("warning", set.body + " " + set.set + ": " + warning);
 }
 
-void print_mesh_and_contact(const io::StressSet& set) {
+void print_other_errors(const io::StressSet& set) {
   print_error_by("the mesh", set, set.mesh_error);
   print_error_by("the contact's resolution", set, set.contact_error);
+  if (set.time_error.size() > 0) print_error_by("the steps in time", set, set.time_error);
   print_whole_error(set);
   warn_above(set, set.mesh_error,
              "too coarse a mesh for this stress; take a finer one there or hexahedra of second order "
@@ -89,6 +91,9 @@ void print_mesh_and_contact(const io::StressSet& set) {
   warn_above(set, set.contact_error,
              "this stress lies beside a contact that faces there are too wide to resolve; take those of the "
              "root's other nodes, or a finer mesh there");
+  warn_above(set, set.time_error,
+             "too long steps for this stress; take shorter ones by a smaller step_error, or a smaller ts_dt "
+             "where that is given");
 }
 
 std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const Eigen::VectorXd& time) {
@@ -108,6 +113,8 @@ void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, 
     columns.push_back({"error of von_mises by the mesh" + suffix, "Pa", set.mesh_error.row(node)});
   if (set.contact_error.size() > 0)
     columns.push_back({"error of von_mises by contact" + suffix, "Pa", set.contact_error.row(node)});
+  if (set.time_error.size() > 0)
+    columns.push_back({"error of von_mises by steps" + suffix, "Pa", set.time_error.row(node)});
 }
 
 }  // namespace
@@ -116,7 +123,7 @@ void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
                   const Eigen::VectorXd& time) {
   print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, time));
   print_error(body, set);
-  print_mesh_and_contact(set);
+  print_other_errors(set);
   print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, time));
 }
 

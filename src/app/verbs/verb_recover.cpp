@@ -178,6 +178,8 @@ void write_fields(const RecoverSettings& settings, const Run& run, const std::ve
       recovery::FieldState state = std::move(states[i % kFieldsTogether]);
       state.more = contact_fields(contact, steps[i], state.R_WB, surface, source.mesh.X.cols());
       if (tells_mesh) state.touched = surface.node;
+      if (settings.error_estimate && body.history.q_error.size() > 0)
+        state.q_error = body.history.q_error.col(steps[i]);
       write_field(path, body.file, source, state, finite_elements());
       series.push_back({run.time[steps[i]], std::filesystem::path(path).filename().string(),
                         static_cast<int>(&recovered - run.bodies.data()), body.name});

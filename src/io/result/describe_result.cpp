@@ -52,7 +52,8 @@ void describe_error(Out& out, const StressSet& set, double peak, Eigen::Index st
        set.error.maxCoeff(), " Pa at one node");
 }
 
-// The estimated error by `cause` in the largest stress: docs/theory.md, sections 1.7 and 4.6.
+// The estimated error by `cause` in the largest stress: docs/theory.md, sections 1.7, 4.6
+// and 4.7.
 void describe_error_by(Out& out, const char* cause, const StressSet& set, const Eigen::MatrixXd& error_by,
                        Eigen::Index node, Eigen::Index step) {
   if (error_by.size() == 0) return line(out, "  estimated error of ", cause, ": none in the file");
@@ -118,6 +119,7 @@ void describe_stress(Out& out, const std::string& path) {
     describe_error(out, set, peak, step);
     describe_error_by(out, "the mesh", set, set.mesh_error, node, step);
     describe_error_by(out, "the contact's resolution", set, set.contact_error, node, step);
+    describe_error_by(out, "the steps in time", set, set.time_error, node, step);
     const double tension = set.rankine.maxCoeff(&node, &step);
     line(out, "  peak Rankine: ", tension, " Pa at node ", set.node[node], ", t = ", history.time[step],
          " s");

@@ -23,13 +23,15 @@ void check(const h5::File& file, const StressSet& set, Eigen::Index n_t) {
               (set.error.rows() == n && set.error.cols() == n_t && set.peak_error.size() == n_t),
           file.path, ": estimated errors of ", set.body, "/", set.set, " do not have ", n, " nodes and ", n_t,
           " times");
-  for (const auto& [error, by] : {std::pair{&set.mesh_error, "the mesh"}, {&set.contact_error, "contact"}})
+  for (const auto& [error, by] : {std::pair{&set.mesh_error, "the mesh"},
+                                  {&set.contact_error, "contact"},
+                                  {&set.time_error, "steps in time"}})
     require(error->size() == 0 || (error->rows() == n && error->cols() == n_t), file.path,
             ": estimated errors by ", by, " of ", set.body, "/", set.set, " do not have ", n, " nodes and ",
             n_t, " times");
   require(all_finite(set.stress) && all_finite(set.von_mises) && all_finite(set.rankine) &&
               all_finite(set.error) && all_finite(set.peak_error) && all_finite(set.mesh_error) &&
-              all_finite(set.contact_error),
+              all_finite(set.contact_error) && all_finite(set.time_error),
           file.path, ": stresses of ", set.body, "/", set.set, " are not finite");
 }
 
@@ -50,6 +52,8 @@ void write_set(const h5::File& file, const StressSet& set) {
     h5::write<double>(file, group + "/mesh_error", {{n_t, n}, set.mesh_error.data()}, "Pa");
   if (set.contact_error.size() > 0)
     h5::write<double>(file, group + "/contact_error", {{n_t, n}, set.contact_error.data()}, "Pa");
+  if (set.time_error.size() > 0)
+    h5::write<double>(file, group + "/time_error", {{n_t, n}, set.time_error.data()}, "Pa");
   h5::set_attribute(file, group, "frame", "body");
 }
 
@@ -66,8 +70,9 @@ StressSet read_set(const h5::File& file, const std::string& body, const std::str
   set.von_mises = columns(h5::read<double>(file, group + "/von_mises", {extent(n_t), n}), n_t);
   set.rankine = columns(h5::read<double>(file, group + "/rankine", {extent(n_t), n}), n_t);
   if (h5::exists(file, group + "/X")) set.X = read_points(file, group + "/X");
-  for (const auto& [error, dataset] :
-       {std::pair{&set.mesh_error, "/mesh_error"}, {&set.contact_error, "/contact_error"}})
+  for (const auto& [error, dataset] : {std::pair{&set.mesh_error, "/mesh_error"},
+                                       {&set.contact_error, "/contact_error"},
+                                       {&set.time_error, "/time_error"}})
     if (h5::exists(file, group + dataset))
       *error = columns(h5::read<double>(file, group + dataset, {extent(n_t), n}), n_t);
   if (h5::exists(file, group + "/error")) {
