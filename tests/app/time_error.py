@@ -85,6 +85,10 @@ def look(program):
         assert "error of von_mises by steps node" in file.readline()
     with open("run_bar.vtu", "rb") as file:
         assert b"error_of_von_mises_by_steps" in file.read()
+    bar.run("reduce", "-mesh", "bar.inp", "-material_E", "210e9", "-material_nu", "0.3", "-material_rho", "7850", "-restrain", "FIX",
+            "-surface", "TOP", "-markers", "END", "-stress_nodes", "FIX", "-basis", "full", "-output", "full.h5")
+    bar.simulate("-bar_file", "full.h5", "-ts_dt", "1e-4", "-ts_max_time", "1e-3")
+    assert "error of the steps in time not estimated" in bar.recover()[0]
     bar.simulate("-analysis", "static")
     text, rest = bar.recover()
     assert "time_error" in run and "time_error" not in rest and "steps in time" not in text

@@ -80,10 +80,12 @@ void warn_above(const io::StressSet& set, const Eigen::MatrixXd& error_by, const
     print_item("warning", set.body + " " + set.set + ": " + warning);
 }
 
-void print_other_errors(const io::StressSet& set) {
+// Steps in time leave no error where nothing moves.
+void print_other_errors(const recovery::RecoveredBody& body, const io::StressSet& set) {
+  const bool moves = (body.run.history.q_dot.array() != 0).any();
   print_error_by("the mesh", set, set.mesh_error);
   print_error_by("the contact's resolution", set, set.contact_error);
-  if (set.time_error.size() > 0) print_error_by("the steps in time", set, set.time_error);
+  if (moves || set.time_error.size() > 0) print_error_by("the steps in time", set, set.time_error);
   print_whole_error(set);
   warn_above(set, set.mesh_error,
              "too coarse a mesh for this stress; take a finer one there or hexahedra of second order "
@@ -123,7 +125,7 @@ void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
                   const Eigen::VectorXd& time) {
   print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, time));
   print_error(body, set);
-  print_other_errors(set);
+  print_other_errors(body, set);
   print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, time));
 }
 
