@@ -55,8 +55,9 @@ void enter(Run& run, EnergyLedger& ledger, const State& x) {
 void find_between(Run& run, TS ts, double time, const MotionVectors& x) {
   try {
     if (!run.problem.system.any_augmented() && generalized_alpha_solve_between(ts, time, x)) return;
-  } catch (const Error&) {
+  } catch (const Error& error) {
     check(0, run.problem.pending);
+    require(run.problem.trouble.empty(), error.what(), ": ", run.problem.trouble);
     throw;
   }
   generalized_alpha_interpolate(ts, time, x);

@@ -223,7 +223,8 @@ void ResidualContact::solve(ContactState& state, const std::function<void()>& de
     newton_step(state);
     detect();
     const ForceResidual before = std::exchange(residual, force_residual(state.force));
-    if (residual.relative < kRoundoffResidual && residual.absolute > 0.1 * before.absolute) residual = {};
+    const bool may_be_roundoff = residual.relative < kRoundoffResidual || residual.absolute < roundoff_;
+    if (may_be_roundoff && residual.absolute > 0.1 * before.absolute) residual = {};
     for (int half = 0; residual.absolute > before.absolute && half < kMostHalvings; ++half, ++trial) {
       backtrack();
       detect();

@@ -36,6 +36,8 @@ class ResidualContact {
   /// body without residual flexibility.
   Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);
 
+  /// N, norm of the change of all forces with a penalty that the roundoff of positions makes.
+  void expect_roundoff(double force) { roundoff_ = force; }
   /// Solves for contact forces and static responses by Newton's method, Eq. (6.21); a step that makes the
   /// force residual larger is halved. The state holds the contacts found with the present static responses,
   /// which `detect` finds anew. Sets state.balanced.
@@ -125,6 +127,7 @@ class ResidualContact {
   std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
   Accepted last_, before_;
   LocalApproach approach_;
+  double roundoff_ = 0;                   // N, see expect_roundoff
   double expected_ = 0;                   // expected change of the forces found last, as part of them
   double asked_ = 0;                      // tolerance of forces that Newton's method of the system needs
   double sought_ = 0;                     // tolerance of forces in iterations towards rest; 0: there are none

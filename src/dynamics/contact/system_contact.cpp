@@ -1,10 +1,12 @@
 #include "dynamics/contact/system_contact.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "dynamics/node_mobility.h"
 #include "elastogear/base/error.h"
+#include "elastogear/contact/stiffness.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -14,6 +16,18 @@ constexpr int kFreeTrials = 3;  // of contact forces before points that come and
 // Vectorised, which == is not.
 bool same(const Eigen::VectorXd& a, ConstVector b) {
   return a.size() == b.size() && (a - b).cwiseAbs().sum() == 0;
+}
+
+// N, norm of the forces that the roundoff of positions makes on the penalty stiffness of a pair.
+double roundoff_force(const contact::Pair& pair) {
+  double length = 0, stiffness = 0;
+  if (pair.settings().law != contact::ContactLaw::penalty) return 0;
+  for (int side : {0, 1}) {
+    const model::Surface& surface = pair.surface(side);
+    length += surface.X.cwiseAbs().maxCoeff();
+    stiffness = std::max(stiffness, contact::node_stiffness(pair.settings(), surface).norm());
+  }
+  return std::numeric_limits<double>::epsilon() * length * stiffness;
 }
 
 }  // namespace
@@ -27,6 +41,9 @@ SystemContact::SystemContact(const SystemModel& model, const SystemContact* like
   else
     for (const PairSetup& pair : pairs_) make_detector(model, pair);
   unilateral_ = is_unilateral();
+  double roundoff = 0;
+  for (const contact::Pair& pair : detectors_) roundoff += roundoff_force(pair);
+  residual_contact_.expect_roundoff(roundoff);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     residual_contact_.set_creep(b, model.bodies[b].relaxed);
 }
