@@ -108,6 +108,10 @@ SIMULATE = [
     Case("result file as body", r"run.h5.*(result|body)", "{single} -a_file run.h5"),
     Case("body without a surface in contact", r"body 'a' has no surface faces", "{simulate} -a_file no_surface.h5"),
     Case("rigid body without a file in contact", r"surface", "{elastogear} simulate -bodies a,b -a_mass 1 -a_inertia 1,1,1,0,0,0 -a_joint free -b_file body.h5 -contact_pairs a:b {times}"),
+    Case("steps that follow a vibration to the end", r"steps are .* s in the mean.* more lead to the end.*-step_tolerance",
+         "{elastogear} simulate -bodies a -a_mass 1 -a_inertia 1,1,1,0,0,0 -a_joint prismatic -a_velocity0 0.1 -bushings spring "
+         "-spring_markers ground,a.frame -spring_stiffness 1e6,1e6,1e6 -ts_max_time 4 -output_every 1000 -output kept_run.h5",
+         kind="warning", leaves=r"kept_run\.h5"),
     Case("bodies that never touch", r"(never|no contact|not touch)", "{simulate} -b_position 0,0,1", kind="warning", leaves=r"kept_run\.h5"),
     Case("end before the first step", r"(ts_max_time|ts_dt)", "{single} -ts_max_time 1e-9 -ts_dt 1e-7"),
     Case("gravity of two numbers", r"gravity.*three", "{single} -gravity 0,9.81"),

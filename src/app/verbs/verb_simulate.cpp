@@ -212,7 +212,7 @@ dynamics::Computation computation(const Options& options, dynamics::System& syst
   TimeSettings time = time_settings(options);
   if (analysis(options) == Analysis::dynamic) print_advice(system, time.dt);
   auto info = std::make_shared<dynamics::StepInfo>();
-  time.monitor = [info](const dynamics::StepInfo& step) { *info = step; };
+  time.monitor = paced(time, [info](const dynamics::StepInfo& step) { *info = step; });
   return [&system, time, info](const auto& observer, const auto& checkpoints) {
     return dynamics::simulate(system, time, guarded(system, observer, time.dt),
                               console_progress([info] { return step_text(*info); }), checkpoints);
