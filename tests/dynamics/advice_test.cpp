@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "../body/random_body.h"
@@ -236,6 +237,57 @@ TEST(ValidityGuard, warns_once_of_steps_longer_than_the_contact_depth) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("pair a:b at t = 0 s: surfaces may pass"), std::string::npos) << warnings[0];
   EXPECT_TRUE(guard.warnings(now).empty());
+}
+
+// Two blocks with residual flexibility beside each other, in contact without a penalty.
+System blocks_without_penalty() {
+  test::BoxSpec spec{.size = {1, 1, 1}, .cells = {2, 1, 1}, .material = {1e4, 0.3, 1}};
+  spec.held = [](const auto& X, int) { return X.x() == 0; };
+  const auto body = std::make_shared<model::ElasticBody>(test::make_flexible_box(spec, 1));
+  PairSetup pair{"a:b", {0, 1}, {}};
+  pair.settings.law = contact::ContactLaw::unilateral;
+  return System({{.name = "a", .body = body}, {.name = "b", .body = body, .joint = {.r_WB0 = {2, 0, 0}}}},
+                {pair});
+}
+
+// What a watch says while the force of the pair is that of 500 states one after the other.
+std::vector<std::string> said_of(System& system, const std::function<double(int state)>& force) {
+  ChatterWatch watch(system);
+  const Eigen::VectorXd U = system.initial_position();
+  model::Snapshot now = snapshot(system, {0, U, U, U});
+  std::vector<std::string> said;
+  for (int state = 0; state < 500; ++state) {
+    now.time = 1e-3 * state;
+    now.pairs[0].force = force(state) * Eigen::Vector3d::UnitX();
+    for (const std::string& sentence : watch.warnings(now)) said.push_back(sentence);
+  }
+  return said;
+}
+
+TEST(ChatterWatch, warns_once_of_a_force_that_goes_to_and_fro) {
+  System system = blocks_without_penalty();
+  const auto said = said_of(system, [](int state) { return state % 2 == 0 ? 10.0 : 0.0; });
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("contact a:b at t = 0.049 s: chatters"), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("-contact_law penalty"), std::string::npos) << said[0];
+}
+
+TEST(ChatterWatch, is_silent_of_forces_that_vibrate_or_rise) {
+  System system = blocks_without_penalty();
+  const auto vibrates = [](int state) { return 1 + std::sin(2 * std::numbers::pi * state / 20); };
+  EXPECT_TRUE(said_of(system, vibrates).empty()) << "20 states a period are resolved";
+  EXPECT_TRUE(said_of(system, [](int state) { return state; }).empty());
+  EXPECT_TRUE(said_of(system, [](int state) { return state % 2 == 0 ? 10.0 : 6.0; }).empty());
+  EXPECT_TRUE(said_of(system, [](int) { return 0; }).empty());
+}
+
+TEST(ChatterWatch, leaves_contact_with_a_penalty_out) {
+  PairSetup pair{"a:b", {0, 1}, {}};
+  pair.settings.stiffness = 1;
+  System system(
+      {{.name = "a", .body = block()}, {.name = "b", .body = block(), .joint = {.r_WB0 = {2, 0, 0}}}},
+      {pair});
+  EXPECT_TRUE(said_of(system, [](int state) { return state % 2 == 0 ? 10.0 : 0.0; }).empty());
 }
 
 }  // namespace
