@@ -113,9 +113,12 @@ std::vector<bool> UnilateralForces::likely() const {
 }
 
 // The forces that close the present gaps. A node that comes to slide has the coefficient of that, and may
-// make others slide.
+// make others slide. Friction that follows p makes C unsymmetric, so that pivoting may come to no end.
 std::optional<VectorXd> UnilateralForces::forces(const MatrixXd& C, const VectorXd& q) {
-  if (!any_sticks_) return solve_complementarity(C, q, likely());
+  if (!any_sticks_) {
+    std::optional<VectorXd> p = solve_complementarity(C, q, likely());
+    return p ? p : solve_coulomb(C, q, laws_, z_);
+  }
   for (std::size_t c = 0; c < laws_.size(); ++c)
     if (laws_[c].sticks) laws_[c].mu = contacts_[c].point->tangential->mu_static;
   std::optional<VectorXd> z = z_;
