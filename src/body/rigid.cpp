@@ -32,10 +32,8 @@ void drop_elastic_coordinates(model::ElasticBody& body) {
   body.stress = {};
   body.flexibility = {};
   body.relaxing.clear();
-  for (model::Marker& marker : body.markers) {
-    marker.Phi = model::DenseRows(6, 0);
-    marker.F = {};
-  }
+  body.n_attachments = 0;
+  for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows(6, 0);
 }
 
 }  // namespace

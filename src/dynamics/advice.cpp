@@ -79,7 +79,8 @@ double Advice::step() const { return std::min(mode.step(), contact.step()); }
 Advice advise(const System& system) {
   Advice advice;
   for (const System::Body& body : system.bodies())
-    if (body.eq.body->frequency.size() > 0) raise(advice.mode, body.name, body.eq.body->frequency.maxCoeff());
+    if (const model::ElasticBody& elastic = *body.eq.body; elastic.frequency.size() > 0)
+      raise(advice.mode, body.name, elastic.frequency.head(elastic.n_modes()).maxCoeff());
   for (std::size_t p = 0; p < system.pairs().size(); ++p)
     raise(advice.contact, system.pairs()[p].name, contact_frequency(system, p));
   return advice;

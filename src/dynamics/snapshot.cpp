@@ -1,9 +1,6 @@
 #include "dynamics/snapshot.h"
 
-#include <algorithm>
-
 #include "dynamics/contact/pair_state.h"
-#include "elastogear/base/rotation.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -37,24 +34,6 @@ void add_relaxation(const System& system, std::size_t b, const State& x, model::
   result.energy.elastic += body::relaxed_energy(body, law, state.q, state.z);
 }
 
-// Adds to the motion of a sensor what the modes leave out of the static response to contact, Eq. (3.16a).
-void add_residual(const System& system, const MarkerName& name, const model::Snapshot& state,
-                  body::MarkerMotion& at) {
-  const auto& bodies = system.bodies();
-  const auto body =
-      std::find_if(bodies.begin(), bodies.end(), [&](const auto& b) { return b.name == name.body; });
-  const model::ElasticBody& elastic = *body->eq.body;
-  const auto marker = std::find_if(elastic.markers.begin(), elastic.markers.end(),
-                                   [&](const model::Marker& m) { return m.name == name.marker; });
-  if (marker == elastic.markers.end()) return;
-  const model::BodyState& own = state.bodies[static_cast<std::size_t>(body - bodies.begin())];
-  const Eigen::Matrix<double, 6, 1> residual =
-      model::residual_motion(elastic, *marker, own.contact.node, own.contact.f_B);
-  at.x += own.R_WB * residual.head<3>();
-  const Eigen::Vector3d theta = model::multiply(marker->Phi, own.q).tail<3>();
-  at.R = own.R_WB * cayley(theta + residual.tail<3>());
-}
-
 void add_markers(const System& system, const State& x, model::Snapshot& result) {
   const MarkerForces& forces = system.marker_forces();
   const std::vector<MovingBody> bodies = system.moving_bodies(x);
@@ -70,8 +49,7 @@ void add_markers(const System& system, const State& x, model::Snapshot& result) 
     result.loads.push_back({wrench.head<3>(), wrench.tail<3>(), at.x, at.R});
   }
   for (std::size_t i = 0; i < setups.sensors.size(); ++i) {
-    body::MarkerMotion at = forces.sensor_motion(i, bodies);
-    add_residual(system, setups.sensors[i].marker, result, at);
+    const body::MarkerMotion at = forces.sensor_motion(i, bodies);
     result.sensors.push_back({at.x, at.v, at.a, at.R, at.w});
   }
 }

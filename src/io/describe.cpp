@@ -119,7 +119,10 @@ void describe_inertia(Out& out, const model::Inertia& inertia) {
 void describe_modes(Out& out, const std::string& path, const model::ElasticBody& body) {
   line(out, "basis: ", basis_name(body.basis), ", ", counted(body.n_q(), "elastic coordinate"));
   if (body.frequency.size() > 0)
-    line(out, "frequencies: ", body.frequency.minCoeff(), " to ", body.frequency.maxCoeff(), " Hz");
+    line(out, "frequencies: ", body.frequency.minCoeff(), " to ",
+         body.frequency.head(body.n_modes()).maxCoeff(), " Hz");
+  if (body.n_attachments > 0)
+    line(out, "attachment modes: the last ", counted(body.n_attachments, "coordinate"));
   if (body.basis == model::Basis::modal)
     line(out, "modes are stored at ", has_full_modes(path) ? "all nodes" : "surface and stress nodes only");
   const ModeChecks checks = read_mode_checks(path);

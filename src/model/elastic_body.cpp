@@ -90,13 +90,9 @@ void validate_stress(const Stress& stress, Eigen::Index n_q, const std::string& 
     require(in_range(members, n_e), source, ": stress set '", name, "' names a node outside 0..", n_e - 1);
 }
 
-void validate_markers(const ElasticBody& body, Eigen::Index n_q, const std::string& source) {
-  const auto n_c = 3 * static_cast<Eigen::Index>(body.flexibility.node.size());
+void validate_markers(const std::vector<Marker>& markers, Eigen::Index n_q, const std::string& source) {
   std::set<std::string> names = {kFrameMarker};
-  for (const Marker& marker : body.markers) {
-    require(marker.F.size() == 0 || (marker.F.rows() == 6 && marker.F.cols() == n_c && marker.F.allFinite()),
-            source, ": marker '", marker.name, "' does not have 6 finite rows of static responses to ", n_c,
-            " forces");
+  for (const Marker& marker : markers) {
     require(!marker.name.empty() && names.insert(marker.name).second, source, ": two markers are named '",
             marker.name, "'");
     require(marker.X.allFinite() && finite(marker.Phi), source, ": marker '", marker.name, "' is not finite");
@@ -214,21 +210,6 @@ void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::
   add_three_rows(node_rows(Phi, node), f, h.data(), h.size());
 }
 
-Eigen::Matrix<double, 6, 1> residual_motion(const ElasticBody& body, const Marker& marker,
-                                            const std::vector<int>& node, const Eigen::Matrix3Xd& f_B) {
-  Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
-  if (body.flexibility.empty() || marker.F.size() == 0) return motion;
-  Eigen::VectorXd h = Eigen::VectorXd::Zero(body.n_q());
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    const int position = find_loaded(body.flexibility, node[i]);
-    if (position < 0) continue;
-    const Eigen::Vector3d f = f_B.col(static_cast<Eigen::Index>(i));
-    motion += marker.F.middleCols<3>(Eigen::Index{3} * position) * f;
-    add_force(body.surface.Phi, node[i], f, h);
-  }
-  return motion - multiply(marker.Phi, h.cwiseQuotient(Eigen::VectorXd(body.K_r.diagonal())));
-}
-
 Eigen::Matrix3d J_1(const Inertia& inertia, int k) {
   // S(a, b) = integral of rho X_a phi_b dV;  J_1 = 2 tr(S) I - S - S'
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> S(inertia.S_1.col(k).data());
@@ -239,6 +220,8 @@ void validate_except_rows(const ElasticBody& body, const std::string& source) {
   const Eigen::Index n_q = body.n_q();
   require(n_q >= 0 && body.K_r.cols() == n_q && body.M_r.rows() == n_q && body.M_r.cols() == n_q, source,
           ": reduced matrices are not square of size n_q = ", n_q);
+  require(body.n_attachments >= 0 && body.n_attachments <= n_q, source, ": ", body.n_attachments, " of ", n_q,
+          " coordinates are attachment modes");
   require(body.alpha >= 0 && body.beta >= 0, source, ": damping alpha = ", body.alpha, ", beta = ", body.beta,
           " must not be negative");
   require(body.zeta.size() == 0 ||
@@ -249,7 +232,7 @@ void validate_except_rows(const ElasticBody& body, const std::string& source) {
   validate_inertia(body.inertia, n_q, source);
   validate_surface(body.surface, n_q, source);
   validate_stress(body.stress, n_q, source);
-  validate_markers(body, n_q, source);
+  validate_markers(body.markers, n_q, source);
   validate_flexibility(body, source);
   validate_relaxing(body, source);
 }

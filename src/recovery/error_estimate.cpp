@@ -14,13 +14,16 @@ constexpr double kInertia = 0.05;  // share of the static residual stress by whi
 constexpr double kStates = 1e-2;   // by which states of relaxation are interpolated worst, Eq. (4.12b)
 constexpr double kForces = 1e-3;   // to which contact forces are reproduced when the time step changes
 
+// Which rows of coordinates, or columns of modes, are the upper half of the modes.
+auto upper_rows(Eigen::Index n_modes) { return Eigen::seqN(n_modes / 2, n_modes - n_modes / 2); }
+
 }  // namespace
 
 Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordinates& coordinates) {
-  const Eigen::Index n = coordinates.q_d.rows() - coordinates.q_d.rows() / 2;
-  const Eigen::VectorXd lambda = Eigen::VectorXd(body.K_r.diagonal()).tail(n);
+  const auto half = upper_rows(body.n_modes());
+  const Eigen::VectorXd lambda = Eigen::VectorXd(body.K_r.diagonal())(half);
   const auto energy = [&](const Eigen::MatrixXd& q) -> Eigen::VectorXd {
-    return q.bottomRows(n).cwiseAbs2().transpose() * lambda;
+    return q(half, Eigen::all).cwiseAbs2().transpose() * lambda;
   };
   const Eigen::VectorXd d = energy(coordinates.q_d), s = energy(coordinates.q_s);
   Eigen::VectorXd share(d.size());
@@ -28,9 +31,10 @@ Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordin
   return share;
 }
 
-Eigen::MatrixXd upper_half(const Eigen::MatrixXd& q_d) {
-  Eigen::MatrixXd upper = q_d;
-  upper.topRows(q_d.rows() / 2).setZero();
+Eigen::MatrixXd upper_half(const Eigen::MatrixXd& q_d, Eigen::Index n_modes) {
+  Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(q_d.rows(), q_d.cols());
+  const auto half = upper_rows(n_modes);
+  upper(half, Eigen::all) = q_d(half, Eigen::all);
   return upper;
 }
 
@@ -50,14 +54,14 @@ void join(Peaks& peaks, const Peaks& others) {
   peaks.exact = peaks.exact.cwiseMax(others.exact);
 }
 
-Eigen::MatrixXd upper_modes_stress(const model::Stress& stress, const std::vector<int>& members) {
+Eigen::MatrixXd upper_modes_stress(const model::ElasticBody& body, const std::vector<int>& members) {
   Eigen::MatrixXd result;
-  model::with_rows(stress.Psi, [&](const auto& Psi) {
-    const Eigen::Index n = Psi.cols() - Psi.cols() / 2;
-    result.resize(static_cast<Eigen::Index>(members.size()), n);
+  const auto half = upper_rows(body.n_modes());
+  model::with_rows(body.stress.Psi, [&](const auto& Psi) {
+    result.resize(static_cast<Eigen::Index>(members.size()), half.size());
     for (std::size_t i = 0; i < members.size(); ++i)
       result.row(static_cast<Eigen::Index>(i)) =
-          von_mises(Eigen::MatrixXd(Eigen::MatrixXd(Psi.middleRows(6 * members[i], 6)).rightCols(n)));
+          von_mises(Eigen::MatrixXd(Eigen::MatrixXd(Psi.middleRows(6 * members[i], 6))(Eigen::all, half)));
   });
   return result.cwiseAbs2();
 }
@@ -68,7 +72,8 @@ StressError reduction_error(const model::ElasticBody& body, const Eigen::Ref<con
   const Eigen::MatrixXd found = von_mises(recovered.stress);
   Eigen::MatrixXd& e = error.at_node;
   e.resize(found.rows(), found.cols());
-  multiply(Op::plain, Op::plain, 1., upper, coordinates.q_d.bottomRows(upper.cols()).cwiseAbs2(), 0., e);
+  multiply(Op::plain, Op::plain, 1., upper,
+           coordinates.q_d(upper_rows(body.n_modes()), Eigen::all).cwiseAbs2(), 0., e);
   e = e.cwiseSqrt() + kForces * found;
   if (found.rows() == 0) return error;
   if (recovered.residual.size() > 0)

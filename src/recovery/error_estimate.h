@@ -29,8 +29,8 @@ struct RecoveredStress {
 /// energy and at most 1. body: its K_r is diagonal.
 Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordinates& coordinates);
 
-/// q_d with zeros in place of the lower half of the modes.
-Eigen::MatrixXd upper_half(const Eigen::MatrixXd& q_d);
+/// q_d with zeros in place of all but the upper half of the first n_modes coordinates.
+Eigen::MatrixXd upper_half(const Eigen::MatrixXd& q_d, Eigen::Index n_modes);
 
 /// von Mises stresses at one time, n each, Pa: as recovered, with the whole static response, of that response
 /// beside the modes' own, and of the upper half of the modes in their dynamic part.
@@ -59,9 +59,9 @@ struct StressError {
   Peaks peaks;              ///< over the nodes
 };
 
-/// n x n_q / 2, Pa^2: squares of the von Mises stresses of the upper half of the modes. members: n local
-/// numbers in stress.node.
-Eigen::MatrixXd upper_modes_stress(const model::Stress& stress, const std::vector<int>& members);
+/// n x n_modes / 2, Pa^2: squares of the von Mises stresses of the upper half of the modes. members: n local
+/// numbers in the body's stress.node.
+Eigen::MatrixXd upper_modes_stress(const model::ElasticBody& body, const std::vector<int>& members);
 
 /// Eqs. (4.6) to (4.9), and Eq. (4.12b) of bodies that relax. upper: upper_modes_stress at the n nodes. The
 /// body's basis is modal.

@@ -54,7 +54,7 @@ Eigen::VectorXd estimated_error(const Fields& fields, const FieldReference& refe
                                 const Eigen::VectorXd& found) {
   const Eigen::MatrixXd whole = fields.stress(fields.displacement(reference.q_d, reference.u_static)),
                         of_modes = fields.stress(fields.displacement(reference.q, {})),
-                        upper = fields.stress(fields.displacement(upper_half(reference.q_d), {}));
+                        upper = fields.stress(fields.displacement(reference.q_upper, {}));
   return field_error(
       {found, von_mises_at_nodes(whole), von_mises_at_nodes(whole - of_modes), von_mises_at_nodes(upper)},
       reference.share);

@@ -67,8 +67,8 @@ Motion motion_at(const SetOfBody& set, Range times) {
   if (!known) return motion;
   motion.split.q_d = at(known->q);
   motion.split.q_s = motion.q - motion.split.q_d;
-  motion.inertial =
-      body.relaxes() ? inertial_part(set.elastic, motion.split.q_d, motion.w) : motion.split.q_d;
+  motion.inertial = body.relaxes() ? inertial_part(set.elastic, motion.split.q_d, motion.w)
+                                   : without_marker_loads(set.elastic, motion.split.q_d);
   motion.crept = at_times(known->crept, times);
   return motion;
 }
@@ -143,7 +143,7 @@ void prepare_errors(SetOfBody& set, io::StressSet& result) {
     result.error.setZero(n, n_t);
     result.peak_error.setZero(n_t);
   } else if (set.known) {
-    set.upper = upper_modes_stress(set.elastic.stress, set.members);
+    set.upper = upper_modes_stress(set.elastic, set.members);
     result.error.resize(n, n_t);
     result.peak_error.setZero(n_t);
   }
@@ -155,8 +155,10 @@ void prepare_errors(SetOfBody& set, io::StressSet& result) {
 void add_static(const RecoveredBody& body, const Eigen::VectorXd& q_d, const Eigen::VectorXd& u_static,
                 bool with_error, FieldState& state) {
   if (with_error && !body.relaxes()) {
-    const Eigen::VectorXd share = dynamic_share(body.known()->body, {q_d, state.q - q_d});
-    state.reference = {state.q, q_d, u_static, share[0]};
+    const model::ElasticBody& elastic = body.known()->body;
+    const Eigen::VectorXd inertial = without_marker_loads(elastic, q_d),
+                          share = dynamic_share(elastic, {inertial, state.q - q_d});
+    state.reference = {state.q, q_d, upper_half(inertial, elastic.n_modes()), u_static, share[0]};
   }
   if (!body.response) return;
   state.q = q_d;

@@ -54,6 +54,16 @@ void allocate_modes(model::ElasticBody& body, int n_q) {
   for (model::Marker& marker : body.markers) marker.Phi = model::DenseRows::Zero(6, n_q);
 }
 
+void add_modes(model::ElasticBody& body, int n) {
+  const auto widen = [&](auto& rows) { rows.conservativeResize(Eigen::NoChange, rows.cols() + n); };
+  widen(std::get<model::DenseRows>(body.surface.Phi));
+  widen(std::get<model::DenseRows>(body.stress.Psi));
+  for (model::Marker& marker : body.markers) widen(std::get<model::DenseRows>(marker.Phi));
+  model::Inertia& inertia = body.inertia;
+  widen(inertia.S_1);
+  for (auto* C : {&inertia.C_l, &inertia.C_r}) C->conservativeResize(C->rows() + n, Eigen::NoChange);
+}
+
 Eigen::VectorXd mode_column(const model::ElasticBody& body, const Eigen::VectorXd& phi,
                             const fem::MassMoments& moments, const model::SparseRows& S) {
   const auto n_s = 3 * static_cast<Eigen::Index>(body.surface.node.size()), n_e = S.rows();

@@ -13,6 +13,9 @@ namespace elastogear::reduction {
 /// Sizes the body's dense fields for n_q modes: zero until set_mode.
 void allocate_modes(model::ElasticBody& body, int n_q);
 
+/// Makes room for n more modes behind those of the body.
+void add_modes(model::ElasticBody& body, int n);
+
 /// All numbers that the body keeps of a mode, in one column: rows of Phi (surface), of Psi = S phi (stress)
 /// and of the markers' Phi, those of C_l, C_r and S_1. phi: 3 n_nodes, node-major. S: the stress operator at
 /// body.stress.node, then the operator of body.markers (reduction/marker.h).

@@ -57,8 +57,8 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
 }
 
 void validate_ritz(const ReductionOptions& options) {
-  require(options.basis == model::Basis::modal && !options.flexibility,
-          "a Ritz basis is neither the full basis nor has it static responses to contact forces");
+  require(options.basis == model::Basis::modal && !options.flexibility && !options.attachments,
+          "a Ritz basis is neither the full basis nor has it static responses beside its vectors");
   require(!options.floating, "Ritz bases need a held body: name sets of nodes by the option restrain");
   const RitzKind kind = options.ritz->kind;
   require(kind != RitzKind::modal_attachment || !options.loaded.empty(),
@@ -97,6 +97,8 @@ void validate(const ReductionOptions& options) {
           "damping ratios belong to modes: the full basis takes Rayleigh's alpha and beta only");
   require(!options.flexibility || options.basis == model::Basis::modal,
           "static responses to contact forces belong to the modal basis");
+  require(!options.attachments || options.basis == model::Basis::modal,
+          "static responses to loads at markers belong to the modal basis");
   require(
       !options.flexibility || !options.surface.empty(),
       "static responses to contact forces need a contact surface: name its face sets by the option surface");

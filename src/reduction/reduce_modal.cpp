@@ -19,12 +19,16 @@
 #include "reduction/modes/mode_checkpoints.h"
 #include "reduction/reduce_job.h"
 #include "reduction/second_moments.h"
+#include "reduction/static_response/attachments.h"
 #include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {
 
 constexpr PetscInt kLargestCheckFactor = 500'000;  // displacements
+
+// Are static responses to loads at markers coordinates?
+bool attaches(const ReductionOptions& o) { return o.attachments && !o.markers.empty(); }
 
 // Does this entry of the provenance change how the eigensolver works?
 bool asks_solver(const std::string& name) {
@@ -43,6 +47,7 @@ Fingerprint fingerprint_of(const Job& job) {
   for (const auto& [name, value] : o.provenance)
     if (asks_solver(name)) f.add(std::string(name).append("=").append(value));
   if (relaxes(o)) f.add(std::string("relaxing"));
+  if (attaches(o)) f.add(std::string("attachments"));
   if (o.interval)
     for (double end : {o.interval->lower, o.interval->upper}) f.add(end);
   f.add_all(job.plan.moments.w_0);
@@ -72,11 +77,13 @@ void report_continued(Job& job, int checkpoints, int discarded, const std::strin
 
 // Is something wanted of every pair of modes?
 bool needs_pairs(const ReductionOptions& o) { return o.invariants == Invariants::full || relaxes(o); }
-bool needs_fields(const ReductionOptions& o) { return o.store == Store::all || needs_pairs(o); }
+// Do all modes have to wait, as fields, until the last one is known?
+bool needs_all(const ReductionOptions& o) { return needs_pairs(o) || attaches(o); }
+bool needs_fields(const ReductionOptions& o) { return o.store == Store::all || needs_all(o); }
 
 // Precision of fields until the body file is written.
 io::Precision precision(const ReductionOptions& o) {
-  return needs_pairs(o) ? io::Precision::float64 : o.precision;
+  return needs_all(o) ? io::Precision::float64 : o.precision;
 }
 
 // The numbers that the body keeps of a mode, and its field where that is needed too. Rank 0.
@@ -103,12 +110,30 @@ class ModalWriter {
         full_(job.options.store == Store::all),
         writer_(job.output, job.mesh.n_nodes(), full_ ? n_q : 0, job.options.precision) {
     allocate_modes(job.plan.body, n_q);
-    if (needs_pairs(job.options)) waiting_.emplace(job.output + ".shapes");
+    if (needs_all(job.options)) waiting_.emplace(job.output + ".shapes");
   }
   void add(int k, const ModeRecord& mode) {
     set_mode(job_.plan.body, k, mode.column);
     if (full_) writer_.write_mode(k, mode.phi);
-    if (waiting_) waiting_->add(mode.phi);
+    if (waiting_) waiting_->add(k, mode.phi);
+  }
+  // All modes so far.
+  const WaitingModes& modes() {
+    waiting_->close();
+    return *waiting_;
+  }
+  void attach(const Attachments& found) {
+    model::ElasticBody& body = job_.plan.body;
+    const auto n_q = static_cast<int>(body.n_q()), n_a = static_cast<int>(found.eigenvalue.size());
+    Eigen::VectorXd eigenvalue(n_q + n_a);
+    eigenvalue << body.K_r.diagonal(), found.eigenvalue;
+    set_modal_matrices(body, eigenvalue);
+    body.zeta = model::ratios_at(job_.options.ratio, body.frequency);
+    body.n_attachments = n_a;
+    job_.report.attachment = body.frequency.tail(n_a);
+    add_modes(body, n_a);
+    if (full_) writer_.add_modes(n_a);
+    for (int k = 0; k < n_a; ++k) add(n_q + k, mode_record(job_, found.phi.col(k)));
   }
   // Takes the columns of static responses as they are found.
   ColumnSink responses() {
@@ -116,7 +141,7 @@ class ModalWriter {
                   const Eigen::MatrixXf& G) { writer_.write_responses(plan, F, G); };
   }
   void finish() {
-    if (waiting_) set_pairs(*waiting_);
+    if (needs_pairs(job_.options)) set_pairs(*waiting_);
     model::Flexibility& flexibility = job_.plan.body.flexibility;
     if (flexibility.F.size() == 0) flexibility.read_F = writer_.written_responses();
     writer_.finish(job_.plan.body, source_of(job_), {job_.report.residual, job_.report.orthogonality});
@@ -136,6 +161,17 @@ class ModalWriter {
   io::BodyWriter writer_;
   std::optional<WaitingModes> waiting_;
 };
+
+// Adds the static responses to loads at markers to the modes, which all are written. whole: the whole body;
+// null for a held one that repeats. Collective.
+void attach(Job& job, const ElasticSystem* whole, std::optional<ModalWriter>& writer) {
+  if (!attaches(job.options)) return;
+  job.begin_stage("static responses to loads at markers");
+  const WaitingModes* modes = nullptr;
+  job.on_root([&] { modes = &writer->modes(); });
+  const Attachments found = find_attachments(job, whole, modes);
+  job.on_root([&] { writer->attach(found); });
+}
 
 // The other ranks have no writer.
 ColumnSink responses_to(std::optional<ModalWriter>& writer) {
@@ -210,6 +246,7 @@ void reduce_whole(Job& job) {
   });
   check_basis(job, system, asks_for_completeness(job.options));
   add_flexibility(job, &system, responses_to(writer));
+  attach(job, &system, writer);
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();
@@ -244,7 +281,7 @@ bool completeness_of_sectors(const Job& job) {
 
 // The modes of sectors need no matrices of the whole body, and neither do their masses nor static responses
 // that repeat as well: K and M are assembled where something else asks for them.
-void check_sectors(Job& job, const ColumnSink& sink) {
+void check_sectors(Job& job, std::optional<ModalWriter>& writer) {
   const bool completeness = completeness_of_sectors(job);
   const bool whole = completeness || (job.options.flexibility && !flexibility_repeats(job));
   const fem::Matrices matrices = whole ? assemble(job) : fem::Matrices{};
@@ -259,7 +296,8 @@ void check_sectors(Job& job, const ColumnSink& sink) {
   job.begin_stage("checks");
   job.report.checks = mass_checks(false, job.plan.body, [&] { return mobile_masses_by_sectors(job); });
   if (completeness) add_load_checks(job, *system);
-  add_flexibility(job, system ? &*system : nullptr, sink);
+  add_flexibility(job, system ? &*system : nullptr, responses_to(writer));
+  attach(job, system ? &*system : nullptr, writer);
 }
 
 // From one sector of a body that repeats.
@@ -279,7 +317,7 @@ void reduce_sectors(Job& job) {
   };
   set_eigenmodes(job,
                  find_cyclic_eigenmodes(job.comm, {body, job.plan.repetition}, options, keep, job.progress));
-  check_sectors(job, responses_to(writer));
+  check_sectors(job, writer);
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });
   checkpoints.clear();

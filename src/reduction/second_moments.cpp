@@ -50,6 +50,20 @@ std::size_t n_displacements(const fem::FieldMass& mass) {
 
 }  // namespace
 
+MatrixXd times(const fem::FieldMass& mass, const MatrixXd& u) {
+  if (u.size() == 0) return {};
+  const Index n_nodes = u.rows() / 3, n_modes = mass.M_s.rows() - n_nodes;
+  const Block fields = by_direction(mass, u);
+  MatrixXd M_u(u.rows(), u.cols()), of_modes(3 * n_modes, u.cols());
+  for (int a = 0; a < 3; ++a) {
+    const MatrixXd momentum = mass.M_s * fields[a];
+    M_u(Eigen::seqN(a, n_nodes, 3), Eigen::all) = momentum.topRows(n_nodes);
+    of_modes(Eigen::seqN(a, n_modes, 3), Eigen::all) = momentum.bottomRows(n_modes);
+  }
+  if (n_modes > 0) M_u += mass.T.transpose() * of_modes;
+  return M_u;
+}
+
 std::vector<model::BasisRows> second_moments(const WaitingModes& modes, const fem::FieldMass& mass) {
   const Index n_q = modes.size(), width = modes.block_width(3 * mass.M_s.rows());
   std::vector<model::DenseRows> S(kPairs.size(), model::DenseRows(n_q, n_q));

@@ -14,6 +14,9 @@ namespace elastogear::reduction {
 /// of the mass. Memory: about 1 GB, and the 6 n_q x n_q results.
 std::vector<model::BasisRows> second_moments(const WaitingModes& modes, const fem::FieldMass& mass);
 
+/// M u of displacements at all nodes, 3 n_nodes x n, node-major; nothing of nothing.
+Eigen::MatrixXd times(const fem::FieldMass& mass, const Eigen::MatrixXd& u);
+
 /// Second moments of the unit basis: the mass between directions a and b of the free displacements, sparse.
 std::vector<model::BasisRows> unit_second_moments(const fem::FieldMass& mass,
                                                   const std::vector<int>& free_dof);

@@ -1,7 +1,10 @@
 #include "reduction/waiting_modes.h"
 
 #include <algorithm>
-#include <optional>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "elastogear/io/checkpoint_store.h"
 
@@ -19,12 +22,20 @@ constexpr const char *kWaiting = "modes", *kField = "phi";
 struct WaitingModes::Data {
   io::CheckpointStore store;
   std::unique_ptr<io::CheckpointWriter> writer = {};
-  std::optional<io::CheckpointReader> reader = {};
-  Index size = 0;
+  std::map<Index, io::CheckpointReader> part = {};  // of closed rows, by the first one of each
+  Index n_rows = 0, first = 0;                      // of all; of those that are being written
+  std::vector<Index> row = {};                      // of each mode
+
+  std::string next() const { return kWaiting + std::to_string(part.size()); }
+  Eigen::VectorXd read(Index k) const {
+    const Index at = row[static_cast<std::size_t>(k)];
+    const auto& [begin, reader] = *std::prev(part.upper_bound(at));
+    return reader.read_row(kField, static_cast<int>(at - begin));
+  }
 
   ~Data() {
     writer.reset();
-    reader.reset();
+    part.clear();
     store.clear();
   }
 };
@@ -32,32 +43,38 @@ struct WaitingModes::Data {
 WaitingModes::WaitingModes(const std::string& folder)
     : data_(new Data{io::CheckpointStore(folder, kWaiting)}) {
   data_->store.clear();  // of a run that was killed
-  data_->writer = std::make_unique<io::CheckpointWriter>(data_->store, kWaiting);
 }
 
 WaitingModes::~WaitingModes() = default;
 
-void WaitingModes::add(const Eigen::VectorXd& phi) {
+void WaitingModes::add(int k, const Eigen::VectorXd& phi) {
+  if (!data_->writer) {
+    data_->writer = std::make_unique<io::CheckpointWriter>(data_->store, data_->next());
+    data_->first = data_->n_rows;
+  }
   data_->writer->append(kField, phi);
-  ++data_->size;
+  if (k == static_cast<int>(data_->row.size())) data_->row.push_back(0);
+  data_->row.at(static_cast<std::size_t>(k)) = data_->n_rows++;
 }
 
 void WaitingModes::close() {
+  if (!data_->writer) return;
   data_->writer->commit();
-  data_->reader.emplace(data_->store, kWaiting);
+  data_->writer.reset();
+  data_->part.try_emplace(data_->first, data_->store, data_->next());
 }
 
-Index WaitingModes::size() const { return data_->size; }
+Index WaitingModes::size() const { return static_cast<Index>(data_->row.size()); }
 
 Index WaitingModes::block_width(Index n_dofs) const {
   return std::clamp<Index>(static_cast<Index>(kBlockBytes / (8. * static_cast<double>(n_dofs))), 1,
-                           std::max<Index>(1, data_->size));
+                           std::max<Index>(1, size()));
 }
 
 MatrixXd WaitingModes::block(Index first, Index count) const {
   MatrixXd Phi;
   for (Index k = 0; k < count; ++k) {
-    const Eigen::VectorXd phi = data_->reader->read_row(kField, static_cast<int>(first + k));
+    const Eigen::VectorXd phi = data_->read(first + k);
     if (k == 0) Phi.resize(phi.size(), count);
     Phi.col(k) = phi;
   }

@@ -15,9 +15,9 @@ class WaitingModes {
   /// folder: of the waiting modes; must be of no other use, and goes in the end.
   explicit WaitingModes(const std::string& folder);
   ~WaitingModes();
-  /// phi: 3 n_nodes, node-major.
-  void add(const Eigen::VectorXd& phi);
-  /// To be called once, after the last mode.
+  /// phi: 3 n_nodes, node-major, in place of one that was added as mode k before, or next to the last one.
+  void add(int k, const Eigen::VectorXd& phi);
+  /// To be called before modes are read, and again after more of them have been added.
   void close();
   Eigen::Index size() const;
   /// Modes that fit into a block of memory of this size (at least one), for 3 n_nodes displacements.

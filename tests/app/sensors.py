@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Sensors of a gear pair move as the nodes of the field that recover writes of the same run, loaded ones and others.
+"""Sensors of a gear pair move as the nodes of the field that recover writes of the same run, loaded ones and others, at rest and in a sweep.
 
     sensors.py PATH/TO/elastogear PATH/TO/examples/drives
 """
@@ -44,26 +44,32 @@ def look(program, drive):
     run("reduce")
     run("simulate")
     loaded = most_loaded("spur_c14_result.h5", "pinion.h5")
+    markers = {"loaded": loaded + 1, "other": 7, "root": "root"}  # single nodes by their numbers, from 1
+    sensors = [word for name, marker in markers.items() for word in (f"-sensors_{name}", f"pinion.{marker}")]
+    pull = ["-loads", "pull", "-pull_marker", "pinion.7", "-pull_force", "100,-200,300"]
     for basis in ("modal_residual", "modal"):
-        markers = {"loaded": loaded + 1, "other": 7, "root": "root"}  # single nodes by their numbers, from 1
         run("reduce", "-basis", basis, "-pinion_markers", ",".join(map(str, markers.values())))
-        run("simulate", *(word for name, marker in markers.items() for word in (f"-sensors_{name}", f"pinion.{marker}")))
-        with h5py.File("spur_c14_result.h5") as file:
-            time = file["time"][-1]
-            position = {name: file[f"sensors/{name}/position"][-1] for name in markers}
-            turn, q = (file[f"bodies/pinion/{name}"][-1] for name in ("rotation", "q"))
-        run("recover", "-field_times", repr(float(time)))
-        X, u = field("spur_c14_result_pinion.vtu")
-        with h5py.File("pinion.h5") as file:
-            members = {name: file[f"mesh/node_sets/{marker}"][:] for name, marker in markers.items()}
-            by_modes = file[f"markers/{loaded + 1}/Phi"][:].reshape(6, -1)[:3] @ q
-        size = np.linalg.norm(u[loaded])
-        for name, nodes in members.items():
-            off = np.linalg.norm(position[name] - (X + u)[nodes].mean(axis=0)) / size
-            assert off < ROUNDOFF, f"{basis}: sensor {name} is {off} of the displacement beside its nodes"
-        left_out = np.linalg.norm(turn @ by_modes - u[loaded]) / size
-        print(f"{basis}: {1e6 * size:.4f} um at the loaded node, of which the modes leave out {left_out:.3f}")
-        assert (left_out > LEFT_OUT) == (basis == "modal_residual"), left_out
+        for analysis in (["static"], ["sweep", "-sweep_positions", 3]):
+            run("simulate", "-analysis", *analysis, *sensors, *pull)
+            with h5py.File("spur_c14_result.h5") as file:
+                time = file["time"][-1]
+                position = {name: file[f"sensors/{name}/position"][-1] for name in markers}
+                turn, q = (file[f"bodies/pinion/{name}"][-1] for name in ("rotation", "q"))
+            run("recover", "-field_times", repr(float(time)))
+            X, u = field("spur_c14_result_pinion.vtu")
+            with h5py.File("pinion.h5") as file:
+                members = {name: file[f"mesh/node_sets/{marker}"][:] for name, marker in markers.items()}
+                n_modes = q.size - file["modes"].attrs["attachments"]
+                by_modes = file[f"markers/{loaded + 1}/Phi"][:].reshape(6, -1)[:3, :n_modes] @ q[:n_modes]
+            size = np.linalg.norm(u[loaded])
+            what = f"{basis}, {analysis[0]}"
+            for name, nodes in members.items():
+                off = np.linalg.norm(position[name] - (X + u)[nodes].mean(axis=0)) / size
+                assert off < ROUNDOFF, f"{what}: sensor {name} is {off} of the displacement beside its nodes"
+            left_out = np.linalg.norm(turn @ by_modes - u[loaded]) / size
+            print(f"{what}: {1e6 * size:.4f} um at a loaded node, of which the modes leave out {left_out:.3f}")
+            if analysis[0] == "static":
+                assert (left_out > LEFT_OUT) == (basis == "modal_residual"), left_out
 
 
 def main():

@@ -54,7 +54,6 @@ AWAITS = {  # relations that fail today, and the fault that breaks them: leave o
     drives.a_drive_does_not_depend_on_load_steps: "other steps end on other points of contact: root stress 59 or 84 MPa",
     chains.an_aligned_pair_is_loaded_evenly: "KHbeta of unequal widths is up to 1.42",
     bodies.a_sensor_on_a_flank_is_where_the_field_is: "sensors leave the static response out",
-    bodies.the_static_response_to_loads_at_markers_is_whole: "loads at markers have no static response",
 }
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))

@@ -29,10 +29,43 @@ struct Recovered {
     stress = {1e8 * Eigen::MatrixXd::Random(6 * kNodes, kTimes),
               1e7 * Eigen::MatrixXd::Random(6 * kNodes, kTimes)};
   }
-  StressError error() const {
-    return reduction_error(body, upper_modes_stress(body.stress, members), q, stress);
-  }
+  StressError error() const { return reduction_error(body, upper_modes_stress(body, members), q, stress); }
 };
+
+// Vibrations of the modes stay, the static response to forces and moments at markers goes.
+TEST(DynamicPart, is_told_from_loads_at_markers_by_attachment_modes) {
+  std::srand(2);
+  const Eigen::VectorXd stiffness = Eigen::VectorXd::LinSpaced(kModes + 6, 1, 300).cwiseAbs2();
+  model::ElasticBody body;
+  body.K_r = Eigen::MatrixXd(stiffness.asDiagonal()).sparseView();
+  body.n_attachments = 6;
+  const Eigen::MatrixXd Phi = Eigen::MatrixXd::Random(6, kModes + 6), w = Eigen::MatrixXd::Random(6, kTimes);
+  body.markers = {{"end", Eigen::Vector3d::Zero(), true, model::DenseRows(Phi)}};
+  Eigen::MatrixXd vibration = Eigen::MatrixXd::Zero(kModes + 6, kTimes);
+  vibration.topRows(kModes).setRandom();
+  const Eigen::MatrixXd loaded = vibration + stiffness.cwiseInverse().asDiagonal() * Phi.transpose() * w;
+  EXPECT_LT((without_marker_loads(body, loaded) - vibration).norm(), 1e3 * kRoundoff * vibration.norm());
+  body.n_attachments = 0;
+  EXPECT_EQ(without_marker_loads(body, loaded), loaded);
+}
+
+// Attachment modes are not counted among the modes whose upper half tells of those left out.
+TEST(ReductionError, leaves_attachment_modes_out) {
+  Recovered of;
+  const Eigen::MatrixXd before = of.error().at_node;
+  Eigen::VectorXd stiffness = of.body.K_r.diagonal();
+  stiffness.conservativeResize(kModes + 2);
+  stiffness.tail(2).setConstant(1e4);
+  of.body.K_r = Eigen::MatrixXd(stiffness.asDiagonal()).sparseView();
+  of.body.n_attachments = 2;
+  std::get<model::DenseRows>(of.body.stress.Psi).conservativeResize(Eigen::NoChange, kModes + 2);
+  std::get<model::DenseRows>(of.body.stress.Psi).rightCols(2).setConstant(1e9);
+  for (Eigen::MatrixXd* q : {&of.q.q_d, &of.q.q_s}) {
+    q->conservativeResize(kModes + 2, Eigen::NoChange);
+    q->bottomRows(2).setOnes();
+  }
+  EXPECT_LT((of.error().at_node - before).norm(), kRoundoff * before.norm());
+}
 
 // Beside modes that answer statically the residual response is exact; what stays is the accuracy of forces.
 TEST(ReductionError, at_rest_is_that_of_the_forces_alone) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numeric>
 
 #include "../fem/brick.h"
 #include "../fem/other_cells.h"
@@ -121,35 +122,103 @@ TEST_F(Flexibility, is_the_static_response_of_the_body_with_and_without_symmetry
   }
 }
 
-// The marker of a set moves by a force on a node as the mean of its nodes does in the unreduced body.
-TEST_F(Flexibility, moves_markers_as_the_unreduced_body_does) {
+class AttachmentModes : public Flexibility {
+ protected:
+  static std::vector<reduction::ReductionOptions> cases(const std::vector<reduction::ReductionOptions>& of) {
+    std::vector<reduction::ReductionOptions> all = of;
+    for (reduction::ReductionOptions& o : all) {
+      o.markers = {"inner", "one"};
+      o.attachments = true;
+      o.invariants = reduction::Invariants::full;
+    }
+    all.push_back(all.front());
+    all.back().flexibility = false;
+    all.back().surface = all.back().loaded = {};
+    return all;
+  }
+  // Unit loads on the markers, 3 n_nodes x 12.
+  Eigen::MatrixXd unit_loads(const io::BodySource& source) const {
+    return Eigen::MatrixXd(
+               reduction::marker_operator(source.mesh, {"inner", "one"}, reduction::MarkerWeights::equal))
+        .transpose();
+  }
+  Eigen::MatrixXd whole_response(const io::BodySource& source, bool floating,
+                                 const Eigen::MatrixXd& f) const {
+    std::vector<int> all(static_cast<std::size_t>(source.mesh.n_nodes()));
+    std::iota(all.begin(), all.end(), 0);
+    return reduction::StaticResponse(source, floating).displacement(all, f);
+  }
+};
+
+TEST_F(AttachmentModes, make_the_static_response_to_loads_at_markers_that_of_the_unreduced_body) {
+  for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none})
+    for (const reduction::ReductionOptions& o : cases({options(symmetry), free_options(symmetry)})) {
+      const model::ElasticBody body = reduce(o);
+      if (!is_root()) continue;
+      EXPECT_EQ(body.n_attachments, 9);  // a single node has no rotation
+      EXPECT_GE(body.frequency.tail(9).minCoeff(), body.frequency.head(body.n_modes()).maxCoeff());
+      const io::BodySource source = io::read_body_source(path_);
+      const Eigen::MatrixXd f = unit_loads(source), whole = whole_response(source, body.floating, f);
+      for (int load : {0, 4, 6, 8}) {
+        const Eigen::VectorXd w = Eigen::VectorXd::Unit(6, load % 6),
+                              h = model::multiply_transposed(body.markers[load / 6].Phi, w),
+                              q = h.cwiseQuotient(Eigen::VectorXd(body.K_r.diagonal()));
+        const Eigen::VectorXd u = io::read_displacement_field(path_, q).reshaped(),
+                              by_modes = io::read_displacement_field(
+                                             path_, (Eigen::VectorXd(q.size()) << q.head(body.n_modes()),
+                                                     Eigen::VectorXd::Zero(body.n_attachments))
+                                                        .finished())
+                                             .reshaped();
+        EXPECT_LT((u - whole.col(load)).norm(), kRoundoff * whole.col(load).norm());
+        EXPECT_GT((by_modes - whole.col(load)).norm(), 1e-3 * whole.col(load).norm());
+      }
+    }
+}
+
+TEST_F(AttachmentModes, move_markers_by_forces_elsewhere_as_the_unreduced_body_does) {
   for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none})
     for (reduction::ReductionOptions o : {options(symmetry), free_options(symmetry)}) {
       o.markers = {"inner", "one"};
+      o.attachments = true;
       const model::ElasticBody body = reduce(o);
       if (!is_root()) continue;
       const io::BodySource source = io::read_body_source(path_);
-      const model::SparseRows Q = reduction::marker_operator(source.mesh, o.markers, o.marker_weights);
-      reduction::StaticResponse response(source, body.floating);
-      const std::vector<int> loaded = {1, static_cast<int>(body.surface.node.size()) - 2};
-      Eigen::Matrix3Xd f(3, 2);
-      f << 3, 1, -1, 4, 2, -2;
-      std::vector<int> nodes;
-      Eigen::VectorXd h = Eigen::VectorXd::Zero(body.n_q());
-      for (int i = 0; i < 2; ++i) {
-        nodes.push_back(body.surface.node[static_cast<std::size_t>(loaded[static_cast<std::size_t>(i)])]);
-        model::add_force(body.surface.Phi, loaded[static_cast<std::size_t>(i)], f.col(i), h);
+      Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * source.mesh.n_nodes()),
+                      h = Eigen::VectorXd::Zero(body.n_q());
+      for (int i : {1, static_cast<int>(body.surface.node.size()) - 2}) {
+        const Eigen::Vector3d force(3, i, -2);
+        f.segment<3>(3 * body.surface.node[i]) = force;
+        model::add_force(body.surface.Phi, i, force, h);
       }
       const Eigen::VectorXd q = h.cwiseQuotient(Eigen::VectorXd(body.K_r.diagonal())),
-                            moved = Q * response.displacement(nodes, f.reshaped());
-      for (std::size_t m = 0; m < 2; ++m) {
-        const Eigen::VectorXd expected = moved.segment<6>(static_cast<Eigen::Index>(6 * m)),
-                              by_modes = model::multiply(body.markers[m].Phi, q),
-                              residual = model::residual_motion(body, body.markers[m], loaded, f);
-        EXPECT_LT((by_modes + residual - expected).norm(), kRoundoff * expected.norm());
-        EXPECT_GT(residual.norm(), 1e-3 * expected.norm());
+                            moved = unit_loads(source).transpose() * whole_response(source, body.floating, f);
+      for (int m : {0, 1}) {
+        const Eigen::VectorXd expected = moved.segment<6>(6 * m);
+        EXPECT_LT((model::multiply(body.markers[m].Phi, q) - expected).norm(), kRoundoff * expected.norm());
       }
     }
+}
+
+TEST_F(AttachmentModes, are_orthonormal_beside_the_modes) {
+  for (const auto symmetry : {reduction::Symmetry::automatic, reduction::Symmetry::none})
+    for (const reduction::ReductionOptions& o : cases({options(symmetry), free_options(symmetry)})) {
+      const model::ElasticBody body = reduce(o);
+      if (!is_root()) continue;
+      Eigen::MatrixXd M = Eigen::MatrixXd::Zero(body.n_q(), body.n_q());
+      for (int a : {0, 1, 2}) M += std::get<model::DenseRows>(body.inertia.S_2[a]);
+      EXPECT_LT((M - Eigen::MatrixXd::Identity(M.rows(), M.cols())).lpNorm<Eigen::Infinity>(), 1e-9);
+      if (!body.floating) continue;
+      EXPECT_LT(body.inertia.C_l.lpNorm<Eigen::Infinity>(), 1e-9 * std::sqrt(body.inertia.m));
+    }
+}
+
+TEST_F(AttachmentModes, of_held_markers_are_none) {
+  reduction::ReductionOptions o = options(reduction::Symmetry::none);
+  o.markers = {"bottom"};
+  o.attachments = true;
+  const model::ElasticBody body = reduce(o);
+  if (!is_root()) return;
+  EXPECT_EQ(body.n_attachments, 0);
 }
 
 // Whose harmonics are condensed to the border of the sector.

@@ -31,7 +31,7 @@ struct BodySource {
 
 /// Results of the checks of the modes; empty for a full basis.
 struct ModeChecks {
-  Eigen::VectorXd residual;  ///< n_q, |K phi - omega^2 M phi| / |K phi|
+  Eigen::VectorXd residual;  ///< n_modes, |K phi - omega^2 M phi| / |K phi|
   double orthogonality = 0;  ///< largest |phi_i' M phi_j|, i != j
 };
 
@@ -42,6 +42,8 @@ class BodyWriter {
   /// n_modes: 0 when the modes are not to be stored in full.
   BodyWriter(const std::string& path, int n_nodes, int n_modes, Precision precision = Precision::float64);
   ~BodyWriter();
+  /// Makes room for n modes more than the constructor was told of.
+  void add_modes(int n);
   /// Full displacement vector of one mode, 3 n_nodes (node-major), stored as row `index` of /modes/Phi.
   void write_mode(int index, const Eigen::VectorXd& phi);
   /// The next columns of F and G of the body's flexibility, ascending: what would otherwise be written by

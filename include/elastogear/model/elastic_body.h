@@ -94,8 +94,6 @@ struct Marker {
   Eigen::Vector3d X;   ///< m, mean reference position
   bool turns = true;   ///< has a rotation; not when the set lies on one line
   BasisRows Phi = {};  ///< 6 x n_q: mean displacement, mean small rotation (rad); zero where it does not turn
-  /// 6 x 3 n_c, m/N and rad/N, static motion by unit forces on the nodes of the flexibility; or empty
-  DenseRows F = {};
 };
 
 /// A part of a body's stiffness that relaxes, that of one material region by both moduli or by one of them.
@@ -117,7 +115,10 @@ struct ElasticBody {
   Basis basis = Basis::modal;
   bool floating = false;  ///< nothing was restrained: the basis moves about a frame that no node carries
   Inertia inertia;
-  Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending; empty for full
+  /// The last coordinates, of attachment modes: what the modes leave out of the static responses to loads at
+  /// markers. They are no vibrations of the body. docs/theory.md, section 2.10.
+  int n_attachments = 0;
+  Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending but for attachments; empty for full
   Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2); K_r instantaneous
   double alpha = 0, beta = 0;            ///< 1/s, s: Rayleigh's part of D_r, alpha M_r + beta K_r
   Eigen::VectorXd zeta;                  ///< modal: n_q, ratios: D_r also has diag(2 zeta omega); or empty
@@ -129,12 +130,9 @@ struct ElasticBody {
   std::map<std::string, std::string> provenance;  ///< options in force, program and library versions
 
   Eigen::Index n_q() const { return K_r.rows(); }
+  /// Coordinates that are no attachment modes.
+  Eigen::Index n_modes() const { return n_q() - n_attachments; }
 };
-
-/// What the modes leave out of the static motion of a marker under forces on surface nodes, m and rad, as
-/// Phi q: Eq. (3.16a). Zero without flexibility, and for nodes that it does not provide for.
-Eigen::Matrix<double, 6, 1> residual_motion(const ElasticBody& body, const Marker& marker,
-                                            const std::vector<int>& node, const Eigen::Matrix3Xd& f_B);
 
 /// Throws Error naming `source` when shapes disagree, numbers are not finite, the inertia is not positive or
 /// node numbers are out of range.

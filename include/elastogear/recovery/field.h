@@ -14,7 +14,8 @@ namespace elastogear::recovery {
 
 /// Data for the estimated error of a reduced body's field, Eq. (4.9).
 struct FieldReference {
-  Eigen::VectorXd q, q_d;    ///< elastic coordinates of the run, and their dynamic part
+  Eigen::VectorXd q, q_d;    ///< elastic coordinates of the run, without static response to contact forces,
+  Eigen::VectorXd q_upper;   ///< and the dynamic part of the upper half of the modes
   Eigen::VectorXd u_static;  ///< 3 n_nodes, m, BRF, the whole body's static response; empty: no force acts
   double share = 0;          ///< dynamic_share, Eq. (4.8)
 };

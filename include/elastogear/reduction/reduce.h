@@ -62,7 +62,8 @@ struct ReductionOptions {
   bool flexibility = false;               ///< modal only: static responses to contact forces,
   std::vector<std::string> loaded = {};   ///< on the nodes of these face sets; none: of the whole surface.
                                           ///< Interface or loaded faces of `ritz` too
-  int relaxed_states = 0;                 ///< of bodies that relax in different ratios; 0: as many as needed
+  bool attachments = false;  ///< modal only: static responses to loads at `markers` as further coordinates
+  int relaxed_states = 0;    ///< of bodies that relax in different ratios; 0: as many as needed
   /// Called on rank 0 before any eigenmode is looked for; may throw Error, which ends the reduction.
   std::function<void(const StaticResponseCost&)> announce = {};
   bool completeness = true;                            ///< check it: one more factorisation of K
@@ -95,7 +96,8 @@ struct ReductionReport {
   int edge_cut = 0;                  ///< pairs of neighbouring cells on different ranks
   double balance = 1;                ///< most cells of a rank over the mean
   std::string symmetry;              ///< what was found, or why none; empty when it was not looked for
-  Eigen::VectorXd frequency;         ///< Hz, ascending; empty for the full basis
+  Eigen::VectorXd frequency;         ///< Hz, ascending, of the modes; empty for the full basis
+  Eigen::VectorXd attachment;        ///< Hz, Rayleigh's quotients of the attachment modes
   Eigen::VectorXd residual;          ///< |K phi - omega^2 M phi| / |K phi| of each mode; of `ritz`: empty
   double orthogonality = 0;          ///< largest |phi_i' M phi_j|, i != j, see Eigenmodes
   std::string continued_after;       ///< what was taken over from a run that was killed, if any

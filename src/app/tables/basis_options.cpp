@@ -28,7 +28,9 @@ const std::vector<std::string> kBases = {"modal",  "modal_residual", "full", "mo
 
 const Rows<ReductionOptions> kBasisRows = {
     {"basis", "-", "modal_residual",
-     "modal_residual: eigenmodes and the static response to contact forces that they leave out; full: every "
+     "modal_residual: eigenmodes and the static responses to contact forces and to loads at markers that "
+     "they "
+     "leave out; full: every "
      "free degree of freedom (the finite-element reference). To compare with: modal: eigenmodes alone, which "
      "miss most of the stress at a tooth; and of held bodies, without use of symmetry: modal_attachment: "
      "eigenmodes and static solutions; krylov: moment matching for loads on the surface; craig_bampton: "
@@ -103,7 +105,7 @@ void set_basis(const Options& options, ReductionOptions& o) {
   read_rows(options, kBasisRows, o);
   const int basis = options.choice("basis", kBases);
   o.basis = basis == full ? model::Basis::full : model::Basis::modal;
-  o.flexibility = basis == modal_residual;
+  o.flexibility = o.attachments = basis == modal_residual;
   set_automatic_modes(options, o);
   if (basis < first_ritz) return;
   o.ritz.emplace().kind = static_cast<reduction::RitzKind>(basis - first_ritz);

@@ -122,10 +122,7 @@ model::ElasticBody read_or_make_body(const Options& options, const std::string& 
     model::ElasticBody body = io::read_body(source.file, io::BodyUse::motion);
     identity = model::fingerprint(body);
     if (source.rigid) body = body::rigid_copy(body);
-    if (!source.residual) {
-      body.flexibility = {};
-      for (model::Marker& marker : body.markers) marker.F = {};
-    }
+    if (!source.residual) body.flexibility = {};
     return body;
   }
   require(options.given(prefix + "mass"), "option -", prefix,

@@ -54,12 +54,14 @@ void print_cost(const reduction::StaticResponseCost& cost) {
   if (cost.seconds > kLong || cost.bytes > kMuch) print_item("advice", remedy);
 }
 
-// Without a contact surface nothing can be loaded.
+// Without a contact surface only markers can be loaded.
 void drop_static_responses(ReductionOptions& o) {
   if (!o.flexibility || !o.surface.empty() || !o.loaded.empty()) return;
   o.flexibility = false;
-  print_item("basis",
-             "modal: without a contact surface (-surface) there are no static responses to forces on it");
+  print_item("basis", o.markers.empty() ? "modal: there are neither a contact surface (-surface) nor markers "
+                                          "whose static responses it could have"
+                                        : "eigenmodes and static responses to loads at markers: there is no "
+                                          "contact surface (-surface)");
 }
 
 struct Nodes {
@@ -195,6 +197,10 @@ void print_modes(const reduction::ReductionReport& report) {
   print_item(eigenmodes ? "modes" : "Ritz vectors", std::to_string(report.frequency.size()));
   print_item("frequency range", with_unit(report.frequency.minCoeff(), "Hz") + " to " +
                                     with_unit(report.frequency.maxCoeff(), "Hz"));
+  if (const Eigen::VectorXd& f = report.attachment; f.size() > 0)
+    print_item("attachment modes", std::to_string(f.size()) + " besides, by loads at markers, " +
+                                       with_unit(f.minCoeff(), "Hz") + " to " +
+                                       with_unit(f.maxCoeff(), "Hz"));
   if (eigenmodes) print_item("largest residual", with_unit(report.residual.maxCoeff(), ""));
   print_item("largest phi_i' M phi_j", with_unit(report.orthogonality, ""));
   if (eigenmodes) print_item("count", "complete, by the inertia of K - sigma M");

@@ -33,16 +33,6 @@ std::string marker_list(const model::ElasticBody& body) {
   return list;
 }
 
-// Files of earlier versions hold the static responses of the surface, not those of markers. What moves with
-// the frame needs none.
-void require_static_response(const model::ElasticBody& body, const model::Marker* marker,
-                             const std::string& who) {
-  if (!marker || marker->F.size() > 0 || body.flexibility.empty()) return;
-  require(model::multiply(marker->Phi, VectorXd::Ones(body.n_q())).isZero(0), who, "the file of body '",
-          body.name, "' has no static response of the marker '", marker->name,
-          "' to contact forces, as those of earlier versions: reduce the body again");
-}
-
 Wrench wrench_of(const LoadSetup& load, double time, const MarkerMotion& marker) {
   const Eigen::Matrix3d R = load.follows ? marker.R : Eigen::Matrix3d::Identity();
   Wrench wrench;
@@ -83,9 +73,7 @@ MarkerForces::MarkerForces(const MarkerSetups& setups, const std::vector<Body>& 
   for (const SensorSetup& sensor : setups.sensors) {
     const std::string who = "sensor '" + sensor.name + "': ";
     sensor_at_.push_back(find(sensor.marker, who));
-    const Place& place = sensor_at_.back();
-    require(place.body >= 0, who, "the ground does not move");
-    require_static_response(*bodies_[static_cast<std::size_t>(place.body)].body, place.marker, who);
+    require(sensor_at_.back().body >= 0, who, "the ground does not move");
   }
 }
 

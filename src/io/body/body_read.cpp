@@ -64,11 +64,16 @@ model::Stress read_stress(const h5::File& file) {
   return stress;
 }
 
-// Static responses of a marker; empty where the file has none.
-model::DenseRows read_marker_responses(const h5::File& file, const std::string& name) {
-  if (!h5::exists(file, name)) return {};
-  const std::vector<double> F = h5::read<double>(file, name, {6, h5::kAny});
-  return Eigen::Map<const model::DenseRows>(F.data(), 6, static_cast<Eigen::Index>(F.size() / 6));
+// The number of attachment modes. Files of earlier versions hold the static responses of the surface, not
+// those of markers.
+int read_attachments(const h5::File& file) {
+  if (h5::has_attribute(file, "/modes", kAttachments))
+    return h5::int_attribute(file, "/modes", kAttachments).front();
+  const bool lacks = h5::exists(file, "/flexibility") && !h5::members(file, "/markers").empty();
+  require(!lacks, file.path,
+          ": has no static responses to loads at its markers, as files of earlier versions: reduce the body "
+          "again");
+  return 0;
 }
 
 std::vector<model::Marker> read_markers(const h5::File& file) {
@@ -79,7 +84,7 @@ std::vector<model::Marker> read_markers(const h5::File& file) {
     const auto X = h5::read<double>(file, group + "/X", {3});
     markers.push_back({name, Eigen::Map<const Eigen::Vector3d>(X.data()),
                        h5::int_attribute(file, group, "turns").front() != 0,
-                       read_rows(file, group + "/Phi", 6), read_marker_responses(file, group + "/F")});
+                       read_rows(file, group + "/Phi", 6)});
   }
   return markers;
 }
@@ -158,7 +163,10 @@ model::ElasticBody read_body(const std::string& path, BodyUse use) {
   body.K_r = read_square(file, "/reduced/K");
   body.alpha = h5::number_attribute(file, "/reduced", "alpha");
   body.beta = h5::number_attribute(file, "/reduced", "beta");
-  if (body.basis == Basis::modal) body.frequency = read_vector(file, "/modes/frequency", extent(body.n_q()));
+  if (body.basis == Basis::modal) {
+    body.frequency = read_vector(file, "/modes/frequency", extent(body.n_q()));
+    body.n_attachments = read_attachments(file);
+  }
   if (h5::exists(file, "/modes/damping_ratio")) body.zeta = read_vector(file, "/modes/damping_ratio");
   body.inertia = read_inertia(file, body.n_q());
   body.surface = read_surface(file);

@@ -72,8 +72,6 @@ void write_markers(const h5::File& file, const model::ElasticBody& body, const B
     h5::set_attribute(file, group, "turns", static_cast<int>(marker.turns));
     h5::write<double>(file, group + "/X", {{3}, marker.X.data()}, "m");
     write_rows(file, group + "/Phi", marker.Phi, 6, unit.marker);
-    if (marker.F.size() > 0)
-      h5::write<double>(file, group + "/F", {{6, extent(marker.F.cols())}, marker.F.data()}, "m/N, rad/N");
   }
 }
 
@@ -89,6 +87,7 @@ void write_modes(const h5::File& file, const model::ElasticBody& body) {
   const Eigen::VectorXd eigenvalue = body.K_r.diagonal();
   h5::write<double>(file, "/modes/frequency", view(body.frequency), "Hz");
   h5::write<double>(file, "/modes/eigenvalue", view(eigenvalue), "rad^2/s^2");
+  h5::set_attribute(file, "/modes", kAttachments, body.n_attachments);
   if (body.zeta.size() > 0) h5::write<double>(file, "/modes/damping_ratio", view(body.zeta), "1");
 }
 
@@ -161,12 +160,18 @@ BodyWriter::BodyWriter(const std::string& path, int n_nodes, int n_modes, Precis
   write_format(data_->file, kBodyFormat);
   h5::make_group(data_->file, "/reduced");
   if (n_modes == 0 || n_nodes == 0) return;
-  const h5::Shape shape{static_cast<hsize_t>(n_modes), data_->n_nodes, 3}, chunk{1, data_->n_nodes, 3};
-  data_->modes = h5::create_chunked(data_->file, "/modes/Phi",
-                                    {shape, chunk, kModalUnits.Phi, precision == Precision::float32});
+  data_->modes =
+      h5::create_growing(data_->file, "/modes/Phi",
+                         {{data_->n_nodes, 3}, kModalUnits.Phi, false, precision == Precision::float32}, 1);
+  h5::set_shape(data_->file, data_->modes, {static_cast<hsize_t>(n_modes), data_->n_nodes, 3});
 }
 
 BodyWriter::~BodyWriter() = default;
+
+void BodyWriter::add_modes(int n) {
+  data_->written.resize(data_->written.size() + static_cast<std::size_t>(n), false);
+  h5::set_shape(data_->file, data_->modes, {data_->written.size(), data_->n_nodes, 3});
+}
 
 void BodyWriter::write_mode(int index, const Eigen::VectorXd& phi) {
   const int n_modes = static_cast<int>(data_->written.size());
@@ -197,7 +202,7 @@ void BodyWriter::finish(const model::ElasticBody& body, const BodySource& source
   const bool complete =
       std::find(data_->written.begin(), data_->written.end(), false) == data_->written.end();
   require(complete && (n_written == 0 || n_written == n_modes) &&
-              (checks.residual.size() == 0 || checks.residual.size() == n_modes) &&
+              (checks.residual.size() == 0 || checks.residual.size() == body.n_modes()) &&
               source.mesh.n_nodes() == static_cast<int>(data_->n_nodes),
           path, ": the modes written are not those of the body");
   const std::optional<ResponseColumns>& responses = data_->responses;

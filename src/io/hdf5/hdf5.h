@@ -148,6 +148,8 @@ struct Item {
 
 /// A dataset without rows, to be extended.
 Id create_growing(const File& file, const std::string& name, const Item& item, hsize_t rows_per_chunk);
+/// The shape of such a dataset from now on.
+void set_shape(const File& file, hid_t dataset, const Shape& shape);
 
 /// One growing dataset, n_rows x item shape, written in blocks. The file must outlive it.
 class Series {

@@ -242,6 +242,10 @@ Id create_growing(const File& file, const std::string& name, const Item& item, h
   return dataset;
 }
 
+void set_shape(const File& file, hid_t dataset, const Shape& shape) {
+  check_written(H5Dset_extent(dataset, shape.data()) >= 0, file, "a dataset");
+}
+
 template <class T>
 void write_rows(const File& file, hid_t dataset, const Rows& rows, const T* data) {
   if (const std::optional<bool> written = write_chunks(dataset, rows, data))

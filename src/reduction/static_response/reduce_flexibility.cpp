@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "reduction/reduce_job.h"
-#include "reduction/static_response/marker_responses.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -103,7 +102,6 @@ void add_flexibility(Job& job, const ElasticSystem* whole, const ColumnSink& sin
     flexibility.creep = 0;
   }
   if (job.rank == 0) job.plan.body.flexibility = std::move(flexibility);
-  add_marker_responses(job, whole);
 }
 
 }  // namespace elastogear::reduction
