@@ -53,7 +53,6 @@ AWAITS = {  # relations that fail today, and the fault that breaks them: leave o
     drives.a_mirrored_drive_is_the_same: "transmission error up to 4 % off at order 2 (case 252596726717694)",
     drives.a_drive_does_not_depend_on_load_steps: "other steps end on other points of contact: root stress 59 or 84 MPa",
     chains.an_aligned_pair_is_loaded_evenly: "KHbeta of unequal widths is up to 1.42",
-    bodies.a_sensor_on_a_flank_is_where_the_field_is: "sensors leave the static response out",
 }
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
