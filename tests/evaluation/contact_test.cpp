@@ -119,7 +119,9 @@ TEST(ContactPattern, holds_the_largest_pressure_of_all_teeth_at_each_place) {
   const auto narrow = contact_pattern(contacts, gear, 0, 1, 0.5e-3, Eigen::Vector3d(-0.003, 0, 0.003));
   ASSERT_TRUE(narrow);
   for (Eigen::Index j = 0; j < narrow->z.size(); ++j)
-    if (std::abs(narrow->z[j]) > 0.003 + 0.3e-3) EXPECT_EQ(narrow->pressure.col(j).maxCoeff(), 0);
+    if (std::abs(narrow->z[j]) > 0.003 + 0.3e-3) {
+      EXPECT_EQ(narrow->pressure.col(j).maxCoeff(), 0);
+    }
   EXPECT_EQ(largest_pressure(contacts)->step, 1);
   EXPECT_FALSE(largest_pressure({}));
 }
