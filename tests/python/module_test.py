@@ -104,7 +104,7 @@ class Runs(WithDrive):
         rows = {row[0]: row for row in eg.option_table("simulate")}
         self.assertEqual(rows["ts_dt"][1], "s")
         self.assertEqual(rows["contact_friction"][2], "0")
-        with self.assertRaisesRegex(eg.Error, "the verbs are mesh, "):
+        with self.assertRaisesRegex(eg.Error, "the verbs are run, mesh, "):
             eg.option_table("simulat")
 
 

@@ -14,7 +14,7 @@ import elastogear as eg
 
 PROGRAM = os.path.abspath(sys.argv[1])
 SPUR = {
-    "drive": "cylindrical", "module": "3 mm", "face_width": "25 mm", "torque": "300 N m", "modes": 4,
+    "drive": "cylindrical", "element_order": 1, "module": "3 mm", "face_width": "25 mm", "torque": "300 N m", "modes": 4,
     "basis": "modal", "pinion": {"teeth": 17, "profile_shift": 0.3}, "wheel": {"teeth": 43, "profile_shift": 0.1},
 }
 MOTION = {"ts_dt": 1e-6, "ts_max_time": 4e-5, "contact_surface": "facets", "contact_points": "nodes"}
