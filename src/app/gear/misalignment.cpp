@@ -76,6 +76,7 @@ void misalign(const Options& options, Drive& drive) {
     const Eigen::Matrix3d tilt =
         rotation_matrix(Vector3d(degree * (m.inclination * tangential - m.skew * away[i])));
     member.position += m.radial * away[i] + m.tangential * tangential + m.axial * axis;
+    member.angle += m.axial / member.toothing.p;  // as on a screw: its flanks stay where they meet the mate's
     const Eigen::AngleAxisd rotation(Eigen::Matrix3d(tilt * R));
     member.rotation = rotation.angle() * rotation.axis();
   }
