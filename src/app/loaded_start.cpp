@@ -16,9 +16,12 @@ bool begins_loaded(const Options& options) {
          options.placeholder_values("<body>_rotation_motion").empty();
 }
 
+// The static analysis of the drive. Viscoelastic materials that relax in the motion begin as under a load
+// that was put on just now.
 Options at_rest(const Options& given) {
   Options options = with_gears(given);
   options.set("analysis", "static");
+  if (options.given("moduli") && options.text("moduli") == "relaxing") options.set("moduli", "instantaneous");
   return with_system(options, read_drive(options));
 }
 

@@ -33,8 +33,8 @@ std::vector<int> corners(const model::Surface& surface, Eigen::Index f) {
   return nodes;
 }
 
-// What modes leave of the compliance of an even pressure on a face, over that of the cell behind it, 1 / (c_f
-// A). Eq. (6.24b).
+// Share of the compliance of a cell, 1 / (c_f A), that modes leave out where an even pressure acts on the
+// face of the cell. Eq. (6.24b).
 double share_left(const model::Surface& surface, Eigen::Index f, ResidualFlexibility& residual) {
   const std::vector<int> nodes = corners(surface, f);
   const auto x = [&](int corner) -> Eigen::Vector3d { return surface.X.col(surface.face(corner, f)); };

@@ -14,7 +14,7 @@ constexpr double kInertia = 0.05;  // share of the static residual stress by whi
 constexpr double kStates = 1e-2;   // by which states of relaxation are interpolated worst, Eq. (4.12b)
 constexpr double kForces = 1e-3;   // to which contact forces are reproduced when the time step changes
 
-// Which rows of coordinates, or columns of modes, are the upper half of the modes.
+// Marks the coordinates that belong to the upper half of the modes, by frequency.
 auto upper_rows(Eigen::Index n_modes) { return Eigen::seqN(n_modes / 2, n_modes - n_modes / 2); }
 
 }  // namespace

@@ -5,7 +5,8 @@
 namespace elastogear::recovery {
 namespace {
 
-// Of forces and moments that attachment modes tell apart; scaled by what each of them does.
+// Share below which a combination of marker forces and moments counts as one that attachment modes do not
+// distinguish; forces and moments are scaled by the response to each of them.
 constexpr double kIndependentLoads = 1e-6;
 
 // Rows of all markers' modes, 6 n_m x n_q.

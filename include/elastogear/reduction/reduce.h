@@ -63,7 +63,7 @@ struct ReductionOptions {
   std::vector<std::string> loaded = {};   ///< on the nodes of these face sets; none: of the whole surface.
                                           ///< Interface or loaded faces of `ritz` too
   bool attachments = false;  ///< modal only: static responses to loads at `markers` as further coordinates
-  int relaxed_states = 0;    ///< of bodies that relax in different ratios; 0: as many as needed
+  int relaxed_states = 0;    ///< of viscoelastic bodies with several laws of relaxation; 0: as many as needed
   /// Called on rank 0 before any eigenmode is looked for; may throw Error, which ends the reduction.
   std::function<void(const StaticResponseCost&)> announce = {};
   bool completeness = true;                            ///< check it: one more factorisation of K

@@ -35,7 +35,7 @@ std::string digits_of(double value, int digits) {
 
 void print_error(const Reader& of) {
   const std::string name = "transmission_error/";
-  // Of a single position there is neither a mean nor what is peak to peak.
+  // A single position has neither a mean nor a peak-to-peak value.
   const bool several = of.has(name + "peak_to_peak");
   const std::string mean = of.in(name + "mean", 1e6, "um");
   print_item("transmission error",

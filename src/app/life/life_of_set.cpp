@@ -67,7 +67,8 @@ Eigen::Index worst(const life::Damage& damage) {
   return at;
 }
 
-// Of the nodes of the set, by histories that are larger by the estimated error; empty where it is not known.
+// Damage of each node of a set by stress histories that are enlarged by their estimated error; empty where
+// that is not known.
 Eigen::VectorXd damage_with_error(const SetHistory& history, const Strength& strength,
                                   const std::vector<double>& torques, const std::vector<life::Block>& blocks,
                                   bool proportional) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the force of one station does to its own strip: both half-spaces below a pressure whose half width
+// The local compliance of one station: both half-spaces below its own pressure, whose half width
 // follows from the force as H. Hertz's does (docs/theory.md, section 6.18).
 
 namespace elastogear::contact {

@@ -68,7 +68,7 @@ class TimeError {
   Coordinates error_, error_rate_;
   double end_time_ = 0;
   Responses responses_;
-  // Of the last step: what it began with, and the force on it, without columns after an impulse.
+  // State at the start of the last step and the modal forces during it; no columns after an impulse.
   double start_time_ = 0;
   Coordinates start_U_, start_V_, start_error_, start_error_rate_;
   Polynomial acting_;

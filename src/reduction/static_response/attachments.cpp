@@ -57,7 +57,7 @@ MatrixXd by_factor(const ElasticSystem& system, const MatrixXd& f, int n_loads) 
   return on_root(system, own);
 }
 
-// The same of a held body that repeats, by its harmonics. Rank 0.
+// Static responses of a held, cyclically symmetric body, by its harmonics. Rank 0.
 MatrixXd by_harmonics(const Job& job, const MatrixXd& f) {
   const io::BodySource source = source_of(job);
   MatrixXd u = MatrixXd::Zero(f.rows(), f.cols());
