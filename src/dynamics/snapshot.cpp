@@ -83,6 +83,7 @@ model::Snapshot snapshot(System& system, const State& x) {
     result.pairs.push_back(pair_state(system, x, p));
     for (const contact::ContactPoint& point : contact.pair[p].points) result.energy.contact += point.energy;
   }
+  result.energy.contact += contact.stations.local_energy;
   add_markers(system, x, result);
   return result;
 }

@@ -346,7 +346,7 @@ EffectiveMatrix System::effective_matrix(const State& x, const body::Shifts& shi
     matrix.body.back().R = contact_->flexibility_among(b, node);
     if (relaxation_->of(b)) matrix.body.back().following = relaxation_->following(b, x.time);
   }
-  set_contact_columns(twists, contact.pair, contact.surface, matrix);
+  set_contact_columns(twists, contact, matrix);
   if (!model_.marker_forces.empty())
     model_.marker_forces.add_tangent(x.time, moving_bodies(x), shift, matrix);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {

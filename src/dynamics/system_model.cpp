@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "dynamics/stations/station_contact.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/contact/topology.h"
@@ -195,6 +196,19 @@ void add_pair(const PairSetup& setup, SystemModel& model) {
   settings.approach = chosen_approach(model, model.pairs.back());
 }
 
+// Pairs of a system touch at stations together, or not at all.
+void choose_stations(SystemModel& model) {
+  const auto at_stations = [](const PairSetup& pair) {
+    return pair.settings.points == contact::SlavePoints::stations;
+  };
+  if (std::none_of(model.pairs.begin(), model.pairs.end(), at_stations)) return;
+  for (const PairSetup& pair : model.pairs) {
+    const std::string lacks = at_stations(pair) ? lacks_for_stations(model, pair) : "it has other points";
+    require(lacks.empty(), "contact points 'stations' of the pair ", pair.name, ": ", lacks,
+            ", or take other points");
+  }
+}
+
 void add_marker_forces(const MarkerSetups& setups, SystemModel& model) {
   std::vector<MarkerForces::Body> bodies;
   for (const SystemModel::Body& body : model.bodies) bodies.push_back({body.name, body.eq.body.get()});
@@ -220,6 +234,7 @@ SystemModel make_system_model(const std::vector<BodySetup>& bodies, const std::v
   model.environment = environment;
   for (const BodySetup& setup : bodies) add_body(setup, model);
   for (const PairSetup& setup : pairs) add_pair(setup, model);
+  choose_stations(model);
   add_marker_forces(markers, model);
   return model;
 }

@@ -162,7 +162,7 @@ TEST(SmoothKernel, of_stations_is_symmetric_and_positive_definite) {
     for (double v : {2.1e-3, 4e-3, 6.5e-3}) {
       const auto stations = even_stations(16, -10e-3, 10e-3, v, slope);
       const FreeEnds ends{-12e-3, 13e-3};
-      const Eigen::MatrixXd H = smooth_kernel(flank, stations, {0.9e-3, 0.5e-3}, ends, 1.05);
+      const Eigen::MatrixXd H = smooth_kernel(flank, stations, {0.9e-3, 0.5e-3}, ends, {1.05, 1 / 1.05});
       EXPECT_LT((H - H.transpose()).norm(), 1e-12 * H.norm());
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(H).eigenvalues().minCoeff(), 0);
     }

@@ -1,6 +1,6 @@
 // Forces of stations: least potential among all sets of stations, complementarity, tangent.
 
-#include "contact/stations/station_forces.h"
+#include "elastogear/contact/station_forces.h"
 
 #include <gtest/gtest.h>
 

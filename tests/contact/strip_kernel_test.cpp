@@ -1,6 +1,6 @@
 // Half-spaces below strips of a line of contact, beside numerical integrals and H. Hertz's line contact.
 
-#include "contact/stations/strip_kernel.h"
+#include "elastogear/contact/strip_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "contact/stations/strip_law.h"
+#include "elastogear/contact/strip_law.h"
 
 namespace elastogear::contact::strip_kernel_test {
 namespace {

@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "elastogear/contact/exact_flanks.h"
 #include "elastogear/model/elastic_body.h"
 
 namespace elastogear::contact {
@@ -33,6 +35,7 @@ struct TrueSurface {
   /// n_s, 1/m, of each node on an exact flank: the symmetric tensor S with which the normal n of the flank
   /// changes by S t along small tangents t; > 0: convex. NaN on other nodes. Empty: nowhere known.
   std::vector<Eigen::Matrix3d> curvature = {};
+  std::shared_ptr<const ExactFlanks> flanks = {};  ///< null: they have no charts
 };
 
 /// Local coordinates (contact/face.h) at which heights over a face with 4 or 3 sides are known where it is

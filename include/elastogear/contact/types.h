@@ -29,7 +29,8 @@ enum class ContactSurface { facets, smooth, exact };
 /// and the places on its faces and their sides where the gap is least (docs/theory.md, section 6.12). faces:
 /// all points of its faces, in the mean over the faces around each node (section 6.13). automatic: see
 /// chosen_points.
-enum class SlavePoints { automatic, nodes, minima, faces };
+/// stations: none; flanks touch at the stations of section 6.18.
+enum class SlavePoints { automatic, nodes, minima, faces, stations };
 /// By what flanks approach each other where they touch in a patch that is small beside the faces. mesh: by
 /// what the mesh makes of it. hertz: by H. Hertz in place of that (docs/theory.md, section 6.17). automatic:
 /// see dynamics::chosen_approach.
@@ -181,6 +182,7 @@ struct ContactPoint {
   StickPoint stick;                                        ///< becomes history when the step is accepted
   LocalVectors v;                                          ///< m/s, of the local nodes, where rates count
   double p = 0;                                            ///< N, force along n
+  double pressure = 0;  ///< Pa, largest, of a station by H. Hertz; 0: that of the nodes' areas
   double c = 0;      ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
   LocalVectors F_p;  ///< -, unilateral or over faces: change of F with p
   LocalVectors g_x;  ///< -, unilateral or over faces: gradient of g_n + c p at this p

@@ -4,6 +4,7 @@
 // R (v_i + w_i x x_B), and dx/dq = R Phi, Eq. (6.9). Forces act on the joint's virtual twists H, positions
 // change by the twists P = [r; theta] of body::FrameDerivative.
 
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "elastogear/body/equations.h"
@@ -25,11 +26,21 @@ struct PairContacts {
   std::vector<contact::ContactPoint> points;
 };
 
+/// Loads of the n stations of exact flanks that bear a force, of all pairs (docs/theory.md, section 6.18).
+struct StationLoads {
+  /// 3 nodes x n of each body, BRF: forces of 1 N of each station on the nodes of its NodalForces.
+  std::vector<Eigen::SparseMatrix<double>> body = {};
+  Eigen::VectorXd f = {};   ///< n, N
+  Eigen::MatrixXd K = {};   ///< n x n, N/m: -df/dgap. Eq. (6.48)
+  double local_energy = 0;  ///< J, of the half-spaces below the meshes
+};
+
 /// Contact of all bodies at one time, by positions and velocities alone.
 struct ContactState {
   std::vector<contact::SurfaceState> surface;  ///< per body; x_B is right at the nodes that contact touches
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
+  StationLoads stations = {};
   bool balanced = true;            ///< did Newton's method for contact forces and static responses converge?
 };
 
@@ -68,8 +79,9 @@ void add_geometric_stiffness(const JointTwists& twists, const NodalForces& force
 body::MotionSubspace velocity_twists(const body::Joint& joint, const body::MotionSubspace& H,
                                      const body::JointMotion& m, double shift_v);
 
-/// W_s, V_s, L, L_V of every body (whose `node` are set) and k, from the tangents of all contact points.
-void set_contact_columns(const std::vector<JointTwists>& twists, const std::vector<PairContacts>& pairs,
-                         const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A);
+/// W_s, V_s, L, L_V of every body (whose `node` are set) and k, from the tangents of all contact points and
+/// stations.
+void set_contact_columns(const std::vector<JointTwists>& twists, const ContactState& contact,
+                         EffectiveMatrix& A);
 
 }  // namespace elastogear::dynamics

@@ -27,7 +27,7 @@ const Rows<S> kContactRows = {
     {"contact_restitution", &S::restitution, "-",
      "unilateral, bodies in motion without residual flexibility: rate of a gap after over that before an "
      "impact, 0 to 1; elastic bodies rebound by themselves and take 0"},
-    {"contact_points", &S::points, one_of("auto", "nodes", "minima", "faces"),
+    {"contact_points", &S::points, one_of("auto", "nodes", "minima", "faces", "stations"),
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
      "node (pressure as a field); auto: faces where the slave's cells are of second order, whose nodes alone "

@@ -58,16 +58,16 @@ double smooth_inverse_distance(const AcrossLoad& across_a, const Strip& a, const
 }
 
 Eigen::MatrixXd smooth_kernel(const FlankGrid& flank, const std::vector<StationPlace>& stations,
-                              const LoadWidth& width, const FreeEnds& ends, double stretch) {
+                              const LoadWidth& width, const FreeEnds& ends, const LineScale& scale) {
   std::vector<AcrossLoad> across;
   std::vector<Strip> faces, along;
   for (const StationPlace& station : stations) {
     across.push_back(
-        across_load(station.v, width.a, flank.v.front(), flank.v.back()).seen_from(station.v, 1 / stretch));
+        across_load(station.v, width.a, flank.v.front(), flank.v.back()).seen_from(station.v, scale.across));
     faces.push_back(station.face);
-    along.push_back({station.face.from * stretch, station.face.to * stretch});
+    along.push_back({station.face.from * scale.along, station.face.to * scale.along});
   }
-  const FreeEnds along_ends{ends.lower * stretch, ends.upper * stretch, ends.share};
+  const FreeEnds along_ends{ends.lower * scale.along, ends.upper * scale.along, ends.share};
   const auto n = std::ssize(stations);
   Eigen::MatrixXd H(n, n);
   for (std::size_t i = 0; i < along.size(); ++i)

@@ -6,7 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "contact/stations/strip_kernel.h"
+#include "elastogear/contact/station_places.h"
+#include "elastogear/contact/strip_kernel.h"
 
 namespace elastogear::contact {
 
@@ -75,8 +76,8 @@ double smooth_inverse_distance(const AcrossLoad& across_a, const Strip& a, const
                                const Strip& b);
 
 /// n x n, 1/m: the same among all stations of a pair of teeth, spread along the face, with images at the ends
-/// of the face, in z. stretch: length of the line of contact over that of the face, >= 1. Eq. (6.46).
+/// of the face, in z. Eq. (6.46).
 Eigen::MatrixXd smooth_kernel(const FlankGrid& flank, const std::vector<StationPlace>& stations,
-                              const LoadWidth& width, const FreeEnds& ends, double stretch);
+                              const LoadWidth& width, const FreeEnds& ends, const LineScale& scale);
 
 }  // namespace elastogear::contact

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "contact/stations/strip_kernel.h"
+#include "elastogear/contact/strip_kernel.h"
 
 namespace elastogear::contact {
 

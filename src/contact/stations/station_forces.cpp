@@ -1,4 +1,4 @@
-#include "contact/stations/station_forces.h"
+#include "elastogear/contact/station_forces.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "contact/stations/strip_kernel.h"
+#include "elastogear/contact/strip_kernel.h"
 
 #include <cmath>
 

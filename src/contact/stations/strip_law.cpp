@@ -1,9 +1,9 @@
-#include "contact/stations/strip_law.h"
+#include "elastogear/contact/strip_law.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "contact/stations/strip_kernel.h"
+#include "elastogear/contact/strip_kernel.h"
 
 namespace elastogear::contact {
 namespace {

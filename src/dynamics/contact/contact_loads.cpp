@@ -280,10 +280,32 @@ void set_body_columns(int b, const JointTwists& twists, const std::vector<PairCo
     }
 }
 
-void set_stiffness(const std::vector<PairContacts>& pairs, Eigen::SparseMatrix<double>& k) {
+// Columns of stations come after those of contact points.
+void append_stations(const JointTwists& twists, const Eigen::SparseMatrix<double>& S, const NodalForces& forces,
+                     BodyTerms& terms) {
+  const Eigen::Index first = terms.W_s.cols() - S.cols();
+  const Eigen::Index shift = terms.L.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
+  for (Eigen::Index j = 0; j < S.cols(); ++j) {
+    for (Eigen::SparseMatrix<double>* L : {&terms.L, &terms.L_V, &terms.L_x}) {
+      if (L->rows() == 0) continue;
+      L->startVec(first + j);
+      for (Eigen::SparseMatrix<double>::InnerIterator at(S, j); at; ++at)
+        L->insertBack(shift + at.row(), first + j) = at.value();
+    }
+    for (Eigen::Index i = 0; i < twists.H.cols(); ++i)
+      for (Eigen::SparseMatrix<double>::InnerIterator at(S, j); at; ++at) {
+        const Eigen::Vector3d x_B = forces.x_B.col(at.row() / 3);
+        terms.W_s(i, first + j) += twist_at(twists.H, i, x_B)[at.row() % 3] * at.value();
+        terms.V_s(i, first + j) += twist_at(twists.P, i, x_B)[at.row() % 3] * at.value();
+      }
+  }
+  for (Eigen::SparseMatrix<double>* L : {&terms.L, &terms.L_V, &terms.L_x}) L->finalize();
+}
+
+void set_stiffness(const ContactState& contact, Eigen::SparseMatrix<double>& k) {
   Eigen::Index first = 0;
   k.reserve(contact::kColumns * k.cols());
-  for (const PairContacts& pair : pairs)
+  for (const PairContacts& pair : contact.pair)
     for (const auto& point : pair.points) {
       for (Eigen::Index j = 0; j < point.k.cols(); ++j) {
         k.startVec(first + j);
@@ -292,18 +314,23 @@ void set_stiffness(const std::vector<PairContacts>& pairs, Eigen::SparseMatrix<d
       }
       first += point.k.cols();
     }
+  const Eigen::MatrixXd& K = contact.stations.K;
+  for (Eigen::Index j = 0; j < K.cols(); ++j) {
+    k.startVec(first + j);
+    for (Eigen::Index i = 0; i < K.rows(); ++i) k.insertBack(first + i, first + j) = K(i, j);
+  }
   k.finalize();
 }
 
 }  // namespace
 
-void set_contact_columns(const std::vector<JointTwists>& twists, const std::vector<PairContacts>& pairs,
-                         const std::vector<contact::SurfaceState>& states, EffectiveMatrix& A) {
-  const Eigen::Index r = column_count(pairs);
-  const Differences differ = differences(pairs);
+void set_contact_columns(const std::vector<JointTwists>& twists, const ContactState& contact,
+                         EffectiveMatrix& A) {
+  const Eigen::Index r = column_count(contact.pair) + contact.stations.K.cols();
+  const Differences differ = differences(contact.pair);
   A.n_contact = r;
   A.k.resize(r, r);
-  set_stiffness(pairs, A.k);
+  set_stiffness(contact, A.k);
   for (std::size_t b = 0; b < twists.size(); ++b) {
     BodyTerms& terms = A.body[b];
     const Eigen::Index n_e = terms.beta.rows();
@@ -312,7 +339,9 @@ void set_contact_columns(const std::vector<JointTwists>& twists, const std::vect
     begin(n_e, r, terms.L);
     if (differ.V || differ.V_dot) begin(n_e, r, terms.L_V);
     if (differ.V_dot) begin(n_e, r, terms.L_x);
-    set_body_columns(static_cast<int>(b), twists[b], pairs, states[b], terms);
+    set_body_columns(static_cast<int>(b), twists[b], contact.pair, contact.surface[b], terms);
+    if (b < contact.stations.body.size())
+      append_stations(twists[b], contact.stations.body[b], contact.force[b], terms);
   }
 }
 

@@ -85,6 +85,7 @@ struct Pressed {
 };
 
 Pressed pressed(const contact::ContactPoint& point, const SideForces& force) {
+  if (point.pressure > 0) return {point.area, point.pressure};
   if (point.area > 0) return {point.area, force.node->at(point.slave_node) / point.area};
   Pressed sum;
   for (int i = 0; i < point.n_slave(); ++i) {
@@ -136,6 +137,7 @@ model::ContactRecord record(const contact::ContactPoint& point, double pressure)
 // edges of the master do in one pass.
 template <class OfMaster>
 double pressure_of_other_pass(const contact::Settings& settings, double own, const OfMaster& of_master) {
+  if (settings.points == contact::SlavePoints::stations) return 0;
   if (settings.law == contact::ContactLaw::penalty) return settings.two_pass ? own : 0;
   return settings.points == contact::SlavePoints::nodes ? of_master() : 0;
 }

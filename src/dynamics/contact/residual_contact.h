@@ -32,6 +32,12 @@ class ResidualContact {
   Eigen::Vector3d displacement(std::size_t b, int node) {
     return flexibility_[b]->displacement(node) + approach_.displacement(b, node);
   }  ///< m, BRF, with the local approach of flanks
+  /// m, BRF: what is left of former forces; zero for an elastic body.
+  Eigen::Vector3d lag(std::size_t b, int node) { return flexibility_[b]->lag(node); }
+  /// Puts the static response of a body to these forces in place.
+  void respond(std::size_t b, const NodalForces& forces) {
+    if (has_flexibility(b)) respond_to(b, forces);
+  }
   /// R among the nodes (model::Surface numbers), m/N, with the tangent of the local approach; empty for a
   /// body without residual flexibility.
   Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);

@@ -13,6 +13,11 @@ namespace {
 
 constexpr int kFreeTrials = 3;  // of contact forces before points that come and go are kept
 
+// Those of a system touch at stations together, as their forces depend on each other.
+bool uses_stations(const SystemModel& model) {
+  return !model.pairs.empty() && model.pairs.front().settings.points == contact::SlavePoints::stations;
+}
+
 // Vectorised, which == is not.
 bool same(const Eigen::VectorXd& a, ConstVector b) {
   return a.size() == b.size() && (a - b).cwiseAbs().sum() == 0;
@@ -40,6 +45,7 @@ SystemContact::SystemContact(const SystemModel& model, const SystemContact* like
     copy_detectors(*like);
   else
     for (const PairSetup& pair : pairs_) make_detector(model, pair);
+  if (uses_stations(model)) stations_.emplace(model);
   unilateral_ = is_unilateral();
   double roundoff = 0;
   for (const contact::Pair& pair : detectors_) roundoff += roundoff_force(pair);
@@ -104,6 +110,13 @@ const ContactState& SystemContact::evaluate(double time, ConstVector U, ConstVec
   accuracy_ = remembers_forces() ? ForceAccuracy::balanced : accuracy;
   forget();
   place(motion);
+  if (stations_) {
+    stations_->evaluate(motion, residual_contact_, state_);
+    U_ = U;
+    V_ = V;
+    time_ = time;
+    return state_;
+  }
   if (residual_contact_.any() && time != time_) residual_contact_.predict(time);
   if (time != time_ && !follows_) release_points();
   for (contact::Pair& pair : detectors_) pair.follow_far(follows_);
@@ -268,7 +281,7 @@ void SystemContact::accept() {
       history_.loss += point.work;
       power += point.power + (sticks ? 0 : point.friction_power);
     }
-    detectors_[p].accept(state_.pair[p].points);
+    if (!stations_) detectors_[p].accept(state_.pair[p].points);
   }
   history_.loss += friction_loss_of_responses();
   if (history_.accepted) history_.loss += 0.5 * (time_ - history_.time) * (power + history_.power);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/contact/residual_contact.h"
+#include "dynamics/stations/station_contact.h"
 #include "elastogear/contact/pair.h"
 #include "elastogear/dynamics/system_model.h"
 
@@ -39,7 +40,7 @@ class SystemContact {
   /// Adds what the residual displacement of a body remembers.
   void get_creep(std::size_t b, model::RelaxedState& state) const { residual_contact_.get_creep(b, state); }
   Eigen::MatrixXd flexibility_among(std::size_t b, const std::vector<int>& node) {
-    return residual_contact_.among(b, node);
+    return stations_ ? Eigen::MatrixXd() : residual_contact_.among(b, node);  // theirs is in their stiffness
   }
 
   /// Pairs with the augmented law; System has the docstring of the others.
@@ -96,6 +97,7 @@ class SystemContact {
   std::vector<PairSetup> pairs_;
   std::vector<const model::Surface*> surface_;  // of each body; null where no pair names it
   std::vector<contact::Pair> detectors_;        // they keep the nodes that stick
+  std::optional<StationContact> stations_;      // in place of detectors, if all pairs touch there
   bool unilateral_ = false;  // do the pairs of bodies with residual flexibility have no penalty?
   ResidualContact residual_contact_;
   History history_;

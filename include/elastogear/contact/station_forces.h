@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "contact/stations/strip_law.h"
+#include "elastogear/contact/strip_law.h"
 
 namespace elastogear::contact {
 

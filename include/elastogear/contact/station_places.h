@@ -1,0 +1,57 @@
+#pragma once
+// Where two exact flanks are nearest to each other, station by station: a minimisation in one variable each
+// (docs/theory.md, section 6.18).
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "elastogear/contact/exact_flanks.h"
+#include "elastogear/contact/strip_kernel.h"
+
+namespace elastogear::contact {
+
+/// x_owner = r + R x_mate of one point.
+struct RelativePlacement {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d r;  ///< m
+};
+
+/// A flank of each of two bodies: stations stand on the owner, the mate is what they come near to.
+struct FlankPair {
+  const ExactFlanks* owner;
+  FlankName on_owner;
+  const ExactFlanks* mate;
+  FlankName on_mate;
+};
+
+/// One station where the two flanks, as rigid bodies carry them, are nearest to each other.
+struct NearestPlace {
+  Strip face;         ///< m, its piece of the owner's face, in z
+  double v;           ///< m, on the owner
+  double mate_v;      ///< m, on the mate
+  double mate_z;      ///< m
+  double gap;         ///< m, < 0 where the flanks overlap; deviations and rounded edges of both are in it
+  Eigen::Vector3d n;  ///< unit normal from the mate to the owner, owner's frame
+};
+
+/// The places of n stations that fill `face`, a piece of the owner's face, m.
+std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const RelativePlacement& placement,
+                                         const Strip& face, int n);
+
+/// m: by how much the gap opens at the distances h to both sides of a place, across the profile, m; the mean
+/// of both.
+double opening(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
+               double h);
+
+/// How places (v, z) measure the surface along a line of contact (slope, 1).
+struct LineScale {
+  double along = 1;   ///< -, length along the line for each m of z
+  double across = 1;  ///< -, distance across it for each m of v
+};
+LineScale line_scale(const FlankPoint& point, double slope);
+
+/// -: dv/dz of the line of contact at each place; on the owner, and on the mate.
+std::array<std::vector<double>, 2> slopes(const std::vector<NearestPlace>& places);
+
+}  // namespace elastogear::contact

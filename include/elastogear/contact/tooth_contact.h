@@ -1,0 +1,85 @@
+#pragma once
+// Stations of all pairs of teeth that come near each other, at one placement of two bodies: their places,
+// gaps, loads on both meshes and half-spaces below these (docs/theory.md, section 6.18).
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "elastogear/contact/exact_flanks.h"
+#include "elastogear/contact/station_places.h"
+#include "elastogear/contact/strip_law.h"
+#include "elastogear/contact/types.h"
+
+namespace elastogear::contact {
+
+struct FlankMesh;
+
+/// The flanks of one body, with what contact takes from its mesh and material.
+class ToothedBody {
+ public:
+  /// compliance: 1/Pa, (1 - nu^2) / (pi E). deviation: m, of each node of the surface along the outward
+  /// normal, or empty. The surface must outlive this. Throws Error for flanks that are not in rows and layers.
+  ToothedBody(const model::Surface& surface, std::shared_ptr<const ExactFlanks> flanks, double compliance,
+              const Eigen::VectorXd& deviation);
+  ~ToothedBody();
+  ToothedBody(ToothedBody&&) noexcept;
+
+  const ExactFlanks& flanks() const { return *flanks_; }
+  const std::vector<FlankMesh>& meshes() const { return meshes_; }
+  const model::Surface& surface() const { return *surface_; }
+  double compliance() const { return compliance_; }
+  /// m, of the surface beside its exact flank; linear between nodes.
+  double deviation(const FlankMesh& mesh, double v, double z) const;
+  /// m, points spread over each flank, by which those that are near others are found; 3 x n each.
+  const std::vector<Eigen::Matrix3Xd>& marks() const { return marks_; }
+  const std::vector<Eigen::Vector3d>& mark_normals() const { return mark_normals_; }
+
+ private:
+  const model::Surface* surface_;
+  std::shared_ptr<const ExactFlanks> flanks_;
+  double compliance_;
+  Eigen::VectorXd deviation_;
+  std::vector<FlankMesh> meshes_;
+  std::vector<Eigen::Matrix3Xd> marks_;
+  std::vector<Eigen::Vector3d> mark_normals_;
+};
+
+/// n stations of one pair of teeth. Side 0 is the owner of the stations.
+struct ToothContact {
+  struct Side {
+    const FlankMesh* mesh;
+    std::vector<int> node;       ///< of the surface, ascending
+    Eigen::MatrixXd weight;      ///< n x nodes: consistent nodal forces of 1 N of each station. Eq. (6.43)
+    Eigen::Matrix3Xd direction;  ///< 3 x n, unit vectors of the forces on this body, in its frame
+    std::vector<double> v, z;    ///< m, places of the stations
+  };
+
+  FlankPair flanks;
+  RelativePlacement placement;
+  std::vector<NearestPlace> places;
+  LineScale scale;  ///< of the owner's chart
+  std::array<Side, 2> side;
+  Eigen::VectorXd gap;        ///< n, m, of the bodies as if they were rigid
+  Eigen::MatrixXd local;      ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
+  std::vector<StripLaw> own;  ///< n
+
+  Eigen::Index n() const { return gap.size(); }
+};
+
+/// The contacts of all pairs of teeth with a station whose gap is small beside the height of a tooth.
+/// placement: of the mate in the owner's frame. n: stations of a pair of teeth.
+std::vector<ToothContact> tooth_contacts(const ToothedBody& owner, const ToothedBody& mate,
+                                         const RelativePlacement& placement, int n);
+
+/// Sets the radii of relative curvature to those of the gaps over the half widths of contact under forces, N.
+/// Returns the largest relative change.
+double set_radii(ToothContact& contact, const Eigen::VectorXd& f);
+
+/// Station i under the force f, N, as a contact point that is read and not solved for: of the pair's surface
+/// 0, the owner, on a face of surface 1. R_WB: of the owner.
+ContactPoint station_point(const ToothContact& contact, const ToothedBody& owner, const ToothedBody& mate,
+                           Eigen::Index i, double f, const Eigen::Matrix3d& R_WB);
+
+}  // namespace elastogear::contact
