@@ -40,7 +40,7 @@ std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const Relative
                                          const Strip& face, int n);
 
 /// m: by how much the gap opens at the distances h to both sides of a place, across the profile, m; the mean
-/// of both.
+/// of both, beyond what its slope makes.
 double opening(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
                double h);
 

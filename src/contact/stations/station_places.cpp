@@ -109,7 +109,8 @@ std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const Relative
 double opening(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
                double h) {
   const Gap gap(flanks, placement, place.face.centre());
-  return (gap.at(place.v + h) + gap.at(place.v - h)) / 2 - place.gap;
+  const double v = std::max(place.v, h);  // involutes begin at 0
+  return (gap.at(v + h) + gap.at(v - h)) / 2 - gap.at(v);
 }
 
 LineScale line_scale(const FlankPoint& point, double slope) {

@@ -16,6 +16,8 @@ constexpr double kNearMarks = 1.5;  // of a flank's height, that marks of flanks
 constexpr double kReach = 0.05;     // of a flank's height: a gap that forces may close
 constexpr double kDeepest = 0.25;   // of a flank's height: a larger overlap is one with the tooth behind
 constexpr double kFirstWidth = 0.02;  // of the height of a flank, in which curvatures are first taken
+constexpr double kFlattest = 1e3;     // of the height of a flank: radii of flanks that hardly part, or overlap
+                                      // in fillets, where they bear no force
 
 double height(const ExactFlanks& flanks) {
   const ExactFlanks::Extent extent = flanks.extent();
@@ -182,13 +184,14 @@ std::vector<ToothContact> tooth_contacts(const ToothedBody& owner, const Toothed
 double set_radii(ToothContact& contact, const Eigen::VectorXd& f) {
   double change = 0;
   const double least = kFirstWidth * height(*contact.flanks.owner);
+  const double most = kFlattest * height(*contact.flanks.owner);
   for (std::size_t i = 0; i < contact.own.size(); ++i) {
     StripLaw& law = contact.own[i];
     const double force = f[static_cast<Eigen::Index>(i)];
     const double b = force > 0 ? law.half_width(force) / contact.scale.across : least;
     const double opens = opening(contact.flanks, contact.placement, contact.places[i], b);
     const double across = b * contact.scale.across;
-    const double radius = across * across / (2 * opens);
+    const double radius = std::min(most, opens > 0 ? across * across / (2 * opens) : most);
     change = std::max(change, std::abs(radius / law.radius - 1));
     law.radius = radius;
   }
