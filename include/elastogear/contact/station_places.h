@@ -3,7 +3,6 @@
 // (docs/theory.md, section 6.18).
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "elastogear/contact/exact_flanks.h"
@@ -35,9 +34,9 @@ struct NearestPlace {
   Eigen::Vector3d n;  ///< unit normal from the mate to the owner, owner's frame
 };
 
-/// The places of n stations that fill `face`, a piece of the owner's face, m.
+/// The places of stations on these strips of the owner's face.
 std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const RelativePlacement& placement,
-                                         const Strip& face, int n);
+                                         const std::vector<Strip>& strips);
 
 /// m: by how much the gap opens at the distances h to both sides of a place, across the profile, m; the mean
 /// of both, beyond what its slope makes.
@@ -50,8 +49,5 @@ struct LineScale {
   double across = 1;  ///< -, distance across it for each m of v
 };
 LineScale line_scale(const FlankPoint& point, double slope);
-
-/// -: dv/dz of the line of contact at each place; on the owner, and on the mate.
-std::array<std::vector<double>, 2> slopes(const std::vector<NearestPlace>& places);
 
 }  // namespace elastogear::contact

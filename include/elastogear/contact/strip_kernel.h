@@ -15,6 +15,7 @@ struct Strip {
 
   double length() const { return to - from; }
   double centre() const { return (from + to) / 2; }
+  bool operator==(const Strip&) const = default;
 };
 
 /// Where the face of one body ends, m along the line of contact. Pressures have an image beyond each end that

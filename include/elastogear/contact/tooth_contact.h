@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <list>
 #include <memory>
 #include <vector>
 
 #include "elastogear/contact/exact_flanks.h"
+#include "elastogear/contact/load_table.h"
 #include "elastogear/contact/station_places.h"
 #include "elastogear/contact/strip_law.h"
 #include "elastogear/contact/types.h"
@@ -30,6 +32,10 @@ class ToothedBody {
   const std::vector<FlankMesh>& meshes() const { return meshes_; }
   const model::Surface& surface() const { return *surface_; }
   double compliance() const { return compliance_; }
+  /// The nodes of a flank, in the order of its tables.
+  const std::vector<int>& nodes(const FlankName& flank) const;
+  /// Loads on strips of the flanks of one side; made when they are first asked for.
+  const LoadTable& loads(int side, const std::vector<Strip>& strips);
   /// m, of the surface beside its exact flank; linear between nodes.
   double deviation(const FlankMesh& mesh, double v, double z) const;
   /// m, points spread over each flank, by which those that are near others are found; 3 x n each.
@@ -37,6 +43,8 @@ class ToothedBody {
   const std::vector<Eigen::Vector3d>& mark_normals() const { return mark_normals_; }
 
  private:
+  const FlankMesh& mesh(const FlankName& flank) const;
+
   const model::Surface* surface_;
   std::shared_ptr<const ExactFlanks> flanks_;
   double compliance_;
@@ -44,22 +52,31 @@ class ToothedBody {
   std::vector<FlankMesh> meshes_;
   std::vector<Eigen::Matrix3Xd> marks_;
   std::vector<Eigen::Vector3d> mark_normals_;
+  std::array<std::list<LoadTable>, 2> tables_;  // of right and left flanks
 };
+
+/// Two bodies whose flanks may touch. Stations fill the face that both have where they stand at the start.
+struct ToothedPair {
+  ToothedBody *owner, *mate;
+  std::array<std::vector<Strip>, 2> strips;  ///< m, of the owner's face, and of the mate's
+};
+/// n: stations of a pair of teeth. placement: of the mate in the owner's frame.
+ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n);
 
 /// n stations of one pair of teeth. Side 0 is the owner of the stations.
 struct ToothContact {
   struct Side {
+    FlankName flank;
     const FlankMesh* mesh;
-    std::vector<int> node;       ///< of the surface, ascending
-    Eigen::MatrixXd weight;      ///< n x nodes: consistent nodal forces of 1 N of each station. Eq. (6.43)
+    const LoadTable* loads;
+    std::vector<Stencil> at;     ///< places of the stations among those of the loads
+    std::vector<double> v, z;    ///< m, places
     Eigen::Matrix3Xd direction;  ///< 3 x n, unit vectors of the forces on this body, in its frame
-    std::vector<double> v, z;    ///< m, places of the stations
   };
 
   FlankPair flanks;
   RelativePlacement placement;
   std::vector<NearestPlace> places;
-  LineScale scale;  ///< of the owner's chart
   std::array<Side, 2> side;
   Eigen::VectorXd gap;        ///< n, m, of the bodies as if they were rigid
   Eigen::MatrixXd local;      ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
@@ -69,9 +86,7 @@ struct ToothContact {
 };
 
 /// The contacts of all pairs of teeth with a station whose gap is small beside the height of a tooth.
-/// placement: of the mate in the owner's frame. n: stations of a pair of teeth.
-std::vector<ToothContact> tooth_contacts(const ToothedBody& owner, const ToothedBody& mate,
-                                         const RelativePlacement& placement, int n);
+std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const RelativePlacement& placement);
 
 /// Sets the radii of relative curvature to those of the gaps over the half widths of contact under forces, N.
 /// Returns the largest relative change.
@@ -79,7 +94,7 @@ double set_radii(ToothContact& contact, const Eigen::VectorXd& f);
 
 /// Station i under the force f, N, as a contact point that is read and not solved for: of the pair's surface
 /// 0, the owner, on a face of surface 1. R_WB: of the owner.
-ContactPoint station_point(const ToothContact& contact, const ToothedBody& owner, const ToothedBody& mate,
-                           Eigen::Index i, double f, const Eigen::Matrix3d& R_WB);
+ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair, Eigen::Index i, double f,
+                           const Eigen::Matrix3d& R_WB);
 
 }  // namespace elastogear::contact

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "elastogear/base/error.h"
@@ -68,16 +69,38 @@ class GridOfFlank {
     sort_unique(mesh_.node);
     for (int node : mesh_.node) at_.push_back(flanks.chart(surface.X.col(node)));
     mesh_.grid.n_nodes = static_cast<int>(mesh_.node.size());
+    by_number_ = mesh_.node;
     set_lines();
+    set_order();
     set_faces();
   }
 
  private:
-  int local(int node) const {
-    return static_cast<int>(std::lower_bound(mesh_.node.begin(), mesh_.node.end(), node) -
-                            mesh_.node.begin());
+  // Among the nodes by their numbers.
+  std::size_t number(int node) const {
+    return static_cast<std::size_t>(std::lower_bound(by_number_.begin(), by_number_.end(), node) -
+                                    by_number_.begin());
   }
-  const Eigen::Vector2d& at(int node) const { return at_[static_cast<std::size_t>(local(node))]; }
+  // Among them row by row.
+  int local(int node) const { return place_[number(node)]; }
+  const Eigen::Vector2d& at(int node) const { return at_[number(node)]; }
+
+  // Nodes row by row and along it, whatever their numbers are.
+  void set_order() {
+    const double near = kSameLine * (mesh_.grid.v.back() - mesh_.grid.v.front());
+    std::vector<int> order(mesh_.node.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int i, int j) {
+      const Eigen::Vector2d &a = at_[static_cast<std::size_t>(i)], &b = at_[static_cast<std::size_t>(j)];
+      const auto row_a = std::llround(a[0] / near), row_b = std::llround(b[0] / near);
+      return std::abs(row_a - row_b) > 1 ? row_a < row_b : a[1] < b[1];
+    });
+    place_.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      place_[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+      mesh_.node[i] = by_number_[static_cast<std::size_t>(order[i])];
+    }
+  }
 
   void set_lines() {
     std::vector<double> v, z;
@@ -108,7 +131,8 @@ class GridOfFlank {
       FlankGrid::Face& face =
           mesh_.grid.face[static_cast<std::size_t>(r * mesh_.grid.n_layers() + l)];
       face = in_order(side, row, layer, r, l);
-      if (face[4] >= 0) mesh_.grid.v_mid[static_cast<std::size_t>(r)] = at_[static_cast<std::size_t>(face[4])][0];
+      if (face[4] >= 0)
+        mesh_.grid.v_mid[static_cast<std::size_t>(r)] = at(mesh_.node[static_cast<std::size_t>(face[4])])[0];
     }
   }
 
@@ -135,7 +159,9 @@ class GridOfFlank {
   FlankMesh& mesh_;
   std::string group_;
   std::vector<FlankGrid::Face> sides_;
-  std::vector<Eigen::Vector2d> at_;  // of each node
+  std::vector<int> by_number_;       // nodes of the surface, ascending
+  std::vector<Eigen::Vector2d> at_;  // of each of them
+  std::vector<int> place_;           // the same, row by row
 };
 
 }  // namespace

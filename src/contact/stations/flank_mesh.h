@@ -12,8 +12,8 @@ namespace elastogear::contact {
 /// One flank of a mesh.
 struct FlankMesh {
   FlankName name;
-  FlankGrid grid = {};                     ///< its nodes are numbers in `node`
-  std::vector<int> node = {};              ///< of the surface, ascending
+  FlankGrid grid = {};         ///< its nodes are numbers in `node`; the same of all flanks of a side
+  std::vector<int> node = {};  ///< of the surface, row by row
   std::vector<int> face = {};              ///< of the surface
   std::vector<Eigen::Matrix<double, 2, 4>> at = {};  ///< m, (v, z) of the corners of each face
 };

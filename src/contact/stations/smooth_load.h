@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "elastogear/contact/load_table.h"
 #include "elastogear/contact/station_places.h"
 #include "elastogear/contact/strip_kernel.h"
 
@@ -25,11 +26,6 @@ struct FlankGrid {
 
   int n_rows() const { return static_cast<int>(v.size()) - 1; }
   int n_layers() const { return static_cast<int>(z.size()) - 1; }
-};
-
-/// Half widths of a smooth load across the profile and along the face, m. Eq. (6.43).
-struct LoadWidth {
-  double a, c;
 };
 
 /// 3/4 of the highest face, half of the longest one.

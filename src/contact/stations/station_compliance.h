@@ -6,12 +6,10 @@
 #include <functional>
 #include <vector>
 
+#include "elastogear/contact/load_table.h"
 #include "elastogear/contact/strip_kernel.h"
 
 namespace elastogear::contact {
-
-/// m/N: displacement of node a by unit forces on node b, of the whole body.
-using NodalResponse = std::function<Eigen::Matrix3d(int a, int b)>;
 
 /// Where n stations press on each other: of one pair of teeth after the other.
 struct StationLine {

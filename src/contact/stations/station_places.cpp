@@ -93,10 +93,9 @@ class Gap {
 }  // namespace
 
 std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const RelativePlacement& placement,
-                                         const Strip& face, int n) {
+                                         const std::vector<Strip>& strips) {
   std::vector<NearestPlace> places;
-  for (int i = 0; i < n; ++i) {
-    const Strip strip{face.from + i * face.length() / n, face.from + (i + 1) * face.length() / n};
+  for (const Strip& strip : strips) {
     const Gap gap(flanks, placement, strip.centre());
     const double v = gap.least();
     const Gap::Seen seen = gap.seen(v);
@@ -116,18 +115,6 @@ double opening(const FlankPair& flanks, const RelativePlacement& placement, cons
 LineScale line_scale(const FlankPoint& point, double slope) {
   const double along = (point.x_v * slope + point.x_z).norm();
   return {along, point.x_v.cross(point.x_z).norm() / along};
-}
-
-std::array<std::vector<double>, 2> slopes(const std::vector<NearestPlace>& places) {
-  std::array<std::vector<double>, 2> all;
-  const std::size_t n = places.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const NearestPlace &before = places[i > 0 ? i - 1 : i], &after = places[i + 1 < n ? i + 1 : i];
-    const double z = after.face.centre() - before.face.centre(), mate_z = after.mate_z - before.mate_z;
-    all[0].push_back(z != 0 ? (after.v - before.v) / z : 0);
-    all[1].push_back(mate_z != 0 ? (after.mate_v - before.mate_v) / mate_z : 0);
-  }
-  return all;
 }
 
 }  // namespace elastogear::contact

@@ -15,6 +15,7 @@ constexpr int kMarks = 5;          // along the face, of each flank
 constexpr double kNearMarks = 1.5;  // of a flank's height, that marks of flanks in contact may be apart
 constexpr double kReach = 0.05;     // of a flank's height: a gap that forces may close
 constexpr double kDeepest = 0.25;   // of a flank's height: a larger overlap is one with the tooth behind
+constexpr double kSlopeStep = 1e-4;  // of a flank's height, for slopes
 constexpr double kFirstWidth = 0.02;  // of the height of a flank, in which curvatures are first taken
 constexpr double kFlattest = 1e3;     // of the height of a flank: radii of flanks that hardly part, or overlap
                                       // in fillets, where they bear no force
@@ -35,15 +36,6 @@ double mark_distance(const Eigen::Matrix3Xd& owner, const Eigen::Matrix3Xd& mate
   return std::sqrt(((placement.R * mate).colwise() + placement.r - owner).colwise().squaredNorm().minCoeff());
 }
 
-// The piece of the owner's face that the mate's lies on, m of the owner's z.
-Strip common_face(const ToothedBody& owner, const FlankMesh& on_owner, const ToothedBody& mate,
-                  const FlankMesh& on_mate, const RelativePlacement& placement) {
-  const FlankPoint point = owner.flanks().point(on_owner.name, middle(owner.flanks()), 0);
-  const double shift = mate.flanks().chart(placement.R.transpose() * (point.x - placement.r))[1];
-  return {std::max(on_owner.grid.z.front(), on_mate.grid.z.front() - shift),
-          std::min(on_owner.grid.z.back(), on_mate.grid.z.back() - shift)};
-}
-
 bool touches(const std::vector<NearestPlace>& places, double of_height) {
   bool any = false;
   for (const NearestPlace& place : places) {
@@ -53,72 +45,53 @@ bool touches(const std::vector<NearestPlace>& places, double of_height) {
   return any;
 }
 
-// Stations on one body: pieces of its own face, side by side.
-std::vector<StationPlace> station_places(const std::vector<NearestPlace>& places,
-                                         const std::vector<double>& slope, bool on_owner,
-                                         const FlankGrid& grid) {
-  std::vector<StationPlace> stations;
-  const std::size_t mid = places.size() / 2;
-  const double shift = on_owner ? 0 : places[mid].mate_z - places[mid].face.centre();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Strip& face = places[i].face;
-    const double v = on_owner ? places[i].v : places[i].mate_v;
-    stations.push_back({{std::max(face.from + shift, grid.z.front()), std::min(face.to + shift, grid.z.back())},
-                        std::clamp(v, grid.v.front(), grid.v.back()),
-                        slope[i]});
-  }
-  return stations;
+// -: dv/dz of a line along which the normal of a flank does not turn, at the middle of its face. Such are the
+// lines of contact of conjugate helicoids.
+double generator_slope(const ExactFlanks& flanks, const FlankName& flank, double v, double z) {
+  const double step = kSlopeStep * height(flanks);
+  v = std::max(v, 2 * step);
+  const auto normal = [&](double dv, double dz) { return flanks.point(flank, v + dv, z + dz).n; };
+  const Eigen::Vector3d n_v = normal(step, 0) - normal(-step, 0), n_z = normal(0, step) - normal(0, -step);
+  return -n_v.dot(n_z) / n_v.squaredNorm();
 }
 
-// Loads on one body, and the half-space below: adds to `local`.
-void add_side(const ToothedBody& body, const FlankMesh& mesh, const std::vector<double>& slope, bool is_owner,
-              ToothContact& contact) {
-  const std::vector<StationPlace> stations =
-      station_places(contact.places, slope, is_owner, mesh.grid);
-  const LoadWidth width = load_width(mesh.grid);
-  ToothContact::Side& side = contact.side[is_owner ? 0 : 1];
-  side.mesh = &mesh;
-  side.node = mesh.node;
-  side.weight = consistent_weights(mesh.grid, stations, width);
-  side.direction.resize(3, contact.n());
-  for (const NearestPlace& place : contact.places) {
+// Places of stations on one body.
+ToothContact::Side make_side(const std::vector<NearestPlace>& places, const RelativePlacement& placement,
+                             const FlankMesh& mesh, const LoadTable& loads, bool is_owner) {
+  ToothContact::Side side{mesh.name, &mesh, &loads, {}, {}, {}, {}};
+  side.direction.resize(3, std::ssize(places));
+  for (const NearestPlace& place : places) {
     const auto i = std::ssize(side.v);
-    side.direction.col(i) =
-        is_owner ? place.n : Eigen::Vector3d(-(contact.placement.R.transpose() * place.n));
-    side.v.push_back(stations[static_cast<std::size_t>(i)].v);
-    side.z.push_back(stations[static_cast<std::size_t>(i)].face.centre());
+    side.direction.col(i) = is_owner ? place.n : Eigen::Vector3d(-(placement.R.transpose() * place.n));
+    side.v.push_back(std::clamp(is_owner ? place.v : place.mate_v, mesh.grid.v.front(), mesh.grid.v.back()));
+    side.z.push_back(loads.strips[static_cast<std::size_t>(i)].centre());
+    side.at.push_back(stencil(loads, side.v.back()));
   }
-  const std::size_t mid = stations.size() / 2;
-  const LineScale scale =
-      line_scale(body.flanks().point(mesh.name, stations[mid].v, stations[mid].face.centre()), slope[mid]);
-  if (is_owner) contact.scale = scale;
-  const FreeEnds ends{mesh.grid.z.front(), mesh.grid.z.back()};
-  std::vector<Strip> along;
-  for (const StationPlace& station : stations)
-    along.push_back({station.face.from * scale.along, station.face.to * scale.along});
-  contact.local += body.compliance() *
-                   (line_kernel(along, 0, {ends.lower * scale.along, ends.upper * scale.along, ends.share}) -
-                    smooth_kernel(mesh.grid, stations, width, ends, scale));
+  return side;
 }
 
-ToothContact make_contact(const ToothedBody& owner, const FlankMesh& on_owner, const ToothedBody& mate,
-                          const FlankMesh& on_mate, const FlankPair& flanks,
-                          const RelativePlacement& placement, std::vector<NearestPlace> places) {
-  ToothContact contact{flanks, placement, std::move(places), {}, {}, {}, {}, {}};
+ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, const FlankMesh& on_mate,
+                          const FlankPair& flanks, const RelativePlacement& placement,
+                          std::vector<NearestPlace> places) {
+  ToothContact contact{flanks, placement, std::move(places), {}, {}, {}, {}};
+  const std::array<ToothedBody*, 2> body{pair.owner, pair.mate};
+  const std::array<const FlankMesh*, 2> mesh{&on_owner, &on_mate};
   const auto n = std::ssize(contact.places);
   contact.gap.resize(n);
   contact.local = Eigen::MatrixXd::Zero(n, n);
-  const std::array<std::vector<double>, 2> slope = slopes(contact.places);
-  add_side(owner, on_owner, slope[0], true, contact);
-  add_side(mate, on_mate, slope[1], false, contact);
-  const double first_width = kFirstWidth * height(owner.flanks());
+  for (std::size_t s : {0, 1}) {
+    const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair.strips[s]);
+    contact.side[s] = make_side(contact.places, placement, *mesh[s], loads, s == 0);
+    contact.local += body[s]->compliance() * (loads.line - smooth_kernel(loads, contact.side[s].at));
+  }
+  const double first_radius = height(pair.owner->flanks());
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto j = static_cast<std::size_t>(i);
-    contact.gap[i] = contact.places[j].gap -
-                     owner.deviation(on_owner, contact.side[0].v[j], contact.side[0].z[j]) -
-                     mate.deviation(on_mate, contact.side[1].v[j], contact.side[1].z[j]);
-    contact.own.push_back({contact.places[j].face.length() * contact.scale.along, first_width,
-                           owner.compliance() + mate.compliance()});
+    contact.gap[i] = contact.places[j].gap;
+    for (std::size_t s : {0, 1})
+      contact.gap[i] -= body[s]->deviation(*mesh[s], contact.side[s].v[j], contact.side[s].z[j]);
+    contact.own.push_back({contact.places[j].face.length() * contact.side[0].loads->scale.along, first_radius,
+                           pair.owner->compliance() + pair.mate->compliance()});
   }
   set_radii(contact, Eigen::VectorXd::Zero(n));
   return contact;
@@ -159,9 +132,48 @@ double ToothedBody::deviation(const FlankMesh& mesh, double v, double z) const {
   return sum;
 }
 
-std::vector<ToothContact> tooth_contacts(const ToothedBody& owner, const ToothedBody& mate,
-                                         const RelativePlacement& placement, int n) {
+const FlankMesh& ToothedBody::mesh(const FlankName& flank) const {
+  for (const FlankMesh& mesh : meshes_)
+    if (mesh.name == flank) return mesh;
+  fail("internal: no flank of tooth ", flank.tooth);
+}
+
+const std::vector<int>& ToothedBody::nodes(const FlankName& flank) const { return mesh(flank).node; }
+
+const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips) {
+  std::list<LoadTable>& tables = tables_[side > 0 ? 1 : 0];
+  for (const LoadTable& table : tables)
+    if (table.strips == strips) return table;
+  const auto mesh = std::find_if(meshes_.begin(), meshes_.end(),
+                                 [&](const FlankMesh& mesh) { return mesh.name.side == side; });
+  const double z = (mesh->grid.z.front() + mesh->grid.z.back()) / 2;
+  const auto slope = [&](double v) { return generator_slope(*flanks_, mesh->name, v, z); };
+  const double v = middle(*flanks_);
+  tables.push_back(
+      load_table(mesh->grid, strips, slope, line_scale(flanks_->point(mesh->name, v, z), slope(v))));
+  return tables.back();
+}
+
+ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n) {
+  const FlankMesh &on_owner = owner.meshes().front(), &on_mate = mate.meshes().front();
+  const Eigen::Vector3d x = owner.flanks().point(on_owner.name, middle(owner.flanks()), 0).x;
+  const double shift = mate.flanks().chart(placement.R.transpose() * (x - placement.r))[1];
+  const double from = std::max(on_owner.grid.z.front(), on_mate.grid.z.front() - shift);
+  const double to = std::min(on_owner.grid.z.back(), on_mate.grid.z.back() - shift);
+  ToothedPair pair{&owner, &mate, {}};
+  for (int i = 0; to > from && i < n; ++i) {
+    const Strip strip{from + i * (to - from) / n, from + (i + 1) * (to - from) / n};
+    pair.strips[0].push_back(strip);
+    pair.strips[1].push_back({std::max(strip.from + shift, on_mate.grid.z.front()),
+                              std::min(strip.to + shift, on_mate.grid.z.back())});
+  }
+  return pair;
+}
+
+std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const RelativePlacement& placement) {
   std::vector<ToothContact> contacts;
+  const ToothedBody &owner = *pair.owner, &mate = *pair.mate;
+  if (pair.strips[0].empty()) return contacts;
   const double near = kNearMarks * std::max(height(owner.flanks()), height(mate.flanks()));
   const double of_height = std::min(height(owner.flanks()), height(mate.flanks()));
   for (std::size_t a = 0; a < owner.meshes().size(); ++a)
@@ -170,13 +182,10 @@ std::vector<ToothContact> tooth_contacts(const ToothedBody& owner, const Toothed
           mark_distance(owner.marks()[a], mate.marks()[b], placement) > near)
         continue;
       const FlankMesh &on_owner = owner.meshes()[a], &on_mate = mate.meshes()[b];
-      const Strip face = common_face(owner, on_owner, mate, on_mate, placement);
-      if (!(face.length() > 0)) continue;
       const FlankPair flanks{&owner.flanks(), on_owner.name, &mate.flanks(), on_mate.name};
-      std::vector<NearestPlace> places = nearest_places(flanks, placement, face, n);
+      std::vector<NearestPlace> places = nearest_places(flanks, placement, pair.strips[0]);
       if (touches(places, of_height))
-        contacts.push_back(
-            make_contact(owner, on_owner, mate, on_mate, flanks, placement, std::move(places)));
+        contacts.push_back(make_contact(pair, on_owner, on_mate, flanks, placement, std::move(places)));
     }
   return contacts;
 }
@@ -185,12 +194,13 @@ double set_radii(ToothContact& contact, const Eigen::VectorXd& f) {
   double change = 0;
   const double least = kFirstWidth * height(*contact.flanks.owner);
   const double most = kFlattest * height(*contact.flanks.owner);
+  const double across_scale = contact.side[0].loads->scale.across;
   for (std::size_t i = 0; i < contact.own.size(); ++i) {
     StripLaw& law = contact.own[i];
     const double force = f[static_cast<Eigen::Index>(i)];
-    const double b = force > 0 ? law.half_width(force) / contact.scale.across : least;
+    const double b = force > 0 ? law.half_width(force) / across_scale : least;
     const double opens = opening(contact.flanks, contact.placement, contact.places[i], b);
-    const double across = b * contact.scale.across;
+    const double across = b * across_scale;
     const double radius = std::min(most, opens > 0 ? across * across / (2 * opens) : most);
     change = std::max(change, std::abs(radius / law.radius - 1));
     law.radius = radius;
@@ -198,14 +208,14 @@ double set_radii(ToothContact& contact, const Eigen::VectorXd& f) {
   return change;
 }
 
-ContactPoint station_point(const ToothContact& contact, const ToothedBody& owner, const ToothedBody& mate,
-                           Eigen::Index i, double f, const Eigen::Matrix3d& R_WB) {
+ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair, Eigen::Index i, double f,
+                           const Eigen::Matrix3d& R_WB) {
   const auto j = static_cast<std::size_t>(i);
   const FaceOfFlank here = face_at(*contact.side[0].mesh, contact.side[0].v[j], contact.side[0].z[j]);
   const FaceOfFlank there = face_at(*contact.side[1].mesh, contact.side[1].v[j], contact.side[1].z[j]);
   const Eigen::Vector4d N = shape(4, here.xi, here.eta).N, N_there = shape(4, there.xi, there.eta).N;
-  const Eigen::Vector4i nodes = owner.surface().face.col(here.face),
-                        nodes_there = mate.surface().face.col(there.face);
+  const Eigen::Vector4i nodes = pair.owner->surface().face.col(here.face),
+                        nodes_there = pair.mate->surface().face.col(there.face);
   ContactPoint point;
   Eigen::Index nearest = 0;
   N.maxCoeff(&nearest);

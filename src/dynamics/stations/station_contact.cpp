@@ -6,7 +6,6 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
-#include "elastogear/contact/station_forces.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -16,80 +15,31 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kStations = 16;       // of a pair of teeth
-constexpr int kMostRounds = 8;      // until the radii fit the widths of contact
+constexpr int kStations = 16;         // of a pair of teeth
+constexpr int kMostRounds = 8;        // until the radii fit the widths of contact
 constexpr double kSameRadii = 1e-4;
-
-// Contacts of teeth of one pair of bodies, and where their stations begin among all.
-struct Placed {
-  int body[2];
-  double offset;
-  ToothContact contact;
-  Index first;
-};
-
-// The loads of all stations on one body.
-struct LoadsOnBody {
-  std::vector<int> node;         // of the surface, ascending
-  Eigen::SparseMatrix<double> S;  // 3 nodes x n, BRF: nodal forces of 1 N of each station
-};
-
-LoadsOnBody loads_on(std::size_t body, const std::vector<Placed>& placed, Index n) {
-  LoadsOnBody loads;
-  for (const Placed& p : placed)
-    for (std::size_t side : {0, 1})
-      if (p.body[side] == static_cast<int>(body))
-        loads.node.insert(loads.node.end(), p.contact.side[side].node.begin(),
-                          p.contact.side[side].node.end());
-  sort_unique(loads.node);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const Placed& p : placed)
-    for (std::size_t s : {0, 1}) {
-      if (p.body[s] != static_cast<int>(body)) continue;
-      const ToothContact::Side& side = p.contact.side[s];
-      for (std::size_t a = 0; a < side.node.size(); ++a) {
-        const auto at = std::lower_bound(loads.node.begin(), loads.node.end(), side.node[a]);
-        const auto row = static_cast<int>(3 * (at - loads.node.begin()));
-        for (Index i = 0; i < p.contact.n(); ++i)
-          if (const double weight = side.weight(i, static_cast<Index>(a)); weight != 0)
-            for (int d = 0; d < 3; ++d)
-              entries.emplace_back(row + d, static_cast<int>(p.first + i), weight * side.direction(d, i));
-      }
-    }
-  loads.S.resize(3 * std::ssize(loads.node), n);
-  loads.S.setFromTriplets(entries.begin(), entries.end());
-  return loads;
-}
-
-// m, 3 nodes: displacement in the BRF by elastic coordinates, and what is left of former forces.
-VectorXd displacements(std::size_t body, const std::vector<int>& node, const model::Surface& surface,
-                       const VectorXd& q, ResidualContact& responses) {
-  VectorXd u(3 * std::ssize(node));
-  for (Index i = 0; int a : node) {
-    u.segment<3>(3 * i) = model::displacement(surface.Phi, a, q);
-    if (responses.has_flexibility(body)) u.segment<3>(3 * i) += responses.lag(body, a);
-    ++i;
-  }
-  return u;
-}
-
-// Forces and radii that fit each other.
-contact::StationForces solve(contact::StationProblem& problem, std::vector<Placed>& placed) {
-  contact::StationForces forces;
-  for (int round = 0; round < kMostRounds; ++round) {
-    for (const Placed& p : placed)
-      std::copy(p.contact.own.begin(), p.contact.own.end(), problem.own.begin() + p.first);
-    forces = contact::station_forces(problem);
-    double change = 0;
-    for (Placed& p : placed)
-      change = std::max(change, contact::set_radii(p.contact, forces.f.segment(p.first, p.contact.n())));
-    if (change <= kSameRadii) break;
-  }
-  return forces;
-}
 
 contact::RelativePlacement relative(const contact::SurfaceMotion& owner, const contact::SurfaceMotion& mate) {
   return {owner.R_WB.transpose() * mate.R_WB, owner.R_WB.transpose() * (mate.r_WB - owner.r_WB)};
+}
+
+contact::SurfaceMotion start(const SystemModel& model, std::size_t b) {
+  const body::Motion m = motion(model, b, {0, model.U_0, model.V_0, model.V_0});
+  const auto [r_WB, R_WB] = body::placement(model.bodies[b].eq.joint, m.s);
+  return {m.q, r_WB, R_WB};
+}
+
+// The columns of the stations that bear a force.
+Eigen::SparseMatrix<double> columns(const Eigen::SparseMatrix<double>& S, const std::vector<int>& of) {
+  Eigen::SparseMatrix<double> part(S.rows(), std::ssize(of));
+  part.reserve(S.nonZeros());
+  for (Index k = 0; int i : of) {
+    part.startVec(k);
+    for (Eigen::SparseMatrix<double>::InnerIterator at(S, i); at; ++at) part.insertBack(at.row(), k) = at.value();
+    ++k;
+  }
+  part.finalize();
+  return part;
 }
 
 }  // namespace
@@ -108,99 +58,178 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
   return {};
 }
 
-StationContact::StationContact(const SystemModel& model) : model_(&model), toothed_(model.bodies.size()) {
+StationContact::StationContact(const SystemModel& model) : model_(&model) {
+  for (const SystemModel::Body& body : model.bodies) add_body(body);
   for (const PairSetup& pair : model.pairs) {
-    pairs_.push_back({{pair.body[0], pair.body[1]}, pair.settings.offset});
-    for (int b : pair.body) {
-      const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
-      std::unique_ptr<contact::ToothedBody>& toothed = toothed_[static_cast<std::size_t>(b)];
-      if (!toothed)
-        toothed = std::make_unique<contact::ToothedBody>(
-            body.eq.body->surface, body.true_surface->flanks, body.surface_compliance / std::numbers::pi,
-            body.true_surface->deviation);
-    }
+    const auto a = static_cast<std::size_t>(pair.body[0]), b = static_cast<std::size_t>(pair.body[1]);
+    pairs_.push_back({{a, b},
+                      pair.settings.offset,
+                      contact::toothed_pair(*bodies_[a].toothed, *bodies_[b].toothed,
+                                            relative(start(model, a), start(model, b)), kStations)});
   }
 }
 
-void StationContact::evaluate(const std::vector<contact::SurfaceMotion>& motion, ResidualContact& responses,
-                              ContactState& state) const {
-  std::vector<Placed> placed;
+void StationContact::add_body(const SystemModel::Body& body) {
+  bodies_.emplace_back();
+  if (!body.in_contact) return;
+  bodies_.back().toothed = std::make_unique<contact::ToothedBody>(
+      body.eq.body->surface, body.true_surface->flanks, body.surface_compliance / std::numbers::pi,
+      body.true_surface->deviation);
+  bodies_.back().tables = std::make_unique<ResponseTables>(*body.eq.body, *bodies_.back().toothed);
+}
+
+std::vector<StationContact::Teeth> StationContact::teeth_in_contact(
+    const std::vector<contact::SurfaceMotion>& motion) const {
+  std::vector<Teeth> teeth;
   Index n = 0;
-  state.pair.clear();
-  for (const Pair& pair : pairs_) {
-    const auto a = static_cast<std::size_t>(pair.body[0]), b = static_cast<std::size_t>(pair.body[1]);
-    state.pair.push_back({{pair.body[0], pair.body[1]}, {}});
-    for (ToothContact& contact :
-         contact::tooth_contacts(*toothed_[a], *toothed_[b], relative(motion[a], motion[b]), kStations)) {
-      placed.push_back({{pair.body[0], pair.body[1]}, pair.offset, std::move(contact), n});
-      n += placed.back().contact.n();
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    for (ToothContact& contact : contact::tooth_contacts(
+             pairs_[p].toothed, relative(motion[pairs_[p].body[0]], motion[pairs_[p].body[1]]))) {
+      teeth.push_back({p, std::move(contact), n});
+      n += teeth.back().contact.n();
+    }
+  return teeth;
+}
+
+StationContact::Loads StationContact::loads_on(std::size_t body, const std::vector<Teeth>& teeth,
+                                               Index n) const {
+  struct Part {
+    const ToothContact::Side& side;
+    Index first;
+    MatrixXd weight;
+  };
+  Loads loads;
+  std::vector<Part> parts;
+  for (const Teeth& t : teeth)
+    for (std::size_t s : {0, 1})
+      if (pairs_[t.pair].body[s] == body) {
+        const ToothContact::Side& side = t.contact.side[s];
+        parts.push_back({side, t.first, contact::weights(*side.loads, side.at)});
+      }
+  for (const Part& part : parts) {
+    const std::vector<int>& node = bodies_[body].toothed->nodes(part.side.flank);
+    for (std::size_t a = 0; a < node.size(); ++a)
+      if (!part.weight.col(static_cast<Index>(a)).isZero(0)) loads.node.push_back(node[a]);
+  }
+  sort_unique(loads.node);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Part& part : parts) {
+    const std::vector<int>& node = bodies_[body].toothed->nodes(part.side.flank);
+    for (Index a = 0; a < part.weight.cols(); ++a) {
+      if (part.weight.col(a).isZero(0)) continue;
+      const auto at = std::lower_bound(loads.node.begin(), loads.node.end(), node[static_cast<std::size_t>(a)]);
+      const auto row = static_cast<int>(3 * (at - loads.node.begin()));
+      for (Index i = 0; i < part.weight.rows(); ++i)
+        for (int d = 0; d < 3 && part.weight(i, a) != 0; ++d)
+          entries.emplace_back(row + d, static_cast<int>(part.first + i),
+                               part.weight(i, a) * part.side.direction(d, i));
     }
   }
-  contact::StationProblem problem{MatrixXd::Zero(n, n), std::vector<contact::StripLaw>(static_cast<std::size_t>(n)),
-                                  VectorXd(n)};
-  for (const Placed& p : placed) {
-    problem.C.block(p.first, p.first, p.contact.n(), p.contact.n()) = p.contact.local;
-    problem.gap.segment(p.first, p.contact.n()) = p.contact.gap.array() + p.offset;
+  loads.S.resize(3 * std::ssize(loads.node), n);
+  loads.S.setFromTriplets(entries.begin(), entries.end());
+  const model::ElasticBody& elastic = *model_->bodies[body].eq.body;
+  loads.Phi_S = MatrixXd::Zero(elastic.n_q(), n);
+  for (Index i = 0; i < n; ++i)
+    for (Eigen::SparseMatrix<double>::InnerIterator at(loads.S, i); at; ++at)
+      loads.Phi_S.col(i) +=
+          at.value() * VectorXd::Map(model::node_rows(elastic.surface.Phi, loads.node[static_cast<std::size_t>(at.row() / 3)]) +
+                                         at.row() % 3 * elastic.n_q(),
+                                     elastic.n_q());
+  return loads;
+}
+
+// Of the whole body, without what its modes have a share in: R = F - Phi K_r^-1 Phi'. Eqs. (6.20), (6.39).
+void StationContact::add_compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
+                                    MatrixXd& C) {
+  for (std::size_t k = 0; k < teeth.size(); ++k)
+    for (std::size_t l = 0; l <= k; ++l)
+      for (std::size_t s : {0, 1})
+        for (std::size_t r : {0, 1}) {
+          const Teeth &a = teeth[k], &b = teeth[l];
+          if (pairs_[a.pair].body[s] != body || pairs_[b.pair].body[r] != body) continue;
+          const MatrixXd F = bodies_[body].tables->responses(a.contact.side[s], b.contact.side[r]);
+          C.block(a.first, b.first, F.rows(), F.cols()) += F;
+          if (k != l) C.block(b.first, a.first, F.cols(), F.rows()) += F.transpose();
+        }
+  const VectorXd K = model_->bodies[body].eq.body->K_r.diagonal();
+  C.noalias() -= loads.Phi_S.transpose() * (K.cwiseInverse().asDiagonal() * loads.Phi_S);
+}
+
+namespace {
+
+// Forces, and radii of curvature that fit the widths of contact under them.
+template <class AllTeeth>
+contact::StationForces solve(contact::StationProblem& problem, AllTeeth& teeth) {
+  contact::StationForces forces;
+  for (int round = 0; round < kMostRounds; ++round) {
+    for (const auto& t : teeth)
+      std::copy(t.contact.own.begin(), t.contact.own.end(), problem.own.begin() + t.first);
+    forces = contact::station_forces(problem);
+    double change = 0;
+    for (auto& t : teeth)
+      change = std::max(change, contact::set_radii(t.contact, forces.f.segment(t.first, t.contact.n())));
+    if (change <= kSameRadii) break;
+  }
+  return forces;
+}
+
+}  // namespace
+
+void StationContact::set_nodal_forces(std::size_t body, const Loads& loads,
+                                      const contact::StationForces& forces,
+                                      const contact::SurfaceMotion& motion, ResidualContact& responses,
+                                      ContactState& state) const {
+  NodalForces& nodal = state.force[body];
+  const auto n = std::ssize(loads.node);
+  nodal.node = loads.node;
+  nodal.f_B = VectorXd(loads.S * forces.f).reshaped(3, n);
+  nodal.x_B.resize(3, n);
+  if (!bodies_[body].toothed) return;
+  responses.respond(body, nodal);
+  const model::Surface& surface = bodies_[body].toothed->surface();
+  for (Index i = 0; int node : nodal.node) {
+    nodal.x_B.col(i) = surface.X.col(node) + model::displacement(surface.Phi, node, motion.q);
+    state.surface[body].x_B.col(node) = nodal.x_B.col(i++);
+  }
+  state.stations.body[body] = columns(loads.S, forces.active);
+}
+
+void StationContact::evaluate(const std::vector<contact::SurfaceMotion>& motion, ResidualContact& responses,
+                              ContactState& state) {
+  std::vector<Teeth> teeth = teeth_in_contact(motion);
+  const Index n = teeth.empty() ? 0 : teeth.back().first + teeth.back().contact.n();
+  contact::StationProblem problem{MatrixXd::Zero(n, n),
+                                  std::vector<contact::StripLaw>(static_cast<std::size_t>(n)), VectorXd(n)};
+  for (const Teeth& t : teeth) {
+    problem.C.block(t.first, t.first, t.contact.n(), t.contact.n()) = t.contact.local;
+    problem.gap.segment(t.first, t.contact.n()) = t.contact.gap.array() + pairs_[t.pair].offset;
   }
   const MatrixXd local = problem.C;
-  std::vector<LoadsOnBody> loads(toothed_.size());
-  for (std::size_t b = 0; b < toothed_.size(); ++b) {
-    if (!toothed_[b]) continue;
-    loads[b] = loads_on(b, placed, n);
-    const model::Surface& surface = toothed_[b]->surface();
-    problem.gap += loads[b].S.transpose() * displacements(b, loads[b].node, surface, motion[b].q, responses);
-    const MatrixXd R = responses.among(b, loads[b].node);
-    const MatrixXd RS = R * loads[b].S;
-    problem.C += loads[b].S.transpose() * RS;
+  std::vector<Loads> loads(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].toothed) continue;
+    loads[b] = loads_on(b, teeth, n);
+    problem.gap += loads[b].Phi_S.transpose() * motion[b].q;
+    add_compliance(b, teeth, loads[b], problem.C);
   }
   problem.C = ((problem.C + problem.C.transpose()) / 2).eval();
-  const contact::StationForces forces = solve(problem, placed);
+  const contact::StationForces forces = solve(problem, teeth);
 
-  state.stations = {};
-  state.stations.K = forces.stiffness;
-  state.stations.f = forces.f(forces.active);
-  state.stations.local_energy = 0.5 * forces.f.dot(local * forces.f);
+  state.stations = {std::vector<Eigen::SparseMatrix<double>>(bodies_.size()), forces.f(forces.active),
+                    forces.stiffness, 0.5 * forces.f.dot(local * forces.f)};
   for (Index i = 0; i < n; ++i)
     state.stations.local_energy += problem.own[static_cast<std::size_t>(i)].energy(forces.f[i]);
-  state.force.assign(toothed_.size(), {});
-  for (std::size_t b = 0; b < toothed_.size(); ++b) {
-    state.stations.body.emplace_back();
-    NodalForces& nodal = state.force[b];
-    nodal.x_B.resize(3, 0);
-    nodal.f_B.resize(3, 0);
-    if (!toothed_[b]) continue;
-    const model::Surface& surface = toothed_[b]->surface();
-    nodal.node = loads[b].node;
-    nodal.f_B = VectorXd(loads[b].S * forces.f).reshaped(3, std::ssize(nodal.node));
-    responses.respond(b, nodal);
-    nodal.x_B.resize(3, std::ssize(nodal.node));
-    for (Index i = 0; int a : nodal.node) {
-      nodal.x_B.col(i++) = surface.X.col(a) + model::displacement(surface.Phi, a, motion[b].q) +
-                           responses.displacement(b, a);
-      state.surface[b].x_B.col(a) = nodal.x_B.col(i - 1);
-    }
-    Eigen::SparseMatrix<double> active(loads[b].S.rows(), std::ssize(forces.active));
-    active.reserve(loads[b].S.nonZeros());
-    for (Index k = 0; int i : forces.active) {
-      active.startVec(k);
-      for (Eigen::SparseMatrix<double>::InnerIterator at(loads[b].S, i); at; ++at)
-        active.insertBack(at.row(), k) = at.value();
-      ++k;
-    }
-    active.finalize();
-    state.stations.body.back() = std::move(active);
-  }
-  std::size_t p = 0;
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    for (; p < placed.size() && placed[p].body[0] == pairs_[k].body[0] && placed[p].body[1] == pairs_[k].body[1];
-         ++p)
-      for (Index i = 0; i < placed[p].contact.n(); ++i) {
-        const double f = forces.f[placed[p].first + i];
-        if (f <= 0) continue;
-        const auto a = static_cast<std::size_t>(pairs_[k].body[0]), b = static_cast<std::size_t>(pairs_[k].body[1]);
-        state.pair[k].points.push_back(contact::station_point(placed[p].contact, *toothed_[a], *toothed_[b], i, f,
-                                                              motion[a].R_WB));
-      }
+  state.force.assign(bodies_.size(), {});
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    set_nodal_forces(b, loads[b], forces, motion[b], responses, state);
+  state.pair.clear();
+  for (const Pair& pair : pairs_)
+    state.pair.push_back({{static_cast<int>(pair.body[0]), static_cast<int>(pair.body[1])}, {}});
+  for (const Teeth& t : teeth)
+    for (Index i = 0; i < t.contact.n(); ++i)
+      if (const double f = forces.f[t.first + i]; f > 0)
+        state.pair[t.pair].points.push_back(contact::station_point(
+            t.contact, pairs_[t.pair].toothed, i, f, motion[pairs_[t.pair].body[0]].R_WB));
   state.balanced = true;
 }
 

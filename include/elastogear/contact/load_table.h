@@ -1,0 +1,69 @@
+#pragma once
+// Smooth loads of fixed stations at a grid of places across the profile. Loads in between are interpolated,
+// and so is all that is bilinear in them, exactly (docs/theory.md, section 6.18).
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "elastogear/contact/station_places.h"
+
+namespace elastogear::contact {
+
+struct FlankGrid;
+
+/// Half widths of a smooth load across the profile and along the face, m. Eq. (6.43).
+struct LoadWidth {
+  double a, c;
+};
+
+/// Weights of four neighbouring places of the grid: the cubics of E. Catmull and R. Rom, which sum to 1 and
+/// keep the centroid of loads.
+struct Stencil {
+  int first = 0;
+  std::array<double, 4> N{}, dN{};  ///< -, 1/m
+};
+
+/// n stations of all flanks of one side of a body, at n_v places each. Row i n_v + g: station i at the place g.
+struct LoadTable {
+  std::vector<Strip> strips;  ///< m, pieces of the face, side by side
+  double v_0 = 0, step = 0;   ///< m, places v_0 + g step
+  int n_v = 0;
+  LoadWidth width{};
+  LineScale scale;                                   ///< in the middle of the flank
+  Eigen::SparseMatrix<double, Eigen::RowMajor> W;    ///< n n_v x nodes: forces of 1 N on each strip alone
+  Eigen::MatrixXd Z;                                 ///< n x n: spread along the face. Eq. (6.45)
+  Eigen::MatrixXd smooth;                            ///< n n_v x n n_v, 1/m: half-space below. Eq. (6.46)
+  Eigen::MatrixXd line;                              ///< n x n, 1/m: of line loads, but for own parts
+
+  int n() const { return static_cast<int>(strips.size()); }
+};
+
+/// slope: dv/dz of lines of contact at v. Strips have one length.
+LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
+                     const std::function<double(double v)>& slope, const LineScale& scale);
+
+/// At the place v, m; beyond the ends of the flank that of the end.
+Stencil stencil(const LoadTable& table, double v);
+
+/// n x n, 1/m: the half-space below loads at these places, spread along the face.
+Eigen::MatrixXd smooth_kernel(const LoadTable& table, const std::vector<Stencil>& at);
+
+/// n x nodes: nodal forces of 1 N of each station, spread along the face.
+Eigen::MatrixXd weights(const LoadTable& table, const std::vector<Stencil>& at);
+
+/// m/N: displacement of node a by unit forces on node b, of the whole body.
+using NodalResponse = std::function<Eigen::Matrix3d(int a, int b)>;
+/// 3 n n_v x 3 n n_v, m/N: static responses at the places of one flank to unit forces at those of another
+/// one, whose tables' nodes are these; x, y and z of each place after each other.
+Eigen::MatrixXd response_table(const LoadTable& a, const std::vector<int>& nodes_a, const LoadTable& b,
+                               const std::vector<int>& nodes_b, const NodalResponse& response);
+/// n x n, m/N: among stations at these places with these directions, 3 x n, from their response_table.
+Eigen::MatrixXd responses(const LoadTable& a, const std::vector<Stencil>& at_a,
+                          const Eigen::Matrix3Xd& direction_a, const LoadTable& b,
+                          const std::vector<Stencil>& at_b, const Eigen::Matrix3Xd& direction_b,
+                          const Eigen::MatrixXd& table);
+
+}  // namespace elastogear::contact
