@@ -33,9 +33,9 @@ struct FlankDistance {
 class ExactFlanks {
  public:
   struct Extent {
-    double lower, upper;          ///< m, of v between the ends of the flank
-    bool tip_at_upper;            ///< is its tip at the larger v? That of internal gears is at the smaller one
-    double edge_radius;           ///< m, by which the edge of its tip is rounded
+    double lower, upper;  ///< m, of v between the ends of the flank
+    bool tip_at_upper;    ///< is its tip at the larger v? That of internal gears is at the smaller one
+    double edge_radius;   ///< m, by which the edge of its tip is rounded
   };
 
   virtual ~ExactFlanks() = default;

@@ -26,17 +26,18 @@ struct Stencil {
   std::array<double, 4> N{}, dN{};  ///< -, 1/m
 };
 
-/// n stations of all flanks of one side of a body, at n_v places each. Row i n_v + g: station i at the place g.
+/// n stations of all flanks of one side of a body, at n_v places each. Row i n_v + g: station i at the place
+/// g.
 struct LoadTable {
   std::vector<Strip> strips;  ///< m, pieces of the face, side by side
   double v_0 = 0, step = 0;   ///< m, places v_0 + g step
   int n_v = 0;
   LoadWidth width{};
-  LineScale scale;                                   ///< in the middle of the flank
-  Eigen::SparseMatrix<double, Eigen::RowMajor> W;    ///< n n_v x nodes: forces of 1 N on each strip alone
-  Eigen::MatrixXd Z;                                 ///< n x n: spread along the face. Eq. (6.45)
-  Eigen::MatrixXd smooth;                            ///< n n_v x n n_v, 1/m: half-space below. Eq. (6.46)
-  Eigen::MatrixXd line;                              ///< n x n, 1/m: of line loads, but for own parts
+  LineScale scale;                                 ///< in the middle of the flank
+  Eigen::SparseMatrix<double, Eigen::RowMajor> W;  ///< n n_v x nodes: forces of 1 N on each strip alone
+  Eigen::MatrixXd Z;                               ///< n x n: spread along the face. Eq. (6.45)
+  Eigen::MatrixXd smooth;                          ///< n n_v x n n_v, 1/m: half-space below. Eq. (6.46)
+  Eigen::MatrixXd line;                            ///< n x n, 1/m: of line loads, but for own parts
 
   int n() const { return static_cast<int>(strips.size()); }
 };
@@ -65,5 +66,22 @@ Eigen::MatrixXd responses(const LoadTable& a, const std::vector<Stencil>& at_a,
                           const Eigen::Matrix3Xd& direction_a, const LoadTable& b,
                           const std::vector<Stencil>& at_b, const Eigen::Matrix3Xd& direction_b,
                           const Eigen::MatrixXd& table);
+
+/// Displacements at n stations on one body.
+struct StationDisplacements {
+  Eigen::Matrix3Xd u;    ///< m
+  Eigen::Matrix3Xd u_v;  ///< -, by how much they grow with the place v of the station
+};
+/// Adds those of a loaded flank, by the forces of b's strips, 3 x n, N.
+void add_responses(const LoadTable& a, const std::vector<Stencil>& at_a, const LoadTable& b,
+                   const std::vector<Stencil>& at_b, const Eigen::Matrix3Xd& force_b,
+                   const Eigen::MatrixXd& table, StationDisplacements& displacements);
+/// Those by displacements of the nodes, 3 x nodes, m.
+StationDisplacements displacements(const LoadTable& table, const std::vector<Stencil>& at,
+                                   const Eigen::Matrix3Xd& of_nodes);
+/// N/m^2: by how much the displacement of the half-space below forces of strips, N, grows with the place of
+/// each station; over the compliance of the body, 1/Pa.
+Eigen::VectorXd smooth_slopes(const LoadTable& table, const std::vector<Stencil>& at,
+                              const Eigen::VectorXd& force);
 
 }  // namespace elastogear::contact

@@ -31,7 +31,7 @@ struct NearestPlace {
   double mate_v;      ///< m, on the mate
   double mate_z;      ///< m
   double gap;         ///< m, < 0 where the flanks overlap; deviations and rounded edges of both are in it
-  Eigen::Vector3d n;  ///< unit normal from the mate to the owner, owner's frame
+  Eigen::Vector3d n;  ///< normal from the mate to the owner, owner's frame: the gap's gradient
 };
 
 /// The places of stations on these strips of the owner's face.
@@ -42,6 +42,17 @@ std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const Relative
 /// of both, beyond what its slope makes.
 double opening(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
                double h);
+
+/// How a place changes as the mate moves against the owner.
+struct PlaceRates {
+  double v, mate_v;           ///< m, for each unit of the motion
+  Eigen::Vector3d n, mate_n;  ///< of the normal, in the owner's frame and in the mate's
+  double opening;             ///< m, at the distances h to both sides
+};
+/// twist: [velocity of the owner's origin; angular velocity] of the mate, in the owner's frame. radius: m, of
+/// relative curvature across a chart's v.
+PlaceRates place_rates(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
+                       const Eigen::Matrix<double, 6, 1>& twist, double h);
 
 /// How places (v, z) measure the surface along a line of contact (slope, 1).
 struct LineScale {

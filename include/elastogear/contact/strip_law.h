@@ -10,12 +10,13 @@ struct StripLaw {
   double radius;      ///< m, R > 0: of relative curvature across the line
   double compliance;  ///< 1/Pa, k: the sum of (1 - nu^2) / (pi E) of both bodies
 
-  double half_width(double f) const;  ///< m, b: of H. Hertz's line contact. Eq. (6.40a)
-  double pressure(double f) const;    ///< Pa, largest. Eq. (6.41c)
-  double energy(double f) const;      ///< J, U. Eq. (6.41b)
-  double approach(double f) const;    ///< m, U'. Eq. (6.41)
-  double slope(double f) const;       ///< m/N, U''; grows as -ln f towards f = 0. Eq. (6.41)
-  double secant(double f) const;      ///< m/N, U'/f > U'': with the width left as it is. Eq. (6.41)
+  double half_width(double f) const;        ///< m, b: of H. Hertz's line contact. Eq. (6.40a)
+  double pressure(double f) const;          ///< Pa, largest. Eq. (6.41c)
+  double energy(double f) const;            ///< J, U. Eq. (6.41b)
+  double energy_by_radius(double f) const;  ///< N, dU/dR
+  double approach(double f) const;          ///< m, U'. Eq. (6.41)
+  double slope(double f) const;             ///< m/N, U''; grows as -ln f towards f = 0. Eq. (6.41)
+  double secant(double f) const;            ///< m/N, U'/f > U'': with the width left as it is. Eq. (6.41)
 };
 
 }  // namespace elastogear::contact

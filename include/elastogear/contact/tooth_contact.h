@@ -22,7 +22,8 @@ struct FlankMesh;
 class ToothedBody {
  public:
   /// compliance: 1/Pa, (1 - nu^2) / (pi E). deviation: m, of each node of the surface along the outward
-  /// normal, or empty. The surface must outlive this. Throws Error for flanks that are not in rows and layers.
+  /// normal, or empty. The surface must outlive this. Throws Error for flanks that are not in rows and
+  /// layers.
   ToothedBody(const model::Surface& surface, std::shared_ptr<const ExactFlanks> flanks, double compliance,
               const Eigen::VectorXd& deviation);
   ~ToothedBody();
@@ -72,6 +73,12 @@ struct ToothContact {
     std::vector<Stencil> at;     ///< places of the stations among those of the loads
     std::vector<double> v, z;    ///< m, places
     Eigen::Matrix3Xd direction;  ///< 3 x n, unit vectors of the forces on this body, in its frame
+
+    /// Does a station stand beyond an end of the mesh's flank? Its loads are at the end then.
+    bool is_clamped(Eigen::Index i) const {
+      const double from = loads->v_0, to = from + (loads->n_v - 1) * loads->step;
+      return v[static_cast<std::size_t>(i)] <= from || v[static_cast<std::size_t>(i)] >= to;
+    }
   };
 
   FlankPair flanks;
@@ -88,9 +95,16 @@ struct ToothContact {
 /// The contacts of all pairs of teeth with a station whose gap is small beside the height of a tooth.
 std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const RelativePlacement& placement);
 
-/// Sets the radii of relative curvature to those of the gaps over the half widths of contact under forces, N.
-/// Returns the largest relative change.
-double set_radii(ToothContact& contact, const Eigen::VectorXd& f);
+/// Derivatives of the potential with places and directions of the stations' loads on one side.
+struct PotentialSlopes {
+  Eigen::VectorXd v;           ///< n, N
+  Eigen::Matrix3Xd direction;  ///< 3 x n, J
+};
+/// The same with a motion of the mate against the owner (see place_rates), as gaps, places, directions and
+/// curvatures of the stations change under their forces f, N.
+double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f,
+                           const std::array<PotentialSlopes, 2>& slopes,
+                           const Eigen::Matrix<double, 6, 1>& twist);
 
 /// Station i under the force f, N, as a contact point that is read and not solved for: of the pair's surface
 /// 0, the owner, on a face of surface 1. R_WB: of the owner.

@@ -18,6 +18,9 @@ struct NodalForces {
   std::vector<int> node;  ///< surface nodes, ascending
   Eigen::Matrix3Xd x_B;   ///< m, deformed position in the BRF
   Eigen::Matrix3Xd f_B;   ///< N, contact force in the BRF
+  /// n_s, N or N m: on joint coordinates, in place of what the nodal forces are on them. Places of contact
+  /// move with these coordinates (docs/theory.md, section 6.18); empty: it is that of the nodal forces.
+  Eigen::VectorXd joint = {};
 };
 
 /// Contact points of one pair and the two bodies they belong to.
@@ -32,7 +35,8 @@ struct StationLoads {
   std::vector<Eigen::SparseMatrix<double>> body = {};
   Eigen::VectorXd f = {};   ///< n, N
   Eigen::MatrixXd K = {};   ///< n x n, N/m: -df/dgap. Eq. (6.48)
-  double local_energy = 0;  ///< J, of the half-spaces below the meshes
+  double potential = 0;     ///< J, of all stations; forces are its derivatives. Eq. (6.38)
+  double local_energy = 0;  ///< J, stored in the half-spaces below the meshes
 };
 
 /// Contact of all bodies at one time, by positions and velocities alone.
@@ -41,7 +45,7 @@ struct ContactState {
   std::vector<PairContacts> pair;
   std::vector<NodalForces> force;  ///< per body
   StationLoads stations = {};
-  bool balanced = true;            ///< did Newton's method for contact forces and static responses converge?
+  bool balanced = true;  ///< did Newton's method for contact forces and static responses converge?
 };
 
 /// Body side and surface node of local node i of a contact point: slave nodes first, then four of the master.

@@ -68,8 +68,7 @@ class InvoluteFlanks : public contact::ExactFlanks {
   Eigen::Vector3d normal(const contact::FlankName& flank, const Eigen::Vector3d& radial,
                          const Eigen::Vector3d& around, double cosine, double sine) const {
     const Eigen::Vector3d along = flank.side * cosine * around + t_.sign() * sine * radial;
-    return std::cos(t_.beta_b) * along -
-           flank.side * std::sin(t_.beta_b) * Eigen::Vector3d::UnitZ();
+    return std::cos(t_.beta_b) * along - flank.side * std::sin(t_.beta_b) * Eigen::Vector3d::UnitZ();
   }
 
   gear::Toothing t_;

@@ -128,8 +128,7 @@ class GridOfFlank {
       }
       const int r = *std::min_element(row.begin(), row.end());
       const int l = *std::min_element(layer.begin(), layer.end());
-      FlankGrid::Face& face =
-          mesh_.grid.face[static_cast<std::size_t>(r * mesh_.grid.n_layers() + l)];
+      FlankGrid::Face& face = mesh_.grid.face[static_cast<std::size_t>(r * mesh_.grid.n_layers() + l)];
       face = in_order(side, row, layer, r, l);
       if (face[4] >= 0)
         mesh_.grid.v_mid[static_cast<std::size_t>(r)] = at(mesh_.node[static_cast<std::size_t>(face[4])])[0];

@@ -14,7 +14,7 @@ struct FlankMesh {
   FlankName name;
   FlankGrid grid = {};         ///< its nodes are numbers in `node`; the same of all flanks of a side
   std::vector<int> node = {};  ///< of the surface, row by row
-  std::vector<int> face = {};              ///< of the surface
+  std::vector<int> face = {};  ///< of the surface
   std::vector<Eigen::Matrix<double, 2, 4>> at = {};  ///< m, (v, z) of the corners of each face
 };
 

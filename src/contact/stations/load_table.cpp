@@ -82,8 +82,8 @@ class SmoothTable {
         for (int h = 0; h < table_.n_v; ++h) {
           double mean = 0;
           for (const Strip& image : images(along(j_0), ends))
-            mean += ends.share * smooth_inverse_distance(seen(g, 0), along(i_0), seen(h, place(h) - place(g)),
-                                                         image);
+            mean += ends.share *
+                    smooth_inverse_distance(seen(g, 0), along(i_0), seen(h, place(h) - place(g)), image);
           for (int i = i_0; i <= j_0; ++i) entry(i, g, sum - i, h) += mean;
         }
     }
@@ -185,13 +185,15 @@ Eigen::MatrixXd response_table(const LoadTable& a, const std::vector<int>& nodes
 
 namespace {
 
-// 12 x n: the weights of a stencil's places times the direction of each force.
-Eigen::MatrixXd directed(const std::vector<Stencil>& at, const Eigen::Matrix3Xd& direction) {
-  Eigen::MatrixXd weights(12, direction.cols());
-  for (Eigen::Index i = 0; i < direction.cols(); ++i)
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+// 12 x n: the weights of a stencil's places times each force.
+Eigen::MatrixXd directed(const std::vector<Stencil>& at, const Eigen::Matrix3Xd& force) {
+  Eigen::MatrixXd weights(12, force.cols());
+  for (Eigen::Index i = 0; i < force.cols(); ++i)
     for (Eigen::Index k = 0; k < 4; ++k)
       weights.col(i).segment<3>(3 * k) =
-          at[static_cast<std::size_t>(i)].N[static_cast<std::size_t>(k)] * direction.col(i);
+          at[static_cast<std::size_t>(i)].N[static_cast<std::size_t>(k)] * force.col(i);
   return weights;
 }
 
@@ -201,7 +203,6 @@ Eigen::MatrixXd responses(const LoadTable& a, const std::vector<Stencil>& at_a,
                           const Eigen::Matrix3Xd& direction_a, const LoadTable& b,
                           const std::vector<Stencil>& at_b, const Eigen::Matrix3Xd& direction_b,
                           const Eigen::MatrixXd& table) {
-  using Vector12 = Eigen::Matrix<double, 12, 1>;
   const Eigen::MatrixXd w_a = directed(at_a, direction_a), w_b = directed(at_b, direction_b);
   Eigen::MatrixXd C(w_a.cols(), w_b.cols());
   for (Eigen::Index j = 0; j < C.cols(); ++j) {
@@ -214,6 +215,57 @@ Eigen::MatrixXd responses(const LoadTable& a, const std::vector<Stencil>& at_a,
     }
   }
   return a.Z * C * b.Z.transpose();
+}
+
+void add_responses(const LoadTable& a, const std::vector<Stencil>& at_a, const LoadTable& b,
+                   const std::vector<Stencil>& at_b, const Eigen::Matrix3Xd& force_b,
+                   const Eigen::MatrixXd& table, StationDisplacements& displacements) {
+  const Eigen::MatrixXd w_b = directed(at_b, force_b);
+  for (Eigen::Index j = 0; j < w_b.cols(); ++j) {
+    const Vector12 of_b = w_b.col(j);
+    if (of_b.isZero(0)) continue;
+    const Eigen::Index column = 3 * (j * b.n_v + at_b[static_cast<std::size_t>(j)].first);
+    for (Eigen::Index i = 0; i < displacements.u.cols(); ++i) {
+      const Stencil& s = at_a[static_cast<std::size_t>(i)];
+      const Vector12 there = table.block<12, 12>(3 * (i * a.n_v + s.first), column) * of_b;
+      const auto of_places = there.reshaped<Eigen::ColMajor>(3, 4);
+      displacements.u.col(i) += of_places * Eigen::Vector4d::Map(s.N.data());
+      displacements.u_v.col(i) += of_places * Eigen::Vector4d::Map(s.dN.data());
+    }
+  }
+}
+
+StationDisplacements displacements(const LoadTable& table, const std::vector<Stencil>& at,
+                                   const Eigen::Matrix3Xd& of_nodes) {
+  StationDisplacements all{Eigen::Matrix3Xd::Zero(3, std::ssize(at)),
+                           Eigen::Matrix3Xd::Zero(3, std::ssize(at))};
+  for (Eigen::Index i = 0; i < all.u.cols(); ++i) {
+    const Stencil& s = at[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      Eigen::Vector3d u = Eigen::Vector3d::Zero();
+      for (decltype(table.W)::InnerIterator entry(table.W, i * table.n_v + s.first + static_cast<int>(k));
+           entry; ++entry)
+        u += entry.value() * of_nodes.col(entry.col());
+      all.u.col(i) += s.N[k] * u;
+      all.u_v.col(i) += s.dN[k] * u;
+    }
+  }
+  return all;
+}
+
+Eigen::VectorXd smooth_slopes(const LoadTable& a, const std::vector<Stencil>& at,
+                              const Eigen::VectorXd& force) {
+  using Eigen::Vector4d;
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(std::ssize(at));
+  for (Eigen::Index i = 0; i < slope.size(); ++i)
+    for (Eigen::Index j = 0; j < slope.size(); ++j) {
+      if (force[j] == 0) continue;
+      const Stencil &s = at[static_cast<std::size_t>(i)], &b = at[static_cast<std::size_t>(j)];
+      const Vector4d there =
+          a.smooth.block<4, 4>(i * a.n_v + s.first, j * a.n_v + b.first) * Vector4d::Map(b.N.data());
+      slope[i] += force[j] * Vector4d::Map(s.dN.data()).dot(there);
+    }
+  return slope;
 }
 
 }  // namespace elastogear::contact

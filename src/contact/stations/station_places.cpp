@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elastogear/base/rotation.h"
+
 namespace elastogear::contact {
 namespace {
 
 constexpr int kMostSteps = 60;
 constexpr double kSolved = 1e-9;      // of the height of the flank, its place
+constexpr double kRateStep = 1e-5;    // of the height of the flank, by which the mate is moved for rates
 constexpr double kDifference = 1e-6;  // of the height of the flank, for slopes of deviations
 
 // m: what a rounded edge of the tip takes away at v. A parabola of the edge's radius.
@@ -39,6 +42,14 @@ class Gap {
     return seen;
   }
   double mate_z(const Seen& seen) const { return flanks_.mate->chart(seen.x_mate)[1]; }
+  // Of the mate with its deviation and rounded edge: the gradient of the gap, which is as long as 1 to second
+  // order of their slope.
+  Eigen::Vector3d mate_normal(const Seen& seen) const {
+    const double h = kDifference * (mate_.upper - mate_.lower), v = seen.mate.v;
+    const double slope = (added_by_mate(v + h, seen) - added_by_mate(v - h, seen)) / (2 * h);
+    if (slope == 0) return seen.mate.gradient;
+    return seen.mate.gradient + slope * flanks_.mate->point(flanks_.on_mate, v, mate_z(seen)).x_v;
+  }
   double at(double v) const {
     const Seen seen = this->seen(v);
     return seen.mate.distance + added(v, seen);
@@ -50,19 +61,21 @@ class Gap {
     return (placement_.R * seen.mate.gradient).dot(seen.owner.x_v) +
            (added(v + h, this->seen(v + h)) - added(v - h, this->seen(v - h))) / (2 * h);
   }
+  // m: ends of the flank, with its rounded edge.
+  double low() const { return owner_.lower - (owner_.tip_at_upper ? 0 : owner_.edge_radius); }
+  double high() const { return owner_.upper + (owner_.tip_at_upper ? owner_.edge_radius : 0); }
   // Where it is least: the derivative's zero between the ends of the flank and its rounded edge, by the
   // secant of its ends, of which one that stays counts half (Illinois).
   double least() const {
-    double low = owner_.lower - (owner_.tip_at_upper ? 0 : owner_.edge_radius);
-    double high = owner_.upper + (owner_.tip_at_upper ? owner_.edge_radius : 0);
-    double at_low = slope(low), at_high = slope(high);
+    double low = this->low(), high = this->high(), at_low = slope(low), at_high = slope(high);
     if (at_low >= 0) return low;
     if (at_high <= 0) return high;
     const double solved = kSolved * (high - low);
     double last = low;
     int stayed = 0;  // which end stayed last
     for (int step = 0; step < kMostSteps && high - low > solved; ++step) {
-      const double v = step % 8 == 7 ? (low + high) / 2 : (low * at_high - high * at_low) / (at_high - at_low);
+      const double v =
+          step % 8 == 7 ? (low + high) / 2 : (low * at_high - high * at_low) / (at_high - at_low);
       const double here = slope(v);
       if (here == 0) return v;
       const bool below = here < 0;
@@ -79,9 +92,11 @@ class Gap {
  private:
   // m: what edges take away and deviations of both flanks add.
   double added(double v, const Seen& seen) const {
-    return taken_by_edge(owner_, v) + taken_by_edge(mate_, seen.mate.v) -
-           flanks_.owner->deviation(flanks_.on_owner, v, z_) -
-           flanks_.mate->deviation(flanks_.on_mate, seen.mate.v, mate_z(seen));
+    return taken_by_edge(owner_, v) - flanks_.owner->deviation(flanks_.on_owner, v, z_) +
+           added_by_mate(seen.mate.v, seen);
+  }
+  double added_by_mate(double v, const Seen& seen) const {
+    return taken_by_edge(mate_, v) - flanks_.mate->deviation(flanks_.on_mate, v, mate_z(seen));
   }
 
   const FlankPair& flanks_;
@@ -99,8 +114,8 @@ std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const Relative
     const Gap gap(flanks, placement, strip.centre());
     const double v = gap.least();
     const Gap::Seen seen = gap.seen(v);
-    places.push_back({strip, v, seen.mate.v, gap.mate_z(seen), gap.at(v),
-                      (placement.R * seen.mate.gradient).normalized()});
+    places.push_back(
+        {strip, v, seen.mate.v, gap.mate_z(seen), gap.at(v), placement.R * gap.mate_normal(seen)});
   }
   return places;
 }
@@ -110,6 +125,36 @@ double opening(const FlankPair& flanks, const RelativePlacement& placement, cons
   const Gap gap(flanks, placement, place.face.centre());
   const double v = std::max(place.v, h);  // involutes begin at 0
   return (gap.at(v + h) + gap.at(v - h)) / 2 - gap.at(v);
+}
+
+PlaceRates place_rates(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
+                       const Eigen::Matrix<double, 6, 1>& twist, double h) {
+  const ExactFlanks::Extent extent = flanks.owner->extent();
+  const double small = kRateStep * (extent.upper - extent.lower), z = place.face.centre();
+  const double speed = twist.head<3>().norm() + twist.tail<3>().norm() * placement.r.norm();
+  if (speed == 0) return {0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0};
+  const double time = small / speed;
+  const Gap here(flanks, placement, z);
+  const double v = std::max(place.v, 2 * small), bend = here.slope(v + small) - here.slope(v - small);
+  const Eigen::Vector3d angle = time * twist.tail<3>();
+  const Eigen::Matrix3d turn = rotation_matrix(angle);
+  const RelativePlacement moved{turn * placement.R, turn * placement.r + time * twist.head<3>()};
+  const Gap there(flanks, moved, z);
+  PlaceRates rates{};
+  const bool is_free = place.v > here.low() && place.v < here.high();
+  if (is_free && bend > 0) rates.v = -(there.slope(v) - here.slope(v)) * 2 * small / bend / time;
+  const double to = v + time * rates.v;
+  const Gap::Seen seen_here = here.seen(v), seen_there = there.seen(to);
+  const Eigen::Vector3d n_here = here.mate_normal(seen_here), n_there = there.mate_normal(seen_there);
+  rates.mate_v = (seen_there.mate.v - seen_here.mate.v) / time;
+  rates.mate_n = (n_there - n_here) / time;
+  rates.n = (moved.R * n_there - placement.R * n_here) / time;
+  const auto opens = [&](const Gap& gap, double at) {
+    const double c = std::max(at, h);
+    return (gap.at(c + h) + gap.at(c - h)) / 2 - gap.at(c);
+  };
+  rates.opening = (opens(there, to) - opens(here, v)) / time;
+  return rates;
 }
 
 LineScale line_scale(const FlankPoint& point, double slope) {

@@ -29,6 +29,13 @@ double StripLaw::energy(double f) const {
   return 2 * compliance * f * f / length * own_kernel_moment(t) / std::pow(t, 4);
 }
 
+// U depends on t = q / D alone beside f, and t^2 on R.
+double StripLaw::energy_by_radius(double f) const {
+  if (f <= 0) return 0;
+  const double t = relative_width(*this, f);
+  return compliance * f * f / (length * radius) * (own_kernel(t) - 4 * own_kernel_moment(t) / std::pow(t, 4));
+}
+
 double StripLaw::approach(double f) const { return f > 0 ? secant(f) * f : 0; }
 
 double StripLaw::slope(double f) const {

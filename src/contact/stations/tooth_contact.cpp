@@ -11,14 +11,14 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr int kMarks = 5;          // along the face, of each flank
-constexpr double kNearMarks = 1.5;  // of a flank's height, that marks of flanks in contact may be apart
-constexpr double kReach = 0.05;     // of a flank's height: a gap that forces may close
-constexpr double kDeepest = 0.25;   // of a flank's height: a larger overlap is one with the tooth behind
+constexpr int kMarks = 5;            // along the face, of each flank
+constexpr double kNearMarks = 1.5;   // of a flank's height, that marks of flanks in contact may be apart
+constexpr double kReach = 0.05;      // of a flank's height: a gap that forces may close
+constexpr double kDeepest = 0.25;    // of a flank's height: a larger overlap is one with the tooth behind
 constexpr double kSlopeStep = 1e-4;  // of a flank's height, for slopes
-constexpr double kFirstWidth = 0.02;  // of the height of a flank, in which curvatures are first taken
-constexpr double kFlattest = 1e3;     // of the height of a flank: radii of flanks that hardly part, or overlap
-                                      // in fillets, where they bear no force
+constexpr double kWidth = 0.02;      // of a flank's height: half width of contact at loads that steel bears
+constexpr double kFlattest = 1e3;    // of the height of a flank: radii of flanks that hardly part, or overlap
+                                     // in fillets, where they bear no force
 
 double height(const ExactFlanks& flanks) {
   const ExactFlanks::Extent extent = flanks.extent();
@@ -70,6 +70,17 @@ ToothContact::Side make_side(const std::vector<NearestPlace>& places, const Rela
   return side;
 }
 
+// m, along the profile: the half width of contact over which gaps are taken for parabolas.
+double width_for_curvature(const ExactFlanks& flanks) { return kWidth * height(flanks); }
+
+// m: of relative curvature across the line of contact at a station, over the half width b along the profile.
+double radius(const ToothContact& contact, std::size_t i, double b) {
+  const double most = kFlattest * height(*contact.flanks.owner);
+  const double across = b * contact.side[0].loads->scale.across;
+  const double opens = opening(contact.flanks, contact.placement, contact.places[i], b);
+  return opens > 0 ? std::min(most, across * across / (2 * opens)) : most;
+}
+
 ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, const FlankMesh& on_mate,
                           const FlankPair& flanks, const RelativePlacement& placement,
                           std::vector<NearestPlace> places) {
@@ -84,16 +95,15 @@ ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, co
     contact.side[s] = make_side(contact.places, placement, *mesh[s], loads, s == 0);
     contact.local += body[s]->compliance() * (loads.line - smooth_kernel(loads, contact.side[s].at));
   }
-  const double first_radius = height(pair.owner->flanks());
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto j = static_cast<std::size_t>(i);
     contact.gap[i] = contact.places[j].gap;
     for (std::size_t s : {0, 1})
       contact.gap[i] -= body[s]->deviation(*mesh[s], contact.side[s].v[j], contact.side[s].z[j]);
-    contact.own.push_back({contact.places[j].face.length() * contact.side[0].loads->scale.along, first_radius,
+    contact.own.push_back({contact.places[j].face.length() * contact.side[0].loads->scale.along,
+                           radius(contact, j, width_for_curvature(pair.owner->flanks())),
                            pair.owner->compliance() + pair.mate->compliance()});
   }
-  set_radii(contact, Eigen::VectorXd::Zero(n));
   return contact;
 }
 
@@ -110,13 +120,11 @@ ToothedBody::ToothedBody(const model::Surface& surface, std::shared_ptr<const Ex
   for (const FlankMesh& mesh : meshes_) {
     Eigen::Matrix3Xd marks(3, kMarks);
     for (int i = 0; i < kMarks; ++i) {
-      const double z =
-          mesh.grid.z.front() + (mesh.grid.z.back() - mesh.grid.z.front()) * i / (kMarks - 1);
+      const double z = mesh.grid.z.front() + (mesh.grid.z.back() - mesh.grid.z.front()) * i / (kMarks - 1);
       marks.col(i) = flanks_->point(mesh.name, v, z).x;
     }
     marks_.push_back(marks);
-    mark_normals_.push_back(
-        flanks_->point(mesh.name, v, (mesh.grid.z.front() + mesh.grid.z.back()) / 2).n);
+    mark_normals_.push_back(flanks_->point(mesh.name, v, (mesh.grid.z.front() + mesh.grid.z.back()) / 2).n);
   }
 }
 
@@ -190,23 +198,40 @@ std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const Relative
   return contacts;
 }
 
-double set_radii(ToothContact& contact, const Eigen::VectorXd& f) {
+double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f,
+                           const std::array<PotentialSlopes, 2>& slopes,
+                           const Eigen::Matrix<double, 6, 1>& twist) {
   double change = 0;
-  const double least = kFirstWidth * height(*contact.flanks.owner);
-  const double most = kFlattest * height(*contact.flanks.owner);
-  const double across_scale = contact.side[0].loads->scale.across;
-  for (std::size_t i = 0; i < contact.own.size(); ++i) {
-    StripLaw& law = contact.own[i];
-    const double force = f[static_cast<Eigen::Index>(i)];
-    const double b = force > 0 ? law.half_width(force) / across_scale : least;
-    const double opens = opening(contact.flanks, contact.placement, contact.places[i], b);
-    const double across = b * across_scale;
-    const double radius = std::min(most, opens > 0 ? across * across / (2 * opens) : most);
-    change = std::max(change, std::abs(radius / law.radius - 1));
-    law.radius = radius;
+  for (Eigen::Index i = 0; i < contact.n(); ++i) {
+    const StripLaw& law = contact.own[static_cast<std::size_t>(i)];
+    const NearestPlace& place = contact.places[static_cast<std::size_t>(i)];
+    if (slopes[0].v[i] == 0 && slopes[1].v[i] == 0 && f[i] <= 0) continue;
+    const double b = width_for_curvature(*contact.flanks.owner);
+    const double across = b * contact.side[0].loads->scale.across;
+    const PlaceRates rates = place_rates(contact.flanks, contact.placement, place, twist, b);
+    const Eigen::Vector3d x =
+        contact.flanks.owner->point(contact.flanks.on_owner, place.v, place.face.centre()).x;
+    change -= f[i] * place.n.dot(twist.head<3>() + twist.tail<3>().cross(x));  // the gap itself
+    change += slopes[0].v[i] * rates.v + slopes[1].v[i] * rates.mate_v +
+              slopes[0].direction.col(i).dot(rates.n) - slopes[1].direction.col(i).dot(rates.mate_n);
+    // R = across^2 / (2 opening)
+    change -= law.energy_by_radius(f[i]) * 2 * law.radius * law.radius / (across * across) * rates.opening;
   }
   return change;
 }
+
+namespace {
+
+// With the radius of relative curvature over the width of contact itself, as of rounded edges.
+StripLaw fitting_law(const ToothContact& contact, std::size_t i, double f) {
+  constexpr int kRounds = 4;
+  StripLaw law = contact.own[i];
+  for (int round = 0; round < kRounds; ++round)
+    law.radius = radius(contact, i, law.half_width(f) / contact.side[0].loads->scale.across);
+  return law;
+}
+
+}  // namespace
 
 ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair, Eigen::Index i, double f,
                            const Eigen::Matrix3d& R_WB) {
@@ -227,7 +252,7 @@ ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair,
   point.N = N_there;
   point.xi = there.xi;
   point.eta = there.eta;
-  point.n = R_WB * contact.places[j].n;
+  point.n = R_WB * contact.places[j].n.normalized();
   point.f = f * point.n;
   point.F = LocalVectors(3, 8);
   for (Eigen::Index k = 0; k < 4; ++k) {
@@ -235,8 +260,9 @@ ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair,
     point.F.col(4 + k) = -N_there[k] * point.f;
   }
   point.p = f;
-  point.area = 2 * contact.own[j].half_width(f) * contact.own[j].length;
-  point.pressure = contact.own[j].pressure(f);
+  const StripLaw law = fitting_law(contact, j, f);
+  point.area = 2 * law.half_width(f) * law.length;
+  point.pressure = law.pressure(f);
   point.W.resize(24, 0);
   point.k.resize(0, 0);
   return point;

@@ -210,9 +210,11 @@ std::vector<NodalForces> friction_forces(const std::vector<PairContacts>& pairs,
 
 body::Force contact_force(const body::Equations& eq, const NodalForces& forces) {
   body::Force h{Eigen::VectorXd::Zero(eq.n_s()), Eigen::VectorXd::Zero(eq.n_q())};
+  if (forces.joint.size() > 0) h.s = forces.joint;
   for (Eigen::Index p = 0; p < forces.f_B.cols(); ++p) {
     const Eigen::Vector3d f = forces.f_B.col(p);
-    for (Eigen::Index i = 0; i < eq.n_s(); ++i) h.s[i] += twist_at(eq.H, i, forces.x_B.col(p)).dot(f);
+    for (Eigen::Index i = 0; i < eq.n_s() && forces.joint.size() == 0; ++i)
+      h.s[i] += twist_at(eq.H, i, forces.x_B.col(p)).dot(f);
     model::add_force(eq.body->surface.Phi, forces.node[p], f, h.q);
   }
   return h;
@@ -281,8 +283,8 @@ void set_body_columns(int b, const JointTwists& twists, const std::vector<PairCo
 }
 
 // Columns of stations come after those of contact points.
-void append_stations(const JointTwists& twists, const Eigen::SparseMatrix<double>& S, const NodalForces& forces,
-                     BodyTerms& terms) {
+void append_stations(const JointTwists& twists, const Eigen::SparseMatrix<double>& S,
+                     const NodalForces& forces, BodyTerms& terms) {
   const Eigen::Index first = terms.W_s.cols() - S.cols();
   const Eigen::Index shift = terms.L.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
   for (Eigen::Index j = 0; j < S.cols(); ++j) {

@@ -35,12 +35,27 @@ const Eigen::MatrixXd& ResponseTables::table(const ToothContact::Side& a, const 
   return at->second;
 }
 
-Eigen::MatrixXd ResponseTables::responses(const ToothContact::Side& a, const ToothContact::Side& b) {
+// Turns what acts on a tooth to its copy in the table.
+Eigen::Matrix3d ResponseTables::back(const ToothContact::Side& a) const {
   const int teeth = toothed_->flanks().teeth(), turned = a.flank.tooth - a.flank.tooth % period_;
-  const Eigen::Matrix3d back =
-      Eigen::AngleAxisd(-2 * std::numbers::pi * turned / teeth, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return contact::responses(*a.loads, a.at, back * a.direction, *b.loads, b.at, back * b.direction,
+  return Eigen::AngleAxisd(-2 * std::numbers::pi * turned / teeth, Eigen::Vector3d::UnitZ())
+      .toRotationMatrix();
+}
+
+Eigen::MatrixXd ResponseTables::responses(const ToothContact::Side& a, const ToothContact::Side& b) {
+  return contact::responses(*a.loads, a.at, back(a) * a.direction, *b.loads, b.at, back(a) * b.direction,
                             table(a, b));
+}
+
+void ResponseTables::add(const ToothContact::Side& a, const ToothContact::Side& b,
+                         const Eigen::VectorXd& force, contact::StationDisplacements& displacements) {
+  const Eigen::Matrix3d turn = back(a);
+  contact::StationDisplacements turned{Eigen::Matrix3Xd::Zero(3, displacements.u.cols()),
+                                       Eigen::Matrix3Xd::Zero(3, displacements.u.cols())};
+  contact::add_responses(*a.loads, a.at, *b.loads, b.at, turn * b.direction * force.asDiagonal(), table(a, b),
+                         turned);
+  displacements.u += turn.transpose() * turned.u;
+  displacements.u_v += turn.transpose() * turned.u_v;
 }
 
 }  // namespace elastogear::dynamics

@@ -19,10 +19,14 @@ class ResponseTables {
   /// n x n, m/N: displacements at the stations of one side of a contact by unit forces at those of another,
   /// of the whole body.
   Eigen::MatrixXd responses(const contact::ToothContact::Side& a, const contact::ToothContact::Side& b);
+  /// Adds displacements at a's stations by the forces of b's strips along their directions, N.
+  void add(const contact::ToothContact::Side& a, const contact::ToothContact::Side& b,
+           const Eigen::VectorXd& force, contact::StationDisplacements& displacements);
 
  private:
   using Key = std::tuple<const contact::LoadTable*, const contact::LoadTable*, int, int>;
 
+  Eigen::Matrix3d back(const contact::ToothContact::Side& a) const;
   const Eigen::MatrixXd& table(const contact::ToothContact::Side& a, const contact::ToothContact::Side& b);
 
   const model::ElasticBody* body_;

@@ -15,9 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kStations = 16;         // of a pair of teeth
-constexpr int kMostRounds = 8;        // until the radii fit the widths of contact
-constexpr double kSameRadii = 1e-4;
+constexpr int kStations = 16;  // of a pair of teeth
 
 contact::RelativePlacement relative(const contact::SurfaceMotion& owner, const contact::SurfaceMotion& mate) {
   return {owner.R_WB.transpose() * mate.R_WB, owner.R_WB.transpose() * (mate.r_WB - owner.r_WB)};
@@ -35,7 +33,8 @@ Eigen::SparseMatrix<double> columns(const Eigen::SparseMatrix<double>& S, const 
   part.reserve(S.nonZeros());
   for (Index k = 0; int i : of) {
     part.startVec(k);
-    for (Eigen::SparseMatrix<double>::InnerIterator at(S, i); at; ++at) part.insertBack(at.row(), k) = at.value();
+    for (Eigen::SparseMatrix<double>::InnerIterator at(S, i); at; ++at)
+      part.insertBack(at.row(), k) = at.value();
     ++k;
   }
   part.finalize();
@@ -117,7 +116,8 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
     const std::vector<int>& node = bodies_[body].toothed->nodes(part.side.flank);
     for (Index a = 0; a < part.weight.cols(); ++a) {
       if (part.weight.col(a).isZero(0)) continue;
-      const auto at = std::lower_bound(loads.node.begin(), loads.node.end(), node[static_cast<std::size_t>(a)]);
+      const auto at =
+          std::lower_bound(loads.node.begin(), loads.node.end(), node[static_cast<std::size_t>(a)]);
       const auto row = static_cast<int>(3 * (at - loads.node.begin()));
       for (Index i = 0; i < part.weight.rows(); ++i)
         for (int d = 0; d < 3 && part.weight(i, a) != 0; ++d)
@@ -132,7 +132,8 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
   for (Index i = 0; i < n; ++i)
     for (Eigen::SparseMatrix<double>::InnerIterator at(loads.S, i); at; ++at)
       loads.Phi_S.col(i) +=
-          at.value() * VectorXd::Map(model::node_rows(elastic.surface.Phi, loads.node[static_cast<std::size_t>(at.row() / 3)]) +
+          at.value() * VectorXd::Map(model::node_rows(elastic.surface.Phi,
+                                                      loads.node[static_cast<std::size_t>(at.row() / 3)]) +
                                          at.row() % 3 * elastic.n_q(),
                                      elastic.n_q());
   return loads;
@@ -155,26 +156,6 @@ void StationContact::add_compliance(std::size_t body, const std::vector<Teeth>& 
   C.noalias() -= loads.Phi_S.transpose() * (K.cwiseInverse().asDiagonal() * loads.Phi_S);
 }
 
-namespace {
-
-// Forces, and radii of curvature that fit the widths of contact under them.
-template <class AllTeeth>
-contact::StationForces solve(contact::StationProblem& problem, AllTeeth& teeth) {
-  contact::StationForces forces;
-  for (int round = 0; round < kMostRounds; ++round) {
-    for (const auto& t : teeth)
-      std::copy(t.contact.own.begin(), t.contact.own.end(), problem.own.begin() + t.first);
-    forces = contact::station_forces(problem);
-    double change = 0;
-    for (auto& t : teeth)
-      change = std::max(change, contact::set_radii(t.contact, forces.f.segment(t.first, t.contact.n())));
-    if (change <= kSameRadii) break;
-  }
-  return forces;
-}
-
-}  // namespace
-
 void StationContact::set_nodal_forces(std::size_t body, const Loads& loads,
                                       const contact::StationForces& forces,
                                       const contact::SurfaceMotion& motion, ResidualContact& responses,
@@ -188,10 +169,74 @@ void StationContact::set_nodal_forces(std::size_t body, const Loads& loads,
   responses.respond(body, nodal);
   const model::Surface& surface = bodies_[body].toothed->surface();
   for (Index i = 0; int node : nodal.node) {
-    nodal.x_B.col(i) = surface.X.col(node) + model::displacement(surface.Phi, node, motion.q);
+    nodal.x_B.col(i) = surface.X.col(node);
     state.surface[body].x_B.col(node) = nodal.x_B.col(i++);
   }
   state.stations.body[body] = columns(loads.S, forces.active);
+}
+
+namespace {
+
+// Twist of the mate against the owner, in the owner's frame, by a joint coordinate of one of them.
+Eigen::Matrix<double, 6, 1> relative_twist(const contact::RelativePlacement& placement, bool of_owner,
+                                           const Eigen::Matrix<double, 6, 1>& H) {
+  if (of_owner) return -H;
+  Eigen::Matrix<double, 6, 1> twist;
+  twist.tail<3>() = placement.R * H.tail<3>();
+  twist.head<3>() = placement.R * H.head<3>() - twist.tail<3>().cross(placement.r);
+  return twist;
+}
+
+}  // namespace
+
+// Derivatives of the potential with joint coordinates, as the places of stations move at the same
+// elastic coordinates and forces. Eq. (6.49).
+void StationContact::add_joint_forces(const std::vector<contact::SurfaceMotion>& motion,
+                                      const std::vector<Teeth>& teeth, const std::vector<Loads>& loads,
+                                      const VectorXd& f, ContactState& state) {
+  std::vector<VectorXd> q(bodies_.size());  // of elastic coordinates less the share of the modes in F
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].toothed) continue;
+    state.force[b].joint = VectorXd::Zero(model_->bodies[b].eq.n_s());
+    q[b] = motion[b].q - (loads[b].Phi_S * f).cwiseQuotient(model_->bodies[b].eq.body->K_r.diagonal());
+  }
+  for (const Teeth& t : teeth) {
+    const VectorXd f_t = f.segment(t.first, t.contact.n());
+    if (f_t.isZero(0)) continue;
+    std::array<contact::PotentialSlopes, 2> slope;
+    for (std::size_t s : {0, 1}) {
+      const std::size_t b = pairs_[t.pair].body[s];
+      const ToothContact::Side& side = t.contact.side[s];
+      const std::vector<int>& node = bodies_[b].toothed->nodes(side.flank);
+      const model::Surface& surface = bodies_[b].toothed->surface();
+      Eigen::Matrix3Xd u(3, std::ssize(node));
+      for (Index a = 0; a < u.cols(); ++a)
+        u.col(a) = model::displacement(surface.Phi, node[static_cast<std::size_t>(a)], q[b]);
+      const VectorXd strip_force = side.loads->Z.transpose() * f_t;
+      contact::StationDisplacements moved = contact::displacements(*side.loads, side.at, u);
+      for (const Teeth& other : teeth)
+        for (std::size_t r : {0, 1}) {
+          if (pairs_[other.pair].body[r] != b) continue;
+          const ToothContact::Side& there = other.contact.side[r];
+          bodies_[b].tables->add(
+              side, there, there.loads->Z.transpose() * f.segment(other.first, other.contact.n()), moved);
+        }
+      slope[s].v =
+          moved.u_v.cwiseProduct(side.direction).colwise().sum().transpose() -
+          bodies_[b].toothed->compliance() * contact::smooth_slopes(*side.loads, side.at, strip_force);
+      slope[s].v = slope[s].v.cwiseProduct(strip_force).eval();
+      slope[s].direction = moved.u * strip_force.asDiagonal();
+      for (Index i = 0; i < slope[s].v.size(); ++i)
+        if (side.is_clamped(i)) slope[s].v[i] = 0;
+    }
+    for (std::size_t s : {0, 1}) {
+      const std::size_t b = pairs_[t.pair].body[s];
+      const body::MotionSubspace& H = model_->bodies[b].eq.H;
+      for (Index i = 0; i < H.cols(); ++i)
+        state.force[b].joint[i] += contact::change_of_potential(
+            t.contact, f_t, slope, relative_twist(t.contact.placement, s == 0, H.col(i)));
+    }
+  }
 }
 
 void StationContact::evaluate(const std::vector<contact::SurfaceMotion>& motion, ResidualContact& responses,
@@ -203,6 +248,7 @@ void StationContact::evaluate(const std::vector<contact::SurfaceMotion>& motion,
   for (const Teeth& t : teeth) {
     problem.C.block(t.first, t.first, t.contact.n(), t.contact.n()) = t.contact.local;
     problem.gap.segment(t.first, t.contact.n()) = t.contact.gap.array() + pairs_[t.pair].offset;
+    std::copy(t.contact.own.begin(), t.contact.own.end(), problem.own.begin() + t.first);
   }
   const MatrixXd local = problem.C;
   std::vector<Loads> loads(bodies_.size());
@@ -213,23 +259,26 @@ void StationContact::evaluate(const std::vector<contact::SurfaceMotion>& motion,
     add_compliance(b, teeth, loads[b], problem.C);
   }
   problem.C = ((problem.C + problem.C.transpose()) / 2).eval();
-  const contact::StationForces forces = solve(problem, teeth);
+  const contact::StationForces forces = contact::station_forces(problem);
 
   state.stations = {std::vector<Eigen::SparseMatrix<double>>(bodies_.size()), forces.f(forces.active),
-                    forces.stiffness, 0.5 * forces.f.dot(local * forces.f)};
-  for (Index i = 0; i < n; ++i)
-    state.stations.local_energy += problem.own[static_cast<std::size_t>(i)].energy(forces.f[i]);
+                    forces.stiffness, forces.potential, 0.5 * forces.f.dot(local * forces.f)};
+  for (Index i = 0; i < n; ++i) {  // the energy of a strip, whose complement is U
+    const contact::StripLaw& law = problem.own[static_cast<std::size_t>(i)];
+    state.stations.local_energy += forces.f[i] * law.approach(forces.f[i]) - law.energy(forces.f[i]);
+  }
   state.force.assign(bodies_.size(), {});
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     set_nodal_forces(b, loads[b], forces, motion[b], responses, state);
+  add_joint_forces(motion, teeth, loads, forces.f, state);
   state.pair.clear();
   for (const Pair& pair : pairs_)
     state.pair.push_back({{static_cast<int>(pair.body[0]), static_cast<int>(pair.body[1])}, {}});
   for (const Teeth& t : teeth)
     for (Index i = 0; i < t.contact.n(); ++i)
       if (const double f = forces.f[t.first + i]; f > 0)
-        state.pair[t.pair].points.push_back(contact::station_point(
-            t.contact, pairs_[t.pair].toothed, i, f, motion[pairs_[t.pair].body[0]].R_WB));
+        state.pair[t.pair].points.push_back(contact::station_point(t.contact, pairs_[t.pair].toothed, i, f,
+                                                                   motion[pairs_[t.pair].body[0]].R_WB));
   state.balanced = true;
 }
 

@@ -54,6 +54,8 @@ class StationContact {
   Loads loads_on(std::size_t body, const std::vector<Teeth>& teeth, Eigen::Index n) const;
   void add_compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
                       Eigen::MatrixXd& C);
+  void add_joint_forces(const std::vector<contact::SurfaceMotion>& motion, const std::vector<Teeth>& teeth,
+                        const std::vector<Loads>& loads, const Eigen::VectorXd& f, ContactState& state);
   void set_nodal_forces(std::size_t body, const Loads& loads, const contact::StationForces& forces,
                         const contact::SurfaceMotion& motion, ResidualContact& responses,
                         ContactState& state) const;
