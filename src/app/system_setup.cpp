@@ -64,6 +64,10 @@ std::string approach_text(const contact::Settings& settings) {
 void print_approach(const Options& options, const dynamics::SystemModel& system,
                     const dynamics::PairSetup& pair) {
   const auto is_exact = [&](int b) { return system.bodies[static_cast<std::size_t>(b)].true_surface; };
+  if (pair.settings.points == contact::SlavePoints::stations) return;
+  if (options.text("contact_points") == "stations")
+    print_item("contact at stations",
+               "not of " + pair.name + ": " + dynamics::lacks_for_stations(system, pair));
   if (pair.settings.approach == contact::FlankApproach::hertz || options.text("contact_approach") == "mesh" ||
       !std::all_of(std::begin(pair.body), std::end(pair.body), is_exact))
     return;
@@ -74,6 +78,7 @@ void print_approach(const Options& options, const dynamics::SystemModel& system,
 std::string points_text(const contact::Settings& settings) {
   if (settings.points == contact::SlavePoints::faces) return "over faces";
   if (settings.points == contact::SlavePoints::minima) return "where gaps are least";
+  if (settings.points == contact::SlavePoints::stations) return "at stations of exact flanks";
   return settings.two_pass ? "at nodes of both bodies" : "at nodes";
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <variant>
 
-#include "dynamics/stations/station_contact.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/contact/topology.h"
@@ -193,19 +192,20 @@ void add_pair(const PairSetup& setup, SystemModel& model) {
   settings.law = contact::chosen_law(settings, flexible);
   settings.points = contact::chosen_points(
       settings, model.bodies[setup.body[settings.slave == 0 ? 0 : 1]].eq.body->surface);
-  settings.approach = chosen_approach(model, model.pairs.back());
+  if (settings.points != contact::SlavePoints::stations)
+    settings.approach = chosen_approach(model, model.pairs.back());
 }
 
-// Pairs of a system touch at stations together, or not at all.
+// Pairs of a system touch at stations together, as their forces depend on each other, or not at all: then
+// where gaps are least.
 void choose_stations(SystemModel& model) {
-  const auto at_stations = [](const PairSetup& pair) {
-    return pair.settings.points == contact::SlavePoints::stations;
-  };
-  if (std::none_of(model.pairs.begin(), model.pairs.end(), at_stations)) return;
-  for (const PairSetup& pair : model.pairs) {
-    const std::string lacks = at_stations(pair) ? lacks_for_stations(model, pair) : "it has other points";
-    require(lacks.empty(), "contact points 'stations' of the pair ", pair.name, ": ", lacks,
-            ", or take other points");
+  const bool all = std::all_of(model.pairs.begin(), model.pairs.end(), [&](const PairSetup& pair) {
+    return pair.settings.points == contact::SlavePoints::stations && lacks_for_stations(model, pair).empty();
+  });
+  for (PairSetup& pair : model.pairs) {
+    if (pair.settings.points != contact::SlavePoints::stations) continue;
+    if (!all) pair.settings.points = contact::SlavePoints::minima;
+    pair.settings.approach = all ? contact::FlankApproach::mesh : chosen_approach(model, pair);
   }
 }
 

@@ -251,7 +251,7 @@ Options with_system(Options options, const Drive& drive) {
   options.set_default("contact_pairs", pairs);
   options.set_default("contact_surface", "exact");
   if (!options.given("contact_two_pass") && !options.given("contact_points") && !asks_for_penalty(options)) {
-    options.set("contact_points", "minima");
+    options.set("contact_points", "stations");
     if (options.text("contact_law") == "auto") options.set("contact_law", "unilateral");
   }
   options.set_default("analysis", "static");

@@ -126,12 +126,14 @@ TimeSettings time_settings(const Options& options) {
 }
 
 // With 18 nodes on the patch its largest pressure is 4 % off (docs/validation.md, section 11), with 37 less
-// than 0.1 %.
-void print_resolution(const Options& options, const dynamics::RunSummary& run) {
+// than 0.1 %. Stations do not need a mesh that resolves it.
+void print_resolution(const Options& options, const dynamics::SystemModel& system,
+                      const dynamics::RunSummary& run) {
   constexpr int kResolved = 18;
   const int passes = options.flag("contact_two_pass") ? 2 : 1;
-  for (const dynamics::PairSummary& pair : run.pair)
-    if (pair.peak_force > 0 && pair.patch_nodes < kResolved * passes)
+  for (std::size_t p = 0; const dynamics::PairSummary& pair : run.pair)
+    if (system.pairs[p++].settings.points != contact::SlavePoints::stations && pair.peak_force > 0 &&
+        pair.patch_nodes < kResolved * passes)
       print_item("warning",
                  "contact " + pair.name + ": too coarse a surface; its busiest area of contact has " +
                      std::to_string((pair.patch_nodes + passes - 1) / passes) + " of the " +
@@ -151,7 +153,8 @@ void warn_of_balance(const dynamics::RunSummary& run) {
                             "resolve, by impacts, or by instability; try a smaller step_error or ts_dt");
 }
 
-void print_summary(const Options& options, const dynamics::RunSummary& run) {
+void print_summary(const Options& options, const dynamics::SystemModel& system,
+                   const dynamics::RunSummary& run) {
   print_item("time steps",
              std::to_string(run.steps) + " (" + std::to_string(run.rejected_steps) + " rejected)");
   if (run.step_tolerance > 0)
@@ -165,7 +168,7 @@ void print_summary(const Options& options, const dynamics::RunSummary& run) {
                                            with_unit(pair.penetration, "m"));
   warn_of_idle_pairs(run);
   print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));
-  print_resolution(options, run);
+  print_resolution(options, system, run);
   if (analysis(options) == Analysis::relax)
     print_item(run.at_rest ? "at rest after" : "warning",
                run.at_rest ? with_unit(run.time, "s") : "not yet at rest");
@@ -278,7 +281,7 @@ void run_simulate(const Options& given, const std::vector<std::string>&) {
   const model::ResultHeader head = result_header(options, system.model(), known);
   print_laws(options, system.model());
   stage.emplace(analysis(options) == Analysis::equilibrium ? "equilibria" : "motion");
-  print_summary(options, keep(options, head, computation(options, system)));
+  print_summary(options, system.model(), keep(options, head, computation(options, system)));
   add_relaxed_states(output, system, analysis_settings(options).time_under_load > 0);
   write_sensor_tables(options, head);
 }

@@ -1,10 +1,54 @@
 #include "elastogear/dynamics/approach_choice.h"
 
+#include <Eigen/Core>
+#include <array>
+
 #include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {
 
 using contact::FlankApproach;
+
+namespace {
+
+// Of one elastic material at the surface, with static responses.
+std::string lacks_of_body(const SystemModel::Body& body) {
+  if (body.eq.body->flexibility.empty())
+    return "no residual flexibility; reduce it with -basis modal_residual";
+  if (!(body.surface_compliance > 0) || !body.eq.body->relaxing.empty())
+    return "several, orthotropic or viscoelastic materials";
+  return {};
+}
+
+// Cosine of the angle between the axes of the bodies' frames at the start.
+double cosine_of_axes(const SystemModel& model, const PairSetup& pair) {
+  std::array<Eigen::Matrix3d, 2> R_WB;
+  for (std::size_t side : {0, 1}) {
+    const auto b = static_cast<std::size_t>(pair.body[side]);
+    R_WB[side] =
+        body::placement(model.bodies[b].eq.joint, motion(model, b, {0, model.U_0, model.V_0, model.V_0}).s)
+            .R_WB;
+  }
+  return R_WB[0].col(2).dot(R_WB[1].col(2));
+}
+
+}  // namespace
+
+std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
+  constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
+  for (int b : pair.body) {
+    const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
+    const std::string who = "body '" + body.name + "' has ";
+    if (!body.true_surface || !body.true_surface->flanks) return who + "no involute flanks of gear data";
+    if (const std::string lacks = lacks_of_body(body); !lacks.empty()) return who + lacks;
+  }
+  if (cosine_of_axes(model, pair) < kParallel) return "axes are not parallel";
+  if (pair.settings.friction.mu > 0) return "there is friction";
+  if (pair.settings.approach != FlankApproach::automatic) return "an approach of flanks is given";
+  if (pair.settings.law != contact::ContactLaw::unilateral) return "it needs the law 'unilateral'";
+  if (pair.settings.surface != contact::ContactSurface::exact) return "it needs the surface 'exact'";
+  return {};
+}
 
 std::string lacks_for_approach(const SystemModel& model, const PairSetup& pair) {
   for (int b : pair.body) {
@@ -12,10 +56,7 @@ std::string lacks_for_approach(const SystemModel& model, const PairSetup& pair) 
     const std::string who = "body '" + body.name + "' has ";
     if (!body.true_surface || body.true_surface->curvature.empty())
       return who + "no exact flanks; name the gear data it was meshed from";
-    if (body.eq.body->flexibility.empty())
-      return who + "no residual flexibility; reduce it with -basis modal_residual";
-    if (!(body.surface_compliance > 0) || !body.eq.body->relaxing.empty())
-      return who + "several, orthotropic or viscoelastic materials";
+    if (const std::string lacks = lacks_of_body(body); !lacks.empty()) return who + lacks;
   }
   if (pair.settings.points != contact::SlavePoints::minima ||
       pair.settings.law != contact::ContactLaw::unilateral)

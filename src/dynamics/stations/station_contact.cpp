@@ -43,20 +43,6 @@ Eigen::SparseMatrix<double> columns(const Eigen::SparseMatrix<double>& S, const 
 
 }  // namespace
 
-std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
-  for (int b : pair.body) {
-    const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
-    const std::string who = "body '" + body.name + "' has ";
-    if (!body.true_surface || !body.true_surface->flanks) return who + "no involute flanks of gear data";
-    if (body.eq.body->flexibility.empty()) return who + "no static responses";
-    if (!(body.surface_compliance > 0) || !body.eq.body->relaxing.empty())
-      return who + "several, orthotropic or viscoelastic materials";
-  }
-  if (pair.settings.friction.mu > 0) return "friction is not one of its forces yet";
-  if (pair.settings.law == contact::ContactLaw::penalty) return "it has the law 'penalty'";
-  return {};
-}
-
 StationContact::StationContact(const SystemModel& model) : model_(&model) {
   for (const SystemModel::Body& body : model.bodies) add_body(body);
   for (const PairSetup& pair : model.pairs) {

@@ -3,7 +3,6 @@
 // their tangent (docs/theory.md, section 6.18). A function of the state alone.
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "dynamics/contact/residual_contact.h"
@@ -12,9 +11,6 @@
 #include "elastogear/dynamics/system_model.h"
 
 namespace elastogear::dynamics {
-
-/// Why the flanks of a pair do not touch at stations; empty if they can.
-std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair);
 
 class StationContact {
  public:
