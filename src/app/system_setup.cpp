@@ -65,9 +65,13 @@ void print_approach(const Options& options, const dynamics::SystemModel& system,
                     const dynamics::PairSetup& pair) {
   const auto is_exact = [&](int b) { return system.bodies[static_cast<std::size_t>(b)].true_surface; };
   if (pair.settings.points == contact::SlavePoints::stations) return;
-  if (options.text("contact_points") == "stations")
+  if (options.text("contact_points") == "stations") {
+    dynamics::PairSetup asked = pair;
+    if (options.text("contact_approach") == "auto")
+      asked.settings.approach = contact::FlankApproach::automatic;
     print_item("contact at stations",
-               "not of " + pair.name + ": " + dynamics::lacks_for_stations(system, pair));
+               "not of " + pair.name + ": " + dynamics::lacks_for_stations(system, asked));
+  }
   if (pair.settings.approach == contact::FlankApproach::hertz || options.text("contact_approach") == "mesh" ||
       !std::all_of(std::begin(pair.body), std::end(pair.body), is_exact))
     return;

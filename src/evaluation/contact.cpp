@@ -51,6 +51,20 @@ Eigen::VectorXd node_layers(const Flanks& flanks) {
   return Eigen::Map<Eigen::VectorXd>(layers.data(), static_cast<Eigen::Index>(layers.size()));
 }
 
+namespace {
+
+// The gear whose flank gives the normal: the master, but where its tip's edge touches, which has none, the
+// other one.
+std::size_t farther_from_tip(const std::array<const Gear*, 2>& gear,
+                             const std::array<Eigen::Vector3d, 2>& x_B, std::size_t master) {
+  constexpr double kAtEdge = 2e-3;  // of the tooth's height
+  const gear::Toothing& toothing = gear[master]->toothing;
+  const double below = std::abs(x_B[master].head<2>().norm() - toothing.r_a);
+  return below > kAtEdge * std::abs(toothing.r_a - toothing.r_f) ? master : 1 - master;
+}
+
+}  // namespace
+
 std::vector<FlankContact> flank_contacts(const std::vector<model::ContactRecord>& records,
                                          const std::array<const Gear*, 2>& gear,
                                          const std::array<Flanks, 2>& flanks, std::size_t step) {
@@ -67,8 +81,9 @@ std::vector<FlankContact> flank_contacts(const std::vector<model::ContactRecord>
     c.x_B[master] = model::point_on_face(*flanks[master].surface, record.face, record.xi, record.eta);
     c.x_W = gear[master]->position[step] + R * c.x_B[master];
     c.x_B[slave] = gear[slave]->rotation[step].transpose() * (c.x_W - gear[slave]->position[step]);
-    c.n = (master == 0 ? 1 : -1) *
-          (R * gear::flank_normal(gear[master]->toothing, *flank[master], c.x_B[master]));
+    const std::size_t plain = farther_from_tip(gear, c.x_B, static_cast<std::size_t>(master));
+    c.n = (plain == 0 ? 1 : -1) * (gear[plain]->rotation[step] *
+                                   gear::flank_normal(gear[plain]->toothing, *flank[plain], c.x_B[plain]));
     c.f = slave == 1 ? record.f : Eigen::Vector3d(-record.f);
     c.normal_force = c.f.dot(c.n);
     c.pressure = record.pressure;

@@ -52,7 +52,7 @@ Stencil stencil(const LoadTable& table, double v);
 /// n x n, 1/m: the half-space below loads at these places, spread along the face.
 Eigen::MatrixXd smooth_kernel(const LoadTable& table, const std::vector<Stencil>& at);
 
-/// n x nodes: nodal forces of 1 N of each station, spread along the face.
+/// n x nodes: nodal forces of 1 N on each strip alone.
 Eigen::MatrixXd weights(const LoadTable& table, const std::vector<Stencil>& at);
 
 /// m/N: displacement of node a by unit forces on node b, of the whole body.

@@ -107,8 +107,8 @@ double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f
                            const Eigen::Matrix<double, 6, 1>& twist);
 
 /// Station i under the force f, N, as a contact point that is read and not solved for: of the pair's surface
-/// 0, the owner, on a face of surface 1. R_WB: of the owner.
+/// 0, the owner, on a face of surface 1. at: placement of the owner in the world.
 ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair, Eigen::Index i, double f,
-                           const Eigen::Matrix3d& R_WB);
+                           const RelativePlacement& at);
 
 }  // namespace elastogear::contact

@@ -183,9 +183,10 @@ struct ContactPoint {
   LocalVectors v;                                          ///< m/s, of the local nodes, where rates count
   double p = 0;                                            ///< N, force along n
   double pressure = 0;  ///< Pa, largest, of a station by H. Hertz; 0: that of the nodes' areas
-  double c = 0;         ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
-  LocalVectors F_p;     ///< -, unilateral or over faces: change of F with p
-  LocalVectors g_x;     ///< -, unilateral or over faces: gradient of g_n + c p at this p
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< m, of a station, world frame
+  double c = 0;      ///< m/N, unilateral only: 0 <= p, 0 <= g_n + c p, one of them 0
+  LocalVectors F_p;  ///< -, unilateral or over faces: change of F with p
+  LocalVectors g_x;  ///< -, unilateral or over faces: gradient of g_n + c p at this p
   std::optional<TangentialForce> tangential;
   LocalColumns W;
   LocalColumns V = {};  ///< empty where it is W, that is where F has a potential

@@ -9,8 +9,8 @@
 namespace elastogear::dynamics {
 
 /// What a pair lacks for contact at stations (section 6.18): charts of involute flanks on parallel axes,
-/// static responses and one elastic material at the surface of both bodies, no friction and no choice of an
-/// approach. Empty: nothing.
+/// static responses and one elastic material at the surface of both bodies, no friction that sticks and no
+/// choice of an approach. Empty: nothing.
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair);
 
 /// What a pair, with its law and points chosen, lacks for the approach by H. Hertz: points of least gap

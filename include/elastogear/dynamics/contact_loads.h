@@ -33,10 +33,17 @@ struct PairContacts {
 struct StationLoads {
   /// 3 nodes x n of each body, BRF: forces of 1 N of each station on the nodes of its NodalForces.
   std::vector<Eigen::SparseMatrix<double>> body = {};
-  Eigen::VectorXd f = {};   ///< n, N
-  Eigen::MatrixXd K = {};   ///< n x n, N/m: -df/dgap. Eq. (6.48)
-  double potential = 0;     ///< J, of all stations; forces are its derivatives. Eq. (6.38)
-  double local_energy = 0;  ///< J, stored in the half-spaces below the meshes
+  /// With friction: the same of normal and tangential forces together. Empty: there is none.
+  std::vector<Eigen::SparseMatrix<double>> with_friction = {};
+  /// 3 nodes x m of each body, BRF: unit tangential forces on the nodes, along which friction resists
+  /// sliding.
+  std::vector<Eigen::SparseMatrix<double>> sliding = {};
+  Eigen::VectorXd resistance = {};         ///< m, N s/m: of friction to the rates of these
+  std::vector<NodalForces> friction = {};  ///< of each body, or empty; a part of its nodal forces
+  Eigen::VectorXd f = {};                  ///< n, N
+  Eigen::MatrixXd K = {};                  ///< n x n, N/m: -df/dgap. Eq. (6.48)
+  double potential = 0;                    ///< J, of all stations; forces are its derivatives. Eq. (6.38)
+  double local_energy = 0;                 ///< J, stored in the half-spaces below the meshes
 };
 
 /// Contact of all bodies at one time, by positions and velocities alone.

@@ -159,7 +159,7 @@ Eigen::MatrixXd weights(const LoadTable& table, const std::vector<Stencil>& at) 
       for (decltype(table.W)::InnerIterator entry(table.W, i * table.n_v + s.first + k); entry; ++entry)
         weight(i, entry.col()) += s.N[static_cast<std::size_t>(k)] * entry.value();
   }
-  return table.Z * weight;
+  return weight;
 }
 
 Eigen::MatrixXd response_table(const LoadTable& a, const std::vector<int>& nodes_a, const LoadTable& b,

@@ -234,7 +234,7 @@ StripLaw fitting_law(const ToothContact& contact, std::size_t i, double f) {
 }  // namespace
 
 ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair, Eigen::Index i, double f,
-                           const Eigen::Matrix3d& R_WB) {
+                           const RelativePlacement& at) {
   const auto j = static_cast<std::size_t>(i);
   const FaceOfFlank here = face_at(*contact.side[0].mesh, contact.side[0].v[j], contact.side[0].z[j]);
   const FaceOfFlank there = face_at(*contact.side[1].mesh, contact.side[1].v[j], contact.side[1].z[j]);
@@ -252,7 +252,10 @@ ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair,
   point.N = N_there;
   point.xi = there.xi;
   point.eta = there.eta;
-  point.n = R_WB * contact.places[j].n.normalized();
+  const NearestPlace& place = contact.places[j];
+  point.n = at.R * place.n.normalized();
+  point.place =
+      at.r + at.R * contact.flanks.owner->point(contact.flanks.on_owner, place.v, place.face.centre()).x;
   point.f = f * point.n;
   point.F = LocalVectors(3, 8);
   for (Eigen::Index k = 0; k < 4; ++k) {

@@ -36,6 +36,7 @@ double cosine_of_axes(const SystemModel& model, const PairSetup& pair) {
 
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
   constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
+  if (pair.settings.approach != FlankApproach::automatic) return "an approach of flanks is given";
   for (int b : pair.body) {
     const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
     const std::string who = "body '" + body.name + "' has ";
@@ -43,8 +44,8 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
     if (const std::string lacks = lacks_of_body(body); !lacks.empty()) return who + lacks;
   }
   if (cosine_of_axes(model, pair) < kParallel) return "axes are not parallel";
-  if (pair.settings.friction.mu > 0) return "there is friction";
-  if (pair.settings.approach != FlankApproach::automatic) return "an approach of flanks is given";
+  if (pair.settings.friction.mu > 0 && pair.settings.friction.law == contact::FrictionLaw::stick)
+    return "friction sticks";
   if (pair.settings.law != contact::ContactLaw::unilateral) return "it needs the law 'unilateral'";
   if (pair.settings.surface != contact::ContactSurface::exact) return "it needs the surface 'exact'";
   return {};

@@ -282,26 +282,74 @@ void set_body_columns(int b, const JointTwists& twists, const std::vector<PairCo
     }
 }
 
-// Columns of stations come after those of contact points.
-void append_stations(const JointTwists& twists, const Eigen::SparseMatrix<double>& S,
-                     const NodalForces& forces, BodyTerms& terms) {
-  const Eigen::Index first = terms.W_s.cols() - S.cols();
-  const Eigen::Index shift = terms.L.rows() - 3 * static_cast<Eigen::Index>(terms.node.size());
-  for (Eigen::Index j = 0; j < S.cols(); ++j) {
-    for (Eigen::SparseMatrix<double>* L : {&terms.L, &terms.L_V, &terms.L_x}) {
-      if (L->rows() == 0) continue;
-      L->startVec(first + j);
-      for (Eigen::SparseMatrix<double>::InnerIterator at(S, j); at; ++at)
-        L->insertBack(shift + at.row(), first + j) = at.value();
+// Writes the columns of F and G, of which the first `first` are there, to L, and to those of L_V and L_x that
+// are wanted.
+class StationColumns {
+ public:
+  StationColumns(const JointTwists& twists, const NodalForces& forces, Eigen::Index first, BodyTerms& terms)
+      : twists_(twists),
+        forces_(forces),
+        terms_(terms),
+        column_(first),
+        shift_(terms.L.rows() - 3 * static_cast<Eigen::Index>(terms.node.size())) {}
+
+  // Forces F by displacements along G.
+  void add(const Eigen::SparseMatrix<double>& F, const Eigen::SparseMatrix<double>& G) {
+    for (Eigen::Index j = 0; j < F.cols(); ++j, ++column_) {
+      append(F, j, 1, terms_.L);
+      append(G, j, 1, terms_.L_V);
+      append(G, j, 1, terms_.L_x);
+      add_twists(twists_.H, F, j, terms_.W_s);
+      add_twists(twists_.P, G, j, terms_.V_s);
     }
-    for (Eigen::Index i = 0; i < twists.H.cols(); ++i)
-      for (Eigen::SparseMatrix<double>::InnerIterator at(S, j); at; ++at) {
-        const Eigen::Vector3d x_B = forces.x_B.col(at.row() / 3);
-        terms.W_s(i, first + j) += twist_at(twists.H, i, x_B)[at.row() % 3] * at.value();
-        terms.V_s(i, first + j) += twist_at(twists.P, i, x_B)[at.row() % 3] * at.value();
-      }
   }
-  for (Eigen::SparseMatrix<double>* L : {&terms.L, &terms.L_V, &terms.L_x}) L->finalize();
+  // Forces F by velocities along F.
+  void add_rates(const Eigen::SparseMatrix<double>& F) {
+    for (Eigen::Index j = 0; j < F.cols(); ++j, ++column_) {
+      append(F, j, 1, terms_.L);
+      append(F, j, twists_.shift_v, terms_.L_V);
+      append(F, j, 0, terms_.L_x);
+      add_twists(twists_.H, F, j, terms_.W_s);
+      add_twists(twists_.P_dot, F, j, terms_.V_s);
+    }
+  }
+  void finalize() {
+    for (Eigen::SparseMatrix<double>* L : {&terms_.L, &terms_.L_V, &terms_.L_x}) L->finalize();
+  }
+
+ private:
+  void append(const Eigen::SparseMatrix<double>& S, Eigen::Index j, double factor,
+              Eigen::SparseMatrix<double>& L) const {
+    if (L.rows() == 0) return;
+    L.startVec(column_);
+    if (factor == 0) return;
+    for (Eigen::SparseMatrix<double>::InnerIterator at(S, j); at; ++at)
+      L.insertBack(shift_ + at.row(), column_) = factor * at.value();
+  }
+  void add_twists(const body::MotionSubspace& H, const Eigen::SparseMatrix<double>& S, Eigen::Index j,
+                  Eigen::MatrixXd& rows) const {
+    for (Eigen::Index i = 0; i < H.cols(); ++i)
+      for (Eigen::SparseMatrix<double>::InnerIterator at(S, j); at; ++at)
+        rows(i, column_) += twist_at(H, i, forces_.x_B.col(at.row() / 3))[at.row() % 3] * at.value();
+  }
+
+  const JointTwists& twists_;
+  const NodalForces& forces_;
+  BodyTerms& terms_;
+  Eigen::Index column_, shift_;
+};
+
+// Columns of stations come after those of contact points.
+void append_stations(std::size_t b, const JointTwists& twists, const ContactState& contact,
+                     BodyTerms& terms) {
+  const StationLoads& stations = contact.stations;
+  if (b >= stations.body.size()) return;
+  StationColumns columns(twists, contact.force[b],
+                         terms.W_s.cols() - stations.K.cols() - stations.resistance.size(), terms);
+  const bool rubs = !stations.with_friction.empty();
+  columns.add(rubs ? stations.with_friction[b] : stations.body[b], stations.body[b]);
+  if (rubs) columns.add_rates(stations.sliding[b]);
+  columns.finalize();
 }
 
 void set_stiffness(const ContactState& contact, Eigen::SparseMatrix<double>& k) {
@@ -321,6 +369,10 @@ void set_stiffness(const ContactState& contact, Eigen::SparseMatrix<double>& k) 
     k.startVec(first + j);
     for (Eigen::Index i = 0; i < K.rows(); ++i) k.insertBack(first + i, first + j) = K(i, j);
   }
+  for (Eigen::Index j = 0; j < contact.stations.resistance.size(); ++j) {
+    k.startVec(first + K.cols() + j);
+    k.insertBack(first + K.cols() + j, first + K.cols() + j) = contact.stations.resistance[j];
+  }
   k.finalize();
 }
 
@@ -328,8 +380,10 @@ void set_stiffness(const ContactState& contact, Eigen::SparseMatrix<double>& k) 
 
 void set_contact_columns(const std::vector<JointTwists>& twists, const ContactState& contact,
                          EffectiveMatrix& A) {
-  const Eigen::Index r = column_count(contact.pair) + contact.stations.K.cols();
-  const Differences differ = differences(contact.pair);
+  const Eigen::Index r =
+      column_count(contact.pair) + contact.stations.K.cols() + contact.stations.resistance.size();
+  Differences differ = differences(contact.pair);
+  if (!contact.stations.with_friction.empty()) differ = {true, true};
   A.n_contact = r;
   A.k.resize(r, r);
   set_stiffness(contact, A.k);
@@ -342,8 +396,7 @@ void set_contact_columns(const std::vector<JointTwists>& twists, const ContactSt
     if (differ.V || differ.V_dot) begin(n_e, r, terms.L_V);
     if (differ.V_dot) begin(n_e, r, terms.L_x);
     set_body_columns(static_cast<int>(b), twists[b], contact.pair, contact.surface[b], terms);
-    if (b < contact.stations.body.size())
-      append_stations(twists[b], contact.stations.body[b], contact.force[b], terms);
+    append_stations(b, twists[b], contact, terms);
   }
 }
 

@@ -19,6 +19,8 @@ Eigen::Vector3d local_moment(const contact::ContactPoint& point, int i,
 }
 
 Eigen::Vector3d moment_on_b(const contact::ContactPoint& point, const contact::SurfaceState& b) {
+  if (point.pressure > 0)
+    return point.place.cross(point.slave_side == 1 ? point.f : Eigen::Vector3d(-point.f));
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (int i = 0; i < point.n_local(); ++i)
     if (local_node(point, i).side == 1) moment += local_moment(point, i, b);
@@ -161,7 +163,7 @@ model::PairState pair_state(System& system, const State& x, std::size_t p) {
   for (contact::ContactPoint point : pair.points) {
     const int slave = point.slave_side, master = 1 - slave;
     const Eigen::Vector3d f_b = slave == 1 ? point.f : Eigen::Vector3d(-point.f);
-    if (point.V_dot.cols() == 0) point.slip = slip(point, body, motion);
+    if (point.V_dot.cols() == 0 && point.slip.isZero(0)) point.slip = slip(point, body, motion);
     model::ContactFigures f = figures(point, pressed(point, force[slave]));
     f.pressure += pressure_of_other_pass(system.pairs()[p].settings, f.pressure,
                                          [&] { return pressure_of_master(point, force[master]); });

@@ -250,8 +250,8 @@ double SystemContact::friction_loss_of_responses() {
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     if (has_friction(p, contact::FrictionLaw::regularised)) rubbing.push_back(state_.pair[p]);
   if (rubbing.empty()) return 0;
-  const std::vector<NodalForces> then =
-      std::exchange(history_.friction, friction_forces(rubbing, state_.surface));
+  const std::vector<NodalForces> then = std::exchange(
+      history_.friction, stations_ ? state_.stations.friction : friction_forces(rubbing, state_.surface));
   return then.empty() ? 0 : -residual_contact_.work(then, history_.friction);
 }
 

@@ -42,18 +42,18 @@ Eigen::Matrix3d ResponseTables::back(const ToothContact::Side& a) const {
       .toRotationMatrix();
 }
 
-Eigen::MatrixXd ResponseTables::responses(const ToothContact::Side& a, const ToothContact::Side& b) {
-  return contact::responses(*a.loads, a.at, back(a) * a.direction, *b.loads, b.at, back(a) * b.direction,
+Eigen::MatrixXd ResponseTables::responses(const ToothContact::Side& a, const ToothContact::Side& b,
+                                          const Eigen::Matrix3Xd& force) {
+  return contact::responses(*a.loads, a.at, back(a) * a.direction, *b.loads, b.at, back(a) * force,
                             table(a, b));
 }
 
 void ResponseTables::add(const ToothContact::Side& a, const ToothContact::Side& b,
-                         const Eigen::VectorXd& force, contact::StationDisplacements& displacements) {
+                         const Eigen::Matrix3Xd& force, contact::StationDisplacements& displacements) {
   const Eigen::Matrix3d turn = back(a);
   contact::StationDisplacements turned{Eigen::Matrix3Xd::Zero(3, displacements.u.cols()),
                                        Eigen::Matrix3Xd::Zero(3, displacements.u.cols())};
-  contact::add_responses(*a.loads, a.at, *b.loads, b.at, turn * b.direction * force.asDiagonal(), table(a, b),
-                         turned);
+  contact::add_responses(*a.loads, a.at, *b.loads, b.at, turn * force, table(a, b), turned);
   displacements.u += turn.transpose() * turned.u;
   displacements.u_v += turn.transpose() * turned.u_v;
 }

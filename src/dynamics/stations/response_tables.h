@@ -16,12 +16,13 @@ class ResponseTables {
   /// Both must outlive this.
   ResponseTables(const model::ElasticBody& body, const contact::ToothedBody& toothed);
 
-  /// n x n, m/N: displacements at the stations of one side of a contact by unit forces at those of another,
-  /// of the whole body.
-  Eigen::MatrixXd responses(const contact::ToothContact::Side& a, const contact::ToothContact::Side& b);
-  /// Adds displacements at a's stations by the forces of b's strips along their directions, N.
+  /// n x n, m/N: displacements at the stations of one side of a contact, along their directions, by forces at
+  /// those of another, 3 x n, N; of the whole body.
+  Eigen::MatrixXd responses(const contact::ToothContact::Side& a, const contact::ToothContact::Side& b,
+                            const Eigen::Matrix3Xd& force);
+  /// Adds displacements at a's stations by forces on b's strips, 3 x n, N.
   void add(const contact::ToothContact::Side& a, const contact::ToothContact::Side& b,
-           const Eigen::VectorXd& force, contact::StationDisplacements& displacements);
+           const Eigen::Matrix3Xd& force, contact::StationDisplacements& displacements);
 
  private:
   using Key = std::tuple<const contact::LoadTable*, const contact::LoadTable*, int, int>;

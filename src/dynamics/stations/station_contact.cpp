@@ -1,7 +1,9 @@
 #include "dynamics/stations/station_contact.h"
 
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "elastogear/base/error.h"
@@ -12,10 +14,15 @@ namespace {
 
 using contact::ToothContact;
 using Eigen::Index;
+using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int kStations = 16;  // of a pair of teeth
+constexpr int kStations = 16;        // of a pair of teeth
+constexpr int kMostRounds = 50;      // of forces and what their friction does to gaps
+constexpr double kSettled = 1e-11;   // of the largest force, its last change by that
+constexpr double kResisting = 1e-3;  // of the largest resistance to sliding: smaller ones are left out
 
 contact::RelativePlacement relative(const contact::SurfaceMotion& owner, const contact::SurfaceMotion& mate) {
   return {owner.R_WB.transpose() * mate.R_WB, owner.R_WB.transpose() * (mate.r_WB - owner.r_WB)};
@@ -28,17 +35,48 @@ contact::SurfaceMotion start(const SystemModel& model, std::size_t b) {
 }
 
 // The columns of the stations that bear a force.
-Eigen::SparseMatrix<double> columns(const Eigen::SparseMatrix<double>& S, const std::vector<int>& of) {
-  Eigen::SparseMatrix<double> part(S.rows(), std::ssize(of));
+Sparse columns(const Sparse& S, const std::vector<int>& of) {
+  Sparse part(S.rows(), std::ssize(of));
   part.reserve(S.nonZeros());
   for (Index k = 0; int i : of) {
     part.startVec(k);
-    for (Eigen::SparseMatrix<double>::InnerIterator at(S, i); at; ++at)
-      part.insertBack(at.row(), k) = at.value();
+    for (Sparse::InnerIterator at(S, i); at; ++at) part.insertBack(at.row(), k) = at.value();
     ++k;
   }
   part.finalize();
   return part;
+}
+
+// n_q x n: nodal forces on elastic coordinates.
+MatrixXd on_coordinates(const model::ElasticBody& body, const std::vector<int>& node, const Sparse& S) {
+  MatrixXd Phi_S = MatrixXd::Zero(body.n_q(), S.cols());
+  for (Index i = 0; i < S.cols(); ++i)
+    for (Sparse::InnerIterator at(S, i); at; ++at) {
+      const double* rows = model::node_rows(body.surface.Phi, node[static_cast<std::size_t>(at.row() / 3)]);
+      Phi_S.col(i) += at.value() * VectorXd::Map(rows + at.row() % 3 * body.n_q(), body.n_q());
+    }
+  return Phi_S;
+}
+
+// Twist of the mate against the owner, in the owner's frame, by a joint coordinate of one of them.
+Eigen::Matrix<double, 6, 1> relative_twist(const contact::RelativePlacement& placement, bool of_owner,
+                                           const Eigen::Matrix<double, 6, 1>& H) {
+  if (of_owner) return -H;
+  Eigen::Matrix<double, 6, 1> twist;
+  twist.tail<3>() = placement.R * H.tail<3>();
+  twist.head<3>() = placement.R * H.head<3>() - twist.tail<3>().cross(placement.r);
+  return twist;
+}
+
+// m, of the stations on one side, in its body's frame.
+Matrix3Xd points(const ToothContact& contact, std::size_t s) {
+  Matrix3Xd x(3, contact.n());
+  for (Index i = 0; i < x.cols(); ++i) {
+    const contact::NearestPlace& place = contact.places[static_cast<std::size_t>(i)];
+    x.col(i) = contact.flanks.owner->point(contact.flanks.on_owner, place.v, place.face.centre()).x;
+    if (s == 1) x.col(i) = contact.placement.R.transpose() * (x.col(i) - contact.placement.r);
+  }
+  return x;
 }
 
 }  // namespace
@@ -49,6 +87,7 @@ StationContact::StationContact(const SystemModel& model) : model_(&model) {
     const auto a = static_cast<std::size_t>(pair.body[0]), b = static_cast<std::size_t>(pair.body[1]);
     pairs_.push_back({{a, b},
                       pair.settings.offset,
+                      pair.settings.friction,
                       contact::toothed_pair(*bodies_[a].toothed, *bodies_[b].toothed,
                                             relative(start(model, a), start(model, b)), kStations)});
   }
@@ -63,8 +102,7 @@ void StationContact::add_body(const SystemModel::Body& body) {
   bodies_.back().tables = std::make_unique<ResponseTables>(*body.eq.body, *bodies_.back().toothed);
 }
 
-std::vector<StationContact::Teeth> StationContact::teeth_in_contact(
-    const std::vector<contact::SurfaceMotion>& motion) const {
+std::vector<StationContact::Teeth> StationContact::teeth_in_contact(const Motions& motion) const {
   std::vector<Teeth> teeth;
   Index n = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -72,199 +110,353 @@ std::vector<StationContact::Teeth> StationContact::teeth_in_contact(
              pairs_[p].toothed, relative(motion[pairs_[p].body[0]], motion[pairs_[p].body[1]]))) {
       teeth.push_back({p, std::move(contact), n});
       n += teeth.back().contact.n();
+      if (pairs_[p].friction.mu > 0) set_traction(motion, teeth.back());
     }
   return teeth;
 }
 
-StationContact::Loads StationContact::loads_on(std::size_t body, const std::vector<Teeth>& teeth,
-                                               Index n) const {
-  struct Part {
-    const ToothContact::Side& side;
-    Index first;
-    MatrixXd weight;
-  };
-  Loads loads;
+Matrix3Xd StationContact::node_displacements(const Part& part, std::size_t body, const VectorXd& q) const {
+  const std::vector<int>& node = bodies_[body].toothed->nodes(part.side().flank);
+  Matrix3Xd u(3, std::ssize(node));
+  for (Index a = 0; a < u.cols(); ++a)
+    u.col(a) =
+        model::displacement(bodies_[body].toothed->surface().Phi, node[static_cast<std::size_t>(a)], q);
+  return u;
+}
+
+// Regularised friction -mu p v_t / sqrt(v_t^2 + v_0^2) of each strip. Eq. (6.17).
+void StationContact::set_traction(const Motions& motion, Teeth& teeth) const {
+  const Pair& pair = pairs_[teeth.pair];
+  const ToothContact& contact = teeth.contact;
+  std::array<Matrix3Xd, 2> v;  // m/s, of each body, in its frame
+  for (std::size_t s : {0, 1}) {
+    const contact::SurfaceMotion& m = motion[pair.body[s]];
+    v[s] = points(contact, s);
+    for (Index i = 0; i < v[s].cols(); ++i)
+      v[s].col(i) = m.v_WB_B + m.w_WB_B.cross(Eigen::Vector3d(v[s].col(i)));
+    if (m.q_dot.size() == 0 || m.q_dot.isZero(0)) continue;
+    const ToothContact::Side& side = contact.side[s];
+    v[s] +=
+        contact::displacements(*side.loads, side.at, node_displacements({&teeth, s}, pair.body[s], m.q_dot))
+            .u;
+  }
+  teeth.sliding = v[0] - contact.placement.R * v[1];
+  teeth.traction[0].resize(3, contact.n());
+  teeth.resistance.resize(contact.n());
+  for (Index i = 0; i < contact.n(); ++i) {
+    const Eigen::Vector3d n = contact.places[static_cast<std::size_t>(i)].n.normalized();
+    teeth.sliding.col(i) -= n * n.dot(teeth.sliding.col(i));
+    const double v_0 = pair.friction.v_0, speed = std::hypot(teeth.sliding.col(i).norm(), v_0);
+    teeth.traction[0].col(i) = -pair.friction.mu / speed * teeth.sliding.col(i);
+    teeth.resistance[i] = pair.friction.mu * v_0 * v_0 / (speed * speed * speed);
+  }
+  teeth.traction[1] = -(contact.placement.R.transpose() * teeth.traction[0]);
+}
+
+std::vector<StationContact::Part> StationContact::parts_of(std::size_t body,
+                                                           const std::vector<Teeth>& teeth) const {
   std::vector<Part> parts;
   for (const Teeth& t : teeth)
     for (std::size_t s : {0, 1})
-      if (pairs_[t.pair].body[s] == body) {
-        const ToothContact::Side& side = t.contact.side[s];
-        parts.push_back({side, t.first, contact::weights(*side.loads, side.at)});
-      }
+      if (pairs_[t.pair].body[s] == body) parts.push_back({&t, s});
+  return parts;
+}
+
+// Station i loads all strips k, Z_ik W_k d_k. Eq. (6.45).
+StationContact::Loads StationContact::loads_on(std::size_t body, const std::vector<Teeth>& teeth,
+                                               Index n) const {
+  Loads loads;
+  const std::vector<Part> parts = parts_of(body, teeth);
+  std::vector<MatrixXd> weight;
   for (const Part& part : parts) {
-    const std::vector<int>& node = bodies_[body].toothed->nodes(part.side.flank);
+    weight.push_back(contact::weights(*part.side().loads, part.side().at));
+    const std::vector<int>& node = bodies_[body].toothed->nodes(part.side().flank);
     for (std::size_t a = 0; a < node.size(); ++a)
-      if (!part.weight.col(static_cast<Index>(a)).isZero(0)) loads.node.push_back(node[a]);
+      if (!weight.back().col(static_cast<Index>(a)).isZero(0)) loads.node.push_back(node[a]);
   }
   sort_unique(loads.node);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const Part& part : parts) {
-    const std::vector<int>& node = bodies_[body].toothed->nodes(part.side.flank);
-    for (Index a = 0; a < part.weight.cols(); ++a) {
-      if (part.weight.col(a).isZero(0)) continue;
+  std::array<std::vector<Eigen::Triplet<double>>, 2> entries;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const ToothContact::Side& side = parts[p].side();
+    const std::vector<int>& node = bodies_[body].toothed->nodes(side.flank);
+    const std::array<const Matrix3Xd*, 2> direction{&side.direction, &parts[p].teeth->traction[parts[p].s]};
+    for (Index a = 0; a < weight[p].cols(); ++a) {
+      if (weight[p].col(a).isZero(0)) continue;
       const auto at =
           std::lower_bound(loads.node.begin(), loads.node.end(), node[static_cast<std::size_t>(a)]);
       const auto row = static_cast<int>(3 * (at - loads.node.begin()));
-      for (Index i = 0; i < part.weight.rows(); ++i)
-        for (int d = 0; d < 3 && part.weight(i, a) != 0; ++d)
-          entries.emplace_back(row + d, static_cast<int>(part.first + i),
-                               part.weight(i, a) * part.side.direction(d, i));
+      for (std::size_t kind : {0, 1}) {
+        if (direction[kind]->cols() == 0) continue;
+        const Matrix3Xd forces = *direction[kind] * weight[p].col(a).asDiagonal() * side.loads->Z.transpose();
+        for (Index i = 0; i < forces.cols(); ++i)
+          for (int d = 0; d < 3; ++d)
+            if (forces(d, i) != 0)
+              entries[kind].emplace_back(row + d, static_cast<int>(parts[p].teeth->first + i), forces(d, i));
+      }
     }
   }
-  loads.S.resize(3 * std::ssize(loads.node), n);
-  loads.S.setFromTriplets(entries.begin(), entries.end());
   const model::ElasticBody& elastic = *model_->bodies[body].eq.body;
-  loads.Phi_S = MatrixXd::Zero(elastic.n_q(), n);
-  for (Index i = 0; i < n; ++i)
-    for (Eigen::SparseMatrix<double>::InnerIterator at(loads.S, i); at; ++at)
-      loads.Phi_S.col(i) +=
-          at.value() * VectorXd::Map(model::node_rows(elastic.surface.Phi,
-                                                      loads.node[static_cast<std::size_t>(at.row() / 3)]) +
-                                         at.row() % 3 * elastic.n_q(),
-                                     elastic.n_q());
+  for (std::size_t kind : {0, 1}) {
+    Sparse& S = kind == 0 ? loads.S : loads.S_t;
+    S.resize(3 * std::ssize(loads.node), n);
+    S.setFromTriplets(entries[kind].begin(), entries[kind].end());
+  }
+  loads.Phi_S = on_coordinates(elastic, loads.node, loads.S);
+  if (!entries[1].empty()) loads.Phi_S_t = on_coordinates(elastic, loads.node, loads.S_t);
   return loads;
 }
 
 // Of the whole body, without what its modes have a share in: R = F - Phi K_r^-1 Phi'. Eqs. (6.20), (6.39).
-void StationContact::add_compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
-                                    MatrixXd& C) {
-  for (std::size_t k = 0; k < teeth.size(); ++k)
-    for (std::size_t l = 0; l <= k; ++l)
-      for (std::size_t s : {0, 1})
-        for (std::size_t r : {0, 1}) {
-          const Teeth &a = teeth[k], &b = teeth[l];
-          if (pairs_[a.pair].body[s] != body || pairs_[b.pair].body[r] != body) continue;
-          const MatrixXd F = bodies_[body].tables->responses(a.contact.side[s], b.contact.side[r]);
-          C.block(a.first, b.first, F.rows(), F.cols()) += F;
-          if (k != l) C.block(b.first, a.first, F.cols(), F.rows()) += F.transpose();
-        }
+// of_friction: of gaps, by the friction that comes with normal forces.
+MatrixXd StationContact::compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
+                                    bool of_friction) {
+  MatrixXd C = MatrixXd::Zero(loads.S.cols(), loads.S.cols());
   const VectorXd K = model_->bodies[body].eq.body->K_r.diagonal();
-  C.noalias() -= loads.Phi_S.transpose() * (K.cwiseInverse().asDiagonal() * loads.Phi_S);
+  const MatrixXd& Phi_S = of_friction ? loads.Phi_S_t : loads.Phi_S;
+  if (Phi_S.cols() == 0) return C;
+  const std::vector<Part> parts = parts_of(body, teeth);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (std::size_t l = 0; l < parts.size(); ++l) {
+      if (!of_friction && l > k) continue;  // symmetric
+      const Matrix3Xd& force = of_friction ? parts[l].teeth->traction[parts[l].s] : parts[l].side().direction;
+      if (force.cols() == 0) continue;
+      const MatrixXd F = bodies_[body].tables->responses(parts[k].side(), parts[l].side(), force);
+      const Index row = parts[k].teeth->first, column = parts[l].teeth->first;
+      C.block(row, column, F.rows(), F.cols()) += F;
+      if (!of_friction && l < k) C.block(column, row, F.cols(), F.rows()) += F.transpose();
+    }
+  C.noalias() -= loads.Phi_S.transpose() * (K.cwiseInverse().asDiagonal() * Phi_S);
+  return of_friction ? C : MatrixXd((C + C.transpose()) / 2);
 }
 
-void StationContact::set_nodal_forces(std::size_t body, const Loads& loads,
-                                      const contact::StationForces& forces,
+// Forces of stations; those with friction by substitution of what it does to gaps, which is small.
+StationContact::Solution StationContact::solve(const Motions& motion, const std::vector<Teeth>& teeth,
+                                               const std::vector<Loads>& loads, Index n) {
+  contact::StationProblem problem{MatrixXd::Zero(n, n), {}, VectorXd(n)};
+  for (const Teeth& t : teeth) {
+    problem.C.block(t.first, t.first, t.contact.n(), t.contact.n()) = t.contact.local;
+    problem.gap.segment(t.first, t.contact.n()) = t.contact.gap.array() + pairs_[t.pair].offset;
+    problem.own.insert(problem.own.end(), t.contact.own.begin(), t.contact.own.end());
+  }
+  const MatrixXd local = problem.C;
+  MatrixXd C_t = MatrixXd::Zero(n, n);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].toothed) continue;
+    problem.gap += loads[b].Phi_S.transpose() * motion[b].q;
+    problem.C += compliance(b, teeth, loads[b], false);
+    C_t += compliance(b, teeth, loads[b], true);
+  }
+  const VectorXd gap = problem.gap;
+  Solution solution{contact::station_forces(problem), {}};
+  const bool rubs = !C_t.isZero(0);
+  for (int round = 0; rubs && round < kMostRounds; ++round) {
+    const VectorXd before = solution.forces.f;
+    problem.gap = gap + C_t * before;
+    solution.forces = contact::station_forces(problem);
+    const VectorXd& f = solution.forces.f;
+    if ((f - before).cwiseAbs().maxCoeff() <= kSettled * f.cwiseAbs().maxCoeff()) break;
+  }
+  const contact::StationForces& forces = solution.forces;
+  solution.stiffness = forces.stiffness;
+  if (rubs && !forces.active.empty()) {
+    const MatrixXd C_t_A = C_t(forces.active, forces.active);
+    const auto size = std::ssize(forces.active);
+    solution.stiffness =
+        (MatrixXd::Identity(size, size) + forces.stiffness * C_t_A).partialPivLu().solve(forces.stiffness);
+  }
+  solution.local_energy = 0.5 * forces.f.dot(local * forces.f);
+  for (Index i = 0; i < n; ++i) {  // the energy of a strip, whose complement is U
+    const contact::StripLaw& law = problem.own[static_cast<std::size_t>(i)];
+    solution.local_energy += forces.f[i] * law.approach(forces.f[i]) - law.energy(forces.f[i]);
+  }
+  return solution;
+}
+
+// Derivatives of the potential with places and directions on one body. q: elastic coordinates less the share
+// of the modes in F.
+contact::PotentialSlopes StationContact::slopes(const Part& part, std::size_t body,
+                                                const std::vector<Teeth>& teeth, const VectorXd& q,
+                                                const VectorXd& f) {
+  const ToothContact::Side& side = part.side();
+  contact::StationDisplacements moved =
+      contact::displacements(*side.loads, side.at, node_displacements(part, body, q));
+  for (const Part& other : parts_of(body, teeth)) {
+    const ToothContact::Side& there = other.side();
+    const VectorXd strip =
+        there.loads->Z.transpose() * f.segment(other.teeth->first, other.teeth->contact.n());
+    Matrix3Xd force = there.direction;
+    if (const Matrix3Xd& traction = other.teeth->traction[other.s]; traction.cols() > 0) force += traction;
+    bodies_[body].tables->add(side, there, force * strip.asDiagonal(), moved);
+  }
+  const VectorXd strip = side.loads->Z.transpose() * f.segment(part.teeth->first, part.teeth->contact.n());
+  contact::PotentialSlopes slopes{
+      moved.u_v.cwiseProduct(side.direction).colwise().sum().transpose() -
+          bodies_[body].toothed->compliance() * contact::smooth_slopes(*side.loads, side.at, strip),
+      moved.u * strip.asDiagonal()};
+  slopes.v = slopes.v.cwiseProduct(strip).eval();
+  for (Index i = 0; i < slopes.v.size(); ++i)
+    if (side.is_clamped(i)) slopes.v[i] = 0;
+  return slopes;
+}
+
+// Derivatives of the potential with joint coordinates, as gaps, places and directions of stations change at
+// the same elastic coordinates and forces, Eq. (6.49), and the friction on them.
+void StationContact::add_joint_forces(const Motions& motion, const std::vector<Teeth>& teeth,
+                                      const std::vector<Loads>& loads, const VectorXd& f,
+                                      ContactState& state) {
+  std::vector<VectorXd> q(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].toothed) continue;
+    state.force[b].joint = VectorXd::Zero(model_->bodies[b].eq.n_s());
+    VectorXd on_modes = loads[b].Phi_S * f;
+    if (loads[b].Phi_S_t.cols() > 0) on_modes += loads[b].Phi_S_t * f;
+    q[b] = motion[b].q - on_modes.cwiseQuotient(model_->bodies[b].eq.body->K_r.diagonal());
+  }
+  for (const Teeth& t : teeth) {
+    const VectorXd f_t = f.segment(t.first, t.contact.n());
+    if (f_t.isZero(0)) continue;
+    const std::array<std::size_t, 2>& body = pairs_[t.pair].body;
+    const std::array<contact::PotentialSlopes, 2> slope{slopes({&t, 0}, body[0], teeth, q[body[0]], f),
+                                                        slopes({&t, 1}, body[1], teeth, q[body[1]], f)};
+    for (std::size_t s : {0, 1}) {
+      const body::MotionSubspace& H = model_->bodies[body[s]].eq.H;
+      Eigen::Matrix<double, 6, 1> friction = Eigen::Matrix<double, 6, 1>::Zero();
+      if (t.traction[s].cols() > 0) {
+        const Matrix3Xd force =
+            t.traction[s] * VectorXd(t.contact.side[s].loads->Z.transpose() * f_t).asDiagonal();
+        const Matrix3Xd x = points(t.contact, s);
+        friction.head<3>() = force.rowwise().sum();
+        for (Index i = 0; i < x.cols(); ++i) friction.tail<3>() += x.col(i).cross(force.col(i));
+      }
+      for (Index i = 0; i < H.cols(); ++i)
+        state.force[body[s]].joint[i] +=
+            contact::change_of_potential(t.contact, f_t, slope,
+                                         relative_twist(t.contact.placement, s == 0, H.col(i))) +
+            H.col(i).dot(friction);
+    }
+  }
+}
+
+void StationContact::set_nodal_forces(std::size_t body, const Loads& loads, const VectorXd& f,
                                       const contact::SurfaceMotion& motion, ResidualContact& responses,
                                       ContactState& state) const {
   NodalForces& nodal = state.force[body];
   const auto n = std::ssize(loads.node);
   nodal.node = loads.node;
-  nodal.f_B = VectorXd(loads.S * forces.f).reshaped(3, n);
+  nodal.f_B = VectorXd(loads.S * f).reshaped(3, n);
   nodal.x_B.resize(3, n);
   if (!bodies_[body].toothed) return;
-  responses.respond(body, nodal);
   const model::Surface& surface = bodies_[body].toothed->surface();
   for (Index i = 0; int node : nodal.node) {
-    nodal.x_B.col(i) = surface.X.col(node);
-    state.surface[body].x_B.col(node) = nodal.x_B.col(i++);
+    nodal.x_B.col(i++) = surface.X.col(node);
+    state.surface[body].x_B.col(node) =
+        surface.X.col(node) + model::displacement(surface.Phi, node, motion.q);
   }
-  state.stations.body[body] = columns(loads.S, forces.active);
+  if (!state.stations.friction.empty()) {
+    state.stations.friction[body] = {nodal.node, nodal.x_B, VectorXd(loads.S_t * f).reshaped(3, n)};
+    nodal.f_B += state.stations.friction[body].f_B;
+  }
+  responses.respond(body, nodal);
 }
 
-namespace {
-
-// Twist of the mate against the owner, in the owner's frame, by a joint coordinate of one of them.
-Eigen::Matrix<double, 6, 1> relative_twist(const contact::RelativePlacement& placement, bool of_owner,
-                                           const Eigen::Matrix<double, 6, 1>& H) {
-  if (of_owner) return -H;
-  Eigen::Matrix<double, 6, 1> twist;
-  twist.tail<3>() = placement.R * H.tail<3>();
-  twist.head<3>() = placement.R * H.head<3>() - twist.tail<3>().cross(placement.r);
-  return twist;
-}
-
-}  // namespace
-
-// Derivatives of the potential with joint coordinates, as the places of stations move at the same
-// elastic coordinates and forces. Eq. (6.49).
-void StationContact::add_joint_forces(const std::vector<contact::SurfaceMotion>& motion,
-                                      const std::vector<Teeth>& teeth, const std::vector<Loads>& loads,
-                                      const VectorXd& f, ContactState& state) {
-  std::vector<VectorXd> q(bodies_.size());  // of elastic coordinates less the share of the modes in F
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b].toothed) continue;
-    state.force[b].joint = VectorXd::Zero(model_->bodies[b].eq.n_s());
-    q[b] = motion[b].q - (loads[b].Phi_S * f).cwiseQuotient(model_->bodies[b].eq.body->K_r.diagonal());
-  }
+// Forces of the stations in contact, and columns along which friction changes with sliding speeds.
+void StationContact::set_loads(const std::vector<Teeth>& teeth, const std::vector<Loads>& loads,
+                               const Solution& solution, ContactState& state) const {
+  const contact::StationForces& forces = solution.forces;
+  StationLoads& stations = state.stations = {};
+  stations.f = forces.f(forces.active);
+  stations.K = solution.stiffness;
+  stations.potential = forces.potential;
+  stations.local_energy = solution.local_energy;
+  for (const Loads& of_body : loads) stations.body.push_back(columns(of_body.S, forces.active));
+  const auto rubs = [](const Teeth& t) { return t.traction[0].cols() > 0; };
+  if (std::none_of(teeth.begin(), teeth.end(), rubs)) return;
+  stations.friction.resize(loads.size());
+  std::vector<double> resistance;
+  std::vector<std::vector<Eigen::Triplet<double>>> entries(loads.size());
+  double largest = 0;
+  for (const Teeth& t : teeth)
+    if (rubs(t)) largest = std::max(largest, t.resistance.maxCoeff());
   for (const Teeth& t : teeth) {
-    const VectorXd f_t = f.segment(t.first, t.contact.n());
-    if (f_t.isZero(0)) continue;
-    std::array<contact::PotentialSlopes, 2> slope;
-    for (std::size_t s : {0, 1}) {
-      const std::size_t b = pairs_[t.pair].body[s];
-      const ToothContact::Side& side = t.contact.side[s];
-      const std::vector<int>& node = bodies_[b].toothed->nodes(side.flank);
-      const model::Surface& surface = bodies_[b].toothed->surface();
-      Eigen::Matrix3Xd u(3, std::ssize(node));
-      for (Index a = 0; a < u.cols(); ++a)
-        u.col(a) = model::displacement(surface.Phi, node[static_cast<std::size_t>(a)], q[b]);
-      const VectorXd strip_force = side.loads->Z.transpose() * f_t;
-      contact::StationDisplacements moved = contact::displacements(*side.loads, side.at, u);
-      for (const Teeth& other : teeth)
-        for (std::size_t r : {0, 1}) {
-          if (pairs_[other.pair].body[r] != b) continue;
-          const ToothContact::Side& there = other.contact.side[r];
-          bodies_[b].tables->add(
-              side, there, there.loads->Z.transpose() * f.segment(other.first, other.contact.n()), moved);
+    if (!rubs(t)) continue;
+    const VectorXd strip = t.contact.side[0].loads->Z.transpose() * forces.f.segment(t.first, t.contact.n());
+    for (Index k = 0; k < strip.size(); ++k) {
+      if (!(strip[k] > 0) || t.resistance[k] < kResisting * largest) continue;
+      for (std::size_t s : {0, 1}) {
+        const ToothContact::Side& side = t.contact.side[s];
+        const std::size_t b = pairs_[t.pair].body[s];
+        const contact::NearestPlace& place = t.contact.places[static_cast<std::size_t>(k)];
+        Eigen::Vector3d along =
+            t.contact.flanks.owner->point(t.contact.flanks.on_owner, place.v, place.face.centre()).x_v;
+        if (s == 1) along = -(t.contact.placement.R.transpose() * along);
+        const std::vector<int>& node = bodies_[b].toothed->nodes(side.flank);
+        const Eigen::RowVectorXd weight = contact::weights(*side.loads, side.at).row(k);
+        for (Index a = 0; a < weight.size(); ++a) {
+          if (weight[a] == 0) continue;
+          const auto row = std::lower_bound(loads[b].node.begin(), loads[b].node.end(),
+                                            node[static_cast<std::size_t>(a)]) -
+                           loads[b].node.begin();
+          for (int d = 0; d < 3; ++d)
+            entries[b].emplace_back(static_cast<int>(3 * row) + d, static_cast<int>(resistance.size()),
+                                    weight[a] * along[d]);
         }
-      slope[s].v =
-          moved.u_v.cwiseProduct(side.direction).colwise().sum().transpose() -
-          bodies_[b].toothed->compliance() * contact::smooth_slopes(*side.loads, side.at, strip_force);
-      slope[s].v = slope[s].v.cwiseProduct(strip_force).eval();
-      slope[s].direction = moved.u * strip_force.asDiagonal();
-      for (Index i = 0; i < slope[s].v.size(); ++i)
-        if (side.is_clamped(i)) slope[s].v[i] = 0;
+      }
+      resistance.push_back(t.resistance[k] * strip[k]);
     }
-    for (std::size_t s : {0, 1}) {
-      const std::size_t b = pairs_[t.pair].body[s];
-      const body::MotionSubspace& H = model_->bodies[b].eq.H;
-      for (Index i = 0; i < H.cols(); ++i)
-        state.force[b].joint[i] += contact::change_of_potential(
-            t.contact, f_t, slope, relative_twist(t.contact.placement, s == 0, H.col(i)));
-    }
+  }
+  stations.resistance = VectorXd::Map(resistance.data(), std::ssize(resistance));
+  for (std::size_t b = 0; b < loads.size(); ++b) {
+    stations.with_friction.push_back(columns(loads[b].S + loads[b].S_t, forces.active));
+    stations.sliding.emplace_back(loads[b].S.rows(), stations.resistance.size());
+    stations.sliding.back().setFromTriplets(entries[b].begin(), entries[b].end());
   }
 }
 
-void StationContact::evaluate(const std::vector<contact::SurfaceMotion>& motion, ResidualContact& responses,
-                              ContactState& state) {
-  std::vector<Teeth> teeth = teeth_in_contact(motion);
-  const Index n = teeth.empty() ? 0 : teeth.back().first + teeth.back().contact.n();
-  contact::StationProblem problem{MatrixXd::Zero(n, n),
-                                  std::vector<contact::StripLaw>(static_cast<std::size_t>(n)), VectorXd(n)};
-  for (const Teeth& t : teeth) {
-    problem.C.block(t.first, t.first, t.contact.n(), t.contact.n()) = t.contact.local;
-    problem.gap.segment(t.first, t.contact.n()) = t.contact.gap.array() + pairs_[t.pair].offset;
-    std::copy(t.contact.own.begin(), t.contact.own.end(), problem.own.begin() + t.first);
-  }
-  const MatrixXd local = problem.C;
-  std::vector<Loads> loads(bodies_.size());
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b].toothed) continue;
-    loads[b] = loads_on(b, teeth, n);
-    problem.gap += loads[b].Phi_S.transpose() * motion[b].q;
-    add_compliance(b, teeth, loads[b], problem.C);
-  }
-  problem.C = ((problem.C + problem.C.transpose()) / 2).eval();
-  const contact::StationForces forces = contact::station_forces(problem);
-
-  state.stations = {std::vector<Eigen::SparseMatrix<double>>(bodies_.size()), forces.f(forces.active),
-                    forces.stiffness, forces.potential, 0.5 * forces.f.dot(local * forces.f)};
-  for (Index i = 0; i < n; ++i) {  // the energy of a strip, whose complement is U
-    const contact::StripLaw& law = problem.own[static_cast<std::size_t>(i)];
-    state.stations.local_energy += forces.f[i] * law.approach(forces.f[i]) - law.energy(forces.f[i]);
-  }
-  state.force.assign(bodies_.size(), {});
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    set_nodal_forces(b, loads[b], forces, motion[b], responses, state);
-  add_joint_forces(motion, teeth, loads, forces.f, state);
+void StationContact::set_points(const Motions& motion, const std::vector<Teeth>& teeth, const VectorXd& f,
+                                ContactState& state) const {
   state.pair.clear();
   for (const Pair& pair : pairs_)
     state.pair.push_back({{static_cast<int>(pair.body[0]), static_cast<int>(pair.body[1])}, {}});
-  for (const Teeth& t : teeth)
-    for (Index i = 0; i < t.contact.n(); ++i)
-      if (const double f = forces.f[t.first + i]; f > 0)
-        state.pair[t.pair].points.push_back(contact::station_point(t.contact, pairs_[t.pair].toothed, i, f,
-                                                                   motion[pairs_[t.pair].body[0]].R_WB));
+  for (const Teeth& t : teeth) {
+    const Pair& pair = pairs_[t.pair];
+    const Eigen::Matrix3d& R_WB = motion[pair.body[0]].R_WB;
+    for (Index i = 0; i < t.contact.n(); ++i) {
+      const double f_i = f[t.first + i];
+      if (!(f_i > 0)) continue;
+      state.pair[t.pair].points.push_back(
+          contact::station_point(t.contact, pair.toothed, i, f_i, {R_WB, motion[pair.body[0]].r_WB}));
+      if (t.traction[0].cols() == 0) continue;
+      contact::ContactPoint& point = state.pair[t.pair].points.back();
+      const Eigen::Vector3d friction = f_i * (R_WB * t.traction[0].col(i));
+      point.f += friction;
+      for (Index k = 0; k < 4; ++k) {
+        point.F.col(k) += point.slave_N[k] * friction;
+        point.F.col(4 + k) -= point.N[k] * friction;
+      }
+      point.slip = R_WB * t.sliding.col(i);
+      point.friction_power = -friction.dot(point.slip);
+    }
+  }
+}
+
+void StationContact::evaluate(const Motions& motion, ResidualContact& responses, ContactState& state) {
+  const std::vector<Teeth> teeth = teeth_in_contact(motion);
+  const Index n = teeth.empty() ? 0 : teeth.back().first + teeth.back().contact.n();
+  std::vector<Loads> loads(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b].toothed)
+      loads[b] = loads_on(b, teeth, n);
+    else
+      for (Sparse* S : {&loads[b].S, &loads[b].S_t}) S->resize(0, n);
+  }
+  const Solution solution = solve(motion, teeth, loads, n);
+  const VectorXd& f = solution.forces.f;
+  set_loads(teeth, loads, solution, state);
+  state.force.assign(bodies_.size(), {});
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    set_nodal_forces(b, loads[b], f, motion[b], responses, state);
+  add_joint_forces(motion, teeth, loads, f, state);
+  set_points(motion, teeth, f, state);
   state.balanced = true;
 }
 
