@@ -31,8 +31,9 @@ Roots sort_by_tooth(const io::StressSet& set, const gear::Toothing& toothing, in
 }
 
 // Largest of all times and of some nodes by tooth; adds the histories of their largest ones to `history`.
-StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, const ByTooth& teeth,
-                     const std::vector<int>& tooth, Eigen::MatrixXd& history, Eigen::Index& row) {
+StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, const Beside& beside,
+                     const ByTooth& teeth, const std::vector<int>& tooth, Eigen::MatrixXd& history,
+                     Eigen::Index& row) {
   history = Eigen::MatrixXd::Zero(stress.cols(), static_cast<Eigen::Index>(tooth.size()));
   StressPeak peak;
   peak.value = -INFINITY;
@@ -42,15 +43,17 @@ StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, co
     for (Eigen::Index step = 0; step < stress.cols(); ++step) {
       double largest = -INFINITY;
       for (Eigen::Index i : nodes->second) {
+        if (beside.size() > 0 && beside(i, step)) continue;
         largest = std::max(largest, stress(i, step));
         if (stress(i, step) <= peak.value) continue;
         row = i;
         peak = {.value = stress(i, step),
                 .tooth = tooth[k],
                 .node = set.node[static_cast<std::size_t>(i)],
-                .step = static_cast<int>(step)};
+                .step = static_cast<int>(step),
+                .x = set.X.col(i)};
       }
-      history(step, static_cast<Eigen::Index>(k)) = largest;
+      if (std::isfinite(largest)) history(step, static_cast<Eigen::Index>(k)) = largest;
     }
   }
   if (set.error.size() > 0) peak.error = set.error(row, peak.step);
@@ -96,7 +99,29 @@ gear::Flank nearest_flank(const gear::Toothing& t, const Eigen::Vector3d& x) {
   return {tooth < 0 ? tooth + t.z : tooth, teeth >= nearest ? 1 : -1};
 }
 
-RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& mate, int side) {
+Beside beside_contacts(const io::StressSet& set, const Gear& gear, const ContactHistory& contacts,
+                       std::size_t g) {
+  constexpr double kAtForm = 1e-6;  // of the form radius
+  constexpr double kReach = 2;      // half widths of a patch
+  const gear::Toothing& t = gear.toothing;
+  const Eigen::ArrayXd below =
+      t.sign() * (t.r_form - set.X.topRows<2>().colwise().norm().transpose().array());
+  Beside beside(set.X.cols(), static_cast<Eigen::Index>(contacts.size()));
+  beside.colwise() = (below <= kAtForm * t.r_form).eval();
+  if (beside.all()) beside.setConstant(false);
+  for (std::size_t step = 0; step < contacts.size(); ++step)
+    for (const FlankContact& c : contacts[step]) {
+      if (!(c.half_width > 0) || !(c.normal_force > 0)) continue;
+      const double reach = kReach * c.half_width;
+      beside.col(static_cast<Eigen::Index>(step)) =
+          beside.col(static_cast<Eigen::Index>(step)) ||
+          ((set.X.colwise() - c.x_B[g]).colwise().squaredNorm().transpose().array() < reach * reach);
+    }
+  return beside;
+}
+
+RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& mate, int side,
+                       const Beside& beside) {
   require(set.X.cols() == set.rankine.rows() && set.X.cols() > 0 && set.stress.rows() == 6 * set.X.cols(),
           "stresses of ", set.body, "/", set.set,
           ": hold no positions or no stresses of all their nodes; recover them anew");
@@ -107,9 +132,10 @@ RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& m
   stress.side = side;
   for (const auto& [tooth, nodes] : roots.both) stress.tooth.push_back(tooth);
   Eigen::Index tension = 0, von_mises = 0;
-  stress.largest_tension = find_peak(set, set.rankine, roots.loaded, stress.tooth, stress.tension, tension);
+  stress.largest_tension =
+      find_peak(set, set.rankine, beside, roots.loaded, stress.tooth, stress.tension, tension);
   stress.largest_von_mises =
-      find_peak(set, set.von_mises, roots.both, stress.tooth, stress.von_mises, von_mises);
+      find_peak(set, set.von_mises, beside, roots.both, stress.tooth, stress.von_mises, von_mises);
   stress.way = way_of_tooth(set, gear, mate, stress, tension, von_mises);
   if (!stress.way.empty()) {
     const auto [low, high] =

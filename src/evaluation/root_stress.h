@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "elastogear/evaluation/contact.h"
 #include "elastogear/evaluation/motion.h"
 #include "elastogear/gear/flank.h"
 #include "elastogear/io/stress_file.h"
@@ -23,6 +24,7 @@ struct ToothStress {
 struct StressPeak {
   double value = 0, error = -1, mesh_error = -1, contact_error = -1, time_error = -1;
   int tooth = 0, node = 0, step = 0;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< m, of the node, body frame
 };
 
 struct RootStress {
@@ -38,8 +40,16 @@ struct RootStress {
 /// Tooth (0-based) whose centre is nearest to a point, and the side of it that the point is on.
 gear::Flank nearest_flank(const gear::Toothing& toothing, const Eigen::Vector3d& x_B);
 
-/// set: stresses at the roots; side: of the loaded flanks. Error when the set has no positions or no node at
-/// that side.
-RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& mate, int side);
+/// Nodes and times (n x n_t) at which stress is that of a contact and not of a root: nodes at or beyond the
+/// form circle, and those within two half widths of a patch that bears on gear g. A set without any node
+/// below the form circle has the latter alone.
+using Beside = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+Beside beside_contacts(const io::StressSet& set, const Gear& gear, const ContactHistory& contacts,
+                       std::size_t g);
+
+/// set: stresses at the roots; side: of the loaded flanks; beside: what is left out; empty: nothing. Error
+/// when the set has no positions or no node at that side.
+RootStress root_stress(const io::StressSet& set, const Gear& gear, const Gear& mate, int side,
+                       const Beside& beside = {});
 
 }  // namespace elastogear::evaluation

@@ -66,6 +66,8 @@ void add_place(const Gear& gear, const FlankContact& c, int g, const std::string
   items.words(path + "/side", "side of the tooth", {side_name(flank.side)});
   items.number(path + (has_length_of_roll(gear.toothing) ? "/length_of_roll" : "/radius"), "m",
                "place along the profile", place.profile);
+  items.number(path + "/diameter", "m", "diameter there",
+               2 * c.x_B[static_cast<std::size_t>(g)].head<2>().norm());
   items.number(path + "/z", "m", "place along the axis, body frame", place.z);
 }
 
@@ -96,6 +98,8 @@ void add_peak(const io::StressSet& set, const StressPeak& peak, const Eigen::Vec
   items.number(path + "_node", "1", "mesh node of it", peak.node);
   items.number(path + "_tooth", "1", "tooth of it", peak.tooth + 1);
   items.number(path + "_roll", "1", "roll angle of it, pitches", roll[peak.step]);
+  items.number(path + "_diameter", "m", "diameter at its node", 2 * peak.x.head<2>().norm());
+  items.number(path + "_z", "m", "place of its node along the axis, body frame", peak.x[2]);
   if (set.error.size() > 0)
     items.number(path + "_error", "Pa", "estimated error of the reduction of von Mises stress there",
                  peak.error);
@@ -128,6 +132,12 @@ void add_way(const RootStress& stress, const std::string& path, Items& items) {
   if (n > 0) items.number(path + "/range", "Pa", "largest less smallest value of way/stress", stress.range);
 }
 
+// E* of both flanks, Pa; 0: not known.
+double plane_modulus(const PairOfRun& pair) {
+  const bool known = pair.compliance[0] > 0 && pair.compliance[1] > 0;
+  return known ? 1 / (pair.compliance[0] + pair.compliance[1]) : 0;
+}
+
 }  // namespace
 
 void add_teeth(const PairOfRun& pair, Items& items) {
@@ -158,9 +168,16 @@ void add_line_load(const PairOfRun& pair, Items& items) {
   items.number("line_load/KHbeta", "1", "largest over mean line load, in the mean over the run", factor);
 }
 
+void take_hertz(PairOfRun& pair) {
+  const double E_star = plane_modulus(pair);
+  if (!(E_star > 0)) return;
+  take_hertz(both(pair), pair.slave_side, E_star, pair.contacts);
+  pair.by_hertz = transmission(pair.gear[0], pair.gear[1], 1).parallel;
+}
+
 void add_hertz(const PairOfRun& pair, Items& items) {
-  if (!(pair.compliance[0] > 0) || !(pair.compliance[1] > 0)) return;
-  const double E_star = 1 / (pair.compliance[0] + pair.compliance[1]);
+  const double E_star = plane_modulus(pair);
+  if (!(E_star > 0)) return;
   const auto hertz = hertz_pressure(both(pair), pair.contacts, pair.slave_side, E_star);
   if (!hertz || !(hertz->peak > 0)) return;
   items.curve("pressure/hertz", "Pa", "largest contact pressure by H. Hertz under the forces of the run",
@@ -180,8 +197,12 @@ void add_pressure(const PairOfRun& pair, Items& items) {
   for (Eigen::Index i = 0; i < largest.size(); ++i)
     for (const FlankContact& c : pair.contacts[static_cast<std::size_t>(i)])
       largest[i] = std::max(largest[i], c.pressure);
-  items.curve("pressure/largest", "Pa", "largest contact pressure", largest);
-  items.number("pressure/peak", "Pa", "largest contact pressure of the run", peak->pressure);
+  const std::string what = pair.by_hertz ? "largest contact pressure by H. Hertz"
+                                         : "largest contact pressure in the mean over faces of the mesh";
+  items.curve("pressure/largest", "Pa", what, largest);
+  items.number("pressure/peak", "Pa", what + ", of the run", peak->pressure);
+  items.number("pressure/by_hertz", "1", "1: pressures and patterns are by H. Hertz; 0: means over faces",
+               pair.by_hertz ? 1 : 0);
   items.number("pressure/peak_roll", "1", "roll angle of it, pitches", pair.roll[peak->step]);
   for (int g : {0, 1}) {
     add_place(pair.gear[static_cast<std::size_t>(g)], peak->contact, g,
@@ -196,7 +217,8 @@ void add_roots(const PairOfRun& pair, Items& items) {
     if (!pair.root[g] || side == 0) continue;
     const Gear& gear = pair.gear[g];
     const io::StressSet& set = *pair.root[g];
-    const RootStress stress = root_stress(set, gear, pair.gear[1 - g], side);
+    const RootStress stress =
+        root_stress(set, gear, pair.gear[1 - g], side, beside_contacts(set, gear, pair.contacts, g));
     const std::string path = "root/" + gear.name;
     Eigen::VectorXd tooth(static_cast<Eigen::Index>(stress.tooth.size()));
     for (Eigen::Index i = 0; i < tooth.size(); ++i) tooth[i] = stress.tooth[static_cast<std::size_t>(i)] + 1;

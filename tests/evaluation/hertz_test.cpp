@@ -86,6 +86,12 @@ TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
   EXPECT_NEAR(found->peak, right.pressure, 1e-4 * right.pressure);
   EXPECT_NEAR(found->half_width, right.half_width, 1e-4 * right.half_width);
   EXPECT_EQ(found->largest[0], found->peak);
+  ContactHistory taken = {contacts};
+  take_hertz(pair.both(), 0, 1 / (2 * kCompliance), taken);
+  for (const FlankContact& c : taken[0]) {  // the ends of an evenly loaded face as its middle
+    EXPECT_NEAR(c.pressure, right.pressure, 1e-4 * right.pressure);
+    EXPECT_NEAR(c.half_width, right.half_width, 1e-4 * right.half_width);
+  }
 }
 
 // Involute helicoids on crossed axes at the pitch point: 14.28 and 11.82 mm across their generators, b/a =

@@ -71,6 +71,30 @@ TEST(RootStress, of_the_other_side_is_small) {
   EXPECT_NEAR(root_stress(made_up(pair), pair.gear[0], pair.gear[1], -1).largest_tension.value, -1e6, 1);
 }
 
+// The node of the largest tension lies beside a patch at the first position, and the one of the next tooth at
+// the form circle.
+TEST(RootStress, leaves_out_nodes_beside_contacts_and_at_the_form_circle) {
+  const test::RollingPair pair = test::spur_pair();
+  io::StressSet set = made_up(pair);
+  ContactHistory contacts(static_cast<std::size_t>(pair.roll.size()));
+  FlankContact c{};
+  c.x_B = {set.X.col(0) + Eigen::Vector3d(0.3e-3, 0, 0), Eigen::Vector3d::Zero()};
+  c.normal_force = 100, c.half_width = 0.2e-3;
+  contacts[0] = {c};
+  set.X.col(2).head<2>() *= pair.gear[0].toothing.r_form / pair.gear[0].toothing.r_f;
+  const Beside beside = beside_contacts(set, pair.gear[0], contacts, 0);
+  EXPECT_EQ(beside.count(), 1 + pair.roll.size());
+  EXPECT_TRUE(beside(0, 0));
+  EXPECT_TRUE(beside.row(2).all());
+  const RootStress stress = root_stress(set, pair.gear[0], pair.gear[1], 1, beside);
+  EXPECT_EQ(stress.tension(0, 0), 0);
+  EXPECT_GT(stress.tension(1, 0), 0);
+  EXPECT_EQ(stress.tension.col(1).maxCoeff(), 0);
+  EXPECT_LT(stress.largest_tension.value, 299e6);
+  contacts[0][0].half_width = 0.1e-3;  // then the node is farther off than two half widths
+  EXPECT_FALSE(beside_contacts(set, pair.gear[0], contacts, 0)(0, 0));
+}
+
 TEST(RootStress, needs_positions) {
   const test::RollingPair pair = test::spur_pair();
   io::StressSet set = made_up(pair);

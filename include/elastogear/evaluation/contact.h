@@ -22,7 +22,8 @@ struct FlankContact {
   Eigen::Vector3d n;                   ///< unit normal in the world, out of the first gear
   Eigen::Vector3d f;                   ///< N, on the second gear, world
   double normal_force = 0;             ///< N, f along n
-  double pressure = 0;                 ///< Pa
+  double pressure = 0;                 ///< Pa, in the mean over the node's share of the surface, or Hertz's
+  double half_width = 0;               ///< m, of the patch by H. Hertz; 0: not known
 };
 
 /// Surface of a gear with the flank of each of its groups of faces; nothing for groups that are no flanks.

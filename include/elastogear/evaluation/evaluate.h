@@ -26,6 +26,7 @@ struct PairOfRun {
   bool friction = true;            ///< do contact forces have friction in them?
   int slave_side = 0;              ///< which gear's nodes come into contact
   std::array<double, 2> compliance = {};  ///< 1/Pa, (1 - nu^2) / E behind the flanks; 0: not known
+  bool by_hertz = false;                  ///< are the pressures of the contacts those by H. Hertz?
   Eigen::VectorXd unloaded = {};          ///< n_t, m, transmission error without load; empty: not known
   std::array<std::optional<io::StressSet>, 2> root = {};  ///< stresses at the roots of both gears
 };
@@ -36,6 +37,10 @@ struct PairEvaluation {
   Eigen::VectorXd error;                  ///< n_t, m, transmission error
   Eigen::VectorXd force;                  ///< n_t, N, moment on the second gear over the radius of the errors
 };
+
+/// Where the elasticity behind the flanks is known each contact takes the half width of its patch by H.
+/// Hertz, and on parallel axes the pressure there: that of the line load at its station of the face.
+void take_hertz(PairOfRun& pair);
 
 /// Throws Error where the run has no times.
 PairEvaluation evaluate(const PairOfRun& pair);

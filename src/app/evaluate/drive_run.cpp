@@ -184,6 +184,7 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
   }
   if (source.kind != Kind::in_time) require_roll_angles(pair, source.path);
   return pair;
+  evaluation::take_hertz(pair);
 }
 
 // Are the flanks of a run exact and in their place?

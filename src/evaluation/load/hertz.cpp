@@ -16,7 +16,8 @@ using model::HertzEllipse, model::HertzLine;
 namespace {
 
 // Contacts of one pair of teeth at one time.
-using Pairs = std::map<std::array<int, 2>, std::vector<const FlankContact*>>;
+using PairContacts = std::vector<const FlankContact*>;
+using Pairs = std::map<std::array<int, 2>, PairContacts>;
 
 Pairs pairs_of(const std::vector<FlankContact>& contacts) {
   Pairs pairs;
@@ -25,10 +26,10 @@ Pairs pairs_of(const std::vector<FlankContact>& contacts) {
   return pairs;
 }
 
-// Line contact of one pair of teeth on parallel axes, at the station of the face with the largest pressure.
-HertzLine line_contact(const std::array<const Gear*, 2>& gear,
-                       const std::vector<const FlankContact*>& contacts, const Eigen::VectorXd& stations,
-                       double E_star, std::size_t step) {
+// Line contact of one pair of teeth on parallel axes at each station of the face.
+std::vector<HertzLine> line_contact(const std::array<const Gear*, 2>& gear,
+                                    const std::vector<const FlankContact*>& contacts,
+                                    const Eigen::VectorXd& stations, double E_star, std::size_t step) {
   const auto n = static_cast<Eigen::Index>(contacts.size());
   Eigen::VectorXd z(n), force(n), per_length(n), curved(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -41,13 +42,26 @@ HertzLine line_contact(const std::array<const Gear*, 2>& gear,
   }
   const Eigen::VectorXd load = line_load(stations, z, force), w = line_load(stations, z, per_length),
                         kappa = line_load(stations, z, curved);
-  HertzLine largest;
-  for (Eigen::Index i = 0; i < load.size(); ++i) {
-    if (!(load[i] > 0)) continue;
-    const HertzLine here = model::hertz_line(w[i], kappa[i] / load[i], E_star);
-    if (here.pressure > largest.pressure) largest = here;
+  std::vector<HertzLine> lines(static_cast<std::size_t>(load.size()));
+  for (Eigen::Index i = 0; i < load.size(); ++i)
+    if (load[i] > 0) lines[static_cast<std::size_t>(i)] = model::hertz_line(w[i], kappa[i] / load[i], E_star);
+  return lines;
+}
+
+HertzLine largest_of(const std::vector<HertzLine>& lines) {
+  return *std::max_element(lines.begin(), lines.end(),
+                           [](const HertzLine& a, const HertzLine& b) { return a.pressure < b.pressure; });
+}
+
+HertzLine at_place(const std::vector<HertzLine>& lines, const Eigen::VectorXd& stations, double z) {
+  const auto [station, share] = share_out(stations, z);
+  HertzLine here;
+  for (std::size_t k : {0, 1}) {
+    const HertzLine& line = lines[static_cast<std::size_t>(station[k])];
+    here.pressure += share[k] * line.pressure;
+    here.half_width += share[k] * line.half_width;
   }
-  return largest;
+  return here;
 }
 
 // True where the patch of one pair of teeth, with its half width in m, reaches beyond the tip or the form
@@ -110,8 +124,9 @@ std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& ge
   int n_pairs = 0, n_left_out = 0;
   for (std::size_t step = 0; step < contacts.size(); ++step)
     for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
-      const std::optional<HertzLine> here = parallel ? line_contact(gear, of_pair, z, E_star, step)
-                                                     : point_contact(gear, of_pair, E_star, step);
+      const std::optional<HertzLine> here = parallel
+                                                ? largest_of(line_contact(gear, of_pair, z, E_star, step))
+                                                : point_contact(gear, of_pair, E_star, step);
       ++n_pairs;
       if (!here || !std::isfinite(here->pressure)) {
         ++n_left_out;
@@ -127,6 +142,29 @@ std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& ge
   if (n_left_out == n_pairs) return {};
   found.left_out = static_cast<double>(n_left_out) / n_pairs;
   return found;
+}
+
+void take_hertz(const std::array<const Gear*, 2>& gear, int slave_side, double E_star,
+                ContactHistory& contacts) {
+  const bool parallel = transmission(*gear[0], *gear[1], 1).parallel;
+  const Eigen::VectorXd z = stations(gear, slave_side, 1);
+  for (std::size_t step = 0; step < contacts.size(); ++step) {
+    const auto changed = [&](const FlankContact* c) -> FlankContact& {
+      return contacts[step][static_cast<std::size_t>(c - contacts[step].data())];
+    };
+    for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
+      if (parallel) {
+        const std::vector<HertzLine> lines = line_contact(gear, of_pair, z, E_star, step);
+        for (const FlankContact* c : of_pair) {
+          const HertzLine here = at_place(lines, z, c->x_B[1][2]);
+          changed(c).pressure = here.pressure;
+          changed(c).half_width = here.half_width;
+        }
+      } else if (const auto patch = point_contact(gear, of_pair, E_star, step)) {
+        for (const FlankContact* c : of_pair) changed(c).half_width = patch->half_width;
+      }
+    }
+  }
 }
 
 }  // namespace elastogear::evaluation

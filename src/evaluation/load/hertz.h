@@ -29,4 +29,9 @@ struct HertzPressure {
 std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& gear,
                                             const ContactHistory& contacts, int slave_side, double E_star);
 
+/// Sets the half width of each contact's patch, and on parallel axes the pressure: that of the line load at
+/// its place along the face.
+void take_hertz(const std::array<const Gear*, 2>& gear, int slave_side, double E_star,
+                ContactHistory& contacts);
+
 }  // namespace elastogear::evaluation
