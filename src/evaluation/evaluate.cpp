@@ -131,7 +131,7 @@ PairEvaluation evaluate(const PairOfRun& pair) {
   if (!pair.friction) losses.friction.setZero();
   PairEvaluation evaluation{{}, transmission_error(pair), losses.torque_2 / t.radius};
   Items items;
-  items.curve("roll", "1", "roll angle of the drive's first gear, pitches", pair.roll);
+  items.curve("roll", "pitches", "roll angle of the drive's first gear", pair.roll);
   items.curve("time", "s", "time", pair.time);
   add_error(pair, t, evaluation.error, items);
   if (pair.unloaded.size() > 0) items.add(unloaded_items(evaluation, pair.unloaded, common_width(pair)));

@@ -79,9 +79,10 @@ void write_sensor_tables(const Options& options, const model::ResultHeader& head
   if (!options.flag("sensor_csv")) return;
   const std::string output = options.text("output");
   const Eigen::VectorXd time = io::read_times(output);
+  const io::TimeAxis axis = io::time_axis(header.provenance);
   for (const std::string& sensor : header.sensors) {
     const io::SensorHistory history = io::read_sensor_history(output, sensor);
-    std::vector<io::CsvColumn> columns = {{"time", "s", time}};
+    std::vector<io::CsvColumn> columns = {{axis.name, axis.unit, time}};
     add_columns("position", "m", history.position, columns);
     add_columns("velocity", "m/s", history.velocity, columns);
     add_columns("acceleration", "m/s^2", history.acceleration, columns);

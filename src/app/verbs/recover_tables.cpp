@@ -98,10 +98,10 @@ void print_other_errors(const recovery::RecoveredBody& body, const io::StressSet
              "where that is given");
 }
 
-std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const Eigen::VectorXd& time) {
+std::string peak_text(const io::StressSet& set, const Eigen::MatrixXd& history, const StressTimes& times) {
   const auto [node, step] = peak(history);
   return with_unit(1e-6 * history(node, step), "MPa") + " at node " + std::to_string(set.node[node]) + ", " +
-         with_unit(time[step], "s");
+         times.axis.at(times.time[step]);
 }
 
 void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, Eigen::Index node) {
@@ -121,16 +121,15 @@ void add_columns(std::vector<io::CsvColumn>& columns, const io::StressSet& set, 
 
 }  // namespace
 
-void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
-                  const Eigen::VectorXd& time) {
-  print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, time));
+void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set, const StressTimes& times) {
+  print_item(set.body + " " + set.set, "peak von Mises " + peak_text(set, set.von_mises, times));
   print_error(body, set);
   print_other_errors(body, set);
-  print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, time));
+  print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, times));
 }
 
-void write_table(const std::string& path, const io::StressSet& set, const Eigen::VectorXd& time, bool all) {
-  std::vector<io::CsvColumn> columns = {{"time", "s", time}};
+void write_table(const std::string& path, const io::StressSet& set, const StressTimes& times, bool all) {
+  std::vector<io::CsvColumn> columns = {{times.axis.name, times.axis.unit, times.time}};
   if (all || set.node.size() <= kSmallSet) {
     for (std::size_t node = 0; node < set.node.size(); ++node) add_columns(columns, set, node);
   } else {

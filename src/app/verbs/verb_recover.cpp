@@ -94,6 +94,7 @@ std::map<std::string, std::string> provenance_of_stresses(const Options& options
 void write_stresses(const Options& options, const RecoverSettings& settings, Run& run,
                     const Progress& progress) {
   const LogStage stage("stresses");
+  const StressTimes times{run.time, io::time_axis(io::read_provenance(settings.result))};
   io::StressFile file{run.time, {}, provenance_of_stresses(options, settings.result)};
   std::vector<const RecoveredBody*> owner;
   double done = 0;
@@ -119,9 +120,9 @@ void write_stresses(const Options& options, const RecoverSettings& settings, Run
   print_item("written", settings.output);
   for (std::size_t i = 0; i < file.sets.size(); ++i) {
     const io::StressSet& set = file.sets[i];
-    print_stress(*owner[i], set, run.time);
+    print_stress(*owner[i], set, times);
     const std::string path = table_path(settings, set.body, set.set);
-    write_table(path, set, run.time, settings.all_nodes);
+    write_table(path, set, times, settings.all_nodes);
     print_item("written", path);
   }
 }

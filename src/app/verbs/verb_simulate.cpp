@@ -31,6 +31,7 @@
 #include "elastogear/base/petsc.h"
 #include "elastogear/dynamics/static.h"
 #include "elastogear/io/relaxed_state.h"
+#include "elastogear/io/result_file.h"
 
 namespace elastogear::app {
 namespace {
@@ -161,10 +162,11 @@ void print_summary(const Options& options, const dynamics::SystemModel& system,
     print_item("steps are chosen", with_unit(run.time / std::max(run.steps, 1), "s") +
                                        " in the mean, local error at most " +
                                        with_unit(run.step_tolerance, "m"));
+  const io::TimeAxis axis = io::time_axis(options.provenance());
   print_item("Newton iterations", std::to_string(run.newton_iterations));
   for (const dynamics::PairSummary& pair : run.pair)
     print_item("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at " +
-                                           with_unit(pair.peak_time, "s") + ", penetration " +
+                                           axis.at(pair.peak_time) + ", penetration " +
                                            with_unit(pair.penetration, "m"));
   warn_of_idle_pairs(run);
   print_item("contacts at one time", "at most " + std::to_string(run.most_contacts));

@@ -13,13 +13,14 @@
 namespace elastogear::io {
 namespace {
 
-void describe_pair(Out& out, const std::string& path, const std::string& name, const Eigen::VectorXd& time) {
+void describe_pair(Out& out, const std::string& path, const std::string& name, const Eigen::VectorXd& time,
+                   const TimeAxis& axis) {
   const PairHistory history = read_pair_history(path, name);
   line(out, "contact ", name, ": ", counted(history.group_name[0].size(), "group"), " and ",
        counted(history.group_name[1].size(), "group"));
   Eigen::Index at = 0;
   const double peak = history.force.colwise().norm().maxCoeff(&at);
-  line(out, "  peak force: ", peak, " N at t = ", time[at], " s");
+  line(out, "  peak force: ", peak, " N at ", axis.at(time[at]));
   line(out, "  most contacts: ", history.count.maxCoeff(),
        ", largest penetration: ", history.penetration.maxCoeff(), " m");
 }
@@ -62,9 +63,10 @@ void describe_error_by(Out& out, const char* cause, const StressSet& set, const 
        peak > 0 ? 100 * error / peak : 0, " %), at most ", error_by.maxCoeff(), " Pa at one node");
 }
 
-void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& time) {
+void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& time, const TimeAxis& axis) {
   require(time.size() > 0, path, ": holds no times");
-  line(out, "times: ", time.size(), " from ", time[0], " to ", time[time.size() - 1], " s");
+  line(out, axis.name, "s: ", time.size(), " from ", time[0], " to ", time[time.size() - 1],
+       axis.unit == "1" ? "" : " " + axis.unit);
 }
 
 }  // namespace
@@ -72,7 +74,8 @@ void describe_times(Out& out, const std::string& path, const Eigen::VectorXd& ti
 void describe_result(Out& out, const std::string& path) {
   const model::ResultHeader header = read_result_header(path);
   const Eigen::VectorXd time = read_times(path);
-  describe_times(out, path, time);
+  const TimeAxis axis = time_axis(header.provenance);
+  describe_times(out, path, time, axis);
   if (!is_complete(path)) line(out, "incomplete: the run has not reached its end");
   const h5::File file = open_format(path, kResultFormat);
   for (const auto& body : header.bodies) {
@@ -81,7 +84,7 @@ void describe_result(Out& out, const std::string& path) {
          counted(q.back(), "elastic coordinate"));
     describe_forces(out, file, body.name);
   }
-  for (const auto& pair : header.pairs) describe_pair(out, path, pair.name, time);
+  for (const auto& pair : header.pairs) describe_pair(out, path, pair.name, time, axis);
   for (const std::string& name : header.bushings) {
     const BushingHistory history = read_bushing_history(path, name);
     line(out, "bushing ", name, ": peak force ", history.force.colwise().norm().maxCoeff(),
@@ -109,20 +112,20 @@ void describe_evaluation(Out& out, const std::string& path) {
 
 void describe_stress(Out& out, const std::string& path) {
   const StressFile history = read_stress(path);
-  describe_times(out, path, history.time);
+  const TimeAxis axis = time_axis(history.provenance);
+  describe_times(out, path, history.time, axis);
   for (const StressSet& set : history.sets) {
     line(out, "stress of ", set.body, "/", set.set, ": ", counted(set.node.size(), "node"), ", body frame");
     if (set.node.empty()) continue;
     Eigen::Index node = 0, step = 0;
     const double peak = set.von_mises.maxCoeff(&node, &step);
-    line(out, "  peak von Mises: ", peak, " Pa at node ", set.node[node], ", t = ", history.time[step], " s");
+    line(out, "  peak von Mises: ", peak, " Pa at node ", set.node[node], ", ", axis.at(history.time[step]));
     describe_error(out, set, peak, step);
     describe_error_by(out, "the mesh", set, set.mesh_error, node, step);
     describe_error_by(out, "the contact's resolution", set, set.contact_error, node, step);
     describe_error_by(out, "the steps in time", set, set.time_error, node, step);
     const double tension = set.rankine.maxCoeff(&node, &step);
-    line(out, "  peak Rankine: ", tension, " Pa at node ", set.node[node], ", t = ", history.time[step],
-         " s");
+    line(out, "  peak Rankine: ", tension, " Pa at node ", set.node[node], ", ", axis.at(history.time[step]));
   }
   describe_map(out, history.provenance);
 }

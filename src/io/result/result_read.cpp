@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <sstream>
 
 #include "elastogear/io/result_file.h"
 #include "io/hdf5/schema.h"
@@ -112,6 +113,19 @@ model::ResultHeader read_result_header(const std::string& path) {
 bool is_complete(const std::string& path) {
   const h5::File file = open_format(path, kResultFormat);
   return !h5::has_attribute(file, "/", "complete") || h5::int_attribute(file, "/", "complete").front() != 0;
+}
+
+TimeAxis time_axis(const std::map<std::string, std::string>& provenance) {
+  const auto analysis = provenance.find("option_analysis");
+  if (analysis != provenance.end() && analysis->second == "sweep") return {"roll angle", "pitches"};
+  if (analysis != provenance.end() && analysis->second == "static") return {"load factor", "1"};
+  return {"time", "s"};
+}
+
+std::string TimeAxis::at(double value) const {
+  std::ostringstream text;
+  text << (unit == "s" ? "t =" : name) << " " << value << (unit == "1" ? "" : " " + unit);
+  return text.str();
 }
 
 Eigen::VectorXd read_times(const std::string& path) { return read_time(open_format(path, kResultFormat)); }
