@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/console/console.h"
 #include "app/console/environment.h"
 #include "app/console/lone_process.h"
 #include "app/options/command_line.h"
@@ -47,7 +48,9 @@ void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& li
   require(verb.parallel || size == 1, "runs on one rank, not on ", size, ": call it without mpirun");
   OptionSources sources{.argc = argc, .argv = argv};
   if (verb.configured) sources.files = line.arguments;
-  verb.run(load_options(verb, verbs, sources), line.arguments);
+  const Options options = load_options(verb, verbs, sources);
+  set_verbose(options.flag("verbose"));
+  verb.run(options, line.arguments);
 }
 
 // Returns the complaint about the words of the command line, or an empty text when they are right.

@@ -120,9 +120,9 @@ void print_laws(const Options& options, const dynamics::SystemModel& system) {
   print_moduli(system);
   for (const dynamics::PairSetup& pair : system.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
-    print_item("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +
-                                     points_text(pair.settings) + approach_text(pair.settings) + " (" +
-                                     pair.name + ")");
+    print_detail("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +
+                                       points_text(pair.settings) + approach_text(pair.settings) + " (" +
+                                       pair.name + ")");
     print_approach(options, system, pair);
     warn_of_facets(options, pair, options.list("bodies"));
   }

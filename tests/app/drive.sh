@@ -30,7 +30,7 @@ grep -q "pinion root  *peak von Mises [1-9]" log || { cat log; exit 1; }
 grep -q "estimated error of the mesh [1-9].* MPa, [1-9]. %" log && grep -q "wheel root: too coarse a mesh" log || { cat log; exit 1; }
 run simulate spur.yaml -roll 0.125 -side coast -output coast.h5
 # Flanks do not enter each other, but where what belongs to a penalty asks for one.
-run simulate spur.yaml -roll 0.125 -contact_stiffness 1e13 -output penalty.h5
+run simulate spur.yaml -roll 0.125 -contact_stiffness 1e13 -output penalty.h5 -verbose
 grep -q "law of contact  *penalty" log || { cat log; exit 1; }
 for roll in 0 0.3 0.6 0.9; do
   run simulate spur.yaml -roll $roll -torque "20 N m" -pinion_rigid true -wheel_rigid true -static_steps 1 \
@@ -43,7 +43,7 @@ run mesh spur.yaml -element_order 2 -pinion_mesh second_1.msh -wheel_mesh second
 grep -q "elements  *2312" log && grep -q "nodes  *13362" log || { cat log; exit 1; }
 run reduce spur.yaml "${second[@]}" -element_order 2 -basis full -store surface
 run simulate spur.yaml -roll 0.125 "${second[@]}" -pinion_rigid true -wheel_rigid true -contact_law unilateral -static_steps 1 \
-  -output second.h5
+  -output second.h5 -verbose
 grep -q "flanks of pinion  *1360 faces, nodes within [0-9.]*e-1[0-9] m" log || { cat log; exit 1; }
 
 # At this angle points on the sides that the lines of contact cross come and go.

@@ -24,7 +24,7 @@ contact: {pairs: [worm:wheel], two_pass: true}
 analysis: static
 static_steps: 2
 END
-"$elastogear" simulate drive.yaml -output exact.h5 >log 2>&1 || { cat log; exit 1; }
+"$elastogear" simulate drive.yaml -output exact.h5 -verbose >log 2>&1 || { cat log; exit 1; }
 # The gear data may lie in several files, of which the last one counts.
 grep -v '^part' worm.yaml | sed '/^# --- reduce/,$d' >first.yaml
 printf 'part: wheel\nbacklash: 1\n' >>first.yaml

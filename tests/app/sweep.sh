@@ -30,7 +30,7 @@ bearings=(-pinion_bearing_radial "300 N/um" -wheel_bearing_radial "500 N/um")
 for side in drive coast; do
   "${sweep[@]}" "${rigid[@]}" -side $side -sweep_positions 5 -sweep_pitches 2 -output rigid_$side.h5 >run.log 2>&1 || fail "rigid gears"
 done
-"${sweep[@]}" -torque "300 N m" -sweep_positions 18 -roll -0.2 -output elastic.h5 >run.log 2>&1 || fail "elastic gears"
+"${sweep[@]}" -torque "300 N m" -sweep_positions 18 -roll -0.2 -output elastic.h5 -verbose >run.log 2>&1 || fail "elastic gears"
 grep -q "roll angles  *18 of 18, 0 of them anew" run.log || fail "positions are not found from one another"
 # The approach of flanks is found with each position: 66 iterations, 106 where it is found after it.
 iterations=$(awk '/Newton iterations/ { print $3 }' run.log)

@@ -34,7 +34,7 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 // A line of progress stands on the terminal, without an end.
 std::atomic<bool> line_is_open = false;
 
-bool is_silent = false;
+bool is_silent = false, shows_details = false;
 
 // Clears a line of progress that is still open, so that the next text begins a line.
 void clear_line() {
@@ -122,6 +122,13 @@ void print_item(const std::string& name, const std::string& text) {
   std::fflush(stdout);  // a killed run has said it
 }
 
+void print_detail(const std::string& name, const std::string& text) {
+  if (is_verbose()) print_item(name, text);
+}
+
+void set_verbose(bool verbose) { shows_details = verbose; }
+bool is_verbose() { return shows_details || embedding(); }
+
 Silence::Silence(bool silent) : before_(is_silent) { is_silent = is_silent || silent; }
 bool is_silenced() { return is_silent; }
 
@@ -130,6 +137,12 @@ Silence::~Silence() { is_silent = before_; }
 std::string with_unit(double value, const std::string& unit) {
   char text[64];
   std::snprintf(text, sizeof text, "%.6g %s", value, unit.c_str());
+  return text;
+}
+
+std::string short_number(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, std::abs(value) < 999.5 ? "%.3g" : "%.0f", value);
   return text;
 }
 

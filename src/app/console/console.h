@@ -15,6 +15,12 @@ Progress console_progress(std::function<std::string()> detail = {});
 
 /// "  name ............ text"
 void print_item(const std::string& name, const std::string& text);
+/// The same of a line that is for those who look closer: shown where everything is (option verbose), and told
+/// to a program that the verb runs in.
+void print_detail(const std::string& name, const std::string& text);
+void set_verbose(bool verbose);
+/// Returns whether print_detail says anything.
+bool is_verbose();
 /// While it lives print_item is silent.
 class Silence {
  public:
@@ -30,7 +36,9 @@ class Silence {
 bool is_silenced();
 /// Number with unit in about four significant digits.
 std::string with_unit(double value, const std::string& unit);
-/// The same of a length in m, in mm.
+/// Number in three significant digits, without an exponent from 1000 on.
+std::string short_number(double value);
+/// with_unit of a length in m, in mm.
 std::string in_mm(double length);
 /// Seconds as "0.83 s", "2 min 05 s".
 std::string duration(double seconds);

@@ -8,6 +8,7 @@
 #include "app/drive_input.h"
 #include "app/evaluate/flank_material.h"
 #include "app/finite_elements.h"
+#include "app/gear/drive_options.h"
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"
 #include "app/options/rows.h"
@@ -183,8 +184,8 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
                                                        static_cast<std::size_t>(i)));
   }
   if (source.kind != Kind::in_time) require_roll_angles(pair, source.path);
-  return pair;
   evaluation::take_hertz(pair);
+  return pair;
 }
 
 // Are the flanks of a run exact and in their place?
@@ -260,6 +261,29 @@ std::map<std::string, io::StressSet> recover_roots(const DriveOfRun& of, Bodies&
   return roots;
 }
 
+// A gear's bearings stand in its file's order; their forces act on the gear, in the world.
+std::vector<BearingOfRun> read_bearings(const DriveOfRun& of, const Source& source) {
+  std::vector<BearingOfRun> bearings;
+  for (const DriveMember& member : of.drive.members)
+    for (const std::string& name : bearing_names(of.options, member)) {
+      const auto& known = source.header.bushings;
+      if (std::find(known.begin(), known.end(), name) == known.end()) continue;
+      const io::BushingHistory history = io::read_bushing_history(source.path, name);
+      const Eigen::Vector3d axis = rotation_matrix(member.rotation).col(2);
+      const auto across = [&](const Eigen::MatrixXd& of_all) -> Eigen::VectorXd {
+        const Eigen::MatrixXd v = of_all(Eigen::all, source.steps);
+        return (v - axis * (axis.transpose() * v)).colwise().norm().transpose();
+      };
+      const Eigen::MatrixXd u = history.displacement(Eigen::all, source.steps),
+                            angle = history.angle(Eigen::all, source.steps);
+      bearings.push_back({name, member.name, across(history.force),
+                          -(axis.transpose() * history.force(Eigen::all, source.steps)).transpose(),
+                          across(history.torque), u.topRows<2>().colwise().norm().transpose(),
+                          u.row(2).transpose(), angle.topRows<2>().colwise().norm().transpose()});
+    }
+  return bearings;
+}
+
 }  // namespace
 
 const model::ElasticBody& Bodies::get(const std::string& file, const std::string& body,
@@ -299,6 +323,7 @@ CaseRun read_case_run(const DriveOfRun& of, Bodies& bodies, const std::string& r
         pair.run.root[g] = set->second;
     run.pairs.push_back(std::move(pair));
   }
+  run.bearings = read_bearings(of, source);
   require(!run.pairs.empty(), result, ": holds no pair of bodies in contact");
   if (source.kind == Kind::in_time)
     for (const std::string& name : source.header.sensors) {

@@ -46,9 +46,18 @@ struct NamedPair {
   evaluation::PairOfRun run;
 };
 
+/// What a bearing of a gear bears and how far it gives way, n_t each.
+struct BearingOfRun {
+  std::string name, gear;
+  Eigen::VectorXd radial_load, axial_load;  ///< N, size across the gear's axis; along it, on the bearing
+  Eigen::VectorXd tilting_moment;           ///< N m, size across the axis
+  Eigen::VectorXd radial_deflection, axial_deflection, tilt;  ///< m, m, rad, of the gear against the housing
+};
+
 /// The run of a case.
 struct CaseRun {
   std::vector<NamedPair> pairs;
+  std::vector<BearingOfRun> bearings;
   std::map<std::string, Eigen::MatrixXd> sensors;  ///< by name, n_t x 3, m/s^2; of a run in time
   std::vector<std::string> notes;                  ///< what is not known, and why
 };

@@ -178,6 +178,8 @@ void print_figures(const CaseFigures& of) {
     print_roots(reader);
     print_losses(reader);
   }
+  for (const EvaluationItem& item : of.bearings)
+    if (item.shape.empty() && item.words.empty()) print_item(item.path, with_unit(item.value[0], item.unit));
   for (const std::string& note : of.notes) print_item("note", note);
 }
 

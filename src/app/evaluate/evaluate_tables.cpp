@@ -136,6 +136,7 @@ nlohmann::ordered_json json_of(const CaseFigures& of) {
   nlohmann::ordered_json j = {{"case", of.of.name}, {"result", of.of.file}};
   for (const auto& [heading, text] : of.of.columns) j["inputs"][heading] = text;
   for (const PairFigures& pair : of.pairs) j["pairs"][pair.pair] = tree_of(pair.items);
+  if (!of.bearings.empty()) j.update(tree_of(of.bearings));
   if (!of.notes.empty()) j["notes"] = of.notes;
   return j;
 }
@@ -169,6 +170,29 @@ std::vector<std::string> write_pair_tables(const std::string& stem, const Items&
     std::replace(name.begin(), name.end(), '/', '_');
     write(name, of_pattern(items, group));
   }
+  return written;
+}
+
+std::vector<std::string> write_bearing_tables(const std::string& stem, const CaseFigures& of) {
+  std::vector<CsvColumn> over_roll, orders;
+  if (of.bearings.empty()) return {};
+  for (const auto& [path, name] : {std::pair("roll", "roll angle"), std::pair("time", "time")})
+    add_curve(over_roll, of.pairs.front().items, path, name);
+  for (const EvaluationItem& item : of.bearings) {
+    if (item.shape.size() != 1 || !item.words.empty()) continue;
+    std::string name = item.path.substr(item.path.find('/') + 1);
+    std::replace(name.begin(), name.end(), '/', ' ');
+    const bool is_order = item.path.ends_with("/order"), is_amplitude = item.path.ends_with("/amplitude");
+    if (is_order && orders.empty()) orders.push_back({"order", item.unit, column_of(item)});
+    if (is_amplitude) orders.push_back({name, item.unit, column_of(item)});
+    if (!is_order && !is_amplitude && !item.path.ends_with("/phase"))
+      over_roll.push_back({name, item.unit, column_of(item)});
+  }
+  std::vector<std::string> written = {stem + "_bearings.csv"};
+  io::write_csv(written.back(), over_roll);
+  if (orders.empty()) return written;
+  written.push_back(stem + "_bearing_orders.csv");
+  io::write_csv(written.back(), orders);
   return written;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Outputs of evaluate beside the HDF5 file: CSV tables, the JSON summary and what is printed.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct PairFigures {
 struct CaseFigures {
   Case of;
   std::vector<PairFigures> pairs;
-  std::vector<io::EvaluationItem> sensors;  ///< order spectra
+  std::vector<io::EvaluationItem> bearings;  ///< loads, deflections and their orders, by bearing
+  std::vector<io::EvaluationItem> sensors;   ///< order spectra
   std::vector<std::string> notes;
 };
 
@@ -30,13 +32,29 @@ const io::EvaluationItem* find_item(const std::vector<io::EvaluationItem>& items
 std::vector<std::string> write_pair_tables(const std::string& stem,
                                            const std::vector<io::EvaluationItem>& items);
 
+/// Writes loads and deflections of bearings over the roll angle, and the amplitudes of their orders; returns
+/// the names of the tables, none without bearings.
+std::vector<std::string> write_bearing_tables(const std::string& stem, const CaseFigures& of);
+
 /// Writes one row a case with all single numbers.
 void write_cases_table(const std::string& path, const std::vector<CaseFigures>& cases);
 
 /// Writes all single numbers and words of all cases as JSON.
 void write_summary(const std::string& path, const std::string& drive, const std::vector<CaseFigures>& cases);
 
-/// Prints what an engineer looks for.
+/// What figures are read with that the results do not say.
+struct Surroundings {
+  std::map<std::string, std::string> kind = {};  ///< of gears that are equal and have equal mates: planets
+  std::string loaded_flanks = "drive";           ///< or "coast"
+  std::string finer = {};                        ///< size of a finer mesh; empty: there is none
+
+  /// That of a gear, its own name where it is one of a kind.
+  std::string kind_of(const std::string& gear) const;
+};
+
+/// Prints what an engineer looks for, on one screen: numbers rounded, gears of one kind summed up.
+void print_case_in_short(const CaseFigures& of, const Surroundings& about);
+/// Prints all figures.
 void print_figures(const CaseFigures& of);
 /// Prints one line a case.
 void print_cases(const std::vector<CaseFigures>& cases);

@@ -156,7 +156,7 @@ Options member_options(const Options& options, const DriveMember& member) {
   own.set_default("stress_nodes", "root");
   own.set_default("restrain", member.held);
   if (any_material(own)) return own;
-  print_item("material", "steel: 210 GPa, nu 0.3, 7850 kg/m^3 (none is given)");
+  print_detail("material", "steel: 210 GPa, nu 0.3, 7850 kg/m^3 (none is given)");
   own.set_default("material_E", "210e9");
   own.set_default("material_nu", "0.3");
   own.set_default("material_rho", "7850");
@@ -185,6 +185,10 @@ void print_drive(const Drive& drive) {
     print_item(drive.members[pair.first].name + ":" + drive.members[pair.second].name, "");
     for (const auto& [name, value] : pair.facts) print_item("  " + name, value);
   }
+}
+
+void print_facts(const Drive& drive) {
+  if (is_verbose()) print_drive(drive);
 }
 
 }  // namespace elastogear::app

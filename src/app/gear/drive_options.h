@@ -47,5 +47,7 @@ std::string drawing_file(const Options& options);
 
 /// Table of the drive's numbers, on rank 0.
 void print_drive(const Drive& drive);
+/// The same as a detail.
+void print_facts(const Drive& drive);
 
 }  // namespace elastogear::app

@@ -214,8 +214,8 @@ void add_flanks(const Teeth& teeth, const std::string& file, const std::string& 
   const Heights heights = add_heights(surface, teeth, known);
   add_curvatures(surface, teeth.toothing, known);
   known.flanks = involute_flanks(teeth.toothing, teeth.deviations);
-  print_item("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
-                                      with_unit(farthest.distance, "m") + " of " + file);
+  print_detail("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
+                                        with_unit(farthest.distance, "m") + " of " + file);
   if (teeth.deviations)
     print_item("modified flanks of " + body,
                "followed within " + with_unit(heights.error * 1e6, "um") + " by polynomials over the faces");

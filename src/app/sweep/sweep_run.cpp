@@ -99,7 +99,7 @@ SweepJob make_job(const Options& given) {
   check_cases(options, cases);
   const Options first = of_case(options, cases, cases.cases.front());
   const Drive drive = drive_at_zero(first);
-  print_drive(drive);
+  print_facts(drive);
   const Options all = with_system(first, drive);
   all.reject_unknown(simulate_names(all));
   require_bodies(first, drive);
@@ -220,20 +220,22 @@ void print_sweep(const SweepJob& job, const SweepFound& found) {
   if (job.cases.several) print_item("cases", std::to_string(job.cases.cases.size()));
   print_item("roll angles", std::to_string(found.positions) + " of " + std::to_string(wanted) + ", " +
                                 std::to_string(summary.restarts) + " of them anew from the unloaded state");
-  print_item("Newton iterations", std::to_string(summary.run.newton_iterations));
+  print_detail("Newton iterations", std::to_string(summary.run.newton_iterations));
   for (const dynamics::PairSummary& pair : summary.run.pair)
-    print_item("contact " + pair.name,
-               "peak force " + with_unit(pair.peak_force, "N") + " at roll " + with_unit(pair.peak_time, ""));
+    print_detail("contact " + pair.name, "peak force " + with_unit(pair.peak_force, "N") + " at roll angle " +
+                                             with_unit(pair.peak_time, "pitches"));
   if (summary.run.unbalanced > 0)
     print_item("unbalanced", with_unit(100 * summary.run.unbalanced, "%") +
                                  " of the forces at most, where points of contact come and go");
   if (!job.cases.several) {
-    print_item("work of the torques", with_unit(found.work, "J"));
-    print_item("loss by friction", with_unit(found.dissipated, "J"));
-    print_item("largest error of the balance", with_unit(found.largest_imbalance, "J"));
+    print_detail("work of the torques", with_unit(found.work, "J"));
+    print_detail("loss by friction", with_unit(found.dissipated, "J"));
+    print_detail("largest error of the balance",
+                 with_unit(found.largest_imbalance, "J") +
+                     ": works are sums over the positions by the trapezoidal rule");
   }
-  print_item("time of all ranks", duration(summary.run.wall_time));
-  print_item("largest memory", largest_memory());
+  print_detail("time of all ranks", duration(summary.run.wall_time));
+  print_detail("largest memory", largest_memory());
   print_item("written", job.output);
 }
 

@@ -25,8 +25,11 @@ OptionTable all_options(const std::vector<Verb>& verbs) {
 }  // namespace
 
 std::vector<Verb> all_verbs() {
-  return {run_verb(),      mesh_verb(), reduce_verb(), simulate_verb(), recover_verb(),
-          evaluate_verb(), life_verb(), wear_verb(),   compare_verb(),  info_verb()};
+  std::vector<Verb> verbs = {run_verb(),      mesh_verb(), reduce_verb(), simulate_verb(), recover_verb(),
+                             evaluate_verb(), life_verb(), wear_verb(),   compare_verb(),  info_verb()};
+  for (Verb& verb : verbs)
+    verb.table.push_back({"verbose", "-", "false", "print every line, not only those that most look for"});
+  return verbs;
 }
 
 const Verb& find_verb(const std::vector<Verb>& verbs, const std::string& name) {

@@ -1,8 +1,10 @@
 // elastogear evaluate: drive file and results -> what an engineer reads off.
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
@@ -44,10 +46,37 @@ std::string no_orders(const evaluation::PairOfRun& run) {
              : ": no orders: the roll angles are not even positions that fill whole pitches";
 }
 
+void add_bearing(const evaluation::PairOfRun& run, const BearingOfRun& bearing,
+                 std::vector<io::EvaluationItem>& items) {
+  const std::string group = "bearings/" + bearing.name + "/";
+  items.push_back({group + "gear", "1", "gear that it bears", {1}, {}, {bearing.gear}});
+  const auto add = [&](const char* name, const char* unit, const std::string& what,
+                       const Eigen::VectorXd& values) {
+    if (!(values.cwiseAbs().maxCoeff() > 0)) return;
+    Eigen::Index at = 0;
+    values.cwiseAbs().maxCoeff(&at);
+    items.push_back({group + name,
+                     unit,
+                     what,
+                     {static_cast<std::size_t>(values.size())},
+                     {values.begin(), values.end()}});
+    items.push_back({group + "largest_" + name, unit, what + ", of largest size", {}, {values[at]}});
+    for (const io::EvaluationItem& item :
+         evaluation::spectrum_items(run, group + name + "_orders", values, unit))
+      items.push_back(item);
+  };
+  add("radial_load", "N", "radial load of the bearing", bearing.radial_load);
+  add("axial_load", "N", "load on the bearing along the gear's z axis", bearing.axial_load);
+  add("tilting_moment", "N m", "moment of the bearing across the axis", bearing.tilting_moment);
+  add("radial_deflection", "m", "way of the gear across the axis there", bearing.radial_deflection);
+  add("axial_deflection", "m", "way of the gear along its z axis there", bearing.axial_deflection);
+  add("tilt", "rad", "tilt of the gear there", bearing.tilt);
+}
+
 Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_case,
                         const std::map<std::string, Eigen::VectorXd>& unloaded) {
   CaseRun run = read_case_run(of, bodies, of_case.file, unloaded);
-  Evaluated evaluated{{of_case, {}, {}, std::move(run.notes)}, {}, {}, run.pairs[0].run.roll};
+  Evaluated evaluated{{of_case, {}, {}, {}, std::move(run.notes)}, {}, {}, run.pairs[0].run.roll};
   for (const NamedPair& pair : run.pairs) {
     evaluated.pairs.push_back(evaluation::evaluate(pair.run));
     evaluated.width.push_back(evaluation::common_width(pair.run));
@@ -55,6 +84,8 @@ Evaluated evaluate_case(const DriveOfRun& of, Bodies& bodies, const Case& of_cas
     if (!find_item(evaluated.pairs.back().items, "transmission_error/order"))
       evaluated.figures.notes.push_back(pair.name + no_orders(pair.run));
   }
+  for (const BearingOfRun& bearing : run.bearings)
+    add_bearing(run.pairs[0].run, bearing, evaluated.figures.bearings);
   constexpr const char* kAxis[] = {"x", "y", "z"};
   for (const auto& [sensor, a] : run.sensors)
     for (int i = 0; i < 3; ++i)
@@ -138,6 +169,7 @@ io::EvaluationFile file_of(const Options& options, const std::vector<CaseFigures
     file.items.push_back({of.of.name + "/result", "1", "result file of the case", {1}, {}, {of.of.file}});
     add_case_inputs(of.of, file);
     for (const PairFigures& pair : of.pairs) add(of.of.name + "/" + pair.pair, pair.items);
+    add(of.of.name, of.bearings);
     add(of.of.name, of.sensors);
   }
   return file;
@@ -148,19 +180,22 @@ void write_all(const Options& options, const EvaluateSettings& settings,
   const bool several = cases.size() > 1;
   const std::string stem = stem_of(settings.output);
   io::write_evaluation(settings.output, file_of(options, cases));
-  print_item("written", settings.output);
+  print_detail("written", settings.output);
   write_summary(stem + ".json", drive_stem(options), cases);
-  print_item("written", stem + ".json");
+  print_detail("written", stem + ".json");
   if (several) {
     write_cases_table(stem + "_cases.csv", cases);
     print_item("written", stem + "_cases.csv");
   }
-  if (several && !settings.case_tables) return;
   std::size_t n = 0;
-  for (const CaseFigures& of : cases)
+  for (const CaseFigures& of : cases) {
+    if (several && !settings.case_tables) break;
     for (const PairFigures& pair : of.pairs)
       n += write_pair_tables(tables_stem(settings, of, several, pair.pair), pair.items).size();
-  print_item("written", std::to_string(n) + " tables " + stem + "_*.csv");
+    n += write_bearing_tables(stem + (several ? "_" + of.of.name : ""), of).size();
+  }
+  print_item("written", stem + ".json (all numbers, for programs), " + settings.output + ", " +
+                            std::to_string(n) + " tables " + stem + "_*.csv");
 }
 
 // Tables are named after the output and cannot be inputs unless these end in .csv or .json.
@@ -170,6 +205,48 @@ void protect(const Options& options, const EvaluateSettings& settings, const std
   if (!settings.unloaded.empty()) data.push_back(settings.unloaded);
   const std::string stem = stem_of(settings.output);
   protect_inputs(options, {{"output", {settings.output, stem + ".json", stem + "_cases.csv"}}}, data);
+}
+
+std::string without_number(std::string name) {
+  while (!name.empty() && std::isdigit(static_cast<unsigned char>(name.back()))) name.pop_back();
+  if (name.ends_with('_')) name.pop_back();
+  return name;
+}
+
+// Gears whose names differ in their numbers alone and that are equal, between the same mates.
+std::map<std::string, std::string> kinds_of(const Drive& drive) {
+  using Likeness = std::pair<std::string, std::vector<double>>;
+  std::map<Likeness, std::vector<std::string>> alike;
+  for (std::size_t i = 0; i < drive.members.size(); ++i) {
+    const DriveMember& m = drive.members[i];
+    const gear::Toothing& t = m.toothing;
+    Likeness of{without_number(m.name), {static_cast<double>(t.z), t.r_a, t.r_f, t.r_form, t.psi_b, m.width}};
+    for (const DrivePair& pair : drive.pairs) {
+      if (pair.first == static_cast<int>(i)) of.second.push_back(pair.second);
+      if (pair.second == static_cast<int>(i)) of.second.push_back(pair.first);
+    }
+    alike[of].push_back(m.name);
+  }
+  std::map<std::string, std::string> kinds;
+  for (const auto& [of, names] : alike)
+    if (names.size() > 1 && !of.first.empty())
+      for (const std::string& name : names) kinds[name] = of.first;
+  return kinds;
+}
+
+std::string finer_size(const Options& options) {
+  constexpr const char* kSizes[] = {"tiny", "small", "medium", "paper", ""};
+  const std::string size = options.text("size");
+  for (std::size_t i = 0; i + 1 < std::size(kSizes); ++i)
+    if (size == kSizes[i]) return kSizes[i + 1];
+  return "";
+}
+
+void print_all(const DriveOfRun& of, const std::vector<CaseFigures>& figures) {
+  if (figures.size() > 1) return print_cases(figures);
+  if (is_verbose()) return print_figures(figures[0]);
+  const bool drives = of.options.choice("side", {"drive", "coast"}) == 0;
+  print_case_in_short(figures[0], {kinds_of(of.drive), drives ? "drive" : "coast", finer_size(of.options)});
 }
 
 OptionTable all_evaluate_options() {
@@ -214,7 +291,7 @@ void run_evaluate(const Options& given, const std::vector<std::string>&) {
   }
   std::vector<CaseFigures> figures;
   for (Evaluated& one : cases) figures.push_back(std::move(one.figures));
-  figures.size() == 1 ? print_figures(figures[0]) : print_cases(figures);
+  print_all(of, figures);
   write_all(options, of.settings, figures);
 }
 

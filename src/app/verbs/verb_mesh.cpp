@@ -36,9 +36,9 @@ void print_mesh(const mesh::Mesh& mesh) {
   const mesh::Quality quality = mesh::quality(mesh);
   print_item("nodes", std::to_string(mesh.n_nodes()));
   print_item("elements", std::to_string(mesh.cells.size()));
-  print_item("contact faces", std::to_string(mesh::face_set(mesh, "flanks").size()));
-  print_item("smallest scaled Jacobian", with_unit(quality.min_scaled_jacobian, ""));
-  print_item("mean scaled Jacobian", with_unit(quality.mean_scaled_jacobian, ""));
+  print_detail("contact faces", std::to_string(mesh::face_set(mesh, "flanks").size()));
+  print_detail("smallest scaled Jacobian", with_unit(quality.min_scaled_jacobian, ""));
+  print_detail("mean scaled Jacobian", with_unit(quality.mean_scaled_jacobian, ""));
 }
 
 template <class Counts>

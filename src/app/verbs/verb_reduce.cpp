@@ -38,16 +38,18 @@ namespace {
 using reduction::ReductionOptions;
 
 // Before the work starts; an Error where the machine has not the memory.
-void print_cost(const reduction::StaticResponseCost& cost) {
+void print_cost(const reduction::StaticResponseCost& cost, bool in_short) {
   constexpr double kLong = 120, kMuch = 4e9;  // s, bytes
   const std::string remedy =
       "name the face sets that contact may touch by option loaded to save time and memory";
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  print_item("static responses", std::to_string(cost.n_columns) + " loads on " +
-                                     std::to_string(cost.n_nodes) + " nodes that contact may touch: about " +
-                                     duration(cost.seconds) + " and " + with_unit(1e-9 * cost.bytes, "GB"));
-  if (cost.n_states > 0)
+  if (!in_short)
+    print_item("static responses", std::to_string(cost.n_columns) + " loads on " +
+                                       std::to_string(cost.n_nodes) +
+                                       " nodes that contact may touch: about " + duration(cost.seconds) +
+                                       " and " + with_unit(1e-9 * cost.bytes, "GB"));
+  if (cost.n_states > 0 && !in_short)
     print_item("relaxed states", std::to_string(cost.n_states) + ", of as many static responses each");
   require(cost.bytes < memory, "the static responses need about ", 1e-9 * cost.bytes,
           " GB, this machine has ", 1e-9 * memory, " GB: ", remedy);
@@ -232,6 +234,19 @@ void print_summary(const reduction::ReductionReport& report, const std::string& 
   print_item("written", output);
 }
 
+// A line for a body of a drive.
+void print_in_short(const reduction::ReductionReport& report, const std::string& output) {
+  constexpr double kKilo = 1e-3;
+  double seconds = 0;
+  for (const reduction::StageTime& stage : report.times) seconds += stage.seconds;
+  std::string text = std::to_string(report.n_cells) + " elements";
+  if (const Eigen::VectorXd& f = report.frequency; f.size() > 0)
+    text += ", " + std::to_string(f.size()) + " modes up to " + short_number(kKilo * f.maxCoeff()) + " kHz";
+  if (!report.continued_after.empty())
+    text += ", continued after " + report.continued_after + " of a run that was killed";
+  print_item("written", output + ": " + text + ", in " + duration(seconds));
+}
+
 void reduce_body(const Options& options, const NodeSource& read) {
   const std::string output = options.text("output");
   std::vector<Outputs> outputs{{"output", {output}}};
@@ -241,7 +256,8 @@ void reduce_body(const Options& options, const NodeSource& read) {
   protect_inputs(options, outputs);
   ReductionOptions reduction = reduction_options(options);
   add_inputs(options, {}, reduction.provenance);
-  reduction.announce = print_cost;
+  const bool in_short = is_drive(options) && !is_verbose();
+  reduction.announce = [=](const reduction::StaticResponseCost& cost) { print_cost(cost, in_short); };
   const OutputLock lock(output);
   const Nodes nodes = [&] {
     const LogStage stage("mesh");
@@ -251,9 +267,12 @@ void reduce_body(const Options& options, const NodeSource& read) {
   drop_static_responses(reduction);
   take_materials(options, nodes.report, reduction);
   take_restraint(options, nodes.report, reduction);
-  print_restraint(nodes.mesh, reduction.restrain);
-  print_named_sets(nodes.mesh, "marker", reduction.markers);
-  print_named_sets(nodes.mesh, "stress nodes", reduction.stress_nodes);
+  {
+    const Silence chosen_by_the_drive(in_short);
+    print_restraint(nodes.mesh, reduction.restrain);
+    print_named_sets(nodes.mesh, "marker", reduction.markers);
+    print_named_sets(nodes.mesh, "stress nodes", reduction.stress_nodes);
+  }
   warn_of_size(nodes.mesh, unit_in_m(options));
   if (!reduction.imported) {
     warn_of_shapes(nodes.mesh, nodes.report.cell_number);
@@ -264,18 +283,21 @@ void reduce_body(const Options& options, const NodeSource& read) {
   if (const std::string advice = blas_advice(); !advice.empty()) print_item("advice", advice);
   const reduction::ReductionReport report =
       reduction::reduce(PETSC_COMM_WORLD, nodes.mesh, reduction, output, console_progress());
-  print_summary(report, output);
+  in_short ? print_in_short(report, output) : print_summary(report, output);
 }
 
 // All members of a drive file, each meshed here, so that bodies and drive belong together.
 void reduce_drive(const Options& options) {
   const Drive drive = read_drive(options);
   const gear::Size size = gear::size(options.text("size"));
-  print_drive(drive);
-  print_item("the drive on such meshes", drive_accuracy(size, element_order(options)));
+  print_facts(drive);
+  print_detail("the drive on such meshes", drive_accuracy(size, element_order(options)));
   for (const DriveMember& member : drive.members) {
-    print_item("body " + member.name, "");
-    print_mesh_accuracy(member.is_worm, size, element_order(options));
+    print_detail("body " + member.name, "");
+    {
+      const Silence unless_asked(!is_verbose());
+      print_mesh_accuracy(member.is_worm, size, element_order(options));
+    }
     reduce_body(member_options(options, member), [&] {
       Nodes nodes{.mesh = member.mesh(size, element_order(options)), .report = {}, .open = {}};
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));

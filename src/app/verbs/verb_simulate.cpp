@@ -242,7 +242,7 @@ Options of_system(const Options& given) {
   const Options options = with_gears(given);
   if (!is_drive(options)) return options;
   const Drive drive = read_drive(options);
-  print_drive(drive);
+  print_facts(drive);
   return with_system(options, drive);
 }
 
