@@ -68,6 +68,16 @@ def recover(options, result, n_times, folder):
     return stress, None if options.no_picture else base + ".pvd"
 
 
+def evaluate(options, result, folder):
+    """What elastogear evaluate reads off the run of a drive; None where it cannot."""
+    path = os.path.join(folder, "evaluation.h5")
+    done = subprocess.run([options.elastogear, "evaluate", options.input, "-result", result, "-output", path], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        print(f"without what evaluate reads off: {done.stderr.strip()}", file=sys.stderr)
+    return path if done.returncode == 0 else None
+
+
 def round_up(value):
     """The next 1, 2 or 5 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
@@ -226,10 +236,14 @@ def report_input(options):
             commands.append("scripts/report.py " + " ".join(names))
             source = f"<details><summary>{texts.escape(stem)}.yaml as it stands</summary><pre tabindex=\"0\">{texts.escape(bundle.read(options.input))}</pre></details>"
             evaluated = options.evaluation or stem + "_evaluation.h5"
+            if "drive" in keys and not os.path.isfile(evaluated):
+                evaluated = evaluate(options, path, folder)
+            if evaluated and os.path.isfile(evaluated):
+                case.take(evaluation.root_peaks(evaluated, case), evaluation.pressure_cards(evaluated, path))
             shown = drawing(options.drawing or stem + ".svg")
             compose(case, collection, {"summary": texts.summary(case, meshes), "inputs": shown + texts.inputs_table(case, os.path.basename(options.input)) + source,
                                        "provenance": texts.provenance_table(case, [options.input, path], commands)},
-                    options.out or stem + "_report.html", evaluated if os.path.isfile(evaluated) else None)
+                    options.out or stem + "_report.html", evaluated if evaluated and os.path.isfile(evaluated) else None)
 
 
 def report_example(options):

@@ -112,6 +112,8 @@ class Peak:
     reduction, of the mesh, of the contact's resolution, of the steps in time (docs/theory.md, sections 4.3, 1.7, 4.6 and 4.7) and
     of all together (Pa; None: not estimated)."""
 
+    what = "largest von Mises stress"
+
     def __init__(self, group, steps=slice(None)):
         von_mises = group["von_mises"][steps]
         step, self.row = np.unravel_index(von_mises.argmax(), von_mises.shape)

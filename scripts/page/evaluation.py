@@ -47,6 +47,28 @@ def shares(name, group):
         yield chart(f"share-{name}".replace(":", "-"), f"Load sharing, {name.replace(':', ' on ')}", group["roll"][:], "share in %", curves)
 
 
+def tensions(name, group):
+    """Largest tension at the roots of both gears."""
+    gears = [gear for gear in group.get("root", {}) if f"root/{gear}/tension" in group]
+    if gears:
+        yield chart(f"tension-{name}".replace(":", "-"), f"Largest tension at the roots, {name.replace(':', ' on ')}", group["roll"][:], "tension in MPa",
+                    [{"name": gear, "values": group[f"root/{gear}/tension"][:].max(axis=1) / 1e6} for gear in gears])
+
+
+def bearings(case):
+    """Loads and deflections of all bearings over the roll angle."""
+    groups, made = dict(case.get("bearings", {})), []
+    rolls = [pair["roll"][:] for pair in pairs_of(case).values()]
+    for kind, title, unit in (("load", "load", "N"), ("deflection", "deflection", "m")):
+        curves = [(f"{name.replace('_', ' ')}, {way}", group[f"{way}_{kind}"][:]) for name, group in groups.items() for way in ("radial", "axial") if f"{way}_{kind}" in group]
+        most = max((np.abs(values).max() for _, values in curves), default=0)
+        if most > 0 and len(rolls[0]) > 1:
+            factor, scaled = readable(most, unit)
+            made.append(chart(f"bearing-{kind}", f"Bearings, {title}", rolls[0], f"{title} in {scaled}",
+                              [{"name": name, "values": values * factor} for name, values in curves if np.abs(values).max() > NOTICEABLE * most]))
+    return made
+
+
 def charts(path, result):
     with results.open_file(path, "evaluation") as file:
         case = group_of(file, result)
@@ -58,7 +80,59 @@ def charts(path, result):
                 for entry in CURVES:
                     made += of_group(name, group, *entry)
                 made += shares(name, group)
-        return made
+                made += tensions(name, group)
+        return made + bearings(case)
+
+
+class RootPeak:
+    """Largest tension at the roots of a gear, as results.Peak: value and estimated errors of von Mises stress there (Pa; None: not
+    estimated), row of its node in the stress file's set, step of the output."""
+
+    what = "largest tension at the roots"
+
+    def __init__(self, pair, gear, nodes, times):
+        root = pair[f"root/{gear}"]
+
+        def number(name):
+            return float(root["largest_tension" + name][()]) if "largest_tension" + name in root else None
+
+        self.value, self.error, self.mesh_error = number(""), number("_error"), number("_mesh_error")
+        self.contact_error, self.time_error = number("_contact_error"), number("_time_error")
+        known = self.error is not None and self.mesh_error is not None
+        self.whole_error = self.error + self.mesh_error + (self.contact_error or 0) + (self.time_error or 0) if known else None
+        at = int(np.abs(pair["roll"][:] - number("_roll")).argmin())
+        time = float(pair["time"][at]) if "time" in pair else number("_roll") if len(pair["roll"]) > 1 else float(times[-1])
+        self.step = int(np.abs(times - time).argmin())
+        self.row = int(np.flatnonzero(nodes == int(number("_node")))[0])
+        side = results.text(root["side"][()].ravel()[0])
+        self.place = f"tooth {number('_tooth'):.0f}, {side} flank's root, diameter {1e3 * number('_diameter'):.1f} mm, z {1e3 * number('_z') + 0:.1f} mm"
+
+
+def root_peaks(path, case):
+    """case.peaks with the largest tension of gears in place of the largest von Mises stress of their roots."""
+    with results.open_file(path, "evaluation") as file:
+        group = group_of(file, case.result.filename)
+        found = {}
+        for name, pair in (pairs_of(group) if group is not None else {}).items():
+            for gear in name.split(":"):
+                nodes = next((stress["nodes"][:] for body, of_set, stress, _ in case.peaks if (body, of_set) == (gear, "root")), None)
+                if nodes is None or f"root/{gear}/largest_tension_diameter" not in pair:
+                    continue
+                peak = RootPeak(pair, gear, nodes, case.stress["time"][:])
+                if gear not in found or peak.value > found[gear].value:
+                    found[gear] = peak
+    return [(body, name, stress, found[body] if name == "root" and body in found else peak) for body, name, stress, peak in case.peaks]
+
+
+def pressure_cards(path, result):
+    """Figure (Pa) and words of the largest flank pressure of each pair."""
+    with results.open_file(path, "evaluation") as file:
+        group = group_of(file, result)
+        for name, pair in (pairs_of(group) if group is not None else {}).items():
+            if "pressure/hertz_peak" in pair:
+                yield name, float(pair["pressure/hertz_peak"][()]), f"largest flank pressure by H. Hertz, at {float(pair['pressure/hertz_peak_roll'][()]):.3g} pitches"
+            elif "pressure/peak" in pair:
+                yield name, float(pair["pressure/peak"][()]), "largest pressure in the mean over faces of the mesh"
 
 
 def in_words(value, unit):

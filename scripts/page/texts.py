@@ -61,6 +61,14 @@ def trust_all(peak):
     return worst([trust(peak.value, peak.error), *others])
 
 
+def light_of(peak):
+    """The light of a largest stress; a fair one says how far it may be off in all."""
+    kind = trust_all(peak)
+    if kind != "fair" or peak.whole_error is None:
+        return light(kind)
+    return light(kind, f"within {math.ceil(100 * peak.whole_error / max(peak.value, 1e-300))} %")
+
+
 def worst(kinds):
     return max(kinds, key=list(LIGHTS).index, default="bad")
 
@@ -118,6 +126,11 @@ class Case:
         self.axis = Axis(self.analysis, float(self.time[-1]))
         self.bodies = sorted(result["bodies"], key=lambda name: int(result["bodies"][name].attrs["number"]))
         self.peaks = [(body, name, group, results.Peak(group)) for body, name, group in results.stress_sets(stress)] if stress else []
+        self.pressures = []
+
+    def take(self, peaks, pressures):
+        """Of a drive: the largest tension of each root in place of its von Mises stress, and flank pressures (pair, Pa, words)."""
+        self.peaks, self.pressures = peaks, list(pressures)
 
     def kind(self):
         return {"worm": "worm drive", "cylindrical": "gear drive"}.get(self.drive.get("drive"), "")
@@ -215,18 +228,21 @@ def checks(case, meshes):
 def cards(case):
     """The answer: the largest stress of each set, and the largest contact force."""
     for body, name, group, peak in sorted(case.peaks, key=lambda entry: -entry[3].value):
-        kind, node = trust_all(peak), int(group["nodes"][peak.row])
-        place = f"node {node}" + (f", {case.axis.at(case.time[peak.step])}" if len(case.time) > 1 else "")
+        node = int(group["nodes"][peak.row])
+        place = getattr(peak, "place", f"node {node}") + (f", {case.axis.at(case.time[peak.step])}" if len(case.time) > 1 else "")
         visit = escape(f'{{"body": "{body}", "node": {node}, "time": {case.time[peak.step]!r}}}')
         yield (f'<li class="card"><h3>{escape(body)}, {escape(name.replace("_", " "))}</h3>'
-               f'<p class="figure">{plus_minus(peak.value, peak.error if peak.whole_error is None else peak.whole_error)} <span class="unit">MPa</span></p><p>largest von Mises stress, {light(kind)}</p>'
+               f'<p class="figure">{plus_minus(peak.value, peak.error if peak.whole_error is None else peak.whole_error)} <span class="unit">MPa</span></p><p>{peak.what}, {light_of(peak)}</p>'
                f'<p class="where">{escape(place)} <button type="button" data-visit="{visit}">Show</button></p></li>')
+    for name, pressure, words in case.pressures:
+        yield (f'<li class="card"><h3>Flanks, {escape(name.replace(":", " on "))}</h3><p class="figure">{mega(pressure)} <span class="unit">MPa</span></p>'
+               f'<p>{escape(words)}</p></li>')
     for name, pair in case.result["contact"].items():
         force = results.total_force(pair)
         step = int(force.argmax())
-        pressure = float(pair["pressure"][:].max()) if "pressure" in pair else 0
+        pressure = float(pair["pressure"][:].max()) if "pressure" in pair and not case.pressures else 0
         more = f"contact pressure up to {mega(pressure)} MPa" if pressure > 0 else ""
-        yield (f'<li class="card"><h3>Contact {escape(name.replace(":", " on "))}</h3><p class="figure">{force[step]:.4g} <span class="unit">N</span></p>'
+        yield (f'<li class="card"><h3>Contact {escape(name.replace(":", " on "))}</h3><p class="figure">{force[step]:.{max(0, 3 - math.floor(math.log10(max(force[step], 1e-3))))}f} <span class="unit">N</span></p>'
                f'<p>largest contact force</p><p>{more}</p><p class="where">{escape(case.axis.at(case.time[step])) if len(case.time) > 1 else ""}</p></li>')
 
 
@@ -257,9 +273,9 @@ def stress_table(case):
     for body, name, group, peak in case.peaks:
         tension = group["rankine"][:]
         errors = [(mega(error, 2) if error is not None else "–", error or 0) for error in (peak.error, peak.mesh_error, peak.contact_error, peak.time_error, peak.whole_error)]
-        rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), *errors, light(trust_all(peak)), str(int(group["nodes"][peak.row])),
+        rows.append([body, name.replace("_", " "), peak.what, (mega(peak.value), peak.value), *errors, light(trust_all(peak)), str(int(group["nodes"][peak.row])),
                      case.axis.cell(case.time[peak.step]), (mega(float(tension.max())), float(tension.max()))])
-    return table(["body", "node set", "von Mises in MPa", "± of the reduction", "± of the mesh", "± of the contact", "± of the steps", "± of all in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
+    return table(["body", "node set", "stress", "in MPa", "± of the reduction", "± of the mesh", "± of the contact", "± of the steps", "± of all in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
 
 
 def contact_table(case):
