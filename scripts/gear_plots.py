@@ -127,7 +127,8 @@ def plot_pattern(pair, name, folder):
     axes.set_facecolor("#f4f4f4")
     axes.grid(False)
     image = axes.pcolormesh(1e3 * cell_edges(group["z"][:]), 1e3 * cell_edges(group[coordinate][:]), pressure, cmap=HEAT, vmin=0)
-    figure.colorbar(image, label="contact pressure, means over the faces, in MPa")
+    of_pressure = "by H. Hertz" if pair.has("pressure/by_hertz") and pair["pressure/by_hertz"] > 0 else "means over the faces"
+    figure.colorbar(image, label=f"contact pressure, {of_pressure}, in MPa")
     axes.set(xlabel="along the axis in mm", ylabel=f"{coordinate.replace('_', ' ')} in mm",
              title=f"Contact pattern: {name.replace('_', ', ')} flanks, {100 * group['covered'][()]:.0f} % touched")
     save(figure, folder, f"pattern_{name}")

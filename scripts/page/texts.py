@@ -273,9 +273,9 @@ def stress_table(case):
     for body, name, group, peak in case.peaks:
         tension = group["rankine"][:]
         errors = [(mega(error, 2) if error is not None else "–", error or 0) for error in (peak.error, peak.mesh_error, peak.contact_error, peak.time_error, peak.whole_error)]
-        rows.append([body, name.replace("_", " "), peak.what, (mega(peak.value), peak.value), *errors, light(trust_all(peak)), str(int(group["nodes"][peak.row])),
-                     case.axis.cell(case.time[peak.step]), (mega(float(tension.max())), float(tension.max()))])
-    return table(["body", "node set", "stress", "in MPa", "± of the reduction", "± of the mesh", "± of the contact", "± of the steps", "± of all in MPa", "", "node", case.axis.name, "largest principal in MPa"], rows, "Largest stresses")
+        rows.append([body, name.replace("_", " "), (mega(peak.value), peak.value), *errors, light(trust_all(peak)), str(int(group["nodes"][peak.row])),
+                     case.axis.cell(case.time[peak.step]), (mega(float(tension.max())), float(tension.max())), peak.what])
+    return table(["body", "node set", "stress in MPa", "± of the reduction", "± of the mesh", "± of the contact", "± of the steps", "± of all in MPa", "", "node", case.axis.name, "largest principal in MPa", "stress is"], rows, "Largest stresses")
 
 
 def contact_table(case):

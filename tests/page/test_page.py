@@ -147,6 +147,13 @@ class Page(unittest.TestCase):
         self.assertEqual(visited["title"], f"{visited['body']}, node {visited['node']}")
         self.assertAlmostEqual(visited["time"], 1)
 
+    def test_the_first_numbers_are_tension_at_the_roots_and_hertz_s_pressure(self):
+        with open(os.path.join(WORK, "drive_report.html"), encoding="utf-8") as file:
+            cards = re.findall(r'<li class="card">(.*?)</li>', file.read(), re.S)
+        for card in cards[:2]:
+            self.assertRegex(card, r"root</h3><p class=\"figure\">[\d.]+ ± [\d.]+ .*largest tension at the roots.*root, diameter [\d.]+ mm, z -?[\d.]+ mm")
+        self.assertIn("largest flank pressure by H. Hertz", cards[2])
+
     def test_phones_do_not_scroll_sideways(self):
         for width, taken in self.seen["widths"].items():
             self.assertLessEqual(taken, int(width))
