@@ -155,13 +155,21 @@ void print_losses(const Reader& of) {
                                      of.in("force/largest", 1, "N"));
 }
 
-// Largest tension at the roots of both gears, MPa; a dash where none is known.
+// Largest tension at the roots of both gears with its estimated error, MPa; a dash where none is known.
 std::string largest_tension(const std::vector<EvaluationItem>& items) {
-  double largest = 0;
+  const EvaluationItem* largest = nullptr;
   for (const EvaluationItem& item : items)
     if (item.path.starts_with("root/") && item.path.ends_with("/largest_tension"))
-      largest = std::max(largest, 1e-6 * item.value[0]);
-  return largest > 0 ? digits_of(largest, 5) : "-";
+      if (!largest || item.value[0] > largest->value[0]) largest = &item;
+  return largest ? with_error(largest->value[0], whole_error(items, largest->path)) : "-";
+}
+
+// Largest pressure, MPa: by H. Hertz, in brackets the mean over faces where that is not known.
+std::string largest_pressure(const std::vector<EvaluationItem>& items) {
+  if (const EvaluationItem* hertz = find_item(items, "pressure/hertz_peak"))
+    return short_number(1e-6 * hertz->value[0]);
+  const EvaluationItem* mean = find_item(items, "pressure/peak");
+  return mean ? "(" + short_number(1e-6 * mean->value[0]) + ")" : "-";
 }
 
 }  // namespace
@@ -192,19 +200,19 @@ void print_cases(const std::vector<CaseFigures>& cases) {
       {"TE mean um", "transmission_error/mean", 1e6}, {"TE p-p um", "transmission_error/peak_to_peak", 1e6},
       {"secant N/um", "stiffness/secant_mean", 1e-6}, {"tangent N/um", "stiffness/tangent_mean", 1e-6},
       {"contact ratio", "teeth/contact_ratio", 1},    {"KHbeta", "line_load/KHbeta", 1},
-      {"pressure MPa", "pressure/peak", 1e-6},        {"Hertz MPa", "pressure/hertz_peak", 1e-6},
       {"efficiency %", "losses/efficiency", 100}};
-  std::printf("%-24s %-20s", "case", "pair");
+  std::printf("%-24s %-20s %13s %13s", "case", "pair", "root MPa", "pressure MPa");
   for (const Column& column : kColumns) std::printf(" %13s", column.title);
-  std::printf(" %13s\n", "root MPa");
+  std::printf("\n");
   for (const CaseFigures& of : cases)
     for (const PairFigures& pair : of.pairs) {
-      std::printf("%-24s %-20s", of.of.name.c_str(), pair.pair.c_str());
+      std::printf("%-24s %-20s %13s %13s", of.of.name.c_str(), pair.pair.c_str(),
+                  largest_tension(pair.items).c_str(), largest_pressure(pair.items).c_str());
       for (const Column& column : kColumns) {
         const EvaluationItem* item = find_item(pair.items, column.path);
-        item ? std::printf(" %13.5g", column.factor * item->value[0]) : std::printf(" %13s", "-");
+        item ? std::printf(" %13.4g", column.factor * item->value[0]) : std::printf(" %13s", "-");
       }
-      std::printf(" %13s\n", largest_tension(pair.items).c_str());
+      std::printf("\n");
     }
 }
 

@@ -66,15 +66,6 @@ std::string flank(const std::string& side, const Surroundings& about) {
   return side + " (" + about.loaded_flanks + ") flank";
 }
 
-// "410 +- 79 MPa": the last digit of both is the second one of the error.
-std::string with_error(double value, double error) {
-  char text[64];
-  if (!(error > 0)) return short_number(value / kMega) + " MPa, its error is not estimated";
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error / kMega))), 0, 3);
-  std::snprintf(text, sizeof text, "%.*f +- %.*f MPa", decimals, value / kMega, decimals, error / kMega);
-  return text;
-}
-
 // A largest stress at the roots of gears of one kind.
 struct RootPeak {
   std::string gear, path;  // "root/pinion/largest_tension"
@@ -92,12 +83,11 @@ constexpr Cause kCauses[] = {{"_mesh_error", "the mesh"},
                              {"_error", "the modes"},
                              {"_time_error", "the steps in time"}};
 
-// Sum of all that is estimated, Pa; 0: those of reduction and mesh are not both known.
-double whole_error(const RootPeak& peak) {
-  double sum = 0;
-  for (const Cause& cause : kCauses)
-    if (const double part = peak.part(cause.item); part >= 0) sum += part;
-  return peak.part("_error") >= 0 && peak.part("_mesh_error") >= 0 ? sum : 0;
+double error_of(const RootPeak& peak) { return whole_error(*peak.items, peak.path); }
+
+std::string in_megapascal(const RootPeak& peak) {
+  const double error = error_of(peak);
+  return with_error(peak.value(), error) + " MPa" + (error > 0 ? "" : ", its error is not estimated");
 }
 
 // The largest tension of each kind of gear, in the order of the pairs.
@@ -144,7 +134,7 @@ std::string remedy(const Cause& cause, const Surroundings& about) {
 }
 
 void print_limit(const RootPeak& peak, const Surroundings& about) {
-  const double all = whole_error(peak);
+  const double all = error_of(peak);
   if (!(all > 0)) return;
   const Cause* most = &kCauses[0];
   for (const Cause& cause : kCauses)
@@ -159,10 +149,9 @@ void print_roots(const CaseFigures& of, const Surroundings& about) {
   if (peaks.empty()) return;
   print_item("tension at the roots", "largest principal stress in the fillets");
   const RootPeak* least_sure = nullptr;
-  const auto share = [](const RootPeak& peak) { return whole_error(peak) / std::abs(peak.value()); };
+  const auto share = [](const RootPeak& peak) { return error_of(peak) / std::abs(peak.value()); };
   for (const auto& [kind, peak] : peaks) {
-    print_item("  " + kind, with_error(peak.value(), whole_error(peak)) +
-                                (kind == peak.gear ? ", " : ", " + peak.gear + " ") +
+    print_item("  " + kind, in_megapascal(peak) + (kind == peak.gear ? ", " : ", " + peak.gear + " ") +
                                 place_of_root(peak, about));
     if (!least_sure || share(peak) > share(*least_sure)) least_sure = &peak;
   }
@@ -288,6 +277,22 @@ void print_bearings(const Items& items) {
 }
 
 }  // namespace
+
+double whole_error(const Items& items, const std::string& path) {
+  double sum = 0;
+  for (const Cause& cause : kCauses)
+    if (const double part = number(items, path + cause.item); part >= 0) sum += part;
+  const bool known = number(items, path + "_error") >= 0 && number(items, path + "_mesh_error") >= 0;
+  return known ? sum : 0;
+}
+
+std::string with_error(double value, double error) {
+  if (!(error > 0)) return short_number(value / kMega);
+  char text[64];
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error / kMega))), 0, 3);
+  std::snprintf(text, sizeof text, "%.*f +- %.*f", decimals, value / kMega, decimals, error / kMega);
+  return text;
+}
 
 std::string Surroundings::kind_of(const std::string& gear) const {
   const auto known = kind.find(gear);

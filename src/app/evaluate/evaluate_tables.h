@@ -42,6 +42,13 @@ void write_cases_table(const std::string& path, const std::vector<CaseFigures>& 
 /// Writes all single numbers and words of all cases as JSON.
 void write_summary(const std::string& path, const std::string& drive, const std::vector<CaseFigures>& cases);
 
+/// Pa, sum of all estimated errors of a largest stress ("root/pinion/largest_tension"); 0 where that of the
+/// reduction or of the mesh is not known.
+double whole_error(const std::vector<io::EvaluationItem>& items, const std::string& path);
+/// "410 +- 79" in MPa, of Pa: the last digit of both is the second one of the error. Without an error the
+/// value alone.
+std::string with_error(double value, double error);
+
 /// What figures are read with that the results do not say.
 struct Surroundings {
   std::map<std::string, std::string> kind = {};  ///< of gears that are equal and have equal mates: planets
