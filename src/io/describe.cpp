@@ -105,7 +105,10 @@ void describe_mesh_file(Out& out, const std::string& path, const std::string& fo
   describe_joints(out, mesh, report);
   describe_materials(out, report.regions);
   for (const std::string& hold : report.restrained) line(out, "restrained by the file: node set ", hold);
+  for (const auto& [set, mass] : report.point_mass)
+    line(out, "point masses of the file: ", mass, " kg on node set ", set);
   for (const std::string& what : report.read_as) line(out, "element type ", what);
+  for (const std::string& what : report.lost) line(out, "lost: ", what);
   for (const std::string& what : report.ignored) line(out, "not read: ", what);
 }
 

@@ -143,15 +143,115 @@ TEST_F(InpCards, say_which_element_types_are_computed_otherwise) {
 TEST_F(InpCards, name_all_they_leave_out) {
   EXPECT_THAT(report_of(kDeck).ignored,
               ElementsAre("*STEP (line 29)", "*FREQUENCY (line 30)", "*END STEP (line 32)"));
-  EXPECT_THAT(report_with("0.3, 20.", "0.3, 20.\n 200000., 0.3, 200.").ignored.front(),
+  EXPECT_THAT(report_of(kDeck).lost, IsEmpty());
+  EXPECT_THAT(report_with("0.3, 20.", "0.3, 20.\n 200000., 0.3, 200.").lost.front(),
               HasSubstr("*ELASTIC (line 11): of its table only the first row"));
-  EXPECT_THAT(report_with("*ELASTIC\n", "*ELASTIC, TYPE=ANISO\n").ignored.front(),
+  EXPECT_THAT(report_with("*ELASTIC\n", "*ELASTIC, TYPE=ANISO\n").lost.front(),
               HasSubstr("TYPE=ANISO (line 11)"));
-  EXPECT_THAT(report_with("3, 0.\n", "3, 0.5\n").ignored.front(),
-              HasSubstr("line 28): a displacement other than 0"));
-  EXPECT_THAT(report_with("*BOUNDARY", "*BOUNDARY, TYPE=VELOCITY").ignored.front(),
-              HasSubstr("TYPE=VELOCITY"));
+  EXPECT_THAT(report_with("3, 0.\n", "3, 0.5\n").lost.front(),
+              HasSubstr("(line 28): nodes with a displacement other than 0 are not held"));
+  EXPECT_THAT(report_with("*BOUNDARY", "*BOUNDARY, TYPE=VELOCITY").lost.front(), HasSubstr("TYPE=VELOCITY"));
   EXPECT_THAT(report_with("*DENSITY", "*EXPANSION\n 1e-5\n*DENSITY").ignored.front(), "*EXPANSION (line 13)");
+}
+
+TEST_F(InpCards, say_once_what_keywords_that_are_not_read_would_change) {
+  const auto lost = [&](const std::string& cards) {
+    return report_with("*BOUNDARY", cards + "*BOUNDARY").lost;
+  };
+  EXPECT_THAT(lost("*SPRING, ELSET=A\n 1\n*SPRING, ELSET=B\n 1\n"),
+              ElementsAre("*SPRING (line 26 and 1 more): springs, dampers and connectors are left out"));
+  EXPECT_THAT(lost("*TIE, NAME=T\n A, B\n"), ElementsAre(HasSubstr("merge the nodes there")));
+  EXPECT_THAT(lost("*SPRUNG\n 1, 2\n"),
+              ElementsAre(HasSubstr("*SPRUNG (line 26): a keyword that is not known")));
+  EXPECT_THAT(lost("*NSET, NSET=A, SORTED\n 1\n"),
+              ElementsAre("*NSET, SORTED (line 26): this parameter is not read"));
+  EXPECT_THAT(error("*BOUNDARY", "*NODE, OFFSET=4\n 9, 1.\n*BOUNDARY"),
+              HasSubstr("line 26: *NODE with the parameter OFFSET is not supported, read are: NSET, INPUT"));
+  EXPECT_THAT(error("*BOUNDARY", "*NCOPY, OLD SET=A\n*BOUNDARY"),
+              HasSubstr("line 26: *NCOPY: it makes nodes"));
+}
+
+TEST_F(InpCards, read_keywords_without_blanks_and_parameters_cut_short) {
+  EXPECT_EQ(report_with("*SOLID  SECTION", "*solidsection").regions.size(), 1u);
+  const Mesh mesh = read(replaced(kDeck, "*BOUNDARY", "*NSET, NSET=RANGE, GEN\n 1, 3\n*BOUNDARY"));
+  EXPECT_THAT(mesh.node_sets.at("RANGE"), ElementsAre(0, 1, 2));
+}
+
+TEST_F(InpCards, end_a_keyword_line_by_a_comma_above_data) {
+  EXPECT_THAT(read(replaced(kDeck, "NSET=FIX", "NSET=FIX,")).node_sets.at("FIX"), ElementsAre(0, 1));
+  EXPECT_THAT(read(replaced(kDeck, "*NSET, NSET=FIX", "*NSET,\n NSET=FIX,\n INTERNAL")).node_sets.at("FIX"),
+              ElementsAre(0, 1));
+  EXPECT_EQ(report_with("*MATERIAL, NAME=Steel", "*MATERIAL, NAME=Steel,").regions.size(), 1u);
+}
+
+TEST_F(InpCards, read_the_restraint_of_the_first_step_alone) {
+  const auto held = [&](const std::string& first, const std::string& second) {
+    const auto report = report_with("*FREQUENCY", first + "*FREQUENCY");
+    const auto both =
+        replaced(kDeck, "*FREQUENCY", first + "*FREQUENCY") + "*STEP\n" + second + "*END STEP\n";
+    EXPECT_EQ(report_of(both).restrained, report.restrained);
+    EXPECT_THAT(report_of(both).lost, ElementsAre(HasSubstr("*BOUNDARY of a later step (line ")));
+    return report.restrained;
+  };
+  EXPECT_THAT(held("*BOUNDARY\n 4, 2\n", "*BOUNDARY\n 4, 3\n"), ElementsAre("BOUNDARY", "BOUNDARY_y:y"));
+  EXPECT_THAT(held("*BOUNDARY, OP=NEW\n 4, 2\n*BOUNDARY, OP=NEW\n 4, 3\n", "*BOUNDARY\n 4, 1\n"),
+              ElementsAre("BOUNDARY_yz:yz"))
+      << "OP=NEW takes back what stands above the step";
+}
+
+TEST_F(InpCards, turn_the_axes_of_held_nodes_where_they_are_those_of_the_mesh) {
+  const auto held = [&](const std::string& transform, const std::string& boundary) {
+    return replaced(replaced(kDeck, " FIX, 1, 3\n 3, 1, 3, 0.\n", boundary), "*BOUNDARY",
+                    "*TRANSFORM, NSET=FIX, " + transform + "\n*BOUNDARY");
+  };
+  EXPECT_THAT(report_of(held("TYPE=R\n 0., 1., 0., -1., 0., 0.", " FIX, 1\n")).restrained,
+              ElementsAre("BOUNDARY_y:y"));
+  EXPECT_THAT(report_of(held("TYPE=C\n 0., 1., 0., 1., 1., 0.", " FIX, 3\n")).restrained,
+              ElementsAre("BOUNDARY_x:x"));
+  EXPECT_THAT(report_of(held("TYPE=C\n 0., 1., 0., 0., 1., 5.", " FIX, 1, 2\n")).restrained,
+              ElementsAre("BOUNDARY_xy:xy"));
+  EXPECT_THAT(report_of(held("TYPE=C\n 0., 1., 0., 0., 1., 5.", " FIX, 1, 3\n")).restrained,
+              ElementsAre("BOUNDARY"));
+  EXPECT_THAT(error_of(held("TYPE=C\n 0., 1., 0., 0., 1., 5.", " FIX, 1\n")),
+              HasSubstr("line 26: *TRANSFORM: node 2 is held along cylindrical axes"));
+  EXPECT_THAT(error_of(held("TYPE=S\n 0., 0., 0., 0., 1., 5.", " FIX, 1\n")), HasSubstr("TYPE=S"));
+  EXPECT_THAT(error_of(held("TYPE=R\n 0., 0., 0., 0., 1., 5.", " FIX, 1\n")), HasSubstr("no directions"));
+  EXPECT_THAT(error_of(replaced(held("TYPE=R\n 1., 0., 0.,", " FIX, 1\n"), "NSET=FIX, T", "NSET=FLEX, T")),
+              HasSubstr("no directions"));
+}
+
+TEST_F(InpCards, read_point_masses_in_the_file_s_units) {
+  const std::string masses = "*ELEMENT, TYPE=MASS, ELSET=A\n 90, 1\n 91, 2\n 92, 2\n*MASS, ELSET=A\n 2.E-3\n";
+  const ReadReport report = report_of(replaced(kDeck, "*BOUNDARY", masses + "*BOUNDARY"), kMillimetre);
+  ASSERT_THAT(report.point_mass, testing::SizeIs(2));
+  EXPECT_NEAR(report.point_mass.at("MASS"), 2, kRoundoff * 2) << "t to kg";
+  EXPECT_NEAR(report.point_mass.at("MASS_"), 4, kRoundoff * 4) << "two elements on a node";
+  const Mesh mesh = read(replaced(kDeck, "*BOUNDARY", masses + "*BOUNDARY"));
+  EXPECT_THAT(mesh.node_sets.at("MASS"), ElementsAre(0));
+  EXPECT_THAT(mesh.node_sets.at("MASS_"), ElementsAre(1));
+  EXPECT_THAT(report.lost, IsEmpty());
+  EXPECT_THAT(error("*BOUNDARY", masses + "*MASS, ELSET=B\n 1\n*BOUNDARY"),
+              HasSubstr("unknown element set 'B'"));
+  EXPECT_THAT(error("*BOUNDARY", "*MASS, ELSET=BODY\n -1\n*BOUNDARY"), HasSubstr("negative"));
+}
+
+TEST_F(InpCards, generate_rows_of_nodes_and_elements) {
+  const std::string deck =
+      "*NODE\n 1, 0.\n 5, 4.\n 11, 0., 1.\n 15, 4., 1.\n 101, 0., 0., 1.\n 105, 4., 0., 1.\n"
+      " 111, 0., 1., 1.\n 115, 4., 1., 1.\n*NGEN, NSET=ROW\n 1, 5\n 15, 11, 1\n 101, 105, 2\n 102, 101,\n"
+      " 103, 105, 1\n 111, 115\n*ELEMENT, TYPE=C3D8\n 1, 1, 2, 12, 11, 101, 102, 112, 111\n"
+      "*ELGEN, ELSET=BAR\n 1, 4, 1, 10\n";
+  EXPECT_THAT(error_of(deck), HasSubstr("line 14: node 102 is not defined above"));
+  const Mesh mesh =
+      read(replaced(replaced(deck, " 102, 101,\n", ""), " 101, 105, 2\n 103, 105, 1", " 101, 105"));
+  EXPECT_THAT(mesh.node_sets.at("ROW"), testing::SizeIs(20));
+  EXPECT_EQ(mesh.X.col(1), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(mesh.X.col(8), Eigen::Vector3d(3, 1, 0));
+  EXPECT_THAT(mesh.cell_sets.at("BAR"), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(mesh.cells[3], ElementsAre(3, 4, 9, 8, 13, 14, 19, 18));
+  EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 5, 3\n")),
+              HasSubstr("in steps of 3 does not end there"));
+  EXPECT_THAT(error_of(replaced(deck, " 1, 5\n", " 1, 900000000000\n")), HasSubstr("no sensible mesh"));
 }
 
 TEST_F(InpCards, name_line_and_value_of_hostile_input) {
@@ -182,7 +282,8 @@ TEST_F(InpCards, name_line_and_value_of_hostile_input) {
   EXPECT_THAT(error(" 3, 1, 3, 0.", " 3, 3, 1"), HasSubstr("from degree of freedom 3 to 1"));
   EXPECT_THAT(error(" 3, 1, 3, 0.", " 3"), HasSubstr("line 28: *BOUNDARY needs"));
   EXPECT_THAT(error(" 3, 1, 3, 0.", " 3, 1, 3, nan"), HasSubstr("a displacement is nan"));
-  EXPECT_THAT(error("*MATERIAL", "*SYSTEM\n 0,0,1\n*MATERIAL"), HasSubstr("*SYSTEM is not supported"));
+  EXPECT_THAT(error("*MATERIAL", "*SYSTEM\n 0,0,1\n*MATERIAL"),
+              HasSubstr("*SYSTEM: only global coordinates are read"));
 }
 
 TEST_F(InpCards, of_an_impossible_stiffness_are_an_error) {
@@ -271,6 +372,20 @@ const std::string kPart = R"(*Heading
  Fixed, ENCASTRE
  Part-1-1.3, PINNED
 )";
+
+TEST_F(InpInclude, may_be_data_that_a_keyword_names) {
+  const std::string deck =
+      "*NODE, NSET=ALL, INPUT=parts/rest.txt\n 1, 0, 0, 0\n*NODE, INPUT=more.txt\n"
+      "*ELEMENT, TYPE=C3D4, ELSET=BODY, INPUT=cell.txt\n";
+  write_file(folder / "more.txt", "3, 0, 1, 0\n");
+  write_file(folder / "cell.txt", "7, 1, 2, 3, 4\n");
+  const Mesh mesh = read(deck);
+  EXPECT_THAT(mesh.node_sets.at("ALL"), ElementsAre(0, 1, 3));
+  EXPECT_THAT(mesh.cell_sets.at("BODY"), ElementsAre(0));
+  write_file(folder / "cell.txt", "7, 1, 2, 3, x\n");
+  EXPECT_THAT(error_of(deck), HasSubstr("cell.txt, line 1: an element or node number is 'x'"));
+  EXPECT_THAT(error_of(replaced(deck, "cell.txt", "none.txt")), HasSubstr("main.inp, line 4: *ELEMENT: "));
+}
 
 struct InpPart : ReaderTest {
   InpPart() : ReaderTest("part.inp", kPart) {}

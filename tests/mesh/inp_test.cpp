@@ -66,24 +66,62 @@ TEST_F(Inp, reports_every_keyword_it_ignores) {
 
 TEST_F(Inp, leaves_shells_out_and_reports_them) {
   ReadReport report;
-  const std::string shell = "*Element, type=CPS4, elset=shell\n 90, 10, 11,\n 12, 13\n";
+  const std::string shell = "*Element, type=CPS4, elset=shell\n 90, 10, 11,\n 12, 22\n";
   const Mesh mesh = read(kCube + shell + "*Elset, elset=both\n 5, 90\n", &report);
   EXPECT_EQ(mesh.cells.size(), 1);
   EXPECT_TRUE(mesh.cell_sets.at("shell").empty());
   EXPECT_EQ(mesh.cell_sets.at("both"), std::vector{0});
-  EXPECT_THAT(report.ignored, testing::Contains("*ELEMENT, TYPE=CPS4 (line 31)"));
+  EXPECT_FALSE(mesh.face_sets.contains("shell"));
+  EXPECT_THAT(report.lost, testing::ElementsAre(
+                               "*ELEMENT, TYPE=CPS4 (line 31): left out, a body is made of solids alone"));
+}
+
+TEST_F(Inp, reads_plane_elements_on_cells_as_face_sets) {
+  ReadReport report;
+  const std::string bottom = "*Element, type=CPS4, elset=Surface1\n 90, 10, 11, 12, 13\n",
+                    side = "*Element, type=S3, elset=Surface2\n 91, 10, 11, 21\n";
+  const Mesh mesh = read(kCube + bottom + bottom.substr(0, 27) + "Surface3\n 92, 20, 21, 22, 23\n" + side +
+                             "*Elset, elset=both\n 5, 90\n",
+                         &report);
+  EXPECT_EQ(mesh.face_sets.at("Surface1"), (std::vector<Face>{{0, 3, 2, 1}})) << "turned outward";
+  EXPECT_EQ(mesh.face_sets.at("Surface3"), (std::vector<Face>{{4, 5, 6, 7}}));
+  EXPECT_TRUE(mesh.face_sets.contains("both"));
+  EXPECT_FALSE(mesh.face_sets.contains("Surface2")) << "half a side";
+  EXPECT_THAT(
+      report.ignored,
+      testing::Contains("*ELEMENT, TYPE=CPS4 (line 31 and 1 more): faces of solids, read as face sets"));
+  EXPECT_THAT(report.lost, testing::ElementsAre(HasSubstr("*ELEMENT, TYPE=S3 (line 35)")));
+}
+
+TEST_F(Inp, leaves_surfaces_of_shells_out_and_reads_the_rest) {
+  ReadReport report;
+  const Mesh mesh = read(kCube +
+                             "*Element, type=S4, elset=shell\n 90, 10, 11, 12, 22\n*Surface, name=mixed\n"
+                             " shell, SPOS\n 90, E1\n 5, S2\n",
+                         &report);
+  EXPECT_EQ(mesh.face_sets.at("mixed"), (std::vector<Face>{{4, 5, 6, 7}}));
+  EXPECT_THAT(report.lost, testing::Contains(HasSubstr("*SURFACE, NAME=mixed (line 34 and 1 more)")));
+}
+
+TEST_F(Inp, takes_a_blank_label_of_a_surface_as_all_free_sides) {
+  EXPECT_THAT(read(kCube + "*Surface, name=all\n body,\n").face_sets.at("all"), testing::SizeIs(6));
+  EXPECT_THAT(read(kCube + "*Surface, name=all\n 5\n").face_sets.at("all"), testing::SizeIs(6));
+}
+
+TEST_F(Inp, takes_coordinates_that_are_missing_at_the_end_as_0) {
+  EXPECT_EQ(read(replaced(kCube, " 11, 1., 0., 0.", " 11, 1.")).X.col(1), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(read(replaced(kCube, " 13, 0, 1, 0", " 13, , 1,")).X.col(3), Eigen::Vector3d(0, 1, 0));
 }
 
 TEST_F(Inp, tells_that_the_last_line_may_be_cut) {
   ReadReport report;
   read(kCube.substr(0, kCube.size() - 1), &report);
-  EXPECT_THAT(report.ignored.front(), HasSubstr("truncated?"));
+  EXPECT_THAT(report.lost.front(), HasSubstr("truncated?"));
 }
 
 TEST_F(Inp, names_line_and_value_of_hostile_input) {
   EXPECT_THAT(error(" 11, 1., 0., 0.", " 11, nan, 0., 0."), HasSubstr("line 6: a coordinate is nan"));
   EXPECT_THAT(error(" 11, 1., 0., 0.", " 11, 1e999, 0., 0."), HasSubstr("a coordinate is '1e999'"));
-  EXPECT_THAT(error(" 11, 1., 0., 0.", " 11, 1., 0."), HasSubstr("line 6"));
   EXPECT_THAT(error(" 11, 1., 0., 0.", " 12, 1., 0., 0."), HasSubstr("node 12 is defined twice"));
   EXPECT_THAT(error(" 11, 1., 0., 0.", " -11, 1., 0., 0."), HasSubstr("node number -11"));
   EXPECT_THAT(error("20, 21, 22, 23", "20, 21, 22, 24"), HasSubstr("element 5 names node 24"));
@@ -97,7 +135,7 @@ TEST_F(Inp, names_line_and_value_of_hostile_input) {
   EXPECT_THAT(error(" 10, 13, 1", " 10, 2000000000000, 1"),
               HasSubstr("line 20: node set 'bottom' names node 14"));
   EXPECT_THAT(error(" 10, 13, 1", " 10, 13, 0"), HasSubstr("step of a range is 0"));
-  EXPECT_THAT(error("5, s6", "5, s7"), HasSubstr("face S1..S6, found 's7'"));
+  EXPECT_THAT(error("5, s6", "5, s7"), HasSubstr("names side S7 of a hex8, which has S1..S6"));
   EXPECT_THAT(error("5, s6", "6, s6"), HasSubstr("names element 6"));
   EXPECT_THAT(error("body, S1", "corpus, S1"), HasSubstr("unknown element set 'corpus'"));
   EXPECT_THAT(error("*Heading", "1, 2"), HasSubstr("line 1: data before the first keyword"));
@@ -133,7 +171,7 @@ TEST_F(Inp, refuses_sides_that_a_cell_does_not_have_and_parts_of_sides) {
     read(replaced(kTetrahedron, "1, S3", "1, S5"));
     FAIL();
   } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("line 16: surface 'skin' names side S5 of a tet10, which has 4"));
+    EXPECT_THAT(e.what(), HasSubstr("line 16: surface 'skin' names side S5 of a tet10, which has S1..S4"));
   }
   Mesh mesh = read(kTetrahedron);
   mesh.face_sets.at("skin").pop_back();

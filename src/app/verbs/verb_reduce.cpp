@@ -132,6 +132,7 @@ Nodes read_on_rank_0(const Options& options, const NodeSource& read) {
     add_numbers(options, nodes);
   });
   for (const std::string& ignored : nodes.report.ignored) print_item("ignored in the mesh", ignored);
+  for (const std::string& lost : nodes.report.lost) print_item("warning", "lost of the mesh file: " + lost);
   for (const std::string& other : nodes.report.read_as) print_item("warning", other);
   for (const std::string& open : nodes.open) print_item("warning", open);
   return nodes;
@@ -157,6 +158,19 @@ void take_restraint(const Options& options, const mesh::ReadReport& report, Redu
   std::string& from = o.provenance["restraint_from"] = "mesh:";
   for (const std::string& hold : o.restrain) from += " " + hold;
   print_item("restraint", "from the mesh file");
+}
+
+// Point masses of the file are those of the body unless options name some.
+void take_point_masses(const mesh::ReadReport& report, ReductionOptions& o) {
+  if (!o.point_mass.empty() || o.imported) return;
+  int n = static_cast<int>(report.point_mass.size());  // rank 0 alone knows
+  MPI_Bcast(&n, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  o.point_mass = report.point_mass;
+  if (n > 0 && o.point_mass.empty()) o.point_mass[""] = 1;  // other ranks ask only whether there are some
+  for (const auto& [set, mass] : report.point_mass) {
+    o.provenance["option_point_mass_" + set] = with_unit(mass, "kg") + " from the mesh";
+    print_item("point mass", with_unit(mass, "kg") + " on node set " + set + ", from the mesh file");
+  }
 }
 
 std::string vector_text(const Eigen::Vector3d& v, const std::string& unit) {
@@ -267,6 +281,7 @@ void reduce_body(const Options& options, const NodeSource& read) {
   drop_static_responses(reduction);
   take_materials(options, nodes.report, reduction);
   take_restraint(options, nodes.report, reduction);
+  take_point_masses(nodes.report, reduction);
   {
     const Silence chosen_by_the_drive(in_short);
     print_restraint(nodes.mesh, reduction.restrain);

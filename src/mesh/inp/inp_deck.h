@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/inp/inp_boundary.h"
-#include "mesh/inp/inp_materials.h"
+#include "mesh/inp/cards/boundary.h"
+#include "mesh/inp/cards/materials.h"
+#include "mesh/inp/cards/others.h"
 #include "mesh/inp/inp_sets.h"
 #include "mesh/raw_mesh.h"
 
@@ -17,24 +18,29 @@ namespace elastogear::mesh {
 struct SurfaceLine {
   std::string name;     // of the surface
   std::string members;  // cell number or element set
-  int side = 0;
+  std::string label;    // as written, in capitals
+  int side = 0;         // 0..5, or negative: see side_of
   int line = 0;
 };
 
 struct InpDeck : RawMesh {
-  std::vector<Tag> other_elements;  // shells, beams, ...: left out, but sets may name them
+  OtherElements others;
   InpSets node_sets{"node"}, cell_sets{"element"};
   InpNames surfaces;
   std::vector<SurfaceLine> surface_lines;
   InpMaterials materials;
   std::vector<BoundaryLine> boundary;
-  std::vector<std::string> ignored;
+  std::vector<Transform> transforms;
+  InpNotes notes;
   std::map<std::string, std::pair<CellType, int>> element_types;  // in capitals: type and first line
   // One *PART, whose one *INSTANCE is the *ASSEMBLY, is the same as its content alone, wherever of the two
   // it stands: instances that Abaqus CAE calls independent hold it themselves.
   int n_parts = 0;
   std::string instance;  // its name in capitals
   bool in_assembly = false, in_instance = false, in_step = false;
+  int n_steps = 0;
+  bool ends_in_a_line = true;
+  bool boundary_is_new = false;  // the first step took back what stands above it
   std::set<std::pair<std::string, std::string>> assembly_sets;  // keyword and name in capitals
 
   /// Returns whether the present keyword belongs to the assembly itself, not to its instance.
@@ -48,7 +54,7 @@ void read_set(InpLines& in, const Keyword& key, InpDeck& deck);
 void read_surface(InpLines& in, const Keyword& key, InpDeck& deck);
 /// The mesh's face sets, when its cell sets are there. Error for unknown elements and sets and sides a cell
 /// has not.
-void build_surfaces(const InpLines& in, const InpDeck& deck, const TagTable& cells, Mesh& mesh,
+void build_surfaces(const InpLines& in, InpDeck& deck, const TagTable& cells, Mesh& mesh,
                     MemberBudget& budget);
 
 }  // namespace elastogear::mesh

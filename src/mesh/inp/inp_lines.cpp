@@ -23,10 +23,20 @@ std::string_view unquoted(std::string_view text) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
+// The next comma outside of double quotes, or the end.
+std::size_t field_end(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] == ',' && !quoted) return i;
+  }
+  return quoted ? std::min(line.find(','), line.size()) : line.size();
+}
+
 void split(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   while (!line.empty()) {
-    const std::size_t comma = std::min(line.find(','), line.size());
+    const std::size_t comma = field_end(line);
     fields.push_back(unquoted(trim(line.substr(0, comma))));
     line.remove_prefix(std::min(comma + 1, line.size()));
   }
@@ -92,22 +102,28 @@ bool InpLines::next_line() {
   return false;
 }
 
-void InpLines::include() {
-  namespace fs = std::filesystem;
+void InpLines::include_line() {
   if (continues()) fail_here("*INCLUDE must stand on one line");
   const Keyword key = keyword();
   if (!key.has("INPUT")) fail_here("*INCLUDE without INPUT=file");
+  include(key);
+}
+
+void InpLines::include(const Keyword& key) {
+  namespace fs = std::filesystem;
+  const std::string star = "*" + key.name;
+  if (ahead_) fail_here(star, ", INPUT= ends with a comma: delete it");
   if (open_.size() > kMaxIncludes) fail_here("files include each other more than ", kMaxIncludes, " deep");
   const fs::path name = fs::path(open_.back()->path).parent_path() / key.parameters.at("INPUT");
   const std::string path = name.lexically_normal().string();
   for (const File& file : files_)
     if (fs::path(file.path).lexically_normal() == path)
-      fail_here("*INCLUDE of ", path, ", which is read already");
+      fail_here(star, " of ", path, ", which is read already");
   std::string content;
   try {
     content = open_file_(path);
   } catch (const Error& error) {
-    fail_here("*INCLUDE: ", error.what());
+    fail_here(star, ": ", error.what());
   }
   enter(files_.emplace_back(File{path, std::move(content)}));
 }
@@ -121,7 +137,7 @@ bool InpLines::next() {
   }
   while (next_line()) {
     if (!at_keyword() || !upper(line_.substr(1, kInclude.size())).starts_with(kInclude)) return true;
-    include();
+    include_line();
   }
   return false;
 }
@@ -131,15 +147,20 @@ bool InpLines::next_data() {
   const bool found = next();
   if (found && !at_keyword()) return true;
   if (found) ahead_ = Line{line_, number_};
-  line_ = current.text;
-  number_ = current.number;
+  return_to(current.text, current.number);
   return false;
+}
+
+void InpLines::return_to(std::string_view line, int number) {
+  line_ = line;
+  number_ = number;
 }
 
 void InpLines::add_parameter(Keyword& keyword, std::string_view text) const {
   if (text.empty()) return;
   const std::size_t equal = text.find('=');
-  const std::string name = upper(trim(text.substr(0, equal)));
+  std::string name = upper(trim(text.substr(0, equal)));
+  if (keyword.row) name = whole_parameter(*keyword.row, name);
   const std::string_view value =
       equal == std::string_view::npos ? std::string_view() : unquoted(trim(text.substr(equal + 1)));
   if (!keyword.parameters.emplace(name, value).second) fail_here("parameter ", name, " is given twice");
@@ -150,17 +171,28 @@ Keyword InpLines::keyword() {
   result.line = number_;
   split(line_.substr(1), fields_);
   if (!fields_.empty()) result.name = upper(fields_[0]);
-  // "*SOLID  SECTION" is "*SOLID SECTION".
-  result.name.erase(std::unique(result.name.begin(), result.name.end(),
-                                [](char a, char b) { return a == ' ' && b == ' '; }),
-                    result.name.end());
+  if (const KnownKeyword* known = find_keyword(result.name)) {
+    result.name = known->name;
+    result.row = known->row;
+  }
   for (std::size_t i = 1; i < fields_.size(); ++i) add_parameter(result, fields_[i]);
-  while (continues() && next()) {
-    if (at_keyword()) fail_here("a keyword line ends with a comma but does not continue");
+  for (Line current{line_, number_}; continues() && next(); current = {line_, number_}) {
+    if (at_keyword() || !holds_parameters(result)) {
+      ahead_ = Line{line_, number_};
+      return_to(current.text, current.number);
+      break;
+    }
     split(line_, fields_);
     for (std::string_view field : fields_) add_parameter(result, field);
   }
   return result;
+}
+
+// Data lines of keywords that are read hold no names of their parameters.
+bool InpLines::holds_parameters(const Keyword& keyword) const {
+  const std::string_view first = trim(line_.substr(0, line_.find_first_of(",=")));
+  if (line_.substr(0, line_.find(',')).find('=') != line_.npos) return true;
+  return keyword.row && knows(*keyword.row, whole_parameter(*keyword.row, upper(first)));
 }
 
 const std::vector<std::string_view>& InpLines::fields() {

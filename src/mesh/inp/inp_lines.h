@@ -11,6 +11,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 #include "mesh/inp/inp.h"
+#include "mesh/inp/inp_keywords.h"
 
 namespace elastogear::mesh {
 
@@ -19,6 +20,7 @@ std::string upper(std::string_view text);
 /// "*ELEMENT, TYPE=C3D8" without the star: name and parameters in capitals, values as written.
 struct Keyword {
   std::string name;
+  const KeywordRow* row = nullptr;  ///< null: a keyword that nobody knows
   std::map<std::string, std::string> parameters;
   int line = 0;
 
@@ -44,8 +46,11 @@ class InpLines {
   std::string place(int number) const;
   /// Is the current line a keyword line?
   bool at_keyword() const { return line_.starts_with('*'); }
-  /// The current keyword line with its continuation lines.
+  /// The current keyword line with its continuation lines. A comma at the end of a line goes on only where
+  /// the next line holds parameters.
   Keyword keyword();
+  /// Puts the content of the file that parameter INPUT names in front of the data lines that follow.
+  void include(const Keyword& key);
   /// Next line that is data; false (and nothing consumed) at a keyword or the end.
   bool next_data();
   /// Does the current line end with a comma?
@@ -96,7 +101,9 @@ class InpLines {
   void add_parameter(Keyword& keyword, std::string_view text) const;
   bool next_line();
   void enter(File& file);
-  void include();
+  void include_line();
+  void return_to(std::string_view line, int number);
+  bool holds_parameters(const Keyword& keyword) const;
   Location locate(int number) const;
 
   std::deque<File> files_;  // all, the first is the one that includes the others

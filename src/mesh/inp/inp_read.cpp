@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "elastogear/base/file.h"
+#include "mesh/inp/cards/generate.h"
 #include "mesh/inp/inp.h"
 #include "mesh/inp/inp_deck.h"
 #include "mesh/inp/inp_format.h"
@@ -18,9 +20,11 @@ void read_nodes(InpLines& in, const Keyword& key, InpDeck& deck) {
   const auto first = deck.node.size();
   while (in.next_data()) {
     const auto& fields = in.fields();
-    if (fields.size() < 4) in.fail_here("a node needs a number and three coordinates");
+    if (fields.empty()) in.fail_here("a node needs a number");
     deck.node.push_back(in.parse_field<Tag>(fields[0], "a node number"));
-    for (int k = 1; k < 4; ++k) deck.X.push_back(in.real(fields[k], "a coordinate"));
+    // Coordinates that are left out at the end are 0, which spares plane models the third.
+    for (std::size_t k = 1; k < 4; ++k)
+      deck.X.push_back(k < fields.size() && !fields[k].empty() ? in.real(fields[k], "a coordinate") : 0);
   }
   if (key.has("NSET"))
     deck.node_sets.add(key.parameters.at("NSET"), {deck.node.begin() + first, deck.node.end()}, key.line);
@@ -37,14 +41,6 @@ std::vector<Tag> read_element(InpLines& in, CellType type) {
   if (numbers.size() != n)
     in.fail_here("element ", numbers.empty() ? 0 : numbers[0], " has ", numbers.size() - 1,
                  " nodes, its type needs ", n - 1);
-  return numbers;
-}
-
-// Numbers of shells, beams and the like, which no body is made of.
-std::vector<Tag> read_other_elements(InpLines& in) {
-  std::vector<Tag> numbers;
-  for (bool continued = false; in.next_data(); continued = in.continues())
-    if (!continued) numbers.push_back(in.parse_field<Tag>(in.fields().at(0), "an element number"));
   return numbers;
 }
 
@@ -65,17 +61,9 @@ void read_elements(InpLines& in, const Keyword& key, InpDeck& deck) {
     in.fail_here("element type '", type, "', of solids only C3D4, 5, 6, 8, 10, 15, 20 and their variants ",
                  "(C3D8I, C3D20R, ...) are read");
   if (solid) deck.element_types.try_emplace(type, *solid, key.line);
-  const std::vector<Tag> elements = solid ? read_cells(in, *solid, deck) : read_other_elements(in);
-  if (!solid) {
-    deck.other_elements.insert(deck.other_elements.end(), elements.begin(), elements.end());
-    deck.ignored.push_back("*ELEMENT, TYPE=" + type + " (" + in.place(key.line) + ")");
-  }
+  const std::vector<Tag> elements =
+      solid ? read_cells(in, *solid, deck) : read_other_elements(in, key, deck.others);
   if (key.has("ELSET")) deck.cell_sets.add(key.parameters.at("ELSET"), elements, key.line);
-}
-
-void ignore(InpLines& in, const Keyword& key, InpDeck& deck) {
-  while (in.next_data()) continue;
-  deck.ignored.push_back("*" + key.name + " (" + in.place(key.line) + ")");
 }
 
 // *PART, *ASSEMBLY and *INSTANCE as Abaqus CAE writes them around a single part.
@@ -97,39 +85,82 @@ bool read_structure(InpLines& in, const Keyword& key, InpDeck& deck) {
                      [&](const std::string& name) { return key.name == name || key.name == "END " + name; });
 }
 
-bool read_mesh_card(InpLines& in, const Keyword& key, InpDeck& deck) {
-  if (deck.of_assembly() && (key.name == "NODE" || key.name == "ELEMENT"))
+void read_mesh_card(InpLines& in, const Keyword& key, InpDeck& deck) {
+  const bool makes = key.name == "NODE" || key.name == "ELEMENT";
+  if (deck.of_assembly() && makes)
     in.fail_here("*", key.name, " outside the part and its instance is not supported (a reference point?): ",
                  "delete it, a marker of reduce does its work");
-  const bool by_element = !key.has("TYPE") || key.value("TYPE") == "ELEMENT";
   if (key.name == "NODE") {
     read_nodes(in, key, deck);
   } else if (key.name == "ELEMENT") {
     read_elements(in, key, deck);
-  } else if (key.name == "NSET" || key.name == "ELSET") {
-    read_set(in, key, deck);
-  } else if (key.name == "SURFACE" && by_element) {
+  } else if (key.name == "NGEN") {
+    generate_nodes(in, key, deck);
+  } else if (key.name == "ELGEN") {
+    generate_elements(in, key, deck);
+  } else if (key.name == "SURFACE") {
     read_surface(in, key, deck);
   } else {
-    return false;
+    read_set(in, key, deck);
   }
-  return true;
 }
 
-// A step is what another program does with the body.
-void read_in_step(InpLines& in, const Keyword& key, InpDeck& deck) {
-  deck.in_step = key.name != "END STEP";
-  ignore(in, key, deck);
+// What holds the body before the first step or in it; further steps are what another program does then.
+void read_restraint(InpLines& in, const Keyword& key, InpDeck& deck) {
+  if (deck.n_steps > 1) {
+    while (in.next_data()) continue;
+    return deck.notes.lose(in, "*BOUNDARY of a later step", key.line,
+                           "that of the first step holds the body");
+  }
+  if (deck.in_step && key.value("OP") == "NEW" && !std::exchange(deck.boundary_is_new, true))
+    deck.boundary.clear();
+  read_boundary(in, key, deck.boundary, deck.notes);
 }
 
+// A keyword that the table says is read.
+void read_card(InpLines& in, const Keyword& key, InpDeck& deck) {
+  for (const auto& [parameter, value] : key.parameters) {
+    if (knows(*key.row, parameter)) continue;
+    if (key.row->kind == KeywordKind::makes)
+      in.fail_at(key.line, "*", key.name, " with the parameter ", parameter,
+                 " is not supported, read are: ", key.row->text,
+                 "; write the nodes and elements out without it");
+    deck.notes.lose(in, "*" + key.name + ", " + parameter, key.line, "this parameter is not read");
+  }
+  if (key.has("INPUT")) in.include(key);
+  if (read_structure(in, key, deck)) return;
+  if (read_material_card(in, key, deck.materials, deck.notes)) return;
+  if (key.name == "BOUNDARY") return read_restraint(in, key, deck);
+  if (key.name == "MASS") return read_mass(in, key, deck.others);
+  if (key.name == "TRANSFORM") return deck.transforms.push_back(read_transform(in, key));
+  read_mesh_card(in, key, deck);
+}
+
+void pass_over(InpLines& in, const Keyword& key, InpDeck& deck) {
+  while (in.next_data()) continue;
+  const std::string what = "*" + key.name;
+  if (!key.row && !deck.in_step)
+    deck.notes.lose(in, what, key.line,
+                    "a keyword that is not known; whatever it does to the body is left out");
+  else if (key.row && key.row->kind == KeywordKind::lost)
+    deck.notes.lose(in, what, key.line, std::string(key.row->text));
+  else
+    deck.notes.ignore(in, what, key.line);
+}
+
+// A step is what another program does with the body, but for what holds it.
 void read_keyword(InpLines& in, InpDeck& deck) {
   const Keyword key = in.keyword();
-  if (deck.in_step || key.name == "STEP") return read_in_step(in, key, deck);
-  if (key.name == "SYSTEM") in.fail_here("*SYSTEM is not supported, only global coordinates are read");
-  if (read_structure(in, key, deck) || read_mesh_card(in, key, deck)) return;
-  if (read_material_card(in, key, deck.materials, deck.ignored)) return;
-  if (key.name == "BOUNDARY") return read_boundary(in, key, deck.boundary, deck.ignored);
-  ignore(in, key, deck);
+  if (key.name == "STEP") ++deck.n_steps;
+  if (key.name == "STEP") deck.in_step = true;
+  const KeywordKind kind = key.row ? key.row->kind : KeywordKind::lost;
+  if (kind == KeywordKind::refused) in.fail_at(key.line, "*", key.name, ": ", key.row->text);
+  const bool is_read = kind == KeywordKind::makes || kind == KeywordKind::read;
+  if (is_read && (!deck.in_step || key.name == "BOUNDARY"))
+    read_card(in, key, deck);
+  else
+    pass_over(in, key, deck);
+  if (key.name == "END STEP") deck.in_step = false;
 }
 
 // Our own files announce their last line, so that a cut at a line end is noticed.
@@ -137,21 +168,41 @@ void check_end(const std::string& path, const std::string& content, InpDeck& dec
   if (content.starts_with(inp_format::kFirstLine))
     require(content.ends_with(inp_format::kLastLine), path, ": the file ends before its last line '",
             inp_format::kLastLine.substr(0, inp_format::kLastLine.size() - 1), "': it is truncated");
-  if (!content.ends_with('\n')) deck.ignored.push_back("the last line has no line end: truncated?");
+  deck.ends_in_a_line = content.ends_with('\n');
 }
 
-Mesh build(const InpLines& in, const InpDeck& deck, double unit_in_m, ReadReport& report) {
+// What the elements that are no solids stand for.
+void build_others(const InpLines& in, InpDeck& deck, const TagTable& nodes, const InpSets::Context& context,
+                  double unit_in_m, Mesh& mesh, ReadReport& report) {
+  const OtherSets sets = deck.cell_sets.resolve(context);
+  add_faces(in, deck.others, context.table, sets, nodes, mesh, deck.notes);
+  add_masses(in, deck.others, context.table, deck.cell_sets, sets, nodes, unit_in_m, mesh, report);
+}
+
+void build_restraint(const InpLines& in, const InpDeck& deck, const TagTable& nodes, double unit_in_m,
+                     Mesh& mesh, ReadReport& report) {
+  std::vector<Transform> transforms = deck.transforms;
+  for (Transform& transform : transforms)
+    for (Eigen::Vector3d* point : {&transform.a, &transform.b}) *point *= unit_in_m;
+  std::vector<Directions> held = held_nodes(in, deck.boundary, deck.node_sets, nodes, mesh);
+  to_mesh_axes(in, transforms, deck.node_sets, nodes.tags(), mesh, held);
+  make_restraint(held, mesh, report);
+}
+
+Mesh build(const InpLines& in, InpDeck& deck, double unit_in_m, ReadReport& report) {
   MemberBudget budget(in.path(), in.total_size());
   auto [nodes, cells, mesh] = number(deck, in.path(), "element", unit_in_m);
+  const TagTable others(deck.others.number, "element", in.path());
   const auto fail_at = [&](int line, const std::string& text) { in.fail_at(line, text); };
-  mesh.node_sets = deck.node_sets.resolve({nodes, {}, budget, fail_at});
-  mesh.cell_sets = deck.cell_sets.resolve(
-      {cells, {deck.other_elements.begin(), deck.other_elements.end()}, budget, fail_at});
+  mesh.node_sets = deck.node_sets.resolve({nodes, nullptr, budget, fail_at});
+  mesh.cell_sets = deck.cell_sets.resolve({cells, &others, budget, fail_at});
   build_surfaces(in, deck, cells, mesh, budget);
+  if (others.size() > 0)
+    build_others(in, deck, nodes, {others, &cells, budget, fail_at}, unit_in_m, mesh, report);
   report.regions = material_regions(in, deck.materials, deck.cell_sets, mesh, unit_in_m);
   report.node_number = nodes.tags();
   report.cell_number = cells.tags();
-  apply_boundary(in, deck.boundary, deck.node_sets, nodes, mesh, report);
+  build_restraint(in, deck, nodes, unit_in_m, mesh, report);
   validate(mesh, in.path());
   return mesh;
 }
@@ -173,9 +224,14 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
     read_keyword(in, deck);
   }
   for (BoundaryLine& line : deck.boundary) line.members = std::string(deck.member(line.members));
+  for (Transform& transform : deck.transforms)
+    transform.members = std::string(deck.member(transform.members));
   ReadReport found;
   Mesh mesh = build(in, deck, unit_in_m, found);
-  found.ignored = std::move(deck.ignored);
+  found.ignored = deck.notes.ignored();
+  found.lost = deck.notes.lost();
+  if (!deck.ends_in_a_line)
+    found.lost.insert(found.lost.begin(), "the last line has no line end: truncated?");
   for (const auto& [type, first] : deck.element_types)
     if (const std::string note = variant_note(type, first.first); !note.empty())
       found.read_as.push_back(

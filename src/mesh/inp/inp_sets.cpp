@@ -60,7 +60,7 @@ struct InpSets::Resolution {
   void add_range(const Range& range, const std::string& set, std::vector<int>& out) const {
     for (std::int64_t tag = range.first; tag <= range.last; tag += range.step) {
       const int i = context.table.find(tag);
-      if (i < 0 && !context.left_out.contains(tag))
+      if (i < 0 && !(context.left_out && context.left_out->find(tag) >= 0))
         context.fail_at(range.line, sets.kind_ + " set '" + *sets.spelling(set) + "' names " + sets.kind_ +
                                         " " + std::to_string(tag) + ", which the file does not define");
       if (i >= 0) out.push_back(i);

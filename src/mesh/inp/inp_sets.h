@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -33,7 +32,7 @@ class InpSets {
 
   struct Context {
     const TagTable& table;
-    std::set<std::int64_t> left_out;  ///< defined in the file, but not in the table
+    const TagTable* left_out = nullptr;  ///< defined in the file, but not in the table
     MemberBudget& budget;
     std::function<void(int line, const std::string& text)> fail_at;  ///< must throw
   };

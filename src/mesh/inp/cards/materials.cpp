@@ -1,4 +1,4 @@
-#include "mesh/inp/inp_materials.h"
+#include "mesh/inp/cards/materials.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -13,11 +13,10 @@ using model::Orientation;
 
 constexpr std::size_t kOrthotropicConstants = 9;
 
-void skip_table(InpLines& in, const Keyword& key, std::vector<std::string>& ignored) {
+void skip_table(InpLines& in, const Keyword& key, InpNotes& notes) {
   if (!in.next_data()) return;
   while (in.next_data()) continue;
-  ignored.push_back("*" + key.name + " (" + in.place(key.line) +
-                    "): of its table only the first row is used");
+  notes.lose(in, "*" + key.name, key.line, "of its table only the first row is used");
 }
 
 // Reads at least n numbers, from as many lines as they take; further ones in the line are temperature and the
@@ -54,8 +53,7 @@ model::Orthotropic from_constants(const std::vector<double>& c) {
   return {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}};
 }
 
-void read_elastic(InpLines& in, const Keyword& key, InpMaterials& materials,
-                  std::vector<std::string>& ignored) {
+void read_elastic(InpLines& in, const Keyword& key, InpMaterials& materials, InpNotes& notes) {
   Material& material = current_material(in, key, materials);
   std::string type = key.value("TYPE");
   std::erase(type, ' ');
@@ -70,18 +68,17 @@ void read_elastic(InpLines& in, const Keyword& key, InpMaterials& materials,
     material.orthotropic = from_stiffness(in, read_constants(in, key, kOrthotropicConstants));
   } else {
     while (in.next_data()) continue;
-    ignored.push_back("*ELASTIC, TYPE=" + type + " (" + in.place(key.line) + ")");
+    notes.lose(in, "*ELASTIC, TYPE=" + type, key.line, "this elasticity is not read");
     return;
   }
-  skip_table(in, key, ignored);
+  skip_table(in, key, notes);
 }
 
-void read_density(InpLines& in, const Keyword& key, InpMaterials& materials,
-                  std::vector<std::string>& ignored) {
+void read_density(InpLines& in, const Keyword& key, InpMaterials& materials, InpNotes& notes) {
   Material& material = current_material(in, key, materials);
   material.rho = read_constants(in, key, 1)[0];
   if (!(material.rho > 0)) in.fail_here("the density is ", material.rho, ", must be positive");
-  skip_table(in, key, ignored);
+  skip_table(in, key, notes);
 }
 
 void set_directions(const InpLines& in, const std::vector<double>& p, Orientation& orientation) {
@@ -158,14 +155,13 @@ void to_si(double unit_in_m, Material& material) {
 
 }  // namespace
 
-bool read_material_card(InpLines& in, const Keyword& key, InpMaterials& materials,
-                        std::vector<std::string>& ignored) {
+bool read_material_card(InpLines& in, const Keyword& key, InpMaterials& materials, InpNotes& notes) {
   if (key.name == "MATERIAL") {
     start_material(in, key, materials);
   } else if (key.name == "ELASTIC") {
-    read_elastic(in, key, materials, ignored);
+    read_elastic(in, key, materials, notes);
   } else if (key.name == "DENSITY") {
-    read_density(in, key, materials, ignored);
+    read_density(in, key, materials, notes);
   } else if (key.name == "ORIENTATION") {
     read_orientation(in, key, materials);
   } else if (key.name == "SOLID SECTION") {

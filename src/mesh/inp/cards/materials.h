@@ -8,6 +8,7 @@
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/model/material.h"
 #include "mesh/inp/inp_lines.h"
+#include "mesh/inp/inp_notes.h"
 #include "mesh/inp/inp_sets.h"
 
 namespace elastogear::mesh {
@@ -24,9 +25,8 @@ struct InpMaterials {
 };
 
 /// Reads the card when it is one of these; false (and nothing read) when not. What it leaves out goes to
-/// `ignored`.
-bool read_material_card(InpLines& in, const Keyword& key, InpMaterials& materials,
-                        std::vector<std::string>& ignored);
+/// `notes`.
+bool read_material_card(InpLines& in, const Keyword& key, InpMaterials& materials, InpNotes& notes);
 
 /// A region for each section whose set has cells, in SI units; lengths of the file times `unit_in_m`. Error
 /// for unknown sets, materials and orientations.

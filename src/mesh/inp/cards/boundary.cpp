@@ -1,4 +1,4 @@
-#include "mesh/inp/inp_boundary.h"
+#include "mesh/inp/cards/boundary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ int directions_between(const InpLines& in, int first, int last) {
 }
 
 // Node or set, first and last degree of freedom, displacement; or node or set and a label.
-BoundaryLine read_line(InpLines& in, std::vector<std::string>& ignored) {
+BoundaryLine read_line(InpLines& in, InpNotes& notes) {
   const auto& f = in.fields();
   if (f.size() < 2 || f.size() > 4 || f[0].empty())
     in.fail_here("*BOUNDARY needs a node or node set and degrees of freedom");
@@ -49,50 +49,36 @@ BoundaryLine read_line(InpLines& in, std::vector<std::string>& ignored) {
   const double value = f.size() > 3 && !f[3].empty() ? in.real(f[3], "a displacement") : 0;
   line.directions = directions_between(in, first, last);
   if (value == 0 && line.directions != 0) return line;
-  ignored.push_back("*BOUNDARY (" + in.place(in.number()) +
-                    "): " + (value == 0 ? "no displacement" : "a displacement other than 0"));
+  if (value == 0)
+    notes.ignore(in, "*BOUNDARY", in.number(), "no displacement");
+  else
+    notes.lose(in, "*BOUNDARY", in.number(), "nodes with a displacement other than 0 are not held");
   line.directions = 0;
   return line;
 }
+
+}  // namespace
 
 std::string unused_name(const Mesh& mesh, std::string name) {
   while (mesh.node_sets.contains(name) || mesh.face_sets.contains(name)) name += "_";
   return name;
 }
 
-// One node set for each combination of directions that occurs, and how to name it as a restraint.
-void make_sets(const std::vector<Directions>& held, Mesh& mesh, std::vector<std::string>& restrained) {
-  for (int directions = kAll; directions > 0; --directions) {
-    std::vector<int> nodes;
-    for (int i = 0; i < mesh.n_nodes(); ++i)
-      if (held[i] == directions) nodes.push_back(i);
-    if (nodes.empty()) continue;
-    const std::string letters =
-        directions == kAll ? "" : direction_names(static_cast<Directions>(directions));
-    const std::string name = unused_name(mesh, letters.empty() ? "BOUNDARY" : "BOUNDARY_" + letters);
-    mesh.node_sets[name] = std::move(nodes);
-    restrained.push_back(letters.empty() ? name : name + ":" + letters);
-  }
-}
-
-}  // namespace
-
-void read_boundary(InpLines& in, const Keyword& key, std::vector<BoundaryLine>& boundary,
-                   std::vector<std::string>& ignored) {
+void read_boundary(InpLines& in, const Keyword& key, std::vector<BoundaryLine>& boundary, InpNotes& notes) {
   const std::string type = key.value("TYPE");
   if (!type.empty() && type != "DISPLACEMENT") {
     while (in.next_data()) continue;
-    ignored.push_back("*BOUNDARY, TYPE=" + type + " (" + in.place(key.line) + ")");
+    notes.lose(in, "*BOUNDARY, TYPE=" + type, key.line, "what it moves is not held");
     return;
   }
   while (in.next_data()) {
-    BoundaryLine line = read_line(in, ignored);
+    BoundaryLine line = read_line(in, notes);
     if (line.directions != 0) boundary.push_back(std::move(line));
   }
 }
 
-void apply_boundary(const InpLines& in, const std::vector<BoundaryLine>& boundary, const InpSets& node_sets,
-                    const TagTable& nodes, Mesh& mesh, ReadReport& report) {
+std::vector<Directions> held_nodes(const InpLines& in, const std::vector<BoundaryLine>& boundary,
+                                   const InpSets& node_sets, const TagTable& nodes, const Mesh& mesh) {
   std::vector<Directions> held(static_cast<std::size_t>(mesh.n_nodes()), 0);
   for (const BoundaryLine& line : boundary) {
     const auto number = parse<Tag>(line.members);
@@ -103,7 +89,21 @@ void apply_boundary(const InpLines& in, const std::vector<BoundaryLine>& boundar
     for (int i : number ? std::vector<int>{node} : mesh.node_sets.at(*set))
       held[i] = static_cast<Directions>(held[i] | line.directions);
   }
-  make_sets(held, mesh, report.restrained);
+  return held;
+}
+
+void make_restraint(const std::vector<Directions>& held, Mesh& mesh, ReadReport& report) {
+  for (int directions = kAll; directions > 0; --directions) {
+    std::vector<int> nodes;
+    for (int i = 0; i < mesh.n_nodes(); ++i)
+      if (held[i] == directions) nodes.push_back(i);
+    if (nodes.empty()) continue;
+    const std::string letters =
+        directions == kAll ? "" : direction_names(static_cast<Directions>(directions));
+    const std::string name = unused_name(mesh, letters.empty() ? "BOUNDARY" : "BOUNDARY_" + letters);
+    mesh.node_sets[name] = std::move(nodes);
+    report.restrained.push_back(letters.empty() ? name : name + ":" + letters);
+  }
 }
 
 }  // namespace elastogear::mesh
