@@ -192,7 +192,7 @@ Keyword InpLines::keyword() {
 bool InpLines::holds_parameters(const Keyword& keyword) const {
   const std::string_view first = trim(line_.substr(0, line_.find_first_of(",=")));
   if (line_.substr(0, line_.find(',')).find('=') != line_.npos) return true;
-  return keyword.row && knows(*keyword.row, whole_parameter(*keyword.row, upper(first)));
+  return keyword.row && knows(*keyword.row, upper(first));
 }
 
 const std::vector<std::string_view>& InpLines::fields() {

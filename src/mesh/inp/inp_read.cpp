@@ -197,7 +197,7 @@ Mesh build(const InpLines& in, InpDeck& deck, double unit_in_m, ReadReport& repo
   mesh.node_sets = deck.node_sets.resolve({nodes, nullptr, budget, fail_at});
   mesh.cell_sets = deck.cell_sets.resolve({cells, &others, budget, fail_at});
   build_surfaces(in, deck, cells, mesh, budget);
-  if (others.size() > 0)
+  if (others.size() > 0 || !deck.others.masses.empty())
     build_others(in, deck, nodes, {others, &cells, budget, fail_at}, unit_in_m, mesh, report);
   report.regions = material_regions(in, deck.materials, deck.cell_sets, mesh, unit_in_m);
   report.node_number = nodes.tags();
