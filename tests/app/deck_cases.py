@@ -5,6 +5,9 @@ import dataclasses
 NX, NY, NZ = 8, 2, 2
 FREE_TIP = (2714.739, 2714.739, 10040.04, 14086.12)  # Hz
 TIP_IN_Y = (2714.741, 10466.62, 14086.58, 16412.49)
+OF_WEDGES = (2641.862, 3484.293)
+OF_TETRAHEDRA = (3240.267, 3780.357)
+FEWER_POINTS = 4e-3  # by which CalculiX's mass of wedges and tetrahedra is off (docs/validation.md, section 1)
 HEAVY_CORNER = (613.9447, 630.5974, 2522.251, 5816.802)
 
 
@@ -18,6 +21,8 @@ class Deck:
     error: str = ""
     warns: tuple = ()
     same_as: str = ""
+    equals: str = ""  # the deck of this name, which is read before, to roundoff
+    tolerance: float = 2e-6  # relative: CalculiX prints seven digits
     files: dict = dataclasses.field(default_factory=dict)
     options: str = ""
     encoding: str = "utf-8"
@@ -71,6 +76,19 @@ ELGEN = "*ELGEN, ELSET=EALL\n1, 8, 1, 1, 2, 9, 8, 2, 27, 16\n"
 ONE = "*ELEMENT, TYPE=C3D8, ELSET=EALL\n" + ", ".join(map(str, [1, *cell(0, 0, 0)])) + "\n"
 SHELL = "*ELEMENT, TYPE={}, ELSET=SKIN\n" + "\n".join(
     f"{901 + i}, {node(i, 0, 0)}, {node(i + 1, 0, 0)}, {node(i + 1, 1, 0)}, {node(i, 1, 0)}" for i in range(NX)) + "\n"
+
+
+def divided(head, parts):
+    """Each hexahedron as elements of the corners in parts, which count from 0."""
+    cells = [cell(i, j, k) for k in range(NZ) for j in range(NY) for i in range(NX)]
+    rows = [[c[a] for a in p] for c in cells for p in parts]
+    return head + "\n" + "\n".join(", ".join(map(str, [1 + n, *row])) for n, row in enumerate(rows)) + "\n"
+
+
+WEDGES = ((0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7))
+TETRAHEDRA = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
+C3D6, C3D4, C3D8 = ("*ELEMENT, TYPE=" + name + ", ELSET=EALL" for name in ("C3D6", "C3D4", "C3D8"))
+BAR_OF_WEDGES, BAR_OF_TETRAHEDRA = bar(e=divided(C3D6, WEDGES)), bar(e=divided(C3D4, TETRAHEDRA))
 
 
 def turned(transform, held, set_of="TIP"):
@@ -142,6 +160,16 @@ READ = [
     Deck("surface of shells and cells", bar(x="*ELEMENT, TYPE=B31, ELSET=SKIN\n901, 1, 2\n" + "*SURFACE, NAME=ANY\nSKIN, SPOS\n1, S1\n"), FREE_TIP,
          warns=("TYPE=B31.*left out", "NAME=ANY.*no solids"), same_as=BAR),
     Deck("surface of nodes", bar(x="*SURFACE, NAME=ANY, TYPE=NODE\nTIP,\n"), FREE_TIP, warns=("TYPE=NODE.*not read",)),
+    Deck("wedges", BAR_OF_WEDGES, OF_WEDGES, tolerance=FEWER_POINTS),
+    Deck("hexahedra that are wedges", bar(e=divided(C3D8, [(a, b, c, c, d, e, f, f) for a, b, c, d, e, f in WEDGES])), OF_WEDGES,
+         same_as=BAR_OF_WEDGES, equals="wedges", tolerance=FEWER_POINTS),
+    Deck("hexahedra that are wedges, collapsed elsewhere", bar(e=divided(C3D8, [(a, a, b, c, d, d, e, f) for a, b, c, d, e, f in WEDGES])),
+         OF_WEDGES, same_as=BAR_OF_WEDGES, equals="wedges", tolerance=FEWER_POINTS),
+    Deck("tetrahedra", BAR_OF_TETRAHEDRA, OF_TETRAHEDRA, tolerance=FEWER_POINTS),
+    Deck("hexahedra that are tetrahedra", bar(e=divided(C3D8, [(a, b, c, c, d, d, d, d) for a, b, c, d in TETRAHEDRA])), OF_TETRAHEDRA,
+         same_as=BAR_OF_TETRAHEDRA, equals="tetrahedra", tolerance=FEWER_POINTS),
+    Deck("wedges that are tetrahedra", bar(e=divided(C3D6, [(a, b, c, d, d, d) for a, b, c, d in TETRAHEDRA])), OF_TETRAHEDRA,
+         same_as=BAR_OF_TETRAHEDRA, equals="tetrahedra", tolerance=FEWER_POINTS),
     Deck("springs", bar(x=f"*ELEMENT, TYPE=SPRING1, ELSET=SP\n900, {node(NX, 0, 0)}\n*SPRING, ELSET=SP\n2\n1000.\n"), FREE_TIP,
          warns=("SPRING1.*left out", "SPRING.*springs"), same_as=BAR),
     Deck("tie", bar(x="*TIE, NAME=T\nA, B\n"), FREE_TIP, warns=("TIE.*merge the nodes",), same_as=BAR),
@@ -169,6 +197,8 @@ REFUSED = [
     Deck("unknown parameter of elements", bar(e=elements("*ELEMENT, TYPE=C3D8, ELSET=EALL, OFFSET=1000")), error="line 83.*OFFSET"),
     Deck("rows that do not end", bar(n="*NODE\n" + CORNERS + "\n*NGEN\n1, 9, 3\n"), error="NGEN from node 1 to 9 in steps of 3"),
     Deck("rows of no element", bar(e=ONE + "*ELGEN\n2, 8\n"), error="element of a solid, 2 is not defined above"),
+    Deck("hexahedron that is folded", bar(e=ELEMENTS + "500011, 1, 2, 1, 10, 28, 29, 38, 37\n"), error="element 500011 repeats nodes"),
+    Deck("hexahedra of 27 nodes", bar(e=ELEMENTS.replace("C3D8", "C3D27")), error="C3D27.*write C3D20"),
     Deck("missing file", bar(n="*NODE, INPUT=none.txt\n"), error=r"line 1: \*NODE: .*none.txt"),
     Deck("unknown node held", bar(b=HELD + "*BOUNDARY\n999, 1\n"), error="unknown node or node set '999'"),
     Deck("mass of elements that are none", bar(x="*MASS, ELSET=NONE\n1.E-3\n"), error="MASS names the unknown element set 'NONE'"),

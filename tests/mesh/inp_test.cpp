@@ -1,4 +1,6 @@
 #include "mesh/inp/inp.h"
+#include "elastogear/mesh/quality.h"
+#include "mesh/inp/cards/collapsed.h"
 #include "reader_test.h"
 
 namespace elastogear::inp_test {
@@ -111,6 +113,64 @@ TEST_F(Inp, takes_a_blank_label_of_a_surface_as_all_free_sides) {
 TEST_F(Inp, takes_coordinates_that_are_missing_at_the_end_as_0) {
   EXPECT_EQ(read(replaced(kCube, " 11, 1., 0., 0.", " 11, 1.")).X.col(1), Eigen::Vector3d(1, 0, 0));
   EXPECT_EQ(read(replaced(kCube, " 13, 0, 1, 0", " 13, , 1,")).X.col(3), Eigen::Vector3d(0, 1, 0));
+}
+
+// By the divergence theorem, from plane faces that point outward.
+double volume_within(const Mesh& mesh, const std::vector<Face>& faces) {
+  double volume = 0;
+  for (const Face& f : faces)
+    for (int k : {1, 2})
+      volume += mesh.X.col(f[0]).dot(
+                    Eigen::Vector3d(mesh.X.col(f[k])).cross(Eigen::Vector3d(mesh.X.col(f[k + 1])))) /
+                6;
+  return volume;
+}
+
+// Of the cube: a wedge, a pyramid and a tetrahedron as hexahedra with repeated nodes, with a surface of all
+// six sides.
+TEST_F(Inp, reads_collapsed_hexahedra_as_the_cells_that_they_are) {
+  const auto collapsed = [&](const std::string& nodes) {
+    return replaced(replaced(kCube, " 5, 10, 11, 12, 13,\n 20, 21, 22, 23", " 5, " + nodes),
+                    " body, S1\n 5, s6", " 5, S1\n 5, S2\n 5, S3\n 5, S4\n 5, S5\n 5, S6");
+  };
+  struct Collapsed {
+    std::string nodes;
+    CellType type;
+    double volume;
+  };
+  const Collapsed all[] = {{"10, 11, 12, 12, 20, 21, 22, 22", CellType::wedge6, 0.5},
+                           {"10, 11, 12, 13, 20, 20, 23, 23", CellType::wedge6, 0.5},
+                           {"10, 10, 11, 12, 20, 20, 21, 22", CellType::wedge6, 0.5},
+                           {"10, 11, 12, 13, 20, 20, 20, 20", CellType::pyramid5, 1. / 3},
+                           {"10, 11, 13, 13, 20, 20, 20, 20", CellType::tet4, 1. / 6}};
+  for (const Collapsed& c : all) {
+    ReadReport report;
+    const Mesh mesh = read(collapsed(c.nodes), &report);
+    ASSERT_EQ(mesh.cells.type.at(0), c.type) << c.nodes;
+    EXPECT_NEAR(volume_within(mesh, mesh.face_sets.at("skin")), c.volume, 1e-14) << c.nodes;
+    EXPECT_GT(smallest_jacobian(mesh, 0), 0) << c.nodes;
+    EXPECT_THAT(mesh.face_sets.at("skin"),
+                testing::UnorderedElementsAreArray(cell_faces(c.type, mesh.cells[0])));
+    EXPECT_THAT(report.read_as.front(), HasSubstr("C3D8 (line 15): elements that repeat nodes are read as "));
+  }
+  EXPECT_THAT(error_of(collapsed("10, 11, 10, 13, 20, 21, 22, 23")),
+              HasSubstr("line 15: element 5 repeats nodes, its 7 different"));
+}
+
+TEST(Collapsed, keeps_the_midside_nodes_of_the_edges_that_are_left) {
+  const auto middle = [](Tag a, Tag b) { return a == b ? a : 100 * std::min(a, b) + std::max(a, b); };
+  for (const auto& corners : {std::array<Tag, 8>{1, 2, 3, 3, 5, 6, 7, 7}, {1, 2, 3, 3, 5, 5, 5, 5}}) {
+    std::vector<Tag> nodes(corners.begin(), corners.end());
+    for (const auto& [a, b] : edges(CellType::hex20)) nodes.push_back(middle(corners[a], corners[b]));
+    const auto cell = without_repeated_nodes(CellType::hex20, nodes);
+    ASSERT_TRUE(cell);
+    EXPECT_EQ(cell->type, corners[5] == 6 ? CellType::wedge15 : CellType::tet10);
+    for (std::size_t e = 0; e < edges(cell->type).size(); ++e) {
+      const auto [a, b] = edges(cell->type)[e];
+      EXPECT_EQ(cell->nodes[static_cast<std::size_t>(corner_count(cell->type)) + e],
+                middle(cell->nodes[a], cell->nodes[b]));
+    }
+  }
 }
 
 TEST_F(Inp, tells_that_the_last_line_may_be_cut) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/inp/cards/boundary.h"
+#include "mesh/inp/cards/collapsed.h"
 #include "mesh/inp/cards/materials.h"
 #include "mesh/inp/cards/others.h"
 #include "mesh/inp/inp_sets.h"
@@ -25,6 +26,7 @@ struct SurfaceLine {
 
 struct InpDeck : RawMesh {
   OtherElements others;
+  std::map<Tag, CellNodes> collapsed;  // elements that repeat nodes, as the file has them
   InpSets node_sets{"node"}, cell_sets{"element"};
   InpNames surfaces;
   std::vector<SurfaceLine> surface_lines;
@@ -54,7 +56,7 @@ void read_set(InpLines& in, const Keyword& key, InpDeck& deck);
 void read_surface(InpLines& in, const Keyword& key, InpDeck& deck);
 /// The mesh's face sets, when its cell sets are there. Error for unknown elements and sets and sides a cell
 /// has not.
-void build_surfaces(const InpLines& in, InpDeck& deck, const TagTable& cells, Mesh& mesh,
-                    MemberBudget& budget);
+void build_surfaces(const InpLines& in, InpDeck& deck, const TagTable& nodes, const TagTable& cells,
+                    Mesh& mesh, MemberBudget& budget);
 
 }  // namespace elastogear::mesh

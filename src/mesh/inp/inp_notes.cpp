@@ -19,6 +19,10 @@ void InpNotes::lose(const InpLines& in, const std::string& what, int line, const
   add(lost_, {what, in.place(line), text});
 }
 
+void InpNotes::read_as(const InpLines& in, const std::string& what, int line, const std::string& text) {
+  add(read_as_, {what, in.place(line), text});
+}
+
 std::vector<std::string> InpNotes::texts(const std::vector<Note>& notes) {
   std::vector<std::string> result;
   for (const Note& note : notes)

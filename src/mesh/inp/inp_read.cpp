@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "elastogear/base/file.h"
+#include "elastogear/base/sort_unique.h"
 #include "mesh/inp/cards/generate.h"
 #include "mesh/inp/inp.h"
 #include "mesh/inp/inp_deck.h"
@@ -44,12 +45,29 @@ std::vector<Tag> read_element(InpLines& in, CellType type) {
   return numbers;
 }
 
+// An element that repeats nodes is the cell that its different nodes make.
+void add_element(const InpLines& in, CellType type, const std::vector<Tag>& numbers, InpDeck& deck) {
+  const std::span<const Tag> nodes = std::span(numbers).subspan(1);
+  std::vector<Tag> different(nodes.begin(), nodes.end());
+  sort_unique(different);
+  if (different.size() == nodes.size()) return deck.add_cell(type, numbers[0], nodes);
+  const auto cell = without_repeated_nodes(type, nodes);
+  if (!cell)
+    in.fail_here(
+        "element ", numbers[0], " repeats nodes, its ", different.size(),
+        " different ones make no wedge, pyramid or tetrahedron that is read: split it into tetrahedra");
+  deck.add_cell(cell->type, numbers[0], cell->nodes);
+  deck.collapsed[numbers[0]] = {type, {nodes.begin(), nodes.end()}};
+  deck.notes.read_as(in, std::string(inp_format::kElementTypes[static_cast<int>(type)]), in.number(),
+                     std::string("elements that repeat nodes are read as ") + name(cell->type));
+}
+
 std::vector<Tag> read_cells(InpLines& in, CellType type, InpDeck& deck) {
   std::vector<Tag> cells;
   while (in.next_data()) {
     const std::vector<Tag> numbers = read_element(in, type);
     cells.push_back(numbers[0]);
-    deck.add_cell(type, numbers[0], std::span(numbers).subspan(1));
+    add_element(in, type, numbers, deck);
   }
   return cells;
 }
@@ -59,7 +77,8 @@ void read_elements(InpLines& in, const Keyword& key, InpDeck& deck) {
   const std::optional<CellType> solid = inp_format::cell_type(type);
   if (type.empty() || (!solid && type.starts_with("C3D")))
     in.fail_here("element type '", type, "', of solids only C3D4, 5, 6, 8, 10, 15, 20 and their variants ",
-                 "(C3D8I, C3D20R, ...) are read");
+                 "(C3D8I, C3D20R, ...) are read",
+                 type.starts_with("C3D27") ? "; write C3D20: leave the nodes in faces and centre out" : "");
   if (solid) deck.element_types.try_emplace(type, *solid, key.line);
   const std::vector<Tag> elements =
       solid ? read_cells(in, *solid, deck) : read_other_elements(in, key, deck.others);
@@ -196,7 +215,7 @@ Mesh build(const InpLines& in, InpDeck& deck, double unit_in_m, ReadReport& repo
   const auto fail_at = [&](int line, const std::string& text) { in.fail_at(line, text); };
   mesh.node_sets = deck.node_sets.resolve({nodes, nullptr, budget, fail_at});
   mesh.cell_sets = deck.cell_sets.resolve({cells, &others, budget, fail_at});
-  build_surfaces(in, deck, cells, mesh, budget);
+  build_surfaces(in, deck, nodes, cells, mesh, budget);
   if (others.size() > 0 || !deck.others.masses.empty())
     build_others(in, deck, nodes, {others, &cells, budget, fail_at}, unit_in_m, mesh, report);
   report.regions = material_regions(in, deck.materials, deck.cell_sets, mesh, unit_in_m);
@@ -230,6 +249,7 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   Mesh mesh = build(in, deck, unit_in_m, found);
   found.ignored = deck.notes.ignored();
   found.lost = deck.notes.lost();
+  found.read_as = deck.notes.read_as();
   if (!deck.ends_in_a_line)
     found.lost.insert(found.lost.begin(), "the last line has no line end: truncated?");
   for (const auto& [type, first] : deck.element_types)

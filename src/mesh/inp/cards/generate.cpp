@@ -73,6 +73,10 @@ void generate_elements(InpLines& in, const Keyword& key, InpDeck& deck) {
       std::vector<Tag> nodes = master;
       for (Tag& node : nodes) node += shift;
       deck.add_cell(type, number, nodes);
+      if (const auto element = deck.collapsed.find(f[0]); element != deck.collapsed.end()) {
+        CellNodes& copy = deck.collapsed[number] = element->second;
+        for (Tag& node : copy.nodes) node += shift;
+      }
       members.push_back(number);
     }
     if (key.has("ELSET")) deck.cell_sets.add(key.parameters.at("ELSET"), members, in.number());

@@ -48,7 +48,7 @@ const std::map<int, std::vector<Face>>& free_faces(const Mesh& mesh,
 struct Surfaces {
   const InpLines& in;
   InpDeck& deck;
-  const TagTable& cells;
+  const TagTable &nodes, &cells;
   Mesh& mesh;
   MemberBudget& budget;
   std::map<int, std::vector<Face>> free = {};  // by cell, once they are asked for
@@ -59,15 +59,39 @@ struct Surfaces {
     set.insert(set.end(), faces.begin(), faces.end());
   }
 
+  // The side of the cell with the corners that the side of a collapsed element has; nothing where it is an
+  // edge.
+  void add_collapsed(const SurfaceLine& line, int cell, const CellNodes& element) {
+    if (line.side >= side_count(element.type)) return fail_side(line, element.type);
+    std::vector<int> corners;
+    for (Tag node : different_corners(element, line.side)) corners.push_back(nodes.find(node));
+    std::sort(corners.begin(), corners.end());
+    const CellType type = mesh.cells.type[cell];
+    const auto sides = cell_sides(type, mesh.cells[cell]);
+    const auto side_nodes = cell_side_nodes(type, mesh.cells[cell]);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const bool midside = node_count(type) > corner_count(type);
+      const auto end = side_nodes[i].begin() + std::ssize(side_nodes[i]) / (midside ? 2 : 1);
+      std::vector<int> of_side(side_nodes[i].begin(), end);
+      std::sort(of_side.begin(), of_side.end());
+      if (of_side == corners) add(line, sides[i]);
+    }
+  }
+
+  void fail_side(const SurfaceLine& line, CellType type) {
+    in.fail_at(line.line, "surface '", line.name, "' names side ", line.label, " of a ", name(type),
+               ", which has S1..S", side_count(type));
+  }
+
   void add_side(const SurfaceLine& line, int cell) {
     if (line.side == kFreeSides) {
       const auto found = free_faces(mesh, free).find(cell);
       return found == free.end() ? void() : add(line, found->second);
     }
+    const auto element = deck.collapsed.find(cells.tags()[static_cast<std::size_t>(cell)]);
+    if (line.side >= 0 && element != deck.collapsed.end()) return add_collapsed(line, cell, element->second);
     const auto sides = cell_sides(mesh.cells.type[cell], mesh.cells[cell]);
-    if (line.side < 0 || line.side >= std::ssize(sides))
-      in.fail_at(line.line, "surface '", line.name, "' names side ", line.label, " of a ",
-                 name(mesh.cells.type[cell]), ", which has S1..S", sides.size());
+    if (line.side < 0 || line.side >= std::ssize(sides)) fail_side(line, mesh.cells.type[cell]);
     add(line, sides[line.side]);
   }
 
@@ -137,10 +161,10 @@ void read_surface(InpLines& in, const Keyword& key, InpDeck& deck) {
   }
 }
 
-void build_surfaces(const InpLines& in, InpDeck& deck, const TagTable& cells, Mesh& mesh,
-                    MemberBudget& budget) {
+void build_surfaces(const InpLines& in, InpDeck& deck, const TagTable& nodes, const TagTable& cells,
+                    Mesh& mesh, MemberBudget& budget) {
   for (const auto& [key, name] : deck.surfaces.spelling) mesh.face_sets[name];
-  Surfaces surfaces{in, deck, cells, mesh, budget};
+  Surfaces surfaces{in, deck, nodes, cells, mesh, budget};
   for (const SurfaceLine& line : deck.surface_lines)
     if (const auto number = parse<Tag>(line.members))
       surfaces.add_element(line, *number);
