@@ -152,6 +152,14 @@ READ = [
          same_as=BAR),
     Deck("numbers with gaps", bar(e=elements(first=500001)), FREE_TIP),
     Deck("part and instance of Abaqus CAE", part(), FREE_TIP, same_as=BAR),
+    Deck("instance that is moved", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n100., 0., 5.\n*END INSTANCE\n"), FREE_TIP, same_as=BAR),
+    Deck("instance that is turned by a quarter", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n100., 0., 5.\n0., 1., 0., 0., 1., 1., 90.\n"
+         "*END INSTANCE\n"), FREE_TIP, same_as=BAR),
+    Deck("instance that is turned askew", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n0., 0., 0.\n0., 1., 0., 1., 2., 1., 33.\n"
+         "*END INSTANCE\n"), FREE_TIP, same_as=BAR),
+    Deck("names in Latin-1", bar().replace("FIX", "B\u00dcGEL"), FREE_TIP, encoding="latin-1", same_as=BAR),
+    Deck("names in UTF-8 behind its mark", bar().replace("FIX", "B\u00dcGEL"), FREE_TIP, encoding="utf-8-sig", same_as=BAR),
+    Deck("names with commas", bar().replace("FIX", '"FIX, LEFT"'), FREE_TIP, same_as=BAR),
     Deck("plane elements on cells", bar(x=SHELL.format("CPS4")), FREE_TIP, same_as=BAR),
     Deck("shells on cells", bar(x=SHELL.format("S4") + "*SHELL SECTION, ELSET=SKIN, MATERIAL=STEEL\n0.01\n"), FREE_TIP,
          warns=("SHELL SECTION.*made of solids alone",), same_as=BAR),
@@ -199,6 +207,13 @@ REFUSED = [
     Deck("rows of no element", bar(e=ONE + "*ELGEN\n2, 8\n"), error="element of a solid, 2 is not defined above"),
     Deck("hexahedron that is folded", bar(e=ELEMENTS + "500011, 1, 2, 1, 10, 28, 29, 38, 37\n"), error="element 500011 repeats nodes"),
     Deck("hexahedra of 27 nodes", bar(e=ELEMENTS.replace("C3D8", "C3D27")), error="C3D27.*write C3D20"),
+    Deck("instance that is moved, with axes", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n100., 0., 5.\n*END INSTANCE\n").replace(
+        "*MATERIAL", "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n*MATERIAL"), error="INSTANCE that is moved"),
+    Deck("second instance", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n*END INSTANCE\n*INSTANCE, NAME=BAR-2, PART=BAR\n*END INSTANCE\n"),
+         error=r"a second \*INSTANCE"),
+    Deck("node twice", bar(n=NODES + "1, 0., 0., 0.\n"), error="node 1 is defined twice"),
+    Deck("element of an unknown node", bar(e=ELEMENTS + "500011, 1, 2, 11, 10, 28, 29, 38, 9999\n"), error="element 500011 names node 9999"),
+    Deck("tetrahedron that repeats a node", bar(e=ELEMENTS + "*ELEMENT, TYPE=C3D4\n500011, 1, 2, 2, 11\n"), error="element 500011 repeats nodes"),
     Deck("missing file", bar(n="*NODE, INPUT=none.txt\n"), error=r"line 1: \*NODE: .*none.txt"),
     Deck("unknown node held", bar(b=HELD + "*BOUNDARY\n999, 1\n"), error="unknown node or node set '999'"),
     Deck("mass of elements that are none", bar(x="*MASS, ELSET=NONE\n1.E-3\n"), error="MASS names the unknown element set 'NONE'"),

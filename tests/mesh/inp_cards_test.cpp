@@ -184,6 +184,23 @@ TEST_F(InpCards, end_a_keyword_line_by_a_comma_above_data) {
   EXPECT_EQ(report_with("*MATERIAL, NAME=Steel", "*MATERIAL, NAME=Steel,").regions.size(), 1u);
 }
 
+TEST_F(InpCards, may_have_names_with_commas_and_in_any_encoding) {
+  const auto sets = [&](const std::string& name) {
+    return read(replaced(kDeck, "NSET=FIX\n", "NSET=" + name + "\n FIX\n*NSET, NSET=FIX\n")).node_sets;
+  };
+  EXPECT_TRUE(sets("\"bore, left\"").contains("bore, left"));
+  EXPECT_TRUE(sets("\xC3\x9C"
+                   "bung")
+                  .contains("\xC3\x9C"
+                            "bung"));
+  EXPECT_TRUE(sets("\xDC"
+                   "bung")
+                  .contains("\xC3\x9C"
+                            "bung"))
+      << "Latin-1";
+  EXPECT_EQ(read("\xEF\xBB\xBF" + kDeck).n_nodes(), 4);
+}
+
 TEST_F(InpCards, read_the_restraint_of_the_first_step_alone) {
   const auto held = [&](const std::string& first, const std::string& second) {
     const auto report = report_with("*FREQUENCY", first + "*FREQUENCY");
@@ -426,12 +443,28 @@ TEST_F(InpPart, may_be_the_content_of_an_independent_instance) {
   EXPECT_THAT(error_of(point), HasSubstr("a reference point?"));
 }
 
+// Abaqus Analysis User's Guide, "Defining an assembly": the translation first, then the rotation.
+TEST_F(InpPart, stands_where_its_instance_is_placed) {
+  const auto placed = [&](const std::string& lines) {
+    return read(replaced(kPart, "*End Instance", lines + "*End Instance"));
+  };
+  EXPECT_EQ(placed(" 1., 0., 2.\n").X.col(1), Eigen::Vector3d(2, 0, 2));
+  const Mesh turned = placed(" 1., 0., 0.\n 0., 1., 0., 0., 1., 5., 90.\n");
+  EXPECT_LT((turned.X.col(0) - Eigen::Vector3d(1, 2, 0)).norm(), 1e-15);
+  EXPECT_LT((turned.X.col(1) - Eigen::Vector3d(1, 3, 0)).norm(), 1e-15);
+  EXPECT_LT((turned.X.col(3) - Eigen::Vector3d(1, 2, 1)).norm(), 1e-15);
+}
+
 TEST_F(InpPart, must_be_the_only_one_and_in_place) {
   EXPECT_THAT(error("*End Part", "*End Part\n*Part, name=B"), HasSubstr("line 15: a second *PART"));
   EXPECT_THAT(error("*End Instance", "*End Instance\n*Instance, name=B, part=Part-1"),
               HasSubstr("a second *INSTANCE"));
-  EXPECT_THAT(error("*End Instance", " 1., 0., 0.\n*End Instance"),
-              HasSubstr("line 17: *INSTANCE with a translation"));
+  EXPECT_THAT(error("*End Instance", " 1., 0., 0.\n 1., 2., 3.\n*End Instance"),
+              HasSubstr("line 18: a rotation of an *INSTANCE has 3 numbers"));
+  const std::string turned =
+      replaced(kPart, "*Material", "*Orientation, name=O\n 1., 0., 0., 0., 1., 0.\n*Material");
+  EXPECT_THAT(error_of(replaced(turned, "*End Instance", " 1., 0., 0.\n*End Instance")),
+              HasSubstr("line 17: an *INSTANCE that is moved"));
   EXPECT_THAT(error("*End Assembly", "*Node\n 1, 0., 0., 0.\n*End Assembly"),
               HasSubstr("a reference point?"));
   EXPECT_THAT(error("elset=_Surf_S1", "elset=Set-1"), HasSubstr("has the name of a set of the part"));

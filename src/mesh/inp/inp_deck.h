@@ -1,6 +1,7 @@
 #pragma once
 // An Abaqus input file as it stands, in its own numbers, names and units.
 
+#include <Eigen/Geometry>
 #include <map>
 #include <set>
 #include <string>
@@ -38,7 +39,9 @@ struct InpDeck : RawMesh {
   // One *PART, whose one *INSTANCE is the *ASSEMBLY, is the same as its content alone, wherever of the two
   // it stands: instances that Abaqus CAE calls independent hold it themselves.
   int n_parts = 0;
-  std::string instance;  // its name in capitals
+  std::string instance;                                         // its name in capitals
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  // of the instance, unit of the file
+  int placement_line = 0;                                       // 0: it is in place
   bool in_assembly = false, in_instance = false, in_step = false;
   int n_steps = 0;
   bool ends_in_a_line = true;

@@ -23,6 +23,40 @@ std::string_view unquoted(std::string_view text) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
+// Is the text UTF-8, as far as its leading and continuing bytes tell?
+bool is_utf8(std::string_view text) {
+  int continuing = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool continues = (byte & 0xC0) == 0x80;
+    if (continues != (continuing > 0)) return false;
+    if (continues)
+      --continuing;
+    else if (byte >= 0x80)
+      continuing = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : 1;
+    if (byte == 0xC0 || byte == 0xC1 || byte > 0xF4) return false;
+  }
+  return continuing == 0;
+}
+
+// In UTF-8, from that with or without its mark, or from Latin-1.
+std::string utf8(std::string text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
+  if (is_utf8(text)) return text;
+  std::string converted;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      converted += c;
+    } else {
+      converted += static_cast<char>(0xC0 | byte >> 6);
+      converted += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return converted;
+}
+
 // The next comma outside of double quotes, or the end.
 std::size_t field_end(std::string_view line) {
   bool quoted = false;
@@ -57,7 +91,7 @@ std::string Keyword::value(const std::string& parameter) const {
 }
 
 InpLines::InpLines(InpText text) : open_file_(std::move(text.open)) {
-  enter(files_.emplace_back(File{std::move(text.path), std::move(text.content)}));
+  enter(files_.emplace_back(File{std::move(text.path), utf8(std::move(text.content))}));
 }
 
 void InpLines::enter(File& file) {
@@ -125,7 +159,7 @@ void InpLines::include(const Keyword& key) {
   } catch (const Error& error) {
     fail_here(star, ": ", error.what());
   }
-  enter(files_.emplace_back(File{path, std::move(content)}));
+  enter(files_.emplace_back(File{path, utf8(std::move(content))}));
 }
 
 bool InpLines::next() {

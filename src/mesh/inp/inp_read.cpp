@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -85,6 +86,38 @@ void read_elements(InpLines& in, const Keyword& key, InpDeck& deck) {
   if (key.has("ELSET")) deck.cell_sets.add(key.parameters.at("ELSET"), elements, key.line);
 }
 
+// A translation, then two points on an axis and the angle about it in degrees; the rotation comes last.
+void read_placement(InpLines& in, InpDeck& deck) {
+  if (!in.next_data()) return;
+  deck.placement_line = in.number();
+  std::vector<double> t = in.reals("a translation"), r;
+  if (t.size() > 3) in.fail_here("a translation of an *INSTANCE has ", t.size(), " numbers, must be 3");
+  t.resize(3, 0);
+  if (in.next_data()) {
+    r = in.reals("a rotation");
+    if (r.size() != 7) in.fail_here("a rotation of an *INSTANCE has ", r.size(), " numbers, must be 7");
+    const Eigen::Vector3d a(r[0], r[1], r[2]), axis = Eigen::Vector3d(r[3], r[4], r[5]) - a;
+    if (!(axis.norm() > 0)) in.fail_here("the points of a rotation of an *INSTANCE give no axis");
+    const Eigen::AngleAxisd turn(r[6] * M_PI / 180, axis.normalized());
+    deck.placement = Eigen::Translation3d(a) * turn * Eigen::Translation3d(-a);
+  }
+  deck.placement = deck.placement * Eigen::Translation3d(t[0], t[1], t[2]);
+  if (in.next_data()) in.fail_here("*INSTANCE with more than two lines of data");
+}
+
+// Moves the nodes of the part to where its instance is.
+void place_instance(const InpLines& in, InpDeck& deck) {
+  if (deck.placement_line == 0) return;
+  if (!deck.materials.orientations.empty() || !deck.transforms.empty())
+    in.fail_at(deck.placement_line,
+               "an *INSTANCE that is moved, of a deck with *ORIENTATION or *TRANSFORM, is not supported: ",
+               "write the part's nodes where the instance has them");
+  for (std::size_t i = 0; i < deck.X.size(); i += 3) {
+    Eigen::Map<Eigen::Vector3d> X(&deck.X[i]);
+    X = deck.placement * Eigen::Vector3d(X);
+  }
+}
+
 // *PART, *ASSEMBLY and *INSTANCE as Abaqus CAE writes them around a single part.
 bool read_structure(InpLines& in, const Keyword& key, InpDeck& deck) {
   if (key.name == "PART" && ++deck.n_parts > 1) in.fail_here("a second *PART: a body is one part");
@@ -92,9 +125,7 @@ bool read_structure(InpLines& in, const Keyword& key, InpDeck& deck) {
     if (!deck.instance.empty()) in.fail_here("a second *INSTANCE: a body is one part");
     deck.instance = key.value("NAME");
     if (deck.instance.empty()) in.fail_here("*INSTANCE without NAME=name");
-    if (in.next_data())
-      in.fail_here("*INSTANCE with a translation or rotation is not supported: place the part's own ",
-                   "coordinates instead");
+    read_placement(in, deck);
   }
   if (key.name == "INSTANCE" || key.name == "END INSTANCE") deck.in_instance = key.name == "INSTANCE";
   if (key.name == "ASSEMBLY") deck.in_assembly = true;
@@ -245,6 +276,7 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   for (BoundaryLine& line : deck.boundary) line.members = std::string(deck.member(line.members));
   for (Transform& transform : deck.transforms)
     transform.members = std::string(deck.member(transform.members));
+  place_instance(in, deck);
   ReadReport found;
   Mesh mesh = build(in, deck, unit_in_m, found);
   found.ignored = deck.notes.ignored();
