@@ -93,6 +93,20 @@ TEST_F(Msh, reads_groups_without_a_name_and_reports_what_it_leaves_out) {
               testing::UnorderedElementsAre("lines that are in no set (1)", "section $Comments (1)"));
 }
 
+TEST_F(Msh, tells_sections_that_change_the_mesh_from_those_that_do_not) {
+  const auto with = [](const std::string& section) {
+    return kCube + section + "\n1 2\n$End" + section.substr(1) + "\n";
+  };
+  ReadReport report;
+  read(with("$Periodic") + "$NodeData\n1\n$EndNodeData\n", &report);
+  EXPECT_THAT(report.lost, testing::IsEmpty());
+  read(with("$Surprise"), &report);
+  EXPECT_THAT(report.lost, testing::ElementsAre("section $Surprise (1): not known, and left out"));
+  EXPECT_THAT(error_of(with("$PartitionedEntities")), HasSubstr("save it without partitions"));
+  EXPECT_THAT(error_of(with("$PhysicalNames")), HasSubstr("stands behind $Elements"));
+  EXPECT_THAT(error("3 1 5 1", "3 1 12 1"), HasSubstr("Mesh.SecondOrderIncomplete=1"));
+}
+
 TEST_F(Msh, keeps_nodes_and_cells_in_the_order_of_their_tags_whatever_the_blocks) {
   const Mesh mesh = box_mesh_with_sets({4, 3, 2});
   write_msh(path, mesh, Encoding::ascii);

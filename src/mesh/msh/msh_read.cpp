@@ -32,7 +32,7 @@ struct Raw : RawMesh {
   std::map<std::string, std::vector<Tag>> cell_sets, node_sets;
   std::map<std::string, std::vector<RawElement>> face_sets;
   bool has_nodes = false, has_elements = false;
-  std::map<std::string, std::size_t> left_out;  // what and how many
+  std::map<std::string, std::size_t> left_out, unknown;  // what and how many
 };
 
 void read_format(MshScanner& in) {
@@ -119,10 +119,22 @@ std::string set_name(const Raw& raw, DimTag group) {
   return found == raw.group_name.end() ? "physical_" + std::to_string(group.second) : found->second;
 }
 
+// What makes Gmsh write types that are read, or nothing.
+const char* remedy_for(int type) {
+  constexpr int kWithMiddles[] = {10, 12, 13,
+                                  14};  // second-order cells and faces with nodes in their middles
+  if (std::find(std::begin(kWithMiddles), std::end(kWithMiddles), type) == std::end(kWithMiddles))
+    return nullptr;
+  return "nodes in the middles of faces and cells are not read: save the mesh with "
+         "Mesh.SecondOrderIncomplete=1";
+}
+
 ElementType read_type(MshScanner& in, int dim) {
   const int number = in.integer("an element type");
   for (const ElementType& type : msh_format::kTypes)
     if (type.number == number && type.dim == dim) return type;
+  if (const char* remedy = remedy_for(number))
+    in.fail_here("element type ", number, " in an entity of dimension ", dim, ": ", remedy);
   in.fail_here(
       "element type ", number, " in an entity of dimension ", dim,
       ", allowed are 4, 5, 6, 7 (linear tetrahedron, hexahedron, prism, pyramid), 11, 17, 18 ",
@@ -173,9 +185,19 @@ void read_elements(MshScanner& in, Raw& raw) {
   if (total != announced) in.fail_here("the section announces ", announced, " elements and holds ", total);
 }
 
+// Sections that leave the mesh as it is.
+constexpr std::string_view kHarmless[] = {"$Comments",         "$Periodic",        "$NodeData",
+                                          "$ElementData",      "$ElementNodeData", "$InterpolationScheme",
+                                          "$Parametrizations", "$GhostElements"};
+
 void read_section(MshScanner& in, Raw& raw, const std::string& name) {
   const bool again = (name == "$Nodes" && raw.has_nodes) || (name == "$Elements" && raw.has_elements);
   if (again) in.fail_here("a second section ", name);
+  const bool names = name == "$PhysicalNames" || name == "$Entities";
+  if (names && raw.has_elements)
+    in.fail_here("section ", name, " stands behind $Elements, whose sets it gives");
+  if (name == "$PartitionedEntities")
+    in.fail_here("section ", name, ": the mesh is divided, and its sets with it: save it without partitions");
   const std::string end = "$End" + name.substr(1);
   // One line end separates a section's name from its data.
   if (in.binary()) in.line();
@@ -190,7 +212,8 @@ void read_section(MshScanner& in, Raw& raw, const std::string& name) {
     read_elements(in, raw);
     raw.has_elements = true;
   } else {
-    ++raw.left_out["section " + name];
+    const bool known = std::find(std::begin(kHarmless), std::end(kHarmless), name) != std::end(kHarmless);
+    ++(known ? raw.left_out : raw.unknown)["section " + name];
     return in.skip_past(end);
   }
   in.expect(end);
@@ -251,6 +274,8 @@ Mesh parse_msh(const std::string& path, std::string content, double unit_in_m, R
   report->cell_number = cells.tags();
   for (const auto& [what, count] : raw.left_out)
     report->ignored.push_back(what + " (" + std::to_string(count) + ")");
+  for (const auto& [what, count] : raw.unknown)
+    report->lost.push_back(what + " (" + std::to_string(count) + "): not known, and left out");
   return mesh;
 }
 
