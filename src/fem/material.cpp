@@ -188,15 +188,15 @@ std::vector<int> cell_regions(const mesh::Mesh& mesh, const std::vector<model::M
       continue;
     }
     for (int cell : mesh::cell_set(mesh, regions[r].cell_set)) {
-      require(region_of[cell] < 0 || region_of[cell] == r, "cell ", cell,
-              " (counted from 0) is in cell sets '", regions[r].cell_set, "' and '",
-              regions[std::max(0, region_of[cell])].cell_set, "', which both have a material");
+      if (region_of[cell] >= 0 && region_of[cell] != r)
+        fail(mesh::cell_text(mesh, cell), " is in cell sets '", regions[r].cell_set, "' and '",
+             regions[region_of[cell]].cell_set, "', which both have a material");
       region_of[cell] = r;
     }
   }
   for (int cell = 0; cell < mesh.cells.size(); ++cell) {
     if (region_of[cell] < 0) region_of[cell] = rest;
-    require(region_of[cell] >= 0, "cell ", cell, " (counted from 0) has no material");
+    if (region_of[cell] < 0) fail(mesh::cell_text(mesh, cell), " has no material");
   }
   return region_of;
 }

@@ -151,8 +151,8 @@ void require_held(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& h
   for (const auto& [node, nodes] : nodes_of) {
     const RigidMotions left = free_motions(mesh, held, nodes);
     if (left.dimension == 0) continue;
-    fail("the stiffness is singular: the connected part of the mesh with node ", node,
-         " (counted from 0) has ", nodes.size(), " restrained nodes, which leave it free to ", describe(left),
+    fail("the stiffness is singular: the connected part of the mesh with ", mesh::node_text(mesh, node),
+         " has ", nodes.size(), " restrained nodes, which leave it free to ", describe(left),
          "; hold more nodes or directions by the option restrain");
   }
 }

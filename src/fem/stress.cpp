@@ -79,7 +79,7 @@ model::SparseRows stress_operator(const StressedBody& body, const std::vector<in
   const Averaging average = find_averaging(mesh, body.regions);
   std::vector<int> local(static_cast<std::size_t>(mesh.n_nodes()), -1);
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
-    require(average.count[nodes[i]] > 0, "stress node ", nodes[i], " (counted from 0) belongs to no cell");
+    if (average.count[nodes[i]] == 0) fail("stress ", mesh::node_text(mesh, nodes[i]), " belongs to no cell");
     local[nodes[i]] = i;
   }
   std::vector<Eigen::Triplet<double>> entries;

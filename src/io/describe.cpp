@@ -83,10 +83,10 @@ void describe_materials(Out& out, const std::vector<model::MaterialRegion>& regi
 
 void describe_quality(Out& out, const mesh::Mesh& mesh) {
   const mesh::Quality quality = mesh::quality(mesh);
-  line(out, "scaled Jacobian: at least ", quality.min_scaled_jacobian, " (cell ", quality.worst_cell,
-       "), mean ", quality.mean_scaled_jacobian);
+  line(out, "scaled Jacobian: at least ", quality.min_scaled_jacobian, " (",
+       mesh::cell_text(mesh, quality.worst_cell), "), mean ", quality.mean_scaled_jacobian);
   if (const auto cell = mesh::first_inverted_cell(mesh))
-    line(out, "inverted: cell ", *cell, " is the first, its smallest Jacobian is ",
+    line(out, "inverted: ", mesh::cell_text(mesh, *cell), " is the first, its smallest Jacobian is ",
          mesh::smallest_jacobian(mesh, *cell), " m^3");
 }
 

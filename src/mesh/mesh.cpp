@@ -24,6 +24,20 @@ const Set& named(const std::map<std::string, Set>& sets, const std::string& name
   fail("the mesh has no ", kind, " set '", name, "'; it has: ", sets.empty() ? "none" : join_keys(sets));
 }
 
+std::string numbered(const char* kind, const std::vector<std::int64_t>& numbers, int i) {
+  const auto at = static_cast<std::size_t>(i);
+  if (at >= numbers.size()) return std::string(kind) + " " + std::to_string(i) + " (counted from 0)";
+  return std::string(kind) + " " + std::to_string(numbers[at]);
+}
+
+// "10, 11, 12, 13"; the third node that a triangle repeats once.
+std::string face_nodes(const Mesh& mesh, const Face& face) {
+  std::string text;
+  for (std::size_t i = 0; i < (face[3] == face[2] ? 3u : 4u); ++i)
+    text += (i == 0 ? "" : ", ") + node_text(mesh, face[i]);
+  return text;
+}
+
 using FaceMap = std::unordered_map<Face, int, KeyHash>;
 
 FaceMap count_faces(const Mesh& mesh) {
@@ -42,24 +56,32 @@ void validate_members(const std::map<std::string, std::vector<int>>& sets, int n
               ", allowed are 0..", n - 1);
 }
 
+void validate_cell(const Mesh& mesh, int i, const std::string& source) {
+  const Cells& cells = mesh.cells;
+  if (static_cast<int>(cells[i].size()) != node_count(cells.type[i]))
+    fail(source, ": ", cell_text(mesh, i), " has ", cells[i].size(), " nodes, its type needs ",
+         node_count(cells.type[i]));
+  std::vector<int> nodes(cells[i].begin(), cells[i].end());
+  std::sort(nodes.begin(), nodes.end());
+  if (nodes.front() < 0 || nodes.back() >= mesh.n_nodes())
+    fail(source, ": ", cell_text(mesh, i), " names a node outside 0..", mesh.n_nodes() - 1);
+  const auto twin = std::adjacent_find(nodes.begin(), nodes.end());
+  if (twin != nodes.end())
+    fail(source, ": ", cell_text(mesh, i), " repeats a node, ", node_text(mesh, *twin));
+}
+
 void validate_cells(const Mesh& mesh, const std::string& source) {
   const Cells& cells = mesh.cells;
   require(cells.offset.size() == cells.type.size() + 1 &&
               cells.offset.back() == static_cast<int>(cells.nodes.size()),
           source, ": cell table is inconsistent");
-  for (int i = 0; i < cells.size(); ++i) {
-    require(static_cast<int>(cells[i].size()) == node_count(cells.type[i]), source, ": cell ", i, " has ",
-            cells[i].size(), " nodes, its type needs ", node_count(cells.type[i]));
-    std::vector<int> nodes(cells[i].begin(), cells[i].end());
-    std::sort(nodes.begin(), nodes.end());
-    require(nodes.front() >= 0 && nodes.back() < mesh.n_nodes(), source, ": cell ", i,
-            " names a node outside 0..", mesh.n_nodes() - 1);
-    require(std::adjacent_find(nodes.begin(), nodes.end()) == nodes.end(), source, ": cell ", i,
-            " repeats a node");
-  }
+  for (int i = 0; i < cells.size(); ++i) validate_cell(mesh, i, source);
 }
 
 }  // namespace
+
+std::string node_text(const Mesh& mesh, int node) { return numbered("node", mesh.node_number, node); }
+std::string cell_text(const Mesh& mesh, int cell) { return numbered("cell", mesh.cell_number, cell); }
 
 void Cells::add(CellType t, std::span<const int> cell_nodes) {
   type.push_back(t);
@@ -81,8 +103,9 @@ std::vector<Face> boundary_faces(const Mesh& mesh, std::vector<int>* cell) {
 
 void validate(const Mesh& mesh, const std::string& source) {
   for (int i = 0; i < mesh.n_nodes(); ++i)
-    require(mesh.X.col(i).allFinite(), source, ": node ", i, " has coordinates (", mesh.X.col(i).transpose(),
-            "), must be finite");
+    if (!mesh.X.col(i).allFinite())
+      fail(source, ": ", node_text(mesh, i), " has coordinates (", mesh.X.col(i).transpose(),
+           "), must be finite");
   validate_cells(mesh, source);
   validate_members(mesh.node_sets, mesh.n_nodes(), "node", source);
   validate_members(mesh.cell_sets, mesh.cells.size(), "cell", source);
@@ -90,8 +113,9 @@ void validate(const Mesh& mesh, const std::string& source) {
   const FaceMap faces = count_faces(mesh);
   for (const auto& [name, members] : mesh.face_sets)
     for (const Face& face : members)
-      require(faces.contains(face_key(face)), source, ": face set '", name, "' holds the face (", face[0],
-              ", ", face[1], ", ", face[2], ", ", face[3], "), which is no face of a cell");
+      if (!faces.contains(face_key(face)))
+        fail(source, ": face set '", name, "' holds the face of ", face_nodes(mesh, face),
+             ", which is no face of a cell");
 }
 
 const std::vector<int>& node_set(const Mesh& mesh, const std::string& name) {

@@ -27,6 +27,8 @@ NumberedMesh number(const RawMesh& raw, const std::string& source, const std::st
   require(cells.size() > 0, source, ": the mesh has no solid ", cell_word, "s");
   require(raw.cell_node.size() <= std::numeric_limits<int>::max(), source, ": too many ", cell_word,
           "s: ", cells.size());
+  mesh.node_number = nodes.tags();
+  mesh.cell_number = cells.tags();
   mesh.X.resize(3, nodes.size());
   for (int i = 0; i < nodes.size(); ++i)
     mesh.X.col(i) = unit_in_m * Eigen::Map<const Eigen::Vector3d>(&raw.X[3 * nodes.position(i)]);

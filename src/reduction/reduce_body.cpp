@@ -204,7 +204,8 @@ void require_on_body(const Job& job) {
   for (const auto& [set, mass] : job.options.point_mass) sets.push_back(set);
   for (const std::string& set : sets)
     for (int node : mesh::named_nodes(job.mesh, set).node)
-      require(in_cell[node], "set '", set, "' of a marker or point mass: node ", node, " belongs to no cell");
+      require(in_cell[node], "set '", set, "' of a marker or point mass: ", mesh::node_text(job.mesh, node),
+              " belongs to no cell");
 }
 
 // How stresses are recovered, with all nodes on which simulations may let forces act.

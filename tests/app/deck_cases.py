@@ -211,6 +211,7 @@ REFUSED = [
         "*MATERIAL", "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n*MATERIAL"), error="INSTANCE that is moved"),
     Deck("second instance", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n*END INSTANCE\n*INSTANCE, NAME=BAR-2, PART=BAR\n*END INSTANCE\n"),
          error=r"a second \*INSTANCE"),
+    Deck("element that is inside out", bar(e=ELEMENTS + "500011, 1, 10, 11, 2, 28, 37, 38, 29\n"), error="cell 500011, of node 1, .*Jacobian"),
     Deck("node twice", bar(n=NODES + "1, 0., 0., 0.\n"), error="node 1 is defined twice"),
     Deck("element of an unknown node", bar(e=ELEMENTS + "500011, 1, 2, 11, 10, 28, 29, 38, 9999\n"), error="element 500011 names node 9999"),
     Deck("tetrahedron that repeats a node", bar(e=ELEMENTS + "*ELEMENT, TYPE=C3D4\n500011, 1, 2, 2, 11\n"), error="element 500011 repeats nodes"),

@@ -84,8 +84,8 @@ TEST_F(Describe, decks_with_materials_restraint_and_an_inverted_cell) {
 1, 1, 2
 )");
   EXPECT_THAT(describe(path("deck.inp")),
-              AllOf(HasSubstr("scaled Jacobian: at least -1.41421 (cell 0)"),
-                    HasSubstr("inverted: cell 0 is the first"),
+              AllOf(HasSubstr("scaled Jacobian: at least -1.41421 (cell 1)"),
+                    HasSubstr("inverted: cell 1 is the first"),
                     HasSubstr("material of RIM: orthotropic, E = (140 9 8) Pa"),
                     HasSubstr("G_12 G_13 G_23 = (5 4 3) Pa"),
                     HasSubstr("restrained by the file: node set BOUNDARY\n"),

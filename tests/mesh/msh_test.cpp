@@ -212,8 +212,11 @@ TEST_F(Msh, names_line_and_value_of_hostile_input) {
   EXPECT_THAT(error("2 8 10 50", "2 999999999999999 10 50"), HasSubstr("only"));
   EXPECT_THAT(error("4 4 1 9", "4 5 1 9"), HasSubstr("announces 5 elements and holds 4"));
   EXPECT_THAT(error("3 1 5 1", "3 1 12 1"), HasSubstr("element type 12"));
-  EXPECT_THAT(error("\n3 50 40 30 20", "\n3 50 40 30 10"), HasSubstr("no face of a cell"));
-  EXPECT_THAT(error("9 10 11 12 13", "9 10 11 12 12"), HasSubstr("repeats a node"));
+  EXPECT_THAT(
+      error("\n3 50 40 30 20", "\n3 50 40 30 10"),
+      HasSubstr(
+          "face set 'top side' holds the face of node 50, node 40, node 30, node 10, which is no face"));
+  EXPECT_THAT(error("9 10 11 12 13", "9 10 11 12 12"), HasSubstr("cell 9 repeats a node, node 12"));
   EXPECT_THAT(error("$Elements", "$Nodes"), HasSubstr("a second section $Nodes"));
   EXPECT_THAT(error("4 4 1 9", "3 3 1 9"), HasSubstr("expected $EndElements"));
 }

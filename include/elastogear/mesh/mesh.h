@@ -55,9 +55,14 @@ struct Mesh {
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<int>> cell_sets;
   std::map<std::string, std::vector<Face>> face_sets;
+  std::vector<std::int64_t> node_number, cell_number;  ///< those of the mesh's file, for messages; or empty
 
   int n_nodes() const { return static_cast<int>(X.cols()); }
 };
+
+/// "node 4711", "cell 500011" by the number of the mesh's file, or "node 16 (counted from 0)".
+std::string node_text(const Mesh& mesh, int node);
+std::string cell_text(const Mesh& mesh, int cell);
 
 /// The cell's sides in the numbering of Abaqus (S1..S6), each as faces that point outward. A side of a linear
 /// cell is one face. A side of a second-order cell is cut so that all its nodes take part and both of its

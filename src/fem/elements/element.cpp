@@ -67,8 +67,8 @@ void require_positive_jacobians(const mesh::Mesh& mesh) {
         element_functions(mesh.cells.type[cell]).smallest_jacobian(cell_coordinates(mesh, cell));
     if (det > 0) continue;
     std::string nodes;
-    for (int node : mesh.cells[cell]) nodes.append(" ").append(std::to_string(node));
-    fail("cell ", cell, " (counted from 0; nodes", nodes, ") has the Jacobian ", det,
+    for (int node : mesh.cells[cell]) nodes += (nodes.empty() ? "" : ", ") + mesh::node_text(mesh, node);
+    fail(mesh::cell_text(mesh, cell), ", of ", nodes, ", has the Jacobian ", det,
          " m^3, must be positive: it is inverted or too distorted");
   }
 }
