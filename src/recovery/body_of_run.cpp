@@ -1,10 +1,31 @@
 #include "elastogear/recovery/body_of_run.h"
 
+#include <filesystem>
+
 #include "elastogear/base/error.h"
 #include "elastogear/io/body_file.h"
+#include "elastogear/io/describe.h"
 #include "elastogear/model/fingerprint.h"
 
 namespace elastogear::recovery {
+namespace {
+
+using Provenance = std::map<std::string, std::string>;
+
+bool says(const Provenance& provenance, const std::string& key, const std::string& value) {
+  const auto found = provenance.find(key);
+  return found != provenance.end() && found->second == value;
+}
+
+// A body of static responses alone has no elastic coordinates, either, and is not rigid.
+bool is_rigid(const BodyOfRun& body, const Provenance& of_run) {
+  if (body.history.q.rows() > 0) return false;
+  if (says(of_run, "option_" + body.name + "_rigid", "true") || !std::filesystem::is_regular_file(body.file))
+    return true;
+  return !says(io::read_provenance(body.file), "option_modes", "0");
+}
+
+}  // namespace
 
 std::vector<BodyOfRun> read_bodies_of_run(const std::string& result,
                                           const std::map<std::string, std::string>& files) {
@@ -16,6 +37,7 @@ std::vector<BodyOfRun> read_bodies_of_run(const std::string& result,
     bodies.push_back({result, body.name, moved == files.end() ? body.file : moved->second,
                       identity == header.provenance.end() ? "" : identity->second,
                       io::read_body_history(result, body.name)});
+    bodies.back().rigid = is_rigid(bodies.back(), header.provenance);
   }
   return bodies;
 }
@@ -25,7 +47,7 @@ void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& bod
   const std::string remedy =
       "name the body file of the run by option -" + body.name + "_file, or run simulate with this one";
   require(elastic.n_q() == n_q, body.file, ": ", elastic.n_q(), " elastic coordinates, body '", body.name,
-          "' of ", body.result, " has ", n_q, n_q == 0 ? " (it is rigid there)" : "", ": ", remedy);
+          "' of ", body.result, " has ", n_q, body.rigid ? " (it is rigid there)" : "", ": ", remedy);
   require(body.history.w.rows() == n_q * static_cast<Eigen::Index>(elastic.relaxing.size()), body.file,
           ": has ", elastic.relaxing.size(), " parts that relax, body '", body.name, "' of ", body.result,
           " has others: ", remedy);

@@ -215,7 +215,7 @@ double share_nearby(const Parts& parts, const Eigen::Matrix3Xd& X, std::vector<i
 }  // namespace
 
 bool tells_mesh_error(const RecoveredBody& body, const model::ElasticBody& elastic) {
-  return body.run.history.q.rows() == elastic.n_q() && !body.relaxes() &&
+  return elastic.n_q() > 0 && body.run.history.q.rows() == elastic.n_q() && !body.relaxes() &&
          !elastic.provenance.contains("option_stiffness");
 }
 

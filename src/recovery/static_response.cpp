@@ -40,7 +40,7 @@ std::string obstacle_to_factor(const model::ElasticBody& body) {
 // run.
 std::unique_ptr<StaticResponseOfRun> make_response(const BodyOfRun& body,
                                                    const FiniteElements& finite_elements) {
-  if (body.history.q.rows() == 0) return nullptr;
+  if (body.rigid) return nullptr;
   model::ElasticBody elastic = read_elastic_body(body);
   if (elastic.basis == model::Basis::full) return nullptr;
   const model::ForceHistory forces = io::read_contact_forces(body.result, body.name, elastic.surface);

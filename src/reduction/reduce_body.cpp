@@ -156,7 +156,7 @@ void number_on_root(Job& job) {
     fem::require_held(mesh, plan.held);
   plan.free_dof = fem::free_dofs(plan.held);
   require(!plan.free_dof.empty(), "all nodes are restrained, no degree of freedom is left");
-  if (job.modal() && !job.options.interval)
+  if (job.modal() && !job.options.interval && !without_modes(job.options))
     require_mode_count(job.options.n_modes, static_cast<int>(plan.free_dof.size()));
 }
 
@@ -252,6 +252,8 @@ void prepare_on_root(Job& job) {
 }
 
 }  // namespace
+
+bool without_modes(const ReductionOptions& o) { return o.n_modes == 0 && !o.interval && o.flexibility; }
 
 void number(Job& job) {
   job.on_root([&] { number_on_root(job); });

@@ -110,6 +110,8 @@ void reduce_modal(Job& job);
 fem::MeshedBody meshed_body(const Job& job);
 /// Says what the static responses will take before anything is solved. Collective.
 void announce_flexibility(Job& job);
+/// Is the basis made of static responses alone, so that no eigenmode is looked for?
+bool without_modes(const ReductionOptions& options);
 /// Do the loaded nodes repeat as the mesh does? Collective.
 bool flexibility_repeats(Job& job);
 /// Finds the static responses. whole: of the whole body; not needed where they repeat, and then the sink gets

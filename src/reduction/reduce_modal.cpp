@@ -206,7 +206,7 @@ std::string fingerprint_of(Job& job, const fem::Matrices& matrices) {
 
 // Static responses on all of the surface leave nothing to ask of the modes.
 bool asks_for_completeness(const ReductionOptions& o) {
-  return o.completeness && !(o.flexibility && o.loaded.empty());
+  return o.completeness && !without_modes(o) && !(o.flexibility && o.loaded.empty());
 }
 
 void add_load_checks(Job& job, const ElasticSystem& system) {
@@ -215,6 +215,7 @@ void add_load_checks(Job& job, const ElasticSystem& system) {
 }
 
 void check_basis(Job& job, const ElasticSystem& system, bool completeness) {
+  if (without_modes(job.options)) return;
   job.begin_stage("checks");
   const Plan& plan = job.plan;
   job.report.checks = mass_checks(system.rigid != nullptr, plan.body, [&] {
@@ -235,7 +236,7 @@ void reduce_whole(Job& job) {
   const ElasticSystem system{matrices.K, matrices.M, gather, rigid ? &*rigid : nullptr};
   ModeCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of(job, matrices),
                               precision(job.options));
-  set_eigenmodes(job, find_modes(job, system, checkpoints));
+  set_eigenmodes(job, without_modes(job.options) ? Eigenmodes{} : find_modes(job, system, checkpoints));
   std::optional<ModalWriter> writer;
   job.on_root([&] {
     const auto n_q = static_cast<int>(job.report.frequency.size());
@@ -293,19 +294,18 @@ void check_sectors(Job& job, std::optional<ModalWriter>& writer) {
     gather.emplace(layout, job.plan.dof, 3 * job.mesh.n_nodes());
     system.emplace(ElasticSystem{matrices.K, matrices.M, *gather, nullptr});
   }
-  job.begin_stage("checks");
-  job.report.checks = mass_checks(false, job.plan.body, [&] { return mobile_masses_by_sectors(job); });
+  if (!without_modes(job.options)) {
+    job.begin_stage("checks");
+    job.report.checks = mass_checks(false, job.plan.body, [&] { return mobile_masses_by_sectors(job); });
+  }
   if (completeness) add_load_checks(job, *system);
   add_flexibility(job, system ? &*system : nullptr, responses_to(writer));
   attach(job, system ? &*system : nullptr, writer);
 }
 
-// From one sector of a body that repeats.
-void reduce_sectors(Job& job) {
-  job.begin_stage("eigenmodes");
-  HarmonicCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
+Eigenmodes find_modes_of_sectors(Job& job, HarmonicCheckpoints& checkpoints,
+                                 std::optional<ModalWriter>& writer) {
   const fem::MeshedBody body = meshed_body(job);
-  std::optional<ModalWriter> writer;
   CyclicOptions options;
   options.eigen = eigen_options(job.options);
   options.known = [&](int k, double cutoff) { return checkpoints.read(k, cutoff); };
@@ -315,8 +315,18 @@ void reduce_sectors(Job& job) {
   const auto keep = [&](int k, const Eigen::VectorXd& phi) {
     job.on_root([&] { writer->add(k, mode_record(job, phi)); });
   };
-  set_eigenmodes(job,
-                 find_cyclic_eigenmodes(job.comm, {body, job.plan.repetition}, options, keep, job.progress));
+  return find_cyclic_eigenmodes(job.comm, {body, job.plan.repetition}, options, keep, job.progress);
+}
+
+// From one sector of a body that repeats.
+void reduce_sectors(Job& job) {
+  job.begin_stage("eigenmodes");
+  HarmonicCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of_sectors(job));
+  std::optional<ModalWriter> writer;
+  if (without_modes(job.options))
+    job.on_root([&] { writer.emplace(job, 0); });
+  else
+    set_eigenmodes(job, find_modes_of_sectors(job, checkpoints, writer));
   check_sectors(job, writer);
   job.begin_stage("writing");
   job.on_root([&] { writer->finish(); });

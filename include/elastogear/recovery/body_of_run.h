@@ -16,6 +16,7 @@ struct BodyOfRun {
   std::string file;      ///< body file; empty: a rigid body without one
   std::string identity;  ///< model::fingerprint of the body file in the run; empty: not known
   io::BodyHistory history;
+  bool rigid = false;  ///< without elastic coordinates in the run, and not for want of modes in its file
 };
 
 /// All bodies of a result file, in its order. files: by the body's name, body files that are no longer where

@@ -244,7 +244,7 @@ std::map<std::string, io::StressSet> recover_roots(const DriveOfRun& of, Bodies&
   for (recovery::BodyOfRun& body : recovery::read_bodies_of_run(source.path, files)) {
     const std::string name = body.name;
     if (!is_gear(name)) continue;
-    if (body.history.q.rows() == 0) {
+    if (body.rigid) {
       notes.push_back(name + ": no stresses at its roots: it is rigid in the run");
       continue;
     }

@@ -36,10 +36,11 @@ const Rows<ReductionOptions> kBasisRows = {
      "eigenmodes and static solutions; krylov: moment matching for loads on the surface; craig_bampton: "
      "interface modes and modes of the body held at the interface"},
     {"modes", "-", "100",
-     "number of eigenmodes; modal_attachment: without the static solutions; krylov, craig_bampton: "
+     "number of eigenmodes, 0 with modal_residual: static responses alone, which equilibria ask for; "
+     "modal_attachment: without the static solutions; krylov, craig_bampton: "
      "vectors in all; auto (modal_residual): all that rise_time or highest_frequency ask for",
      [](auto& options, auto& name, auto& o) {
-       if (options.text(name) != kAutomatic) o.n_modes = options.count(name, 1);
+       if (options.text(name) != kAutomatic) o.n_modes = options.count(name);
      }},
     {"loaded", &ReductionOptions::loaded, "-",
      "face sets that contact forces may act on. modal_residual, modal_attachment: three static solutions "

@@ -246,11 +246,19 @@ Options of_system(const Options& given) {
   return with_system(options, drive);
 }
 
+// Static responses alone have no inertia.
+void require_modes_of(const std::vector<dynamics::BodySetup>& bodies) {
+  for (const dynamics::BodySetup& body : bodies)
+    require(!body.body || body.body->n_q() > 0 || body.body->flexibility.empty(), "body '", body.name,
+            "' has no modes, only static responses, which serve analyses at rest: reduce it with modes");
+}
+
 // given: before options of the system were derived from those of a drive.
 std::unique_ptr<dynamics::System> make_system(const Options& given, Analysis kind, const SystemSetup& setup,
                                               KnownBodies& known) {
   dynamics::SystemModel model =
       dynamics::make_system_model(setup.bodies, setup.pairs, setup.environment, setup.markers);
+  if (kind != Analysis::equilibrium) require_modes_of(setup.bodies);
   const auto still = kind == Analysis::dynamic ? begin_loaded(given, known, model) : nullptr;
   return still ? std::make_unique<dynamics::System>(std::move(model), *still)
                : std::make_unique<dynamics::System>(std::move(model));
