@@ -32,7 +32,9 @@ bool is_of_reduction(const std::string& name) {
          std::find(std::begin(kOfReduceAlone), std::end(kOfReduceAlone), name) == std::end(kOfReduceAlone);
 }
 
-bool is_mesh_density(const std::string& name) { return name == "size" || name == "element_order"; }
+bool is_mesh_density(const std::string& name) {
+  return name == "size" || name == "element_order" || name == "refinement";
+}
 
 // Options that say what the gears are and where: all verbs derive them anew.
 bool is_of_design(const std::string& name) {

@@ -101,6 +101,16 @@ WheelCounts wheel_counts(Size size, int order) {
   return order == 2 ? graded_counts(size) : equal_counts(size);
 }
 
+WheelCounts refined(WheelCounts n, double times) {
+  if (times == 1) return n;
+  n.tooth = 2 * refined(n.tooth / 2, times);
+  for (int* count : {&n.space, &n.flank, &n.fillet, &n.rim, &n.ring, &n.web, &n.hub, &n.web_layers,
+                     &n.face_layers, &n.hub_layers})
+    *count = refined(*count, times);
+  for (double* growth : {&n.growth, &n.tooth_growth, &n.web_growth}) *growth = refined_growth(*growth, times);
+  return n;
+}
+
 namespace {
 
 // Seen from the other side, a left-handed wheel is a right-handed one.

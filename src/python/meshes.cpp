@@ -139,9 +139,9 @@ std::map<std::string, SharedMesh> drive_meshes(const Given& given) {
     require(app::is_drive(options), "option -drive is missing: these are not the keys of a drive");
     options.reject_unknown();
     std::map<std::string, SharedMesh> meshes;
-    const gear::Size size = gear::size(options.text("size"));
+    const app::MeshDensity density = app::mesh_density(options);
     for (const app::DriveMember& member : app::read_drive(options).members)
-      meshes[member.name] = std::make_shared<Mesh>(member.mesh(size, app::element_order(options)));
+      meshes[member.name] = std::make_shared<Mesh>(member.mesh(density));
     return meshes;
   });
 }

@@ -30,6 +30,10 @@ struct WheelCounts {
 /// Counts of a size for cells of an order: those of 20 nodes are graded towards the fillets.
 WheelCounts wheel_counts(Size size, int order = 1);
 
+/// The counts times a number > 0, as far as they are whole, with rows that grow as before over the same
+/// depth.
+WheelCounts refined(WheelCounts counts, double times);
+
 /// Mesh in the wheel frame. Face sets left, right, flanks, `tooth_<ii>_left`, `tooth_<ii>_right`; node sets
 /// bore, root, `root_<ii>` (nodes of the fillet surface); cell sets body and rim (from the rim radius on),
 /// disjoint. Teeth are numbered 01..z2 with as many digits as z2 has. Nodes and cells are numbered sector by

@@ -31,6 +31,10 @@ struct WormCounts {
 /// of 20 nodes are graded towards the fillets.
 WormCounts worm_counts(Size size, int z1 = Design{}.z1, int order = 1);
 
+/// The counts of a worm with z1 starts times a number > 0, as far as they are whole, with rows that grow as
+/// before over the same depth.
+WormCounts refined(WormCounts counts, int z1, double times);
+
 /// Mesh in the worm frame. Face sets left, right, flanks, `thread_<i>_left`, `thread_<i>_right`; node sets
 /// seats, seat_1, seat_2, root, `root_<i>` (nodes of the fillet surface); cell set body. Threads are
 /// numbered 1..z1. Throws Error for designs that do not exist and counts that do not fit.

@@ -264,9 +264,9 @@ Drive cylindrical_drive(const Options& options) {
     DriveMember member{.name = d.gears[i].name,
                        .toothing = g.gear[i],
                        .mesh =
-                           [=](gear::Size size, int order) {
-                             return gear::cylindrical_mesh(d, g, k,
-                                                           gear::cylindrical_counts(d, g, k, size, order));
+                           [=](const MeshDensity& by) {
+                             const auto n = gear::cylindrical_counts(d, g, k, by.size, by.order);
+                             return gear::cylindrical_mesh(d, g, k, gear::refined(n, by.refinement));
                            },
                        .held = g.gear[i].internal ? "outer" : "bore"};
     member.position.head<2>() = g.axis[i];

@@ -16,6 +16,7 @@ const Rows<Design> kDesignRows = {
     {"size", "-", "tiny", "tiny, small, medium or paper; the counts below refine it"},
     {"element_order", "-", "2",
      "order of the hexahedra: 1 (8 nodes) or 2 (20 nodes, midside nodes on the exact flanks and fillets)"},
+    {"refinement", "-", "1", "all counts of the size are so many times as large, also 1.5 times"},
     {"mesh", "-", "", "mesh file to write, Gmsh 4.1 .msh or Abaqus .inp"},
     {"z1", &Design::z1, "-", "starts of the worm", kPositive},
     {"z2", &Design::z2, "-", "teeth of the wheel", kPositive},
@@ -114,6 +115,10 @@ const Rows<WheelCounts> kWheelCounts = {
 const Rows<Design>& design_rows() { return kDesignRows; }
 
 int element_order(const Options& options) { return options.choice("element_order", {"1", "2"}) + 1; }
+
+MeshDensity mesh_density(const Options& options) {
+  return {gear::size(options.text("size")), element_order(options), options.positive("refinement")};
+}
 
 bool is_worm(const Options& options) { return options.choice("part", {"worm", "wheel"}) == 0; }
 

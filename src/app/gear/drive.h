@@ -17,11 +17,18 @@ namespace elastogear::app {
 /// Names and values with units, to be printed.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
+/// How fine the meshes of a drive are.
+struct MeshDensity {
+  gear::Size size = gear::Size::tiny;
+  int order = 2;          ///< of the hexahedra, 1 or 2
+  double refinement = 1;  ///< of all counts of the size
+};
+
 /// One body of a drive.
 struct DriveMember {
   std::string name;
   gear::Toothing toothing;
-  std::function<mesh::Mesh(gear::Size, int order)> mesh;  ///< order: of the hexahedra, 1 or 2
+  std::function<mesh::Mesh(const MeshDensity&)> mesh;
   bool is_worm = false;                                  ///< its stresses are those of a worm, not of a wheel
   std::string held;                                      ///< node set that carries the body frame
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< m, of the body frame's origin in the world

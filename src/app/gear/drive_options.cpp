@@ -43,8 +43,8 @@ const Rows<DriveChoices> kDriveRows = {
 
 // Rows of gear data for a single body, and those that all drives share.
 constexpr const char* kOfParts[] = {"part", "mesh"};
-constexpr const char* kShared[] = {"size",     "element_order", "module", "pressure_angle", "centre_distance",
-                                   "backlash", "face_width"};
+constexpr const char* kShared[] = {"size",           "element_order",   "refinement", "module",
+                                   "pressure_angle", "centre_distance", "backlash",   "face_width"};
 
 // Options of reduce that a drive sets itself for each gear.
 const std::vector<std::string> kOfDrive = {"mesh", "unit",          "output", "stiffness",
@@ -108,7 +108,8 @@ OptionTable whole_drive_table() {
   for (OptionSpec spec : table_of(design_rows())) {
     if (holds(kOfParts, spec.name)) continue;
     spec.help = "drive: " + spec.help;
-    if (spec.name != "size" && spec.name != "element_order") spec.default_value.clear();
+    if (spec.name != "size" && spec.name != "element_order" && spec.name != "refinement")
+      spec.default_value.clear();
     table.push_back(spec);
   }
   return table;

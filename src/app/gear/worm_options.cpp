@@ -107,21 +107,26 @@ Drive worm_drive(const Options& options) {
   const double hand = d.hand == gear::Hand::left ? -1 : 1;
   const double closing = g.j_n / 2 / (g.wheel.r * std::cos(d.alpha_n) * std::cos(g.gamma));
   const double sense = options.choice("side", {"drive", "coast"}) == 0 ? 1 : -1;
-  DriveMember worm{
-      .name = "worm",
-      .toothing = g.worm,
-      .mesh = [d](gear::Size size,
-                  int order) { return gear::worm_mesh(d, gear::worm_counts(size, d.z1, order)); },
-      .is_worm = true,
-      .held = "seats"};
+  DriveMember worm{.name = "worm",
+                   .toothing = g.worm,
+                   .mesh =
+                       [d](const MeshDensity& by) {
+                         const gear::WormCounts n = gear::worm_counts(by.size, d.z1, by.order);
+                         return gear::worm_mesh(d, gear::refined(n, d.z1, by.refinement));
+                       },
+                   .is_worm = true,
+                   .held = "seats"};
   worm.position = {0, d.a, 0};
   worm.rotation = Eigen::Vector3d::Constant(2 * pi / 3 / std::sqrt(3.0));
   worm.angle = turned;
   worm.width = d.thread_length;
   DriveMember wheel{.name = "wheel",
                     .toothing = g.wheel,
-                    .mesh = [d](gear::Size size,
-                                int order) { return gear::wheel_mesh(d, gear::wheel_counts(size, order)); },
+                    .mesh =
+                        [d](const MeshDensity& by) {
+                          const gear::WheelCounts n = gear::wheel_counts(by.size, by.order);
+                          return gear::wheel_mesh(d, gear::refined(n, by.refinement));
+                        },
                     .held = "bore"};
   wheel.angle = hand * (turned / g.ratio - sense * closing);
   wheel.ratio = hand / g.ratio;

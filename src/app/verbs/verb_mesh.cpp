@@ -42,7 +42,7 @@ void print_mesh(const mesh::Mesh& mesh) {
 }
 
 template <class Counts>
-Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) {
+Counts with_given(Counts counts, const Rows<Counts>& rows, const Options& options) {
   read_rows(options, rows, counts);
   return counts;
 }
@@ -50,7 +50,7 @@ Counts refined(Counts counts, const Rows<Counts>& rows, const Options& options) 
 // All members of a drive file.
 void mesh_drive(const Options& options) {
   const Drive drive = read_drive(options);
-  const gear::Size size = gear::size(options.text("size"));
+  const MeshDensity density = mesh_density(options);
   std::vector<std::string> paths;
   for (const DriveMember& member : drive.members) {
     const std::string option = member.name + "_mesh";
@@ -63,14 +63,15 @@ void mesh_drive(const Options& options) {
   std::vector<mesh::Mesh> meshes;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const OutputLock lock(paths[i]);
-    meshes.push_back(drive.members[i].mesh(size, element_order(options)));
+    meshes.push_back(drive.members[i].mesh(density));
     print_item("mesh of " + drive.members[i].name, "");
     print_mesh(meshes.back());
-    print_mesh_accuracy(drive.members[i].is_worm, size, element_order(options));
+    if (density.refinement == 1) print_mesh_accuracy(drive.members[i].is_worm, density.size, density.order);
     mesh::write_mesh(paths[i], meshes.back());
     print_item("written", paths[i]);
   }
-  print_item("the drive on such meshes", drive_accuracy(size, element_order(options)));
+  if (density.refinement == 1)
+    print_item("the drive on such meshes", drive_accuracy(density.size, density.order));
   const OutputLock lock(drawing);
   write_drawing(drawing, join(options.files()), drive, meshes);
   print_item("drawing", drawing);
@@ -86,16 +87,17 @@ void run_mesh(const Options& given, const std::vector<std::string>&) {
   const OutputLock lock(path);
   Design d;
   read_rows(options, design_rows(), d);
-  const gear::Size size = gear::size(options.text("size"));
+  const auto [size, order, times] = mesh_density(options);
   const gear::Geometry geometry = gear::derive(d);
-  const int order = element_order(options);
-  const mesh::Mesh mesh =
-      worm ? gear::worm_mesh(d, refined(gear::worm_counts(size, d.z1, order), worm_count_rows(), options))
-           : gear::wheel_mesh(d, refined(gear::wheel_counts(size, order), wheel_count_rows(), options));
+  const auto worm_counts = gear::refined(gear::worm_counts(size, d.z1, order), d.z1, times);
+  const auto wheel_counts = gear::refined(gear::wheel_counts(size, order), times);
+  const mesh::Mesh mesh = worm ? gear::worm_mesh(d, with_given(worm_counts, worm_count_rows(), options))
+                               : gear::wheel_mesh(d, with_given(wheel_counts, wheel_count_rows(), options));
   print_toothing(geometry, worm ? geometry.worm : geometry.wheel);
   print_mesh(mesh);
   const OptionTable counts = table_of(worm_count_rows(), wheel_count_rows());
-  if (std::none_of(counts.begin(), counts.end(), [&](const auto& spec) { return options.given(spec.name); }))
+  if (times == 1 &&
+      std::none_of(counts.begin(), counts.end(), [&](const auto& spec) { return options.given(spec.name); }))
     print_mesh_accuracy(worm, size, order);
   mesh::write_mesh(path, mesh);
   print_item("written", path);

@@ -304,17 +304,18 @@ void reduce_body(const Options& options, const NodeSource& read) {
 // All members of a drive file, each meshed here, so that bodies and drive belong together.
 void reduce_drive(const Options& options) {
   const Drive drive = read_drive(options);
-  const gear::Size size = gear::size(options.text("size"));
+  const MeshDensity density = mesh_density(options);
   print_facts(drive);
-  print_detail("the drive on such meshes", drive_accuracy(size, element_order(options)));
+  if (density.refinement == 1)
+    print_detail("the drive on such meshes", drive_accuracy(density.size, density.order));
   for (const DriveMember& member : drive.members) {
     print_detail("body " + member.name, "");
     {
       const Silence unless_asked(!is_verbose());
-      print_mesh_accuracy(member.is_worm, size, element_order(options));
+      if (density.refinement == 1) print_mesh_accuracy(member.is_worm, density.size, density.order);
     }
     reduce_body(member_options(options, member), [&] {
-      Nodes nodes{.mesh = member.mesh(size, element_order(options)), .report = {}, .open = {}};
+      Nodes nodes{.mesh = member.mesh(density), .report = {}, .open = {}};
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));
       std::iota(nodes.report.node_number.begin(), nodes.report.node_number.end(), 1);
       return nodes;

@@ -196,15 +196,28 @@ WormCounts graded_counts(Size size) {
   return n;
 }
 
+// Sections per turn next to those of the counts that a worm of z1 starts can have.
+WormCounts with_whole_turn(WormCounts n, int z1) {
+  const int columns = z1 * (2 * n.space + n.tooth);
+  n.turn = columns * std::max(2L, std::lround(static_cast<double>(n.turn) / columns));
+  return n;
+}
+
 }  // namespace
 
 WormCounts worm_counts(Size size, int z1, int order) {
   require(z1 >= 1, "z1 = ", z1, ": the worm needs at least 1 start");
   check_order("worm", order);
-  WormCounts n = order == 2 ? graded_counts(size) : equal_counts(size);
-  const int columns = z1 * (2 * n.space + n.tooth);
-  n.turn = columns * std::max(2L, std::lround(static_cast<double>(n.turn) / columns));
-  return n;
+  return with_whole_turn(order == 2 ? graded_counts(size) : equal_counts(size), z1);
+}
+
+WormCounts refined(WormCounts n, int z1, double times) {
+  if (times == 1) return n;
+  n.tooth = 2 * refined(n.tooth / 2, times);
+  for (int* count : {&n.space, &n.flank, &n.fillet, &n.ring, &n.turn, &n.shaft})
+    *count = refined(*count, times);
+  for (double* growth : {&n.growth, &n.tooth_growth}) *growth = refined_growth(*growth, times);
+  return with_whole_turn(n, z1);
 }
 
 mesh::Mesh worm_mesh(const Design& design, const WormCounts& counts) {
