@@ -47,6 +47,28 @@ def write(**changed):
         file.write("\n".join(lines) + "\n" + "".join(f"{key}: {value}\n" for key, value in changed.items()))
 
 
+def accurate():
+    """Meshes are refined until the estimate is below what is asked, and figures have their errors."""
+    drive = "\n".join(line for line in DRIVE.splitlines() if line.split(":")[0] not in ("element_order", "modes"))
+    with open("accurate.yaml", "w", encoding="utf-8") as file:
+        file.write(drive + "\naccuracy: 60 %\n")
+    said = run("accurate.yaml")
+    assert said.count("are there") == 0 and "60 % asked" in said, said
+    pair = figures("accurate_evaluation.json")["cases"][0]["pairs"]["pinion:wheel"]
+    of_mesh = [pair["root"]["pinion"]["largest_tension"], pair["root"]["pinion"]["largest_tension_mesh_error"]]
+    assert 0 < of_mesh[1]["value"] < 0.6 * of_mesh[0]["value"], of_mesh
+    for group, name in (("transmission_error", "peak_to_peak"), ("stiffness", "secant_mean"), ("line_load", "KHbeta")):
+        assert name + "_mesh_error" in pair[group], f"{group}/{name} has no error"
+    assert made(run("accurate.yaml")) == (False, False)
+    # A finer mesh where that is asked; the coarser ones are there.
+    finer = run("accurate.yaml", "-accuracy", "%g %%" % (90 * of_mesh[1]["value"] / of_mesh[0]["value"]))
+    assert "1.5/accurate_evaluation.h5" in run("accurate.yaml", "-accuracy", "60 %") and "2 times" in finer, finer
+    # Bodies of static responses alone are not for motions.
+    refused = subprocess.run([ELASTOGEAR, "simulate", "accurate.yaml", "-analysis", "dynamic", "-ts_max_time", "1e-6"],
+                             capture_output=True, text=True, check=False)
+    assert refused.returncode != 0 and "has no modes" in refused.stderr, refused.stderr
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -69,6 +91,7 @@ def main():
         # Bodies that were made anew by their own verb have another result.
         run("reduce", "drive.yaml", "-modes", "5")
         assert made(run("drive.yaml")) == (False, True)
+        accurate()
         os.chdir("/")
     print("one command makes all")
 

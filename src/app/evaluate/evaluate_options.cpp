@@ -19,6 +19,9 @@ const Rows<E> kEvaluateRows = {
      "evaluation file to write (HDF5); tables (CSV) and the summary (JSON) are named after it (default: the "
      "drive's)",
      kDependent},
+    {"coarser", &E::coarser, "-",
+     "evaluation files of the same cases on coarser meshes, the coarsest first, for estimated errors by the "
+     "mesh of all figures (run sets it)"},
     {"unloaded", &E::unloaded, "-",
      "result file of the same positions under a vanishing torque, for the unloaded transmission error and "
      "the secant stiffness; not needed for exact flanks in place, which have none"},
@@ -43,12 +46,16 @@ EvaluateSettings evaluate_settings(const Options& options) {
   return settings;
 }
 
-Options with_evaluation(Options options) {
-  const std::string cases = drive_stem(options) + "_result", file = cases + ".h5";
+Options with_evaluation(Options options, const std::string& folder) {
+  const std::string stem = (std::filesystem::path(folder) / drive_stem(options)).string(),
+                    cases = stem + "_result", file = cases + ".h5";
   const bool of_cases = options.given("torques") || options.given("variants");
   const bool several = std::filesystem::is_directory(cases) && (of_cases || !std::filesystem::exists(file));
-  options.set_default("result", several ? cases : file);
-  options.set_default("output", drive_stem(options) + "_evaluation.h5");
+  const auto take = [&](const std::string& name, const std::string& value) {
+    folder.empty() ? options.set_default(name, value) : options.set(name, value);
+  };
+  take("result", several ? cases : file);
+  take("output", stem + "_evaluation.h5");
   return options;
 }
 

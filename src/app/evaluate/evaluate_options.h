@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/options/options.h"
 #include "elastogear/recovery/static_response.h"
@@ -13,6 +14,7 @@ namespace elastogear::app {
 /// What the options ask for.
 struct EvaluateSettings {
   std::string result = {}, output = {};      ///< result file or folder of cases; file to write
+  std::vector<std::string> coarser = {};     ///< evaluation files of the same cases on coarser meshes
   std::string unloaded = {};                 ///< result file of the same positions without load; empty: none
   std::optional<double> from = {}, to = {};  ///< s, span of a run in time
   bool roots = true;                         ///< recover stresses at the roots
@@ -27,7 +29,7 @@ OptionTable evaluate_table();
 
 EvaluateSettings evaluate_settings(const Options& options);
 
-/// Options with the result and the output of the drive where nothing is given.
-Options with_evaluation(Options options);
+/// Options with the result and the output of the drive where nothing is given, or as `folder` has them.
+Options with_evaluation(Options options, const std::string& folder = "");
 
 }  // namespace elastogear::app

@@ -28,7 +28,8 @@ enum class Quantity {
   stiffness,
   wear,
   temperature,
-  molar_energy
+  molar_energy,
+  share
 };
 
 struct Unit {
@@ -93,7 +94,8 @@ constexpr Unit kUnits[] = {{"nm", length, 1e-9},
                            {"degC", temperature, 1, 273.15},
                            {"°C", temperature, 1, 273.15},
                            {"J/mol", molar_energy, 1},
-                           {"kJ/mol", molar_energy, 1e3}};
+                           {"kJ/mol", molar_energy, 1e3},
+                           {"%", share, 1e-2}};
 
 const Unit* find(const std::string& name) {
   const auto* unit =

@@ -10,6 +10,7 @@
 #include "app/console/outputs.h"
 #include "app/evaluate/drive_run.h"
 #include "app/evaluate/evaluate_tables.h"
+#include "app/evaluate/mesh_errors.h"
 #include "app/gear/drive_options.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
@@ -291,6 +292,7 @@ void run_evaluate(const Options& given, const std::vector<std::string>&) {
   }
   std::vector<CaseFigures> figures;
   for (Evaluated& one : cases) figures.push_back(std::move(one.figures));
+  add_mesh_errors(of.settings.coarser, options.positive("refinement"), figures);
   print_all(of, figures);
   write_all(options, of.settings, figures);
 }

@@ -1,92 +1,180 @@
 // elastogear run: drive file -> bodies, a sweep over a pitch and what an engineer reads off, each as far as
-// it is not there already.
+// it is not there already, on meshes that are refined until the stresses at the roots are as accurate as
+// asked.
 
-#include <filesystem>
-#include <functional>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
 
 #include "app/console/console.h"
-#include "app/drive_input.h"
-#include "app/evaluate/cases.h"
-#include "app/evaluate/evaluate_options.h"
-#include "app/gear/drive_options.h"
+#include "app/evaluate/mesh_errors.h"
+#include "app/options/rows.h"
+#include "app/run/run_on_mesh.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
-#include "elastogear/io/result_file.h"
-#include "elastogear/recovery/body_of_run.h"
 
 namespace elastogear::app {
 namespace {
 
-// Why something has to be made; empty: it is there, of this input.
-std::string why(const std::function<void()>& require_it) {
-  try {
-    require_it();
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
+// Times the counts of size tiny. Ratios of at least 1.3 tell changes from scatter (ASME V&V 20).
+constexpr double kRefinements[] = {1, 1.5, 2, 3, 4};
+constexpr int kMeshes = static_cast<int>(std::size(kRefinements));
+constexpr double kLongest = 1200;  // s, that one more mesh may take
+constexpr double kCost = 4;        // power of the refinement that time and memory grow with
+
+struct RunSettings {
+  double accuracy = 5;  // %
+};
+
+const Rows<RunSettings> kRunRows = {
+    {"accuracy", &RunSettings::accuracy, "%",
+     "run: estimated error by the mesh, of the largest tension at the root of every gear, that meshes of a "
+     "drive at rest are refined for; size, element_order and refinement choose a mesh in place of it",
+     kPositive},
+};
+
+bool is_at_rest(const RunOnMesh& of) {
+  const std::string analysis = of.simulate.text("analysis");
+  return analysis == "sweep" || analysis == "static";
 }
 
-void require_all_bodies(const Options& options, const Drive& drive) {
-  const Silence silence;
-  for (const DriveMember& member : drive.members) {
-    const std::string file = body_file(options, member);
-    require(std::filesystem::is_regular_file(file), file, ": is not there");
-  }
-  require_bodies(options, drive);
+bool relaxes_by(const Options& options) {
+  const auto given = options.given_to_verb();
+  return std::any_of(given.begin(), given.end(), [](const auto& option) {
+    return option.first.find("prony") != std::string::npos ||
+           option.first.find("master") != std::string::npos;
+  });
 }
 
-// The result of this input, with the bodies as they are.
-void require_results(const Options& of_evaluate) {
-  const std::string result = of_evaluate.text("result");
-  require(std::filesystem::exists(result), result, ": is not there");
-  for (const Case& of : read_cases(result)) {
-    require(io::is_complete(of.file), of.file, ": is not complete");
-    require_input(of_evaluate, of.file);
-    for (const recovery::BodyOfRun& body : recovery::read_bodies_of_run(of.file))
-      recovery::read_elastic_body(body);  // throws for another one
-  }
+// Does the run look for the mesh?
+bool chooses_mesh(const Options& given, const RunOnMesh& of) {
+  for (const char* mesh : {"size", "element_order", "refinement"})
+    if (given.given(mesh)) {
+      require(!given.given("accuracy"), given.label("accuracy"), ": is not for a mesh that ",
+              given.label(mesh), " has chosen");
+      return false;
+    }
+  require(is_at_rest(of) || !given.given("accuracy"), given.label("accuracy"),
+          ": is for analyses at rest, sweep and static");
+  return is_at_rest(of);
 }
 
-// Decided on rank 0 for all.
-std::string why_on_rank_0(const std::function<void()>& require_it) {
-  int rank = 0, missing = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  std::string cause;
-  if (rank == 0) cause = why(require_it), missing = !cause.empty();
-  MPI_Bcast(&missing, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  return missing && cause.empty() ? "as rank 0 says" : cause;
+std::string percent_of(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  return text;
 }
 
-void run_all(const Options& given, const std::vector<std::string>& arguments) {
-  require(is_drive(given), "needs a drive file: elastogear run drive.yaml (docs/drives.md)");
-  const Verb reduce = reduce_verb(), simulate = simulate_verb(), evaluate = evaluate_verb();
-  const Options of_reduce = given.of_verb("reduce", reduce.table);
-  Options of_simulate = given.of_verb("simulate", simulate.table),
-          of_evaluate = given.of_verb("evaluate", evaluate.table);
-  of_simulate.set_default("analysis", "sweep");
-  const Drive drive = read_drive(with_gears(given));
-  if (const std::string cause = why_on_rank_0([&] { require_all_bodies(of_reduce, drive); });
-      !cause.empty()) {
-    print_item("reduce", cause);
-    reduce.run(of_reduce, arguments);
-  } else {
-    print_item("reduce", "the bodies are there");
-  }
-  const Options with_result = with_evaluation(with_gears(of_evaluate));
-  if (const std::string cause = why_on_rank_0([&] { require_results(with_result); }); !cause.empty()) {
-    print_item("simulate", cause);
-    simulate.run(of_simulate, arguments);
-  } else {
-    print_item("simulate", "the result is there");
-  }
+double number_on_rank_0(const std::function<double()>& number) {
+  double value = 0;
   collectively(PETSC_COMM_WORLD, [&] {
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    if (rank == 0) evaluate.run(of_evaluate, arguments);
+    if (rank == 0) value = number();
   });
+  MPI_Bcast(&value, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+  return value;
+}
+
+// Bytes, the most this process has held so far.
+double held_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+// What a finer mesh would take where this is more than there is; else empty.
+std::string obstacle_to_finer(int mesh, double seconds) {
+  std::ostringstream finer;
+  if (mesh + 1 == kMeshes) return "there is no finer mesh on offer";
+  const double times = std::pow(kRefinements[mesh + 1] / kRefinements[mesh], kCost);
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  const double wanted = times * held_memory();
+  if (times * seconds <= kLongest && wanted <= memory) return "";
+  finer << "the next mesh would take about " << duration(times * seconds) << " and "
+        << with_unit(1e-9 * wanted, "GB") << "of memory; -refinement " << kRefinements[mesh + 1]
+        << " makes it";
+  return finer.str();
+}
+
+void print_errors(const std::string& evaluation) {
+  print_item("estimated errors by the mesh", "from coarser meshes");
+  for (const auto& [name, text] : figures_with_mesh_errors(evaluation)) print_item("  " + name, text);
+}
+
+// Returns whether the run ends with this mesh, and says how accurate it is.
+bool ends_here(int mesh, double error, double accuracy, double seconds, const std::string& evaluation) {
+  const bool reached = error < 0 || error <= accuracy;
+  const std::string obstacle = reached ? "" : obstacle_to_finer(mesh, seconds);
+  std::ostringstream said;
+  said << percent_of(error) << " of the largest tension at a root by estimate, " << percent_of(accuracy)
+       << " asked; counts " << kRefinements[mesh] << " times those of size tiny";
+  if (!obstacle.empty()) said << "; not reached: " << obstacle;
+  if (error < 0)
+    print_item("accuracy", "there is no tension at a root to tell it by");
+  else
+    print_item("accuracy", said.str());
+  if (!reached && obstacle.empty()) return false;
+  number_on_rank_0([&] { return print_errors(evaluation), 0; });
+  return true;
+}
+
+// Refines from size tiny on, Eq. (10.13) to (10.15). All meshes but the last have their files in folders.
+void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
+  std::vector<std::string> coarser;
+  for (int mesh = 0; mesh < kMeshes; ++mesh) {
+    std::ostringstream folder;
+    folder << drive_stem(of.reduce) << "_meshes/" << kRefinements[mesh];
+    const RunOnMesh apart = on_mesh(of, drive, kRefinements[mesh], folder.str());
+    const bool last = mesh + 1 == kMeshes;
+    print_item("mesh",
+               "counts " + folder.str().substr(folder.str().find('/') + 1) + " times those of size tiny");
+    if (!last && has_evaluation(apart)) {
+      print_item("evaluate", evaluation_file(apart) + " is there");
+      coarser.push_back(evaluation_file(apart));
+      continue;
+    }
+    const bool is_apart = !last && (mesh == 0 || has_bodies(apart, drive));
+    const RunOnMesh here = is_apart ? apart : on_mesh(of, drive, kRefinements[mesh], "");
+    const auto start = std::chrono::steady_clock::now();
+    make(here, drive, coarser);
+    const double seconds = number_on_rank_0(
+        [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); });
+    if (!is_apart) {
+      const std::string evaluation = evaluation_file(here);
+      const double error = number_on_rank_0([&] { return root_mesh_error(evaluation); });
+      if (ends_here(mesh, error, accuracy, seconds, evaluation)) return;
+      number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
+    }
+    coarser.push_back(evaluation_file(apart));
+  }
+}
+
+void run_all(const Options& given, const std::vector<std::string>&) {
+  require(is_drive(given), "needs a drive file: elastogear run drive.yaml (docs/drives.md)");
+  RunSettings settings;
+  read_rows(given, kRunRows, settings);
+  const Drive drive = read_drive(with_gears(given));
+  RunOnMesh of = run_options(given);
+  if (!chooses_mesh(given, of)) return make(of, drive, {});
+  // Equilibria take static responses alone, and errors by the mesh come from coarser ones.
+  if (of.reduce.text("basis") == "modal_residual" && !relaxes_by(of.reduce))
+    for (Options* options : {&of.reduce, &of.simulate, &of.evaluate}) options->set_default("modes", "0");
+  run_accurately(of, drive, settings.accuracy / 100);
+}
+
+OptionTable all_run_options() {
+  OptionTable table = table_of(kRunRows);
+  const OptionTable of_drives = whole_drive_table();
+  table.insert(table.end(), of_drives.begin(), of_drives.end());
+  return table;
 }
 
 }  // namespace
@@ -96,7 +184,7 @@ Verb run_verb() {
           "run drive.yaml [-option value ...]",
           "drive file -> bodies, sweep and evaluation, as far as they are not there; also 'elastogear "
           "drive.yaml'",
-          whole_drive_table(),
+          all_run_options(),
           run_all,
           true};
 }

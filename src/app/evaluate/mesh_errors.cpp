@@ -1,0 +1,137 @@
+#include "app/evaluate/mesh_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "elastogear/base/error.h"
+#include "elastogear/base/number.h"
+#include "elastogear/evaluation/grid_convergence.h"
+
+namespace elastogear::app {
+namespace {
+
+using io::EvaluationItem;
+
+constexpr const char* kErrorEnd = "_mesh_error";
+constexpr const char* kRootTension = "/largest_tension";
+
+// Figures that the mesh changes, beside those of roots.
+constexpr const char* kOfMesh[] = {"transmission_error/mean",       "transmission_error/peak_to_peak",
+                                   "stiffness/secant_mean",         "stiffness/secant_per_width",
+                                   "stiffness/secant_peak_to_peak", "stiffness/tangent_mean",
+                                   "stiffness/tangent_per_width",   "teeth/contact_ratio",
+                                   "teeth/largest_share",           "line_load/KHbeta",
+                                   "pressure/hertz_peak",           "losses/loss_factor"};
+constexpr const char* kOfRoots[] = {kRootTension, "/largest_von_mises", "/range"};
+
+bool depends_on_mesh(const std::string& path) {
+  if (path.starts_with("root/"))
+    return std::any_of(std::begin(kOfRoots), std::end(kOfRoots),
+                       [&](const char* end) { return path.ends_with(end); });
+  return std::find(std::begin(kOfMesh), std::end(kOfMesh), path) != std::end(kOfMesh);
+}
+
+double refinement_of(const io::EvaluationFile& evaluation, const std::string& file) {
+  const auto found = evaluation.provenance.find("option_refinement");
+  const auto number = found == evaluation.provenance.end() ? std::nullopt : parse<double>(found->second);
+  require(number.has_value(), file, ": does not say how fine its meshes are; evaluate the run anew");
+  return *number;
+}
+
+struct CoarserMesh {
+  std::string file;
+  double refinement = 1;
+  io::EvaluationFile evaluation;
+};
+
+double value_on(const CoarserMesh& mesh, const std::string& path) {
+  const EvaluationItem* item = find_item(mesh.evaluation.items, path);
+  require(item && item->value.size() == 1, mesh.file, ": has no figure ", path);
+  return item->value[0];
+}
+
+EvaluationItem error_item(const std::vector<CoarserMesh>& coarser, const std::string& group,
+                          const EvaluationItem& item, double refinement) {
+  std::vector<double> value, refinements;
+  for (const CoarserMesh& mesh : coarser) {
+    value.push_back(value_on(mesh, group + item.path));
+    refinements.push_back(mesh.refinement);
+  }
+  value.push_back(item.value[0]);
+  refinements.push_back(refinement);
+  return {item.path + kErrorEnd,
+          item.unit,
+          "estimated error by the mesh, from coarser ones",
+          {},
+          {evaluation::mesh_error(value, refinements)},
+          {}};
+}
+
+// Where an item of its path is there, in its place.
+void set_item(std::vector<EvaluationItem>& items, EvaluationItem item) {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const EvaluationItem& other) { return other.path == item.path; });
+  if (found == items.end())
+    items.push_back(std::move(item));
+  else
+    *found = std::move(item);
+}
+
+std::string shown(double value, double error, const std::string& unit) {
+  const bool pressure = unit == "Pa", length = unit == "m", stiffness = unit == "N/m";
+  const double factor = pressure || stiffness ? 1e-6 : length ? 1e6 : 1;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.4g ± %.2g %s", factor * value, factor * error,
+                pressure      ? "MPa"
+                : length      ? "um"
+                : stiffness   ? "N/um"
+                : unit == "1" ? ""
+                              : unit.c_str());
+  return text;
+}
+
+}  // namespace
+
+void add_mesh_errors(const std::vector<std::string>& files, double refinement,
+                     std::vector<CaseFigures>& cases) {
+  if (files.empty()) return;
+  std::vector<CoarserMesh> coarser;
+  for (const std::string& file : files) {
+    io::EvaluationFile evaluation = io::read_evaluation(file);
+    const double of_file = refinement_of(evaluation, file);
+    coarser.push_back({file, of_file, std::move(evaluation)});
+  }
+  for (CaseFigures& of : cases)
+    for (PairFigures& pair : of.pairs) {
+      const std::string group = of.of.name + "/" + pair.pair + "/";
+      std::vector<EvaluationItem> errors;
+      for (const EvaluationItem& item : pair.items)
+        if (item.shape.empty() && item.words.empty() && depends_on_mesh(item.path))
+          errors.push_back(error_item(coarser, group, item, refinement));
+      for (EvaluationItem& error : errors) set_item(pair.items, std::move(error));
+    }
+}
+
+std::vector<std::pair<std::string, std::string>> figures_with_mesh_errors(const std::string& file) {
+  const io::EvaluationFile evaluation = io::read_evaluation(file);
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const EvaluationItem& item : evaluation.items)
+    if (const EvaluationItem* error = find_item(evaluation.items, item.path + kErrorEnd))
+      lines.emplace_back(item.path.substr(item.path.find('/') + 1),
+                         shown(item.value[0], error->value[0], item.unit));
+  return lines;
+}
+
+double root_mesh_error(const std::string& file) {
+  const io::EvaluationFile evaluation = io::read_evaluation(file);
+  double largest = -1;
+  for (const EvaluationItem& item : evaluation.items) {
+    if (!item.path.ends_with(kRootTension)) continue;
+    const EvaluationItem* error = find_item(evaluation.items, item.path + kErrorEnd);
+    if (error && item.value[0] > 0) largest = std::max(largest, error->value[0] / item.value[0]);
+  }
+  return largest;
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,48 @@
+#include "elastogear/evaluation/grid_convergence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "elastogear/base/error.h"
+
+namespace elastogear::evaluation {
+namespace {
+
+// 420 less what meshes of an order lack.
+std::vector<double> values(double order, const std::vector<double>& refinement) {
+  std::vector<double> all;
+  for (double r : refinement) all.push_back(420 - 10 * std::pow(r, -order));
+  return all;
+}
+
+// Of a figure of the assumed order the estimate is the error times the factor of safety.
+TEST(GridConvergence, two_meshes_of_the_assumed_order) {
+  EXPECT_NEAR(mesh_error(values(2, {1, 1.5}), {1, 1.5}), 3 * 10 / 2.25, 1e-9);
+}
+
+TEST(GridConvergence, three_meshes_of_an_observed_order) {
+  const std::vector<double> r = {1, 1.5, 2};
+  EXPECT_NEAR(mesh_error(values(1.5, r), r), 1.25 * 10 * std::pow(2, -1.5), 1e-6);
+}
+
+// A higher order than the assumed one is not trusted: the estimate is farther above the error.
+TEST(GridConvergence, three_meshes_of_a_higher_order) {
+  const std::vector<double> r = {1, 1.5, 2};
+  EXPECT_GT(mesh_error(values(3, r), r), 1.25 * 10 / 8.0);
+}
+
+// Changes to and fro show no order: the larger estimate of two meshes counts.
+TEST(GridConvergence, changes_to_and_fro) {
+  EXPECT_NEAR(mesh_error({410, 421, 419}, {1, 1.5, 2}), 3 * 11 / 1.25 / (4 / 2.25), 1e-9);
+  EXPECT_NEAR(mesh_error({410, 420, 420}, {1, 1.5, 2}), 3 * 10 / 1.25 / (4 / 2.25), 1e-9);
+  EXPECT_EQ(mesh_error({420, 420, 420}, {1, 1.5, 2}), 0);
+}
+
+TEST(GridConvergence, refuses_meshes_that_are_not_finer) {
+  EXPECT_THROW(mesh_error({410, 420}, {2, 2}), Error);
+  EXPECT_THROW(mesh_error({410}, {2}), Error);
+}
+
+}  // namespace
+}  // namespace elastogear::evaluation
