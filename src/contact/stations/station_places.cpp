@@ -10,7 +10,7 @@ namespace elastogear::contact {
 namespace {
 
 constexpr int kMostSteps = 60;
-constexpr double kSolved = 1e-9;      // of the height of the flank, its place
+constexpr double kSolved = 1e-13;     // of the height of the flank, its place
 constexpr double kRateStep = 1e-5;    // of the height of the flank, by which the mate is moved for rates
 constexpr double kDifference = 1e-6;  // of the height of the flank, for slopes of deviations
 

@@ -23,7 +23,7 @@ constexpr int kMostIterations = 300;    // contact that is far away is approache
 constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
-constexpr double kRoundoff = 1e-15;     // of coordinates in rad and m: smaller changes are none
+constexpr double kRoundoff = 1e-13;     // of coordinates in rad and m: smaller changes are none
 constexpr double kClosed = 1e-6;        // of the depth, by which points that bear forces may be open
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
@@ -174,6 +174,7 @@ double damping(Equilibrium& at, SNESLineSearch search, const Eigen::VectorXd& ch
 double until_touch(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& change) {
   constexpr int kBisections = 8;
   constexpr double kLeast = 1e-6;
+  if (change.norm() <= kRoundoff) return 1;
   const Eigen::VectorXd V = Eigen::VectorXd::Zero(U.size());
   const std::vector<bool> before = touching(at, U);
   if (std::find(before.begin(), before.end(), false) == before.end()) return 1;

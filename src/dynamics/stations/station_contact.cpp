@@ -307,7 +307,7 @@ void StationContact::add_joint_forces(const Motions& motion, const std::vector<T
   std::vector<VectorXd> q(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b].toothed) continue;
-    state.force[b].joint = VectorXd::Zero(model_->bodies[b].eq.n_s());
+    state.force[b].joint = state.force[b].joint_size = VectorXd::Zero(model_->bodies[b].eq.n_s());
     VectorXd on_modes = loads[b].Phi_S * f;
     if (loads[b].Phi_S_t.cols() > 0) on_modes += loads[b].Phi_S_t * f;
     q[b] = motion[b].q - on_modes.cwiseQuotient(model_->bodies[b].eq.body->K_r.diagonal());
@@ -328,11 +328,14 @@ void StationContact::add_joint_forces(const Motions& motion, const std::vector<T
         friction.head<3>() = force.rowwise().sum();
         for (Index i = 0; i < x.cols(); ++i) friction.tail<3>() += x.col(i).cross(force.col(i));
       }
-      for (Index i = 0; i < H.cols(); ++i)
-        state.force[body[s]].joint[i] +=
+      for (Index i = 0; i < H.cols(); ++i) {
+        const double force =
             contact::change_of_potential(t.contact, f_t, slope,
                                          relative_twist(t.contact.placement, s == 0, H.col(i))) +
             H.col(i).dot(friction);
+        state.force[body[s]].joint[i] += force;
+        state.force[body[s]].joint_size[i] += std::abs(force);
+      }
     }
   }
 }
