@@ -26,8 +26,8 @@ struct Stencil {
   std::array<double, 4> N{}, dN{};  ///< -, 1/m
 };
 
-/// n stations of all flanks of one side of a body, at n_v places each. Row i n_v + g: station i at the place
-/// g.
+/// n stations of all flanks of one side of a body, at n_v places each, Eq. (6.51). Row i n_v + g: station i
+/// at the place g.
 struct LoadTable {
   std::vector<Strip> strips;  ///< m, pieces of the face, side by side
   double v_0 = 0, step = 0;   ///< m, places v_0 + g step

@@ -34,7 +34,7 @@ struct NearestPlace {
   Eigen::Vector3d n;  ///< normal from the mate to the owner, owner's frame: the gap's gradient
 };
 
-/// The places of stations on these strips of the owner's face.
+/// The places of stations on these strips of the owner's face. Eq. (6.50).
 std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const RelativePlacement& placement,
                                          const std::vector<Strip>& strips);
 

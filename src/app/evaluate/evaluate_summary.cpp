@@ -148,12 +148,12 @@ void print_roots(const CaseFigures& of, const Surroundings& about) {
   const auto peaks = root_peaks(of, about);
   if (peaks.empty()) return;
   print_item("tension at the roots", "largest principal stress in the fillets");
-  const RootPeak* least_sure = nullptr;
+  const RootPeak* least_sure = &peaks.front().second;
   const auto share = [](const RootPeak& peak) { return error_of(peak) / std::abs(peak.value()); };
   for (const auto& [kind, peak] : peaks) {
     print_item("  " + kind, in_megapascal(peak) + (kind == peak.gear ? ", " : ", " + peak.gear + " ") +
                                 place_of_root(peak, about));
-    if (!least_sure || share(peak) > share(*least_sure)) least_sure = &peak;
+    if (share(peak) > share(*least_sure)) least_sure = &peak;
   }
   print_limit(*least_sure, about);
 }
@@ -211,10 +211,13 @@ void print_error(const PairsOfKind& of) {
 }
 
 void print_stiffness(const PairsOfKind& of) {
-  for (const std::string kind : {"secant", "tangent"})
-    if (const std::string mean = span(of, "stiffness/" + kind + "_mean", 1e-6); !mean.empty())
-      print_item("  mesh stiffness", mean + " N/um, " + span(of, "stiffness/" + kind + "_per_width", 1e-9) +
-                                         " N/(mm um) over the face width (" + kind + ")");
+  for (const std::string kind : {"secant", "tangent"}) {
+    std::string text = span(of, "stiffness/" + kind + "_mean", 1e-6);
+    if (text.empty()) continue;
+    text.append(" N/um, ").append(span(of, "stiffness/" + kind + "_per_width", 1e-9));
+    text.append(" N/(mm um) over the face width (").append(kind).append(")");
+    print_item("  mesh stiffness", text);
+  }
 }
 
 void print_sharing(const PairsOfKind& of) {

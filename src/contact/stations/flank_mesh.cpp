@@ -70,6 +70,8 @@ class GridOfFlank {
     for (int node : mesh_.node) at_.push_back(flanks.chart(surface.X.col(node)));
     mesh_.grid.n_nodes = static_cast<int>(mesh_.node.size());
     by_number_ = mesh_.node;
+  }
+  void build() {
     set_lines();
     set_order();
     set_faces();
@@ -128,7 +130,8 @@ class GridOfFlank {
       }
       const int r = *std::min_element(row.begin(), row.end());
       const int l = *std::min_element(layer.begin(), layer.end());
-      FlankGrid::Face& face = mesh_.grid.face[static_cast<std::size_t>(r * mesh_.grid.n_layers() + l)];
+      const auto row_begin = static_cast<std::size_t>(r) * static_cast<std::size_t>(mesh_.grid.n_layers());
+      FlankGrid::Face& face = mesh_.grid.face[row_begin + static_cast<std::size_t>(l)];
       face = in_order(side, row, layer, r, l);
       if (face[4] >= 0)
         mesh_.grid.v_mid[static_cast<std::size_t>(r)] = at(mesh_.node[static_cast<std::size_t>(face[4])])[0];
@@ -179,7 +182,7 @@ std::vector<FlankMesh> flank_meshes(const model::Surface& surface, const ExactFl
   }
   std::vector<FlankMesh> meshes;
   for (auto& [group, mesh] : by_group) {
-    GridOfFlank(surface, flanks, mesh, surface.group_name[static_cast<std::size_t>(group)]);
+    GridOfFlank(surface, flanks, mesh, surface.group_name[static_cast<std::size_t>(group)]).build();
     for (int f : mesh.face) {
       Eigen::Matrix<double, 2, 4> corners;
       for (Eigen::Index i = 0; i < 4; ++i) corners.col(i) = flanks.chart(surface.X.col(surface.face(i, f)));

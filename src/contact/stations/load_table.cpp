@@ -41,8 +41,10 @@ class SmoothTable {
   SmoothTable(const FlankGrid& flank, const std::function<double(double v)>& slope, LoadTable& table)
       : table_(table), flank_(flank), across_(across_loads(table, flank)) {
     for (int g = 0; g < table.n_v; ++g) slope_.push_back(slope(table.v_0 + g * table.step));
-    const Eigen::Index size = static_cast<Eigen::Index>(table.n()) * table.n_v;
-    table.smooth = Eigen::MatrixXd::Zero(size, size);
+  }
+  void fill() {
+    const Eigen::Index size = static_cast<Eigen::Index>(table_.n()) * table_.n_v;
+    table_.smooth = Eigen::MatrixXd::Zero(size, size);
     add_direct();
     add_images();
   }
@@ -109,7 +111,7 @@ LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
   table.step = height / (table.n_v - 1);
   table.Z = spread_along(strips, table.width.c);
   set_weights(flank, slope, table);
-  SmoothTable(flank, slope, table);
+  SmoothTable(flank, slope, table).fill();
   std::vector<Strip> along;
   for (const Strip& strip : strips) along.push_back({strip.from * scale.along, strip.to * scale.along});
   table.line = line_kernel(along, 0, {flank.z.front() * scale.along, flank.z.back() * scale.along});

@@ -229,7 +229,8 @@ MatrixXd StationContact::compliance(std::size_t body, const std::vector<Teeth>& 
   return of_friction ? C : MatrixXd((C + C.transpose()) / 2);
 }
 
-// Forces of stations; those with friction by substitution of what it does to gaps, which is small.
+// Forces of stations; those with friction by substitution of what it does to gaps, which is small. Eq.
+// (6.52).
 StationContact::Solution StationContact::solve(const Motions& motion, const std::vector<Teeth>& teeth,
                                                const std::vector<Loads>& loads, Index n) {
   contact::StationProblem problem{MatrixXd::Zero(n, n), {}, VectorXd(n)};
