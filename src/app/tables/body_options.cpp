@@ -4,8 +4,8 @@
 
 #include "app/console/console.h"
 #include "app/evaluate/flank_material.h"
-#include "app/gear/true_surface.h"
 #include "app/options/rows.h"
+#include "app/surface/true_surface.h"
 #include "app/tables/initial_state.h"
 #include "app/tables/marker_options.h"
 #include "app/tables/motion.h"

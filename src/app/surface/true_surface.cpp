@@ -1,4 +1,4 @@
-#include "app/gear/true_surface.h"
+#include "app/surface/true_surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
-#include "app/gear/involute_flanks.h"
 #include "app/gear/modification_options.h"
+#include "app/surface/involute_flanks.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"

@@ -1,4 +1,4 @@
-#include "app/gear/involute_flanks.h"
+#include "app/surface/involute_flanks.h"
 
 #include <algorithm>
 #include <cmath>
