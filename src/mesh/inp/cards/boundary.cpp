@@ -102,7 +102,7 @@ void make_restraint(const std::vector<Directions>& held, Mesh& mesh, ReadReport&
         directions == kAll ? "" : direction_names(static_cast<Directions>(directions));
     const std::string name = unused_name(mesh, letters.empty() ? "BOUNDARY" : "BOUNDARY_" + letters);
     mesh.node_sets[name] = std::move(nodes);
-    report.restrained.push_back(letters.empty() ? name : name + ":" + letters);
+    report.restrained.push_back(letters.empty() ? name : std::string(name).append(":").append(letters));
   }
 }
 
