@@ -1,5 +1,5 @@
 #pragma once
-// Where two exact flanks are nearest to each other, station by station: a minimisation in one variable each
+// Places of stations, where two exact flanks are nearest to each other: one minimisation in one variable each
 // (docs/theory.md, section 6.18).
 
 #include <Eigen/Core>

@@ -125,7 +125,7 @@ std::string place_of_root(const RootPeak& peak, const Surroundings& about) {
          place_in_mm(peak.part("_diameter")) + ", z " + place_in_mm(peak.part("_z"));
 }
 
-// What to give for a smaller error.
+// The option that makes an error of this kind smaller.
 std::string remedy(const Cause& cause, const Surroundings& about) {
   const std::string item = cause.item;
   if (item == "_error") return "more modes (-modes)";

@@ -68,7 +68,7 @@ EvaluationItem error_item(const std::vector<CoarserMesh>& coarser, const std::st
           {}};
 }
 
-// Where an item of its path is there, in its place.
+// Replaces the item that has the same path, or appends a new one.
 void set_item(std::vector<EvaluationItem>& items, EvaluationItem item) {
   const auto found = std::find_if(items.begin(), items.end(),
                                   [&](const EvaluationItem& other) { return other.path == item.path; });

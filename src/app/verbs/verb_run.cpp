@@ -89,7 +89,7 @@ double held_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-// What a finer mesh would take where this is more than there is; else empty.
+// Says what the next finer mesh would take if time or memory do not suffice for it; empty if they do.
 std::string obstacle_to_finer(int mesh, double seconds) {
   std::ostringstream finer;
   if (mesh + 1 == kMeshes) return "there is no finer mesh on offer";

@@ -42,8 +42,8 @@ class Gap {
     return seen;
   }
   double mate_z(const Seen& seen) const { return flanks_.mate->chart(seen.x_mate)[1]; }
-  // Of the mate with its deviation and rounded edge: the gradient of the gap, which is as long as 1 to second
-  // order of their slope.
+  // Normal of the mate's flank with its deviation and rounded edge, which is the gradient of the gap. Its
+  // length is 1 to second order of their slope.
   Eigen::Vector3d mate_normal(const Seen& seen) const {
     const double h = kDifference * (mate_.upper - mate_.lower), v = seen.mate.v;
     const double slope = (added_by_mate(v + h, seen) - added_by_mate(v - h, seen)) / (2 * h);
@@ -64,8 +64,8 @@ class Gap {
   // m: ends of the flank, with its rounded edge.
   double low() const { return owner_.lower - (owner_.tip_at_upper ? 0 : owner_.edge_radius); }
   double high() const { return owner_.upper + (owner_.tip_at_upper ? owner_.edge_radius : 0); }
-  // Where it is least: the derivative's zero between the ends of the flank and its rounded edge, by the
-  // secant of its ends, of which one that stays counts half (Illinois).
+  // Place of the least gap: the zero of its derivative between the ends of the flank with its rounded edge.
+  // The method of Illinois: secants of an interval, whose end counts half when it stays.
   double least() const {
     double low = this->low(), high = this->high(), at_low = slope(low), at_high = slope(high);
     if (at_low >= 0) return low;
