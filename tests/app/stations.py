@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Contact at stations of exact flanks, the default of cylindrical drives:
+"""Contact at stations of exact flanks, the default of drives:
 
     tests/app/stations.py ELASTOGEAR EXAMPLES SCRIPTS
 
@@ -48,6 +48,35 @@ def evaluation(result, *more):
     run("evaluate", "pair.yaml", "-result", result, "-output", "evaluation.h5", "-root_stress", "false", *more)
     file = h5py.File("evaluation.h5")
     return file[f"cases/{os.path.splitext(result)[0]}/pinion:wheel"]
+
+
+def check_worm():
+    """A worm and its helical wheel touch at one point of each pair of teeth: normal forces are those of the base
+    cylinder, at any load, and a run in time keeps its energy."""
+    with open("worm.yaml", "w") as file:
+        file.write("drive: worm\nsize: tiny\nelement_order: 1\nmodule: 2 mm\npressure_angle: 15 deg\ncentre_distance: 50 mm\n"
+                   "worm: {starts: 2}\nwheel: {teeth: 41, bore: 24 mm}\ntorque: 4 N m\nmodes: 5\n")
+    run("reduce", "worm.yaml")
+    alpha, gamma = np.radians(15), np.radians(15.620493)
+    arm = 2e-3 / np.sin(gamma) * np.cos(np.arctan(np.tan(alpha) / np.sin(gamma)))  # m, base radius of two starts
+    arm *= np.sqrt(1 - (np.cos(gamma) * np.cos(alpha))**2)
+    for torque in (0.004, 4, 20):
+        said = run("simulate", "worm.yaml", "-verbose", "-analysis", "sweep", "-sweep_positions", "4", "-torque", f"{torque} N m",
+                   "-output", "worm_sweep.h5")
+        assert "4 of 4" in said and "at stations of exact flanks" in said, said
+        with h5py.File("worm_sweep.h5") as file:
+            points = file["contact/worm:wheel/points"]
+            normal = np.linalg.norm(points["force"][:], axis=1)
+            sums = [normal[a:b].sum() for a, b in zip(points["offset"][:-1], points["offset"][1:])]
+        off = np.abs(np.array(sums) * arm / torque - 1).max()
+        print(f"worm, {torque} N m: sums of normal forces {off:.2e} off those of the base cylinder")
+        if torque < 20:  # then forces on edges of tips turn away from the flanks
+            assert off < (1e-4 if torque < 1 else 3e-3)
+    run("simulate", "worm.yaml", "-analysis", "dynamic", "-ts_max_time", "1e-4", "-speed", "100 rad/s", "-output", "worm_time.h5")
+    with h5py.File("worm_time.h5") as file:
+        balance = np.abs(file["energy/balance"][:]).max()
+    print(f"worm, in time: {balance:.2e} J of {4 * 100 * 1e-4:.2e} J that pass")
+    assert balance < 1e-4 * 4 * 100 * 1e-4
 
 
 def check_all_positions():
@@ -136,3 +165,4 @@ with tempfile.TemporaryDirectory() as folder:
     check_motion()
     check_one_state()
     check_what_lacks()
+    check_worm()  # its wheel takes the place of the pair's

@@ -116,7 +116,7 @@ TEST(Rollers, with_one_free_end_are_half_of_longer_ones) {
   const double D = Roller::kLength / 40;
   for (int i = 20; i < 40; ++i) stations.push_back({0, {i * D, (i + 1) * D}});
   StationProblem half{local_compliance(stations, half_space, 0.1e-3),
-                      std::vector<StripLaw>(20, {D, Roller::kRadius, 2 * kSteel}),
+                      std::vector<StationLaw>(20, {D, Roller::kRadius, 2 * kSteel}),
                       Eigen::VectorXd::Constant(20, -8e-6)};
   const Eigen::VectorXd f = station_forces(half).f;
   EXPECT_LT((f / f.mean() - whole.tail(20)).lpNorm<Eigen::Infinity>(), 1e-8);

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "elastogear/contact/strip_law.h"
+#include "elastogear/contact/station_law.h"
 
 namespace elastogear::contact::strip_kernel_test {
 namespace {
@@ -105,9 +105,9 @@ TEST(StripKernel, has_images_beyond_free_ends) {
   EXPECT_EQ(H(0, 1), H(1, 0));
 }
 
-const StripLaw kSteel{2e-3, 15e-3, 2 * (1 - 0.09) / (std::numbers::pi * 210e9)};
+const StationLaw kSteel{2e-3, 15e-3, 2 * (1 - 0.09) / (std::numbers::pi * 210e9)};
 
-TEST(StripLaw, has_the_derivatives_that_it_says) {
+TEST(StationLaw, has_the_derivatives_that_it_says) {
   for (double f : {1e-6, 1e-2, 30., 1000., 1e5}) {
     const double h = 1e-5 * f;
     EXPECT_NEAR((kSteel.energy(f + h) - kSteel.energy(f - h)) / (2 * h), kSteel.approach(f),
@@ -125,7 +125,7 @@ TEST(StripLaw, has_the_derivatives_that_it_says) {
 
 // b = sqrt(4 w R / (pi E*)) and p = sqrt(w E* / (pi R)): K. L. Johnson, Contact Mechanics (1985),
 // section 4.2.
-TEST(StripLaw, has_width_and_pressure_of_hertz) {
+TEST(StationLaw, has_width_and_pressure_of_hertz) {
   const double w = 400e3, E = 1 / (std::numbers::pi * kSteel.compliance), f = w * kSteel.length;
   EXPECT_NEAR(kSteel.half_width(f), std::sqrt(4 * w * kSteel.radius / (std::numbers::pi * E)), 1e-15);
   EXPECT_NEAR(kSteel.pressure(f), std::sqrt(w * E / (std::numbers::pi * kSteel.radius)), 1);
@@ -133,7 +133,7 @@ TEST(StripLaw, has_width_and_pressure_of_hertz) {
 
 // A long line of even load presses the middle in by (w / (pi E*)) (2 ln(2 l / b) + 1), the limit of Eq.
 // (6.35).
-TEST(StripLaw, of_many_strips_is_the_approach_of_long_cylinders) {
+TEST(StationLaw, of_many_strips_is_the_approach_of_long_cylinders) {
   constexpr int kStrips = 201;
   const double w = 400e3, f = w * kSteel.length, l = kStrips * kSteel.length;
   const Strip middle{-kSteel.length / 2, kSteel.length / 2};

@@ -28,8 +28,8 @@ struct FlankDistance {
   double v;                  ///< m, of the flank's nearest point
 };
 
-/// Charts of all flanks of a body. v runs across the profile, at its arc length, z along the face; both in m.
-/// Flanks go on beyond their ends.
+/// Charts of all flanks of a body. v runs across the profile, at its arc length, z along the face or the
+/// thread; both in m. Flanks go on beyond their ends.
 class ExactFlanks {
  public:
   struct Extent {
@@ -46,8 +46,10 @@ class ExactFlanks {
   virtual FlankDistance distance(const FlankName& flank, const Eigen::Vector3d& x) const = 0;
   /// m, how far the flank stands out of its chart along the normal; > 0: material added.
   virtual double deviation(const FlankName& flank, double v, double z) const = 0;
-  /// The chart of a point on a flank, m.
-  virtual Eigen::Vector2d chart(const Eigen::Vector3d& x) const = 0;
+  /// The chart of a point on a flank, m. v is that of its radius.
+  virtual Eigen::Vector2d chart(const FlankName& flank, const Eigen::Vector3d& x) const = 0;
+  /// m, from the axis to the tip.
+  virtual double tip_radius() const = 0;
   /// The flank of a group of faces by its name; tooth < 0: it is none.
   virtual FlankName flank_of(const std::string& group) const = 0;
 };

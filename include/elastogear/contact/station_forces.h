@@ -5,15 +5,15 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "elastogear/contact/strip_law.h"
+#include "elastogear/contact/station_law.h"
 
 namespace elastogear::contact {
 
 /// n stations. Eq. (6.38).
 struct StationProblem {
-  Eigen::MatrixXd C;          ///< n x n, m/N, symmetric: displacements but for what `own` adds
-  std::vector<StripLaw> own;  ///< n
-  Eigen::VectorXd gap;        ///< n, m, of the bodies without forces, < 0 where they would overlap
+  Eigen::MatrixXd C;            ///< n x n, m/N, symmetric: displacements but for what `own` adds
+  std::vector<StationLaw> own;  ///< n
+  Eigen::VectorXd gap;          ///< n, m, of the bodies without forces, < 0 where they would overlap
 };
 
 struct StationForces {

@@ -3,6 +3,7 @@
 // (docs/theory.md, section 6.18).
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "elastogear/contact/exact_flanks.h"
@@ -24,13 +25,21 @@ struct FlankPair {
   FlankName on_mate;
 };
 
+/// Where the faces of both flanks end, in the z of their charts, m.
+struct FaceEnds {
+  static constexpr Strip kNone{-std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::infinity()};
+  Strip owner = kNone, mate = kNone;
+};
+
 /// One station where the two flanks, as rigid bodies carry them, are nearest to each other.
 struct NearestPlace {
-  Strip face;         ///< m, its piece of the owner's face, in z
+  Strip face;         ///< m, its piece of the owner's face, in z; of a point its place, without length
   double v;           ///< m, on the owner
   double mate_v;      ///< m, on the mate
   double mate_z;      ///< m
   double gap;         ///< m, < 0 where the flanks overlap; deviations and rounded edges of both are in it
+  double flank_gap;   ///< m, without the rounded edges: that of a flank and one behind it is deep below 0
   Eigen::Vector3d n;  ///< normal from the mate to the owner, owner's frame: the gap's gradient
 };
 
@@ -53,6 +62,17 @@ struct PlaceRates {
 /// relative curvature across a chart's v.
 PlaceRates place_rates(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
                        const Eigen::Matrix<double, 6, 1>& twist, double h);
+
+/// The place (v, z) where two flanks on axes that cross are nearest to each other, from any start.
+NearestPlace nearest_point(const FlankPair& flanks, const FaceEnds& ends, const RelativePlacement& placement,
+                           const Eigen::Vector2d& start);
+
+/// Principal relative curvatures there, 1/m, over the distance h to both sides, m.
+struct PrincipalCurvatures {
+  double least, largest;
+};
+PrincipalCurvatures curvatures(const FlankPair& flanks, const FaceEnds& ends,
+                               const RelativePlacement& placement, const NearestPlace& place, double h);
 
 /// How places (v, z) measure the surface along a line of contact (slope, 1).
 struct LineScale {

@@ -10,8 +10,8 @@
 
 #include "elastogear/contact/exact_flanks.h"
 #include "elastogear/contact/load_table.h"
+#include "elastogear/contact/station_law.h"
 #include "elastogear/contact/station_places.h"
-#include "elastogear/contact/strip_law.h"
 #include "elastogear/contact/types.h"
 
 namespace elastogear::contact {
@@ -56,26 +56,39 @@ class ToothedBody {
   std::array<std::list<LoadTable>, 2> tables_;  // of right and left flanks
 };
 
-/// Two bodies whose flanks may touch. Stations fill the face that both have where they stand at the start.
+/// Two bodies whose flanks may touch. On parallel axes stations fill the face that both have where they stand
+/// at the start; on axes that cross each pair of teeth has one, at a point that moves over both flanks.
 struct ToothedPair {
   ToothedBody *owner, *mate;
   std::array<std::vector<Strip>, 2> strips;  ///< m, of the owner's face, and of the mate's
+  bool is_crossed = false;
 };
 /// n: stations of a pair of teeth. placement: of the mate in the owner's frame.
 ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n);
+
+/// The smooth load of 1 N at a point of a flank.
+struct PointLoad {
+  std::vector<int> node;                  ///< of the surface, ascending
+  Eigen::RowVectorXd weight;              ///< nodal forces of 1 N
+  Eigen::RowVectorXd weight_v, weight_z;  ///< 1/m, by how much they grow with the place
+  double smooth = 0;                      ///< 1/m, half-space below it
+  double smooth_v = 0, smooth_z = 0;      ///< 1/m^2, half of its growth with the place
+};
 
 /// n stations of one pair of teeth. Side 0 is the owner of the stations.
 struct ToothContact {
   struct Side {
     FlankName flank;
     const FlankMesh* mesh;
-    const LoadTable* loads;
+    const LoadTable* loads;      ///< of strips; null at a point
     std::vector<Stencil> at;     ///< places of the stations among those of the loads
     std::vector<double> v, z;    ///< m, places
     Eigen::Matrix3Xd direction;  ///< 3 x n, unit vectors of the forces on this body, in its frame
+    PointLoad point = {};
 
     /// Does a station stand beyond an end of the mesh's flank? Its loads are at the end then.
     bool is_clamped(Eigen::Index i) const {
+      if (!loads) return false;
       const double from = loads->v_0, to = from + (loads->n_v - 1) * loads->step;
       return v[static_cast<std::size_t>(i)] <= from || v[static_cast<std::size_t>(i)] >= to;
     }
@@ -85,9 +98,10 @@ struct ToothContact {
   RelativePlacement placement;
   std::vector<NearestPlace> places;
   std::array<Side, 2> side;
-  Eigen::VectorXd gap;        ///< n, m, of the bodies as if they were rigid
-  Eigen::MatrixXd local;      ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
-  std::vector<StripLaw> own;  ///< n
+  FaceEnds ends = {};           ///< of both faces, where they round flanks: at a point
+  Eigen::VectorXd gap;          ///< n, m, of the bodies as if they were rigid
+  Eigen::MatrixXd local;        ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
+  std::vector<StationLaw> own;  ///< n
 
   Eigen::Index n() const { return gap.size(); }
 };
@@ -95,9 +109,18 @@ struct ToothContact {
 /// The contacts of all pairs of teeth with a station whose gap is small beside the height of a tooth.
 std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const RelativePlacement& placement);
 
+/// Nodes of the surface that the loads of a side act on, those of all its flank or of its point.
+const std::vector<int>& loaded_nodes(const ToothContact::Side& side);
+/// n x n: how strips share the forces of stations, Eq. (6.45); 1 of a point.
+Eigen::MatrixXd spread(const ToothContact::Side& side);
+/// n x loaded nodes: nodal forces of 1 N of each strip, or of the point.
+Eigen::MatrixXd weights(const ToothContact::Side& side);
+/// At its stations, by displacements of the loaded nodes, 3 x nodes, m.
+StationDisplacements displacements(const ToothContact::Side& side, const Eigen::Matrix3Xd& of_nodes);
+
 /// Derivatives of the potential with places and directions of the stations' loads on one side.
 struct PotentialSlopes {
-  Eigen::VectorXd v;           ///< n, N
+  Eigen::VectorXd v, z;        ///< n, N; z is 0 of strips
   Eigen::Matrix3Xd direction;  ///< 3 x n, J
 };
 /// The same with a motion of the mate against the owner (see place_rates), as gaps, places, directions and

@@ -1,5 +1,5 @@
 #pragma once
-// Charts of the flanks of cylindrical gears: arc length of the involute and face coordinate.
+// Charts of involute flanks: arc length of the transverse involute, and place along the face or the thread.
 
 #include <memory>
 #include <optional>
@@ -10,8 +10,12 @@
 
 namespace elastogear::app {
 
-/// Null for flanks that are no involutes.
+/// What the layers of a mesh are along its faces.
+enum class Layers { transverse, axial };
+
+/// z is the place of a transverse section, or for axial ones, as of worms, where the flank that goes on has
+/// it on the base cylinder. Null for flanks that are no involutes.
 std::shared_ptr<const contact::ExactFlanks> involute_flanks(
-    const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations);
+    const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations, Layers layers);
 
 }  // namespace elastogear::app

@@ -43,13 +43,16 @@ const Rows<TrueSurfaceFiles> kTrueSurfaceRows = {
 struct Teeth {
   gear::Toothing toothing;
   std::optional<gear::FlankDeviations> deviations = {};
+  Layers layers = Layers::transverse;
 };
+
+Layers layers_of(bool is_worm) { return is_worm ? Layers::axial : Layers::transverse; }
 
 // Those of a body that is a member of the run's drive; nothing for other bodies.
 std::optional<Teeth> teeth_of_drive(const Options& options, const std::string& body) {
   if (!is_drive(options)) return {};
   for (const DriveMember& member : read_drive(options).members)
-    if (member.name == body) return Teeth{member.toothing, member.deviations};
+    if (member.name == body) return Teeth{member.toothing, member.deviations, layers_of(member.is_worm)};
   return {};
 }
 
@@ -62,7 +65,7 @@ Teeth read_teeth(const std::vector<std::string>& files) {
   read_rows(options, design_rows(), design);
   try {
     const gear::Geometry geometry = gear::derive(design);
-    return {worm ? geometry.worm : geometry.wheel};
+    return {worm ? geometry.worm : geometry.wheel, {}, layers_of(worm)};
   } catch (const Error& error) {
     fail(join(files), ": ", error.what());
   }
@@ -213,7 +216,7 @@ void add_flanks(const Teeth& teeth, const std::string& file, const std::string& 
           "_flanks, or mesh it anew");
   const Heights heights = add_heights(surface, teeth, known);
   add_curvatures(surface, teeth.toothing, known);
-  known.flanks = involute_flanks(teeth.toothing, teeth.deviations);
+  known.flanks = involute_flanks(teeth.toothing, teeth.deviations, teeth.layers);
   print_detail("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
                                         with_unit(farthest.distance, "m") + " of " + file);
   if (teeth.deviations)

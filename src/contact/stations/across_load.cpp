@@ -57,6 +57,11 @@ AcrossLoad across_load(double v, double a, double lower, double upper) {
   return {middle - a, middle + a, 3 * (v - middle) / (a * a)};
 }
 
+Strip point_strip(const FlankGrid& flank, double z, const LoadWidth& width) {
+  const AcrossLoad along = across_load(z, width.c, flank.z.front(), flank.z.back());
+  return {along.from, along.to};
+}
+
 Eigen::MatrixXd spread_along(const std::vector<Strip>& strips, double c) {
   const auto n = static_cast<Eigen::Index>(strips.size());
   if (n == 0 || c <= 0) return Eigen::MatrixXd::Identity(n, n);

@@ -108,4 +108,8 @@ Eigen::MatrixXd consistent_weights(const FlankGrid& flank, const std::vector<Sta
   return spread_along(strips, width.c) * weight;
 }
 
+Eigen::RowVectorXd point_weights(const FlankGrid& flank, double v, double z, const LoadWidth& width) {
+  return strip_weights(flank, {point_strip(flank, z, width), v}, width.a);
+}
+
 }  // namespace elastogear::contact

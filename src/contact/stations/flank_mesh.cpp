@@ -67,7 +67,7 @@ class GridOfFlank {
       for (int node : side)
         if (node >= 0) mesh_.node.push_back(node);
     sort_unique(mesh_.node);
-    for (int node : mesh_.node) at_.push_back(flanks.chart(surface.X.col(node)));
+    for (int node : mesh_.node) at_.push_back(flanks.chart(mesh.name, surface.X.col(node)));
     mesh_.grid.n_nodes = static_cast<int>(mesh_.node.size());
     by_number_ = mesh_.node;
   }
@@ -185,7 +185,8 @@ std::vector<FlankMesh> flank_meshes(const model::Surface& surface, const ExactFl
     GridOfFlank(surface, flanks, mesh, surface.group_name[static_cast<std::size_t>(group)]).build();
     for (int f : mesh.face) {
       Eigen::Matrix<double, 2, 4> corners;
-      for (Eigen::Index i = 0; i < 4; ++i) corners.col(i) = flanks.chart(surface.X.col(surface.face(i, f)));
+      for (Eigen::Index i = 0; i < 4; ++i)
+        corners.col(i) = flanks.chart(mesh.name, surface.X.col(surface.face(i, f)));
       mesh.at.push_back(corners);
     }
     meshes.push_back(std::move(mesh));

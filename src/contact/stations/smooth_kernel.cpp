@@ -57,6 +57,15 @@ double smooth_inverse_distance(const AcrossLoad& across_a, const Strip& a, const
   return -sum;
 }
 
+double point_kernel(const FlankGrid& flank, double v, double z, const LoadWidth& width,
+                    const LineScale& scale) {
+  const AcrossLoad across =
+      across_load(v, width.a, flank.v.front(), flank.v.back()).seen_from(v, scale.across);
+  const Strip face = point_strip(flank, z, width);
+  const Strip along{face.from * scale.along, face.to * scale.along};
+  return smooth_inverse_distance(across, along, across, along);
+}
+
 Eigen::MatrixXd smooth_kernel(const FlankGrid& flank, const std::vector<StationPlace>& stations,
                               const LoadWidth& width, const FreeEnds& ends, const LineScale& scale) {
   std::vector<AcrossLoad> across;

@@ -25,21 +25,22 @@ void require_fitting(const StationProblem& problem) {
           " gaps, must be n x n, n and n");
   require(problem.gap.allFinite() && problem.C.allFinite(),
           "gaps and compliances of stations must be finite");
-  for (const StripLaw& law : problem.own)
-    require(law.length > 0 && law.radius > 0 && law.compliance > 0, "a station has the length ", law.length,
-            " m, the radius ", law.radius, " m and the compliance ", law.compliance,
-            " 1/Pa, must be positive");
+  for (const StationLaw& law : problem.own)
+    require((law.length > 0 || law.ellipse) && law.radius > 0 && law.compliance > 0,
+            "a station has the length ", law.length, " m, the radius ", law.radius, " m and the compliance ",
+            law.compliance, " 1/Pa, must be positive");
 }
 
-// N: what the deepest station would bear alone, with a pressure a tenth as wide as its strip; 0 where none is
-// pressed.
+// N: what the deepest station would bear alone, with a pressure a tenth as wide as its strip, or with the
+// whole gap taken by a point of contact; 0 where none is pressed.
 double first_force(const StationProblem& problem) {
   double largest = 0;
   for (Eigen::Index i = 0; i < problem.gap.size(); ++i) {
-    const StripLaw& law = problem.own[static_cast<std::size_t>(i)];
+    const StationLaw& law = problem.own[static_cast<std::size_t>(i)];
     const double width = 0.1 * law.length;
-    const double f = width * width * law.length / (4 * law.compliance * law.radius);
-    largest = std::max(largest, -problem.gap[i] / (std::max(problem.C(i, i), 0.) + law.secant(f)));
+    const double f = law.ellipse ? std::pow(std::max(-problem.gap[i], 0.) / law.approach(1), 1.5)
+                                 : width * width * law.length / (4 * law.compliance * law.radius);
+    if (f > 0) largest = std::max(largest, -problem.gap[i] / (std::max(problem.C(i, i), 0.) + law.secant(f)));
   }
   return largest;
 }
@@ -58,7 +59,7 @@ Eigen::MatrixXd second_derivatives(const StationProblem& problem, const Eigen::V
                                    const std::vector<int>& among, double typical, bool lagged) {
   Eigen::MatrixXd M = problem.C(among, among);
   for (std::size_t a = 0; a < among.size(); ++a) {
-    const StripLaw& law = problem.own[static_cast<std::size_t>(among[a])];
+    const StationLaw& law = problem.own[static_cast<std::size_t>(among[a])];
     const double at = f[among[a]] > 0 ? f[among[a]] : typical;
     M(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a)) += lagged ? law.secant(at) : law.slope(at);
   }

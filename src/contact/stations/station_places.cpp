@@ -4,156 +4,105 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/stations/flank_gap.h"
 #include "elastogear/base/rotation.h"
 
 namespace elastogear::contact {
 namespace {
 
 constexpr int kMostSteps = 60;
-constexpr double kSolved = 1e-13;     // of the height of the flank, its place
-constexpr double kRateStep = 1e-5;    // of the height of the flank, by which the mate is moved for rates
-constexpr double kDifference = 1e-6;  // of the height of the flank, for slopes of deviations
+constexpr double kSolved = 1e-13;   // of the height of the flank, its place
+constexpr double kRateStep = 1e-5;  // of the height of the flank, by which the mate is moved for rates
 
-// m: what a rounded edge of the tip takes away at v. A parabola of the edge's radius.
-double taken_by_edge(const ExactFlanks::Extent& extent, double v) {
-  const double beyond = extent.tip_at_upper ? v - extent.upper : extent.lower - v;
-  return beyond > 0 ? beyond * beyond / (2 * extent.edge_radius) : 0;
+// Place of the least gap at one z: the zero of its derivative between the ends of the flank with its rounded
+// edge. The method of Illinois: secants of an interval, whose end counts half when it stays.
+double least(const FlankGap& gap, double z) {
+  double low = gap.low(), high = gap.high(), at_low = gap.slope_v(low, z), at_high = gap.slope_v(high, z);
+  if (at_low >= 0) return low;
+  if (at_high <= 0) return high;
+  const double solved = kSolved * (high - low);
+  double last = low;
+  int stayed = 0;  // which end stayed last
+  for (int step = 0; step < kMostSteps && high - low > solved; ++step) {
+    const double v = step % 8 == 7 ? (low + high) / 2 : (low * at_high - high * at_low) / (at_high - at_low);
+    const double here = gap.slope_v(v, z);
+    if (here == 0) return v;
+    const bool below = here < 0;
+    (below ? low : high) = v;
+    (below ? at_low : at_high) = here;
+    if (stayed == (below ? 1 : -1)) (below ? at_high : at_low) /= 2;
+    stayed = below ? 1 : -1;
+    if (std::abs(v - last) <= solved) return v;
+    last = v;
+  }
+  return (low * at_high - high * at_low) / (at_high - at_low);
 }
 
-// The gap between two flanks over v of the owner, at one z.
-class Gap {
- public:
-  Gap(const FlankPair& flanks, const RelativePlacement& placement, double z)
-      : flanks_(flanks),
-        placement_(placement),
-        z_(z),
-        owner_(flanks.owner->extent()),
-        mate_(flanks.mate->extent()) {}
-
-  struct Seen {
-    FlankPoint owner;
-    Eigen::Vector3d x_mate;  // m
-    FlankDistance mate;
-  };
-  Seen seen(double v) const {
-    Seen seen{flanks_.owner->point(flanks_.on_owner, v, z_), {}, {}};
-    seen.x_mate = placement_.R.transpose() * (seen.owner.x - placement_.r);
-    seen.mate = flanks_.mate->distance(flanks_.on_mate, seen.x_mate);
-    return seen;
-  }
-  double mate_z(const Seen& seen) const { return flanks_.mate->chart(seen.x_mate)[1]; }
-  // Normal of the mate's flank with its deviation and rounded edge, which is the gradient of the gap. Its
-  // length is 1 to second order of their slope.
-  Eigen::Vector3d mate_normal(const Seen& seen) const {
-    const double h = kDifference * (mate_.upper - mate_.lower), v = seen.mate.v;
-    const double slope = (added_by_mate(v + h, seen) - added_by_mate(v - h, seen)) / (2 * h);
-    if (slope == 0) return seen.mate.gradient;
-    return seen.mate.gradient + slope * flanks_.mate->point(flanks_.on_mate, v, mate_z(seen)).x_v;
-  }
-  double at(double v) const {
-    const Seen seen = this->seen(v);
-    return seen.mate.distance + added(v, seen);
-  }
-  // Its derivative; that of what is added, by differences.
-  double slope(double v) const {
-    const double h = kDifference * (owner_.upper - owner_.lower);
-    const Seen seen = this->seen(v);
-    return (placement_.R * seen.mate.gradient).dot(seen.owner.x_v) +
-           (added(v + h, this->seen(v + h)) - added(v - h, this->seen(v - h))) / (2 * h);
-  }
-  // m: ends of the flank, with its rounded edge.
-  double low() const { return owner_.lower - (owner_.tip_at_upper ? 0 : owner_.edge_radius); }
-  double high() const { return owner_.upper + (owner_.tip_at_upper ? owner_.edge_radius : 0); }
-  // Place of the least gap: the zero of its derivative between the ends of the flank with its rounded edge.
-  // The method of Illinois: secants of an interval, whose end counts half when it stays.
-  double least() const {
-    double low = this->low(), high = this->high(), at_low = slope(low), at_high = slope(high);
-    if (at_low >= 0) return low;
-    if (at_high <= 0) return high;
-    const double solved = kSolved * (high - low);
-    double last = low;
-    int stayed = 0;  // which end stayed last
-    for (int step = 0; step < kMostSteps && high - low > solved; ++step) {
-      const double v =
-          step % 8 == 7 ? (low + high) / 2 : (low * at_high - high * at_low) / (at_high - at_low);
-      const double here = slope(v);
-      if (here == 0) return v;
-      const bool below = here < 0;
-      (below ? low : high) = v;
-      (below ? at_low : at_high) = here;
-      if (stayed == (below ? 1 : -1)) (below ? at_high : at_low) /= 2;
-      stayed = below ? 1 : -1;
-      if (std::abs(v - last) <= solved) return v;
-      last = v;
-    }
-    return (low * at_high - high * at_low) / (at_high - at_low);
-  }
-
- private:
-  // m: what edges take away and deviations of both flanks add.
-  double added(double v, const Seen& seen) const {
-    return taken_by_edge(owner_, v) - flanks_.owner->deviation(flanks_.on_owner, v, z_) +
-           added_by_mate(seen.mate.v, seen);
-  }
-  double added_by_mate(double v, const Seen& seen) const {
-    return taken_by_edge(mate_, v) - flanks_.mate->deviation(flanks_.on_mate, v, mate_z(seen));
-  }
-
-  const FlankPair& flanks_;
-  const RelativePlacement& placement_;
-  double z_;
-  ExactFlanks::Extent owner_, mate_;
-};
+// m: the mean by which the gap opens at the distances h to both sides across the profile.
+double opens(const FlankGap& gap, double v, double z, double h) {
+  const double c = std::max(v, h);  // involutes begin at 0
+  return (gap.at(c + h, z) + gap.at(c - h, z)) / 2 - gap.at(c, z);
+}
 
 }  // namespace
 
+NearestPlace place_at(const FlankGap& gap, const Strip& face, double v) {
+  const double z = face.centre();
+  const FlankGap::Seen seen = gap.seen(v, z);
+  return {face,
+          v,
+          seen.mate.v,
+          gap.mate_z(seen),
+          gap.at(v, z),
+          gap.without_edges(v, z),
+          gap.placement().R * gap.mate_normal(seen)};
+}
+
+RelativePlacement moved(const RelativePlacement& placement, const Eigen::Matrix<double, 6, 1>& twist,
+                        double time) {
+  const Eigen::Matrix3d turn = rotation_matrix(Eigen::Vector3d(time * twist.tail<3>()));
+  return {turn * placement.R, turn * placement.r + time * twist.head<3>()};
+}
+
+double rate_time(const FlankPair& flanks, const RelativePlacement& placement,
+                 const Eigen::Matrix<double, 6, 1>& twist) {
+  const ExactFlanks::Extent extent = flanks.owner->extent();
+  const double speed = twist.head<3>().norm() + twist.tail<3>().norm() * placement.r.norm();
+  return speed > 0 ? kRateStep * (extent.upper - extent.lower) / speed : 0;
+}
+
 std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const RelativePlacement& placement,
                                          const std::vector<Strip>& strips) {
+  const FlankGap gap(flanks, placement);
   std::vector<NearestPlace> places;
-  for (const Strip& strip : strips) {
-    const Gap gap(flanks, placement, strip.centre());
-    const double v = gap.least();
-    const Gap::Seen seen = gap.seen(v);
-    places.push_back(
-        {strip, v, seen.mate.v, gap.mate_z(seen), gap.at(v), placement.R * gap.mate_normal(seen)});
-  }
+  for (const Strip& strip : strips) places.push_back(place_at(gap, strip, least(gap, strip.centre())));
   return places;
 }
 
 double opening(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
                double h) {
-  const Gap gap(flanks, placement, place.face.centre());
-  const double v = std::max(place.v, h);  // involutes begin at 0
-  return (gap.at(v + h) + gap.at(v - h)) / 2 - gap.at(v);
+  return opens(FlankGap(flanks, placement), place.v, place.face.centre(), h);
 }
 
 PlaceRates place_rates(const FlankPair& flanks, const RelativePlacement& placement, const NearestPlace& place,
                        const Eigen::Matrix<double, 6, 1>& twist, double h) {
-  const ExactFlanks::Extent extent = flanks.owner->extent();
-  const double small = kRateStep * (extent.upper - extent.lower), z = place.face.centre();
-  const double speed = twist.head<3>().norm() + twist.tail<3>().norm() * placement.r.norm();
-  if (speed == 0) return {0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0};
-  const double time = small / speed;
-  const Gap here(flanks, placement, z);
-  const double v = std::max(place.v, 2 * small), bend = here.slope(v + small) - here.slope(v - small);
-  const Eigen::Vector3d angle = time * twist.tail<3>();
-  const Eigen::Matrix3d turn = rotation_matrix(angle);
-  const RelativePlacement moved{turn * placement.R, turn * placement.r + time * twist.head<3>()};
-  const Gap there(flanks, moved, z);
+  const double time = rate_time(flanks, placement, twist), z = place.face.centre();
+  if (time == 0) return {0, 0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0};
+  const FlankGap here(flanks, placement);
+  const double small = kRateStep * here.height(), v = std::max(place.v, 2 * small);
+  const double bend = here.slope_v(v + small, z) - here.slope_v(v - small, z);
+  const RelativePlacement then = moved(placement, twist, time);
+  const FlankGap there(flanks, then);
   PlaceRates rates{};
   const bool is_free = place.v > here.low() && place.v < here.high();
-  if (is_free && bend > 0) rates.v = -(there.slope(v) - here.slope(v)) * 2 * small / bend / time;
+  if (is_free && bend > 0) rates.v = -(there.slope_v(v, z) - here.slope_v(v, z)) * 2 * small / bend / time;
   const double to = v + time * rates.v;
-  const Gap::Seen seen_here = here.seen(v), seen_there = there.seen(to);
+  const FlankGap::Seen seen_here = here.seen(v, z), seen_there = there.seen(to, z);
   const Eigen::Vector3d n_here = here.mate_normal(seen_here), n_there = there.mate_normal(seen_there);
   rates.mate_v = (seen_there.mate.v - seen_here.mate.v) / time;
   rates.mate_n = (n_there - n_here) / time;
-  rates.n = (moved.R * n_there - placement.R * n_here) / time;
-  const auto opens = [&](const Gap& gap, double at) {
-    const double c = std::max(at, h);
-    return (gap.at(c + h) + gap.at(c - h)) / 2 - gap.at(c);
-  };
-  rates.opening = (opens(there, to) - opens(here, v)) / time;
+  rates.n = (then.R * n_there - placement.R * n_here) / time;
+  rates.opening = (opens(there, to, z, h) - opens(here, v, z, h)) / time;
   return rates;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "contact/stations/flank_mesh.h"
+#include "contact/stations/flank_size.h"
+#include "contact/stations/point_contact.h"
 #include "contact/stations/smooth_load.h"
 #include "elastogear/base/error.h"
 #include "elastogear/contact/face.h"
@@ -13,22 +15,9 @@ namespace {
 
 constexpr int kMarks = 5;            // along the face, of each flank
 constexpr double kNearMarks = 1.5;   // of a flank's height, that marks of flanks in contact may be apart
-constexpr double kReach = 0.05;      // of a flank's height: a gap that forces may close
-constexpr double kDeepest = 0.25;    // of a flank's height: a larger overlap is one with the tooth behind
 constexpr double kSlopeStep = 1e-4;  // of a flank's height, for slopes
-constexpr double kWidth = 0.02;      // of a flank's height: half width of contact at loads that steel bears
 constexpr double kFlattest = 1e3;    // of the height of a flank: radii of flanks that hardly part, or overlap
                                      // in fillets, where they bear no force
-
-double height(const ExactFlanks& flanks) {
-  const ExactFlanks::Extent extent = flanks.extent();
-  return extent.upper - extent.lower;
-}
-
-double middle(const ExactFlanks& flanks) {
-  const ExactFlanks::Extent extent = flanks.extent();
-  return (extent.upper + extent.lower) / 2;
-}
 
 // The distance between marks at the same parts of both faces, the least one.
 double mark_distance(const Eigen::Matrix3Xd& owner, const Eigen::Matrix3Xd& mate,
@@ -39,7 +28,7 @@ double mark_distance(const Eigen::Matrix3Xd& owner, const Eigen::Matrix3Xd& mate
 bool touches(const std::vector<NearestPlace>& places, double of_height) {
   bool any = false;
   for (const NearestPlace& place : places) {
-    if (place.gap < -kDeepest * of_height) return false;
+    if (place.flank_gap < -kDeepest * of_height) return false;
     any = any || place.gap < kReach * of_height;
   }
   return any;
@@ -84,7 +73,7 @@ double radius(const ToothContact& contact, std::size_t i, double b) {
 ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, const FlankMesh& on_mate,
                           const FlankPair& flanks, const RelativePlacement& placement,
                           std::vector<NearestPlace> places) {
-  ToothContact contact{flanks, placement, std::move(places), {}, {}, {}, {}};
+  ToothContact contact{flanks, placement, std::move(places), {}, {}, {}, {}, {}};
   const std::array<ToothedBody*, 2> body{pair.owner, pair.mate};
   const std::array<const FlankMesh*, 2> mesh{&on_owner, &on_mate};
   const auto n = std::ssize(contact.places);
@@ -152,8 +141,8 @@ const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips) 
   std::list<LoadTable>& tables = tables_[side > 0 ? 1 : 0];
   for (const LoadTable& table : tables)
     if (table.strips == strips) return table;
-  const auto mesh = std::find_if(meshes_.begin(), meshes_.end(),
-                                 [&](const FlankMesh& mesh) { return mesh.name.side == side; });
+  const auto mesh =
+      std::find_if(meshes_.begin(), meshes_.end(), [&](const FlankMesh& at) { return at.name.side == side; });
   const double z = (mesh->grid.z.front() + mesh->grid.z.back()) / 2;
   const auto slope = [&](double v) { return generator_slope(*flanks_, mesh->name, v, z); };
   const double v = middle(*flanks_);
@@ -163,9 +152,11 @@ const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips) 
 }
 
 ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n) {
+  constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
+  if (std::abs(placement.R(2, 2)) < kParallel) return {&owner, &mate, {}, true};
   const FlankMesh &on_owner = owner.meshes().front(), &on_mate = mate.meshes().front();
   const Eigen::Vector3d x = owner.flanks().point(on_owner.name, middle(owner.flanks()), 0).x;
-  const double shift = mate.flanks().chart(placement.R.transpose() * (x - placement.r))[1];
+  const double shift = mate.flanks().chart(on_mate.name, placement.R.transpose() * (x - placement.r))[1];
   const double from = std::max(on_owner.grid.z.front(), on_mate.grid.z.front() - shift);
   const double to = std::min(on_owner.grid.z.back(), on_mate.grid.z.back() - shift);
   ToothedPair pair{&owner, &mate, {}};
@@ -179,6 +170,7 @@ ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePl
 }
 
 std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const RelativePlacement& placement) {
+  if (pair.is_crossed) return point_contacts(pair, placement);
   std::vector<ToothContact> contacts;
   const ToothedBody &owner = *pair.owner, &mate = *pair.mate;
   if (pair.strips[0].empty()) return contacts;
@@ -201,9 +193,10 @@ std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const Relative
 double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f,
                            const std::array<PotentialSlopes, 2>& slopes,
                            const Eigen::Matrix<double, 6, 1>& twist) {
+  if (!contact.side[0].loads) return change_at_point(contact, f[0], slopes, twist);
   double change = 0;
   for (Eigen::Index i = 0; i < contact.n(); ++i) {
-    const StripLaw& law = contact.own[static_cast<std::size_t>(i)];
+    const StationLaw& law = contact.own[static_cast<std::size_t>(i)];
     const NearestPlace& place = contact.places[static_cast<std::size_t>(i)];
     if (slopes[0].v[i] == 0 && slopes[1].v[i] == 0 && f[i] <= 0) continue;
     const double b = width_for_curvature(*contact.flanks.owner);
@@ -220,12 +213,32 @@ double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f
   return change;
 }
 
+const std::vector<int>& loaded_nodes(const ToothContact::Side& side) {
+  return side.loads ? side.mesh->node : side.point.node;
+}
+
+Eigen::MatrixXd spread(const ToothContact::Side& side) {
+  return side.loads ? side.loads->Z : Eigen::MatrixXd::Identity(1, 1);
+}
+
+Eigen::MatrixXd weights(const ToothContact::Side& side) {
+  return side.loads ? weights(*side.loads, side.at) : Eigen::MatrixXd(side.point.weight);
+}
+
+StationDisplacements displacements(const ToothContact::Side& side, const Eigen::Matrix3Xd& of_nodes) {
+  if (side.loads) return displacements(*side.loads, side.at, of_nodes);
+  const PointLoad& point = side.point;
+  return {of_nodes * point.weight.transpose(), of_nodes * point.weight_v.transpose(),
+          of_nodes * point.weight_z.transpose()};
+}
+
 namespace {
 
 // With the radius of relative curvature over the width of contact itself, as of rounded edges.
-StripLaw fitting_law(const ToothContact& contact, std::size_t i, double f) {
+StationLaw fitting_law(const ToothContact& contact, std::size_t i, double f) {
   constexpr int kRounds = 4;
-  StripLaw law = contact.own[i];
+  StationLaw law = contact.own[i];
+  if (law.ellipse) return law;
   for (int round = 0; round < kRounds; ++round)
     law.radius = radius(contact, i, law.half_width(f) / contact.side[0].loads->scale.across);
   return law;
@@ -263,8 +276,8 @@ ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair,
     point.F.col(4 + k) = -N_there[k] * point.f;
   }
   point.p = f;
-  const StripLaw law = fitting_law(contact, j, f);
-  point.area = 2 * law.half_width(f) * law.length;
+  const StationLaw law = fitting_law(contact, j, f);
+  point.area = law.area(f);
   point.pressure = law.pressure(f);
   point.W.resize(24, 0);
   point.k.resize(0, 0);

@@ -90,6 +90,8 @@ StationContact::StationContact(const SystemModel& model) : model_(&model) {
                       pair.settings.friction,
                       contact::toothed_pair(*bodies_[a].toothed, *bodies_[b].toothed,
                                             relative(start(model, a), start(model, b)), kStations)});
+    for (std::size_t body : {a, b})
+      bodies_[body].by_nodes = bodies_[body].by_nodes || pairs_.back().toothed.is_crossed;
   }
 }
 
@@ -116,7 +118,7 @@ std::vector<StationContact::Teeth> StationContact::teeth_in_contact(const Motion
 }
 
 Matrix3Xd StationContact::node_displacements(const Part& part, std::size_t body, const VectorXd& q) const {
-  const std::vector<int>& node = bodies_[body].toothed->nodes(part.side().flank);
+  const std::vector<int>& node = contact::loaded_nodes(part.side());
   Matrix3Xd u(3, std::ssize(node));
   for (Index a = 0; a < u.cols(); ++a)
     u.col(a) =
@@ -136,9 +138,7 @@ void StationContact::set_traction(const Motions& motion, Teeth& teeth) const {
       v[s].col(i) = m.v_WB_B + m.w_WB_B.cross(Eigen::Vector3d(v[s].col(i)));
     if (m.q_dot.size() == 0 || m.q_dot.isZero(0)) continue;
     const ToothContact::Side& side = contact.side[s];
-    v[s] +=
-        contact::displacements(*side.loads, side.at, node_displacements({&teeth, s}, pair.body[s], m.q_dot))
-            .u;
+    v[s] += contact::displacements(side, node_displacements({&teeth, s}, pair.body[s], m.q_dot)).u;
   }
   teeth.sliding = v[0] - contact.placement.R * v[1];
   teeth.traction[0].resize(3, contact.n());
@@ -169,8 +169,8 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
   const std::vector<Part> parts = parts_of(body, teeth);
   std::vector<MatrixXd> weight;
   for (const Part& part : parts) {
-    weight.push_back(contact::weights(*part.side().loads, part.side().at));
-    const std::vector<int>& node = bodies_[body].toothed->nodes(part.side().flank);
+    weight.push_back(contact::weights(part.side()));
+    const std::vector<int>& node = contact::loaded_nodes(part.side());
     for (std::size_t a = 0; a < node.size(); ++a)
       if (!weight.back().col(static_cast<Index>(a)).isZero(0)) loads.node.push_back(node[a]);
   }
@@ -178,7 +178,8 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
   std::array<std::vector<Eigen::Triplet<double>>, 2> entries;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const ToothContact::Side& side = parts[p].side();
-    const std::vector<int>& node = bodies_[body].toothed->nodes(side.flank);
+    const std::vector<int>& node = contact::loaded_nodes(side);
+    const MatrixXd Z = contact::spread(side);
     const std::array<const Matrix3Xd*, 2> direction{&side.direction, &parts[p].teeth->traction[parts[p].s]};
     for (Index a = 0; a < weight[p].cols(); ++a) {
       if (weight[p].col(a).isZero(0)) continue;
@@ -187,7 +188,7 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
       const auto row = static_cast<int>(3 * (at - loads.node.begin()));
       for (std::size_t kind : {0, 1}) {
         if (direction[kind]->cols() == 0) continue;
-        const Matrix3Xd forces = *direction[kind] * weight[p].col(a).asDiagonal() * side.loads->Z.transpose();
+        const Matrix3Xd forces = *direction[kind] * weight[p].col(a).asDiagonal() * Z.transpose();
         for (Index i = 0; i < forces.cols(); ++i)
           for (int d = 0; d < 3; ++d)
             if (forces(d, i) != 0)
@@ -208,9 +209,15 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
 
 // Of the whole body, without what its modes have a share in: R = F - Phi K_r^-1 Phi'. Eqs. (6.20), (6.39).
 // of_friction: of gaps, by the friction that comes with normal forces.
+// A body that touches at points has them by nodes, of which few are loaded at a time.
 MatrixXd StationContact::compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
-                                    bool of_friction) {
+                                    bool of_friction, ResidualContact& responses) {
   MatrixXd C = MatrixXd::Zero(loads.S.cols(), loads.S.cols());
+  if (bodies_[body].by_nodes) {
+    const Sparse& S = of_friction ? loads.S_t : loads.S;
+    if (S.nonZeros() > 0) C = loads.S.transpose() * MatrixXd(responses.among(body, loads.node) * S);
+    return C;
+  }
   const VectorXd K = model_->bodies[body].eq.body->K_r.diagonal();
   const MatrixXd& Phi_S = of_friction ? loads.Phi_S_t : loads.Phi_S;
   if (Phi_S.cols() == 0) return C;
@@ -232,7 +239,8 @@ MatrixXd StationContact::compliance(std::size_t body, const std::vector<Teeth>& 
 // Forces of stations; those with friction by substitution of what it does to gaps, which is small. Eq.
 // (6.52).
 StationContact::Solution StationContact::solve(const Motions& motion, const std::vector<Teeth>& teeth,
-                                               const std::vector<Loads>& loads, Index n) {
+                                               const std::vector<Loads>& loads, Index n,
+                                               ResidualContact& responses) {
   contact::StationProblem problem{MatrixXd::Zero(n, n), {}, VectorXd(n)};
   for (const Teeth& t : teeth) {
     problem.C.block(t.first, t.first, t.contact.n(), t.contact.n()) = t.contact.local;
@@ -244,8 +252,8 @@ StationContact::Solution StationContact::solve(const Motions& motion, const std:
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b].toothed) continue;
     problem.gap += loads[b].Phi_S.transpose() * motion[b].q;
-    problem.C += compliance(b, teeth, loads[b], false);
-    C_t += compliance(b, teeth, loads[b], true);
+    problem.C += compliance(b, teeth, loads[b], false, responses);
+    C_t += compliance(b, teeth, loads[b], true, responses);
   }
   const VectorXd gap = problem.gap;
   Solution solution{contact::station_forces(problem), {}};
@@ -267,33 +275,59 @@ StationContact::Solution StationContact::solve(const Motions& motion, const std:
   }
   solution.local_energy = 0.5 * forces.f.dot(local * forces.f);
   for (Index i = 0; i < n; ++i) {  // the energy of a strip, whose complement is U
-    const contact::StripLaw& law = problem.own[static_cast<std::size_t>(i)];
+    const contact::StationLaw& law = problem.own[static_cast<std::size_t>(i)];
     solution.local_energy += forces.f[i] * law.approach(forces.f[i]) - law.energy(forces.f[i]);
   }
   return solution;
 }
 
-// Derivatives of the potential with places and directions on one body. q: elastic coordinates less the share
-// of the modes in F.
-contact::PotentialSlopes StationContact::slopes(const Part& part, std::size_t body,
-                                                const std::vector<Teeth>& teeth, const VectorXd& q,
-                                                const VectorXd& f) {
+// Displacements at the stations on one body, by elastic coordinates and static responses. q: elastic
+// coordinates less the share of the modes in F.
+contact::StationDisplacements StationContact::moved(const Part& part, std::size_t body,
+                                                    const std::vector<Teeth>& teeth, const VectorXd& q,
+                                                    const VectorXd& f) {
   const ToothContact::Side& side = part.side();
-  contact::StationDisplacements moved =
-      contact::displacements(*side.loads, side.at, node_displacements(part, body, q));
+  contact::StationDisplacements moved = contact::displacements(side, node_displacements(part, body, q));
   for (const Part& other : parts_of(body, teeth)) {
     const ToothContact::Side& there = other.side();
     const VectorXd strip =
-        there.loads->Z.transpose() * f.segment(other.teeth->first, other.teeth->contact.n());
+        contact::spread(there).transpose() * f.segment(other.teeth->first, other.teeth->contact.n());
     Matrix3Xd force = there.direction;
     if (const Matrix3Xd& traction = other.teeth->traction[other.s]; traction.cols() > 0) force += traction;
     bodies_[body].tables->add(side, there, force * strip.asDiagonal(), moved);
   }
-  const VectorXd strip = side.loads->Z.transpose() * f.segment(part.teeth->first, part.teeth->contact.n());
-  contact::PotentialSlopes slopes{
-      moved.u_v.cwiseProduct(side.direction).colwise().sum().transpose() -
-          bodies_[body].toothed->compliance() * contact::smooth_slopes(*side.loads, side.at, strip),
-      moved.u * strip.asDiagonal()};
+  return moved;
+}
+
+// The same by nodes, whose static responses are in place.
+contact::StationDisplacements StationContact::moved_by_nodes(const Part& part, std::size_t body,
+                                                             const VectorXd& q,
+                                                             ResidualContact& responses) const {
+  Matrix3Xd u = node_displacements(part, body, q);
+  for (Index a = 0; int node : contact::loaded_nodes(part.side()))
+    u.col(a++) += responses.displacement(body, node);
+  return contact::displacements(part.side(), u);
+}
+
+// Derivatives of the potential with places and directions on one body.
+contact::PotentialSlopes StationContact::slopes(const Part& part, std::size_t body,
+                                                const contact::StationDisplacements& moved,
+                                                const VectorXd& f) const {
+  const ToothContact::Side& side = part.side();
+  const VectorXd strip =
+      contact::spread(side).transpose() * f.segment(part.teeth->first, part.teeth->contact.n());
+  const double compliance = bodies_[body].toothed->compliance();
+  const auto along = [&](const Matrix3Xd& u) {
+    return VectorXd(u.cwiseProduct(side.direction).colwise().sum().transpose());
+  };
+  contact::PotentialSlopes slopes{along(moved.u_v), VectorXd::Zero(strip.size()),
+                                  moved.u * strip.asDiagonal()};
+  if (side.loads) {
+    slopes.v -= compliance * contact::smooth_slopes(*side.loads, side.at, strip);
+  } else {
+    slopes.v -= compliance * side.point.smooth_v * strip;
+    slopes.z = (along(moved.u_z) - compliance * side.point.smooth_z * strip).cwiseProduct(strip);
+  }
   slopes.v = slopes.v.cwiseProduct(strip).eval();
   for (Index i = 0; i < slopes.v.size(); ++i)
     if (side.is_clamped(i)) slopes.v[i] = 0;
@@ -304,7 +338,7 @@ contact::PotentialSlopes StationContact::slopes(const Part& part, std::size_t bo
 // the same elastic coordinates and forces, Eq. (6.49), and the friction on them.
 void StationContact::add_joint_forces(const Motions& motion, const std::vector<Teeth>& teeth,
                                       const std::vector<Loads>& loads, const VectorXd& f,
-                                      ContactState& state) {
+                                      ResidualContact& responses, ContactState& state) {
   std::vector<VectorXd> q(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b].toothed) continue;
@@ -317,14 +351,21 @@ void StationContact::add_joint_forces(const Motions& motion, const std::vector<T
     const VectorXd f_t = f.segment(t.first, t.contact.n());
     if (f_t.isZero(0)) continue;
     const std::array<std::size_t, 2>& body = pairs_[t.pair].body;
-    const std::array<contact::PotentialSlopes, 2> slope{slopes({&t, 0}, body[0], teeth, q[body[0]], f),
-                                                        slopes({&t, 1}, body[1], teeth, q[body[1]], f)};
+    std::array<contact::PotentialSlopes, 2> slope;
+    for (std::size_t s : {0, 1}) {
+      const std::size_t b = body[s];
+      const Part part{&t, s};
+      slope[s] = slopes(part, b,
+                        bodies_[b].by_nodes ? moved_by_nodes(part, b, motion[b].q, responses)
+                                            : moved(part, b, teeth, q[b], f),
+                        f);
+    }
     for (std::size_t s : {0, 1}) {
       const body::MotionSubspace& H = model_->bodies[body[s]].eq.H;
       Eigen::Matrix<double, 6, 1> friction = Eigen::Matrix<double, 6, 1>::Zero();
       if (t.traction[s].cols() > 0) {
         const Matrix3Xd force =
-            t.traction[s] * VectorXd(t.contact.side[s].loads->Z.transpose() * f_t).asDiagonal();
+            t.traction[s] * VectorXd(contact::spread(t.contact.side[s]).transpose() * f_t).asDiagonal();
         const Matrix3Xd x = points(t.contact, s);
         friction.head<3>() = force.rowwise().sum();
         for (Index i = 0; i < x.cols(); ++i) friction.tail<3>() += x.col(i).cross(force.col(i));
@@ -383,7 +424,8 @@ void StationContact::set_loads(const std::vector<Teeth>& teeth, const std::vecto
     if (rubs(t)) largest = std::max(largest, t.resistance.maxCoeff());
   for (const Teeth& t : teeth) {
     if (!rubs(t)) continue;
-    const VectorXd strip = t.contact.side[0].loads->Z.transpose() * forces.f.segment(t.first, t.contact.n());
+    const VectorXd strip =
+        contact::spread(t.contact.side[0]).transpose() * forces.f.segment(t.first, t.contact.n());
     for (Index k = 0; k < strip.size(); ++k) {
       if (!(strip[k] > 0) || t.resistance[k] < kResisting * largest) continue;
       for (std::size_t s : {0, 1}) {
@@ -393,8 +435,8 @@ void StationContact::set_loads(const std::vector<Teeth>& teeth, const std::vecto
         Eigen::Vector3d along =
             t.contact.flanks.owner->point(t.contact.flanks.on_owner, place.v, place.face.centre()).x_v;
         if (s == 1) along = -(t.contact.placement.R.transpose() * along);
-        const std::vector<int>& node = bodies_[b].toothed->nodes(side.flank);
-        const Eigen::RowVectorXd weight = contact::weights(*side.loads, side.at).row(k);
+        const std::vector<int>& node = contact::loaded_nodes(side);
+        const Eigen::RowVectorXd weight = contact::weights(side).row(k);
         for (Index a = 0; a < weight.size(); ++a) {
           if (weight[a] == 0) continue;
           const auto row = std::lower_bound(loads[b].node.begin(), loads[b].node.end(),
@@ -453,13 +495,13 @@ void StationContact::evaluate(const Motions& motion, ResidualContact& responses,
     else
       for (Sparse* S : {&loads[b].S, &loads[b].S_t}) S->resize(0, n);
   }
-  const Solution solution = solve(motion, teeth, loads, n);
+  const Solution solution = solve(motion, teeth, loads, n, responses);
   const VectorXd& f = solution.forces.f;
   set_loads(teeth, loads, solution, state);
   state.force.assign(bodies_.size(), {});
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     set_nodal_forces(b, loads[b], f, motion[b], responses, state);
-  add_joint_forces(motion, teeth, loads, f, state);
+  add_joint_forces(motion, teeth, loads, f, responses, state);
   set_points(motion, teeth, f, state);
   state.balanced = true;
 }

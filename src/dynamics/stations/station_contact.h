@@ -45,6 +45,7 @@ class StationContact {
   struct Body {
     std::unique_ptr<contact::ToothedBody> toothed;  ///< null: it touches nothing
     std::unique_ptr<ResponseTables> tables;
+    bool by_nodes = false;  ///< it touches at points: static responses are those of nodes
   };
   struct Pair {
     std::array<std::size_t, 2> body;
@@ -71,13 +72,18 @@ class StationContact {
   std::vector<Part> parts_of(std::size_t body, const std::vector<Teeth>& teeth) const;
   Loads loads_on(std::size_t body, const std::vector<Teeth>& teeth, Eigen::Index n) const;
   Eigen::MatrixXd compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
-                             bool of_friction);
+                             bool of_friction, ResidualContact& responses);
   Solution solve(const Motions& motion, const std::vector<Teeth>& teeth, const std::vector<Loads>& loads,
-                 Eigen::Index n);
+                 Eigen::Index n, ResidualContact& responses);
   void add_joint_forces(const Motions& motion, const std::vector<Teeth>& teeth,
-                        const std::vector<Loads>& loads, const Eigen::VectorXd& f, ContactState& state);
-  contact::PotentialSlopes slopes(const Part& part, std::size_t body, const std::vector<Teeth>& teeth,
-                                  const Eigen::VectorXd& q, const Eigen::VectorXd& f);
+                        const std::vector<Loads>& loads, const Eigen::VectorXd& f, ResidualContact& responses,
+                        ContactState& state);
+  contact::StationDisplacements moved(const Part& part, std::size_t body, const std::vector<Teeth>& teeth,
+                                      const Eigen::VectorXd& q, const Eigen::VectorXd& f);
+  contact::StationDisplacements moved_by_nodes(const Part& part, std::size_t body, const Eigen::VectorXd& q,
+                                               ResidualContact& responses) const;
+  contact::PotentialSlopes slopes(const Part& part, std::size_t body,
+                                  const contact::StationDisplacements& moved, const Eigen::VectorXd& f) const;
   void set_loads(const std::vector<Teeth>& teeth, const std::vector<Loads>& loads, const Solution& solution,
                  ContactState& state) const;
   void set_nodal_forces(std::size_t body, const Loads& loads, const Eigen::VectorXd& f,
