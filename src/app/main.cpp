@@ -53,13 +53,18 @@ void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& li
   verb.run(options, line.arguments);
 }
 
-// Returns the complaint about the words of the command line, or an empty text when they are right.
-std::string problem_of_words(int argc, char** argv) {
+// The words that PETSc is started with, or a complaint about the command line. With a complaint it is started
+// without any, to report it once on all ranks.
+struct PetscWords {
+  std::vector<std::string> words;
+  std::string problem = {};
+};
+
+PetscWords petsc_words(int argc, char** argv) {
   try {
-    check_words(argc, argv);
-    return {};
+    return {words_of_petsc(argv[0], given_options(argc, argv))};
   } catch (const Error& error) {
-    return error.what();
+    return {{argv[0]}, error.what()};
   }
 }
 
@@ -96,12 +101,15 @@ int main(int argc, char** argv) {
   }
   app::start_with_settings(line.verb, argv);
   app::start_alone_without_networks();
-  // With words that PETSc would fail on it is started without any, to report them once on all ranks.
-  const std::string problem = app::problem_of_words(argc, argv);
-  int n_words = problem.empty() ? argc : 1;
+  app::PetscWords petsc = app::petsc_words(argc, argv);
+  std::vector<char*> words;
+  for (std::string& word : petsc.words) words.push_back(word.data());
+  int n_words = static_cast<int>(words.size());
+  words.push_back(nullptr);
+  char** first_word = words.data();
   try {
-    Session session(n_words, argv);
-    return app::main_in_session(verbs, line, problem, argc, argv);
+    Session session(n_words, first_word);
+    return app::main_in_session(verbs, line, petsc.problem, argc, argv);
   } catch (const Error& error) {  // on some ranks only, perhaps
     std::fprintf(stderr, "elastogear: error: %s\n", error.what());
     MPI_Abort(MPI_COMM_WORLD, 1);

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
 
 #include "app/console/console.h"
 #include "app/console/embedding.h"
 #include "app/options/input_differences.h"
 #include "app/options/rows.h"
+#include "elastogear/base/file.h"
 #include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
@@ -42,11 +42,11 @@ std::function<std::string()> stop_cause() {
 std::vector<std::string> files_in(const Options& options, const std::string& key, const std::string& value) {
   const auto table = value.find("table,");
   if (table != std::string::npos) return {value.substr(table + 6)};
-  if (key == "option_output_times" || key == "option_variants") return {value};
   const bool names_files =
       key.starts_with("option_") &&
-      (key.ends_with("_flanks") || key.ends_with("_deviation") || key.ends_with("_topography") ||
-       key.ends_with("_wear") || key.ends_with("_master_curve") || key == "option_bearing_catalogue");
+      (key == "option_output_times" || key == "option_variants" || key.ends_with("_flanks") ||
+       key.ends_with("_deviation") || key.ends_with("_topography") || key.ends_with("_wear") ||
+       key.ends_with("_master_curve") || key == "option_bearing_catalogue");
   return names_files ? options.list(key.substr(7)) : std::vector<std::string>{};
 }
 
@@ -87,7 +87,7 @@ void add_inputs(const Options& options, const std::map<std::string, std::string>
     if (!identity.empty()) provenance[model::identity_key(body)] = identity;
   for (const auto& [key, value] : options.provenance())
     for (const std::string& file : files_in(options, key, value)) {
-      if (!std::filesystem::is_regular_file(file)) continue;
+      if (!is_file(file)) continue;
       provenance[fingerprint_key(file)] = file_fingerprint(file);
     }
 }

@@ -157,6 +157,15 @@ def tip_within(limit):
     return look
 
 
+def last_time(expected):
+    """The run ends at this time."""
+    def look(bench):
+        with h5py.File(bench.path("kept_run.h5")) as file:
+            end = file["time"][-1]
+        return "" if abs(end - expected) < 1e-9 * expected else f"ends at {end} s, not {expected} s"
+    return look
+
+
 def copied(source, target):
     return lambda bench: shutil.copy(bench.path(source), bench.path(target))
 

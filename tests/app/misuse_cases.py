@@ -1,5 +1,5 @@
 """The misuses of misuse.py, over every verb: what is done wrong, the words that the program must find, the command."""
-from misuse_case import Case, flipped, full, NO_SPACE
+from misuse_case import Case, flipped, full, last_time, NO_SPACE
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
 from misuse_simulate import SIMULATE
@@ -59,6 +59,35 @@ OPTIONS = [
     Case("loads too slow for any mode", r"no eigenvalue lies between.*take one mode",
          "{reduce_brick} -basis modal_residual -modes auto -highest_frequency 1"),
     Case("interval without a mode", r"no eigenvalue lies between", "{reduce_brick} -eps_interval 0,1e-3"),
+    Case("flag without a value in YAML", r"pinion_internal .flag.yaml, line 5.: is empty, write true or false", "{elastogear} mesh flag.yaml"),
+    Case("speed without its unit", r"speed .speed.yaml, line 4. = 1500: write its unit, '1500 rpm'", "{elastogear} mesh speed.yaml"),
+    Case("misspelt key of a drive", r"log_veiw(?!.*nearest known option is -log_view)|log_veiw.*-log_view", "{elastogear} mesh misspelt_drive.yaml"),
+    Case("misspelt key of a drive, near one of PETSc", r"-speed ", "{elastogear} mesh drive.yaml -sped 3\\ rpm"),
+    Case("options file that names itself", r"itself.txt, line 1: files of options name each other", "{reduce} -options_file itself.txt"),
+    Case("options file with a prefix and an alias", r"", "{elastogear} simulate -bodies a -a_file body.h5 -output kept_run.h5 -options_file prefix.txt",
+         kind="good", leaves=r"kept_run\.h5", after=last_time(1e-6)),
+    Case("prefix that is not there", r"prefix_pop: no -prefix_push", "{reduce} -prefix_pop"),
+    Case("more keys than PETSc's database holds", r"", "{elastogear} simulate many_keys.yaml -analysis sweep", kind="good",
+         leaves=r"kept_run(/.*)?"),
+    Case("list of more than 255 characters", r"", "{elastogear} simulate many_torques.yaml -analysis sweep", kind="good",
+         leaves=r"kept_run(/.*)?"),
+    Case("list of times of more than 255 characters", r"", "{single} -output_times " + ",".join(f"{i}e-9" for i in range(1, 100)), kind="good",
+         leaves=r"kept_run\.h5"),
+    Case("keys of other verbs in a file for all", r"", "{elastogear} recover for_all.yaml", kind="good", leaves=r"kept_stress.*"),
+    Case("keys of other verbs in a file for all, simulate", r"", "{elastogear} simulate for_all.yaml", kind="good", leaves=r"kept_run\.h5"),
+    Case("stresses of a body that has the name of a key", r"(recovery|no body)", "{elastogear} recover for_all.yaml -recover_stress_recovery MIDDLE"),
+    Case("torque and torques in a file", r"", "{elastogear} simulate both_torques.yaml -analysis sweep", kind="good", leaves=r"kept_run(/.*)?"),
+    Case("torque of the command line before torques of a file", r"", "{elastogear} simulate both_torques.yaml -analysis sweep -torque 50", kind="good",
+         leaves=r"kept_run\.h5"),
+    Case("table in a unit of something else", r"duty_in_s.csv, line 2: .*'s' is no unit of it, write N mm", "{elastogear} life drive.yaml -duty_cycle duty_in_s.csv -sn_knee_stress 1e8"),
+    Case("table with two separators", r"two_separators.csv, line 1: '5 1e6' must be a number without a unit", "{elastogear} life drive.yaml -duty_cycle two_separators.csv -sn_knee_stress 1e8"),
+    Case("unit of what has none", r"revolutions_in_h.csv, line 2: '1e6 h' must be a number without a unit", "{elastogear} life drive.yaml -duty_cycle revolutions_in_h.csv -sn_knee_stress 1e8"),
+    Case("table with a field too many", r"two_fields.csv, line 4: must be two numbers", "{hinged} -a_torque table,two_fields.csv"),
+    Case("table in other units", r"", "{hinged} -a_torque table,ramp_in_ms.csv", kind="good", leaves=r"kept_run\.h5"),
+    Case("table of lengths for a torque", r"ramp_in_mm.csv, line 2: .*'mm' is no unit of it", "{hinged} -a_torque table,ramp_in_mm.csv"),
+    Case("table of variants with units", r"", "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_um.csv", kind="good", leaves=r"kept_run(/.*)?"),
+    Case("table of variants with a wrong unit in its heading", r"variants_in_s.csv, line 2 = '20 s': 's' is no unit",
+         "{elastogear} simulate drive.yaml -analysis sweep -variants variants_in_s.csv"),
     Case("option with two dashes", r"modes", "{reduce} --modes 5 --modess 4"),
     Case("wrong letters in modes", r"mdoes.*nearest known option is -modes ", "{reduce} -mdoes 5"),
     Case("list with a blank", r"'B' belongs to no option", "{elastogear} reduce -restrain A, B"),

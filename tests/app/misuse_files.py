@@ -102,7 +102,36 @@ def tables(folder):
         "seconds.csv": "pinion_tip_relief\n3 s\n",
         "one_column.csv": "time\n0\n1\n",
         "misspelt_options.txt": "-modes 3\n-epss_tol 4\n",
-        "bad_options.txt": "-modes 3\nmodes 4\n"})
+        "bad_options.txt": "-modes 3\nmodes 4\n",
+        "itself.txt": "-modes 3\n-options_file itself.txt\n",
+        "prefix.txt": "-prefix_push ts_\n-dt 1e-7\n-prefix_pop\nalias -end -ts_max_time\n-end 1e-6\n"})
+    drives(folder)
+
+
+def drives(folder):
+    drive = ("drive: cylindrical\nmodule: 3 mm\nface_width: 25 mm\nspeed: 1500 rpm\npinion: {teeth: 17, rigid: true, file: drive_pinion.h5}\n"
+             "wheel: {teeth: 23, rigid: true, file: drive_wheel.h5}\nsize: tiny\nelement_order: 1\nmodes: 0\nsweep: {positions: 1}\nsimulate: {output: kept_run.h5}\n")
+    names = [f"v{i}" for i in range(300)]
+    write(folder, {
+        "drive.yaml": drive + "torque: 300\n",
+        "flag.yaml": drive.replace("teeth: 17", "teeth: 17, internal: ''"),
+        "speed.yaml": drive.replace(" rpm", ""),
+        "misspelt_drive.yaml": drive + "log_veiw: 1\n",
+        "both_torques.yaml": drive + "torque: 300\ntorques: [100, 200]\n",
+        "many_torques.yaml": drive + f"torques: [{', '.join(str(100 + i) for i in range(100))}]\n",
+        "many_keys.yaml": drive + f"torque: 300\nvariants: [{', '.join(names)}]\n" + "".join(
+            f"variant_{name}: {{wheel_skew: 0.01 deg, pinion_tip_relief: {i + 1} um}}\n" for i, name in enumerate(names)),
+        "variants_in_um.csv": "pinion_tip_relief [um],wheel_skew [deg]\n20,0.01\n",
+        "variants_in_s.csv": "pinion_tip_relief [s]\n20\n",
+        "two_separators.csv": "100,5 1e6\n",
+        "duty_in_s.csv": "torque [s],revolutions\n100,1e6\n",
+        "duty_in_kN.csv": "torque [kN m],revolutions\n0.1,1e5\n",
+        "revolutions_in_h.csv": "torque [N m],revolutions [h]\n100,1e6\n",
+        "two_fields.csv": "time [s],torque [N m]\n0,1\n1,2,\n2,3,4\n",
+        "ramp_in_ms.csv": "time [ms],torque [kN m]\n0,0\n1,0.001\n",
+        "ramp_in_mm.csv": "time [ms],torque [mm]\n0,0\n1,0.001\n",
+        "for_all.yaml": "bodies: [a]\na: {file: body.h5}\nstress_recovery: average\nelement_mass: lumped\nstress: {a: MIDDLE}\n"
+                        "result: run.h5\noutput: kept_stress.h5\nsimulate_output: kept_run.h5\nts: {dt: 1e-7, max_time: 1e-6}\n"})
 
 
 def bodies(bench):
@@ -115,6 +144,8 @@ def bodies(bench):
     bench.good("{reduce} -output no_surface.h5 -surface ''")
     for name in ("other.h5", "kept.h5"):
         shutil.copy(bench.path("body.h5"), bench.path(name))
+    for verb in ("mesh", "reduce"):
+        bench.good("{elastogear} " + verb + " drive.yaml")
     bench.good("{elastogear} mesh -part wheel -size tiny -element_order 1 -mesh wheel.msh -z2 41")
 
 

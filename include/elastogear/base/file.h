@@ -19,6 +19,8 @@ class WriteFailure : public Error {
 /// The reason that an errno of a write stands for, with the remedy.
 std::string write_error(int error);
 
+/// Is there a regular file of this name? No error for what is too long, or out of reach, to be one.
+bool is_file(const std::string& path);
 /// The whole content of a regular file; Error naming the path and the reason.
 std::string read_file(const std::string& path);
 

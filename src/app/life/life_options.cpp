@@ -180,7 +180,6 @@ OptionTable life_table() {
 LifeSettings life_settings(const Options& options, const Drive& drive) {
   LifeSettings settings;
   read_rows(options, kLifeRows, settings);
-  settings.sets.erase("nodes");  // stress_nodes is reduce's key in a shared file
   if (settings.sets.empty())
     for (const DriveMember& member : drive.members) settings.sets[member.name] = {"root"};
   if (settings.output.empty()) settings.output = drive_stem(options) + "_life.h5";

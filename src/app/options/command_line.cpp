@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "app/options/options_file.h"
+#include "app/options/petsc_names.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::app {
@@ -39,21 +40,31 @@ bool is_option(const std::string& word) {
   return !number || *end == '_' || std::isalnum(static_cast<unsigned char>(*end));
 }
 
-void check_words(int argc, char** argv) {
-  bool options_began = false;
+std::vector<GivenOption> given_options(int argc, char** argv) {
+  std::vector<GivenOption> words;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (!is_option(word)) {
-      require(!options_began, "'", word,
+      require(words.empty(), "'", word,
               "' belongs to no option: an option takes one value, a list is written a,b without blanks, and "
               "files stand before the options");
       continue;
     }
-    options_began = true;
     const bool has_value = i + 1 < argc && !is_option(argv[i + 1]);
-    check_options_source(word, has_value ? argv[i + 1] : "");
+    words.push_back({word.substr(word.starts_with("--") ? 2 : 1), has_value ? argv[i + 1] : ""});
     if (has_value) ++i;
   }
+  return expanded(words);
+}
+
+std::vector<std::string> words_of_petsc(const std::string& program, const std::vector<GivenOption>& options) {
+  std::vector<std::string> words = {program};
+  for (const GivenOption& option : options) {
+    if (!is_petsc_name(option.name)) continue;
+    words.push_back("-" + option.name);
+    if (!option.value.empty()) words.push_back(option.value);
+  }
+  return words;
 }
 
 }  // namespace elastogear::app

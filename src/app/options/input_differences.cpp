@@ -82,8 +82,7 @@ void add_changed_files(const Entries& now, const Entries& then, std::vector<Inpu
     if (!key.starts_with(kOptionKey)) continue;
     for (const std::string& file : items_of(value)) {
       const auto found = then.find(fingerprint_key(file));
-      if (found == then.end() || !seen.insert(file).second || !std::filesystem::is_regular_file(file))
-        continue;
+      if (found == then.end() || !seen.insert(file).second || !is_file(file)) continue;
       const std::string here = file_fingerprint(file);
       if (here == found->second) continue;
       all.push_back({key.substr(kOptionKey.size()), file + " before it changed", file + " as it is"});

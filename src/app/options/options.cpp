@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/options/command_line.h"
 #include "app/options/options_file.h"
 #include "app/options/petsc_names.h"
 #include "app/options/spelling.h"
@@ -56,18 +57,24 @@ const std::map<std::string, std::string> kRenamed = {
     {"contact_crease", "contact_feature_angle"},
     {"contact_smooth", "contact_surface: facets, smooth or exact"}};
 
-// "-modes (number of modes)"; of equally near ones the program's own comes first.
-std::string nearest_option(const std::string& name, const OptionTable& own) {
+// "-modes (number of modes)"; of equally near ones the running verb's come first, then those of others, then
+// PETSc's. in_file: where PETSc's options are rare, only those that begin as the name does are meant.
+std::string nearest_option(const std::string& name, const OptionTable& own, const OptionTable& known,
+                           bool in_file) {
   const OptionSpec* best = nullptr;
-  for (const OptionSpec& spec : own)
-    if (!best || misspelling(name, spec.name) < misspelling(name, best->name)) best = &spec;
-  const std::string prefix = name.starts_with("elastic_") ? "elastic_" : "";
+  for (const OptionTable* table : {&own, &known})
+    for (const OptionSpec& spec : *table)
+      if (!best || misspelling(name, spec.name) < misspelling(name, best->name)) best = &spec;
+  const std::string prefix = name.starts_with("elastic_") ? "elastic_" : "",
+                    object = name.substr(0, name.find('_') + 1);
   std::string petsc;
-  for (const std::string& word : petsc_names())
+  for (const std::string& word : petsc_names()) {
+    if (in_file && (object.empty() || !(prefix + word).starts_with(object))) continue;
     if (petsc.empty() || misspelling(name, prefix + word) < misspelling(name, petsc)) petsc = prefix + word;
+  }
   if (!best || (!petsc.empty() && misspelling(name, petsc).edits < misspelling(name, best->name).edits))
     return "-" + petsc + " (PETSc's or SLEPc's)";
-  return "-" + best->name + " (" + best->help + ")";
+  return "-" + best->name + (best->help.empty() ? "" : " (" + best->help + ")");
 }
 
 std::string text_on_all_ranks(const std::string& file) {
@@ -106,7 +113,8 @@ Options Options::of_files(std::string verb, const OptionTable& own, const std::v
 
 void Options::insert(const std::string& text, const std::string& name, Source source) {
   for (const YamlEntry& entry : parse_yaml(text, name)) {
-    check(PetscOptionsSetValue(nullptr, ("-" + entry.name).c_str(), entry.value.c_str()));
+    given_[entry.name] = entry.value;
+    bare_.erase(entry.name);
     place_.erase(entry.name);
     if (source == Source::file) place_[entry.name] = name + ", line " + std::to_string(entry.line);
     if (source != Source::chosen) written_[entry.name] = entry.value;
@@ -115,25 +123,50 @@ void Options::insert(const std::string& text, const std::string& name, Source so
 
 void Options::promote_own_section() {
   const std::string section = verb_ + "_";
-  for (const auto& [name, value] : options_in_database())
+  const std::map<std::string, std::string> all = given_;
+  for (const auto& [name, value] : all)
     if (name.starts_with(section)) {
       const std::string own = name.substr(section.size());
-      check(PetscOptionsSetValue(nullptr, ("-" + own).c_str(), value.c_str()));
-      check(PetscOptionsClearValue(nullptr, ("-" + name).c_str()));
+      given_.erase(name);
+      given_[own] = value;
+      promoted_.insert(own);
+      if (bare_.contains(name)) bare_.insert(own);
       if (place_.contains(name)) place_[own] = place_[name];
       if (written_.contains(name)) written_[own] = written_[name];
     }
 }
 
-// Their lines; PETSc itself takes their options.
+// of_environment: what PETSc has read from there and from its own files. The words follow each other as they
+// were written.
+void Options::insert_command_line(const std::map<std::string, std::string>& of_environment, int argc,
+                                  char** argv) {
+  for (const auto& [name, value] : of_environment) {
+    given_[name] = value;
+    if (value.empty()) bare_.insert(name);
+  }
+  for (const GivenOption& option : given_options(argc, argv)) {
+    given_[option.name] = option.value;
+    bare_.erase(option.name);
+    if (option.value.empty()) bare_.insert(option.name);
+    place_.erase(option.name);
+    if (!option.place.empty()) place_[option.name] = option.place;
+  }
+}
+
 void Options::note_options_files(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i)
-    if (const std::string name = argv[i + 1]; names_options_file(argv[i]) && name.find("${") == name.npos) {
-      const std::string path = path_of_options_file(name);
-      for (const OptionLine& line : read_options_file(name))
-        place_[line.name] = path + ", line " + std::to_string(line.line);
-      files_.push_back(path);
-    }
+    if (argv[i][0] == '-' && names_options_file({argv[i] + 1, argv[i + 1]}))
+      files_.push_back(path_of_options_file(argv[i + 1]));
+}
+
+// Not all of them: its database holds 512.
+void Options::give_to_petsc() const {
+  for (const auto& [name, value] : given_) {
+    if (!is_petsc_name(name)) continue;
+    check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value.empty() ? nullptr : value.c_str()));
+    // Our own keys count as used; PETSc's are checked after the run.
+    if (has(known_, name)) check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
+  }
 }
 
 std::string Options::in_own_unit(const std::string& name, const std::string& value) const {
@@ -148,7 +181,11 @@ std::string Options::unit_of(const std::string& name) const {
 }
 
 void Options::convert_units() {
-  for (auto& [name, value] : given_) value = in_own_unit(name, value);
+  for (auto& [name, value] : given_) {
+    const std::string converted = in_own_unit(name, value);
+    if (converted != value) with_unit_.insert(name);
+    value = converted;
+  }
 }
 
 // The command line and what a program chooses win over files, which say something else.
@@ -161,8 +198,11 @@ void Options::note_overrides() {
 }
 
 void Options::load(const OptionSources& sources) {
-  int argc = sources.argc;
+  int n_words = 1;  // PETSc's own files and the environment alone
   char** argv = sources.argv;
+  check(PetscOptionsInsert(nullptr, &n_words, &argv, nullptr));
+  const std::map<std::string, std::string> of_environment = options_in_database();
+  insert_command_line(of_environment, sources.argc, sources.argv);  // keys of the verb's section among them
   for (const std::string& file : sources.files) {
     insert(text_on_all_ranks(file), file, Source::file);
     files_.push_back(file);
@@ -172,28 +212,18 @@ void Options::load(const OptionSources& sources) {
     files_.push_back(text.name);
   }
   promote_own_section();
-  given_in_files_ = options_in_database();
-  check(PetscOptionsInsert(nullptr, &argc, &argv, nullptr));
-  given_ = options_in_database();
-  std::erase_if(place_, [&](const auto& place) {  // the command line wins
-    const auto now = given_.find(place.first), then = given_in_files_.find(place.first);
-    return now == given_.end() || then == given_in_files_.end() || now->second != then->second;
-  });
+  given_in_files_ = given_;
+  insert_command_line(of_environment, sources.argc, sources.argv);
+  note_options_files(sources.argc, sources.argv);
   for (const OptionText& text : sources.chosen) insert(text.yaml, text.name, Source::chosen);
-  given_ = options_in_database();
-  note_options_files(argc, argv);
-  const std::map<std::string, std::string> as_written = given_;
-  convert_units();
-  note_overrides();
-  for (auto& [name, value] : given_) {
-    if (value != as_written.at(name))  // PETSc reads some of them itself
-      check(PetscOptionsSetValue(nullptr, ("-" + name).c_str(), value.c_str()));
+  for (const auto& [name, value] : given_) {
     const auto equals = name.find('=');
     require(equals == name.npos, label(name), ": write the name and its value as two words, -",
             name.substr(0, equals), " ", equals == name.npos ? "" : name.substr(equals + 1));
-    // our own keys count as used; PETSc's are checked after the run
-    if (has(known_, name)) check(PetscOptionsHasName(nullptr, nullptr, ("-" + name).c_str(), nullptr));
   }
+  convert_units();
+  note_overrides();
+  give_to_petsc();
 }
 
 void Options::reject_unknown(const PlaceholderValues& given_values) const {
@@ -212,7 +242,8 @@ void Options::reject_unknown(const PlaceholderValues& given_values) const {
       continue;
     }
     fail("unknown ", label(name), value.empty() ? "" : " = '" + value + "'", "; the nearest known option is ",
-         nearest_option(name, expand(own_, values)), ". 'elastogear ", verb_, " -help' lists all.");
+         nearest_option(name, expand(own_, values), known, written_.contains(name)), ". 'elastogear ", verb_,
+         " -help' lists all.");
   }
 }
 
@@ -262,7 +293,8 @@ int Options::count(const std::string& name, int smallest) const {
 }
 
 bool Options::flag(const std::string& name) const {
-  if (given(name) && given_.at(name).empty()) return true;
+  if (bare_.contains(name) && given(name) && given_.at(name).empty()) return true;
+  require(!given(name) || !given_.at(name).empty(), label(name), ": is empty, write true or false");
   return choice(name, {"false", "true", "no", "yes", "0", "1"}) % 2 == 1;
 }
 
@@ -315,6 +347,8 @@ Options Options::of_section(const std::string& section, const std::vector<std::s
 void Options::take(const std::string& own, const Options& from, const std::string& name,
                    const std::string& value) {
   given_[own] = value;
+  from.bare_.contains(name) ? void(bare_.insert(own)) : void(bare_.erase(own));
+  from.with_unit_.contains(name) ? void(with_unit_.insert(own)) : void(with_unit_.erase(own));
   place_.erase(own);
   in_files_.erase(own);
   by_default_.erase(own);
@@ -374,8 +408,13 @@ int Options::choice(const std::string& name, const std::vector<std::string>& all
 
 std::vector<std::string> Options::placeholder_values(const std::string& pattern) const {
   std::vector<std::string> values;
+  const auto is_of_another = [&](const std::string& name) {
+    const auto is_it = [&](const OptionSpec& spec) { return spec.name == name; };
+    return std::any_of(known_.begin(), known_.end(), is_it) && !promoted_.contains(name) &&
+           std::none_of(own_.begin(), own_.end(), is_it);
+  };
   for (const auto& [name, value] : given_)
-    if (const auto word = placeholder(pattern, name)) values.push_back(*word);
+    if (const auto word = placeholder(pattern, name); word && !is_of_another(name)) values.push_back(*word);
   return values;
 }
 

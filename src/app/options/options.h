@@ -32,9 +32,9 @@ class Options {
   /// `known`: tables of all verbs (a file may serve several verbs); `own`: the running verb's table.
   Options(std::string verb, OptionTable own, OptionTable known);
 
-  /// Inserts files and texts, promotes keys of the verb's own section ("recover_output" -> "output"), then
-  /// inserts the command line again, then what is chosen. Throws Error for missing or malformed files, naming
-  /// the line. Collective.
+  /// Takes files and texts, promotes keys of the verb's own section ("recover_output" -> "output"), then
+  /// takes the command line, then what is chosen. PETSc's options go to its database, too. Throws Error for
+  /// missing or malformed files, naming the line. Collective.
   void load(const OptionSources& sources);
 
   /// The verb's options as YAML files have them, later ones first, apart from those of the run. Throws Error
@@ -62,7 +62,12 @@ class Options {
   /// The position of the value among `allowed`, else Error listing them.
   int choice(const std::string& name, const std::vector<std::string>& allowed) const;
 
+  /// Was it written with a unit, "1500 rpm"?
+  bool has_unit(const std::string& name) const { return with_unit_.contains(name); }
+
   /// Names given by the user that fit a pattern "material_<set>_E", with what the placeholder stands for.
+  /// What is an option of another verb, letter by letter, is none, "stress_recovery" of "stress_<body>", but
+  /// in the verb's own section.
   std::vector<std::string> placeholder_values(const std::string& pattern) const;
 
   /// The same with the keys of a section, "pinion_modes", in place of the verb's own ones, "modes", but for
@@ -105,7 +110,9 @@ class Options {
   enum class Source { file, text, chosen };
   void insert(const std::string& text, const std::string& name, Source source);
   void promote_own_section();
+  void insert_command_line(const std::map<std::string, std::string>& of_environment, int argc, char** argv);
   void note_options_files(int argc, char** argv);
+  void give_to_petsc() const;
   void convert_units();
   std::string in_own_unit(const std::string& name, const std::string& value) const;
   void note_overrides();
@@ -114,6 +121,9 @@ class Options {
   std::string verb_;
   OptionTable own_, known_;
   std::map<std::string, std::string> given_, given_in_files_;
+  std::set<std::string> bare_;                   // given by their names alone, as flags are
+  std::set<std::string> promoted_;               // of given_, from the verb's own section
+  std::set<std::string> with_unit_;              // of given_, written with a unit
   std::map<std::string, std::string> place_;     // of given_in_files_: "file.yaml, line 3"
   std::map<std::string, std::string> written_;   // by files and texts
   std::map<std::string, std::string> in_files_;  // of options whose value is another one; empty: none

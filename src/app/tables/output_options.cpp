@@ -37,7 +37,7 @@ std::string sensor_table(const std::string& output, const std::string& sensor) {
 // s; empty when none are given. A file of times holds one a line.
 std::vector<double> times(const Options& options, const std::string& name) {
   std::vector<std::string> words = options.list(name);
-  const bool file = words.size() == 1 && std::filesystem::is_regular_file(words[0]);
+  const bool file = words.size() == 1 && is_file(words[0]);
   const std::string where = "option -" + name + (file ? ", " + words[0] : std::string());
   if (file) words = words_of(words[0]);
   std::vector<double> all;

@@ -74,7 +74,6 @@ RecoverSettings recover_settings(const Options& options) {
   read_rows(options, kRecoverRows, settings);
   require(settings.all_fields || !options.given("field_every"),
           "option -field_every = ", settings.field_every, ": goes with -field_times all only");
-  settings.stress.erase("nodes");  // stress_nodes is reduce's key in a shared file
   if (settings.fields.empty())
     settings.fields = std::filesystem::path(settings.result).replace_extension().string();
   return settings;
