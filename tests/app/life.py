@@ -161,7 +161,7 @@ def look(program, scripts):
 
     # Survival, a CSV file, a gear's own curve.
     with open("cycle.csv", "w", encoding="utf-8") as file:
-        file.write("torque [N m], time [h], speed [rpm]\n100, 2, 1500\n")
+        file.write("torque [kN m], time [min], speed [1/min]\n0.1, 120, 1500\n")
     run(*two, "-duty_cycle", "cycle.csv", "-survival", "0.9", "-sn_scatter", "1.3", "-wheel_sn_knee_stress", "200 MPa")
     with open("drive_life.json", encoding="utf-8") as file:
         pinion, wheel = json.load(file)["sets"]

@@ -11,10 +11,15 @@
 
 namespace elastogear::io {
 
-/// Lines split into fields at blanks and commas. Errors name source and line.
+/// Lines split into fields. Errors name source and line.
 class DelimitedReader {
  public:
-  DelimitedReader(std::istream& in, std::string source) : in_(&in), source_(std::move(source)) {}
+  /// any: fields are apart by blanks and commas. one: by commas where the first line that is no comment has
+  /// one, otherwise by blanks outside brackets, so that "100,5 1e6" is no line of three numbers.
+  enum class Separator { any, one };
+
+  DelimitedReader(std::istream& in, std::string source, Separator separator = Separator::any)
+      : in_(&in), source_(std::move(source)), separator_(separator) {}
   DelimitedReader(const DelimitedReader&) = delete;
   DelimitedReader& operator=(const DelimitedReader&) = delete;
 
@@ -37,6 +42,8 @@ class DelimitedReader {
   static constexpr int kBuffer = 1024;
   std::istream* in_;
   std::string source_;
+  Separator separator_;
+  bool by_commas_ = false, by_blanks_ = false;  // as the first line says, of `one`
   std::int64_t line_ = 0;
   char buffer_[kBuffer] = {};
   std::vector<std::string_view> fields_;

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/options/units.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
@@ -46,13 +47,13 @@ Case case_of_row(const std::vector<std::string>& heading, const std::vector<std:
   require(!c.name.empty() && plain, where, ": '", c.name,
           "' is no name of a case: it must not be empty nor hold slashes or quotes");
   if (number_in_column(c, kPositions) == 0) return c;
-  require(std::filesystem::is_regular_file(c.file), where, ": there is no file ", c.file);
+  require(is_file(c.file), where, ": there is no file ", c.file);
   return c;
 }
 
 std::vector<Case> read_table(const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / kCasesTable).string();
-  require(std::filesystem::is_regular_file(path), folder, ": is a folder without ", kCasesTable,
+  require(is_file(path), folder, ": is a folder without ", kCasesTable,
           ", the table that a sweep of several cases leaves; name a result file");
   std::istringstream in(read_file(path));
   std::string line;
@@ -78,15 +79,17 @@ std::vector<Case> read_table(const std::string& folder) {
 
 std::vector<Case> read_cases(const std::string& path) {
   if (std::filesystem::is_directory(path)) return read_table(path);
-  require(std::filesystem::is_regular_file(path), path,
+  require(is_file(path), path,
           ": there is no such result; run 'elastogear simulate' with analysis: sweep, or name it by -result");
   return {{std::filesystem::path(path).stem().string(), path}};
 }
 
 double number_in_column(const Case& of, const std::string& heading) {
   for (const auto& [name, text] : of.columns)
-    if (name == heading || name.starts_with(heading + " ["))
-      if (const auto value = parse<double>(text)) return *value;
+    if (name == heading || name.starts_with(heading + " [")) {
+      const std::string unit = unit_of_heading(name), number = unit.empty() ? text : text + " " + unit;
+      if (const auto value = parse<double>(in_unit("column " + name, number, "N m"))) return *value;
+    }
   return std::numeric_limits<double>::quiet_NaN();
 }
 

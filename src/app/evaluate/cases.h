@@ -18,7 +18,8 @@ struct Case {
 /// Throws Error naming file and line where the table is wrong.
 std::vector<Case> read_cases(const std::string& path);
 
-/// The number that a column holds, such as "torque" or "torque [N m]"; NaN where it holds none.
+/// The number that a column holds, such as "torque" or "torque [kN m]", in N m where it is a torque; NaN
+/// where it holds none.
 double number_in_column(const Case& of, const std::string& heading);
 
 }  // namespace elastogear::app

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
+#include "app/column_table.h"
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
-#include "elastogear/io/delimited_reader.h"
 
 namespace elastogear::app {
 namespace {
@@ -78,15 +77,15 @@ Bearing all_bearings(const Options& options, const DriveMember& member) {
 }
 
 Bearing in_catalogue(const std::string& file, const std::string& designation) {
-  std::ifstream in(file);
-  require(in.good(), file, ": cannot be read");
-  io::DelimitedReader reader(in, file);
-  while (reader.next("#")) {
-    if (reader.fields()[0] != designation) continue;
-    if (reader.fields().size() != 4)
-      reader.fail_here(
+  ColumnTable table(file);
+  while (table.next()) {
+    if (table.text(0) != designation) continue;
+    if (table.n_columns() != 4)
+      table.fail_here(
           "must be a designation, radial and axial stiffness (N/m) and that against tilting (N m/rad)");
-    return {.radial = reader.number(1), .axial = reader.number(2), .tilt = reader.number(3)};
+    return {.radial = table.number(1, "N/m"),
+            .axial = table.number(2, "N/m"),
+            .tilt = table.number(3, "N m/rad")};
   }
   fail(file, ": has no line of bearing '", designation, "'");
 }

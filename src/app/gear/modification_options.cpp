@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <tuple>
 
+#include "app/column_table.h"
 #include "app/console/console.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
-#include "elastogear/io/delimited_reader.h"
 
 namespace elastogear::app {
 namespace {
@@ -122,7 +121,7 @@ Eigen::VectorXd index_deviations(const Options& options, const DriveMember& memb
   return index;
 }
 
-int side_number(const io::DelimitedReader& reader, std::string_view side) {
+int side_number(const ColumnTable& reader, const std::string& side) {
   if (side == "left") return 1;
   if (side == "right") return -1;
   if (side != "both") reader.fail_here("side '", side, "' must be left, right or both");
@@ -134,16 +133,14 @@ using Points = std::map<std::pair<double, double>, double>;
 using Flanks = std::map<std::pair<int, int>, Points>;  // by tooth and side
 
 Flanks read_flanks(const std::string& file, const DriveMember& member) {
-  std::ifstream in(file);
-  require(in.good(), file, ": cannot be read");
-  io::DelimitedReader reader(in, file);
+  ColumnTable reader(file);
   Flanks flanks;
-  while (reader.next("#d")) {  // comments, and a heading that begins with diameter
-    const std::size_t n = reader.fields().size();
+  while (reader.next()) {
+    const std::size_t n = reader.n_columns();
     if (n != 3 && n != 5)
       reader.fail_here("must be diameter, z and height in m, or these with tooth and side");
-    const double diameter = reader.number(0), z = reader.number(1);
-    const double tooth = n == 5 ? reader.number(3) : 0;
+    const double diameter = reader.number(0, "m"), z = reader.number(1, "m");
+    const double tooth = n == 5 ? reader.number(3, "-") : 0;
     if (diameter < 2 * member.toothing.r_b ||
         diameter > 2.02 * std::max(member.toothing.r_a, member.toothing.r_f))
       reader.fail_here("diameter ", diameter, " m is not on the flank, which has diameters of ",
@@ -152,10 +149,10 @@ Flanks read_flanks(const std::string& file, const DriveMember& member) {
       reader.fail_here("z = ", z, " m is far off the face, ", member.width, " m wide");
     if (tooth != std::floor(tooth) || tooth < 0 || tooth > member.toothing.z)
       reader.fail_here("tooth ", tooth, " is not there, teeth are 1 to ", member.toothing.z, ", 0 means all");
-    const int side = n == 5 ? side_number(reader, reader.fields()[4]) : 0;
+    const int side = n == 5 ? side_number(reader, reader.text(4)) : 0;
     const bool fresh =
         flanks[{static_cast<int>(tooth) - 1, side}]
-            .try_emplace({gear::length_of_roll(member.toothing, diameter / 2), z}, reader.number(2))
+            .try_emplace({gear::length_of_roll(member.toothing, diameter / 2), z}, reader.number(2, "m"))
             .second;
     if (!fresh) reader.fail_here("this point of the flank is given twice");
   }

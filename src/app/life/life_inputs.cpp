@@ -8,6 +8,7 @@
 
 #include "app/drive_input.h"
 #include "app/finite_elements.h"
+#include "app/options/units.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/text.h"
@@ -84,7 +85,9 @@ std::vector<SweptTorque> of_cases(const Options& options, const std::string& tab
     if (!variant.empty() && fields[name] != variant) continue;
     require(!fields[file].empty(), table, ": the case '", line, "' has no file: no position was found");
     const std::string path = (fs::path(table).parent_path() / fields[file]).string();
-    const auto value = parse<double>(fields[torque]);
+    const std::string unit = unit_of_heading(heading[torque]);
+    const auto value =
+        parse<double>(unit.empty() ? fields[torque] : in_unit(table, fields[torque] + " " + unit, "N m"));
     require(value.has_value(), table, ": torque '", fields[torque], "' is no number");
     all.push_back({path, sense * *value, is_stress_file(path)});
   }

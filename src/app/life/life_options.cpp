@@ -1,16 +1,15 @@
 #include "app/life/life_options.h"
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <optional>
 
+#include "app/column_table.h"
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
 #include "app/options/units.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
-#include "elastogear/io/delimited_reader.h"
 
 namespace elastogear::app {
 namespace {
@@ -129,25 +128,19 @@ Block entry(const Options& options, const std::string& torque, const std::string
 }
 
 std::vector<Block> read_duty_cycle(const std::string& file) {
-  std::ifstream in(file);
-  require(in.good(), file, ": cannot be read");
-  io::DelimitedReader reader(in, file);
+  ColumnTable reader(file);
   std::vector<Block> blocks;
-  while (reader.next("#t")) {  // comments, and a heading that begins with torque
-    const std::size_t n = reader.fields().size();
+  while (reader.next()) {
+    const std::size_t n = reader.n_columns();
     if (n != 2 && n != 3)
       reader.fail_here(
           "must be a torque in N m and revolutions, or a torque in N m, hours and a speed in rpm");
-    const double amount = reader.number(1);
-    double revolutions = amount, time = 0;
-    if (n == 3) {
-      time = 3600 * amount;
-      revolutions = amount * 60 * std::abs(reader.number(2));
-    }
-    if (reader.number(0) == 0 || !(revolutions > 0))
-      reader.fail_here("torque ", reader.number(0), " N m must not be 0, and ", revolutions,
+    const double torque = reader.number(0, "N m"), time = n == 3 ? 3600 * reader.number(1, "h") : 0;
+    const double revolutions = n == 3 ? time / 60 * std::abs(reader.number(2, "rpm")) : reader.number(1, "-");
+    if (torque == 0 || !(revolutions > 0))
+      reader.fail_here("torque ", torque, " N m must not be 0, and ", revolutions,
                        " revolutions must be > 0");
-    blocks.push_back({reader.number(0), revolutions, time});
+    blocks.push_back({torque, revolutions, time});
   }
   require(!blocks.empty(), file, ": has no blocks");
   return blocks;

@@ -26,6 +26,7 @@ enum class Quantity {
   frequency,
   density,
   stiffness,
+  tilt,
   wear,
   temperature,
   molar_energy,
@@ -72,6 +73,7 @@ constexpr Unit kUnits[] = {{"nm", length, 1e-9},
                            {"MPa", pressure, 1e6},
                            {"N/mm^2", pressure, 1e6},
                            {"GPa", pressure, 1e9},
+                           {"kN/mm^2", pressure, 1e9},
                            {"rad/s", speed, 1},
                            {"rpm", speed, std::numbers::pi / 30},
                            {"1/min", speed, std::numbers::pi / 30},
@@ -83,10 +85,14 @@ constexpr Unit kUnits[] = {{"nm", length, 1e-9},
                            {"kHz", frequency, 1e3},
                            {"kg/m^3", density, 1},
                            {"g/cm^3", density, 1e3},
+                           {"t/mm^3", density, 1e12},
                            {"N/m", stiffness, 1},
                            {"N/mm", stiffness, 1e3},
                            {"N/um", stiffness, 1e6},
                            {"N/µm", stiffness, 1e6},
+                           {"kN/mm", stiffness, 1e6},
+                           {"N m/rad", tilt, 1},
+                           {"kN m/rad", tilt, 1e3},
                            {"m^2/N", wear, 1},
                            {"mm^2/N", wear, 1e-6},
                            {"mm^3/(N m)", wear, 1e-9},
@@ -137,6 +143,13 @@ std::string units_like(const std::string& unit) {
         std::isprint(static_cast<unsigned char>(other.name[0])))
       all += (all.empty() ? "" : ", ") + std::string(other.name);
   return all;
+}
+
+std::string unit_of_heading(const std::string& heading) {
+  const auto open = heading.find('['), close = heading.find(']', open);
+  if (open == heading.npos || close == heading.npos) return "";
+  const std::string unit = trimmed(heading.substr(open + 1, close - open - 1));
+  return unit == "1" || unit == "-" ? "" : unit;
 }
 
 std::string in_unit(const std::string& label, const std::string& text, const std::string& unit) {

@@ -12,6 +12,9 @@ namespace elastogear::app {
 /// those known ("-"), nothing is done.
 std::string in_unit(const std::string& label, const std::string& text, const std::string& unit);
 
+/// "kN m" of the heading of a column, "torque [kN m]"; empty where it has none, or 1.
+std::string unit_of_heading(const std::string& heading);
+
 /// The units that in_unit knows for what `unit` measures, "um, mm, cm, m"; empty when it knows none.
 std::string units_like(const std::string& unit);
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 
+#include "app/column_table.h"
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
@@ -17,7 +17,6 @@
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"
 #include "elastogear/gear/flank.h"
-#include "elastogear/io/delimited_reader.h"
 
 namespace elastogear::app {
 namespace {
@@ -226,15 +225,13 @@ void add_flanks(const Teeth& teeth, const std::string& file, const std::string& 
 
 void add_deviations(const std::string& file, const std::string& body, const model::Surface& surface,
                     contact::TrueSurface& known) {
-  std::ifstream in(file);
-  require(in.good(), file, ": cannot be read");
-  io::DelimitedReader reader(in, file);
+  ColumnTable reader(file);
   const double allowed = contact::face_size(surface.X, surface.face);
   known.deviation = Eigen::VectorXd::Zero(surface.X.cols());
   std::vector<bool> given(surface.node.size(), false);
-  while (reader.next("#n")) {  // comments, and a heading that begins with node
-    if (reader.fields().size() != 2) reader.fail_here("must be two numbers, a node and its deviation in m");
-    const double number = reader.number(0), value = reader.number(1);
+  while (reader.next()) {
+    if (reader.n_columns() != 2) reader.fail_here("must be two numbers, a node and its deviation in m");
+    const double number = reader.number(0, "-"), value = reader.number(1, "m");
     const auto at = std::lower_bound(surface.node.begin(), surface.node.end(), number);
     if (at == surface.node.end() || *at != number)
       reader.fail_here("node ", number, " is not on the surface of body '", body,

@@ -107,7 +107,7 @@ std::string padded(std::size_t number) {
 // A column `variant` holds the names, which else are numbers; an empty field leaves the drive's value.
 std::vector<Variant> variants_of_table(const std::string& file, const OptionTable& keys) {
   std::istringstream in(read_file(file));
-  std::vector<std::string> head;
+  std::vector<std::string> head, units;
   std::vector<Variant> variants;
   std::string text;
   for (int line = 1; std::getline(in, text); ++line) {
@@ -116,9 +116,11 @@ std::vector<Variant> variants_of_table(const std::string& file, const OptionTabl
     if (fields.size() == 1 && fields[0].empty()) continue;
     if (fields[0].starts_with('#')) continue;
     if (head.empty()) {
-      head = fields;
-      for (const std::string& key : head)
-        if (key != "variant") spec_of(keys, {where, key, ""});
+      for (const std::string& field : fields) {
+        units.push_back(unit_of_heading(field));
+        head.push_back(field.substr(0, field.find_last_not_of(' ', field.find('[') - 1) + 1));
+        if (head.back() != "variant") spec_of(keys, {where, head.back(), ""});
+      }
       continue;
     }
     require(fields.size() == head.size(), where, ": has ", fields.size(), " fields, the line of keys has ",
@@ -128,7 +130,7 @@ std::vector<Variant> variants_of_table(const std::string& file, const OptionTabl
       if (head[i] == "variant")
         variant.name = fields[i];
       else if (!fields[i].empty())
-        add(keys, {where, head[i], fields[i]}, variant);
+        add(keys, {where, head[i], units[i].empty() ? fields[i] : fields[i] + " " + units[i]}, variant);
     variants.push_back(variant);
   }
   require(!variants.empty(), file, ": holds no variants: a line of keys, and one line for each variant");

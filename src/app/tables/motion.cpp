@@ -1,9 +1,8 @@
 #include "app/tables/motion.h"
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
+#include "app/column_table.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 
@@ -20,31 +19,22 @@ struct Table {
   std::vector<double> time, value;
 };
 
-// Two columns separated by commas; one row of headings may come first.
-Table read_table(const std::string& path) {
-  std::ifstream file(path);
-  require(file.good(), path, ": cannot be read");
+// Two columns of numbers, in SI units, the second in `unit`.
+Table read_table(const std::string& path, const std::string& unit, const std::string& unit_of_first = "s") {
+  ColumnTable columns(path);
   Table table;
-  std::string line;
-  for (int row = 1; std::getline(file, line); ++row) {
-    for (char& c : line)
-      if (c == ',') c = ' ';
-    std::istringstream stream(line);
-    double time = 0, value = 0;
-    const bool numbers = static_cast<bool>(stream >> time >> value);
-    const bool blank = line.find_first_not_of(" \t\r") == std::string::npos;
-    if (blank || (row == 1 && !numbers)) continue;
-    require(numbers && (stream >> std::ws).eof(), path, ", line ", row, ": must be two numbers");
-    table.time.push_back(time);
-    table.value.push_back(value);
+  while (columns.next()) {
+    if (columns.n_columns() != 2) columns.fail_here("must be two numbers");
+    table.time.push_back(columns.number(0, unit_of_first));
+    table.value.push_back(columns.number(1, unit));
   }
   return table;
 }
 
 // The file's name is added to what is wrong with its table.
 template <class Make>
-auto from_table(const std::string& path, const Make& make) {
-  Table table = read_table(path);
+auto from_table(const std::string& path, const std::string& unit, const Make& make) {
+  Table table = read_table(path, unit);
   try {
     return make(std::move(table.time), std::move(table.value));
   } catch (const Error& error) {
@@ -64,7 +54,8 @@ dynamics::Signal signal(const Options& options, const std::string& name) {
   if (words.size() == 1) return dynamics::constant_signal(number(name, words[0]));
   if (words.size() == 3 && words[0] == "ramp")
     return dynamics::ramp_signal(number(name, words[1]), number(name, words[2]));
-  if (words.size() == 2 && words[0] == "table") return from_table(words[1], dynamics::table_signal);
+  if (words.size() == 2 && words[0] == "table")
+    return from_table(words[1], options.unit_of(name), dynamics::table_signal);
   refuse(name, "a number, [ramp, VALUE, DURATION] or [table, FILE.csv]");
 }
 
@@ -76,7 +67,7 @@ model::DampingRatio damping_ratio(const Options& options, const std::string& nam
     damping = {{0}, {number(name, words[0])}};
   } else {
     if (words.size() != 2 || words[0] != "table") refuse(name, "a number or [table, FILE.csv]");
-    Table table = read_table(words[1]);
+    Table table = read_table(words[1], "-", "Hz");
     require(!table.time.empty(), words[1], ": the table is empty");
     damping = {std::move(table.time), std::move(table.value)};
   }
@@ -90,10 +81,11 @@ dynamics::Drive drive(const Options& options, const std::string& name, double s_
   if (words.size() == 3 && words[0] == "spin_up")
     return dynamics::spin_up_drive(s_0, number(name, words[1]), number(name, words[2]));
   if (words.size() == 2 && words[0] == "table") {
-    return from_table(words[1], [&](std::vector<double> time, std::vector<double> value) {
-      for (double& s : value) s += s_0;
-      return dynamics::table_drive(std::move(time), std::move(value));
-    });
+    return from_table(words[1], options.unit_of(name),
+                      [&](std::vector<double> time, std::vector<double> value) {
+                        for (double& s : value) s += s_0;
+                        return dynamics::table_drive(std::move(time), std::move(value));
+                      });
   }
   refuse(name, "[speed, VALUE], [spin_up, VALUE, DURATION] or [table, FILE.csv]");
 }
