@@ -12,6 +12,7 @@
 #include "app/tables/reduce_options.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/describe.h"
@@ -79,7 +80,8 @@ std::string as_options(const std::vector<InputDifference>& differences) {
   std::string text;
   for (const InputDifference& d : differences) {
     const std::string value = d.there.substr(0, d.there.find(' '));
-    if (!d.allowed && (value == d.there || parse<double>(value))) text += " -" + d.name + " " + value;
+    if (d.allowed || (value != d.there && !parse<double>(value))) continue;
+    text += " -" + d.name + " " + (value == d.there ? value : '"' + d.there + '"');
   }
   return text;
 }
@@ -95,7 +97,7 @@ void print_departures(const std::string& body, const std::vector<InputDifference
 
 void require_body(const Options& of_reduce, const DriveMember& member) {
   const std::string file = body_file(of_reduce, member);
-  if (!std::filesystem::is_regular_file(file)) return;  // reading it says what is missing
+  if (!is_file(file)) return;  // reading it says what is missing
   const Provenance provenance = io::read_provenance(file);
   if (!is_of_a_drive(provenance)) return;
   const auto differences = [&] {

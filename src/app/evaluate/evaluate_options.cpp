@@ -4,6 +4,7 @@
 
 #include "app/gear/drive_options.h"
 #include "app/options/rows.h"
+#include "app/sweep/sweep_cases.h"
 
 namespace elastogear::app {
 namespace {
@@ -49,7 +50,7 @@ EvaluateSettings evaluate_settings(const Options& options) {
 Options with_evaluation(Options options, const std::string& folder) {
   const std::string stem = (std::filesystem::path(folder) / drive_stem(options)).string(),
                     cases = stem + "_result", file = cases + ".h5";
-  const bool of_cases = options.given("torques") || options.given("variants");
+  const bool of_cases = sweeps_torques(options) || options.given("variants");
   const bool several = std::filesystem::is_directory(cases) && (of_cases || !std::filesystem::exists(file));
   const auto take = [&](const std::string& name, const std::string& value) {
     folder.empty() ? options.set_default(name, value) : options.set(name, value);

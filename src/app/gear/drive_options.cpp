@@ -38,7 +38,7 @@ const Rows<DriveChoices> kDriveRows = {
     {"<gear>_mesh", "-", "", "drive: mesh file that mesh writes, .msh or .inp (default: <gear>.msh)"},
     {"<gear>_file", "-", "", "drive: body file that reduce writes and simulate reads (default: <gear>.h5)"},
     {"speed", &DriveChoices::speed, "rad/s",
-     "drive: of the first gear at the start of a motion, in that sense"},
+     "drive: of the first gear at the start of a motion, in that sense; with its unit, 1500 rpm"},
 };
 
 // Rows of gear data for a single body, and those that all drives share.
@@ -137,7 +137,15 @@ Options with_gears(Options options) {
   return options;
 }
 
+// A number alone is as likely meant in rpm as in rad/s.
+void require_unit_of_speed(const Options& options) {
+  if (!options.given("speed") || options.number("speed") == 0 || options.has_unit("speed")) return;
+  const std::string value = options.text("speed");
+  fail(options.label("speed"), " = ", value, ": write its unit, '", value, " rpm' or '", value, " rad/s'");
+}
+
 Drive read_drive(const Options& options) {
+  require_unit_of_speed(options);
   refuse_others(options);
   refuse_counts(options);
   const std::vector<std::string> names = options.list("gears");

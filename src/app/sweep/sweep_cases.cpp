@@ -31,7 +31,8 @@ struct CaseChoices {
 };
 
 const Rows<CaseChoices> kCaseRows = {
-    {"torques", &CaseChoices::torques, "N m", "sweep: in place of torque, one case each", kDependent},
+    {"torques", &CaseChoices::torques, "N m", "sweep: in place of a file's torque, one case each",
+     kDependent},
     {"variants", &CaseChoices::variants, "-",
      "sweep: names of variants of the drive, or a CSV file (.csv) with one a line below a line of keys; one "
      "case each, with every torque",
@@ -185,14 +186,22 @@ std::string table_text(const std::string& text) {
 
 OptionTable case_table() { return table_of(kCaseRows); }
 
+bool sweeps_torques(const Options& options) {
+  if (!options.given("torques")) return false;
+  if (!options.given("torque") || !options.overrides_files("torque")) return true;
+  require(!options.overrides_files("torques"), options.label("torques"), ": and ", options.label("torque"),
+          ": give one of them");
+  return false;
+}
+
 SweepCases sweep_cases(const Options& options) {
   CaseChoices choices;
   read_rows(options, kCaseRows, choices);
-  require(choices.torques.empty() || !options.given("torque"), options.label("torques"), ": and ",
-          options.label("torque"), ": give one of them");
+  const bool of_torques = sweeps_torques(options);
+  if (!of_torques) choices.torques.clear();
   SweepCases all;
   all.variants = read_variants(options, choices.variants);
-  all.several = options.given("torques") || options.given("variants");
+  all.several = of_torques || options.given("variants");
   if (choices.torques.empty()) choices.torques.push_back(options.number("torque"));
   const double n = static_cast<double>(choices.torques.size()) * static_cast<double>(all.variants.size());
   require(n <= kMostCases, "a sweep of ", n, " cases: must be at most ", kMostCases);
@@ -203,7 +212,7 @@ SweepCases sweep_cases(const Options& options) {
 
 Options of_case(const Options& options, const SweepCases& all, const SweepCase& one) {
   Options own = options;
-  if (options.given("torques")) own.set("torque", digits_of(one.torque));
+  if (sweeps_torques(options)) own.set("torque", digits_of(one.torque));
   for (const Variant::Key& key : all.variants[static_cast<std::size_t>(one.variant)].keys)
     own.set(key.name, key.value);
   return own;

@@ -31,6 +31,10 @@ struct SweepCases {
   bool several = false;          ///< are there torques or variants? The results go to a folder then
 };
 
+/// Is there a case for each of torques? A torque of the command line goes before torques of a file. Throws
+/// Error where both are given there.
+bool sweeps_torques(const Options& options);
+
 /// options: of a drive, with the names of its gears. Throws Error, naming value and remedy, for keys that
 /// would change mesh or bodies, and tables that cannot be read.
 SweepCases sweep_cases(const Options& options);

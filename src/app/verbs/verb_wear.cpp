@@ -105,9 +105,14 @@ WearCourse wear_down(const Options& options, const Drive& drive, const WearSetti
   return course;
 }
 
-void refuse_several_cases(const Options& options) {
+// Of a file for all verbs torques are those of other sweeps.
+Options with_one_case(Options options) {
+  const bool has_torque = options.given("torque") && !options.overrides_files("torques");
   for (const char* name : {"torques", "variants"})
-    require(!options.given(name), options.label(name), ": wear takes one case, of torque");
+    require(!options.given(name) || (name == std::string("torques") && has_torque), options.label(name),
+            ": wear takes one case, of torque");
+  if (has_torque) options.set("torque", options.text("torque"));
+  return options;
 }
 
 void refuse_single_teeth(const Drive& drive, const Options& options) {
@@ -123,12 +128,11 @@ void refuse_single_teeth(const Drive& drive, const Options& options) {
 void run_wear(const Options& given, const std::vector<std::string>&) {
   use_one_blas_thread();
   require(is_drive(given), "needs a drive file: elastogear wear drive.yaml (docs/drives.md)");
-  const Options options = with_gears(given);
+  const Options options = with_one_case(with_gears(given));
   const Drive drive = read_drive(options);
   std::vector<std::string> names;
   for (const DriveMember& member : drive.members) names.push_back(member.name);
   options.reject_unknown({{"body", names}, {"gear", names}});
-  refuse_several_cases(options);
   refuse_single_teeth(drive, options);
   const WearSettings settings = wear_settings(options);
   const std::string output = output_of(options);
