@@ -113,8 +113,11 @@ std::vector<double> state_now(Run& run, TS ts) {
   return archive.numbers();
 }
 
+// Before the first step there is nothing to go on from, and nothing that a run with other input could lose.
 void keep_state(Run& run, TS ts) {
-  if (!run.checkpoints.keep) return;
+  PetscInt steps = 0;
+  check(TSGetStepNumber(ts, &steps));
+  if (!run.checkpoints.keep || steps == 0) return;
   run.checkpoints.keep(state_now(run, ts));
   run.kept = Clock::now();
 }

@@ -47,6 +47,7 @@ COMMANDS = {
              "-analysis sweep -output kept_run.h5",
     "pull": "{elastogear} simulate -bodies a -a_file body.h5 -loads pull -pull_marker a.END -pull_force 100,0,0 -analysis static "
             "-static_steps 2 -output kept_run.h5",
+    "hard_pull": "{single} -checkpoint_every 0 -loads pull -pull_marker a.END -pull_force 1e12,0,0 -ts_dt 1e-3 -ts_max_time 0.1",
     "recover": "{elastogear} recover -result run.h5 -stress_a MIDDLE -output kept_stress.h5",
     "compare": "{elastogear} compare stress_full.h5 stress.h5 -output kept",
     "mesh": "{elastogear} mesh -part wheel -size tiny -element_order 1 -mesh kept.msh",

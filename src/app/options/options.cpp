@@ -239,6 +239,7 @@ void Options::reject_unknown(const PlaceholderValues& given_values) const {
       fail(label(name), " is now called -", renamed->second);
     if (is_petsc_name(name)) {
       check_petsc_type(label(name), name, value);
+      check_petsc_limits(label(name), name, value);
       continue;
     }
     fail("unknown ", label(name), value.empty() ? "" : " = '" + value + "'", "; the nearest known option is ",

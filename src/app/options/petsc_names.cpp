@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "elastogear/base/error.h"
+#include "elastogear/base/number.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/base/text.h"
@@ -196,6 +197,23 @@ void check_petsc_type(const std::string& label, const std::string& name, const s
     require(std::find(allowed.begin(), allowed.end(), value) != allowed.end(), label, " = '", value,
             "': must be one of ", join(allowed));
   }
+}
+
+void check_petsc_limits(const std::string& label, const std::string& name, const std::string& value) {
+  constexpr double kLargest = 0.1;
+  constexpr const char *kTolerances[] = {"snes_rtol", "snes_stol", "ksp_rtol", "eps_tol"},
+                       *kIterations[] = {"snes_max_it", "ksp_max_it", "eps_max_it"};
+  const auto is_one = [&](const char* option) {
+    const std::string tail = "_" + std::string(option);
+    return name == option || name.ends_with(tail);
+  };
+  const auto number = parse<double>(value);
+  if (!number) return;  // PETSc says so
+  if (std::any_of(std::begin(kTolerances), std::end(kTolerances), is_one))
+    require(*number >= 0 && *number <= kLargest, label, " = ", value, ": must be 0 to ", kLargest,
+            "; nothing is solved with more");
+  if (std::any_of(std::begin(kIterations), std::end(kIterations), is_one))
+    require(*number >= 1, label, " = ", value, ": must be at least 1");
 }
 
 const std::vector<std::string>& petsc_names() { return literals().names; }

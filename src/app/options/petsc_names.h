@@ -15,6 +15,10 @@ const std::vector<std::string>& petsc_names();
 /// ("elastic_mg_levels_1_ksp_type")? True for everything when petsc_names() is empty.
 bool is_petsc_name(const std::string& name);
 
+/// Throws Error that begins with `label` when the option lets a solver, under any prefix, end before it has
+/// begun: relative tolerances (-snes_rtol, -ksp_rtol, -eps_tol and the like) above 0.1, and no iterations.
+void check_petsc_limits(const std::string& label, const std::string& name, const std::string& value);
+
 /// Throws Error that begins with `label` when the option chooses among types of solvers (-eps_type, -st_type,
 /// -snes_type, -ts_type, and -ksp_type and -pc_type under any prefix) and there is none of this name.
 void check_petsc_type(const std::string& label, const std::string& name, const std::string& value);
