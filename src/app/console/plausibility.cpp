@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "app/console/console.h"
+#include "elastogear/io/body_materials.h"
 #include "elastogear/mesh/quality.h"
 
 namespace elastogear::app {
@@ -141,6 +142,21 @@ void warn_of_size(const mesh::Mesh& mesh, double unit_in_m) {
     print_item("warning", is + (unit_in_m == 1 ? ": is it in mm? Then give -unit mm" : ""));
   if (size < kSmallestBody)
     print_item("warning", is + (unit_in_m < 1 ? ": is it in m? Then give -unit m" : ""));
+}
+
+void warn_of_strain(const io::StressSet& set, const std::string& body_file) {
+  constexpr double kLargestStrain = 0.05;
+  double E = 0;
+  for (const model::MaterialRegion& region : io::read_body_materials(body_file).regions)
+    E = std::max(E,
+                 region.material.orthotropic ? region.material.orthotropic->E.maxCoeff() : region.material.E);
+  const double stress = set.von_mises.size() > 0 ? set.von_mises.maxCoeff() : 0;
+  if (E <= 0 || stress <= kLargestStrain * E) return;
+  print_item("warning",
+             set.body + " " + set.set + ": " + with_unit(1e-6 * stress, "MPa") + " stretches it by " +
+                 with_unit(100 * stress / E, "%") +
+                 "or more: the equations are linear in strains, which must be small; are loads and "
+                 "moduli those that were meant?");
 }
 
 void warn_of_idle_pairs(const dynamics::RunSummary& run) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elastogear/dynamics/simulate.h"
+#include "elastogear/io/stress_file.h"
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/model/material.h"
 
@@ -26,6 +27,10 @@ void warn_of_shapes(const mesh::Mesh& mesh, const std::vector<std::int64_t>& cel
 /// A mesh (m) as large as a house, or as small as a grain, was read in another unit. unit_in_m: that it was
 /// read in.
 void warn_of_size(const mesh::Mesh& mesh, double unit_in_m);
+
+/// Stresses that would stretch the stiffest material of the body by more than 5 %: strains that are small is
+/// what the equations are linear in. body_file: where the materials are.
+void warn_of_strain(const io::StressSet& set, const std::string& body_file);
 
 /// Pairs of bodies without a contact in the whole run.
 void warn_of_idle_pairs(const dynamics::RunSummary& run);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "app/console/plausibility.h"
 #include "app/drive_input.h"
 #include "app/evaluate/flank_material.h"
 #include "app/finite_elements.h"
@@ -257,6 +258,7 @@ std::map<std::string, io::StressSet> recover_roots(const DriveOfRun& of, Bodies&
         std::move(body), of.settings.mode_acceleration, of.settings.error_estimate, finite_elements());
     roots[name] = some_times(recovery::recover_stress(recovered, elastic, "root", of.settings.error_estimate),
                              source.steps);
+    warn_of_strain(roots[name], recovered.run.file);
   }
   return roots;
 }

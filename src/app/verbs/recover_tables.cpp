@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/console/console.h"
+#include "app/console/plausibility.h"
 #include "elastogear/io/csv.h"
 
 namespace elastogear::app {
@@ -126,6 +127,7 @@ void print_stress(const recovery::RecoveredBody& body, const io::StressSet& set,
   print_error(body, set);
   print_other_errors(body, set);
   print_item("", "largest tension (Rankine) " + peak_text(set, set.rankine, times));
+  warn_of_strain(set, body.run.file);
 }
 
 void write_table(const std::string& path, const io::StressSet& set, const StressTimes& times, bool all) {
