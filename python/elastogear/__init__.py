@@ -11,20 +11,24 @@
 Numbers are in SI units; options may have a unit, "3 mm". docs/python.md tells more.
 """
 
+import glob as _glob
 import importlib as _importlib
+import os as _os
 import sys as _sys
 
 try:
     for _module in ["numpy", "elastogear._elastogear"]:
         _importlib.import_module(_module)
 except ImportError as _error:
+    if not _glob.glob(_os.path.join(_os.path.dirname(__file__), "_elastogear.*.so")):
+        raise ImportError(f"elastogear's module is not built in {_os.path.dirname(__file__)}: run scripts/build") from None
     raise ImportError(f"elastogear is built for Debian's /usr/bin/python3 with numpy, not for {_sys.executable} "
                       f"(Python {_sys.version.split()[0]}): {_error}") from None
 
 from ._elastogear import (Body, Error, Mesh, State, __version__, describe, git_hash,
                           option_table, read_mesh, von_mises)
 from .results import Evaluation, Life, Result, Stress, StressSet
-from .runs import Drive, Report, Simulation, System, Warning
+from .runs import Drive, Quantity, Report, Simulation, System, Warning
 
-__all__ = ["Body", "Drive", "Error", "Evaluation", "Life", "Mesh", "Report", "Result", "Simulation", "State", "Stress", "StressSet",
+__all__ = ["Body", "Drive", "Error", "Evaluation", "Life", "Mesh", "Quantity", "Report", "Result", "Simulation", "State", "Stress", "StressSet",
            "System", "Warning", "__version__", "describe", "git_hash", "option_table", "read_mesh", "von_mises"]

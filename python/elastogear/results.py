@@ -17,6 +17,15 @@ Path = Union[str, "os.PathLike[str]"]
 Array = NDArray[Any]
 
 
+def _stamp(path: str) -> tuple[int, ...]:
+    """What tells a file from another one of its name; empty where there is none."""
+    try:
+        state = os.stat(path)
+    except OSError:
+        return ()
+    return state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns
+
+
 class _Histories:
     """Arrays of a file, read when they are asked for first."""
 
@@ -85,7 +94,9 @@ class SensorHistory(_Histories):
 
 
 class Result:
-    """A result file.
+    """A result file, which is read as far as it is asked for.
+
+    When another run has written the file anew, asking for more is an error.
 
     time         (n_t,), s; of an equilibrium the load factor, of a sweep the roll angle in pitches
     bodies, pairs, bushings, sensors    their names
@@ -101,6 +112,7 @@ class Result:
         self.path = os.path.abspath(os.fspath(path))
         self.report = report
         self.inputs = inputs or {}
+        self._stamp = _stamp(self.path)
         header = _library.read_result_header(self.path)
         self.time: Array = header["time"]
         self.bodies: list[str] = [body[0] for body in header["bodies"]]
@@ -110,26 +122,32 @@ class Result:
         self.complete: bool = header["complete"]
         self.provenance: dict[str, str] = header["provenance"]
 
+    def _file(self) -> str:
+        if os.path.exists(self.path) and _stamp(self.path) != self._stamp:
+            raise _library.Error(f"{self.path}: has been written anew since this result was made; give each run "
+                                 "an output of its own, output='first.h5', or read it by Result()")
+        return self.path
+
     def body(self, name: str) -> BodyHistory:
         """Motion of a body."""
-        return BodyHistory(_library.read_body_history(self.path, name))
+        return BodyHistory(_library.read_body_history(self._file(), name))
 
     def pair(self, name: str) -> PairHistory:
         """Contact of a pair, 'a:b'."""
-        return PairHistory(_library.read_pair_history(self.path, name))
+        return PairHistory(_library.read_pair_history(self._file(), name))
 
     def sensor(self, name: str) -> SensorHistory:
         """Motion of a sensor."""
-        return SensorHistory(_library.read_sensor_history(self.path, name))
+        return SensorHistory(_library.read_sensor_history(self._file(), name))
 
     def contacts(self, pair: str) -> list[Array]:
         """Active contacts of a pair at each time: slave_side, slave_node, face, xi, eta, gap (m), force (N), ..."""
-        return _library.read_contacts(self.path, pair)
+        return _library.read_contacts(self._file(), pair)
 
     @property
     def energies(self) -> dict[str, Array]:
         """(n_t,) each, J: kinetic, elastic, contact, bushing, dissipated, work and balance."""
-        return _library.read_energies(self.path)
+        return _library.read_energies(self._file())
 
     def plot(self, pair: Optional[str] = None, axes: Any = None) -> Any:
         """Draws the contact force of a pair (default: the first one) over the time; returns the axes."""

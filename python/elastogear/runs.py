@@ -20,6 +20,28 @@ class Warning(UserWarning):
     """An input that can be computed with but is hardly meant, or a result that is not to be trusted."""
 
 
+class Quantity(float):
+    """A number in SI units that knows its unit.
+
+    unit      "m", "rad"; "1" for none
+    """
+
+    unit: str
+
+    def __new__(cls, value: float, unit: str = "1") -> "Quantity":
+        quantity = super().__new__(cls, value)
+        quantity.unit = unit
+        return quantity
+
+    def __getnewargs__(self) -> tuple[float, str]:  # copies and pickles keep the unit
+        return float(self), self.unit
+
+    def __str__(self) -> str:
+        return f"{float(self):.6g}" + ("" if self.unit == "1" else f" {self.unit}")
+
+    __repr__ = __str__
+
+
 class Report:
     """Everything that a verb has said.
 
@@ -170,12 +192,15 @@ class System:
 class Drive(System):
     """A gear drive: a drive file (docs/drives.md), or a dict with the same keys.
 
-    facts     numbers of the design, {"pinion": {"tip diameter": "64.7 mm", ...}, "pinion:wheel": {...}}
+    facts     numbers of the design, {"pinion": {"tip diameter": 0.0647, ...}, "pinion:wheel": {...}}: each a
+              Quantity; flank forms are texts
     """
 
     def __init__(self, source: Source, *, name: Optional[str] = None, **options: Any) -> None:
         super().__init__(source, name=name, **options)
-        self.facts = {part: dict(facts) for part, facts in _library.drive_facts(self._given({})).items()}
+        self.facts: dict[str, dict[str, Union[Quantity, str]]] = {
+            part: {name: value if isinstance(value, str) else Quantity(value, unit) for name, value, unit in facts}
+            for part, facts in _library.drive_facts(self._given({})).items()}
 
     def meshes(self, **options: Any) -> dict[str, _library.Mesh]:
         """The meshes of all gears, by name; nothing is written."""

@@ -33,6 +33,10 @@ FlankPlace flank_place(const Toothing& t, int tooth, int side, const Eigen::Vect
   return place;
 }
 
+double normal_thickness(const Toothing& toothing, double r) {
+  return 2 * r * psi(toothing, r) * std::cos(std::atan(r / toothing.p));
+}
+
 double flank_distance(const Toothing& t, int tooth, int side, const Eigen::Vector3d& x) {
   return flank_place(t, tooth, side, x).distance;
 }

@@ -2,6 +2,9 @@
 
 #include <pybind11/stl.h>
 
+#include <tuple>
+#include <variant>
+
 #include "app/gear/drive_options.h"
 #include "app/verbs/registry.h"
 #include "elastogear/base/error.h"
@@ -54,7 +57,18 @@ std::vector<std::array<std::string, 4>> option_table(const std::string& name) {
   return rows;
 }
 
-using FactsByName = std::map<std::string, app::Facts>;
+// (name, number, unit), or (name, text, "") each, by the names of gears and pairs.
+using FactList = std::vector<std::tuple<std::string, std::variant<double, std::string>, std::string>>;
+using FactsByName = std::map<std::string, FactList>;
+
+FactList fact_list(const app::Facts& facts) {
+  FactList list;
+  for (const app::Fact& fact : facts) {
+    for (const app::Figure& figure : fact.figures) list.emplace_back(figure.name, figure.value, figure.unit);
+    if (fact.figures.empty()) list.emplace_back(fact.name, fact.text, "");
+  }
+  return list;
+}
 
 // Names and values of a drive's numbers, by its gears and pairs.
 FactsByName drive_facts(const Given& given) {
@@ -67,9 +81,10 @@ FactsByName drive_facts(const Given& given) {
   options.reject_unknown();
   const app::Drive drive = app::read_drive(options);
   FactsByName facts;
-  for (std::size_t i = 0; i < drive.members.size(); ++i) facts[drive.members[i].name] = drive.facts[i];
+  for (std::size_t i = 0; i < drive.members.size(); ++i)
+    facts[drive.members[i].name] = fact_list(drive.facts[i]);
   for (const app::DrivePair& pair : drive.pairs)
-    facts[drive.members[pair.first].name + ":" + drive.members[pair.second].name] = pair.facts;
+    facts[drive.members[pair.first].name + ":" + drive.members[pair.second].name] = fact_list(pair.facts);
   return facts;
 }
 
@@ -117,7 +132,8 @@ void bind_verbs(py::module_& module) {
   module.def("option_table", option_table, py::arg("verb"),
              "Options of a verb: (name, unit, default, meaning) each.");
   module.def("drive_facts", drive_facts, py::arg("given"),
-             "The numbers of a drive, by the names of gears and pairs: (name, value with unit) each.");
+             "The numbers of a drive, by the names of gears and pairs: (name, number, unit) or (name, text, "
+             "empty) each.");
   module.def(
       "describe",
       [](const std::string& path) {

@@ -56,6 +56,18 @@ TEST(CylindricalGeometry, of_the_test_gears_C14_is_the_published_one) {
   EXPECT_NEAR(g.pair[0].j_n, kBacklash * 4.5e-3, 1e-12);  // the rounded shifts overlap by 0.06 um
 }
 
+// ISO 21771: s_an = s_at cos(beta_a), tan(beta_a) = tan(beta) d_a/d.
+TEST(CylindricalGeometry, has_the_tip_thickness_at_the_helix_angle_of_the_tip) {
+  CylindricalDrive d = helical();
+  d.beta = 30 * kDegree;
+  const CylindricalGeometry g = derive(d);
+  const Toothing& t = g.gear[0];
+  const double beta_a = std::atan(std::tan(d.beta) * t.r_a / t.r);
+  EXPECT_NEAR(normal_thickness(t, t.r_a), 2 * t.r_a * psi(t, t.r_a) * std::cos(beta_a), 1e-12);
+  EXPECT_NEAR(normal_thickness(derive(c14()).gear[0], 41e-3), 2 * 41e-3 * psi(derive(c14()).gear[0], 41e-3),
+              1e-12);
+}
+
 // ISO 21771: inv alpha_wt = inv alpha_t + 2 (x_1 + x_2) tan alpha_n / (z_1 + z_2).
 TEST(CylindricalGeometry, has_the_centre_distance_of_its_profile_shifts_and_the_backlash_of_thinner_teeth) {
   CylindricalDrive d = helical();

@@ -2,6 +2,7 @@
 
     module_test.py PATH/TO/elastogear [unittest's arguments]
 """
+import copy
 import json
 import os
 import warnings
@@ -79,6 +80,24 @@ class Runs(WithDrive):
                         plots.stress_map(root), plots.mesh(self.drive.meshes()["wheel"])]:
             picture.figure.canvas.draw()
             matplotlib.pyplot.close(picture.figure)
+
+    def test_a_result_whose_file_is_written_anew_is_no_other_result(self):
+        first = self.drive.simulate(**REST)
+        second = self.drive.simulate(roll=0.5, contact_law="unilateral")
+        self.assertEqual(second.body("pinion").s.shape[0], len(second.time))
+        with self.assertRaisesRegex(eg.Error, "written anew since this result was made; give each run an output"):
+            first.body("pinion")
+        with self.assertRaisesRegex(eg.Error, "written anew"):
+            first.energies
+
+    def test_facts_are_numbers_with_units(self):
+        facts = self.drive.facts
+        self.assertAlmostEqual(facts["pinion"]["pitch diameter"], 51e-3)
+        self.assertEqual(facts["pinion"]["pitch diameter"].unit, "m")
+        self.assertEqual(str(facts["pinion"]["pitch diameter"]), "0.051 m")
+        self.assertEqual(facts["wheel"]["teeth"], 43)
+        self.assertAlmostEqual(facts["pinion:wheel"]["ratio"], 43 / 17)
+        self.assertEqual(copy.deepcopy(facts["pinion"]["bore"]).unit, "m")
 
     def test_messages_are_those_of_the_program(self):
         def message(**options):

@@ -53,6 +53,9 @@ double tooth_angle(const Toothing& toothing, int i);
 HalfAngle half_angle(const Toothing& toothing, double r, double z = 0);
 inline double psi(const Toothing& toothing, double r, double z = 0) { return half_angle(toothing, r, z).psi; }
 
+/// Thickness of a tooth normal to its helix on the cylinder of radius r, along that cylinder, m.
+double normal_thickness(const Toothing& toothing, double r);
+
 /// Signed normal distance of point x (body frame, m) to the flank of a tooth on side s = +1 (left) or -1
 /// (right), > 0 outside the tooth: with F = s (theta - z/p - theta_tooth) - psi(r, s z) it is F/|grad F|.
 /// That is exact on the flank of any form, with its gradient, and everywhere for involutes, where it is

@@ -212,22 +212,28 @@ CylindricalDrive cylindrical_design(const Options& options) {
 
 Facts member_facts(const CylindricalDrive& d, const CylindricalGeometry& g, int i) {
   const gear::Toothing& t = g.gear[i];
-  const double cos_beta = d.m_n * t.z / (2 * t.r);
   const gear::Blank& b = g.blank[i];
   Facts facts = {
-      {"teeth", std::to_string(t.z) + (t.internal      ? ", internal"
-                                       : d.rack.pr > 0 ? ", undercut by protuberance"
-                                       : t.undercut    ? ", undercut"
-                                                       : "")},
-      {"profile shift", with_unit(d.gears[i].x, "")},
-      {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)},
-      {"base / form diameter", in_mm(2 * t.r_b) + " / " + in_mm(2 * t.r_form)},
-      {"tip thickness", in_mm(2 * t.r_a * gear::psi(t, t.r_a) * cos_beta)},
-      {t.internal ? "face width / outer diameter" : "face width / bore",
-       in_mm(b.face_width) + " / " + in_mm(b.end_diameter())}};
-  if (t.internal)
-    facts.emplace_back("cutter", std::to_string(g.cutter[i].z_0) + " teeth, tip radius " +
-                                     in_mm(g.cutter[i].rho_a0 * d.m_n));
+      {"teeth",
+       std::to_string(t.z) + (t.internal      ? ", internal"
+                              : d.rack.pr > 0 ? ", undercut by protuberance"
+                              : t.undercut    ? ", undercut"
+                                              : ""),
+       {{"teeth", static_cast<double>(t.z)}}},
+      {"profile shift", with_unit(d.gears[i].x, ""), {{"profile shift", d.gears[i].x}}},
+      lengths("pitch / tip / root diameter",
+              {{"pitch diameter", 2 * t.r}, {"tip diameter", 2 * t.r_a}, {"root diameter", 2 * t.r_f}}),
+      lengths("base / form diameter", {{"base diameter", 2 * t.r_b}, {"form diameter", 2 * t.r_form}}),
+      lengths("tip thickness", {{"tip thickness", gear::normal_thickness(t, t.r_a)}}),
+      lengths(t.internal ? "face width / outer diameter" : "face width / bore",
+              {{"face width", b.face_width}, {t.internal ? "outer diameter" : "bore", b.end_diameter()}})};
+  if (t.internal) {
+    const double rho = g.cutter[i].rho_a0 * d.m_n;
+    facts.push_back(
+        {"cutter",
+         std::to_string(g.cutter[i].z_0) + " teeth, tip radius " + in_mm(rho),
+         {{"cutter teeth", static_cast<double>(g.cutter[i].z_0)}, {"cutter tip radius", rho, "m"}}});
+  }
   return facts;
 }
 
@@ -238,15 +244,19 @@ Facts pair_facts(const CylindricalDrive& d, const CylindricalGeometry& g, std::s
   const double pitch_point = t_1.r_b * std::tan(p.alpha_wt), both = t_1.sign() * t_2.sign();
   const double farthest = std::max(std::abs(pitch_point - p.path[0]), std::abs(p.path[1] - pitch_point));
   const double sliding = farthest * std::abs(1 / t_1.r_b + both / t_2.r_b) * std::cos(p.alpha_wt);
-  return {{"centre distance", in_mm(p.a)},
-          {"ratio", with_unit(static_cast<double>(t_2.z) / t_1.z, both > 0 ? "" : "in one sense")},
-          {"working pressure angle", with_unit(p.alpha_wt / kRadPerDegree, "deg, transverse")},
-          {"normal base pitch", in_mm(g.p_bn)},
+  const double ratio = static_cast<double>(t_2.z) / t_1.z;
+  return {lengths("centre distance", {{"centre distance", p.a}}),
+          {"ratio", with_unit(ratio, both > 0 ? "" : "in one sense"), {{"ratio", ratio}}},
+          {"working pressure angle",
+           with_unit(p.alpha_wt / kRadPerDegree, "deg, transverse"),
+           {{"working pressure angle", p.alpha_wt, "rad"}}},
+          lengths("normal base pitch", {{"normal base pitch", g.p_bn}}),
           {"contact ratio",
-           with_unit(p.epsilon_alpha, "") + "transverse, " + with_unit(p.epsilon_beta, "") + "overlap"},
-          {"normal backlash", in_mm(p.j_n)},
-          {"tip clearances", in_mm(p.c[0]) + " / " + in_mm(p.c[1])},
-          {"largest sliding", with_unit(sliding, "of the pitch-line speed")}};
+           with_unit(p.epsilon_alpha, "") + "transverse, " + with_unit(p.epsilon_beta, "") + "overlap",
+           {{"contact ratio", p.epsilon_alpha}, {"overlap ratio", p.epsilon_beta}}},
+          lengths("normal backlash", {{"normal backlash", p.j_n}}),
+          lengths("tip clearances", {{"first tip clearance", p.c[0]}, {"second tip clearance", p.c[1]}}),
+          {"largest sliding", with_unit(sliding, "of the pitch-line speed"), {{"largest sliding", sliding}}}};
 }
 
 }  // namespace

@@ -115,10 +115,10 @@ double write_facts(std::ostream& out, const Drive& drive, const Vector2d& at, do
     out << "<rect x='" << number(x) << "' y='" << number(y - 0.8 * size) << "' width='" << number(0.8 * size)
         << "' height='" << number(0.8 * size) << "' fill='" << columns[i].colour << "'/>\n";
     text(x + 1.2 * size, columns[i].title, "font-weight='bold'");
-    for (const auto& [name, value] : *columns[i].facts) {
+    for (const Fact& fact : *columns[i].facts) {
       y += 1.4 * size;
-      text(x, name, "fill='#555'");
-      text(x + kName * size, value, "");
+      text(x, fact.name, "fill='#555'");
+      text(x + kName * size, fact.text, "");
     }
     lowest = std::max(lowest, y);
   }

@@ -7,15 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "app/gear/facts.h"
 #include "elastogear/gear/modification.h"
 #include "elastogear/gear/size.h"
 #include "elastogear/gear/toothing.h"
 #include "elastogear/mesh/mesh.h"
 
 namespace elastogear::app {
-
-/// Names and values with units, to be printed.
-using Facts = std::vector<std::pair<std::string, std::string>>;
 
 /// How fine the meshes of a drive are.
 struct MeshDensity {

@@ -188,11 +188,11 @@ std::string drawing_file(const Options& options) {
 void print_drive(const Drive& drive) {
   for (std::size_t i = 0; i < drive.members.size(); ++i) {
     print_item(drive.members[i].name, "");
-    for (const auto& [name, value] : drive.facts[i]) print_item("  " + name, value);
+    for (const Fact& fact : drive.facts[i]) print_item("  " + fact.name, fact.text);
   }
   for (const DrivePair& pair : drive.pairs) {
     print_item(drive.members[pair.first].name + ":" + drive.members[pair.second].name, "");
-    for (const auto& [name, value] : pair.facts) print_item("  " + name, value);
+    for (const Fact& fact : pair.facts) print_item("  " + fact.name, fact.text);
   }
 }
 

@@ -63,13 +63,15 @@ Design worm_design(const Options& options) {
 
 Facts facts(const gear::Toothing& t, double width, double bore) {
   Facts all = {
-      {"teeth", std::to_string(t.z)},
-      {"pitch / tip / root diameter", in_mm(2 * t.r) + " / " + in_mm(2 * t.r_a) + " / " + in_mm(2 * t.r_f)}};
+      {"teeth", std::to_string(t.z), {{"teeth", static_cast<double>(t.z)}}},
+      lengths("pitch / tip / root diameter",
+              {{"pitch diameter", 2 * t.r}, {"tip diameter", 2 * t.r_a}, {"root diameter", 2 * t.r_f}})};
   if (t.r_b > 0)
-    all.push_back({"base / form diameter", in_mm(2 * t.r_b) + " / " + in_mm(2 * t.r_form)});
+    all.push_back(
+        lengths("base / form diameter", {{"base diameter", 2 * t.r_b}, {"form diameter", 2 * t.r_form}}));
   else
-    all.push_back({"form diameter", in_mm(2 * t.r_form)});
-  all.push_back({"width / bore", in_mm(width) + " / " + in_mm(bore)});
+    all.push_back(lengths("form diameter", {{"form diameter", 2 * t.r_form}}));
+  all.push_back(lengths("width / bore", {{"width", width}, {"bore", bore}}));
   return all;
 }
 
@@ -78,20 +80,36 @@ Facts worm_facts(const Design& d, const Geometry& g) {
   Facts all = facts(g.worm, d.thread_length, d.worm_bore);
   const std::string hand = d.hand == gear::Hand::left ? ", left-handed" : ", right-handed";
   all.push_back({"flank form", kForms[static_cast<int>(d.flank)] + hand});
-  if (g.cutter_diameter > 0) all.push_back({"cutter diameter", in_mm(g.cutter_diameter)});
+  if (g.cutter_diameter > 0)
+    all.push_back(lengths("cutter diameter", {{"cutter diameter", g.cutter_diameter}}));
   return all;
 }
 
 Facts wheel_facts(const Design& d, const Geometry& g) {
   Facts all = facts(g.wheel, d.face_width, d.wheel_bore);
   if (g.throat_radius > 0)
-    all.push_back(
-        {"throat radius / outside diameter", in_mm(g.throat_radius) + " / " + in_mm(g.outside_diameter)});
+    all.push_back(lengths("throat radius / outside diameter",
+                          {{"throat radius", g.throat_radius}, {"outside diameter", g.outside_diameter}}));
   if (d.wheel_form == gear::WheelForm::helical) return all;
-  all.push_back({"hob pitch / tip diameter", in_mm(2 * g.worm.r + d.hob_oversize) + " / " +
-                                                 in_mm(2 * (g.worm.r + d.dedendum) + d.hob_oversize)});
-  all.push_back({"hob swivel", with_unit(g.hob_swivel * 180 / pi, "deg")});
+  all.push_back(lengths("hob pitch / tip diameter",
+                        {{"hob pitch diameter", 2 * g.worm.r + d.hob_oversize},
+                         {"hob tip diameter", 2 * (g.worm.r + d.dedendum) + d.hob_oversize}}));
+  all.push_back(
+      {"hob swivel", with_unit(g.hob_swivel * 180 / pi, "deg"), {{"hob swivel", g.hob_swivel, "rad"}}});
   return all;
+}
+
+Facts pair_facts(const Design& d, const Geometry& g) {
+  const double quotient = 2 * g.worm.r * pi / g.p_x;
+  return {lengths("centre distance", {{"centre distance", d.a}}),
+          {"ratio", with_unit(g.ratio, ""), {{"ratio", g.ratio}}},
+          {"lead angle", with_unit(g.gamma * 180 / pi, "deg"), {{"lead angle", g.gamma, "rad"}}},
+          {"diameter quotient", with_unit(quotient, ""), {{"diameter quotient", quotient}}},
+          lengths("normal base pitch", {{"normal base pitch", g.p_bn}}),
+          {"contact ratio", with_unit(g.epsilon, ""), {{"contact ratio", g.epsilon}}},
+          lengths("normal backlash", {{"normal backlash", g.j_n}}),
+          lengths("tip clearances", {{"first tip clearance", d.a - g.worm.r_a - g.wheel.r_f},
+                                     {"second tip clearance", d.a - g.wheel.r_a - g.worm.r_f}})};
 }
 
 }  // namespace
@@ -132,17 +150,7 @@ Drive worm_drive(const Options& options) {
   wheel.ratio = hand / g.ratio;
   wheel.width = d.face_width;
   Drive drive{.members = {worm, wheel}, .facts = {worm_facts(d, g), wheel_facts(d, g)}, .pairs = {}};
-  drive.pairs.push_back({0,
-                         1,
-                         {{"centre distance", in_mm(d.a)},
-                          {"ratio", with_unit(g.ratio, "")},
-                          {"lead angle", with_unit(g.gamma * 180 / pi, "deg")},
-                          {"diameter quotient", with_unit(2 * g.worm.r * pi / g.p_x, "")},
-                          {"normal base pitch", in_mm(g.p_bn)},
-                          {"contact ratio", with_unit(g.epsilon, "")},
-                          {"normal backlash", in_mm(g.j_n)},
-                          {"tip clearances", in_mm(d.a - g.worm.r_a - g.wheel.r_f) + " / " +
-                                                 in_mm(d.a - g.wheel.r_a - g.worm.r_f)}}});
+  drive.pairs.push_back({0, 1, pair_facts(d, g)});
   return drive;
 }
 

@@ -134,7 +134,7 @@ void check_tip(const CylindricalDrive& d, const std::string& name, const Toothin
   require(deeper(t, t.r_a) > deeper(t, shortest), name, ": tip diameter ", mm(2 * t.r_a),
           " mm: must be above those of root and base, ", mm(2 * shortest), " mm");
   const double least = kLeastTip * d.m_n;
-  const auto thick = [&](double r) { return 2 * r * psi(t, r) * d.m_n * t.z / (2 * t.r) >= least; };
+  const auto thick = [&](double r) { return normal_thickness(t, r) >= least; };
   require(thick(t.r_a), name, ": the teeth are pointed, thinner than ", mm(least), " mm at the tip diameter ",
           mm(2 * t.r_a), " mm; tip_diameter of at ", t.internal ? "least " : "most ",
           mm(2 * largest(shortest, t.r_a, thick)), " mm would do");
