@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 #include <algorithm>
 
 #include "elastogear/base/error.h"
@@ -20,48 +21,120 @@ struct Cloud {
   std::vector<int> nodes;
   Eigen::VectorXd weight;  // of each, their sum is 1
   Eigen::Vector3d mean;
-  Eigen::Matrix3d J;  // weighted sum of |r|^2 I - r r' about the mean
+  Eigen::Matrix3Xd arm;  // of each, from the mean, times its weight
+  Eigen::Matrix3d J;     // second moment |r|^2 I - r r' about the mean, over the area
 };
 
-double area(const mesh::Mesh& mesh, const mesh::Face& face) {
-  const Eigen::Vector3d a = mesh.X.col(face[2]) - mesh.X.col(face[0]),
-                        b = mesh.X.col(face[3]) - mesh.X.col(face[1]);
-  return 0.5 * a.cross(b).norm();
-}
-
-// Equal parts of the area of those faces whose nodes are all in the set; `nodes` ascend.
-Eigen::VectorXd shares(const mesh::Mesh& mesh, const std::vector<mesh::Face>& faces,
-                       const std::vector<int>& nodes) {
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
-  const auto in_set = [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
-  for (const mesh::Face& face : faces) {
-    if (!std::all_of(face.begin(), face.end(), in_set)) continue;
-    const int n = face[2] == face[3] ? 3 : 4;
-    for (int i = 0; i < n; ++i)
-      share[std::lower_bound(nodes.begin(), nodes.end(), face[i]) - nodes.begin()] += area(mesh, face) / n;
+// Shape functions of a side of 3, 4, 6 or 8 nodes, corners first: of triangles at xi, eta >= 0 with a sum of
+// at most 1, of quadrilaterals in [-1, 1]^2.
+Eigen::VectorXd side_functions(int n, double xi, double eta) {
+  const int n_corners = n % 3 == 0 ? 3 : 4;
+  Eigen::VectorXd N(n);
+  if (n_corners == 3) {
+    const Eigen::Vector3d L(1 - xi - eta, xi, eta);
+    for (int i = 0; i < 3; ++i) N[i] = n == 3 ? L[i] : L[i] * (2 * L[i] - 1);
+    for (int i = 3; i < n; ++i) N[i] = 4 * L[i - 3] * L[(i - 2) % 3];
+    return N;
   }
-  return share;
+  constexpr double kXi[] = {-1, 1, 1, -1, 0, 1, 0, -1}, kEta[] = {-1, -1, 1, 1, -1, 0, 1, 0};
+  for (int i = 0; i < n; ++i) {
+    const double u = 1 + kXi[i] * xi, v = 1 + kEta[i] * eta;
+    if (i < 4)
+      N[i] = u * v / 4 * (n == 4 ? 1 : u + v - 3);
+    else
+      N[i] = kXi[i] == 0 ? (1 - xi * xi) * v / 2 : (1 - eta * eta) * u / 2;
+  }
+  return N;
 }
 
-// faces: of the outer surface when it is to weigh; nullptr: all nodes weigh the same.
-Cloud cloud(const mesh::Mesh& mesh, const std::string& set, const std::vector<mesh::Face>* faces) {
+// The integrals of products of two shape functions over a side, m^2. X: 3 x n, m. The functions are of second
+// degree in each coordinate, whose differences over a unit are their derivatives.
+Eigen::MatrixXd side_products(const Eigen::Matrix3Xd& X) {
+  constexpr double kPoint[] = {-0.7745966692414834, 0, 0.7745966692414834},
+                   kWeight[] = {5. / 9, 8. / 9, 5. / 9};
+  const int n = static_cast<int>(X.cols());
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double xi = kPoint[i], eta = kPoint[j], w = kWeight[i] * kWeight[j];
+      if (n % 3 == 0) {  // the square is folded into the triangle
+        xi = (1 + xi) / 2, eta = (1 + eta) / 2 * (1 - xi);
+        w *= (1 - xi) / 4;
+      }
+      const Eigen::Vector3d along = X * (side_functions(n, xi + 0.5, eta) - side_functions(n, xi - 0.5, eta)),
+                            across =
+                                X * (side_functions(n, xi, eta + 0.5) - side_functions(n, xi, eta - 0.5));
+      const Eigen::VectorXd N = side_functions(n, xi, eta);
+      products += w * along.cross(across).norm() * N * N.transpose();
+    }
+  return products;
+}
+
+using Sides = std::vector<std::vector<int>>;  // nodes of each, corners first
+
+// The sides of cells that no other cell shares.
+Sides outer_sides(const mesh::Mesh& mesh) {
+  std::vector<int> cell_of;
+  const std::vector<mesh::Face> faces = mesh::boundary_faces(mesh, &cell_of);
+  Sides outer;
+  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+    const int cell = cell_of[begin];
+    while (end < faces.size() && cell_of[end] == cell) ++end;
+    const auto of_cell = mesh.cells[cell];
+    const auto cut = mesh::cell_sides(mesh.cells.type[cell], of_cell);
+    const auto nodes = mesh::cell_side_nodes(mesh.cells.type[cell], of_cell);
+    for (std::size_t side = 0; side < cut.size(); ++side)
+      if (std::find(faces.begin() + begin, faces.begin() + end, cut[side][0]) != faces.begin() + end)
+        outer.push_back(nodes[side]);
+  }
+  return outer;
+}
+
+// Adds up the sides whose nodes are all in the set; `nodes` ascend.
+Eigen::SparseMatrix<double> products_of_set(const mesh::Mesh& mesh, const Sides& sides,
+                                            const std::vector<int>& nodes) {
+  Triplets entries;
+  const auto in_set = [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
+  const auto place = [&](int node) {
+    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  };
+  for (const std::vector<int>& side : sides) {
+    if (!std::all_of(side.begin(), side.end(), in_set)) continue;
+    const Eigen::MatrixXd products = side_products(mesh.X(Eigen::all, side));
+    for (std::size_t i = 0; i < side.size(); ++i)
+      for (std::size_t j = 0; j < side.size(); ++j)
+        entries.emplace_back(place(side[i]), place(side[j]), products(i, j));
+  }
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  Eigen::SparseMatrix<double> sum(n, n);
+  sum.setFromTriplets(entries.begin(), entries.end());
+  return sum;
+}
+
+// sides: of the outer surface when it is to weigh; nullptr: all nodes weigh the same.
+Cloud cloud(const mesh::Mesh& mesh, const std::string& set, const Sides* sides) {
   const std::vector<int> nodes = mesh::named_nodes(mesh, set).node;
   require(!nodes.empty(), "marker '", set, "': the set is empty");
-  Eigen::VectorXd weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(nodes.size()));
-  if (faces && nodes.size() > 1) weight = shares(mesh, *faces, nodes);
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  Eigen::SparseMatrix<double> products(n, n);
+  products.setIdentity();
+  if (sides && n > 1) products = products_of_set(mesh, *sides, nodes);
+  const double all = products.sum();
   require(
-      weight.sum() > 0, "marker '", set,
+      all > 0, "marker '", set,
       "': no outer face has all its nodes in the set, so that they have no area to weigh by; -marker_weights "
       "equal needs none");
-  weight /= weight.sum();
+  products /= all;
+  const Eigen::VectorXd weight = products * Eigen::VectorXd::Ones(n);
   const Eigen::Matrix3Xd X = mesh.X(Eigen::all, nodes);
   const Eigen::Vector3d mean = X * weight;
-  const Eigen::Matrix3Xd r = X.colwise() - mean, w_r = r * weight.asDiagonal();
-  return {nodes, weight, mean, r.cwiseProduct(w_r).sum() * Eigen::Matrix3d::Identity() - r * w_r.transpose()};
+  const Eigen::Matrix3Xd r = X.colwise() - mean, arm = r * products;
+  return {nodes, weight, mean, arm,
+          r.cwiseProduct(arm).sum() * Eigen::Matrix3d::Identity() - r * arm.transpose()};
 }
 
-std::vector<mesh::Face> weighing_faces(const mesh::Mesh& mesh, MarkerWeights weights) {
-  return weights == MarkerWeights::area ? mesh::boundary_faces(mesh) : std::vector<mesh::Face>();
+Sides weighing_sides(const mesh::Mesh& mesh, MarkerWeights weights) {
+  return weights == MarkerWeights::area ? outer_sides(mesh) : Sides();
 }
 
 bool turns(const Cloud& cloud) {
@@ -79,12 +152,12 @@ void add_block(const Eigen::Matrix3d& block, int row, int column, Triplets& entr
 
 std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
                                         MarkerWeights weights) {
-  const std::vector<mesh::Face> faces = weighing_faces(mesh, weights);
+  const Sides sides = weighing_sides(mesh, weights);
   std::vector<model::Marker> markers;
   for (const std::string& set : sets) {
     require(set != model::kFrameMarker, "marker '", set, "': this name stands for the body frame");
     require(std::count(sets.begin(), sets.end(), set) == 1, "marker '", set, "' is named twice");
-    const Cloud nodes = cloud(mesh, set, weights == MarkerWeights::area ? &faces : nullptr);
+    const Cloud nodes = cloud(mesh, set, weights == MarkerWeights::area ? &sides : nullptr);
     markers.push_back({set, nodes.mean, turns(nodes), {}});
   }
   return markers;
@@ -92,16 +165,16 @@ std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vecto
 
 model::SparseRows marker_operator(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
                                   MarkerWeights weights) {
-  const std::vector<mesh::Face> faces = weighing_faces(mesh, weights);
+  const Sides sides = weighing_sides(mesh, weights);
   Triplets entries;
   for (int row = 0; const std::string& set : sets) {
-    const Cloud nodes = cloud(mesh, set, weights == MarkerWeights::area ? &faces : nullptr);
+    const Cloud nodes = cloud(mesh, set, weights == MarkerWeights::area ? &sides : nullptr);
     Eigen::Matrix3d J_inverse = Eigen::Matrix3d::Zero();
     if (turns(nodes)) J_inverse = nodes.J.inverse();
     for (Eigen::Index i = 0; int node : nodes.nodes) {
-      const double w = nodes.weight[i++];
-      add_block(w * Eigen::Matrix3d::Identity(), row, 3 * node, entries);
-      add_block(w * J_inverse * skew(mesh.X.col(node) - nodes.mean), row + 3, 3 * node, entries);
+      add_block(nodes.weight[i] * Eigen::Matrix3d::Identity(), row, 3 * node, entries);
+      add_block(J_inverse * skew(nodes.arm.col(i)), row + 3, 3 * node, entries);
+      ++i;
     }
     row += 6;
   }

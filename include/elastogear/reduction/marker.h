@@ -10,8 +10,8 @@
 
 namespace elastogear::reduction {
 
-/// Weight of a node in the mean of its set: equal for all nodes, or the node's part of the area of those
-/// outer faces whose nodes all belong to the set.
+/// Weight of a node in the mean of its set: equal for all nodes, or by integrals of shape functions over the
+/// area of those outer sides whose nodes all belong to the set.
 enum class MarkerWeights { equal, area };
 
 /// One marker for each set, of that name; Phi stays empty. Throws Error for an unknown, empty or
