@@ -1,5 +1,5 @@
 """The misuses of the verb reduce."""
-from misuse_case import again, Case, full, goes_on, HALT, NO_SPACE, running, same_mass
+from misuse_case import again, Case, full, goes_on, HALT, mass_is, NO_SPACE, running, same_mass
 
 REDUCE = [
     Case("malformed configuration", r"malformed.yaml", "{elastogear} reduce malformed.yaml"),
@@ -56,6 +56,11 @@ REDUCE = [
     Case("point mass on an unknown set", r"NOSUCH", "{reduce} -point_mass_NOSUCH 1"),
     Case("point mass of nothing", r"point_mass_FIX.*positive", "{reduce} -point_mass_FIX 0"),
     Case("marker on an unknown set", r"NOSUCH", "{reduce} -markers NOSUCH"),
+    Case("mesh in micrometres", r"", "{reduce} -mesh micrometres.inp -unit um", kind="good", leaves=r"kept\.h5", after=mass_is(0.02355)),
+    Case("mesh in inches", r"", "{reduce} -mesh inches.inp -unit in", kind="good", leaves=r"kept\.h5", after=mass_is(0.02355)),
+    Case("materials of a mesh in micrometres", r"unit = 'um': materials of the mesh file", "{elastogear} reduce -mesh millimetres.inp -unit um -basis modal -output kept.h5"),
+    Case("unit of a mesh that is none", r"unit.*m, mm, um, in", "{reduce} -unit ft"),
+    Case("moduli in kN/mm^2 and t/mm^3", r"", "{reduce} -material_E 210\\ kN/mm^2 -material_rho 7.85e-9\\ t/mm^3", kind="good", leaves=r"kept\.h5", after=mass_is(0.02355)),
     Case("marker weights that are none", r"marker_weights.*equal, area", "{reduce} -marker_weights mass"),
     Case("stress recovery that is none", r"stress_recovery.*auto, average, surface", "{reduce} -stress_recovery nodal"),
     Case("invariants that are none", r"invariants.*linear, full", "{reduce} -invariants all"),

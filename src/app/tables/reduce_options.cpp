@@ -18,8 +18,8 @@ using reduction::ReductionOptions, reduction::ImportedFiles;
 const Rows<ReductionOptions> kMeshRows = {
     {"mesh", "-", "", "volume mesh to read, Gmsh 4.1 .msh or Abaqus .inp"},
     {"unit", "-", "m",
-     "unit of length of the mesh file or node table: m, or mm (then matrices and the file's materials are in "
-     "N, mm and t)"},
+     "unit of length of the mesh file or node table: m, mm (then matrices and the file's materials are in N, "
+     "mm and t), um or in (then materials are those of options)"},
     {"output", "-", "", "body file to write (HDF5)"},
     {"element", &ReductionOptions::element, one_of("incompatible", "plain", "bbar"),
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},
@@ -130,6 +130,7 @@ std::optional<ImportedFiles> imported_files(const Options& options) {
   read_rows(options, kImportedRows, files);
   require(files.format != io::MatrixFormat::calculix || !files.dofs.empty(),
           "option -matrix_format = 'calculix' needs -dofs, the .dof file beside the matrices");
+  require_consistent_unit(options, "matrices");
   files.stiffness_unit = files.mass_unit = 1 / unit_in_m(options);  // N and s stay: N/mm, t = N s^2/mm
   return files;
 }
@@ -155,7 +156,16 @@ OptionTable reduce_table() {
   return table;
 }
 
-double unit_in_m(const Options& options) { return options.choice("unit", {"m", "mm"}) == 0 ? 1 : 1e-3; }
+double unit_in_m(const Options& options) {
+  constexpr double kLengths[] = {1, 1e-3, 1e-6, 25.4e-3};
+  return kLengths[options.choice("unit", {"m", "mm", "um", "in"})];
+}
+
+void require_consistent_unit(const Options& options, const std::string& what) {
+  const std::string unit = options.text("unit");
+  require(unit == "m" || unit == "mm", options.label("unit"), " = '", unit, "': ", what,
+          " go with lengths in m or mm, in N and s; with others nobody knows their unit");
+}
 
 ReductionOptions reduction_options(const Options& options) {
   ReductionOptions o;

@@ -18,4 +18,8 @@ reduction::ReductionOptions reduction_options(const Options& options);
 /// The unit of length of the mesh file or node table in m.
 double unit_in_m(const Options& options);
 
+/// Throws Error unless numbers of the mesh file, such as its materials, have a unit that follows from that of
+/// its lengths. what: their name in the message.
+void require_consistent_unit(const Options& options, const std::string& what);
+
 }  // namespace elastogear::app

@@ -141,6 +141,9 @@ Nodes read_on_rank_0(const Options& options, const NodeSource& read) {
 // Materials and restraint that the options leave open are those of the mesh file.
 void take_materials(const Options& options, const mesh::ReadReport& report, ReductionOptions& o) {
   if (!o.regions.empty()) return warn_of_materials(o.regions, false);
+  if (!report.regions.empty())
+    require_consistent_unit(options,
+                            "materials of the mesh file (leave them out by -material_E and the like)");
   o.regions = report.regions;
   broadcast(PETSC_COMM_WORLD, o.regions);
   if (o.regions.empty() && o.imported) return;
