@@ -366,7 +366,7 @@ INSTANTIATE_TEST_SUITE_P(
                   d.rack.h_fP = 1.4, d.rack.pr = 0.0916;
                 },
                 [](auto& d) { d.rack.pr = 0.076; }},
-        Refusal{"fillet radius 0.6 does not fit, at most 0.47", [](auto& d) { d.rack.rho_fP = 0.6; },
+        Refusal{"rack_fillet = 0.6 does not fit, at most 0.47", [](auto& d) { d.rack.rho_fP = 0.6; },
                 [](auto& d) { d.rack.rho_fP = 0.47; }},
         Refusal{"pinion: bore = 50 mm: must be positive and at most",
                 [](auto& d) { d.gears[0].blank.bore = 50e-3; },

@@ -35,9 +35,9 @@ void check_numbers(const CylindricalDrive& d) {
   require(d.rack.alpha_n > 0 && d.rack.alpha_n <= kMostPressureAngle,
           "pressure_angle = ", d.rack.alpha_n / kDegree, " deg: must be above 0 and at most ",
           kMostPressureAngle / kDegree, " deg");
-  require(d.rack.h_aP > 0 && d.rack.h_fP > d.rack.h_aP && d.rack.rho_fP > 0, "basic rack: addendum ",
-          d.rack.h_aP, ", dedendum ", d.rack.h_fP, " and fillet radius ", d.rack.rho_fP,
-          " must be positive, and the dedendum above the addendum");
+  require(d.rack.h_aP > 0 && d.rack.h_fP > d.rack.h_aP && d.rack.rho_fP > 0,
+          "basic rack: rack_addendum = ", d.rack.h_aP, ", rack_dedendum = ", d.rack.h_fP,
+          " and rack_fillet = ", d.rack.rho_fP, " must be positive, and the dedendum above the addendum");
   require(!d.gears.empty(), "a drive needs gears");
   for (const CylindricalGear& gear : d.gears) {
     require(gear.z >= kLeastTeeth && gear.z <= kMostTeeth, gear.name, ": teeth = ", gear.z, ": must be ",
@@ -98,10 +98,10 @@ void check_rack(const CylindricalDrive& d) {
   check_protuberance(d);
   // Half the tip's land without rounding.
   const double room = pi / 4 - d.rack.h_fP * std::tan(alpha) + d.rack.pr / std::cos(alpha);
-  require(room > 0, "basic rack: dedendum ", d.rack.h_fP,
+  require(room > 0, "basic rack: rack_dedendum = ", d.rack.h_fP,
           " is too deep for pressure_angle = ", alpha / kDegree, " deg: at most ", pi / 4 / std::tan(alpha));
   const double most = room / ((1 - std::sin(alpha)) / std::cos(alpha));
-  require(d.rack.rho_fP <= most, "basic rack: fillet radius ", d.rack.rho_fP, " does not fit, at most ", most,
+  require(d.rack.rho_fP <= most, "basic rack: rack_fillet = ", d.rack.rho_fP, " does not fit, at most ", most,
           " with pressure_angle = ", alpha / kDegree, " deg and dedendum ", d.rack.h_fP);
 }
 
