@@ -41,6 +41,28 @@ TEST(Geometry, closes_the_centre_distance_and_shares_the_normal_base_pitch) {
   EXPECT_NEAR(2 * std::numbers::pi * g.worm.p, d.z1 * g.p_x, kRoundoff * g.p_x);
 }
 
+// A catalogue's drive: a 160, m_x 6.3, d1 63, z 1:40, x2 0.397.
+TEST(Geometry, of_a_shifted_wheel_has_the_drawn_diameters_and_shares_the_normal_base_pitch) {
+  const double m_x = 6.3e-3, gamma = std::atan(0.1), m_n = m_x * std::cos(gamma);
+  const double x2 = 160 / 6.3 - 25;
+  Design d = proportioned(m_n, std::numbers::pi / 9, 1, 40, 160e-3, x2);
+  d.addendum = m_x, d.dedendum = 1.25 * m_x;
+  for (FlankForm form : {FlankForm::ZI, FlankForm::ZK}) {
+    d.flank = form, d.wheel_form = form == FlankForm::ZI ? WheelForm::helical : WheelForm::throated;
+    d.face_width = 40e-3;
+    const Geometry g = derive(d);
+    EXPECT_NEAR(2 * (g.worm.r - g.shift), 63e-3, 1e-9);
+    EXPECT_NEAR(2 * g.worm.r_a, 75.6e-3, 1e-9);
+    EXPECT_NEAR(2 * g.wheel.r, 252e-3, 1e-9);
+    EXPECT_NEAR(2 * g.wheel.r_a, (252 + 2 * 6.3 * (1 + x2)) * 1e-3, 1e-9);
+    EXPECT_NEAR(g.worm.r + g.wheel.r, d.a, 1e-12);
+    EXPECT_NEAR(g.p_x, std::numbers::pi * m_x, 1e-12);
+    if (form != FlankForm::ZI) continue;
+    for (const Toothing& t : {g.worm, g.wheel})
+      EXPECT_NEAR(2 * std::numbers::pi / t.z * t.r_b * std::cos(t.beta_b), g.p_bn, kRoundoff * g.p_bn);
+  }
+}
+
 TEST(Geometry, takes_half_the_backlash_from_each_body) {
   Design tight;
   tight.j_n = 0;

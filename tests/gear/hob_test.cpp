@@ -66,6 +66,7 @@ struct Drive {
   int starts;
   WheelForm wheel = WheelForm::throated;
   Hand hand = Hand::right;
+  double x2 = 0;  // at the same centre distance
 };
 void PrintTo(const Drive& d, std::ostream* os) {
   *os << "form " << static_cast<int>(d.form) << " starts " << d.starts;
@@ -73,7 +74,7 @@ void PrintTo(const Drive& d, std::ostream* os) {
 
 Design design(const Drive& drive) {
   Design d = worm_design(drive.form, drive.starts, drive.wheel);
-  d.hand = drive.hand;
+  d.hand = drive.hand, d.x2 = drive.x2;
   return d;
 }
 
@@ -84,6 +85,9 @@ INSTANTIATE_TEST_SUITE_P(All, HobbedWheel,
                                          Drive{FlankForm::ZK, 1, WheelForm::throated, Hand::left},
                                          Drive{FlankForm::ZI, 5, WheelForm::cylindrical},
                                          Drive{FlankForm::ZA, 6},
+                                         Drive{FlankForm::ZI, 2, WheelForm::throated, Hand::right, 0.397},
+                                         Drive{FlankForm::ZK, 2, WheelForm::throated, Hand::right, -0.3},
+                                         Drive{FlankForm::ZA, 1, WheelForm::cylindrical, Hand::left, 0.2},
                                          Drive{FlankForm::ZN, 2, WheelForm::cylindrical, Hand::left}));
 
 // A worm without backlash is the hob.
@@ -105,11 +109,11 @@ TEST_P(HobbedWheel, flank_is_touched_and_never_entered_by_the_turning_thread) {
 // outside.
 Distance hob_of_worm(const Design& d, const Geometry& g, int side) {
   const Distance flank = flank_of_worm(d, g, side);
-  const double p = std::abs(g.worm.p), rho = d.wheel_rack_tip, r_c = g.worm.r + d.dedendum - rho;
+  const double p = std::abs(g.worm.p), rho = d.wheel_rack_tip, r_c = g.worm.r - g.shift + d.dedendum - rho;
   const auto normal = [=](double r) {
     return Eigen::Vector2d(1, -p * half_angle(g.worm, r).d_r).normalized();
   };
-  double low = g.worm.r, high = r_c + rho;
+  double low = g.worm.r - g.shift, high = r_c + rho;
   for (int i = 0; i < 60; ++i) {
     const double r = (low + high) / 2;
     (r - rho * normal(r)[1] < r_c ? low : high) = r;
@@ -164,7 +168,7 @@ TEST_P(HobbedWheel, turns_with_the_worm_without_transmission_error) {
   const Design d = design(GetParam());
   const Geometry g = derive(d);
   const double sense = d.hand == Hand::left ? -1 : 1;
-  const double closing = d.j_n / 2 / (g.wheel.r * std::cos(d.alpha_n) * std::cos(g.gamma));
+  const double closing = d.j_n / 2 / (g.wheel.r * std::cos(g.alpha_w) * std::cos(g.gamma_w));
   for (double phi_1 : {0.0, 0.5, 1.1, 2.0, 3.7}) {
     const int first = static_cast<int>(std::lround(-sense * phi_1 / g.ratio * d.z2 / (2 * pi)));
     for (int side : {-1, 1}) {

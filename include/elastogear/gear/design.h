@@ -35,7 +35,8 @@ enum class WheelForm {
 /// All numbers of the drive; the defaults are the reference design (electric power steering, 20.5 : 1).
 struct Design {
   // Toothing, common to worm and wheel
-  double m_n = 2.0e-3;                 ///< m, normal module
+  double m_n = 2.0e-3;                 ///< m, normal module, at the worm's reference cylinder
+  double x2 = 0;                       ///< -, profile shift of the wheel, in axial modules
   double alpha_n = 0.261799387799149;  ///< rad, normal pressure angle (15 deg)
   int z1 = 2;                          ///< -, starts of the worm
   int z2 = 41;                         ///< -, teeth of the wheel
@@ -75,13 +76,17 @@ struct Design {
 
 /// Radii, angles and lengths that follow from a Design.
 struct Geometry {
-  double gamma = 0;    ///< rad, lead angle of the worm = helix angle of the wheel; > 0 for either hand
-  double s_n = 0;      ///< m, normal tooth thickness at the pitch cylinders
-  double p_bn = 0;     ///< m, normal base pitch, common to both bodies
-  double p_x = 0;      ///< m, axial pitch of the worm
-  double epsilon = 0;  ///< -, contact ratio
-  double j_n = 0;      ///< m, normal backlash
-  double ratio = 0;    ///< -, z2/z1
+  double gamma = 0;  ///< rad, lead angle of the worm at its reference cylinder; > 0 for either hand
+  double shift = 0;  ///< m, pitch over reference radius of the worm: the wheel's profile shift x2 m_x
+  double gamma_w = 0, alpha_w = 0, m_w = 0;  ///< rad, rad, m: lead angle = helix angle of the wheel, normal
+                                             ///< pressure angle and module at the pitch cylinders
+  double s_n = 0;               ///< m, normal tooth thickness of the worm at its reference cylinder
+  double s_n2 = 0;              ///< m, that of the wheel at its pitch cylinder
+  double p_bn = 0;              ///< m, normal base pitch, common to both bodies
+  double p_x = 0;               ///< m, axial pitch of the worm
+  double epsilon = 0;           ///< -, contact ratio
+  double j_n = 0;               ///< m, normal backlash
+  double ratio = 0;             ///< -, z2/z1
   double cutter_diameter = 0;   ///< m, of form ZK
   double outside_diameter = 0;  ///< m, of the wheel
   double throat_radius = 0;     ///< m, of a throated wheel's tip in its axial section; 0: none
@@ -97,8 +102,8 @@ Geometry derive(const Design& design);
 
 /// A design in proportion to its module: tooth heights of the basic rack, six axial pitches of thread, a
 /// shaft that steps down from the worm's root to both seats and their stubs, a wheel with hub and web. a:
-/// centre distance, m. Throws Error where there is no lead angle.
-Design proportioned(double m_n, double alpha_n, int z1, int z2, double a);
+/// centre distance, m. x2: profile shift of the wheel. Throws Error where there is no lead angle.
+Design proportioned(double m_n, double alpha_n, int z1, int z2, double a, double x2 = 0);
 
 /// The wheel's body.
 Blank wheel_blank(const Design& design);

@@ -40,6 +40,7 @@ const Rows<Design> kDesignRows = {
     {"hob_oversize", &Design::hob_oversize, "m",
      "wheel: pitch diameter of the hob over that of the worm: contact in points, for tolerances"},
     {"module", &Design::m_n, "m", "normal module"},
+    {"wheel_profile_shift", &Design::x2, "-", "profile shift of the wheel, in axial modules"},
     {"centre_distance", &Design::a, "m", "centre distance; the lead angle follows from it"},
     {"backlash", &Design::j_n, "m", "normal backlash, taken half from each body's tooth thickness"},
     {"addendum", &Design::addendum, "m", "tip over pitch radius, both bodies"},

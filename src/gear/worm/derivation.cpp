@@ -19,6 +19,7 @@ constexpr double kMaxPressureAngle = pi / 4;
 constexpr double kMaxConeSlope = 3;
 constexpr double kDegree = pi / 180;
 constexpr int kMaxTeeth = 1000;
+constexpr double kMostShift = 1;      // axial modules
 constexpr double kMinTipWidth = 0.1;  // of the module: thinner teeth count as pointed
 
 // A named number of the design, for messages.
@@ -68,6 +69,8 @@ void check_toothing(const Design& d) {
           " deg: must be above 0 and at most ", kMaxPressureAngle / kDegree, " deg");
   require(d.j_n >= 0 && d.j_n < pi * d.m_n * std::cos(d.alpha_n), "backlash = ", d.j_n,
           " m: must be at least 0 and below the normal base pitch ", pi * d.m_n * std::cos(d.alpha_n), " m");
+  require(std::isfinite(d.x2) && std::abs(d.x2) <= kMostShift, "wheel_profile_shift = ", d.x2,
+          ": must be between -", kMostShift, " and ", kMostShift, " (axial modules)");
   require(d.dedendum > d.addendum, "dedendum = ", d.dedendum, " m: must be above addendum = ", d.addendum,
           " m, else tips and roots touch");
 }
@@ -91,13 +94,15 @@ void check_forms(const Design& d) {
           " m: must be finite and at least 0: a hob smaller than the worm cuts away the contact");
 }
 
+// a = m_n/2 (z1/sin(gamma) + (z2 + 2 x2)/cos(gamma)): the wheel's profile shift keeps its pitch cylinder and
+// the worm's reference cylinder apart.
 double centre_distance(const Design& d, double gamma) {
-  return d.m_n / 2 * (d.z1 / std::sin(gamma) + d.z2 / std::cos(gamma));
+  return d.m_n / 2 * (d.z1 / std::sin(gamma) + (d.z2 + 2 * d.x2) / std::cos(gamma));
 }
 
-// The centre distance falls from infinity at gamma = 0 to its minimum at tan(gamma)^3 = z1/z2.
+// The centre distance falls from infinity at gamma = 0 to its minimum at tan(gamma)^3 = z1/(z2 + 2 x2).
 double lead_angle(const Design& d) {
-  double low = 0, high = std::atan(std::cbrt(static_cast<double>(d.z1) / d.z2));
+  double low = 0, high = std::atan(std::cbrt(d.z1 / (d.z2 + 2 * d.x2)));
   const double smallest = centre_distance(d, high);
   require(d.a >= smallest, "there is no lead angle for centre_distance = ", d.a, " m: at least ", smallest,
           " m is needed with z1 = ", d.z1, ", z2 = ", d.z2, ", module = ", d.m_n, " m");
@@ -116,8 +121,8 @@ double path_length(const Toothing& t) {
 
 // Radius of the contact point where the path leaves the mate's tip cylinder, `length` from the pitch point.
 // The path runs along (sin beta_b1, sin alpha_n, sin beta_b2) = (worm axis, centre line, wheel axis).
-double start_radius(const Design& d, const Toothing& t, const Toothing& mate, double length) {
-  return std::hypot(t.r - length * std::sin(d.alpha_n), length * std::sin(mate.beta_b));
+double start_radius(double alpha_w, const Toothing& t, const Toothing& mate, double length) {
+  return std::hypot(t.r - length * std::sin(alpha_w), length * std::sin(mate.beta_b));
 }
 
 void check_tip(const Design& d, double width, const char* body) {
@@ -180,6 +185,21 @@ void check_wheel(const Design& d, const Geometry& g) {
           " m: at most hub_width = ", d.hub_width, " m and face_width = ", d.face_width, " m");
 }
 
+// The flanks of a worm are the same at any radius: with a profile shift of the wheel the pitch cylinder is
+// not the one that the worm's numbers belong to. There the wheel fills what the worm and the backlash leave
+// of the pitch, and the normal base pitch is the same.
+void shift_pitch(const Design& d, Geometry& g) {
+  g.gamma_w = g.gamma, g.alpha_w = d.alpha_n, g.m_w = d.m_n, g.s_n2 = g.s_n;
+  if (d.x2 == 0) return;
+  g.shift = d.x2 * g.p_x / pi;
+  g.worm.r += g.shift;
+  g.gamma_w = std::atan2(g.worm.p, g.worm.r);
+  g.m_w = g.p_x / pi * std::cos(g.gamma_w);
+  g.alpha_w = std::acos(g.p_bn / (pi * g.m_w));
+  const double s_n1 = 2 * psi(g.worm, g.worm.r) * g.worm.p * std::cos(g.gamma_w);
+  g.s_n2 = pi * g.m_w - s_n1 - d.j_n / std::cos(g.alpha_w);
+}
+
 Geometry pitch_geometry(const Design& d) {
   Geometry g;
   g.gamma = lead_angle(d);
@@ -190,7 +210,11 @@ Geometry pitch_geometry(const Design& d) {
   g.ratio = static_cast<double>(d.z2) / d.z1;
   g.worm = pitch_toothing(d, d.z1, g.gamma, g.s_n);
   set_flank_form(d, g.s_n / std::cos(g.gamma), g.worm);
-  g.wheel = pitch_toothing(d, d.z2, pi / 2 - g.gamma, g.s_n);
+  shift_pitch(d, g);
+  Design at_pitch = d;
+  at_pitch.m_n = g.m_w, at_pitch.alpha_n = g.alpha_w;
+  at_pitch.addendum += g.shift, at_pitch.dedendum -= g.shift;
+  g.wheel = pitch_toothing(at_pitch, d.z2, pi / 2 - g.gamma_w, g.s_n2);
   if (d.flank == FlankForm::ZK) g.cutter_diameter = cutter_diameter(d);
   g.outside_diameter = 2 * g.wheel.r_a;
   g.worm.theta_1 = pi - pi / d.z1;  // a space faces the wheel, at worm local -x
@@ -212,8 +236,8 @@ void derive_contact(const Design& d, Geometry& g) {
   g.epsilon = (L_1 + L_2) / g.p_bn;
   require(g.epsilon >= 1, "addendum = ", d.addendum, " m: the contact ratio is ", g.epsilon,
           ", at least 1 is needed");
-  g.worm.r_start = start_radius(d, g.worm, g.wheel, L_2);
-  g.wheel.r_start = start_radius(d, g.wheel, g.worm, L_1);
+  g.worm.r_start = start_radius(g.alpha_w, g.worm, g.wheel, L_2);
+  g.wheel.r_start = start_radius(g.alpha_w, g.wheel, g.worm, L_1);
   check_start(d, g.worm, "worm");
   check_start(d, g.wheel, "wheel");
 }
@@ -273,9 +297,9 @@ Geometry derive(const Design& d) {
   return g;
 }
 
-Design proportioned(double m_n, double alpha_n, int z1, int z2, double a) {
+Design proportioned(double m_n, double alpha_n, int z1, int z2, double a, double x2) {
   Design d;
-  d.m_n = m_n, d.alpha_n = alpha_n, d.z1 = z1, d.z2 = z2, d.a = a;
+  d.m_n = m_n, d.alpha_n = alpha_n, d.z1 = z1, d.z2 = z2, d.a = a, d.x2 = x2;
   d.j_n = 0.02 * m_n;
   d.addendum = m_n, d.dedendum = 1.25 * m_n;
   d.worm_fillet = 0.35 * m_n, d.wheel_rack_tip = 0.3 * m_n;

@@ -69,14 +69,15 @@ void set_tip_arc(const Design& d, Hob& h) {
 Hob hob(const Design& d, const Geometry& g) {
   Hob h{.a = d.a + d.hob_oversize / 2, .p_wheel = g.wheel.p, .a_worm = d.a};
   Toothing& t = h.thread;
-  const double r = g.worm.r + d.hob_oversize / 2, gamma = std::asin(d.m_n * d.z1 / (2 * r));
+  const double r = g.worm.r - g.shift + d.hob_oversize / 2, gamma = std::asin(d.m_n * d.z1 / (2 * r));
   t = pitch_toothing(d, d.z1, gamma, g.s_n);
   set_flank_form(d, g.s_n / std::cos(gamma), t);
   thicken(t, (pi * d.m_n - 2 * g.s_n) / std::cos(gamma));
   t.r_a = t.r + d.dedendum;
-  h.sigma = d.hob_oversize > 0 ? g.gamma - gamma : 0;
+  h.sigma = d.hob_oversize > 0 ? g.gamma_w - std::atan2(t.p, t.r + g.shift) : 0;
   h.travel = t.p * d.z2 / d.z1;
   set_tip_arc(d, h);
+  t.r += g.shift;
   const double r_a2 = g.wheel.r_a;
   h.tip = r_a2;
   if (d.wheel_form == WheelForm::cylindrical) return h;

@@ -61,8 +61,9 @@ Profile worm_profile(const Design& design, const Geometry& geometry) {
 }
 
 RackTip wheel_rack(const Design& d, const Geometry& g) {
-  const RackTip rack = rack_tip(d.alpha_n, g.gamma, g.wheel.r, g.s_n, d.dedendum, d.wheel_rack_tip);
-  const double half_pitch = std::numbers::pi * d.m_n / 2;
+  const RackTip rack =
+      rack_tip(g.alpha_w, g.gamma_w, g.wheel.r, g.s_n2, d.dedendum - g.shift, d.wheel_rack_tip);
+  const double half_pitch = std::numbers::pi * g.m_w / 2;
   require(rack.centre[0] <= half_pitch, "wheel_rack_tip = ", d.wheel_rack_tip,
           " m does not fit: the arc's centre lies ", rack.centre[0],
           " m from the middle of the rack's space, at most half a pitch is allowed: ", half_pitch, " m");
