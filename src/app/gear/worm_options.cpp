@@ -161,11 +161,16 @@ Facts wheel_facts(const Design& d, const Geometry& g) {
 }
 
 Facts pair_facts(const Design& d, const Geometry& g) {
-  const double quotient = 2 * g.worm.r * pi / g.p_x;
+  const double locking = std::tan(g.gamma_w) * std::cos(g.alpha_w);  // tan(gamma) = mu / cos(alpha_n)
+  const double reference = 2 * (g.worm.r - g.shift), quotient = reference * pi / g.p_x;
   return {lengths("centre distance", {{"centre distance", d.a}}),
           {"ratio", with_unit(g.ratio, ""), {{"ratio", g.ratio}}},
           {"lead angle", with_unit(g.gamma * 180 / pi, "deg"), {{"lead angle", g.gamma, "rad"}}},
           {"diameter quotient", with_unit(quotient, ""), {{"diameter quotient", quotient}}},
+          lengths("reference diameter of the worm / axial module",
+                  {{"reference diameter", reference}, {"axial module", g.p_x / pi}}),
+          {"profile shift of the wheel", with_unit(d.x2, ""), {{"profile shift", d.x2}}},
+          {kLocking, with_unit(locking, "and more"), {{kLocking, locking}}},
           lengths("normal base pitch", {{"normal base pitch", g.p_bn}}),
           {"contact ratio", with_unit(g.epsilon, ""), {{"contact ratio", g.epsilon}}},
           lengths("normal backlash", {{"normal backlash", g.j_n}}),
@@ -176,6 +181,19 @@ Facts pair_facts(const Design& d, const Geometry& g) {
 }  // namespace
 
 OptionTable worm_table() { return table_of(kWormRows); }
+
+void refuse_locked(const Options& options, const Drive& drive) {
+  if (options.choice("drive", {"cylindrical", "worm"}) != 1 ||
+      options.choice("side", {"drive", "coast"}) == 0)
+    return;
+  const double friction = options.number("contact_friction");
+  for (const Fact& fact : drive.pairs.front().facts)
+    require(fact.name != kLocking || friction < fact.figures[0].value,
+            "the worm locks itself: with the friction ", friction,
+            " (option -contact_friction) the wheel cannot drive it (side: coast), whatever its torque; ",
+            "it can below ", fact.name == kLocking ? fact.figures[0].value : 0,
+            ", tan(lead angle) cos(pressure angle)");
+}
 
 // Worm local (x, y, z) = world (Y, Z, X): a third of a turn about (1, 1, 1). At zero angles both flanks have
 // half the backlash; a driving worm pushes the wheel from behind. A left-handed wheel turns the other way.

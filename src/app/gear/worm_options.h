@@ -9,4 +9,7 @@ namespace elastogear::app {
 OptionTable worm_table();
 Drive worm_drive(const Options& options);
 
+/// Throws Error where the wheel of a worm drive is to drive a worm that friction locks.
+void refuse_locked(const Options& options, const Drive& drive);
+
 }  // namespace elastogear::app

@@ -9,6 +9,7 @@
 #include "app/console/console.h"
 #include "app/console/outputs.h"
 #include "app/drive_input.h"
+#include "app/gear/worm_options.h"
 #include "app/resumable_run.h"
 #include "app/sweep/sweep_cases.h"
 #include "app/sweep/sweep_options.h"
@@ -20,6 +21,7 @@
 #include "elastogear/base/file.h"
 #include "elastogear/base/log_stage.h"
 #include "elastogear/base/petsc.h"
+#include "elastogear/base/text.h"
 
 namespace elastogear::app {
 namespace {
@@ -80,11 +82,17 @@ PreparedCase prepare(SweepJob& job, std::size_t number) {
 // Values that no drive can have are found before anything is computed.
 void check_cases(const Options& options, const SweepCases& cases) {
   const Silence silence;
+  std::vector<std::string> of_first;
   for (const SweepCase& one : cases.cases) {
     const Variant& variant = cases.variants[static_cast<std::size_t>(one.variant)];
     try {
       const Options own = of_case(options, cases, one);
-      with_system(own, drive_at_zero(own));
+      const Drive drive = drive_at_zero(own);
+      refuse_locked(own, drive);
+      const std::vector<std::string> bearings = with_system(own, drive).list("bushings");
+      if (&one == &cases.cases.front()) of_first = bearings;
+      require(bearings == of_first, "has the bearings ", join(bearings), ", the first case ", join(of_first),
+              ": all cases must have the same ones, of other stiffness perhaps; give them to the drive");
     } catch (const Error& error) {
       fail(variant.name.empty() ? "" : "variant '" + variant.name + "': ", error.what());
     }
