@@ -45,11 +45,13 @@ COMMANDS = {
     "bearing": "{mass} -bushings bearing -bearing_markers ground,a.frame -bearing_stiffness 1,1,1",
     "sweep": "{elastogear} simulate -drive cylindrical -module 3e-3 -face_width 0.025 -pinion_teeth 17 -wheel_teeth 43 "
              "-analysis sweep -output kept_run.h5",
+    "worm_sweep": "{elastogear} simulate -drive worm -module 2e-3 -wheel_teeth 41 -analysis sweep -torque 1 -output kept_run.h5",
     "pull": "{elastogear} simulate -bodies a -a_file body.h5 -loads pull -pull_marker a.END -pull_force 100,0,0 -analysis static "
             "-static_steps 2 -output kept_run.h5",
     "hard_pull": "{single} -checkpoint_every 0 -loads pull -pull_marker a.END -pull_force 1e12,0,0 -ts_dt 1e-3 -ts_max_time 0.1",
     "recover": "{elastogear} recover -result run.h5 -stress_a MIDDLE -output kept_stress.h5",
     "compare": "{elastogear} compare stress_full.h5 stress.h5 -output kept",
+    "worm": "{elastogear} mesh -drive worm -wheel_teeth 40 -size tiny -element_order 1",
     "mesh": "{elastogear} mesh -part wheel -size tiny -element_order 1 -mesh kept.msh",
 }
 
@@ -155,6 +157,15 @@ def tip_within(limit):
             energy = file["energy"]
             stored = np.abs(energy["kinetic"][:] + energy["elastic"][:]).max()
         return "" if stored < limit else f"{stored:.3g} J are stored, more than {limit} J"
+    return look
+
+
+def mass_is(expected):
+    """kg, of the body kept.h5; FIX's part of the mass is in it."""
+    def look(bench):
+        with h5py.File(bench.path("kept.h5")) as file:
+            mass = file["rigid/mass"][()]
+        return "" if abs(mass - expected) < 1e-6 * expected else f"the mass is {mass} kg, not {expected} kg"
     return look
 
 

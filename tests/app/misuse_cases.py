@@ -62,6 +62,16 @@ OPTIONS = [
     Case("flag without a value in YAML", r"pinion_internal .flag.yaml, line 5.: is empty, write true or false", "{elastogear} mesh flag.yaml"),
     Case("speed without its unit", r"speed .speed.yaml, line 4. = 1500: write its unit, '1500 rpm'", "{elastogear} mesh speed.yaml"),
     Case("misspelt key of a drive", r"log_veiw(?!.*nearest known option is -log_view)|log_veiw.*-log_view", "{elastogear} mesh misspelt_drive.yaml"),
+    Case("worm drive of a catalogue", r"", "{worm} -axial_module 6.3\\ mm -worm_reference_diameter 63\\ mm -wheel_profile_shift 0.397 -centre_distance 160\\ mm "
+         "-worm_flank ZI", kind="good", leaves=r".*\.(msh|svg)"),
+    Case("worm drive of a catalogue, throated", r"", "{worm} -axial_module 6.3\\ mm -diameter_quotient 10 -centre_distance 160\\ mm -worm_flank ZK",
+         kind="good", leaves=r".*\.(msh|svg)"),
+    Case("worm drive whose numbers contradict each other", r"profile shift is 0.396825, not the one given", "{worm} -axial_module 6.3\\ mm -diameter_quotient 10 "
+         "-centre_distance 160\\ mm -wheel_profile_shift 0.2"),
+    Case("worm drive with a shift beyond reason", r"profile shift is 2.*must be between -1 and 1", "{worm} -axial_module 6.3\\ mm -diameter_quotient 10 -centre_distance 170.1\\ mm"),
+    Case("worm drive of two modules", r"-module and -axial_module: give one", "{worm} -axial_module 6.3\\ mm -module 6\\ mm"),
+    Case("worm of two diameters", r"worm_reference_diameter and -diameter_quotient", "{worm} -axial_module 6.3\\ mm -diameter_quotient 10 -worm_reference_diameter 63\\ mm"),
+    Case("fillet of a rack that does not fit", r"rack_fillet = 2 does not fit", "{elastogear} mesh drive.yaml -rack_fillet 2"),
     Case("misspelt key of a drive, near one of PETSc", r"-speed ", "{elastogear} mesh drive.yaml -sped 3\\ rpm"),
     Case("options file that names itself", r"itself.txt, line 1: files of options name each other", "{reduce} -options_file itself.txt"),
     Case("options file with a prefix and an alias", r"", "{elastogear} simulate -bodies a -a_file body.h5 -output kept_run.h5 -options_file prefix.txt",

@@ -68,7 +68,7 @@ def meshes(folder):
         "folded.inp": good.replace("3, 9, 10, 11, 12, 13, 14, 15, 16", "3, 9, 10, 11, 12, 14, 13, 15, 16"),
         "reduced_integration.inp": good.replace("C3D8", "C3D8R"),
         "long.inp": bar(12), "thin.inp": thin_bar(), "metres.inp": bar(size=10), "other_mesh.inp": bar().replace("\n13, 0.03,", "\n13, 0.031,"),
-        "millimetres.inp": mm,
+        "millimetres.inp": mm, "micrometres.inp": bar(size=1e4), "inches.inp": bar(size=0.01 / 0.0254),
         "partly.inp": mm.replace("FIX, 1, 3", "FIX, 1, 2"),
         "brass.inp": mm.replace("MATERIAL=STEEL", "MATERIAL=BRASS"),
         "k.mtx": "1,1, 1,1, 1.0\n1,1, 1,2, nan\n",
