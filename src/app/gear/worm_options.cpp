@@ -113,6 +113,7 @@ Design worm_design(const Options& options) {
   const Pitch p = pitch(options, c);
   const double alpha_n = options.given("pressure_angle") ? options.number("pressure_angle") : kPressureAngle;
   Design d = gear::proportioned(p.m_n, alpha_n * pi / 180, c.starts, c.teeth, p.a, p.x2);
+  if (c.axial_module) d.addendum = *c.axial_module, d.dedendum = 1.25 * *c.axial_module;
   read_rows(options, design_rows(), d);
   d.m_n = p.m_n, d.a = p.a, d.x2 = p.x2;
   // Only an involute worm has a helical wheel.
