@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <vector>
 
 #include "../fem/brick.h"
+#include "../fem/other_cells.h"
 #include "elastogear/base/error.h"
 #include "elastogear/fem/restraint.h"
 #include "reduction/basis.h"
@@ -73,6 +76,41 @@ TEST(Marker, weighed_by_area_lies_at_the_centre_of_its_surface_and_turns_with_it
   const VectorXd motion = reduction::marker_operator(mesh, {"zmin"}, by_area) * rigid_field(mesh, a, b);
   EXPECT_LT((motion.head<3>() - a - b.cross(markers[0].X)).norm(), kRoundoff);
   EXPECT_LT((motion.segment<3>(3) - b).norm(), kRoundoff);
+}
+
+// An even traction on sides of second order: -1/12 of it at corners, 1/3 at midside nodes, 1/6 where two
+// sides have a corner. Of a triangle the corners have none.
+TEST(Marker, weighed_by_area_spreads_a_force_as_an_even_traction) {
+  using mesh::CellType;
+  const auto weights = [](CellType type) {
+    const mesh::Mesh mesh = test::cells_of(type, test::brick({1, 1, 1}, {1, 1, 1}));
+    const auto Q = reduction::marker_operator(mesh, {"zmin"}, reduction::MarkerWeights::area);
+    std::vector<double> all;
+    for (int node : mesh.node_sets.at("zmin")) all.push_back(Q.coeff(0, 3 * node));
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const std::vector<double> hexahedra = weights(CellType::hex20), tetrahedra = weights(CellType::tet10);
+  ASSERT_EQ(hexahedra.size(), 8u);
+  for (int i = 0; i < 8; ++i) EXPECT_NEAR(hexahedra[i], i < 4 ? -1.0 / 12 : 1.0 / 3, kRoundoff);
+  ASSERT_EQ(tetrahedra.size(), 9u);
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(tetrahedra[i], i < 4 ? 0 : i < 8 ? 1.0 / 6 : 1.0 / 3, kRoundoff);
+}
+
+// Moments are tractions in proportion to the distance: the second moment is that of the area.
+TEST(Marker, weighed_by_area_has_the_second_moment_of_its_surface) {
+  for (mesh::CellType type : {mesh::CellType::hex8, mesh::CellType::hex20, mesh::CellType::tet10}) {
+    const mesh::Mesh mesh = test::cells_of(type, test::brick({2, 1, 1}, {3, 1, 1}));
+    const auto Q = reduction::marker_operator(mesh, {"zmin"}, reduction::MarkerWeights::area);
+    VectorXd bent =
+        VectorXd::Zero(3 * mesh.n_nodes());  // w = x y about the centre: neither moves nor turns it
+    for (int i = 0; i < mesh.n_nodes(); ++i) bent[3 * i + 2] = (mesh.X(0, i) - 1.5) * (mesh.X(1, i) - 0.5);
+    EXPECT_LT((Q * bent).head<6>().norm(), kRoundoff);
+    const Vector3d a(1, -2, 3), b(0.3, 0.2, -0.7), centre(1.5, 0.5, 0);
+    const VectorXd motion = Q * rigid_field(mesh, a, b);
+    EXPECT_LT((motion.head<3>() - a - b.cross(centre)).norm(), kRoundoff);
+    EXPECT_LT((motion.segment<3>(3) - b).norm(), kRoundoff);
+  }
 }
 
 TEST(Marker, weighed_by_area_needs_a_surface) {
