@@ -56,11 +56,10 @@ StressPeak find_peak(const io::StressSet& set, const Eigen::MatrixXd& stress, co
       if (std::isfinite(largest)) history(step, static_cast<Eigen::Index>(k)) = largest;
     }
   }
-  // Estimates between nodes that have some may come out below zero.
-  if (set.error.size() > 0) peak.error = std::max(0., set.error(row, peak.step));
-  if (set.mesh_error.size() > 0) peak.mesh_error = std::max(0., set.mesh_error(row, peak.step));
-  if (set.contact_error.size() > 0) peak.contact_error = std::max(0., set.contact_error(row, peak.step));
-  if (set.time_error.size() > 0) peak.time_error = std::max(0., set.time_error(row, peak.step));
+  if (set.error.size() > 0) peak.error = set.error(row, peak.step);
+  if (set.mesh_error.size() > 0) peak.mesh_error = set.mesh_error(row, peak.step);
+  if (set.contact_error.size() > 0) peak.contact_error = set.contact_error(row, peak.step);
+  if (set.time_error.size() > 0) peak.time_error = set.time_error(row, peak.step);
   return peak;
 }
 

@@ -20,6 +20,8 @@ auto upper_rows(Eigen::Index n_modes) { return Eigen::seqN(n_modes / 2, n_modes 
 }  // namespace
 
 Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordinates& coordinates) {
+  // Bodies without modes have no states but equilibria.
+  if (body.n_modes() == 0) return Eigen::VectorXd::Zero(coordinates.q_d.cols());
   const auto half = upper_rows(body.n_modes());
   const Eigen::VectorXd lambda = Eigen::VectorXd(body.K_r.diagonal())(half);
   const auto energy = [&](const Eigen::MatrixXd& q) -> Eigen::VectorXd {

@@ -26,7 +26,8 @@ struct RecoveredStress {
 };
 
 /// Eq. (4.8), n_t: dynamic over static amplitude of the upper half of the modes, in the norm of the
-/// energy and at most 1. body: its K_r is diagonal.
+/// energy and at most 1; 0 of bodies without modes, which have no states but equilibria. body: its K_r is
+/// diagonal.
 Eigen::VectorXd dynamic_share(const model::ElasticBody& body, const SplitCoordinates& coordinates);
 
 /// q_d with zeros in place of all but the upper half of the first n_modes coordinates.

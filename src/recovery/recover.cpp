@@ -34,9 +34,9 @@ struct SetOfBody {
   const model::ElasticBody& elastic;
   const std::vector<int>& members;
   std::optional<StaticStress> known = {};  // by which errors are estimated, and which mode acceleration adds
-  Eigen::MatrixXd upper = {};  // upper_modes_stress at the members; empty: no errors are estimated
-
-  bool estimates() const { return upper.size() > 0; }
+  bool estimates = false;                  // errors by the reduction
+  Eigen::MatrixXd upper =
+      {};  // then upper_modes_stress at the members, without columns of a body without modes
 };
 
 // Coordinates of a body at some output times, one column each.
@@ -115,7 +115,7 @@ void recover_part(const SetOfBody& set, const Motion& motion, Range nodes, io::S
     part(result.time_error) = von_mises(
         modal_stress(set.elastic.stress, members,
                      set.body.run.history.q_error.middleCols(motion.times.begin, motion.times.count)));
-  if (!set.estimates()) return;
+  if (!set.estimates) return;
   const StressError error = reduction_error(
       set.elastic, set.upper.middleRows(nodes.begin, nodes.count), {motion.inertial, motion.split.q_s},
       with_residual(set, motion, members, nodes, std::move(stress), whole));
@@ -132,7 +132,7 @@ void recover_times(SetOfBody& set, Range times, io::StressSet& result) {
   const auto n = static_cast<Eigen::Index>(set.members.size());
   for (Eigen::Index begin = 0; begin < n; begin += kNodesTogether)
     recover_part(set, motion, {begin, std::min(kNodesTogether, n - begin)}, result, peaks);
-  if (set.estimates()) result.peak_error.segment(times.begin, times.count) = peaks.whole_error();
+  if (set.estimates) result.peak_error.segment(times.begin, times.count) = peaks.whole_error();
 }
 
 // Prepares estimates where errors can be told: the full basis leaves nothing out, and of bodies that relax
@@ -143,6 +143,7 @@ void prepare_errors(SetOfBody& set, io::StressSet& result) {
     result.error.setZero(n, n_t);
     result.peak_error.setZero(n_t);
   } else if (set.known) {
+    set.estimates = true;
     set.upper = upper_modes_stress(set.elastic, set.members);
     result.error.resize(n, n_t);
     result.peak_error.setZero(n_t);
