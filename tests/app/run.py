@@ -57,6 +57,12 @@ def accurate():
     pair = figures("accurate_evaluation.json")["cases"][0]["pairs"]["pinion:wheel"]
     of_mesh = [pair["root"]["pinion"]["largest_tension"], pair["root"]["pinion"]["largest_tension_mesh_error"]]
     assert 0 < of_mesh[1]["value"] < 0.6 * of_mesh[0]["value"], of_mesh
+    # What limits the accuracy is made smaller by the same key; the mesh's error holds that of the contact's resolution.
+    limit = next(line for line in said.splitlines() if "limited by" in line)
+    assert "the mesh" in limit and "-accuracy" in limit and "-size" not in limit, limit
+    of_modes = pair["root"]["pinion"]["largest_tension_error"]["value"]
+    assert abs(of_modes - 1e-3 * of_mesh[0]["value"]) < 1e-3 * of_mesh[0]["value"], of_modes
+    assert "largest_tension_contact_error" not in pair["root"]["pinion"]
     for group, name in (("transmission_error", "peak_to_peak"), ("stiffness", "secant_mean"), ("line_load", "KHbeta")):
         assert name + "_mesh_error" in pair[group], f"{group}/{name} has no error"
     assert made(run("accurate.yaml")) == (False, False)

@@ -117,7 +117,8 @@ void print_roots(const Reader& of) {
     const auto peak = [&](const std::string& name) {
       const bool error = of.has(path + name + "_error"), mesh_error = of.has(path + name + "_mesh_error"),
                  contact_error = of.has(path + name + "_contact_error"),
-                 time_error = of.has(path + name + "_time_error");
+                 of_coarser = of.has(path + "/range_mesh_error"),  // the mesh's error has the contact's
+          time_error = of.has(path + name + "_time_error");
       return of.in(path + name, 1e-6, "MPa") + " at node " + whole(of, path + name + "_node") + " of tooth " +
              whole(of, path + name + "_tooth") + ", roll angle " +
              of.in(path + name + "_roll", 1, "pitches") +
@@ -127,7 +128,7 @@ void print_roots(const Reader& of) {
                          : std::string(", error of the mesh not estimated")) +
              (contact_error
                   ? ", by the contact's resolution " + of.in(path + name + "_contact_error", 1e-6, "MPa")
-                  : std::string(", that of the contact's resolution not estimated")) +
+                  : std::string(of_coarser ? "" : ", that of the contact's resolution not estimated")) +
              (time_error ? ", by the steps in time " + of.in(path + name + "_time_error", 1e-6, "MPa") : "");
     };
     const std::string gear = path.substr(5);

@@ -50,15 +50,47 @@ std::string word(const Items& items, const std::string& path) {
   return item && !item->words.empty() ? item->words[0] : "";
 }
 
-// The smallest and the largest value of all pairs of a kind, "11.1 to 11.4"; empty where none has it.
+// With an error the last digit of a number is the second one of the error.
+int decimals_of(double error) {
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 3);
+}
+
+std::string with_decimals(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+// The smallest and the largest value of all pairs of a kind; empty where none has it.
+struct Span {
+  double low = INFINITY, high = -INFINITY, error = 0;
+
+  // "11.1 to 11.4", with the largest of the estimated errors "11.07 to 11.41 +- 0.21".
+  std::string text() const {
+    if (low > high) return "";
+    const bool knows = error > 0;
+    const auto number = [&](double x) {
+      return knows ? with_decimals(x, decimals_of(error)) : short_number(x);
+    };
+    const std::string first = number(low), last = number(high);
+    return (first == last ? first : first + " to " + last) + (knows ? " +- " + number(error) : "");
+  }
+};
+
+Span span_of(const PairsOfKind& of, const std::string& path, double factor) {
+  Span span;
+  for (const PairFigures* pair : of.pairs) {
+    const double value = factor * number(pair->items, path);
+    if (!std::isfinite(value)) continue;
+    span.low = std::min(span.low, value), span.high = std::max(span.high, value);
+    const double error = factor * number(pair->items, path + "_mesh_error");
+    if (error > span.error) span.error = error;
+  }
+  return span;
+}
+
 std::string span(const PairsOfKind& of, const std::string& path, double factor) {
-  double low = INFINITY, high = -INFINITY;
-  for (const PairFigures* pair : of.pairs)
-    if (const double value = factor * number(pair->items, path); std::isfinite(value))
-      low = std::min(low, value), high = std::max(high, value);
-  if (low > high) return "";
-  const std::string first = short_number(low), last = short_number(high);
-  return first == last ? first : first + " to " + last;
+  return span_of(of, path, factor).text();
 }
 
 // "left (drive) flank": where the first gear drives by the flanks of a side, these are that side's flanks.
@@ -126,10 +158,17 @@ std::string place_of_root(const RootPeak& peak, const Surroundings& about) {
 }
 
 // The option that makes an error of this kind smaller.
-std::string remedy(const Cause& cause, const Surroundings& about) {
+std::string remedy(const Cause& cause, const RootPeak& peak, const Surroundings& about) {
   const std::string item = cause.item;
   if (item == "_error") return "more modes (-modes)";
   if (item == "_time_error") return "a smaller -step_error";
+  if (about.chosen_by_accuracy) {
+    char text[48];
+    std::snprintf(text, sizeof text, "-accuracy \"%.1g %%\"", 50 * error_of(peak) / std::abs(peak.value()));
+    return text;
+  }
+  if (!find_item(*peak.items, "time"))
+    return "-accuracy of elastogear run, which chooses the mesh, in place of -size";
   return about.finer.empty() ? "a finer mesh" : "a finer mesh (-size " + about.finer + ")";
 }
 
@@ -141,7 +180,7 @@ void print_limit(const RootPeak& peak, const Surroundings& about) {
     if (peak.part(cause.item) > peak.part(most->item)) most = &cause;
   print_item("  limited by", std::string(most->name) + ", " + whole_percent(peak.part(most->item) / all) +
                                  " of the error of " + whole_percent(all / std::abs(peak.value())) + " at " +
-                                 peak.gear + "; smaller by " + remedy(*most, about));
+                                 peak.gear + "; smaller by " + remedy(*most, peak, about));
 }
 
 void print_roots(const CaseFigures& of, const Surroundings& about) {
@@ -172,8 +211,8 @@ void print_pressure(const PairsOfKind& of, const Surroundings& about) {
   const std::string gear = pair.pair.substr(0, pair.pair.find(':')), place = "pressure/peak_on_" + gear;
   const auto in_mm_of = [&](const char* name) { return place_in_mm(number(pair.items, place + name)); };
   print_item("  flank pressure",
-             short_number(peak_of(pair) / kMega) + " MPa" +
-                 (hertz ? " by H. Hertz" : " in the mean over faces of the mesh") +
+             with_error(peak_of(pair), hertz ? number(pair.items, "pressure/hertz_peak_mesh_error") : 0) +
+                 " MPa" + (hertz ? " by H. Hertz" : " in the mean over faces of the mesh") +
                  (placed ? ", " + gear + " tooth " + short_number(number(pair.items, place + "/tooth")) +
                                ", " + flank(word(pair.items, place + "/side"), about) + ", diameter " +
                                in_mm_of("/diameter") + ", z " + in_mm_of("/z")
@@ -214,7 +253,9 @@ void print_stiffness(const PairsOfKind& of) {
   for (const std::string kind : {"secant", "tangent"}) {
     std::string text = span(of, "stiffness/" + kind + "_mean", 1e-6);
     if (text.empty()) continue;
-    text.append(" N/um, ").append(span(of, "stiffness/" + kind + "_per_width", 1e-9));
+    Span per_width = span_of(of, "stiffness/" + kind + "_per_width", 1e-9);
+    per_width.error = 0;
+    text.append(" N/um, ").append(per_width.text());
     text.append(" N/(mm um) over the face width (").append(kind).append(")");
     print_item("  mesh stiffness", text);
   }
@@ -291,10 +332,7 @@ double whole_error(const Items& items, const std::string& path) {
 
 std::string with_error(double value, double error) {
   if (!(error > 0)) return short_number(value / kMega);
-  char text[64];
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error / kMega))), 0, 3);
-  std::snprintf(text, sizeof text, "%.*f +- %.*f", decimals, value / kMega, decimals, error / kMega);
-  return text;
+  return Span{value / kMega, value / kMega, error / kMega}.text();
 }
 
 std::string Surroundings::kind_of(const std::string& gear) const {

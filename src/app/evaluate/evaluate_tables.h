@@ -54,6 +54,7 @@ struct Surroundings {
   std::map<std::string, std::string> kind = {};  ///< of gears that are equal and have equal mates: planets
   std::string loaded_flanks = "drive";           ///< or "coast"
   std::string finer = {};                        ///< size of a finer mesh; empty: there is none
+  bool chosen_by_accuracy = false;               ///< is the mesh that of option accuracy?
 
   /// That of a gear, its own name where it is one of a kind.
   std::string kind_of(const std::string& gear) const;

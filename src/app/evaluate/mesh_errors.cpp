@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
@@ -13,7 +14,7 @@ namespace {
 
 using io::EvaluationItem;
 
-constexpr const char* kErrorEnd = "_mesh_error";
+constexpr const char *kErrorEnd = "_mesh_error", *kContactErrorEnd = "_contact_error";
 constexpr const char* kRootTension = "/largest_tension";
 
 // Figures that the mesh changes, beside those of roots.
@@ -78,19 +79,6 @@ void set_item(std::vector<EvaluationItem>& items, EvaluationItem item) {
     *found = std::move(item);
 }
 
-std::string shown(double value, double error, const std::string& unit) {
-  const bool pressure = unit == "Pa", length = unit == "m", stiffness = unit == "N/m";
-  const double factor = pressure || stiffness ? 1e-6 : length ? 1e6 : 1;
-  char text[96];
-  std::snprintf(text, sizeof text, "%.4g ± %.2g %s", factor * value, factor * error,
-                pressure      ? "MPa"
-                : length      ? "um"
-                : stiffness   ? "N/um"
-                : unit == "1" ? ""
-                              : unit.c_str());
-  return text;
-}
-
 }  // namespace
 
 void add_mesh_errors(const std::vector<std::string>& files, double refinement,
@@ -109,27 +97,25 @@ void add_mesh_errors(const std::vector<std::string>& files, double refinement,
       for (const EvaluationItem& item : pair.items)
         if (item.shape.empty() && item.words.empty() && depends_on_mesh(item.path))
           errors.push_back(error_item(coarser, group, item, refinement));
-      for (EvaluationItem& error : errors) set_item(pair.items, std::move(error));
+      for (EvaluationItem& error : errors) {
+        // Meshes resolve the contact as finely as the body: the change between them has both.
+        const std::string figure = error.path.substr(0, error.path.size() - std::strlen(kErrorEnd));
+        std::erase_if(pair.items,
+                      [&](const EvaluationItem& item) { return item.path == figure + kContactErrorEnd; });
+        set_item(pair.items, std::move(error));
+      }
     }
 }
 
-std::vector<std::pair<std::string, std::string>> figures_with_mesh_errors(const std::string& file) {
-  const io::EvaluationFile evaluation = io::read_evaluation(file);
-  std::vector<std::pair<std::string, std::string>> lines;
-  for (const EvaluationItem& item : evaluation.items)
-    if (const EvaluationItem* error = find_item(evaluation.items, item.path + kErrorEnd))
-      lines.emplace_back(item.path.substr(item.path.find('/') + 1),
-                         shown(item.value[0], error->value[0], item.unit));
-  return lines;
-}
-
-double root_mesh_error(const std::string& file) {
+double root_error(const std::string& file) {
   const io::EvaluationFile evaluation = io::read_evaluation(file);
   double largest = -1;
   for (const EvaluationItem& item : evaluation.items) {
     if (!item.path.ends_with(kRootTension)) continue;
-    const EvaluationItem* error = find_item(evaluation.items, item.path + kErrorEnd);
-    if (error && item.value[0] > 0) largest = std::max(largest, error->value[0] / item.value[0]);
+    const EvaluationItem* by_mesh = find_item(evaluation.items, item.path + kErrorEnd);
+    if (!by_mesh || !(item.value[0] > 0)) continue;
+    const double error = std::max(by_mesh->value[0], whole_error(evaluation.items, item.path));
+    largest = std::max(largest, error / item.value[0]);
   }
   return largest;
 }

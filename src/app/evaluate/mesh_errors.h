@@ -9,17 +9,14 @@
 namespace elastogear::app {
 
 /// Adds its estimated error to each figure that the mesh changes, Eq. (10.13) to (10.15), as an item
-/// `PATH_mesh_error`, in place of one that is there. coarser: evaluation files of the same cases, the
-/// coarsest mesh first; refinement: of the cases' own meshes. Throws Error naming a file that has not these
-/// figures.
+/// `PATH_mesh_error`, in place of one that is there and of that by the contact's resolution. coarser:
+/// evaluation files of the same cases, the coarsest mesh first; refinement: of the cases' own meshes. Throws
+/// Error naming a file that has not these figures.
 void add_mesh_errors(const std::vector<std::string>& coarser, double refinement,
                      std::vector<CaseFigures>& cases);
 
-/// Figures with their errors as lines of name and text, "-31.04 um +- 0.2", of an evaluation file.
-std::vector<std::pair<std::string, std::string>> figures_with_mesh_errors(const std::string& evaluation);
-
-/// The largest estimated error by the mesh of the largest tension at a root, as a share of it, over all
-/// cases, pairs and gears of an evaluation file; < 0: there is none.
-double root_mesh_error(const std::string& evaluation);
+/// The largest estimated error of the largest tension at a root, as a share of it, over all cases, pairs and
+/// gears of an evaluation file; < 0: there is none.
+double root_error(const std::string& evaluation);
 
 }  // namespace elastogear::app

@@ -247,7 +247,8 @@ void print_all(const DriveOfRun& of, const std::vector<CaseFigures>& figures) {
   if (figures.size() > 1) return print_cases(figures);
   if (is_verbose()) return print_figures(figures[0]);
   const bool drives = of.options.choice("side", {"drive", "coast"}) == 0;
-  print_case_in_short(figures[0], {kinds_of(of.drive), drives ? "drive" : "coast", finer_size(of.options)});
+  print_case_in_short(figures[0], {kinds_of(of.drive), drives ? "drive" : "coast", finer_size(of.options),
+                                   !of.settings.coarser.empty()});
 }
 
 OptionTable all_evaluate_options() {

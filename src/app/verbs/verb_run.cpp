@@ -104,13 +104,8 @@ std::string obstacle_to_finer(int mesh, double seconds) {
   return finer.str();
 }
 
-void print_errors(const std::string& evaluation) {
-  print_item("estimated errors by the mesh", "from coarser meshes");
-  for (const auto& [name, text] : figures_with_mesh_errors(evaluation)) print_item("  " + name, text);
-}
-
 // Returns whether the run ends with this mesh, and says how accurate it is.
-bool ends_here(int mesh, double error, double accuracy, double seconds, const std::string& evaluation) {
+bool ends_here(int mesh, double error, double accuracy, double seconds) {
   const bool reached = error < 0 || error <= accuracy;
   const std::string obstacle = reached ? "" : obstacle_to_finer(mesh, seconds);
   std::ostringstream said;
@@ -121,9 +116,7 @@ bool ends_here(int mesh, double error, double accuracy, double seconds, const st
     print_item("accuracy", "there is no tension at a root to tell it by");
   else
     print_item("accuracy", said.str());
-  if (!reached && obstacle.empty()) return false;
-  number_on_rank_0([&] { return print_errors(evaluation), 0; });
-  return true;
+  return reached || !obstacle.empty();
 }
 
 // Refines from size tiny on, Eq. (10.13) to (10.15). All meshes but the last have their files in folders.
@@ -149,8 +142,8 @@ void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
         [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); });
     if (!is_apart) {
       const std::string evaluation = evaluation_file(here);
-      const double error = number_on_rank_0([&] { return root_mesh_error(evaluation); });
-      if (ends_here(mesh, error, accuracy, seconds, evaluation)) return;
+      const double error = number_on_rank_0([&] { return root_error(evaluation); });
+      if (ends_here(mesh, error, accuracy, seconds)) return;
       number_on_rank_0([&] { return move_files(here, apart, drive), 0; });
     }
     coarser.push_back(evaluation_file(apart));
