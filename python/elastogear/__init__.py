@@ -3,6 +3,9 @@
     import elastogear as eg
 
     drive = eg.Drive("drive.yaml")          # or a dict of the same keys
+    evaluation = drive.run()                # all at once: what an engineer reads off a pitch
+    print(evaluation["root/pinion/largest_tension"], evaluation.error("root/pinion/largest_tension"))   # Pa
+
     drive.reduce()                          # meshes and reduces all gears
     result = drive.simulate()               # equilibrium or motion
     stress = drive.recover()                # stresses at the roots of the teeth

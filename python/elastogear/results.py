@@ -228,11 +228,15 @@ class Stress:
         return f"<elastogear.Stress {self.path}: {len(self.sets)} sets, {len(self.time)} times>"
 
 
+_CAUSES = ("_mesh_error", "_contact_error", "_error", "_time_error")  # ends of the names of estimated errors
+
+
 class Evaluation:
     """What is read off a drive (docs/evaluation.md).
 
         evaluation["transmission_error/peak_to_peak"]      a number, an array or a list of words
         evaluation.unit("transmission_error/peak_to_peak")
+        evaluation.error("transmission_error/peak_to_peak")
 
     A path is that of the file, "CASE/PAIR/transmission_error/mean", or its end where that is of one figure alone.
 
@@ -270,6 +274,12 @@ class Evaluation:
     def meaning(self, path: str) -> str:
         """One line on a figure."""
         return self._find(path)[2]
+
+    def error(self, path: str) -> Optional[float]:
+        """Sum of the estimated errors of a figure by all causes, in its unit; None where none is estimated."""
+        whole = next(each for each, item in self._items.items() if item is self._find(path))
+        parts = [float(self._items[whole + cause][0]) for cause in _CAUSES if whole + cause in self._items]
+        return sum(parts) if parts else None
 
     def __repr__(self) -> str:
         return f"<elastogear.Evaluation {self.path}: {len(self._items)} figures>"

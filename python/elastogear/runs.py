@@ -220,6 +220,15 @@ class Drive(System):
             rows = list(csv.DictReader(file))
         return [Result(os.path.join(path, row["file"]), report, row) for row in rows if row["file"]]
 
+    def run(self, *, progress: Optional[Progress] = None, **options: Any) -> Evaluation:
+        """Makes bodies, a sweep over a pitch and what is read off it, as far as they are not there, as `elastogear
+        run` does: on meshes that are refined until the stresses at the roots have the `accuracy` asked.
+
+        Under mpirun all ranks must call it, and share the work.
+        """
+        report = self._run("run", options, progress)
+        return Evaluation([file for file in report.files if file.endswith(".h5")][-1], report)
+
     def evaluate(self, *, progress: Optional[Progress] = None, **options: Any) -> Evaluation:
         """Reads off the last result, or that of the option `result`, what `elastogear evaluate` does."""
         report = self._run("evaluate", options, progress)

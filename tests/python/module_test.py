@@ -99,6 +99,18 @@ class Runs(WithDrive):
         self.assertAlmostEqual(facts["pinion:wheel"]["ratio"], 43 / 17)
         self.assertEqual(copy.deepcopy(facts["pinion"]["bore"]).unit, "m")
 
+    def test_run_makes_what_is_missing_and_returns_the_evaluation(self):
+        drive = eg.Drive(SPUR, name="whole", face_width="6 mm", torque="50 N m", sweep_positions=3)
+        first = drive.run(pinion_file="whole_pinion.h5", wheel_file="whole_wheel.h5")
+        path = "root/pinion/largest_tension"
+        self.assertGreater(first[path], 0)
+        self.assertEqual(first.unit(path), "Pa")
+        self.assertGreater(first.error(path), 0)
+        self.assertIsNone(first.error("teeth/contact_ratio"))
+        again = drive.run(pinion_file="whole_pinion.h5", wheel_file="whole_wheel.h5")
+        self.assertEqual((again.report["reduce"], again.report["simulate"]), ("the bodies are there", "the result is there"))
+        self.assertEqual(again[path], first[path])
+
     def test_messages_are_those_of_the_program(self):
         def message(**options):
             with self.assertRaises(eg.Error) as caught:
