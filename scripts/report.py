@@ -7,6 +7,7 @@ bodies, curves, tables, inputs, versions (docs/report.md).
 """
 import argparse
 import base64
+import hashlib
 import json
 import os
 import subprocess
@@ -189,8 +190,28 @@ def write(path, text):
     print(f"{path}: {len(text.encode()) / 1e6:.2f} MB, open it in a browser")
 
 
-def compose(case, collection, parts, out, evaluated=None):
-    """parts: of the template page.html, but for those that are made here. evaluated: an evaluation file."""
+def made_of(options, result, evaluated):
+    """The mark at a page's end of all that the page shows."""
+    total = hashlib.sha256()
+    figures = os.path.splitext(evaluated)[0] + ".json"
+    for path in (options.input, result, figures, options.elastogear):
+        if os.path.isfile(path):
+            with open(path, "rb") as file:
+                total.update(hashlib.sha256(file.read()).digest())
+    total.update(f"{options.times} {options.no_picture}".encode())
+    return f"<!-- made of {total.hexdigest()} -->\n"
+
+
+def ends_with(path, mark):
+    if not os.path.isfile(path):
+        return False
+    with open(path, "rb") as file:
+        file.seek(-min(len(mark), os.path.getsize(path)), os.SEEK_END)
+        return file.read() == mark.encode()
+
+
+def compose(case, collection, parts, out, evaluated=None, mark=""):
+    """parts: of the template page.html, but for those that are made here. evaluated: an evaluation file. mark: at the page's end."""
     folder = bundle.ready()
     script, style = (bundle.read(os.path.join(folder, name)) for name in ("page.js", "page.css"))
     charts = curves.charts(case) + (evaluation.charts(evaluated, case.result.filename) if evaluated else [])
@@ -203,7 +224,7 @@ def compose(case, collection, parts, out, evaluated=None):
         parts.update({"view": view_section(case, data), "top": "top two-sides"})
     parts.update({"script": script.replace("</script", "<\\/script"), "style": style.replace("</style", "<\\/style"), "data": script_data(data),
                   "charts": charts_section(charts, case.axis)})
-    write(out, fill(template("page.html"), parts))
+    write(out, fill(template("page.html"), parts) + mark)
 
 
 def mesh_sizes(case, options):
@@ -214,7 +235,8 @@ def mesh_sizes(case, options):
             results.require_body_of_run(case.result, body, path)
             with results.open_file(path, "body") as file:
                 sizes[body] = f"{file['mesh/X'].shape[0]} nodes, {file['mesh/cell_type'].shape[0]} elements"
-                sizes[body] += f", {results.mode_count(file)} modes" if results.mode_count(file) else ", unreduced"
+                modes, alone = results.mode_count(file), results.text(file["provenance"].attrs.get("option_modes", "")) == "0"
+                sizes[body] += f", {modes} modes" if modes else ", static responses alone" if alone else ", unreduced"
     return sizes
 
 
@@ -223,6 +245,10 @@ def report_input(options):
     keys = read_keys(options.input)
     path = options.result or default_result(options.input, keys)
     stem = os.path.splitext(os.path.basename(options.input))[0]
+    out, evaluated = options.out or stem + "_report.html", options.evaluation or stem + "_evaluation.h5"
+    mark = made_of(options, path, evaluated)
+    if options.keep and ends_with(out, mark):
+        return
     with results.open_file(path, "result") as result, tempfile.TemporaryDirectory(prefix="elastogear_report_") as folder:
         stress_path, collection = options.stress, None if options.no_picture else options.fields
         if not stress_path or not (collection or options.no_picture):
@@ -235,7 +261,6 @@ def report_input(options):
             commands = [f"elastogear {verb} {options.input}" for verb in (("reduce",) if "drive" in keys else ()) + ("simulate", "recover")]
             commands.append("scripts/report.py " + " ".join(names))
             source = f"<details><summary>{texts.escape(stem)}.yaml as it stands</summary><pre tabindex=\"0\">{texts.escape(bundle.read(options.input))}</pre></details>"
-            evaluated = options.evaluation or stem + "_evaluation.h5"
             if "drive" in keys and not os.path.isfile(evaluated):
                 evaluated = evaluate(options, path, folder)
             if evaluated and os.path.isfile(evaluated):
@@ -243,7 +268,7 @@ def report_input(options):
             shown = drawing(options.drawing or stem + ".svg")
             compose(case, collection, {"summary": texts.summary(case, meshes), "inputs": shown + texts.inputs_table(case, os.path.basename(options.input)) + source,
                                        "provenance": texts.provenance_table(case, [options.input, path], commands)},
-                    options.out or stem + "_report.html", evaluated if evaluated and os.path.isfile(evaluated) else None)
+                    out, evaluated if evaluated and os.path.isfile(evaluated) else None, mark)
 
 
 def report_example(options):
@@ -274,6 +299,7 @@ def arguments():
     parser.add_argument("--drawing", help="SVG file of elastogear mesh; default: INPUT.svg where it is")
     parser.add_argument("--evaluation", help="file of elastogear evaluate; default: INPUT_evaluation.h5 where it is")
     parser.add_argument("--no-picture", action="store_true", help="without the bodies in three dimensions")
+    parser.add_argument("--keep", action="store_true", help="leave a page that is there of the same files")
     parser.add_argument("--elastogear", default=PROGRAM, help="program")
     parser.add_argument("--out", help="default: INPUT_report.html")
     options = parser.parse_args()

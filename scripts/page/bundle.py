@@ -59,9 +59,11 @@ def read(path):
 def ready():
     """Folder of page.js and page.css, made when the sources are others than they were made of."""
     folder = os.path.abspath(BUILD)
-    os.makedirs(folder, exist_ok=True)
     names = sources()
     wanted, stamp = fingerprint(names), os.path.join(folder, "stamp")
+    if os.path.exists(stamp) and read(stamp) == wanted:  # perhaps installed, where nobody may write
+        return folder
+    os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "lock"), "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if os.path.exists(stamp) and read(stamp) == wanted:

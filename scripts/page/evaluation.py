@@ -33,7 +33,7 @@ def of_group(name, group, place, title, curves, unit):
     found = {label: values for label, values in found.items() if np.isfinite(values).all() and np.abs(values).max() > 0}
     if found:
         factor, scaled = readable(max(np.abs(values).max() for values in found.values()), unit)
-        yield chart(f"{place}-{name}".replace(":", "-"), f"{title}, {name.replace(':', ' on ')}", group["roll"][:], f"{title.lower()} in {scaled}",
+        yield chart(f"{place}-{name}".replace(":", "-"), f"{title}, {name.replace(':', ' on ')}", group["roll"][:], f"{title.lower().removeprefix('largest ')} in {scaled}",
                     [{"name": label, "values": values * factor} for label, values in found.items()])
 
 
@@ -98,6 +98,7 @@ class RootPeak:
 
         self.value, self.error, self.mesh_error = number(""), number("_error"), number("_mesh_error")
         self.contact_error, self.time_error = number("_contact_error"), number("_time_error")
+        self.by_coarser_meshes = "range_mesh_error" in root
         known = self.error is not None and self.mesh_error is not None
         self.whole_error = self.error + self.mesh_error + (self.contact_error or 0) + (self.time_error or 0) if known else None
         at = int(np.abs(pair["roll"][:] - number("_roll")).argmin())
@@ -125,14 +126,15 @@ def root_peaks(path, case):
 
 
 def pressure_cards(path, result):
-    """Figure (Pa) and words of the largest flank pressure of each pair."""
+    """Figure, estimated error (Pa; None: not estimated) and words of the largest flank pressure of each pair."""
     with results.open_file(path, "evaluation") as file:
         group = group_of(file, result)
         for name, pair in (pairs_of(group) if group is not None else {}).items():
             if "pressure/hertz_peak" in pair:
-                yield name, float(pair["pressure/hertz_peak"][()]), f"largest flank pressure by H. Hertz, at {float(pair['pressure/hertz_peak_roll'][()]):.3g} pitches"
+                error = float(pair["pressure/hertz_peak_mesh_error"][()]) if "pressure/hertz_peak_mesh_error" in pair else None
+                yield name, float(pair["pressure/hertz_peak"][()]), error, f"largest flank pressure by H. Hertz, at {float(pair['pressure/hertz_peak_roll'][()]):.3g} pitches"
             elif "pressure/peak" in pair:
-                yield name, float(pair["pressure/peak"][()]), "largest pressure in the mean over faces of the mesh"
+                yield name, float(pair["pressure/peak"][()]), None, "largest pressure in the mean over faces of the mesh"
 
 
 def in_words(value, unit):

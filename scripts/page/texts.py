@@ -234,8 +234,8 @@ def cards(case):
         yield (f'<li class="card"><h3>{escape(body)}, {escape(name.replace("_", " "))}</h3>'
                f'<p class="figure">{plus_minus(peak.value, peak.error if peak.whole_error is None else peak.whole_error)} <span class="unit">MPa</span></p><p>{peak.what}, {light_of(peak)}</p>'
                f'<p class="where">{escape(place)} <button type="button" data-visit="{visit}">Show</button></p></li>')
-    for name, pressure, words in case.pressures:
-        yield (f'<li class="card"><h3>Flanks, {escape(name.replace(":", " on "))}</h3><p class="figure">{mega(pressure)} <span class="unit">MPa</span></p>'
+    for name, pressure, error, words in case.pressures:
+        yield (f'<li class="card"><h3>Flanks, {escape(name.replace(":", " on "))}</h3><p class="figure">{plus_minus(pressure, error)} <span class="unit">MPa</span></p>'
                f'<p>{escape(words)}</p></li>')
     for name, pair in case.result["contact"].items():
         force = results.total_force(pair)
@@ -248,6 +248,9 @@ def cards(case):
 
 def error_note(case):
     """What stands after ±."""
+    if any(getattr(peak, "by_coarser_meshes", False) for _, _, _, peak in case.peaks):
+        return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh, and that of the mesh, by what has changed "
+                "from coarser meshes to this one, together; the table has each. It does not cover the law of contact.")
     if any(peak.whole_error is not None for _, _, _, peak in case.peaks):
         return ("After ± stands the estimated error of the reduction, against unreduced bodies on the same mesh, that of the mesh, the difference between "
                 "two recoveries of the stress, that of the contact's resolution, the stress of forces spread over the next nodes, and that of the steps in time, "
