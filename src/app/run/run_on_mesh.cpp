@@ -132,6 +132,8 @@ bool has_evaluation(const RunOnMesh& of) {
 
 std::string evaluation_file(const RunOnMesh& of) { return evaluate_with_files(of).text("output"); }
 
+std::string result_file(const RunOnMesh& of) { return evaluate_with_files(of).text("result"); }
+
 void make(const RunOnMesh& of, const Drive& drive, const std::vector<std::string>& coarser) {
   if (!of.folder.empty()) collectively(PETSC_COMM_WORLD, [&] { fs::create_directories(of.folder); });
   if (const std::string cause = why_on_rank_0([&] { require_all_bodies(of.reduce, drive); });

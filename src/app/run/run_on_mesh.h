@@ -23,8 +23,9 @@ RunOnMesh on_mesh(RunOnMesh of, const Drive& drive, double refinement, const std
 bool has_bodies(const RunOnMesh& of, const Drive& drive);
 /// Are result and evaluation there, of this input, whatever became of the bodies?
 bool has_evaluation(const RunOnMesh& of);
-/// The evaluation file that it has or will have.
+/// The evaluation file and the result that it has or will have.
 std::string evaluation_file(const RunOnMesh& of);
+std::string result_file(const RunOnMesh& of);
 
 /// Makes what is not there and evaluates the result; says why it makes something. coarser: evaluation files
 /// of coarser meshes, the coarsest first. Collective.

@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "app/console/console.h"
+#include "app/console/embedding.h"
 #include "app/evaluate/mesh_errors.h"
 #include "app/options/rows.h"
+#include "app/run/report_page.h"
 #include "app/run/run_on_mesh.h"
 #include "app/verbs/verbs.h"
 #include "elastogear/base/collectively.h"
@@ -29,7 +32,8 @@ constexpr double kLongest = 1200;  // s, that one more mesh may take
 constexpr double kCost = 4;        // power of the refinement that time and memory grow with
 
 struct RunSettings {
-  double accuracy = 5;  // %
+  double accuracy = 5;          // %
+  std::string report = "page";  // or none
 };
 
 const Rows<RunSettings> kRunRows = {
@@ -37,6 +41,8 @@ const Rows<RunSettings> kRunRows = {
      "run: estimated error by the mesh, of the largest tension at the root of every gear, that meshes of a "
      "drive at rest are refined for; size, element_order and refinement choose a mesh in place of it",
      kPositive},
+    {"report", &RunSettings::report, "-",
+     "run: page, a file for the browser, DRIVE_report.html (docs/report.md); none"},
 };
 
 bool is_at_rest(const RunOnMesh& of) {
@@ -99,7 +105,7 @@ std::string obstacle_to_finer(int mesh, double seconds) {
   const double wanted = times * held_memory();
   if (times * seconds <= kLongest && wanted <= memory) return "";
   finer << "the next mesh would take about " << duration(times * seconds) << " and "
-        << with_unit(1e-9 * wanted, "GB") << "of memory; -refinement " << kRefinements[mesh + 1]
+        << short_number(1e-9 * wanted) << " GB of memory; -refinement " << kRefinements[mesh + 1]
         << " makes it";
   return finer.str();
 }
@@ -150,17 +156,32 @@ void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
   }
 }
 
+// The page of one result of one drive file. A run without it has all its figures.
+void make_report(const Options& given, const RunOnMesh& of) {
+  if (given.choice("report", {"page", "none"}) == 1 || embedding() || given.files().size() != 1) return;
+  number_on_rank_0([&] {
+    const PageInputs inputs{given.files()[0], result_file(of), evaluation_file(of),
+                            of.reduce.text("store") == "all" && of.reduce.text("modes") != "0"};
+    if (!std::filesystem::is_regular_file(inputs.result)) return 0;  // a folder of several cases
+    const std::string page = drive_stem(of.reduce) + "_report.html", obstacle = make_page(inputs, page);
+    print_item("report", obstacle.empty() ? page + ", open it in a browser" : "not made: " + obstacle);
+    return 0;
+  });
+}
+
 void run_all(const Options& given, const std::vector<std::string>&) {
   require(is_drive(given), "needs a drive file: elastogear run drive.yaml (docs/drives.md)");
   RunSettings settings;
   read_rows(given, kRunRows, settings);
+  given.choice("report", {"page", "none"});  // another word is refused before the work
   const Drive drive = read_drive(with_gears(given));
   RunOnMesh of = run_options(given);
-  if (!chooses_mesh(given, of)) return make(of, drive, {});
+  if (!chooses_mesh(given, of)) return make(of, drive, {}), make_report(given, of);
   // Equilibria take static responses alone, and errors by the mesh come from coarser ones.
   if (of.reduce.text("basis") == "modal_residual" && !relaxes_by(of.reduce))
     for (Options* options : {&of.reduce, &of.simulate, &of.evaluate}) options->set_default("modes", "0");
   run_accurately(of, drive, settings.accuracy / 100);
+  make_report(given, of);
 }
 
 OptionTable all_run_options() {
