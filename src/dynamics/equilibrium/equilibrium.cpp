@@ -285,7 +285,8 @@ UniqueSNES make_snes(Equilibrium& at, UniqueMat& J) {
   check(SNESSetFunction(snes, nullptr, function, &at));
   check(SNESSetJacobian(snes, J, J, jacobian, &at));
   set_solvers(at.problem, snes);
-  check(SNESSetTolerances(snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, kMostIterations, -1));
+  check(SNESSetTolerances(snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, kMostIterations,
+                          std::numeric_limits<PetscInt>::max()));
   SNESLineSearch search = nullptr;
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetPreCheck(search, limit, &at));

@@ -97,7 +97,8 @@ void limit_iterations(const Sweep& sweep, int most) {
   PetscBool given = PETSC_FALSE;
   check(PetscOptionsHasName(nullptr, nullptr, "-snes_max_it", &given));
   if (given) return;
-  check(SNESSetTolerances(sweep.snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, most, -1));
+  check(SNESSetTolerances(sweep.snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, most,
+                          std::numeric_limits<PetscInt>::max()));
 }
 
 // Finds the equilibrium at the first position; Error where there is none.

@@ -4,9 +4,9 @@
 // failure, keeps what could not be written in memory and lets the library go on; whoever writes asks for the
 // failure.
 
-#include <hdf5.h>
-
 #include <string>
+
+#include "io/hdf5/hdf5.h"
 
 namespace elastogear::io::h5 {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ namespace {
 using UniqueBV = Handle<BV, BVDestroy>;
 
 constexpr double kTolerance = 1e-10;
+constexpr PetscInt kNoLimit = std::numeric_limits<PetscInt>::max();
 
 struct Method {
   BlockLanczosSettings settings = {};
@@ -109,22 +111,23 @@ PetscErrorCode check_problem(EPS eps) {
   return 0;
 }
 
+// A number that nobody has set is negative: PETSC_DEFAULT up to SLEPc 3.21, PETSC_DETERMINE since.
+
 void set_dimensions(EPS eps) {
   Method& m = method(eps);
-  const bool no_ncv = eps->ncv == PETSC_DEFAULT || eps->ncv == m.default_ncv,
-             no_mpd = eps->mpd == PETSC_DEFAULT || eps->mpd == m.default_mpd;
-  m.most_columns = std::min(no_ncv ? PETSC_MAX_INT : eps->ncv, no_mpd ? PETSC_MAX_INT : eps->mpd);
+  const bool no_ncv = eps->ncv < 0 || eps->ncv == m.default_ncv,
+             no_mpd = eps->mpd < 0 || eps->mpd == m.default_mpd;
+  m.most_columns = std::min(no_ncv ? kNoLimit : eps->ncv, no_mpd ? kNoLimit : eps->mpd);
   if (no_ncv) eps->ncv = m.default_ncv = eps->nev;
   if (no_mpd) eps->mpd = m.default_mpd = eps->ncv;
 }
 
-// SLEPc's default type refuses 2^31 entries and more.
+// SLEPc's default types, SVEC up to 3.19 and MAT since, refuse 2^31 entries and more.
 PetscErrorCode choose_vectors(EPS eps) {
-  constexpr double kMostEntries = PETSC_MAX_INT;
   PetscBool contiguous = PETSC_FALSE;
   if (!eps->V) PetscCall(EPSGetBV(eps, &eps->V));
-  PetscCall(PetscObjectTypeCompare((PetscObject)eps->V, BVSVEC, &contiguous));
-  const bool too_many = static_cast<double>(eps->nev) * eps->n > kMostEntries;
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)eps->V, &contiguous, BVSVEC, BVMAT, ""));
+  const bool too_many = static_cast<double>(eps->nev) * eps->n > kNoLimit;
   if (!((PetscObject)eps->V)->type_name || method(eps).handler.mode || (contiguous && too_many))
     PetscCall(BVSetType(eps->V, kSlabsType));
   return 0;
@@ -132,8 +135,8 @@ PetscErrorCode choose_vectors(EPS eps) {
 
 PetscErrorCode set_up(EPS eps) {
   PetscCall(check_problem(eps));
-  if (eps->tol == PETSC_DEFAULT) eps->tol = kTolerance;
-  if (eps->max_it == PETSC_DEFAULT) eps->max_it = PETSC_MAX_INT;
+  if (eps->tol < 0) eps->tol = kTolerance;
+  if (eps->max_it < 0) eps->max_it = kNoLimit;
   set_dimensions(eps);
   PetscCall(set_up_transform(eps));
   PetscCall(choose_vectors(eps));

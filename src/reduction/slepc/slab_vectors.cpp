@@ -353,8 +353,11 @@ PetscErrorCode create(BV bv) {
   PetscCheck(!bv->Acreate, PetscObjectComm((PetscObject)bv), PETSC_ERR_SUP,
              "BV type %s is not made of a matrix", kSlabsType);
   bv->data = new Slabs{};
-  PetscCall(VecDuplicate(bv->t, &bv->cv[0]));
-  PetscCall(VecDuplicate(bv->t, &bv->cv[1]));
+#if SLEPC_VERSION_GE(3, 20, 0)
+  bv->ld = bv->n;  // of getarray: columns follow one another
+#endif
+  PetscCall(BVCreateVec(bv, &bv->cv[0]));
+  PetscCall(BVCreateVec(bv, &bv->cv[1]));
   set_operations(bv->ops);
   return 0;
 }
