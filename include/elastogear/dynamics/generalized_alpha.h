@@ -21,9 +21,8 @@
 
 namespace elastogear::dynamics {
 
-/// Registers the TS type "generalized_alpha", and replaces PETSc's "alpha2" by it: the one in PETSc 3.18
-/// starts with twice the true acceleration. May be called more than once. TSAlpha2SetRadius and its kin work
-/// on both.
+/// Registers the TS type "generalized_alpha" beside PETSc's "alpha2", which up to 3.21 starts with twice the
+/// true acceleration. May be called more than once. TSAlpha2SetRadius and its kin work on both.
 void register_generalized_alpha();
 
 /// Borrowed U, V, A at the accepted step. They may be changed in place if set_state follows. Where A is not

@@ -14,18 +14,18 @@ PetscErrorCode shorten_lag(Method& m, PetscReal s, Vec A) {
 // x := the end of a step from the start of the last one to t; the method keeps its own start and end.
 PetscErrorCode step_to(TS ts, PetscReal t, const Motion& x) {
   Method& m = method(ts);
-  const PetscReal time = ts->ptime, dt = ts->time_step;
+  const StepContext at = context_of(ts);
   Vec A = nullptr;
   PetscCall(VecDuplicate(x.A, &A));
   PetscCall(shorten_lag(m, (t - m.step_time) / m.step_size, A));
   const Motion start = m.start, end = m.end;
   m.start.A = A;
   m.end = x;
-  ts->ptime = m.step_time;
-  ts->time_step = t - m.step_time;
+  PetscCall(TSSetTime(ts, m.step_time));
+  PetscCall(TSSetTimeStep(ts, t - m.step_time));
   const PetscErrorCode code = solve_step(ts);
-  ts->ptime = time;
-  ts->time_step = dt;
+  PetscCall(TSSetTime(ts, at.time));
+  PetscCall(TSSetTimeStep(ts, at.step));
   m.start = start;
   m.end = end;
   PetscCall(VecDestroy(&A));
@@ -39,7 +39,7 @@ PetscErrorCode step_to(TS ts, PetscReal t, const Motion& x) {
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   const Method& m = method(ts);
   const PetscReal dt = m.step_size, s = (t - m.step_time) / dt;
-  PetscCheck(dt > 0 && m.step_time == ts->ptime_prev, PetscObjectComm((PetscObject)ts),
+  PetscCheck(dt > 0 && m.step_time == context_of(ts).time_before, PetscObjectComm((PetscObject)ts),
              PETSC_ERR_ARG_WRONGSTATE, "No step to interpolate: none was taken, or it was rolled back");
   const PetscReal h = s * s * (3 - 2 * s);
   const PetscScalar weights[] = {1 - h, h, dt * s * (1 - s) * (1 - s), dt * s * s * (s - 1)};
@@ -69,7 +69,7 @@ PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A) {
 PetscErrorCode solve_between(TS ts, PetscReal t, const Motion& x, bool* solved) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscCall(step_to(ts, t, x));
-  PetscCall(SNESGetConvergedReason(ts->snes, &reason));
+  PetscCall(SNESGetConvergedReason(context_of(ts).snes, &reason));
   *solved = reason > 0;
   return 0;
 }

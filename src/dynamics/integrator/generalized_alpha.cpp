@@ -1,5 +1,7 @@
 #include "elastogear/dynamics/generalized_alpha.h"
 
+#include <petsc/private/tsimpl.h>
+
 #include <cmath>
 
 #include "dynamics/integrator/generalized_alpha_method.h"
@@ -32,11 +34,27 @@ PetscErrorCode acceleration_is_known(TS ts, bool* known) {
   return 0;
 }
 
+// Fails with PETSC_ERR_NOT_CONVERGED, or with ts->reason where TSSetErrorIfStepFails is off.
+PetscErrorCode acceleration_outcome(TS ts) {
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  PetscCall(SNESGetConvergedReason(ts->snes, &reason));
+  PetscCheck(
+      reason >= 0 || !ts->errorifstepfailed, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+      "No acceleration with F(t, U, V, A) = 0 at t = %g (%s): is the mass matrix singular, or the state "
+      "inadmissible?",
+      (double)ts->ptime, SNESConvergedReasons[reason]);
+  if (reason < 0) ts->reason = TS_DIVERGED_NONLINEAR_SOLVE;
+  method(ts).acceleration_known = reason >= 0;
+  method(ts).last.step = 0;
+  return 0;
+}
+
 PetscErrorCode ensure_acceleration(TS ts) {
   bool known = false;
   PetscCall(acceleration_is_known(ts, &known));
   if (known) return 0;
   PetscCall(solve_acceleration(ts));
+  PetscCall(acceleration_outcome(ts));
   ts->steprestart = PETSC_FALSE;
   return PetscObjectStateGet((PetscObject)ts->vec_sol, &method(ts).solution_state);
 }
@@ -316,18 +334,27 @@ PetscErrorCode create(TS ts) {
 
 }  // namespace
 
+Method& generalized_alpha::method(TS ts) { return *static_cast<Method*>(ts->data); }
+
+generalized_alpha::StepContext generalized_alpha::context_of(TS ts) {
+  return {ts->vec_sol, ts->vec_dot, ts->snes, ts->ptime, ts->time_step, ts->ptime_prev};
+}
+
+PetscErrorCode generalized_alpha::count_iterations(TS ts, PetscInt newton, PetscInt linear) {
+  ts->snes_its += newton;
+  ts->ksp_its += linear;
+  return 0;
+}
+
 Method& generalized_alpha::ready_method(TS ts) {
   TSType type = nullptr;
   check(TSGetType(ts, &type));
-  require(ts->ops->step == step, "TS type ", type ? type : "(none)", ": must be ", kTypeName, " or alpha2");
+  require(ts->ops->step == step, "TS type ", type ? type : "(none)", ": must be ", kTypeName);
   check(TSSetUp(ts));
   return method(ts);
 }
 
-void register_generalized_alpha() {
-  check(TSRegister(kTypeName, create));
-  check(TSRegister(TSALPHA2, create));
-}
+void register_generalized_alpha() { check(TSRegister(kTypeName, create)); }
 
 void generalized_alpha_state(TS ts, Vec* U, Vec* V, Vec* A) {
   const Method& m = ready_method(ts);

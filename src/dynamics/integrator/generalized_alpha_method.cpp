@@ -54,8 +54,9 @@ PetscErrorCode blend(PetscReal alpha, Vec a, Vec b, Vec y) {
 PetscErrorCode set_stage(TS ts) {
   Method& m = method(ts);
   const Parameters& p = m.parameters;
-  const PetscReal dt = ts->time_step, V_per_U = p.gamma / (p.beta * dt), A_per_U = 1 / (p.beta * dt * dt);
-  m.stage = {.t = ts->ptime + p.alpha_f * dt,
+  const StepContext at = context_of(ts);
+  const PetscReal dt = at.step, V_per_U = p.gamma / (p.beta * dt), A_per_U = 1 / (p.beta * dt * dt);
+  m.stage = {.t = at.time + p.alpha_f * dt,
              .c_U = p.alpha_f,
              .c_V = p.alpha_f * V_per_U,
              .c_A = p.alpha_m * A_per_U,
@@ -79,10 +80,11 @@ PetscErrorCode correct(Method& m, PetscReal dt) {
 
 // Is SNES's last update below what the state x resolves?
 PetscErrorCode update_is_roundoff(TS ts, const Motion& x, bool* is_roundoff) {
-  const PetscReal dt = ts->time_step;
+  const StepContext at = context_of(ts);
   Vec update = nullptr;
   PetscReal size = 0, U = 0, V = 0, A = 0;
-  PetscCall(SNESGetSolutionUpdate(ts->snes, &update));
+  const PetscReal dt = at.step;
+  PetscCall(SNESGetSolutionUpdate(at.snes, &update));
   if (update) PetscCall(VecNorm(update, NORM_2, &size));
   PetscCall(VecNorm(x.U, NORM_2, &U));
   PetscCall(VecNorm(x.V, NORM_2, &V));
@@ -96,12 +98,12 @@ PetscErrorCode update_is_roundoff(TS ts, const Motion& x, bool* is_roundoff) {
 PetscErrorCode accept_roundoff(TS ts, const Motion& x) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   bool is_roundoff = false;
-  PetscCall(SNESGetConvergedReason(ts->snes, &reason));
+  PetscCall(SNESGetConvergedReason(context_of(ts).snes, &reason));
   if (reason != SNES_DIVERGED_LINE_SEARCH && reason != SNES_DIVERGED_LOCAL_MIN &&
       reason != SNES_DIVERGED_MAX_IT)
     return 0;
   PetscCall(update_is_roundoff(ts, x, &is_roundoff));
-  if (is_roundoff) PetscCall(SNESSetConvergedReason(ts->snes, SNES_CONVERGED_SNORM_RELATIVE));
+  if (is_roundoff) PetscCall(SNESSetConvergedReason(context_of(ts).snes, SNES_CONVERGED_SNORM_RELATIVE));
   return 0;
 }
 
@@ -114,7 +116,7 @@ PetscErrorCode move_to_stage(Method& m, Vec Delta) {
 
 PetscErrorCode residual_norm(TS ts, PetscReal* norm) {
   Method& m = method(ts);
-  PetscCall(SNESComputeFunction(ts->snes, m.Delta, m.residual));
+  PetscCall(SNESComputeFunction(context_of(ts).snes, m.Delta, m.residual));
   PetscCall(VecNorm(m.residual, NORM_2, norm));
   return 0;
 }
@@ -124,10 +126,10 @@ PetscErrorCode require_solved(TS ts, const Motion& x, PetscReal before) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscReal after = 0, rtol = 0, atol = 0;
   bool is_roundoff = false;
-  PetscCall(SNESGetConvergedReason(ts->snes, &reason));
+  PetscCall(SNESGetConvergedReason(context_of(ts).snes, &reason));
   if (reason < 0) return 0;
   PetscCall(residual_norm(ts, &after));
-  PetscCall(SNESGetTolerances(ts->snes, &atol, &rtol, nullptr, nullptr, nullptr));
+  PetscCall(SNESGetTolerances(context_of(ts).snes, &atol, &rtol, nullptr, nullptr, nullptr));
   PetscCall(update_is_roundoff(ts, x, &is_roundoff));
   PetscCheck(
       after <= PetscMax(atol, rtol * before) || is_roundoff, PetscObjectComm((PetscObject)ts),
@@ -140,13 +142,12 @@ PetscErrorCode require_solved(TS ts, const Motion& x, PetscReal before) {
 }
 
 PetscErrorCode solve_for_delta(TS ts) {
+  const SNES snes = context_of(ts).snes;
   PetscInt newton = 0, linear = 0;
-  PetscCall(SNESSolve(ts->snes, nullptr, method(ts).Delta));
-  PetscCall(SNESGetIterationNumber(ts->snes, &newton));
-  PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
-  ts->snes_its += newton;
-  ts->ksp_its += linear;
-  return 0;
+  PetscCall(SNESSolve(snes, nullptr, method(ts).Delta));
+  PetscCall(SNESGetIterationNumber(snes, &newton));
+  PetscCall(SNESGetLinearSolveIterations(snes, &linear));
+  return count_iterations(ts, newton, linear);
 }
 
 // Solves again while F changes with its solution. One that changes to and fro is not solved.
@@ -155,12 +156,12 @@ PetscErrorCode solve_until_settled(TS ts) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   for (int round = 0; round < kMostRounds; ++round) {
     bool changed = false;
-    PetscCall(SNESGetConvergedReason(ts->snes, &reason));
+    PetscCall(SNESGetConvergedReason(context_of(ts).snes, &reason));
     if (reason > 0) PetscCall(method(ts).check(&changed));
     if (!changed) return 0;
     PetscCall(solve_for_delta(ts));
   }
-  return SNESSetConvergedReason(ts->snes, SNES_DIVERGED_MAX_IT);
+  return SNESSetConvergedReason(context_of(ts).snes, SNES_DIVERGED_MAX_IT);
 }
 
 // Delta := solution at the current stage; x: the state it changes, for its size.
@@ -169,11 +170,11 @@ PetscErrorCode solve(TS ts, const Motion& x, const Apply& apply) {
   Method& m = method(ts);
   PetscBool single = PETSC_FALSE;
   PetscReal before = 0;
-  PetscCall(PetscObjectTypeCompare((PetscObject)ts->snes, SNESKSPONLY, &single));
+  PetscCall(PetscObjectTypeCompare((PetscObject)context_of(ts).snes, SNESKSPONLY, &single));
   PetscCall(VecZeroEntries(m.Delta));
   if (single) {
     PetscCall(residual_norm(ts, &before));
-    PetscCall(SNESSetInitialFunction(ts->snes, m.residual));
+    PetscCall(SNESSetInitialFunction(context_of(ts).snes, m.residual));
   }
   PetscCall(solve_for_delta(ts));
   if (m.check && m.stage.c_U != 0) PetscCall(solve_until_settled(ts));
@@ -181,20 +182,6 @@ PetscErrorCode solve(TS ts, const Motion& x, const Apply& apply) {
   PetscCall(apply());
   PetscCall(accept_roundoff(ts, x));
   if (single) PetscCall(require_solved(ts, x, before));
-  return 0;
-}
-
-PetscErrorCode acceleration_outcome(TS ts) {
-  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  PetscCall(SNESGetConvergedReason(ts->snes, &reason));
-  PetscCheck(
-      reason >= 0 || !ts->errorifstepfailed, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
-      "No acceleration with F(t, U, V, A) = 0 at t = %g (%s): is the mass matrix singular, or the state "
-      "inadmissible?",
-      (double)ts->ptime, SNESConvergedReasons[reason]);
-  if (reason < 0) ts->reason = TS_DIVERGED_NONLINEAR_SOLVE;
-  method(ts).acceleration_known = reason >= 0;
-  method(ts).last.step = 0;
   return 0;
 }
 
@@ -208,12 +195,12 @@ Parameters parameters_for(PetscReal rho_inf) {
 
 PetscErrorCode create_vectors(TS ts) {
   Method& m = method(ts);
-  for (Motion* x : {&m.current, &m.start, &m.end, &m.base, &m.at_stage})
-    PetscCall(duplicate(ts->vec_sol, *x));
-  PetscCall(VecDuplicate(ts->vec_sol, &m.Delta));
-  PetscCall(VecDuplicate(ts->vec_sol, &m.residual));
-  PetscCall(VecDuplicate(ts->vec_sol, &m.last.A));
-  PetscCall(VecDuplicate(ts->vec_sol, &m.last.slope));
+  const StepContext at = context_of(ts);
+  for (Motion* x : {&m.current, &m.start, &m.end, &m.base, &m.at_stage}) PetscCall(duplicate(at.U, *x));
+  PetscCall(VecDuplicate(at.U, &m.Delta));
+  PetscCall(VecDuplicate(at.U, &m.residual));
+  PetscCall(VecDuplicate(at.U, &m.last.A));
+  PetscCall(VecDuplicate(at.U, &m.last.slope));
   return 0;
 }
 
@@ -235,10 +222,11 @@ PetscErrorCode copy(const Motion& from, const Motion& to) {
 
 PetscErrorCode solve_step(TS ts) {
   Method& m = method(ts);
-  PetscCall(predict(m, ts->time_step));
+  const PetscReal dt = context_of(ts).step;
+  PetscCall(predict(m, dt));
   PetscCall(set_stage(ts));
   PetscCall(TSPreStage(ts, m.stage.t));
-  PetscCall(solve(ts, m.end, [&] { return correct(m, ts->time_step); }));
+  PetscCall(solve(ts, m.end, [&] { return correct(m, dt); }));
   PetscCall(TSPostStage(ts, m.stage.t, 0, &m.at_stage.U));
   return 0;
 }
@@ -248,20 +236,20 @@ PetscErrorCode solve_acceleration(TS ts) {
   m.acceleration_known = false;
   // Shifted so far, K + shift_A M is a multiple of M to roundoff for any frequency below 1 / (epsilon dt).
   // Delta = A / c_A stays within the absolute limits of line searches and linear solvers.
-  const PetscReal epsilon = PETSC_MACHINE_EPSILON, c_A = 1 / (epsilon * ts->time_step * ts->time_step);
-  m.stage = {.t = ts->ptime,
+  const StepContext at = context_of(ts);
+  const PetscReal epsilon = PETSC_MACHINE_EPSILON, c_A = 1 / (epsilon * at.step * at.step);
+  m.stage = {.t = at.time,
              .c_U = 0,
              .c_V = 0,
              .c_A = c_A,
              .shift_V = 0,
              .shift_A = c_A / epsilon,
              .scale = 1 / epsilon};
-  PetscCall(VecCopy(ts->vec_sol, m.current.U));
-  PetscCall(VecCopy(ts->vec_dot, m.current.V));
+  PetscCall(VecCopy(at.U, m.current.U));
+  PetscCall(VecCopy(at.V, m.current.V));
   PetscCall(VecZeroEntries(m.current.A));
   PetscCall(copy(m.current, m.base));
-  PetscCall(solve(ts, m.current, [&] { return VecAXPY(m.current.A, c_A, m.Delta); }));
-  return acceleration_outcome(ts);
+  return solve(ts, m.current, [&] { return VecAXPY(m.current.A, c_A, m.Delta); });
 }
 
 PetscErrorCode move_lag(TS ts) {
@@ -269,20 +257,22 @@ PetscErrorCode move_lag(TS ts) {
   const SlopeHistory& last = m.last;
   PetscCall(VecCopy(last.A, m.start.A));
   if (last.step == 0) return 0;
+  const PetscReal dt = context_of(ts).step;
   const PetscReal lag = m.parameters.alpha_m - m.parameters.alpha_f;
-  const PetscReal weight = PetscMin(1, lag * (ts->time_step / last.step - 1));
+  const PetscReal weight = PetscMin(1, lag * (dt / last.step - 1));
   return VecAXPY(m.start.A, -weight * last.step, last.slope);
 }
 
 PetscErrorCode find_slope(TS ts, Vec slope) {
   const Method& m = method(ts);
+  const PetscReal dt = context_of(ts).step;
   PetscCall(VecWAXPY(slope, -1, m.start.A, m.end.A));
-  return VecScale(slope, 1 / ts->time_step);
+  return VecScale(slope, 1 / dt);
 }
 
 PetscErrorCode remember_slope(TS ts) {
   Method& m = method(ts);
-  m.last.step = ts->time_step;
+  m.last.step = context_of(ts).step;
   return find_slope(ts, m.last.slope);
 }
 

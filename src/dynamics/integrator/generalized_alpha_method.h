@@ -2,7 +2,7 @@
 // The arithmetic of one generalised-alpha step and its nonlinear solves (docs/theory.md, section 8). Private
 // to module dynamics.
 
-#include <petsc/private/tsimpl.h>
+#include <petscts.h>
 
 #include <functional>
 
@@ -48,7 +48,7 @@ struct Method {
 
   Motion current;  ///< accepted state; U and V are copies of the solution, to notice changes made outside
   bool acceleration_known;
-  PetscObjectState solution_state;  ///< of ts->vec_sol when current was recorded; -1 after set_state
+  PetscObjectState solution_state;  ///< of the solution when current was recorded; -1 after set_state
   Motion start, end;                ///< of the last step, as integrated
   PetscReal step_time, step_size;
 
@@ -61,24 +61,35 @@ struct Method {
   std::function<PetscErrorCode(Vec error, PetscReal* norm)> measure;
 };
 
-inline Method& method(TS ts) { return *static_cast<Method*>(ts->data); }
+Method& method(TS ts);
 /// The same once TS is set up. Throws Error for another TS type.
 Method& ready_method(TS ts);
+
+/// What a step reads of TS.
+struct StepContext {
+  Vec U, V;  ///< solution, as of the last accepted step
+  SNES snes;
+  PetscReal time, step, time_before;
+};
+
+StepContext context_of(TS ts);
+/// Adds to TSGetSNESIterations and TSGetKSPIterations.
+PetscErrorCode count_iterations(TS ts, PetscInt newton, PetscInt linear);
 
 PetscErrorCode create_vectors(TS ts);
 PetscErrorCode destroy_vectors(Method& m);
 PetscErrorCode copy(const Motion& from, const Motion& to);
 
-/// end := predictor, then the solution of F = 0 at the stage. The outcome is the reason of ts->snes.
+/// end := predictor, then the solution of F = 0 at the stage. The outcome is the reason of the SNES.
 /// Eq. (8.1).
 PetscErrorCode solve_step(TS ts);
 
-/// current := (vec_sol, vec_dot, A) with F(t, U, V, A) = 0, Eq. (8.7). Fails with PETSC_ERR_NOT_CONVERGED,
-/// or with ts->reason where TSSetErrorIfStepFails is off.
+/// current := (U, V, A) of the solution with F(t, U, V, A) = 0, Eq. (8.7). The outcome is the reason of the
+/// SNES.
 PetscErrorCode solve_acceleration(TS ts);
 
 /// A of the method belongs to a time that lags t by (alpha_m - alpha_f) dt: start.A := that of the step
-/// before, moved to the lag of a step of ts->time_step, Eq. (8.8), never past A at the start of the one
+/// before, moved to the lag of a step of the present size, Eq. (8.8), never past A at the start of the one
 /// before.
 PetscErrorCode move_lag(TS ts);
 /// slope := that of A from start to end, over the time step.
@@ -93,7 +104,7 @@ PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A);
 /// x := the end of a step from the start of the last one to t. Not solved: Newton's method does not converge.
 PetscErrorCode solve_between(TS ts, PetscReal t, const Motion& x, bool* solved);
 
-/// The callbacks of ts->snes.
+/// The callbacks of the SNES.
 PetscErrorCode stage_function(SNES, Vec Delta, Vec F, TS ts);
 PetscErrorCode stage_jacobian(SNES, Vec Delta, Mat J, Mat P, TS ts);
 
