@@ -1,5 +1,7 @@
 #include "cyclic_body.h"
 
+#include <gmock/gmock.h>
+
 #include "../mesh/disc.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
@@ -32,6 +34,25 @@ TEST(Cyclic, modes_of_discs_with_large_sectors_are_those_of_the_whole) {
     SCOPED_TRACE(Z);
     expect_equals_the_general_path({shuffled(disc({Z, 10, 3, 2})), {"bottom"}, kSteelBody, Z}, 60);
   }
+}
+
+// A body whose harmonics are solved together unless SLEPc's options are given.
+TEST(Cyclic, obeys_the_options_of_the_eigensolver) {
+  const Body body{disc({4, 10, 3, 2}), {"bottom"}, kSteelBody, 4};
+  reduction::CyclicOptions options;
+  options.eigen.window = reduction::kAutomaticWindow;
+  const Solution together = solve_cyclic(PETSC_COMM_SELF, body, 20, options);
+  options.eigen.prefix = "loose_";
+  check(PetscOptionsInsertString(nullptr, "-loose_eps_tol 1e-2 -loose_eps_monitor -loose_eps_view"));
+  testing::internal::CaptureStdout();
+  const Solution loose = solve_cyclic(PETSC_COMM_SELF, body, 20, options);
+  const std::string printed = testing::internal::GetCapturedStdout();
+  for (const char* name : {"-loose_eps_tol", "-loose_eps_monitor", "-loose_eps_view"})
+    check(PetscOptionsClearValue(nullptr, name));
+  EXPECT_THAT(printed, testing::HasSubstr("tolerance: 0.01"));
+  EXPECT_THAT(printed, testing::HasSubstr("first unconverged value"));
+  EXPECT_LT((loose.modes.eigenvalue.cwiseQuotient(together.modes.eigenvalue).array() - 1).abs().maxCoeff(),
+            1e-2);
 }
 
 // A sector of many cells.

@@ -97,13 +97,12 @@ HarmonicModes solve(CyclicSearch& search, int k, const Cutoff& cutoff, const Pro
 }
 
 // Returns whether one shift is enough for the modes of harmonic k, at most as many as a window holds, and the
-// user has asked for no other solver.
+// user has given no option of SLEPc.
 bool suits_one_shift(const CyclicSearch& search, int k, const Cutoff& cutoff) {
   const EigenOptions& options = search.options.eigen;
-  PetscBool asked = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, options.prefix.c_str(), "-eps_type", &asked));
   const bool from_zero = !options.interval || options.interval->lower <= 0;
-  return search.condensed && !asked && options.window != 0 && from_zero && cutoff.count[k] <= kWindow;
+  return search.condensed && !asks_slepc(options.prefix) && options.window != 0 && from_zero &&
+         cutoff.count[k] <= kWindow;
 }
 
 // Enters the modes of those of the harmonics that are found at one shift.

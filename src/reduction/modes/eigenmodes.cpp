@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/block_lanczos.h"
@@ -271,6 +273,18 @@ Eigenmodes find_by_other_type(UniqueEPS eps, Mat K, Mat M, const EigenOptions& o
 
 }  // namespace
 
+bool asks_slepc(const std::string& prefix) {
+  char* all = nullptr;
+  check(PetscOptionsGetAll(nullptr, &all));
+  std::istringstream words(all);
+  check(PetscFree(all));
+  const auto asks = [&](const std::string& word) {
+    return (word.starts_with("-" + prefix + "eps_") || word.starts_with("-" + prefix + "st_")) &&
+           word != "-" + prefix + "eps_nev" && word != "-" + prefix + "eps_interval";
+  };
+  return std::any_of(std::istream_iterator<std::string>(words), {}, asks);
+}
+
 int count_eigenvalues_below(Mat K, Mat M, double sigma) { return ShiftedFactor(K, M).factorise(sigma); }
 
 void require_mode_count(int n_modes, int n_free) {
@@ -285,7 +299,7 @@ Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const Mode
     const SearchState& start = options.start;
     if (start.eigenvalue.size() >= options.n_modes)
       return {start.eigenvalue, start.residual, start.orthogonality, start.iterations};
-    if (options.window != 0 && asked_type(options).empty() && suits_dense(size_of(K), options.n_modes))
+    if (options.window != 0 && !asks_slepc(options.prefix) && suits_dense(size_of(K), options.n_modes))
       return find_by_lapack(K, M, options, sink, progress);
   }
   register_block_lanczos();
