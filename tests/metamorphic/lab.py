@@ -10,7 +10,7 @@ import yaml
 
 ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_pml": "ob1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OPENBLAS_NUM_THREADS": "1"
+    "OPENBLAS_NUM_THREADS": "1"
 }
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1"}  # a program that mpirun does not start waits for no daemon
 LIMIT = 900  # s, ends a run that hangs
