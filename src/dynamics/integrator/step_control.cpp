@@ -1,4 +1,5 @@
 // Tolerances of the step-size control in lengths, and care where contact begins.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
