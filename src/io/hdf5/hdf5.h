@@ -3,11 +3,6 @@
 // the file and the object; HDF5 itself prints nothing. Serial access, also in the parallel build of HDF5. All
 // that is written has checksums, which are verified whenever it is read.
 
-#ifndef H5_USE_110_API
-#define H5_USE_110_API  // HDF5 1.12 and 1.14 give its functions the names of 1.10
-#endif
-#include <hdf5.h>
-
 #include <Eigen/Core>
 #include <functional>
 #include <map>
@@ -16,6 +11,7 @@
 #include <vector>
 
 #include "elastogear/base/error.h"
+#include "io/hdf5/hdf5_api.h"
 
 namespace elastogear::io::h5 {
 

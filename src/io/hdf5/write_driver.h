@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "io/hdf5/hdf5.h"
+#include "io/hdf5/hdf5_api.h"
 
 namespace elastogear::io::h5 {
 
