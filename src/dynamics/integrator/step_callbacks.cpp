@@ -191,7 +191,7 @@ void set_time(TS ts, const Run& run) {
   check(TSSetMaxTime(ts, run.settings.end_time));
   check(TSSetMaxSteps(ts, std::numeric_limits<PetscInt>::max()));
   check(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
-  check(TSSetMaxSNESFailures(ts, -1));
+  check(TSSetMaxSNESFailures(ts, std::numeric_limits<PetscInt>::max()));
   check(TSSetErrorIfStepFails(ts, PETSC_FALSE));
 }
 
