@@ -102,7 +102,7 @@ void end_on_time(TS ts) {
   if (option == TS_EXACTFINALTIME_MATCHSTEP && reaches) check(TSSetTimeStep(ts, left));
 }
 
-TSConvergedReason reason_at_start(TS ts) {
+TSConvergedReason reason_of_extent(TS ts) {
   PetscInt step = 0, most = 0;
   PetscReal time = 0, end = 0;
   check(TSGetStepNumber(ts, &step));
@@ -123,6 +123,13 @@ void enter_state(Run& run, TS ts) {
   check(TSMonitor(ts, step, time, U), run.problem.pending);
 }
 
+// TSStep says so by itself in PETSc 3.18; 3.22 leaves it to TSSolve.
+void note_end(TS ts) {
+  TSConvergedReason reason = TS_CONVERGED_ITERATING;
+  check(TSGetConvergedReason(ts, &reason));
+  if (reason == TS_CONVERGED_ITERATING) check(TSSetConvergedReason(ts, reason_of_extent(ts)));
+}
+
 // TSSolve's work before its first step.
 void begin(Run& run, TS ts) {
   PetscInt step = 0;
@@ -132,7 +139,7 @@ void begin(Run& run, TS ts) {
   end_on_time(ts);
   check(TSSetConvergedReason(ts, TS_CONVERGED_ITERATING));
   check(TSViewFromOptions(ts, nullptr, "-ts_view_pre"));
-  check(TSSetConvergedReason(ts, reason_at_start(ts)));
+  check(TSSetConvergedReason(ts, reason_of_extent(ts)));
   enter_state(run, ts);
 }
 
@@ -141,6 +148,7 @@ void take_step(Run& run, TS ts) {
   limit_steps(run, ts);
   check(TSPreStep(ts), run.problem.pending);
   check(TSStep(ts), run.problem.pending);
+  note_end(ts);
   check(TSPostEvaluate(ts), run.problem.pending);
   check(TSPostStep(ts), run.problem.pending);
   enter_state(run, ts);

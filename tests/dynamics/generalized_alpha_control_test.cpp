@@ -60,7 +60,7 @@ TEST(GeneralizedAlphaFailure, repeats_a_failed_step_with_a_smaller_one) {
 }
 
 TEST(GeneralizedAlphaFailure, ends_the_run_at_the_last_accepted_state) {
-  Failing failing{1};
+  Failing failing{1000};
   Integration run(failing.problem(), common + "-ts_dt 0.1 -ts_max_time 2 -ts_max_snes_failures 1");
   failing.run = &run;
   EXPECT_THROW(run.solve(), Error);
