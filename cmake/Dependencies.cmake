@@ -3,7 +3,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET GLOBAL petsc>=3.18)
 pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET GLOBAL slepc>=3.18)
 # The types that are registered with PETSc and SLEPc (TS generalized_alpha, EPS block_lanczos, PC ldl, BV slabs) are
-# written against their private headers. The tests pass with 3.18.5 of Debian 12 and 3.22.5 of Debian 13.
+# written against their private headers, those of 3.18.5 (Debian 12) and 3.22.5 (Debian 13).
 foreach(library PETSC SLEPC)
   if(NOT ${library}_VERSION VERSION_LESS 3.23)
     message(FATAL_ERROR "${library} ${${library}_VERSION}: must be 3.18 to 3.22, whose private headers the registered "
