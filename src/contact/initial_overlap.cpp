@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
+#include "contact/projection/closest_point.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/contact/topology.h"
@@ -65,6 +67,23 @@ void find_enclosed(const model::Surface* surface[2], const SurfaceState* state[2
   }
 }
 
+// How deep a node is inside the master, m, with which it is in contact at a face and as deep as said. Beside
+// a corner, as of a tip, the nearest face may not oppose the node, and contact then takes one behind, on the
+// far side of the body. Yet a node is no deeper inside than its nearest face is away, and it is not inside
+// where it is in front of that, or beyond an end of the surface.
+double depth_of(const SurfaceView& master, const Eigen::Vector3d& x, int face, double depth) {
+  const ClosestPoint found = closest_point(face_of(master, face), x);
+  ClosestPoint nearest = found;
+  int of = face;
+  for (int f = 0; f < master.face.cols(); ++f)
+    if (const ClosestPoint p = closest_point(face_of(master, f), x); p.distance2 < nearest.distance2)
+      nearest = p, of = f;
+  if (of == face) return depth;
+  const bool in_front = (x - nearest.x).dot(normal(face_of(master, of), nearest.u, nearest.v)) > 0;
+  if (in_front || nearest.feature == Feature::outside) return 0;
+  return depth - (std::sqrt(found.distance2) - std::sqrt(nearest.distance2));
+}
+
 }  // namespace
 
 InitialOverlap initial_overlap(const Pair& pair, const SurfaceState& state_a, const SurfaceState& state_b) {
@@ -77,9 +96,17 @@ InitialOverlap initial_overlap(const Pair& pair, const SurfaceState& state_a, co
   deep.points = SlavePoints::nodes;
   deep.k = 6;  // for one search trees that are built quickly are better than tight ones
   deep.depth = std::max(settings.depth, 2 * result.face_size);
+  const std::array<Eigen::Matrix3Xd, 2> x = {in_world(state_a), in_world(state_b)};
+  std::array<std::optional<Topology>, 2> known;
   for (const ContactPoint& contact : Pair(pair, deep).detect(state_a, state_b)) {
     if (-contact.g_n <= result.penetration) continue;
-    result.penetration = -contact.g_n;
+    const std::size_t slave = contact.slave_side, master = 1 - slave;
+    const Eigen::Matrix4Xi& face = pair.surface(static_cast<int>(master)).face;
+    if (!known[master]) known[master] = topology(face, static_cast<int>(x[master].cols()));
+    const double penetration = depth_of({face, *known[master], x[master]}, x[slave].col(contact.slave_node),
+                                        contact.face, -contact.g_n);
+    if (penetration <= result.penetration) continue;
+    result.penetration = penetration;
     result.slave_side = contact.slave_side;
     result.slave_node = contact.slave_node;
     result.face = contact.face;

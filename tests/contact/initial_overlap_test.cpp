@@ -53,6 +53,21 @@ TEST(InitialOverlap, of_open_flanks_that_cross_is_refused) {
       require_apart(initial_overlap(flank, other, {}, at(flank), at(other, {0, 0, 0.01})), "a:b"));
 }
 
+// The upper nodes of a sheet in front of a plate face as the plate's front does, and oppose its back alone.
+TEST(InitialOverlap, of_a_node_in_front_of_its_nearest_face_is_none) {
+  const auto flat = [](double length, double height) {
+    return [=](const Eigen::Vector3d& x) {
+      return Eigen::Vector3d(length * x[0], length * x[1], height * x[2]);
+    };
+  };
+  const model::Surface plate = test::cube(4, flat(1, 0.1)), sheet = test::cube(4, flat(0.5, 0.002));
+  TrueSurface thicker;
+  thicker.deviation = Eigen::VectorXd::Constant(plate.X.cols(), 0.02);
+  const InitialOverlap overlap =
+      initial_overlap(plate, sheet, {}, at(plate), at(sheet, {0, 0, 0.107}), {&thicker, nullptr});
+  EXPECT_NEAR(overlap.penetration, 0.015, 1e-9);
+}
+
 TEST(InitialOverlap, counts_what_stands_out_of_the_facets) {
   const model::Surface flank = test::plane(8, 8), other = test::flipped(flank);
   const SurfaceState below = at(flank), above = at(other, {0, 0, 0.01});

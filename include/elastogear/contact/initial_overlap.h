@@ -2,8 +2,9 @@
 // Finds surfaces that overlap more at the start than facets and tolerances explain.
 //
 // The search finds (1) penetrations of the nodes of either surface, searched twice a face size deep and by
-// the same rule as contact itself, so that the far side of a tooth is not taken for one; surfaces that cross,
-// at any angle, have nodes at all small depths; (2) a part of one surface that lies wholly inside the other,
+// the same rule as contact itself, so that the far side of a tooth is not taken for one; no node is deeper
+// than its distance from the nearest face, whichever way that faces; surfaces that cross, at any angle, have
+// nodes at all small depths; (2) a part of one surface that lies wholly inside the other,
 // when that other is closed (winding number). It does not find a part wholly inside the body of an open
 // surface and further than the search depth from it.
 
