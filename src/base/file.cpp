@@ -1,5 +1,6 @@
 #include "elastogear/base/file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,10 +19,44 @@ struct Close {
 };
 using Stream = std::unique_ptr<std::FILE, Close>;
 
-Stream open(const std::string& path, const char* mode) {
-  Stream file(std::fopen(path.c_str(), mode));
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;  // as many as Linux follows
+
+Stream open(const std::string& path) {
+  Stream file(std::fopen(path.c_str(), "rb"));
   require(file != nullptr, path, ": cannot be opened: ", std::strerror(errno));
   return file;
+}
+
+// Follows no link that another user has put under the temporary name.
+Stream create(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+  Stream file(descriptor < 0 ? nullptr : fdopen(descriptor, "wb"));
+  require(file != nullptr, path, ": cannot be opened: ", std::strerror(errno));
+  return file;
+}
+
+// Waits until a file or folder is on the disk. Returns an errno; file systems that cannot say so are no
+// error.
+int synchronised(const std::string& path, int mode) {
+  const int descriptor = ::open(path.c_str(), mode | O_CLOEXEC);
+  if (descriptor < 0) return errno == EACCES ? 0 : errno;
+  const int error =
+      fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOSYS ? 0 : errno;
+  ::close(descriptor);
+  return error;
+}
+
+// Of a link that leads there; returns an errno.
+int moved_to_other_disk(const std::string& file, const std::string& place) {
+  const std::string copy = place + ".tmp" + std::to_string(getpid());
+  std::error_code error;
+  fs::copy_file(file, copy, error);
+  int failure = error ? error.value() : synchronised(copy, O_RDONLY);
+  if (failure == 0 && std::rename(copy.c_str(), place.c_str()) != 0) failure = errno;
+  std::remove(failure == 0 ? file.c_str() : copy.c_str());
+  return failure;
 }
 
 }  // namespace
@@ -43,25 +78,47 @@ bool is_file(const std::string& path) {
 
 std::string read_file(const std::string& path) {
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  require(std::filesystem::exists(status), path, ": there is no such file");
-  require(std::filesystem::is_regular_file(status), path, ": is not a regular file");
-  const auto size = std::filesystem::file_size(path, error);
+  const auto status = fs::status(path, error);
+  require(fs::exists(status), path, ": there is no such file");
+  require(fs::is_regular_file(status), path, ": is not a regular file");
+  const auto size = fs::file_size(path, error);
   require(!error, path, ": cannot be read: ", error.message());
-  const Stream file = open(path, "rb");
+  const Stream file = open(path);
   std::string content(size, '\0');
   require(std::fread(content.data(), 1, size, file.get()) == size, path,
           ": cannot be read: ", std::strerror(errno));
   return content;
 }
 
-PendingFile::PendingFile(std::string path) : path_(std::move(path)) {
-  namespace fs = std::filesystem;
+std::string place_of_output(const std::string& path) {
   std::error_code error;
-  require(!path_.empty() && !fs::is_directory(path_, error), "'", path_, "' is no name for a file");
-  const fs::path folder = fs::path(path_).parent_path();
-  require(folder.empty() || fs::is_directory(folder, error), path_, ": there is no folder ", folder.string());
-  temporary_ = path_ + ".tmp" + std::to_string(getpid());
+  require(!path.empty(), "'' is no name for a file");
+  fs::path place = path;
+  for (int links = 0; fs::is_symlink(place, error); ++links) {
+    require(links < kMostLinks, path, ": is a link that leads back to itself");
+    place = place.parent_path() / fs::read_symlink(place, error);
+  }
+  const fs::file_status status = fs::status(place, error);
+  require(!fs::exists(status) || fs::is_regular_file(status), "'", path,
+          "' is no name for a file: ", fs::is_directory(status) ? "a folder" : "a device, pipe or socket",
+          " has it; give another one");
+  const fs::path folder = place.parent_path();
+  require(folder.empty() || fs::is_directory(folder, error), path, ": there is no folder ", folder.string());
+  return place.string();
+}
+
+void put_in_place(const std::string& file, const std::string& path) {
+  const std::string place = place_of_output(path);
+  const fs::path folder = fs::path(place).parent_path();
+  int error = synchronised(file, O_RDONLY);
+  if (error == 0 && std::rename(file.c_str(), place.c_str()) != 0) error = errno;
+  if (error == EXDEV) error = moved_to_other_disk(file, place);
+  if (error == 0) error = synchronised(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
+  if (error != 0) fail_to_write(path, write_error(error));
+}
+
+PendingFile::PendingFile(std::string path) : path_(std::move(path)) {
+  temporary_ = place_of_output(path_) + ".tmp" + std::to_string(getpid());
 }
 
 PendingFile::~PendingFile() {
@@ -69,13 +126,13 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::commit() {
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail_to_write(path_, write_error(errno));
+  put_in_place(temporary_, path_);
   committed_ = true;
 }
 
 void write_file(const std::string& path, std::string_view content) {
   PendingFile pending(path);
-  Stream file = open(pending.temporary(), "wb");
+  Stream file = create(pending.temporary());
   const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
   int error = written ? 0 : errno;
   if (std::fclose(file.release()) != 0 && written) error = errno;

@@ -248,7 +248,7 @@ void prepare_on_root(Job& job) {
   plan.body = make_body(job.mesh, job.options, plan.moments);
   plan.recovery = make_recovery(job);
   plan.S = field_operator(job);
-  const PendingFile can_be_written(job.output);
+  place_of_output(job.output);  // an Error where nothing can be written
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <filesystem>
 
 #include "elastogear/base/error.h"
@@ -34,6 +36,35 @@ TEST_F(File, stays_as_it_was_until_the_new_one_is_complete) {
   }
   EXPECT_EQ(read_file(path), "old");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(File, takes_the_place_of_no_pipe) {
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THROW(write_file(path, "text"), Error);
+  EXPECT_TRUE(fs::is_fifo(path));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(File, is_written_where_a_link_leads) {
+  fs::create_directory(folder / "far");
+  const std::string link = (folder / "link.txt").string();
+  fs::create_symlink("far/b.txt", link);
+  for (const char* content : {"new", "newer"}) {
+    write_file(link, content);
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(read_file((folder / "far" / "b.txt").string()), content);
+  }
+  EXPECT_EQ(files(), 2);
+  fs::create_symlink("loop.txt", folder / "loop.txt");
+  EXPECT_THROW(write_file((folder / "loop.txt").string(), ""), Error);
+}
+
+TEST_F(File, follows_no_link_under_its_temporary_name) {
+  write_file(path, "of another");
+  const PendingFile pending((folder / "b.txt").string());
+  fs::create_symlink(path, pending.temporary());
+  EXPECT_THROW(write_file((folder / "b.txt").string(), "text"), Error);
+  EXPECT_EQ(read_file(path), "of another");
 }
 
 TEST_F(File, names_the_path_that_cannot_be_used) {

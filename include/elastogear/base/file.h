@@ -21,14 +21,24 @@ std::string write_error(int error);
 
 /// Is there a regular file of this name? No error for what is too long, or out of reach, to be one.
 bool is_file(const std::string& path);
+
+/// Where a file of this name is written: links are followed, also to files that do not exist yet. Error where
+/// a folder, device, pipe or socket stands, which a file must not replace, and where its folder is missing.
+std::string place_of_output(const std::string& path);
+
+/// Gives a complete, closed file its name. What it holds is on the disk before the name is, so that a loss of
+/// power leaves the old file or the new one. WriteFailure when it cannot.
+void put_in_place(const std::string& file, const std::string& path);
+
 /// The whole content of a regular file; Error naming the path and the reason.
 std::string read_file(const std::string& path);
 
-/// A file that is written under a temporary name beside `path` and takes its place by commit(), so that a
-/// killed or failed run leaves the old file or none. Destroyed uncommitted: the temporary is removed.
+/// A file that is written under a temporary name beside `path`, or beside the file that the link `path` leads
+/// to, and takes its place by commit(), so that a killed or failed run leaves the old file or none. Destroyed
+/// uncommitted: the temporary is removed.
 class PendingFile {
  public:
-  /// Error when `path` is a directory or its folder does not exist.
+  /// Errors of place_of_output().
   explicit PendingFile(std::string path);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
@@ -36,7 +46,7 @@ class PendingFile {
 
   const std::string& path() const { return path_; }
   const std::string& temporary() const { return temporary_; }
-  /// Renames the (closed) temporary to path().
+  /// Puts the (closed) temporary in place.
   void commit();
 
  private:

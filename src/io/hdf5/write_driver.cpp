@@ -46,7 +46,8 @@ void note_failure(WrittenFile& file) {
 }
 
 H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
-  const int mode = O_RDWR | O_CLOEXEC | (flags & H5F_ACC_CREAT ? O_CREAT : 0) |
+  // A file that is made has a temporary name, under which no link is followed.
+  const int mode = O_RDWR | O_CLOEXEC | (flags & H5F_ACC_CREAT ? O_CREAT | O_NOFOLLOW : 0) |
                    (flags & H5F_ACC_TRUNC ? O_TRUNC : 0) | (flags & H5F_ACC_EXCL ? O_EXCL : 0);
   const int descriptor = ::open(name, mode, 0666);
   struct stat status {};

@@ -152,11 +152,7 @@ void ResultParts::append_to(const h5::File& out) const {
   for (auto& [name, rows] : series) rows.flush();
 }
 
-void ResultParts::publish(const std::string& file) const {
-  std::error_code error;
-  fs::rename(file, result_, error);
-  if (error) fail_to_write(result_, write_error(error.value()));
-}
+void ResultParts::publish(const std::string& file) const { put_in_place(file, result_); }
 
 void ResultParts::remove() const {
   std::error_code error;

@@ -115,7 +115,7 @@ void ResultWriter::Data::join(bool complete) const {
 }
 
 ResultWriter::ResultWriter(const std::string& path, const model::ResultHeader& header, bool goes_on) {
-  const PendingFile names_a_file(path);
+  place_of_output(path);  // an Error where nothing can be written
   data_.reset(new Data{path, header, ResultParts(path, goes_on)});
   data_->begin_part(data_->parts.count());
 }
