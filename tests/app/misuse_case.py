@@ -103,15 +103,28 @@ def running(command, fault):
     return begin
 
 
+def continued(bench):
+    """The halted command ends well."""
+    bench.started.send_signal(signal.SIGCONT)
+    output = bench.started.communicate()[0].decode(errors="replace")
+    return "the first run ends with " + output[-300:] if bench.started.returncode != 0 else ""
+
+
 def goes_on(name):
     """The halted command ends well and its output is whole."""
-    def look(bench):
-        bench.started.send_signal(signal.SIGCONT)
-        output = bench.started.communicate()[0].decode(errors="replace")
-        if bench.started.returncode != 0:
-            return "the first run ends with " + output[-300:]
-        return readable(name)(bench)
-    return look
+    return lambda bench: continued(bench) or readable(name)(bench)
+
+
+def linked(target, name):
+    return lambda bench: os.symlink(target, bench.path(name))
+
+
+def piped(name):
+    return lambda bench: os.mkfifo(bench.path(name))
+
+
+def written(name, text):
+    return lambda bench: write(bench.folder, {name: text})
 
 
 def readable(*names):

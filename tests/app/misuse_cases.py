@@ -1,5 +1,5 @@
 """The misuses of misuse.py, over every verb: what is done wrong, the words that the program must find, the command."""
-from misuse_case import Case, flipped, full, last_time, NO_SPACE
+from misuse_case import Case, continued, flipped, full, HALT, last_time, NO_SPACE, running
 from misuse_recover import RECOVER
 from misuse_reduce import REDUCE
 from misuse_simulate import SIMULATE
@@ -20,6 +20,8 @@ VERBS = [
     Case("compare at a time outside", r"at = 7 s", "{compare} -at 7"),
     Case("compare to a folder that is not there", r"nosuch", "{elastogear} compare stress_full.h5 stress.h5 -output nosuch/kept"),
     Case("compare on a full disk", NO_SPACE, "{compare}", fault=full("kept", 100)),
+    Case("compare while another run writes its tables", r"kept_1.csv.*another run", "{compare}", before=running("{compare}", HALT),
+         after=continued),
     Case("compare of flipped stresses", r"(checksum|damaged|read)", "{compare}", before=flipped("stress.h5", "a/MIDDLE/stress")),
 
 ]

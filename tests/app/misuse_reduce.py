@@ -1,5 +1,5 @@
 """The misuses of the verb reduce."""
-from misuse_case import again, Case, full, goes_on, HALT, mass_is, NO_SPACE, running, same_mass
+from misuse_case import again, Case, full, goes_on, HALT, linked, mass_is, NO_SPACE, piped, running, same_mass, written
 
 REDUCE = [
     Case("malformed configuration", r"malformed.yaml", "{elastogear} reduce malformed.yaml"),
@@ -114,6 +114,10 @@ REDUCE = [
     Case("output in a folder that is not there", r"nosuch", "{reduce} -output nosuch/kept.h5"),
     Case("output that is a folder", r"folder", "{reduce} -output folder"),
     Case("output where nothing can be written", r"/proc/kept.h5", "{reduce} -output /proc/kept.h5"),
+    Case("output that is a pipe", r"pipe.h5' is no name for a file: a device, pipe or socket", "{reduce} -output pipe.h5", before=piped("pipe.h5")),
+    Case("lock that is a link", r"new.h5.lock: is no lock.*move it", "{reduce} -output new.h5", before=linked("times.txt", "new.h5.lock")),
+    Case("lock that is a file of the user's", r"new.h5.lock: is no lock.*move it", "{reduce} -output new.h5",
+         before=written("new.h5.lock", "my notes")),
     Case("body on a full disk", NO_SPACE, "{reduce}", fault=full("kept.h5", 4096), leaves=r"kept\.h5\.partial.*",
          after=again("{reduce}", "kept.h5")),
     Case("parts of a body on a full disk", NO_SPACE, "{reduce} -mesh long.inp -symmetry none -modes 12 -window 4", fault=full("window_", 4096),

@@ -57,10 +57,22 @@ std::string owner(int file) {
   return n > 0 ? " (" + std::string(text) + ")" : "";
 }
 
+// A lock is empty or signed; whatever else has its name is a file of the user's.
+constexpr const char* kSignature = "process ";
+
+bool is_lock(int file) {
+  struct stat status {};
+  if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  const std::string signature = kSignature;
+  std::string text(signature.size(), ' ');
+  return status.st_size == 0 ||
+         (pread(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()) && text == signature);
+}
+
 void sign(int file) {
   char host[64] = {};
   gethostname(host, sizeof host - 1);
-  const std::string text = "process " + std::to_string(getpid()) + " on " + host;
+  const std::string text = kSignature + std::to_string(getpid()) + " on " + host;
   // what cannot be written is missing in the message of another run alone
   if (ftruncate(file, 0) == 0 && pwrite(file, text.data(), text.size(), 0) < 0) return;
 }
@@ -71,10 +83,12 @@ void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
                     const std::vector<std::string>& data) {
   const std::vector<Input> all = inputs(options, outputs, data);
   for (const Outputs& output : outputs)
-    for (const std::string& file : output.files)
+    for (const std::string& file : output.files) {
+      place_of_output(file);  // an Error where nothing can be written
       for (const Input& input : all)
         require(!same_file(file, input.file), options.label(output.option), ": would overwrite ", file,
                 input.file == file ? "" : ", the same file as " + input.file, "; this run ", input.whence);
+    }
 }
 
 OutputLock::OutputLock(const std::string& path, MPI_Comm comm) {
@@ -86,11 +100,15 @@ OutputLock::OutputLock(const std::string& path, MPI_Comm comm) {
 }
 
 void OutputLock::take(const std::string& output) {
-  const PendingFile possible(output);  // its folder exists, and it is none itself
+  place_of_output(output);  // an Error where nothing can be written
   path_ = output + ".lock";
   do {
     if (file_ >= 0) close(file_);
-    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    const bool in_the_way = file_ < 0 ? errno == ELOOP || errno == EISDIR || errno == ENXIO : !is_lock(file_);
+    if (file_ >= 0 && in_the_way) close(std::exchange(file_, -1));
+    require(!in_the_way, path_, ": is no lock of this program, which needs the name while it writes ", output,
+            ": move it, or give another output");
     require(file_ >= 0, output, ": cannot be written: ", std::strerror(errno));
     if (flock(file_, LOCK_EX | LOCK_NB) == 0) continue;
     if (errno != EWOULDBLOCK) break;  // no locks here

@@ -17,14 +17,15 @@ struct Outputs {
   std::vector<std::string> files;
 };
 
-/// Throws Error when one of the outputs is a file that the run reads, also by another spelling or a link:
-/// those the options were read from, those that the verb's other options name, and `data`.
+/// Before the work starts: throws Error when one of the outputs cannot be written where it is to be, and when
+/// it is a file that the run reads, also by another spelling or a link: those the options were read from,
+/// those that the verb's other options name, and `data`.
 void protect_inputs(const Options& options, const std::vector<Outputs>& outputs,
                     const std::vector<std::string>& data = {});
 
 /// While it lives no other run can hold the lock of the same output. The lock is on the file `path`.lock,
-/// which is removed at the end; left by a run that was killed, it is free. Where the file system has no locks
-/// there is none.
+/// which is removed at the end; left by a run that was killed, it is free. A link or a file of the user's
+/// that has this name is left alone, with an Error. Where the file system has no locks there is none.
 class OutputLock {
  public:
   /// Throws Error, on all ranks, when another run has it, and when nothing can be written there. Collective

@@ -1,5 +1,7 @@
 // elastogear compare: how far a stress or result file is from a reference.
 
+#include <optional>
+
 #include "app/compare/compare_options.h"
 #include "app/compare/compare_result.h"
 #include "app/compare/compare_stress.h"
@@ -33,6 +35,8 @@ void run_compare(const Options& options, const std::vector<std::string>& files) 
       stresses ? compare_stresses(options, files[0], files[1]) : compare_results(options, files[0], files[1]);
   const std::vector<std::string> paths = table_paths(compare_settings(options).output, tables.size());
   protect_inputs(options, {{"output", paths}}, files);
+  std::optional<OutputLock> lock;
+  if (!paths.empty()) lock.emplace(paths.front());
   for (const Table& table : tables) print(table);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     write_csv(paths[i], tables[i]);

@@ -227,7 +227,7 @@ void run_recover(const Options& given, const std::vector<std::string>&) {
   const Options options = of_run(given);
   options.reject_unknown({{"body", known_bodies(options)}});
   const RecoverSettings settings = recover_settings(options);
-  const OutputLock lock(settings.output);
+  const OutputLock lock(settings.output), lock_of_fields(settings.fields + ".pvd");
   const Progress progress = console_progress();
   Run run = [&] {
     const LogStage stage("static responses of the run");
