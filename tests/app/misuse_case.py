@@ -1,5 +1,6 @@
 """What a misuse of misuse.py is, the commands that misuses begin from, and what they do to the folder and look for in it."""
 import dataclasses
+import fcntl
 import os
 import shutil
 import signal
@@ -121,6 +122,14 @@ def linked(target, name):
 
 def piped(name):
     return lambda bench: os.mkfifo(bench.path(name))
+
+
+def opened_to_write(name):
+    """As another program that has HDF5's lock, until the end of the case."""
+    def lock(bench):
+        bench.held = open(bench.path(name), "rb")
+        fcntl.flock(bench.held, fcntl.LOCK_EX)
+    return lock
 
 
 def written(name, text):

@@ -3,7 +3,7 @@ import os
 
 import numpy as np
 
-from misuse_case import again, Case, copied, edited, flipped, full, KILL_AT_SECOND_STATE, NO_SPACE, removed
+from misuse_case import again, Case, copied, edited, flipped, full, KILL_AT_SECOND_STATE, NO_SPACE, removed, opened_to_write
 from misuse_files import attribute
 
 RECOVER = [
@@ -55,6 +55,7 @@ RECOVER = [
     Case("time that is not finite", r"run.h5.*time", "{recover}", before=edited("run.h5", "time", lambda t: t / 0)),
     Case("coordinates that are not finite", r"run.h5.*(finite|nan)", "{recover}", before=edited("run.h5", "bodies/a/q", lambda q: q * np.nan)),
     Case("result without a dataset", r"run.h5.*bodies/a/q", "{recover}", before=removed("run.h5", "bodies/a/q")),
+    Case("result that another program writes", r"run.h5: another program has it open to write", "{recover}", before=opened_to_write("run.h5")),
     Case("result of the future", r"run.h5.*version", "{recover}", before=lambda bench: attribute(bench, "run.h5", "version", 999)),
 
 ]

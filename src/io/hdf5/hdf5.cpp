@@ -1,6 +1,11 @@
 #include "io/hdf5/hdf5.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "elastogear/base/file.h"
@@ -21,6 +26,21 @@ Id access_properties() {
   H5Pset_libver_bounds(properties, H5F_LIBVER_V110, H5F_LIBVER_LATEST);
   use_write_driver(properties);
   return properties;
+}
+
+// A file system without locks is no hindrance.
+Id read_properties() {
+  Id properties(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_file_locking(properties, true, true);
+  return properties;
+}
+
+// HDF5 locks a file that it opens, for all readers or for one writer.
+bool has_writer(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool locked = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (file >= 0) ::close(file);
+  return locked;
 }
 
 herr_t collect(hid_t, const char* name, const H5L_info_t*, void* names) {
@@ -56,8 +76,11 @@ File open(const std::string& path) {
   std::error_code error;
   require(std::filesystem::exists(path, error), path, ": there is no such file");
   require(std::filesystem::is_regular_file(path, error), path, ": is not a regular file");
+  require(access(path.c_str(), R_OK) == 0, path, ": cannot be read: ", std::strerror(errno));
   require(H5Fis_hdf5(path.c_str()) > 0, path, ": is no HDF5 file, or is truncated or damaged");
-  File file{path, Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT))};
+  File file{path, Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, read_properties()))};
+  require(file.id >= 0 || !has_writer(path), path,
+          ": another program has it open to write: close it there, then give the same command again");
   require(file.id >= 0, path, ": cannot be opened: the HDF5 file is truncated or damaged");
   return file;
 }
