@@ -20,12 +20,24 @@ std::string extension(const std::string& path) {
   return text;
 }
 
+// Names of sets become names in the body file.
+template <class Sets>
+void require_names(const std::string& path, const Sets& sets) {
+  for (const auto& [name, members] : sets)
+    require(!name.empty() && name != "." && name.find('/') == name.npos, path, ": a set has the name '", name,
+            "'; names must not be empty, '.' or hold a slash: rename it in the mesh");
+}
+
 }  // namespace
 
 Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report) {
   require(std::isfinite(unit_in_m) && unit_in_m > 0, path, ": unit of length is ", unit_in_m,
           " m, must be positive");
-  return extension(path) == ".msh" ? read_msh(path, unit_in_m, report) : read_inp(path, unit_in_m, report);
+  Mesh mesh =
+      extension(path) == ".msh" ? read_msh(path, unit_in_m, report) : read_inp(path, unit_in_m, report);
+  require_names(path, mesh.node_sets);
+  require_names(path, mesh.face_sets);
+  return mesh;
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh) {

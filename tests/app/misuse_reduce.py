@@ -82,6 +82,7 @@ REDUCE = [
     Case("interface that is not merged", r"cells 2 and 3 touch without.*merge", "{reduce} -mesh unmerged.inp -restrain FIX,END -markers MIDDLE",
          kind="warning", leaves=r"kept\.h5"),
     Case("part that nothing holds", r"connected part of the mesh with node 17.*0 restrained", "{reduce} -mesh unmerged.inp"),
+    Case("set with a slash", r"slash.inp: a set has the name 'LEFT/CORNER'.*rename it in the mesh", "{reduce} -mesh slash.inp"),
     Case("empty set restrained", r"restrained 'EMPTY': the set is empty", "{reduce} -mesh empty_set.inp -restrain FIX,EMPTY"),
     Case("stress at an empty set", r"stress nodes 'EMPTY': the set is empty", "{reduce} -mesh empty_set.inp -stress_nodes EMPTY"),
     Case("cell that is nearly flat", r"1 cell is nearly flat or folded, worst cell 3", "{reduce} -mesh flat_cell.inp", kind="warning", leaves=r"kept\.h5"),
