@@ -22,12 +22,17 @@ volatile std::sig_atomic_t stop_signal = 0;
 
 void on_signal(int signal) { stop_signal = signal; }
 
-// The first signal asks the run to stop, a second one ends the program.
+// The first signal asks the run to stop, a second one ends the program. Batch systems send those for users
+// and for the limit of time; what is ignored, as nohup does with SIGHUP, stays so.
 void listen_for_stop() {
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESETHAND;
-  for (int signal : {SIGTERM, SIGINT}) sigaction(signal, &action, nullptr);
+  for (int signal : {SIGTERM, SIGINT, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2}) {
+    struct sigaction before {};
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 // Asks the program that the verb runs in, or the signals.

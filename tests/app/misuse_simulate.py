@@ -193,6 +193,8 @@ SIMULATE = [
          fault={"": "kill", "CALL": "rename", "FILE": "kept_run.h5$"}, after=again("{single}", "kept_run.h5")),
     Case("run asked to stop", r"stopped by signal 15", "{single} -checkpoint_every 0", leaves=OWN, fault={**KILL_AT_SECOND_STATE, "": "term"},
          after=again("{single} -checkpoint_every 0", "kept_run.h5")),
+    *(Case(f"run asked to stop by {name}", r"stopped by signal \d+", "{single} -checkpoint_every 0", leaves=OWN, fault={**KILL_AT_SECOND_STATE, "": name},
+           after=again("{single} -checkpoint_every 0", "kept_run.h5")) for name in ("hup", "xcpu", "usr1", "usr2")),
     Case("unfinished run with another step", r"ts_dt 2e-7 .was 1e-7", "{single} -ts_dt 2e-7 -checkpoint_every 0", before=unfinished),
     Case("unfinished run with another body", r"identity_a", "{single} -checkpoint_every 0 -a_file soft.h5", before=unfinished),
     Case("unfinished run that is garbage", r"state.h5", "{single}", before=garbled),

@@ -4,7 +4,7 @@
 //   FAULT_FILE   calls count when the file's path holds this text; ending in $: when the path ends so
 //   FAULT_CALL   write, rename (before it), renamed (after it) or fsync
 //   FAULT_AT     the call that is struck, from 1 (default 1)
-//   FAULT        kill (SIGKILL), term (SIGTERM), stop (SIGSTOP), full (this and all later calls fail with
+//   FAULT        kill (SIGKILL), term (SIGTERM), hup, xcpu, usr1, usr2, stop (SIGSTOP), full (this and all later calls fail with
 //   ENOSPC; writes to be struck take
 //                what still fits) or a number, an errno of this one call
 //   FAULT_SPACE  full, in place of FAULT_AT: bytes that may be written to these files before
@@ -78,6 +78,10 @@ static int fault(const char* call, const char* path) {
   tell(call, path);
   if (strcmp(what, "kill") == 0) kill(getpid(), SIGKILL);
   if (strcmp(what, "term") == 0) kill(getpid(), SIGTERM);
+  if (strcmp(what, "hup") == 0) kill(getpid(), SIGHUP);
+  if (strcmp(what, "xcpu") == 0) kill(getpid(), SIGXCPU);
+  if (strcmp(what, "usr1") == 0) kill(getpid(), SIGUSR1);
+  if (strcmp(what, "usr2") == 0) kill(getpid(), SIGUSR2);
   if (strcmp(what, "stop") == 0) kill(getpid(), SIGSTOP);
   if (strcmp(what, "full") == 0) return ENOSPC;
   return atoi(what);
