@@ -54,10 +54,13 @@ void check(PetscErrorCode code, std::exception_ptr& pending, const char* file, i
 }
 
 void start_solvers(int& argc, char**& argv) {
+  constexpr const char* kNoHandlers = "-no_signal_handler";  // signals keep what the system does with them
   const auto print = PetscErrorPrintf;
   PetscErrorPrintf = keep_text;
+  PetscOptionsSetValue(nullptr, kNoHandlers, "true");
   const PetscErrorCode code = SlepcInitialize(&argc, &argv, nullptr, nullptr);
   if (PetscErrorPrintf == keep_text) PetscErrorPrintf = print;
+  PetscOptionsClearValue(nullptr, kNoHandlers);
   require(code == 0, "PETSc cannot start. Its options are in PETSC_OPTIONS and in the files .petscrc, too. ",
           message_in(start_text));
 }
