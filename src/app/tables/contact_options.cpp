@@ -31,10 +31,9 @@ const Rows<S> kContactRows = {
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
      "node (pressure as a field); auto: faces where the slave's cells are of second order, whose nodes alone "
-     "cannot bear an even pressure, unless there are two passes; nodes elsewhere; stations: exact flanks of "
-     "cylindrical gears touch along their lines of contact, on any mesh (unilateral, without friction; "
-     "minima "
-     "where that cannot be); drives take stations"},
+     "cannot bear an even pressure, unless there are two passes; nodes elsewhere; stations: exact involute "
+     "flanks touch along their lines of contact, or at points on axes that cross, on any mesh (unilateral; "
+     "minima where that cannot be); drives take stations"},
     {"contact_approach", &S::approach, one_of("auto", "mesh", "hertz"),
      "of flanks that touch in a patch smaller than the faces: as the mesh makes it, which is too stiff; by "
      "H. Hertz in its place (law unilateral, points minima, exact flanks, elastic bodies of one material "

@@ -153,7 +153,7 @@ const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips) 
 
 ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n) {
   constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
-  if (std::abs(placement.R(2, 2)) < kParallel) return {&owner, &mate, {}, true};
+  if (placement.R(2, 2) < kParallel) return {&owner, &mate, {}, true};
   const FlankMesh &on_owner = owner.meshes().front(), &on_mate = mate.meshes().front();
   const Eigen::Vector3d x = owner.flanks().point(on_owner.name, middle(owner.flanks()), 0).x;
   const double shift = mate.flanks().chart(on_mate.name, placement.R.transpose() * (x - placement.r))[1];

@@ -1,5 +1,8 @@
 #include "elastogear/dynamics/approach_choice.h"
 
+#include <Eigen/Core>
+#include <array>
+
 #include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {
@@ -17,9 +20,22 @@ std::string lacks_of_body(const SystemModel::Body& body) {
   return {};
 }
 
+// Cosine of the angle between the axes of the bodies' frames at the start.
+double cosine_of_axes(const SystemModel& model, const PairSetup& pair) {
+  std::array<Eigen::Matrix3d, 2> R_WB;
+  for (std::size_t side : {0, 1}) {
+    const auto b = static_cast<std::size_t>(pair.body[side]);
+    R_WB[side] =
+        body::placement(model.bodies[b].eq.joint, motion(model, b, {0, model.U_0, model.V_0, model.V_0}).s)
+            .R_WB;
+  }
+  return R_WB[0].col(2).dot(R_WB[1].col(2));
+}
+
 }  // namespace
 
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
+  constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
   if (pair.settings.approach != FlankApproach::automatic) return "an approach of flanks is given";
   for (int b : pair.body) {
     const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
@@ -27,6 +43,7 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
     if (!body.true_surface || !body.true_surface->flanks) return who + "no involute flanks of gear data";
     if (const std::string lacks = lacks_of_body(body); !lacks.empty()) return who + lacks;
   }
+  if (cosine_of_axes(model, pair) < -kParallel) return "axes run against each other";
   if (pair.settings.friction.mu > 0 && pair.settings.friction.law == contact::FrictionLaw::stick)
     return "friction sticks";
   if (pair.settings.law != contact::ContactLaw::unilateral) return "it needs the law 'unilateral'";
