@@ -221,8 +221,8 @@ class Drive(System):
         return [Result(os.path.join(path, row["file"]), report, row) for row in rows if row["file"]]
 
     def run(self, *, progress: Optional[Progress] = None, **options: Any) -> Evaluation:
-        """Makes bodies, a sweep over a pitch and what is read off it, as far as they are not there, as `elastogear
-        run` does: on meshes that are refined until the stresses at the roots have the `accuracy` asked.
+        """Makes bodies, a sweep over a pitch and what is read off it, as far as they are not there, as
+        `elastogear run` does: on meshes that are refined until the stresses at the roots have the `accuracy` asked.
 
         Under mpirun all ranks must call it, and share the work.
         """
