@@ -33,8 +33,8 @@ class Quantity(float):
         quantity.unit = unit
         return quantity
 
-    def __getnewargs__(self) -> tuple[float, str]:  # copies and pickles keep the unit
-        return float(self), self.unit
+    def __reduce__(self) -> tuple[type["Quantity"], tuple[float, str]]:  # copies and pickles keep the unit
+        return Quantity, (float(self), self.unit)
 
     def __str__(self) -> str:
         return f"{float(self):.6g}" + ("" if self.unit == "1" else f" {self.unit}")

@@ -141,12 +141,13 @@ def look(nodes_of_cell, surface):
 
 
 def pull(nodes_of_cell):
-    """A force that is spread by area is an even traction: 100 MPa at every node of the end, and a moment bends it in a straight line."""
+    """A force that is spread by area is an even traction: 100 MPa at every node of the end, and a moment bends it in a straight line: a
+    small one, because what acts turns with the end, by its angle squared."""
     mesh(nodes_of_cell)
     run("reduce", "-mesh", "bar.inp", "-material_E", "210e9", "-material_nu", "0", "-material_rho", "7850", "-restrain", "FIX", "-stress_nodes", "END",
         "-markers", "END", "-marker_weights", "area", "-basis", "full", "-output", "pulled.h5")
     for what, load, stress in (("force", ["-p_force", "40000,0,0"], lambda X: 100e6 + 0 * X[:, 1]),
-                               ("moment", ["-p_torque", "0,0,-100"], lambda X: 100 * (X[:, 1] - 0.01) / (0.02**4 / 12))):
+                               ("moment", ["-p_torque", "0,0,-1"], lambda X: (X[:, 1] - 0.01) / (0.02**4 / 12))):
         run("simulate", "-bodies", "bar", "-bar_file", "pulled.h5", "-loads", "p", "-p_marker", "bar.END", *load, "-analysis", "static", "-output", "p.h5")
         run("recover", "-result", "p.h5", "-output", "p_stress.h5", "-stress_bar", "END")
         with h5py.File("p_stress.h5") as file:

@@ -260,7 +260,7 @@ void require_all_found(const SweepJob& job, const SweepFound& found) {
 
 void run_sweep(const Options& given) {
   SweepJob job = make_job(given);
-  protect_inputs(given, {{"output", {job.output}}});
+  if (!job.cases.several) protect_inputs(given, {{"output", {job.output}}});  // else it is a folder
   const OutputLock lock(locked_file(job));
   const auto settings = resumable_settings(given, job.output);
   std::unique_ptr<PreparedCase> first;
