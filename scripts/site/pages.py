@@ -15,7 +15,7 @@ PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "*/README.
 USING = ("tutorial", "drives", "examples", "evaluation", "life", "polymers", "python", "report", "file_format")
 KNOWING = ("theory", "notation", "bases", "validation", "performance", "architecture")
 PYTHON = {
-    "Drives and simulations": ["elastogear.Drive", "elastogear.System", "elastogear.Simulation", "elastogear.Report"],
+    "Drives and simulations": ["elastogear.Drive", "elastogear.System", "elastogear.Simulation", "elastogear.Report", "elastogear.Quantity"],
     "States of a simulation": ["elastogear.State", *(f"elastogear._elastogear.{part}State" for part in ("Body", "Pair", "Bushing", "Load", "Sensor"))],
     "Results": ["elastogear.Result", *(f"elastogear.results.{part}History" for part in ("Body", "Pair", "Sensor")),
                 "elastogear.Stress", "elastogear.StressSet", "elastogear.Evaluation", "elastogear.Life"],

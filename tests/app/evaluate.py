@@ -229,7 +229,7 @@ def check_in_time(drive):
     """Rigid gears on springs at 200 rad/s, over 2.2 pitches, beside a body that is no gear."""
     with open("drive.yaml", "a", encoding="utf-8") as file:
         file.write("bodies: [pinion, wheel, rotor]\nrotor: {mass: 1, inertia: [1e-3, 1e-3, 1e-3, 0, 0, 0], joint: revolute}\n")
-    drive.run("simulate", "drive.yaml", "-analysis", "dynamic", "-speed", "200", "-ts_dt", "2e-5", "-ts_max_time", "4.5e-3", "-sensors_hub",
+    drive.run("simulate", "drive.yaml", "-analysis", "dynamic", "-speed", "200 rad/s", "-ts_dt", "2e-5", "-ts_max_time", "4.5e-3", "-sensors_hub",
               "wheel.frame", "-output", "run.h5", "-resume", "discard", *LAYER)
     figures = drive.evaluate("-result", "run.h5", "-from", "4e-4")
     roll, time = figures["roll"], figures["time"]
@@ -255,7 +255,7 @@ def check_prescribed(drive):
     """The pinion turns as a table says, from where flanks touch on; the wheel bears the torque."""
     time = np.linspace(0, 5e-3, 51)
     np.savetxt("run_up.csv", np.stack([time, 200 * time + 2e4 * time**2], axis=1), delimiter=",")
-    drive.run("simulate", "drive.yaml", "-analysis", "dynamic", "-pinion_rotation_motion", "table,run_up.csv", "-speed", "200", "-ts_dt", "2e-5",
+    drive.run("simulate", "drive.yaml", "-analysis", "dynamic", "-pinion_rotation_motion", "table,run_up.csv", "-speed", "200 rad/s", "-ts_dt", "2e-5",
               "-ts_max_time", "4.5e-3", "-output", "run_up.h5", *LAYER)
     figures = drive.evaluate("-result", "run_up.h5", "-from", "1e-3")
     t = figures["time"]
