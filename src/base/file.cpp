@@ -48,7 +48,8 @@ int synchronised(const std::string& path, int mode) {
   return error;
 }
 
-// Of a link that leads there; returns an errno.
+// Moves a file to another file system: copies it beside `place` and renames the copy. Returns an errno, 0 for
+// none.
 int moved_to_other_disk(const std::string& file, const std::string& place) {
   const std::string copy = place + ".tmp" + std::to_string(getpid());
   std::error_code error;

@@ -134,7 +134,7 @@ def check_motion():
         energy = file["energy"]
         balance, stored = np.abs(energy["balance"][:]).max(), energy["elastic"][0] + energy["contact"][0]
     print(f"balance {balance:.3g} J of {stored:.3g} J stored in the gears")
-    assert balance < 5e-3 * stored
+    assert balance < 1e-4 * stored
 
 
 def check_one_state():

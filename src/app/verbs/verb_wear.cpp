@@ -105,7 +105,8 @@ WearCourse wear_down(const Options& options, const Drive& drive, const WearSetti
   return course;
 }
 
-// Of a file for all verbs torques are those of other sweeps.
+// A file that serves all verbs may name the torques of other sweeps: wear takes its one torque and leaves
+// those.
 Options with_one_case(Options options) {
   const bool has_torque = options.given("torque") && !options.overrides_files("torques");
   for (const char* name : {"torques", "variants"})

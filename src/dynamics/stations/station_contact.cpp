@@ -299,7 +299,8 @@ contact::StationDisplacements StationContact::moved(const Part& part, std::size_
   return moved;
 }
 
-// The same by nodes, whose static responses are in place.
+// Displacements at the stations on one body that touches at points: those of the loaded nodes, by elastic
+// coordinates and by the static responses that are in place.
 contact::StationDisplacements StationContact::moved_by_nodes(const Part& part, std::size_t body,
                                                              const VectorXd& q,
                                                              ResidualContact& responses) const {
