@@ -48,8 +48,10 @@ class ExactFlanks {
   virtual double deviation(const FlankName& flank, double v, double z) const = 0;
   /// The chart of a point on a flank, m. v is that of its radius.
   virtual Eigen::Vector2d chart(const FlankName& flank, const Eigen::Vector3d& x) const = 0;
-  /// m, from the axis to the tip.
+  /// m, from the axis to the tip, the largest one.
   virtual double tip_radius() const = 0;
+  /// Are they the envelope of their mate's, so that both touch along lines over the face on axes that cross?
+  virtual bool is_hobbed() const { return false; }
   /// The flank of a group of faces by its name; tooth < 0: it is none.
   virtual FlankName flank_of(const std::string& group) const = 0;
 };

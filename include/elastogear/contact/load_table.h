@@ -69,9 +69,8 @@ Eigen::MatrixXd responses(const LoadTable& a, const std::vector<Stencil>& at_a,
 
 /// Displacements at n stations on one body.
 struct StationDisplacements {
-  Eigen::Matrix3Xd u;         ///< m
-  Eigen::Matrix3Xd u_v;       ///< -, by how much they grow with the place v of the station
-  Eigen::Matrix3Xd u_z = {};  ///< -, with its place z; of a point
+  Eigen::Matrix3Xd u;    ///< m
+  Eigen::Matrix3Xd u_v;  ///< -, by how much they grow with the place v of the station
 };
 /// Adds those of a loaded flank, by the forces of b's strips, 3 x n, N.
 void add_responses(const LoadTable& a, const std::vector<Stencil>& at_a, const LoadTable& b,

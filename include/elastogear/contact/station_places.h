@@ -43,9 +43,9 @@ struct NearestPlace {
   Eigen::Vector3d n;  ///< normal from the mate to the owner, owner's frame: the gap's gradient
 };
 
-/// The places of stations on these strips of the owner's face. Eq. (6.50).
+/// The places of stations on these strips of the owner's face. Eq. (6.50). ends: see nearest_point.
 std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const RelativePlacement& placement,
-                                         const std::vector<Strip>& strips);
+                                         const std::vector<Strip>& strips, const FaceEnds& ends = {});
 
 /// m: by how much the gap opens at the distances h to both sides of a place, across the profile, m; the mean
 /// of both, beyond what its slope makes.

@@ -56,23 +56,32 @@ class ToothedBody {
   std::array<std::list<LoadTable>, 2> tables_;  // of right and left flanks
 };
 
+/// What n stations that move over the flanks do to each other in the half-spaces of both bodies, as if they
+/// stood side by side along a straight line.
+struct AmongStations {
+  std::array<Eigen::MatrixXd, 2> line;    ///< n x n, 1/m: of line loads, but for own parts
+  std::array<Eigen::MatrixXd, 2> smooth;  ///< n x n, -, of smooth loads, over what each does to itself
+  double along = 1;                       ///< -, length along that line for each m of the owner's z
+};
+
 /// Two bodies whose flanks may touch. On parallel axes stations fill the face that both have where they stand
-/// at the start; on axes that cross each pair of teeth has one, at a point that moves over both flanks.
+/// at the start. On axes that cross stations move over the mate's flank: those of a hobbed owner stand on
+/// strips of its whole face; of others each pair of teeth has one, at a point that moves over both flanks.
 struct ToothedPair {
   ToothedBody *owner, *mate;
   std::array<std::vector<Strip>, 2> strips;  ///< m, of the owner's face, and of the mate's
   bool is_crossed = false;
+  AmongStations among = {};  ///< of those that move
 };
 /// n: stations of a pair of teeth. placement: of the mate in the owner's frame.
 ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n);
 
-/// The smooth load of 1 N at a point of a flank.
-struct PointLoad {
-  std::vector<int> node;                  ///< of the surface, ascending
-  Eigen::RowVectorXd weight;              ///< nodal forces of 1 N
-  Eigen::RowVectorXd weight_v, weight_z;  ///< 1/m, by how much they grow with the place
-  double smooth = 0;                      ///< 1/m, half-space below it
-  double smooth_v = 0, smooth_z = 0;      ///< 1/m^2, half of its growth with the place
+/// Smooth loads of 1 N at n places that move over a flank.
+struct MovingLoads {
+  std::vector<int> node;   ///< of the surface, ascending: those they act on, there and a little farther
+  Eigen::MatrixXd weight;  ///< n x nodes, nodal forces
+  Eigen::VectorXd smooth;  ///< n, 1/m, what each does to itself in the half-space below it
+  Eigen::VectorXd along;   ///< n, -, length along the line of contact for each m of z
 };
 
 /// n stations of one pair of teeth. Side 0 is the owner of the stations.
@@ -80,11 +89,11 @@ struct ToothContact {
   struct Side {
     FlankName flank;
     const FlankMesh* mesh;
-    const LoadTable* loads;      ///< of strips; null at a point
+    const LoadTable* loads;      ///< of strips; null where loads move
     std::vector<Stencil> at;     ///< places of the stations among those of the loads
     std::vector<double> v, z;    ///< m, places
     Eigen::Matrix3Xd direction;  ///< 3 x n, unit vectors of the forces on this body, in its frame
-    PointLoad point = {};
+    MovingLoads moving = {};
 
     /// Does a station stand beyond an end of the mesh's flank? Its loads are at the end then.
     bool is_clamped(Eigen::Index i) const {
@@ -98,35 +107,42 @@ struct ToothContact {
   RelativePlacement placement;
   std::vector<NearestPlace> places;
   std::array<Side, 2> side;
-  FaceEnds ends = {};           ///< of both faces, where they round flanks: at a point
+  FaceEnds ends = {};  ///< of faces that round flanks, where stations move over them
+  const ToothedPair* pair = nullptr;
   Eigen::VectorXd gap;          ///< n, m, of the bodies as if they were rigid
   Eigen::MatrixXd local;        ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
   std::vector<StationLaw> own;  ///< n
+  Eigen::VectorXd across;       ///< n, -, distance across the line of contact for each m of the owner's v
 
   Eigen::Index n() const { return gap.size(); }
+  bool is_moving() const { return !side[0].loads; }
 };
 
 /// The contacts of all pairs of teeth with a station whose gap is small beside the height of a tooth.
 std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const RelativePlacement& placement);
 
-/// Nodes of the surface that the loads of a side act on, those of all its flank or of its point.
+/// Nodes of the surface that the loads of a side act on, those of all its flank or near loads that move.
 const std::vector<int>& loaded_nodes(const ToothContact::Side& side);
-/// n x n: how strips share the forces of stations, Eq. (6.45); 1 of a point.
+/// n x n: how strips share the forces of stations, Eq. (6.45); 1 of loads that move.
 Eigen::MatrixXd spread(const ToothContact::Side& side);
-/// n x loaded nodes: nodal forces of 1 N of each strip, or of the point.
+/// n x loaded nodes: nodal forces of 1 N of each strip or load that moves.
 Eigen::MatrixXd weights(const ToothContact::Side& side);
-/// At its stations, by displacements of the loaded nodes, 3 x nodes, m.
-StationDisplacements displacements(const ToothContact::Side& side, const Eigen::Matrix3Xd& of_nodes);
+/// m, 3 x n, at its stations, by displacements of the loaded nodes, 3 x nodes, m.
+Eigen::Matrix3Xd displacements(const ToothContact::Side& side, const Eigen::Matrix3Xd& of_nodes);
 
 /// Derivatives of the potential with places and directions of the stations' loads on one side.
 struct PotentialSlopes {
-  Eigen::VectorXd v, z;        ///< n, N; z is 0 of strips
+  Eigen::VectorXd v;           ///< n, N
   Eigen::Matrix3Xd direction;  ///< 3 x n, J
 };
 /// The same with a motion of the mate against the owner (see place_rates), as gaps, places, directions and
-/// curvatures of the stations change under their forces f, N.
+/// curvatures of the stations change under their forces f, N; of strips.
 double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f,
                            const std::array<PotentialSlopes, 2>& slopes,
+                           const Eigen::Matrix<double, 6, 1>& twist);
+/// The same of stations that move, under the displacements of the loaded nodes of both sides, 3 x nodes, m.
+double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f,
+                           const std::array<Eigen::Matrix3Xd, 2>& of_nodes,
                            const Eigen::Matrix<double, 6, 1>& twist);
 
 /// Station i under the force f, N, as a contact point that is read and not solved for: of the pair's surface

@@ -21,6 +21,11 @@ struct HalfAngle {
   double d_z = 0;  ///< rad/m
 };
 
+/// Where the flanks end in one transverse plane.
+struct FlankEnds {
+  double r_form = 0, r_a = 0;  ///< m
+};
+
 /// The toothing of one gear or worm.
 struct Toothing {
   int z = 0;              ///< -, teeth or starts
@@ -38,6 +43,9 @@ struct Toothing {
   double psi_b = 0;  ///< rad, half the tooth thickness as an angle, at the base circle
   double theta_1 = 0;                                            ///< rad, angle of tooth 1's centre at z = 0
   std::function<HalfAngle(double r, double z)> half_angle = {};  ///< of flanks that are no involutes
+  std::function<FlankEnds(double z)> ends = {};  ///< of hobbed flanks, the same at -z; others: r_form, r_a
+  double half_face = 0;                          ///< m, of hobbed flanks, up to which z their ends are known
+  double crease = 0;  ///< m, z beside the middle plane, where these are not smooth either; 0: nowhere
 
   double sign() const { return internal ? -1 : 1; }  ///< z/|z| of ISO 21771
 };

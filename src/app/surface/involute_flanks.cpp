@@ -1,4 +1,4 @@
-#include "app/surface/involute_flanks.h"
+#include "app/surface/exact_flanks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,13 @@
 namespace elastogear::app {
 namespace {
 
-constexpr double kEdgeRadius = 0.03;  // modules, of the edges of tips
-
 class InvoluteFlanks : public contact::ExactFlanks {
  public:
   InvoluteFlanks(const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations,
                  Layers layers)
       : t_(toothing), deviations_(deviations), layers_(layers) {
     const double form = arc(t_.r_form), tip = arc(t_.r_a);
-    const double module = 2 * t_.r / t_.z * std::cos(std::atan(t_.r / t_.p));
-    extent_ = {std::min(form, tip), std::max(form, tip), !t_.internal, kEdgeRadius * module};
+    extent_ = {std::min(form, tip), std::max(form, tip), !t_.internal, kEdgeRadius * module(t_)};
   }
 
   int teeth() const override { return t_.z; }
@@ -46,7 +43,7 @@ class InvoluteFlanks : public contact::ExactFlanks {
     contact::FlankDistance d;
     d.distance = gear::flank_distance(t_, flank.tooth, flank.side, x);
     d.gradient = normal(flank, radial, around, t_.r_b / r, length / r);
-    const double foot = length - t_.sign() * d.distance / std::cos(t_.beta_b);
+    const double foot = length - t_.sign() * d.distance * std::cos(t_.beta_b);
     d.v = foot * std::abs(foot) / (2 * t_.r_b);
     return d;
   }
@@ -95,7 +92,6 @@ class InvoluteFlanks : public contact::ExactFlanks {
 
 std::shared_ptr<const contact::ExactFlanks> involute_flanks(
     const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations, Layers layers) {
-  if (toothing.half_angle || toothing.r_b <= 0) return nullptr;
   return std::make_shared<InvoluteFlanks>(toothing, deviations, layers);
 }
 

@@ -12,7 +12,7 @@
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
 #include "app/gear/modification_options.h"
-#include "app/surface/involute_flanks.h"
+#include "app/surface/exact_flanks.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/contact/topology.h"
@@ -215,7 +215,7 @@ void add_flanks(const Teeth& teeth, const std::string& file, const std::string& 
           "_flanks, or mesh it anew");
   const Heights heights = add_heights(surface, teeth, known);
   add_curvatures(surface, teeth.toothing, known);
-  known.flanks = involute_flanks(teeth.toothing, teeth.deviations, teeth.layers);
+  known.flanks = exact_flanks(teeth.toothing, teeth.deviations, teeth.layers);
   print_detail("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
                                         with_unit(farthest.distance, "m") + " of " + file);
   if (teeth.deviations)

@@ -108,8 +108,10 @@ Eigen::MatrixXd consistent_weights(const FlankGrid& flank, const std::vector<Sta
   return spread_along(strips, width.c) * weight;
 }
 
-Eigen::RowVectorXd point_weights(const FlankGrid& flank, double v, double z, const LoadWidth& width) {
-  return strip_weights(flank, {point_strip(flank, z, width), v}, width.a);
+Eigen::RowVectorXd point_weights(const FlankGrid& flank, double v, double z, double slope,
+                                 const LoadWidth& width) {
+  const Strip face = point_strip(flank, z, width);
+  return strip_weights(flank, {face, v + slope * (face.centre() - z), slope}, width.a);
 }
 
 }  // namespace elastogear::contact

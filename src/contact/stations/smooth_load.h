@@ -65,10 +65,11 @@ Eigen::MatrixXd consistent_weights(const FlankGrid& flank, const std::vector<Sta
 /// The piece of the face over which the load of a point at z is spread: c to both sides, shifted inwards at
 /// the ends of the face.
 Strip point_strip(const FlankGrid& flank, double z, const LoadWidth& width);
-/// n_nodes: consistent nodal forces of 1 N of a point. Eq. (6.43), even along the face.
-Eigen::RowVectorXd point_weights(const FlankGrid& flank, double v, double z, const LoadWidth& width);
-/// 1/m: mean of 1/r within the load of a point, without images, which H. Hertz's ellipse has not, either. Eq.
-/// (6.46).
+/// n_nodes: consistent nodal forces of 1 N around a place, along a line of this slope. Eq. (6.43), even along
+/// the face.
+Eigen::RowVectorXd point_weights(const FlankGrid& flank, double v, double z, double slope,
+                                 const LoadWidth& width);
+/// 1/m: mean of 1/r within such a load, without images, which H. Hertz's ellipse has not, either. Eq. (6.46).
 double point_kernel(const FlankGrid& flank, double v, double z, const LoadWidth& width,
                     const LineScale& scale);
 

@@ -72,8 +72,8 @@ double rate_time(const FlankPair& flanks, const RelativePlacement& placement,
 }
 
 std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const RelativePlacement& placement,
-                                         const std::vector<Strip>& strips) {
-  const FlankGap gap(flanks, placement);
+                                         const std::vector<Strip>& strips, const FaceEnds& ends) {
+  const FlankGap gap(flanks, placement, ends);
   std::vector<NearestPlace> places;
   for (const Strip& strip : strips) places.push_back(place_at(gap, strip, least(gap, strip.centre())));
   return places;

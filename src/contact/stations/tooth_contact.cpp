@@ -5,7 +5,7 @@
 
 #include "contact/stations/flank_mesh.h"
 #include "contact/stations/flank_size.h"
-#include "contact/stations/point_contact.h"
+#include "contact/stations/moving_contact.h"
 #include "contact/stations/smooth_load.h"
 #include "elastogear/base/error.h"
 #include "elastogear/contact/face.h"
@@ -23,15 +23,6 @@ constexpr double kFlattest = 1e3;    // of the height of a flank: radii of flank
 double mark_distance(const Eigen::Matrix3Xd& owner, const Eigen::Matrix3Xd& mate,
                      const RelativePlacement& placement) {
   return std::sqrt(((placement.R * mate).colwise() + placement.r - owner).colwise().squaredNorm().minCoeff());
-}
-
-bool touches(const std::vector<NearestPlace>& places, double of_height) {
-  bool any = false;
-  for (const NearestPlace& place : places) {
-    if (place.flank_gap < -kDeepest * of_height) return false;
-    any = any || place.gap < kReach * of_height;
-  }
-  return any;
 }
 
 // -: dv/dz of a line along which the normal of a flank does not turn, at the middle of its face. Such are the
@@ -65,7 +56,7 @@ double width_for_curvature(const ExactFlanks& flanks) { return kWidth * height(f
 // m: of relative curvature across the line of contact at a station, over the half width b along the profile.
 double radius(const ToothContact& contact, std::size_t i, double b) {
   const double most = kFlattest * height(*contact.flanks.owner);
-  const double across = b * contact.side[0].loads->scale.across;
+  const double across = b * contact.across[static_cast<Eigen::Index>(i)];
   const double opens = opening(contact.flanks, contact.placement, contact.places[i], b);
   return opens > 0 ? std::min(most, across * across / (2 * opens)) : most;
 }
@@ -73,11 +64,12 @@ double radius(const ToothContact& contact, std::size_t i, double b) {
 ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, const FlankMesh& on_mate,
                           const FlankPair& flanks, const RelativePlacement& placement,
                           std::vector<NearestPlace> places) {
-  ToothContact contact{flanks, placement, std::move(places), {}, {}, {}, {}, {}};
+  ToothContact contact{flanks, placement, std::move(places), {}, {}, &pair, {}, {}, {}, {}};
   const std::array<ToothedBody*, 2> body{pair.owner, pair.mate};
   const std::array<const FlankMesh*, 2> mesh{&on_owner, &on_mate};
   const auto n = std::ssize(contact.places);
   contact.gap.resize(n);
+  contact.across.setConstant(n, pair.owner->loads(on_owner.name.side, pair.strips[0]).scale.across);
   contact.local = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t s : {0, 1}) {
     const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair.strips[s]);
@@ -153,7 +145,11 @@ const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips) 
 
 ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n) {
   constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
-  if (placement.R(2, 2) < kParallel) return {&owner, &mate, {}, true};
+  if (placement.R(2, 2) < kParallel) {
+    ToothedPair pair{&owner, &mate, {}};
+    set_moving_stations(pair, n);
+    return pair;
+  }
   const FlankMesh &on_owner = owner.meshes().front(), &on_mate = mate.meshes().front();
   const Eigen::Vector3d x = owner.flanks().point(on_owner.name, middle(owner.flanks()), 0).x;
   const double shift = mate.flanks().chart(on_mate.name, placement.R.transpose() * (x - placement.r))[1];
@@ -170,7 +166,7 @@ ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePl
 }
 
 std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const RelativePlacement& placement) {
-  if (pair.is_crossed) return point_contacts(pair, placement);
+  if (pair.is_crossed) return moving_contacts(pair, placement);
   std::vector<ToothContact> contacts;
   const ToothedBody &owner = *pair.owner, &mate = *pair.mate;
   if (pair.strips[0].empty()) return contacts;
@@ -193,14 +189,13 @@ std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const Relative
 double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f,
                            const std::array<PotentialSlopes, 2>& slopes,
                            const Eigen::Matrix<double, 6, 1>& twist) {
-  if (!contact.side[0].loads) return change_at_point(contact, f[0], slopes, twist);
   double change = 0;
   for (Eigen::Index i = 0; i < contact.n(); ++i) {
     const StationLaw& law = contact.own[static_cast<std::size_t>(i)];
     const NearestPlace& place = contact.places[static_cast<std::size_t>(i)];
     if (slopes[0].v[i] == 0 && slopes[1].v[i] == 0 && f[i] <= 0) continue;
     const double b = width_for_curvature(*contact.flanks.owner);
-    const double across = b * contact.side[0].loads->scale.across;
+    const double across = b * contact.across[i];
     const PlaceRates rates = place_rates(contact.flanks, contact.placement, place, twist, b);
     const Eigen::Vector3d x =
         contact.flanks.owner->point(contact.flanks.on_owner, place.v, place.face.centre()).x;
@@ -214,22 +209,21 @@ double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f
 }
 
 const std::vector<int>& loaded_nodes(const ToothContact::Side& side) {
-  return side.loads ? side.mesh->node : side.point.node;
+  return side.loads ? side.mesh->node : side.moving.node;
 }
 
 Eigen::MatrixXd spread(const ToothContact::Side& side) {
-  return side.loads ? side.loads->Z : Eigen::MatrixXd::Identity(1, 1);
+  if (side.loads) return side.loads->Z;
+  return Eigen::MatrixXd::Identity(side.moving.weight.rows(), side.moving.weight.rows());
 }
 
 Eigen::MatrixXd weights(const ToothContact::Side& side) {
-  return side.loads ? weights(*side.loads, side.at) : Eigen::MatrixXd(side.point.weight);
+  return side.loads ? weights(*side.loads, side.at) : side.moving.weight;
 }
 
-StationDisplacements displacements(const ToothContact::Side& side, const Eigen::Matrix3Xd& of_nodes) {
-  if (side.loads) return displacements(*side.loads, side.at, of_nodes);
-  const PointLoad& point = side.point;
-  return {of_nodes * point.weight.transpose(), of_nodes * point.weight_v.transpose(),
-          of_nodes * point.weight_z.transpose()};
+Eigen::Matrix3Xd displacements(const ToothContact::Side& side, const Eigen::Matrix3Xd& of_nodes) {
+  if (side.loads) return displacements(*side.loads, side.at, of_nodes).u;
+  return of_nodes * side.moving.weight.transpose();
 }
 
 namespace {
@@ -240,7 +234,7 @@ StationLaw fitting_law(const ToothContact& contact, std::size_t i, double f) {
   StationLaw law = contact.own[i];
   if (law.ellipse) return law;
   for (int round = 0; round < kRounds; ++round)
-    law.radius = radius(contact, i, law.half_width(f) / contact.side[0].loads->scale.across);
+    law.radius = radius(contact, i, law.half_width(f) / contact.across[static_cast<Eigen::Index>(i)]);
   return law;
 }
 

@@ -40,7 +40,7 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
   for (int b : pair.body) {
     const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
     const std::string who = "body '" + body.name + "' has ";
-    if (!body.true_surface || !body.true_surface->flanks) return who + "no involute flanks of gear data";
+    if (!body.true_surface || !body.true_surface->flanks) return who + "no exact flanks of gear data";
     if (const std::string lacks = lacks_of_body(body); !lacks.empty()) return who + lacks;
   }
   if (cosine_of_axes(model, pair) < -kParallel) return "axes run against each other";

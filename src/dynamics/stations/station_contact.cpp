@@ -85,11 +85,14 @@ StationContact::StationContact(const SystemModel& model) : model_(&model) {
   for (const SystemModel::Body& body : model.bodies) add_body(body);
   for (const PairSetup& pair : model.pairs) {
     const auto a = static_cast<std::size_t>(pair.body[0]), b = static_cast<std::size_t>(pair.body[1]);
-    pairs_.push_back({{a, b},
+    const bool turned = bodies_[b].toothed->flanks().is_hobbed();  // stations stand on the hobbed wheel
+    const std::size_t owner = turned ? b : a, mate = turned ? a : b;
+    pairs_.push_back({{owner, mate},
+                      turned ? 1 : 0,
                       pair.settings.offset,
                       pair.settings.friction,
-                      contact::toothed_pair(*bodies_[a].toothed, *bodies_[b].toothed,
-                                            relative(start(model, a), start(model, b)), kStations)});
+                      contact::toothed_pair(*bodies_[owner].toothed, *bodies_[mate].toothed,
+                                            relative(start(model, owner), start(model, mate)), kStations)});
     for (std::size_t body : {a, b})
       bodies_[body].by_nodes = bodies_[body].by_nodes || pairs_.back().toothed.is_crossed;
   }
@@ -138,7 +141,7 @@ void StationContact::set_traction(const Motions& motion, Teeth& teeth) const {
       v[s].col(i) = m.v_WB_B + m.w_WB_B.cross(Eigen::Vector3d(v[s].col(i)));
     if (m.q_dot.size() == 0 || m.q_dot.isZero(0)) continue;
     const ToothContact::Side& side = contact.side[s];
-    v[s] += contact::displacements(side, node_displacements({&teeth, s}, pair.body[s], m.q_dot)).u;
+    v[s] += contact::displacements(side, node_displacements({&teeth, s}, pair.body[s], m.q_dot));
   }
   teeth.sliding = v[0] - contact.placement.R * v[1];
   teeth.traction[0].resize(3, contact.n());
@@ -287,7 +290,8 @@ contact::StationDisplacements StationContact::moved(const Part& part, std::size_
                                                     const std::vector<Teeth>& teeth, const VectorXd& q,
                                                     const VectorXd& f) {
   const ToothContact::Side& side = part.side();
-  contact::StationDisplacements moved = contact::displacements(side, node_displacements(part, body, q));
+  contact::StationDisplacements moved =
+      contact::displacements(*side.loads, side.at, node_displacements(part, body, q));
   for (const Part& other : parts_of(body, teeth)) {
     const ToothContact::Side& there = other.side();
     const VectorXd strip =
@@ -299,15 +303,13 @@ contact::StationDisplacements StationContact::moved(const Part& part, std::size_
   return moved;
 }
 
-// Displacements at the stations on one body that touches at points: those of the loaded nodes, by elastic
-// coordinates and by the static responses that are in place.
-contact::StationDisplacements StationContact::moved_by_nodes(const Part& part, std::size_t body,
-                                                             const VectorXd& q,
-                                                             ResidualContact& responses) const {
+// m, of the loaded nodes, by elastic coordinates and by the static responses that are in place.
+Matrix3Xd StationContact::moved_nodes(const Part& part, std::size_t body, const VectorXd& q,
+                                      ResidualContact& responses) const {
   Matrix3Xd u = node_displacements(part, body, q);
   for (Index a = 0; int node : contact::loaded_nodes(part.side()))
     u.col(a++) += responses.displacement(body, node);
-  return contact::displacements(part.side(), u);
+  return u;
 }
 
 // Derivatives of the potential with places and directions on one body.
@@ -321,14 +323,8 @@ contact::PotentialSlopes StationContact::slopes(const Part& part, std::size_t bo
   const auto along = [&](const Matrix3Xd& u) {
     return VectorXd(u.cwiseProduct(side.direction).colwise().sum().transpose());
   };
-  contact::PotentialSlopes slopes{along(moved.u_v), VectorXd::Zero(strip.size()),
-                                  moved.u * strip.asDiagonal()};
-  if (side.loads) {
-    slopes.v -= compliance * contact::smooth_slopes(*side.loads, side.at, strip);
-  } else {
-    slopes.v -= compliance * side.point.smooth_v * strip;
-    slopes.z = (along(moved.u_z) - compliance * side.point.smooth_z * strip).cwiseProduct(strip);
-  }
+  contact::PotentialSlopes slopes{along(moved.u_v), moved.u * strip.asDiagonal()};
+  slopes.v -= compliance * contact::smooth_slopes(*side.loads, side.at, strip);
   slopes.v = slopes.v.cwiseProduct(strip).eval();
   for (Index i = 0; i < slopes.v.size(); ++i)
     if (side.is_clamped(i)) slopes.v[i] = 0;
@@ -352,15 +348,23 @@ void StationContact::add_joint_forces(const Motions& motion, const std::vector<T
     const VectorXd f_t = f.segment(t.first, t.contact.n());
     if (f_t.isZero(0)) continue;
     const std::array<std::size_t, 2>& body = pairs_[t.pair].body;
+    std::array<Matrix3Xd, 2> of_nodes;
     std::array<contact::PotentialSlopes, 2> slope;
     for (std::size_t s : {0, 1}) {
       const std::size_t b = body[s];
       const Part part{&t, s};
+      if (bodies_[b].by_nodes) of_nodes[s] = moved_nodes(part, b, motion[b].q, responses);
+      if (t.contact.is_moving()) continue;
+      const auto& side = part.side();
       slope[s] = slopes(part, b,
-                        bodies_[b].by_nodes ? moved_by_nodes(part, b, motion[b].q, responses)
+                        bodies_[b].by_nodes ? contact::displacements(*side.loads, side.at, of_nodes[s])
                                             : moved(part, b, teeth, q[b], f),
                         f);
     }
+    const auto change = [&](const Eigen::Matrix<double, 6, 1>& twist) {
+      return t.contact.is_moving() ? contact::change_of_potential(t.contact, f_t, of_nodes, twist)
+                                   : contact::change_of_potential(t.contact, f_t, slope, twist);
+    };
     for (std::size_t s : {0, 1}) {
       const body::MotionSubspace& H = model_->bodies[body[s]].eq.H;
       Eigen::Matrix<double, 6, 1> friction = Eigen::Matrix<double, 6, 1>::Zero();
@@ -373,9 +377,7 @@ void StationContact::add_joint_forces(const Motions& motion, const std::vector<T
       }
       for (Index i = 0; i < H.cols(); ++i) {
         const double force =
-            contact::change_of_potential(t.contact, f_t, slope,
-                                         relative_twist(t.contact.placement, s == 0, H.col(i))) +
-            H.col(i).dot(friction);
+            change(relative_twist(t.contact.placement, s == 0, H.col(i))) + H.col(i).dot(friction);
         state.force[body[s]].joint[i] += force;
         state.force[body[s]].joint_size[i] += std::abs(force);
       }
@@ -462,8 +464,10 @@ void StationContact::set_loads(const std::vector<Teeth>& teeth, const std::vecto
 void StationContact::set_points(const Motions& motion, const std::vector<Teeth>& teeth, const VectorXd& f,
                                 ContactState& state) const {
   state.pair.clear();
-  for (const Pair& pair : pairs_)
-    state.pair.push_back({{static_cast<int>(pair.body[0]), static_cast<int>(pair.body[1])}, {}});
+  for (const Pair& pair : pairs_) {
+    const auto owner = static_cast<int>(pair.body[0]), mate = static_cast<int>(pair.body[1]);
+    state.pair.push_back({{pair.owner == 0 ? owner : mate, pair.owner == 0 ? mate : owner}, {}});
+  }
   for (const Teeth& t : teeth) {
     const Pair& pair = pairs_[t.pair];
     const Eigen::Matrix3d& R_WB = motion[pair.body[0]].R_WB;
@@ -472,6 +476,7 @@ void StationContact::set_points(const Motions& motion, const std::vector<Teeth>&
       if (!(f_i > 0)) continue;
       state.pair[t.pair].points.push_back(
           contact::station_point(t.contact, pair.toothed, i, f_i, {R_WB, motion[pair.body[0]].r_WB}));
+      state.pair[t.pair].points.back().slave_side = pair.owner;
       if (t.traction[0].cols() == 0) continue;
       contact::ContactPoint& point = state.pair[t.pair].points.back();
       const Eigen::Vector3d friction = f_i * (R_WB * t.traction[0].col(i));

@@ -45,11 +45,12 @@ class StationContact {
   struct Body {
     std::unique_ptr<contact::ToothedBody> toothed;  ///< null: it touches nothing
     std::unique_ptr<ResponseTables> tables;
-    bool by_nodes = false;  ///< it touches at points: static responses are those of nodes
+    bool by_nodes = false;  ///< it touches at stations that move: static responses are those of nodes
   };
   struct Pair {
-    std::array<std::size_t, 2> body;
-    double offset;  ///< m
+    std::array<std::size_t, 2> body;  ///< owner and mate
+    int owner;                        ///< which body of the pair's setup that is
+    double offset;                    ///< m
     contact::FrictionSettings friction;
     contact::ToothedPair toothed;
   };
@@ -80,8 +81,8 @@ class StationContact {
                         ContactState& state);
   contact::StationDisplacements moved(const Part& part, std::size_t body, const std::vector<Teeth>& teeth,
                                       const Eigen::VectorXd& q, const Eigen::VectorXd& f);
-  contact::StationDisplacements moved_by_nodes(const Part& part, std::size_t body, const Eigen::VectorXd& q,
-                                               ResidualContact& responses) const;
+  Eigen::Matrix3Xd moved_nodes(const Part& part, std::size_t body, const Eigen::VectorXd& q,
+                               ResidualContact& responses) const;
   contact::PotentialSlopes slopes(const Part& part, std::size_t body,
                                   const contact::StationDisplacements& moved, const Eigen::VectorXd& f) const;
   void set_loads(const std::vector<Teeth>& teeth, const std::vector<Loads>& loads, const Solution& solution,

@@ -249,7 +249,7 @@ void derive_helical_wheel(const Design& d, Geometry& g) {
 
 // The image of the drive in the plane z = 0 of the wheel, which changes the sides of the worm alone.
 void mirror(Geometry& g) {
-  g.worm.p = -g.worm.p, g.wheel.p = -g.wheel.p;
+  for (Toothing* t : {&g.worm, &g.wheel}) t->p = -t->p, t->beta_b = -t->beta_b;
   if (!g.wheel.half_angle) return;
   g.wheel.half_angle = [right = g.wheel.half_angle](double r, double z) {
     HalfAngle half = right(r, -z);

@@ -33,6 +33,12 @@ HobbedSection hobbed_section(const Hob& h, double z) {
           tip_radius(h, z)};
 }
 
+// m, where the throat ends and the outside diameter begins; 0: nowhere.
+double throat_end(const Hob& h) {
+  const double depth = h.a_worm - h.tip;
+  return h.throat > std::abs(depth) ? std::sqrt(h.throat * h.throat - depth * depth) : 0;
+}
+
 // Half the tooth thickness on flank or fillet.
 double left_angle(const Hob& h, const HobbedSection& s, double r) {
   if (r >= s.r_form) return hobbed_half_angle(h, r, s.z).psi;
@@ -131,6 +137,12 @@ void derive_hobbed(const Design& d, Geometry& g) {
   const HobbedSection middle = hobbed_section(*h, 0);
   g.wheel.r_form = middle.r_form, g.wheel.r_b = g.wheel.beta_b = g.wheel.psi_b = 0;
   g.wheel.half_angle = [h](double r, double z) { return hobbed_half_angle(*h, r, z); };
+  g.wheel.ends = [h](double z) {
+    const HobbedSection left = hobbed_section(*h, z), right = hobbed_section(*h, -z);
+    return FlankEnds{std::max(left.r_form, right.r_form), left.r_a};
+  };
+  g.wheel.half_face = d.face_width / 2;
+  g.wheel.crease = throat_end(*h);
   const Range range = contact_range(d, g, *h);
   g.epsilon = (range.to - range.from) / g.p_x;
   require(g.epsilon >= 1, "addendum = ", d.addendum, " m: the contact ratio is ", g.epsilon,

@@ -1,0 +1,35 @@
+#pragma once
+// Charts of the exact flanks of gears and worms, as contact at stations sees them.
+
+#include <memory>
+#include <optional>
+
+#include "elastogear/contact/exact_flanks.h"
+#include "elastogear/gear/modification.h"
+#include "elastogear/gear/toothing.h"
+
+namespace elastogear::app {
+
+/// What the layers of a mesh are along its faces.
+enum class Layers { transverse, axial };
+
+/// z is the place of a transverse section, or for axial ones, as of worms, where a cylinder about the axis
+/// has it: an axial section has one z. v of involutes is their arc length, v of others goes with the radius.
+std::shared_ptr<const contact::ExactFlanks> exact_flanks(
+    const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations, Layers layers);
+
+/// Of involutes.
+std::shared_ptr<const contact::ExactFlanks> involute_flanks(
+    const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations, Layers layers);
+/// Of threads that are no involutes, one profile screwed along the axis.
+std::shared_ptr<const contact::ExactFlanks> thread_flanks(
+    const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations);
+/// Of wheels that a hob has made.
+std::shared_ptr<const contact::ExactFlanks> hobbed_flanks(
+    const gear::Toothing& toothing, const std::optional<gear::FlankDeviations>& deviations);
+
+inline constexpr double kEdgeRadius = 0.03;  // modules, of the edges of tips
+/// m, normal.
+double module(const gear::Toothing& toothing);
+
+}  // namespace elastogear::app

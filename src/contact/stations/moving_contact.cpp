@@ -1,0 +1,321 @@
+#include "contact/stations/moving_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/stations/flank_gap.h"
+#include "contact/stations/flank_mesh.h"
+#include "contact/stations/flank_size.h"
+#include "contact/stations/smooth_load.h"
+
+namespace elastogear::contact {
+namespace {
+
+constexpr double kNear = 1.5;      // of a flank's height, that a mate's flank in contact may be away
+constexpr double kFarther = 1.01;  // times the size of a load, that of those it may become in a small motion
+constexpr double kSteepest = 1;    // slope of a line of contact that loads follow, lengths along both
+
+double compliance_of(const ToothedPair& pair, std::size_t s) {
+  return (s == 0 ? pair.owner : pair.mate)->compliance();
+}
+
+// Loads even over boxes around places along a straight line, over what each does to itself without images.
+Eigen::MatrixXd shared_kernel(const std::vector<Strip>& boxes, double across, const FreeEnds& ends) {
+  const AcrossLoad load{-across, across};
+  const auto n = std::ssize(boxes);
+  Eigen::MatrixXd K(n, n);
+  Eigen::VectorXd own(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Strip& a = boxes[static_cast<std::size_t>(i)];
+    own[i] = std::sqrt(smooth_inverse_distance(load, a, load, a));
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const Strip& b = boxes[static_cast<std::size_t>(j)];
+      double sum = smooth_inverse_distance(load, a, load, b);
+      for (const Strip& image : images(b, ends))
+        sum += ends.share * smooth_inverse_distance(load, a, load, image);
+      K(i, j) = K(j, i) = sum / (own[i] * own[j]);
+    }
+  }
+  return K;
+}
+
+// m, beyond the middle of each strip along the line, where its smooth load on this body reaches.
+double half_length(const Strip& strip, double c) { return std::max(strip.length() / 2, c); }
+
+Eigen::MatrixXd shared_kernel(const ToothedBody& body, const std::vector<Strip>& strips,
+                              const FreeEnds& ends) {
+  const FlankMesh& mesh = body.meshes().front();
+  const double z = (mesh.grid.z.front() + mesh.grid.z.back()) / 2;
+  const LineScale scale = line_scale(body.flanks().point(mesh.name, middle(body.flanks()), z), 0);
+  const LoadWidth width = load_width(mesh.grid);
+  std::vector<Strip> boxes;
+  for (const Strip& strip : strips) {
+    const double c = half_length(strip, width.c * scale.along);
+    const double at = std::clamp(strip.centre(), std::min(ends.lower + c, ends.upper - c), ends.upper - c);
+    boxes.push_back({at - c, at + c});
+  }
+  return shared_kernel(boxes, width.a * scale.across, ends);
+}
+
+// -: dv/dz of the line of contact at each station, from its neighbours' places.
+std::vector<double> slopes(const std::vector<double>& v, const std::vector<double>& z) {
+  const std::size_t n = v.size();
+  std::vector<double> slope(n, 0);
+  for (std::size_t i = 0; n > 1 && i < n; ++i) {
+    const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, n - 1);
+    slope[i] = z[b] == z[a] ? 0 : (v[b] - v[a]) / (z[b] - z[a]);
+  }
+  return slope;
+}
+
+// Some lines on a worm run up its profile; loads follow them as far as they are not steep.
+double bounded(double slope, const FlankPoint& at) {
+  const double most = kSteepest * at.x_z.norm() / at.x_v.norm();
+  return std::clamp(slope, -most, most);
+}
+
+// length: m, of stations along the line; 0 of a point. nodes: those to take; null: those that are near.
+MovingLoads moving_loads(const FlankMesh& mesh, const ExactFlanks& flanks, const ToothContact::Side& side,
+                         const std::vector<double>& length, const std::vector<int>* nodes) {
+  const LoadWidth width = load_width(mesh.grid);
+  const auto n = std::ssize(side.v);
+  const std::vector<double> slope = slopes(side.v, side.z);
+  Eigen::MatrixXd weight(n, mesh.grid.n_nodes);
+  Eigen::RowVectorXd near = Eigen::RowVectorXd::Zero(mesh.grid.n_nodes);
+  MovingLoads loads{{}, {}, Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const FlankPoint at = flanks.point(mesh.name, side.v[k], side.z[k]);
+    const double along = bounded(slope[k], at);
+    const LineScale scale = line_scale(at, along);
+    const LoadWidth size{width.a, std::max(width.c, length[k] / (2 * scale.along))};
+    weight.row(i) = point_weights(mesh.grid, side.v[k], side.z[k], along, size);
+    loads.smooth[i] = point_kernel(mesh.grid, side.v[k], side.z[k], size, scale);
+    loads.along[i] = scale.along;
+    if (nodes) continue;
+    const LoadWidth larger{kFarther * size.a, kFarther * size.c};
+    near += point_weights(mesh.grid, side.v[k], side.z[k], along, larger).cwiseAbs();
+  }
+  if (nodes) {
+    loads.node = *nodes;
+  } else {
+    for (int a = 0; a < near.size(); ++a)
+      if (near[a] != 0) loads.node.push_back(mesh.node[static_cast<std::size_t>(a)]);
+    std::sort(loads.node.begin(), loads.node.end());
+  }
+  loads.weight = Eigen::MatrixXd::Zero(n, std::ssize(loads.node));
+  for (int a = 0; a < weight.cols(); ++a) {
+    const int node = mesh.node[static_cast<std::size_t>(a)];
+    const auto at = std::lower_bound(loads.node.begin(), loads.node.end(), node);
+    if (at != loads.node.end() && *at == node) loads.weight.col(at - loads.node.begin()) = weight.col(a);
+  }
+  return loads;
+}
+
+// Of strips that are as long as the line of contact is within them.
+StationLaw law_of_strip(const ToothContact& contact, std::size_t i, double compliance) {
+  const double h = kWidth * height(*contact.flanks.owner), flattest = 1e3 * height(*contact.flanks.owner);
+  const auto k = static_cast<Eigen::Index>(i);
+  const double opens = opening(contact.flanks, contact.placement, contact.places[i], h);
+  const double across = h * contact.across[k];
+  const double radius = opens > 0 ? std::min(flattest, across * across / (2 * opens)) : flattest;
+  return {contact.places[i].face.length() * contact.side[0].moving.along[k], radius, compliance};
+}
+
+StationLaw law_of_point(const ToothContact& contact, double compliance) {
+  const double h = kWidth * height(*contact.flanks.owner);
+  const PrincipalCurvatures at =
+      curvatures(contact.flanks, contact.ends, contact.placement, contact.places[0], h);
+  return point_law(at.least, at.largest, compliance);
+}
+
+// Eq. (6.39) with Eq. (6.54).
+Eigen::MatrixXd local_compliance(const ToothContact& contact) {
+  const AmongStations& among = contact.pair->among;
+  const Eigen::VectorXd L = (contact.side[0].moving.along / among.along).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd local = Eigen::MatrixXd::Zero(contact.n(), contact.n());
+  for (std::size_t s : {0, 1}) {
+    const Eigen::VectorXd D = contact.side[s].moving.smooth.cwiseSqrt();
+    local += compliance_of(*contact.pair, s) * (L.asDiagonal() * among.line[s] * L.asDiagonal());
+    local -= compliance_of(*contact.pair, s) * (D.asDiagonal() * among.smooth[s] * D.asDiagonal());
+  }
+  return local;
+}
+
+void set_sides(const std::array<const FlankMesh*, 2>& mesh, ToothContact& contact,
+               const std::array<const std::vector<int>*, 2>& nodes) {
+  const RelativePlacement& placement = contact.placement;
+  std::vector<double> length;
+  for (std::size_t s : {0, 1}) {
+    ToothContact::Side side{mesh[s]->name, mesh[s], nullptr, {}, {}, {}, {}};
+    side.direction.resize(3, std::ssize(contact.places));
+    for (Eigen::Index i = 0; const NearestPlace& place : contact.places) {
+      side.v.push_back(s == 0 ? place.v : place.mate_v);
+      side.z.push_back(s == 0 ? place.face.centre() : place.mate_z);
+      side.direction.col(i++) = s == 0 ? place.n : Eigen::Vector3d(-(placement.R.transpose() * place.n));
+    }
+    const ExactFlanks& flanks = s == 0 ? *contact.flanks.owner : *contact.flanks.mate;
+    if (s == 0) length.assign(side.v.size(), 0);
+    side.moving = moving_loads(*mesh[s], flanks, side, length, nodes[s]);
+    if (s == 0)
+      for (std::size_t i = 0; i < length.size(); ++i)
+        length[i] = contact.places[i].face.length() * side.moving.along[static_cast<Eigen::Index>(i)];
+    contact.side[s] = std::move(side);
+  }
+}
+
+// nodes: see moving_loads.
+ToothContact make_contact(const ToothedPair& pair, const std::array<const FlankMesh*, 2>& mesh,
+                          const FlankPair& flanks, const FaceEnds& ends, const RelativePlacement& placement,
+                          std::vector<NearestPlace> places,
+                          const std::array<const std::vector<int>*, 2>& nodes) {
+  ToothContact contact{flanks, placement, std::move(places), {}, ends, &pair, {}, {}, {}, {}};
+  const auto n = std::ssize(contact.places);
+  set_sides(mesh, contact, nodes);
+  contact.gap.resize(n);
+  contact.across.resize(n);
+  const std::vector<double> slope = slopes(contact.side[0].v, contact.side[0].z);
+  const double compliance = pair.owner->compliance() + pair.mate->compliance();
+  for (std::size_t i = 0; i < contact.places.size(); ++i) {
+    const NearestPlace& place = contact.places[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    const FlankPoint at = flanks.owner->point(flanks.on_owner, place.v, place.face.centre());
+    contact.across[k] = line_scale(at, bounded(slope[i], at)).across;
+    contact.gap[k] = place.gap - pair.owner->deviation(*mesh[0], place.v, place.face.centre()) -
+                     pair.mate->deviation(*mesh[1], place.mate_v, place.mate_z);
+    contact.own.push_back(pair.strips[0].empty() ? law_of_point(contact, compliance)
+                                                 : law_of_strip(contact, i, compliance));
+  }
+  contact.local = local_compliance(contact);
+  return contact;
+}
+
+// The middle of a flank.
+FlankPoint middle_point(const ExactFlanks& flanks, const FlankMesh& mesh) {
+  return flanks.point(mesh.name, middle(flanks), (mesh.grid.z.front() + mesh.grid.z.back()) / 2);
+}
+
+// A point of the mate as the owner sees it, and the other way round.
+FlankPoint from_mate(const FlankPoint& at, const RelativePlacement& placement) {
+  return {placement.r + placement.R * at.x, placement.R * at.n, {}, {}};
+}
+FlankPoint from_owner(const FlankPoint& at, const RelativePlacement& placement) {
+  return {placement.R.transpose() * (at.x - placement.r), placement.R.transpose() * at.n, {}, {}};
+}
+
+// Does the middle of the flank lie within reach of the other one, on its outer side, and look at it?
+bool is_near(const FlankPoint& at, const ExactFlanks& flanks, const FlankName& flank, double near) {
+  if (at.x.head<2>().norm() > flanks.tip_radius() + near) return false;
+  const FlankDistance d = flanks.distance(flank, at.x);
+  return std::abs(d.distance) < near && d.gradient.dot(at.n) < 0;
+}
+
+// start: (v, z) on the owner, of a point.
+std::vector<NearestPlace> places_of(const ToothedPair& pair, const FlankPair& flanks, const FaceEnds& ends,
+                                    const RelativePlacement& placement, const Eigen::Vector2d& start) {
+  if (pair.strips[0].empty()) return {nearest_point(flanks, ends, placement, start)};
+  return nearest_places(flanks, placement, pair.strips[0], ends);
+}
+
+}  // namespace
+
+bool touches(const std::vector<NearestPlace>& places, double of_height) {
+  const auto is_deep = [&](const NearestPlace& at) { return at.flank_gap <= -kDeepest * of_height; };
+  const auto is_close = [&](const NearestPlace& at) { return at.gap < kReach * of_height; };
+  return std::none_of(places.begin(), places.end(), is_deep) &&
+         std::any_of(places.begin(), places.end(), is_close);
+}
+
+void set_moving_stations(ToothedPair& pair, int n) {
+  pair.is_crossed = true;
+  if (!pair.owner->flanks().is_hobbed()) {
+    pair.among.line.fill(Eigen::MatrixXd::Zero(1, 1));
+    pair.among.smooth.fill(Eigen::MatrixXd::Ones(1, 1));
+    return;
+  }
+  const ExactFlanks& owner = pair.owner->flanks();
+  const FlankMesh& mesh = pair.owner->meshes().front();
+  const double from = mesh.grid.z.front(), length = (mesh.grid.z.back() - from) / n;
+  pair.among.along = line_scale(owner.point(mesh.name, middle(owner), from + n * length / 2), 0).along;
+  std::vector<Strip> along;
+  for (int i = 0; i < n; ++i) {
+    pair.strips[0].push_back({from + i * length, from + (i + 1) * length});
+    along.push_back(
+        {pair.strips[0].back().from * pair.among.along, pair.strips[0].back().to * pair.among.along});
+  }
+  const FreeEnds ends{along.front().from, along.back().to};  // those of the mate are far
+  const double q = kWidth * height(owner);
+  pair.among.line = {line_kernel(along, q, ends), line_kernel(along, q, {})};
+  pair.among.smooth = {shared_kernel(*pair.owner, along, ends), shared_kernel(*pair.mate, along, {})};
+}
+
+// Near each other are those whose middle of the gear with more teeth is near the flank of the other, which
+// may be a thread of several turns.
+std::vector<ToothContact> moving_contacts(const ToothedPair& pair, const RelativePlacement& placement) {
+  std::vector<ToothContact> contacts;
+  const ExactFlanks &owner = pair.owner->flanks(), &mate = pair.mate->flanks();
+  const double near = kNear * std::max(height(owner), height(mate));
+  const double of_height = std::min(height(owner), height(mate));
+  const bool of_mate = mate.teeth() > owner.teeth();
+  for (const FlankMesh& on_owner : pair.owner->meshes())
+    for (const FlankMesh& on_mate : pair.mate->meshes()) {
+      const FlankPoint at = of_mate ? middle_point(mate, on_mate) : middle_point(owner, on_owner);
+      const FlankPoint seen = of_mate ? from_mate(at, placement) : from_owner(at, placement);
+      if (!(of_mate ? is_near(seen, owner, on_owner.name, near) : is_near(seen, mate, on_mate.name, near)))
+        continue;
+      const FlankPair flanks{&owner, on_owner.name, &mate, on_mate.name};
+      FaceEnds ends{{on_owner.grid.z.front(), on_owner.grid.z.back()},
+                    {on_mate.grid.z.front(), on_mate.grid.z.back()}};
+      if (!pair.strips[0].empty()) ends.owner = FaceEnds::kNone;
+      const Eigen::Vector2d start = owner.chart(on_owner.name, of_mate ? seen.x : at.x);
+      std::vector<NearestPlace> places = places_of(pair, flanks, ends, placement, start);
+      if (touches(places, of_height))
+        contacts.push_back(make_contact(pair, {&on_owner, &on_mate}, flanks, ends, placement,
+                                        std::move(places), {nullptr, nullptr}));
+    }
+  return contacts;
+}
+
+namespace {
+
+// J, what forces f, N, and displacements of the loaded nodes have of the potential but for gaps of flanks.
+double potential_beside_flanks(const ToothContact& contact, const Eigen::VectorXd& f,
+                               const std::array<Eigen::Matrix3Xd, 2>& of_nodes) {
+  double sum = f.dot(contact.local * f) / 2;
+  for (std::size_t s : {0, 1}) {
+    const ToothContact::Side& side = contact.side[s];
+    sum += (of_nodes[s] * side.moving.weight.transpose()).cwiseProduct(side.direction).colwise().sum() * f;
+  }
+  for (Eigen::Index i = 0; i < f.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    sum += contact.own[k].energy(f[i]) + f[i] * (contact.gap[i] - contact.places[k].gap);
+  }
+  return sum;
+}
+
+}  // namespace
+
+// Gaps of flanks are least at their places, so that these do not count to first order.
+double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f,
+                           const std::array<Eigen::Matrix3Xd, 2>& of_nodes,
+                           const Eigen::Matrix<double, 6, 1>& twist) {
+  double change = 0;
+  for (std::size_t i = 0; i < contact.places.size(); ++i) {
+    const NearestPlace& place = contact.places[i];
+    const Eigen::Vector3d x =
+        contact.flanks.owner->point(contact.flanks.on_owner, place.v, place.face.centre()).x;
+    change -= f[static_cast<Eigen::Index>(i)] * place.n.dot(twist.head<3>() + twist.tail<3>().cross(x));
+  }
+  const double time = rate_time(contact.flanks, contact.placement, twist);
+  if (time == 0) return change;
+  const NearestPlace& first = contact.places.front();
+  const RelativePlacement then = moved(contact.placement, twist, time);
+  const ToothContact there = make_contact(
+      *contact.pair, {contact.side[0].mesh, contact.side[1].mesh}, contact.flanks, contact.ends, then,
+      places_of(*contact.pair, contact.flanks, contact.ends, then, {first.v, first.face.centre()}),
+      {&contact.side[0].moving.node, &contact.side[1].moving.node});
+  return change +
+         (potential_beside_flanks(there, f, of_nodes) - potential_beside_flanks(contact, f, of_nodes)) / time;
+}
+
+}  // namespace elastogear::contact
