@@ -12,23 +12,27 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // The foot of the perpendicular, by steps in the tangent plane: each leaves the error times the distance over
-// the radius of curvature. Far from the flank, where they need not end, the distance is that of first order.
+// the radius of curvature. Farther off than loads can close the distance is that of first order.
 contact::FlankDistance FormedFlanks::distance(const contact::FlankName& flank, const Vector3d& x) const {
   constexpr int kMostSteps = 30;
-  constexpr double kFound = 1e-14, kFar = 1;  // of the height of a flank
+  constexpr double kFound = 1e-14, kFar = 0.2;  // of the height of a flank
   const double height = extent_.upper - extent_.lower;
   const double estimate = gear::flank_distance(t_, flank.tooth, flank.side, x);
-  Vector2d at = chart(flank, x);
-  contact::FlankPoint foot = point(flank, at[0], at[1]);
-  for (int step = 0; step < kMostSteps && std::abs(estimate) < kFar * height; ++step) {
+  const Vector2d start = chart(flank, x);
+  const contact::FlankPoint beside = point(flank, start[0], start[1]);
+  const contact::FlankDistance far{estimate, beside.n, start[0]};
+  if (std::abs(estimate) > kFar * height) return far;
+  contact::FlankPoint foot = beside;
+  Vector2d at = start;
+  for (int step = 0; step < kMostSteps; ++step) {
     Eigen::Matrix<double, 3, 2> T;
     T << foot.x_v, foot.x_z;
     const Vector2d d = (T.transpose() * T).inverse() * (T.transpose() * (x - foot.x));
     at += d;
     foot = point(flank, at[0], at[1]);
+    if ((foot.x - beside.x).norm() > height) return far;
     if ((T * d).norm() <= kFound * height) break;
   }
-  if (!(std::abs(estimate) < kFar * height)) return {estimate, foot.n, at[0]};
   return {(x - foot.x).dot(foot.n), foot.n, at[0]};
 }
 
