@@ -109,7 +109,7 @@ TRUSTED_MESH, WELL_TRUSTED_MESH = 0.1, 0.05  # the same of the mesh's error, whi
 
 class Peak:
     """Largest von Mises stress of an evaluated node set: value (Pa), step, row of the node, and the estimated errors of the
-    reduction, of the mesh, of the contact's resolution, of the steps in time (docs/theory.md, sections 4.3, 1.7, 4.6 and 4.7) and
+    reduction, of the mesh, of the contact's resolution, of the steps in time (docs/theory, sections 4.3, 1.7, 4.6 and 4.7) and
     of all together (Pa; None: not estimated)."""
 
     what = "largest von Mises stress"

@@ -11,7 +11,7 @@ import numpy as np
 
 KERNELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "benchmarks", "kernels.csv")
 BLOCKS = (8, 16, 32)
-COLUMNS_PER_MODE, FIRST_BLOCKS = 1.7, 24     # of a Krylov basis (theory.md, section 2.2)
+COLUMNS_PER_MODE, FIRST_BLOCKS = 1.7, 24     # of a Krylov basis (docs/theory, section 2.2)
 WINDOWS = (60, 100, 150, 200, 250, 300, 400, 500, 600)
 WORKSPACE, ROOM = 1.3, 1.3                   # of the factor, of the basis
 DOUBLE, GIGABYTE = 8, 1e9

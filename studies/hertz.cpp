@@ -61,7 +61,7 @@ double distance(const Flank& flank, const Vector3d& x) {
 }
 
 // The worm's left and the wheel's right flank, whose common normal is the path of contact
-// (docs/theory.md, 9.1).
+// (docs/theory, 9.1).
 std::pair<Flank, Flank> flanks() {
   const gear::Geometry g = gear::derive(gear::Design{});
   const Vector3d n(std::sin(g.worm.beta_b), std::sin(gear::Design{}.alpha_n), std::sin(g.wheel.beta_b));

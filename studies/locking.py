@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""First frequency of a block, held at one end, by cells of every kind as its material becomes incompressible: the table of docs/theory.md,
+"""First frequency of a block, held at one end, by cells of every kind as its material becomes incompressible: the table of docs/theory,
 section 1.1. locking.py --elastogear PATH --out FOLDER"""
 import argparse
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the mass of incompatible hexahedra (docs/theory.md, section 1.1) makes of the speed of plane waves:
+"""What the mass of incompatible hexahedra (docs/theory, section 1.1) makes of the speed of plane waves:
 
     studies/mass_dispersion.py
 

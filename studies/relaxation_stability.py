@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Spectral radius of generalised-alpha with the exponential update of internal variables (docs/theory.md, section 3.7):
+"""Spectral radius of generalised-alpha with the exponential update of internal variables (docs/theory, section 3.7):
 
     studies/relaxation_stability.py
 

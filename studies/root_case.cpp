@@ -216,7 +216,7 @@ Errors recovered_errors(const mesh::Mesh& mesh, const std::vector<int>& nodes, c
   return result;
 }
 
-// Share of errors in means near x, from the nodes on free surfaces that are nearest to it. docs/theory.md,
+// Share of errors in means near x, from the nodes on free surfaces that are nearest to it. docs/theory,
 // Eq. (1.18a).
 double share_nearby(const mesh::Mesh& mesh, const Errors& errors, const Vector3d& x) {
   constexpr std::ptrdiff_t kNearest = 8;

@@ -7,7 +7,7 @@ figure (equal forces: lines, forces of their own: dotted).
     studies/same_forces.py out/examples/small [--modes 100 500 1000 2000] [--figure same_forces.svg]
 
 At rest the elastic coordinates of the unreduced body give the forces on its nodes, f = K_r q, and those the coordinates of the
-reduced one, q_i = phi_i . f / lambda_i (docs/theory.md, section 4).
+reduced one, q_i = phi_i . f / lambda_i (docs/theory, section 4).
 """
 import argparse
 import glob

@@ -5,7 +5,7 @@
 
 The beam of J. C. Simo and L. Vu-Quoc (J. Appl. Mech. 53 (1986) 855-863; EA = 2.8e7 N, EI = 1.4e4 N m^2, 1.2 kg/m, 10 m) is
 meshed, reduced and brought from rest to 6 rad/s in 15 s (T. R. Kane, R. R. Ryan, A. K. Banerjee, J. Guid. Control Dyn. 10
-(1987) 139-151), with the inertia levels linear and full. Draws the lag of the tip beside equation (3.22) of docs/theory.md,
+(1987) 139-151), with the inertia levels linear and full. Draws the lag of the tip beside equation (3.22) of docs/theory,
 with and without the stiffening by centrifugal forces, and prints the largest lag and the extension at full speed. With
 --calculix it runs the beam once more as a finite-element body with large rotations (20 C3D20, steps of 20 ms) and adds its curve.
 """
@@ -156,7 +156,7 @@ def by_calculix(program, folder):
 
 
 def modes():
-    """Bending modes of the cantilever with unit modal mass: frequency, value at the tip, integrals of theory.md, (3.22)."""
+    """Bending modes of the cantilever with unit modal mass: frequency, value at the tip, integrals of docs/theory, (3.22)."""
     x = (np.arange(4000) + 0.5) / 4000 * L
     dx = L / 4000
     k = np.array(ROOTS)[:, None]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Looks for sequences of steps with which generalised-alpha makes energy (docs/theory.md, section 8.3).
+"""Looks for sequences of steps with which generalised-alpha makes energy (docs/theory, section 8.3).
 
 An undamped vibration of frequency 1 is integrated with steps that change by up to a given ratio: at random, by turns, at
 random times, and so that the energy is largest one or two steps later. Prints the largest growth of the amplitude in a

@@ -1,13 +1,14 @@
-"""Where the code cites equations of docs/theory.md, and what is declared there."""
+"""Where the code cites equations of docs/theory, and what is declared there."""
+import functools
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/layering"))
-from check_citations import CODE, EQUATIONS, TAG, cited  # noqa: E402  (found through the line above)
+from check_citations import CODE, EQUATIONS, TAG, cited, tags_of, theory  # noqa: E402  (found through the line above)
 
-TAGS = TAG.findall((ROOT / "docs/theory.md").read_text(encoding="utf-8"))
+TAGS = tags_of(theory(ROOT))
 MARGIN = re.compile(r"\n[ \t]*(?:///?<?|#)?[ \t]*")  # the end of a line of a comment, and the margin of the next
 CITATION = re.compile(EQUATIONS.pattern.replace(" ?", r"\s*"))
 NUMBER = re.compile(r"\(([\d.]+[a-z]?)\)")
@@ -76,6 +77,7 @@ def declaration(lines, at):
     return declared_name(" ".join(lines[line:line + 6])), line
 
 
+@functools.cache
 def places():
     """By equation: (file, name or None, index of the line) of what cites it, each file and name once."""
     found = {tag: {} for tag in TAGS}

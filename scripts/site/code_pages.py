@@ -50,12 +50,15 @@ def wanted(app):
 
 def with_links(app, name, path, text, marked):
     """Highlighted lines, whose numbers of equations lead to the theory."""
-    theory, at = app.builder.get_relative_uri(name, links.THEORY), cited_lines(text) if path.endswith((".h", ".cpp")) else {}
+    at = cited_lines(text) if path.endswith((".h", ".cpp")) else {}
     lines = marked.split("\n")
     for index, line in enumerate(lines):
         number = LINE.search(line)
         for equation in at.get(int(number[1]) - 1, ()) if number else ():
-            line = line.replace(f"({equation})", f'<a href="{theory}#{links.equation_id(equation)}">({equation})</a>')
+            if equation not in links.EQUATIONS:
+                continue
+            chapter = app.builder.get_relative_uri(name, links.EQUATIONS[equation])
+            line = line.replace(f"({equation})", f'<a href="{chapter}#{links.equation_id(equation)}">({equation})</a>')
         lines[index] = line
     return "\n".join(lines)
 

@@ -1,4 +1,4 @@
-"""Extension of Sphinx: numbered equations of docs/theory.md can be led to, and say which code computes them."""
+"""Extension of Sphinx: numbered equations of docs/theory can be led to, and say which code computes them."""
 import json
 import re
 from pathlib import Path
@@ -53,7 +53,7 @@ def code_of(declarations, cited_at):
 
 
 def number_equations(app, doctree):
-    cited = places() if app.env.docname == links.THEORY else {}
+    cited = places() if app.env.docname.startswith(links.THEORY) else {}
     declarations = Declarations(Path(app.srcdir, "declarations.json")) if cited else None
     for equation in list(doctree.findall(nodes.math_block)):
         tag, text = TAG.search(equation.astext()), equation.astext().strip()

@@ -1,8 +1,8 @@
 """Extension of Sphinx: what texts say of documents, sections, equations and code becomes links.
 
-- `Eq` with a dot and a number leads to the equation in docs/theory.md; so does a bare (n.m) in the documents, where it is the
+- `Eq` with a dot and a number leads to the equation in docs/theory; so does a bare (n.m) in the documents, where it is the
   number of an equation. A number that no equation has is a warning.
-- docs/PAGE.md and "section n.m" lead to the page and its section.
+- docs/PAGE.md, docs/theory and "section n.m" lead to the page and its section.
 - Links to code:PATH and code:PATH:NAME lead to the pages of sources (code_pages.py).
 """
 import re
@@ -11,13 +11,15 @@ from docutils import nodes
 from sphinx import addnodes
 from sphinx.util import logging
 
-from citations import CITATION, NUMBER, ROOT, TAGS
+from citations import CITATION, NUMBER, ROOT, TAG, TAGS
 
-THEORY = "docs/theory"
+THEORY = "docs/theory/"
 SECTION = re.compile(r"^#+ (\d+(?:\.\d+)?) ", re.MULTILINE)
-SECTIONS = set(SECTION.findall((ROOT / "docs/theory.md").read_text(encoding="utf-8")))
+CHAPTERS = {f"{THEORY}{path.stem}": path.read_text(encoding="utf-8") for path in sorted((ROOT / THEORY).glob("*.md"))}
+SECTIONS = {number: page for page, text in CHAPTERS.items() for number in SECTION.findall(text)}  # by number: its page
+EQUATIONS = {number: page for page, text in CHAPTERS.items() for number in TAG.findall(text)}
 BARE = re.compile(r"\((\d+\.\d+[a-z]?)\)")
-PAGE = re.compile(r"\bdocs/(\w+)\.md\b")
+PAGE = re.compile(r"\bdocs/(?:(\w+)\.md|theory)\b(?!/)")
 IN_SECTION = re.compile(r"\bsections?\s+((?:\d+(?:\.\d+)?(?:,\s+|\s+and\s+|\s+to\s+)?)+)(?![\d.]*\d)")
 NO_LINKS = (nodes.literal, nodes.literal_block, nodes.reference, nodes.title, nodes.raw, nodes.comment, nodes.math,
             nodes.math_block, addnodes.desc_signature, addnodes.pending_xref, addnodes.toctree)
@@ -36,7 +38,7 @@ def section_id(number):
 def after_other_page(text, at):
     """Does a section belong to a page other than the theory, which is named before it?"""
     page = re.search(r"(\w+)\.md,\s*$", text[:at])
-    return page is not None and page[1] != "theory"
+    return page is not None
 
 
 def found_in(text, docname, of_theory, warn):
@@ -45,23 +47,23 @@ def found_in(text, docname, of_theory, warn):
     for citation in CITATION.finditer(text):
         for number in NUMBER.finditer(citation[1]):
             if number[1] not in TAGS:
-                warn(f"docs/theory.md has no equation ({number[1]})")
+                warn(f"docs/theory has no equation ({number[1]})")
                 continue
             start = citation.start(1) + number.start()
-            found[start] = (start, start + len(number[0]), THEORY, equation_id(number[1]))
+            found[start] = (start, start + len(number[0]), EQUATIONS[number[1]], equation_id(number[1]))
     if docname.startswith("docs/") and docname != NO_EQUATIONS:
         for number in BARE.finditer(text):
             if number[1] in TAGS:
-                found[number.start()] = (*number.span(), THEORY, equation_id(number[1]))
+                found[number.start()] = (*number.span(), EQUATIONS[number[1]], equation_id(number[1]))
     for page in PAGE.finditer(text):
         if (ROOT / page[0]).exists():
-            found[page.start()] = (*page.span(), f"docs/{page[1]}", "")
+            found[page.start()] = (*page.span(), f"docs/{page[1]}" if page[1] else f"{THEORY}README", "")
     for section in IN_SECTION.finditer(text):
         if of_theory and not after_other_page(text, section.start()):
             for number in re.finditer(r"\d+(?:\.\d+)?", section[1]):
                 start = section.start(1) + number.start()
                 if number[0] in SECTIONS:
-                    found[start] = (start, start + len(number[0]), THEORY, section_id(number[0]))
+                    found[start] = (start, start + len(number[0]), SECTIONS[number[0]], section_id(number[0]))
     return [found[start] for start in sorted(found)]
 
 
@@ -72,10 +74,10 @@ def link(text, page, anchor):
 
 
 def follows_theory(text):
-    """Does a text follow a link to the theory: "[theory.md](theory.md), section 4.3"?"""
+    """Does a text follow a link to the theory: "[theory](theory/README.md), sections 4.3 and 4.4"?"""
     siblings = text.parent.children
     before = siblings[siblings.index(text) - 1] if siblings.index(text) > 0 else None
-    return before is not None and before.astext() == "theory.md"
+    return before is not None and before.astext() == "theory"
 
 
 def add_links(app, doctree):
@@ -89,7 +91,7 @@ def add_links(app, doctree):
         if any(isinstance(parent, NO_LINKS) for parent in parents):
             continue
         content = text.astext()
-        of_theory = of_code or docname == THEORY or follows_theory(text)
+        of_theory = of_code or docname.startswith(THEORY) or follows_theory(text)
         parts, at = [], 0
         for start, end, page, anchor in found_in(content, docname, of_theory, lambda m, t=text: log.warning(m, location=t.parent)):
             parts += [nodes.Text(content[at:start]), link(content[start:end], page, anchor)]
@@ -103,7 +105,7 @@ def add_links(app, doctree):
 
 
 def add_section_ids(app, doctree):
-    if app.env.docname == THEORY:
+    if app.env.docname.startswith(THEORY):
         for section in doctree.findall(nodes.section):
             number = re.match(r"(\d+(?:\.\d+)?) ", section.next_node(nodes.title).astext())
             if number:

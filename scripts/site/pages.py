@@ -11,9 +11,9 @@ from headers import Interface, escaped
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 PLACE = re.compile(r"`((?:src|include|tests|scripts|studies|examples)/[\w./]+):([\w:~]+)`")
 MODULE_ROW = re.compile(r"^\| `(\w+)` \| \d \| [\w ]+ \| (.+) \|$", re.MULTILINE)
-PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "*/README.md", "examples/*/README.md")
+PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/theory/*.md", "*/README.md", "examples/*/README.md")
 USING = ("tutorial", "drives", "examples", "evaluation", "life", "polymers", "python", "report", "file_format")
-KNOWING = ("theory", "notation", "bases", "validation", "performance", "architecture")
+KNOWING = ("theory/README", "notation", "bases", "validation", "performance", "architecture")
 PYTHON = {
     "Drives and simulations": ["elastogear.Drive", "elastogear.System", "elastogear.Simulation", "elastogear.Report", "elastogear.Quantity"],
     "States of a simulation": ["elastogear.State", *(f"elastogear._elastogear.{part}State" for part in ("Body", "Pair", "Bushing", "Load", "Sensor"))],
@@ -60,6 +60,15 @@ def contents(pages):
     others = [page[:-3] for page in pages if not page.startswith("docs/") and page not in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
     return "\n".join([toctree("Use", [f"docs/{name}" for name in USING]), toctree("Background", [f"docs/{name}" for name in KNOWING]),
                       toctree("Interface", ["api/python", "api/cpp"]), toctree("Project", [*others, "CONTRIBUTING", "CHANGELOG"])])
+
+
+def with_toctree(page, text, pages):
+    """A page with the pages below it in the sidebar: all of the site, the chapters of the theory."""
+    if page == "README.md":
+        return f"{text}\n{contents(pages)}"
+    if page == "docs/theory/README.md":
+        return f"{text}\n" + toctree("Chapters", list(dict.fromkeys(re.findall(r"\]\((\w+)\.md\)", text))))
+    return text
 
 
 def write(folder, name, text):
@@ -124,7 +133,7 @@ def stage(folder, xml):
     pages = documents()
     for page in pages:
         text = staged(page, (ROOT / page).read_text(encoding="utf-8"), pages)
-        write(folder, "index.md" if page == "README.md" else page, text + ("\n" + contents(pages) if page == "README.md" else ""))
+        write(folder, "index.md" if page == "README.md" else page, with_toctree(page, text, pages))
     for picture in [*ROOT.glob("docs/*.svg"), *ROOT.glob("docs/*.png")]:
         shutil.copy(picture, pathlib.Path(folder, "docs"))
     interface = Interface(xml)

@@ -19,7 +19,7 @@ Eigen::MatrixXd inertia_derivatives(const model::Inertia& inertia) {
   return J_1;
 }
 
-// D_r from the Rayleigh coefficients and the damping ratios of the modes: docs/theory.md, Eq. (2.4).
+// D_r from the Rayleigh coefficients and the damping ratios of the modes: docs/theory, Eq. (2.4).
 Eigen::SparseMatrix<double> damping_matrix(const model::ElasticBody& body) {
   Eigen::SparseMatrix<double> D_r(body.M_r.rows(), body.M_r.cols());
   if (body.alpha != 0 || body.beta != 0) D_r = body.alpha * body.M_r + body.beta * body.K_r;

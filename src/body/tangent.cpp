@@ -41,7 +41,7 @@ State evaluate(const Equations& eq, const Motion& m, const Vector3d& g_W, const 
   return x;
 }
 
-// Block C of the joint coordinates: docs/theory.md, Eq. (8.13).
+// Block C of the joint coordinates: docs/theory, Eq. (8.13).
 MatrixXd joint_block(const State& x) {
   const Shape& shape = x.shape;
   const Matrix3d S = skew(shape.S);
@@ -60,7 +60,7 @@ MatrixXd first_order_columns(const Equations& eq) {
   return U;
 }
 
-// Rows rho, the changes of F_v and F_w with C_l'y, C_r'y and J_1'y: docs/theory.md, Eq. (8.15).
+// Rows rho, the changes of F_v and F_w with C_l'y, C_r'y and J_1'y: docs/theory, Eq. (8.15).
 MatrixXd row_coefficients(const State& x) {
   const bool constant = x.eq.level == InertiaLevel::constant;
   const Matrix3d I = Matrix3d::Identity();
@@ -75,7 +75,7 @@ MatrixXd row_coefficients(const State& x) {
   return N;
 }
 
-// Columns beta: docs/theory.md, Eq. (8.14).
+// Columns beta: docs/theory, Eq. (8.14).
 MatrixXd column_coefficients(const State& x) {
   const bool constant = x.eq.level == InertiaLevel::constant;
   MatrixXd beta(constant ? 6 : 12, x.eq.n_s());

@@ -1,5 +1,5 @@
 #pragma once
-// Steps of bodies in motion without a penalty: which points are held, and with what force (docs/theory.md,
+// Steps of bodies in motion without a penalty: which points are held, and with what force (docs/theory,
 // section 6.15).
 
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // Points of least gap that come and go while contact forces are solved for: where lines of contact run over
 // faces that deform under the forces, a minimum that bears one may vanish by it. Such points stay where they
-// were, as further points that must not enter the master (docs/theory.md, section 6.12). In a step of the
+// were, as further points that must not enter the master (docs/theory, section 6.12). In a step of the
 // impact law all points stand (section 6.15).
 
 #include <map>
@@ -29,7 +29,7 @@ void keep_loaded(const std::vector<ContactPoint>& contacts, int slave_side,
 /// over the same face of the master. Points that bore a force and are not found begin to stay.
 void add_kept(const GapField& field, KeptMinima& kept, std::vector<Minimum>& found);
 
-/// Where minima stand during the next step of an impact law (docs/theory.md, Eq. (6.33a)), by number.
+/// Where minima stand during the next step of an impact law (docs/theory, Eq. (6.33a)), by number.
 /// before: in the last step.
 std::map<int, StandingPoint> standing_points(const std::vector<Minimum>& minima,
                                              const std::map<int, StandingPoint>& before);

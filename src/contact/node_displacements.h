@@ -16,7 +16,7 @@ class NodeDisplacements {
   /// surface: borrowed.
   explicit NodeDisplacements(const model::Surface& surface) : surface_(&surface) {}
 
-  /// Begins with the coordinates q, unless they are those of the last call. docs/theory.md, Eq. (5.6).
+  /// Begins with the coordinates q, unless they are those of the last call. docs/theory, Eq. (5.6).
   void start(const Eigen::VectorXd& q);
   /// Phi_i q of a node, m, with q of the last call of start. Same numbers at every call.
   Eigen::Vector3d at(int node);

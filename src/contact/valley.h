@@ -1,6 +1,6 @@
 #pragma once
 // Valleys of a smooth master: faces that are deformed make kinks with each other at the sides that they
-// share, and a slave point in a concave one rests on more than one face (docs/theory.md, section 6.11).
+// share, and a slave point in a concave one rests on more than one face (docs/theory, section 6.11).
 
 #include <vector>
 

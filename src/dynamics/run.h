@@ -98,7 +98,7 @@ void follow_time_errors(Run& run, TS ts);
 /// Control of the steps, where they are chosen.
 void control_steps(Run& run, TS ts);
 /// Lets the control of steps see errors of the elastic coordinates by the stresses that they mean
-/// (docs/theory.md, Eq. (8.9a)), where steps are chosen by a share of what there is.
+/// (docs/theory, Eq. (8.9a)), where steps are chosen by a share of what there is.
 void measure_stress(Run& run, TS ts);
 /// Tells the system how closely forces are balanced where steps are chosen; to be called once options are
 /// read.

@@ -59,7 +59,7 @@ void require_tables_cover(const System& system, double end_time) {
   system.marker_forces().require_tables_cover(end_time);
 }
 
-// Has the method no numerical damping, rho_inf = 1 in docs/theory.md, Eq. (8.5)?
+// Has the method no numerical damping, rho_inf = 1 in docs/theory, Eq. (8.5)?
 bool is_undamped(TS ts) {
   PetscReal alpha_f = 0;
   check(TSAlpha2GetParams(ts, nullptr, &alpha_f, nullptr, nullptr));

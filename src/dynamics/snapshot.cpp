@@ -18,7 +18,7 @@ model::BodyState body_state(const body::Motion& m, const contact::SurfaceState& 
           .contact = {contact.node, contact.f_B}};
 }
 
-// Stored energy: docs/theory.md, Eq. (7.1).
+// Stored energy: docs/theory, Eq. (7.1).
 double stored(const model::Energies& energy) {
   return energy.kinetic + energy.elastic + energy.contact + energy.bushing;
 }

@@ -17,7 +17,7 @@ model::Snapshot snapshot(System& system, const State& x);
 /// forces at both ends. Of viscoelastic materials Eq. (3.26), which is exact for the midpoint rule. The
 /// weight's work is exact; while gravity grows it has its mean over the step. States
 /// of rest at growing load factors (analysis: static) are entered in the same distance.
-/// docs/theory.md, Eq. (7.2).
+/// docs/theory, Eq. (7.2).
 class EnergyLedger {
  public:
   void enter(const System& system, model::Snapshot& snapshot);

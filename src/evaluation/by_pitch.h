@@ -1,5 +1,5 @@
 #pragma once
-// The pitches of a run in time, by which its figures are told over the speed (docs/theory.md, section 10.5).
+// The pitches of a run in time, by which its figures are told over the speed (docs/theory, section 10.5).
 
 #include <Eigen/Core>
 #include <vector>

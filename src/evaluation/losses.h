@@ -1,5 +1,5 @@
 #pragma once
-// Sliding, friction and efficiency of two gears (docs/theory.md, section 10.4).
+// Sliding, friction and efficiency of two gears (docs/theory, section 10.4).
 
 #include <Eigen/Core>
 

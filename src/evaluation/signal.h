@@ -1,5 +1,5 @@
 #pragma once
-// Figures of signals over the roll angle: means, ranges and Fourier orders (docs/theory.md, section 10.1).
+// Figures of signals over the roll angle: means, ranges and Fourier orders (docs/theory, section 10.1).
 // Roll angles count pitches of the drive's first gear, so that order 1 is the mesh frequency.
 
 #include <Eigen/Core>

@@ -17,7 +17,7 @@ std::string label(const model::MaterialRegion& region) {
   return region.cell_set.empty() ? "material" : "material of cell set '" + region.cell_set + "'";
 }
 
-// Compliance of the normal strains in the material's axes. docs/theory.md, Eq. (1.7).
+// Compliance of the normal strains in the material's axes. docs/theory, Eq. (1.7).
 Eigen::Matrix3d normal_compliance(const model::Orthotropic& m) {
   Eigen::Matrix3d S = m.E.cwiseInverse().asDiagonal();
   S(0, 1) = S(1, 0) = -m.nu(0) / m.E(0);
@@ -33,7 +33,7 @@ Matrix6 material_stiffness(const model::Orthotropic& m) {
   return H;
 }
 
-// Strains in the axes R per strain in the body frame, docs/theory.md, Eq. (1.8).
+// Strains in the axes R per strain in the body frame, docs/theory, Eq. (1.8).
 Matrix6 strain_rotation(const Eigen::Matrix3d& R) {
   Matrix6 T;
   for (int k = 0; k < 6; ++k) {

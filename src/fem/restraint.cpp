@@ -38,7 +38,7 @@ void hold(Eigen::Matrix<double, 6, Eigen::Dynamic> A, RigidMotions& left) {
 }
 
 // Rigid motions that move none of the held displacements. A motion displaces node X along e by [e; (X - c) x
-// e] times [t; w]: the rank of these columns, docs/theory.md, Eq. (1.6a), is found by pivots, which do not
+// e] times [t; w]: the rank of these columns, docs/theory, Eq. (1.6a), is found by pivots, which do not
 // depend on how many nodes are held.
 RigidMotions free_motions(const mesh::Mesh& mesh, const std::vector<mesh::Directions>& held,
                           const std::vector<int>& nodes) {

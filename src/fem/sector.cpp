@@ -20,7 +20,7 @@ Eigen::MatrixXd in_parts(const Eigen::MatrixXcd& A) {
 }
 
 // Amplitudes z of a node on the axis: R z exp(i k alpha) = z. Columns: one for each that there is.
-// docs/theory.md, Eq. (2.12).
+// docs/theory, Eq. (2.12).
 Eigen::MatrixXcd directions_on_axis(const mesh::Turn& turn, int k) {
   const Eigen::Vector3d e_1 = turn.axis.unitOrthogonal(), e_2 = turn.axis.cross(e_1);
   Eigen::MatrixXcd P(3, 0);

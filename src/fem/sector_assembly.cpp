@@ -72,7 +72,7 @@ CellBasis cell_basis(const Sector& sector, const Harmonic& harmonic, const Rows&
   return basis;
 }
 
-// Q_a' (A_ab for Re u and for Im u) Q_b for the 3 x 3 block of nodes a and b. docs/theory.md, Eq. (2.13).
+// Q_a' (A_ab for Re u and for Im u) Q_b for the 3 x 3 block of nodes a and b. docs/theory, Eq. (2.13).
 MatrixXd projected(const MatrixXd& Q_a, const Eigen::Matrix3d& A_ab, const MatrixXd& Q_b) {
   MatrixXd A_Q(Q_b.rows(), Q_b.cols());
   for (Eigen::Index part = 0; part < Q_b.rows(); part += 3)

@@ -36,7 +36,7 @@ RackTip rack_tip(double alpha_n, double beta, double r, double s_n, double depth
                  const Protuberance& protuberance = {});
 
 /// (angle from the tooth's axis, radius) of the point that the tip cuts at the fraction t in [0, 1] of its
-/// way from the land to the flank (docs/theory.md, section 9).
+/// way from the land to the flank (docs/theory, section 9).
 Eigen::Vector2d trochoid(const RackTip& rack, double t);
 
 /// m, from the pitch line to where the arc's tangent is parallel to the rack's straight flank, which ends

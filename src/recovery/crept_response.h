@@ -1,6 +1,6 @@
 #pragma once
 // The part of static responses that comes by creep, in viscoelastic bodies of several materials
-// (docs/theory.md, section 4.5).
+// (docs/theory, section 4.5).
 
 #include "elastogear/recovery/static_response.h"
 

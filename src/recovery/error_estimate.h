@@ -1,5 +1,5 @@
 #pragma once
-// How far recovered stresses are from those of the unreduced body on the same mesh (docs/theory.md, section
+// How far recovered stresses are from those of the unreduced body on the same mesh (docs/theory, section
 // 4.3). Everything is taken at one time, so that the output interval does not matter.
 
 #include <Eigen/Core>

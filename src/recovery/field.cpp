@@ -29,7 +29,7 @@ struct Fields {
   }
 };
 
-// Takes the stress that viscoelastic regions have relaxed from that at their nodes. docs/theory.md, Eq.
+// Takes the stress that viscoelastic regions have relaxed from that at their nodes. docs/theory, Eq.
 // (4.10).
 void subtract_relaxed(const Fields& fields, const Eigen::MatrixXd& w, Eigen::MatrixXd& stress) {
   if (w.cols() == 0) return;

@@ -201,7 +201,7 @@ Parts find_parts(const RecoveredBody& body, const model::ElasticBody& elastic, c
 // Root of a ratio of sums of squares, at most 1. Recovered stresses vanish at corners of three free surfaces.
 double share(double error, double stress) { return std::sqrt(error / std::max({stress, error, 1e-300})); }
 
-// The share of errors in means near x, from the nodes of free surfaces nearest to it. docs/theory.md, Eq.
+// The share of errors in means near x, from the nodes of free surfaces nearest to it. docs/theory, Eq.
 // (1.18a).
 double share_nearby(const Parts& parts, const Eigen::Matrix3Xd& X, std::vector<int> free,
                     const Eigen::Vector3d& x) {

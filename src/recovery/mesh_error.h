@@ -1,6 +1,6 @@
 #pragma once
 // How far recovered stresses are from those of the continuum: an estimate from two recoveries of the same
-// displacements (docs/theory.md, section 1.7).
+// displacements (docs/theory, section 1.7).
 
 #include <Eigen/Core>
 

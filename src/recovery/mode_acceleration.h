@@ -1,6 +1,6 @@
 #pragma once
 // Mode acceleration: the part of the response to contact forces that truncated modes leave out, added
-// statically (docs/theory.md, section 4.1).
+// statically (docs/theory, section 4.1).
 
 #include <Eigen/Core>
 

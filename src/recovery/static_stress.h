@@ -1,6 +1,6 @@
 #pragma once
 // Stresses of a body's static response at the nodes of a set, for some output times after others and in parts
-// of the set that fit into a processor's cache (docs/theory.md, sections 4.1, 4.5 and 4.6).
+// of the set that fit into a processor's cache (docs/theory, sections 4.1, 4.5 and 4.6).
 
 #include <Eigen/Core>
 #include <map>

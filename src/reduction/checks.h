@@ -1,5 +1,5 @@
 #pragma once
-// The checks of a modal reduction, as they are stored and printed (docs/theory.md, section 2.3).
+// The checks of a modal reduction, as they are stored and printed (docs/theory, section 2.3).
 
 #include <functional>
 #include <vector>

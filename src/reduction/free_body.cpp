@@ -100,7 +100,7 @@ Eigen::MatrixXd project(Mat K, BV V) {
                       : "something holds it");
 }
 
-// K + shift M: docs/theory.md, Eq. (2.8).
+// K + shift M: docs/theory, Eq. (2.8).
 UniqueMat shifted_stiffness(Mat K, Mat M, double shift) {
   UniqueMat shifted;
   check(MatDuplicate(K, MAT_COPY_VALUES, shifted.out()));

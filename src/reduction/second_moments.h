@@ -1,5 +1,5 @@
 #pragma once
-// The second moments S^ab of shape functions (docs/theory.md, Eq. (3.11a)), model::Inertia::S_2.
+// The second moments S^ab of shape functions (docs/theory, Eq. (3.11a)), model::Inertia::S_2.
 
 #include <Eigen/Core>
 #include <vector>

@@ -116,7 +116,7 @@ for _ in range(200):
 
 
 def flank_distance(body, tooth, side, x):
-    """Signed distance (m) of x in the frame of body 0 (worm) or 1 (wheel) from a flank, theory.md, section 9."""
+    """Signed distance (m) of x in the frame of body 0 (worm) or 1 (wheel) from a flank, docs/theory, section 9."""
     z, angle, theta_1 = teeth[body], (gamma, pi / 2 - gamma)[body], (pi - pi / teeth[0], pi / 2)[body]
     r = m_n * z / (2 * sin(angle))
     alpha_t = atan(tan(alpha_n) / sin(angle))

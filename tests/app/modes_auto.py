@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The modes that `modes: auto` takes for loads that rise in a stated time (docs/theory.md, Eq. (6.20b)):
+"""The modes that `modes: auto` takes for loads that rise in a stated time (docs/theory, Eq. (6.20b)):
 
     tests/app/modes_auto.py ELASTOGEAR MESHES
 

@@ -1,4 +1,4 @@
-// The condensed system of many contacts against the dense matrix of docs/theory.md, Eq. (8.16).
+// The condensed system of many contacts against the dense matrix of docs/theory, Eq. (8.16).
 #include "elastogear/dynamics/condensed_system.h"
 
 #include <gtest/gtest.h>

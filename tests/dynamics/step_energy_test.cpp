@@ -1,4 +1,4 @@
-// Steps that a run chooses neither make energy nor lose the stresses: docs/theory.md, section 8.3.
+// Steps that a run chooses neither make energy nor lose the stresses: docs/theory, section 8.3.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What the steps of a run leave in oscillators is known as they are taken: docs/theory.md, section 8.8.
+// What the steps of a run leave in oscillators is known as they are taken: docs/theory, section 8.8.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 """Reads what comments cite of docs/ and reports citations that lead nowhere, and equations that no code cites.
 
-An equation is cited as `Eq` with a dot and a number that stands in a \\tag of docs/theory.md, several as `Eqs`, a
-range by "to"; a section by its page and its number, or by its name where the page has no numbers.
+An equation is cited as `Eq` with a dot and a number that stands in a \\tag of docs/theory, several as `Eqs`, a
+range by "to"; a section by its page (docs/theory for all chapters) and its number, or by its name where the page has no numbers.
 Usage: check_citations.py REPOSITORY
 """
 import pathlib
@@ -14,12 +14,20 @@ TAG = re.compile(r"\\tag\{([^}]+)\}")
 HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 LINE_BREAK = re.compile(r"\s*\n\s*(?:///?<?|#)?\s*")
 EQUATIONS = re.compile(r"\bEqs?\.((?: ?(?:,|to|and)? ?\(\d+\.\d+[a-z]?\))*)")
-SECTIONS = re.compile(r"\b(\w+\.md), sections? ([\w.]*\w)(?: and ([\w.]*\w))?")
+SECTIONS = re.compile(r"\b(\w+\.md|docs/theory), sections? ([\w.]*\w)(?: and ([\w.]*\w))?")
 
 
 def read(*path):  # empty when there is no such file
     path = pathlib.Path(*path)
     return path.read_text(encoding="utf-8") if path.exists() else ""
+
+
+def theory(repository):  # the text of all chapters
+    return "\n".join(read(path) for path in sorted(pathlib.Path(repository, "docs/theory").glob("*.md")))
+
+
+def tags_of(text):  # the numbers of equations, ascending
+    return sorted(TAG.findall(text), key=lambda tag: [int(part) for part in re.findall(r"\d+", tag)] + [tag])
 
 
 def source_files(repository):
@@ -39,15 +47,17 @@ def cited(numbers, tags):  # the equations of one citation, ranges in full
 
 def violations(repository):
     """One message per citation that leads nowhere and per equation that is not cited as it should be."""
-    tags, found, in_code = TAG.findall(read(repository, "docs/theory.md")), [], set()
+    equations_text = theory(repository)
+    tags, found, in_code = tags_of(equations_text), [], set()
     for path in source_files(repository):
         text = LINE_BREAK.sub(" ", read(repository, path))
         for equations in (cited(numbers, tags) for numbers in EQUATIONS.findall(text)):
             in_code.update(equations if path.startswith(CODE) else [])
-            found += [f"{path}: docs/theory.md has no equation ({e})" for e in equations or ["?"] if e not in tags]
+            found += [f"{path}: docs/theory has no equation ({e})" for e in equations or ["?"] if e not in tags]
         for page, *sections in SECTIONS.findall(text):
-            headings = HEADING.findall(read(repository, "docs", page))
-            found += [f"{path}: docs/{page} has no section {s}" for s in sections
+            place = page if page == "docs/theory" else f"docs/{page}"
+            headings = HEADING.findall(equations_text if page == "docs/theory" else read(repository, place))
+            found += [f"{path}: {place} has no section {s}" for s in sections
                       if s and not any(re.match(re.escape(s) + r"\b(?!\.)", heading) for heading in headings)]
     found += [f"no code cites equation ({t})" for t in tags if t not in in_code and t not in NOT_IMPLEMENTED]
     return found + [f"equation ({t}) of NOT_IMPLEMENTED is cited" for t in NOT_IMPLEMENTED if t in in_code]

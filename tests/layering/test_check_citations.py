@@ -5,13 +5,14 @@ import unittest
 
 import check_citations
 
-EQ, EQS, PAGE = "Eq" + ".", "Eqs" + ".", "docs/theory" + ".md"  # in parts: the check reads this file, too
+EQ, EQS, PAGE = "Eq" + ".", "Eqs" + ".", "docs" + "/theory"  # in parts: the check reads this file, too
 
 
 def violations_of(comment, path="src/a.cpp"):
     """Violations in a repository of three equations, (1.1), (1.2) and (1.2a), and one comment besides."""
     with tempfile.TemporaryDirectory() as repository:
-        pages = {"docs/theory.md": "# Theory\n## 1 Model\n### 1.1 Elements\n\\tag{1.1}\n\\tag{1.2}\n\\tag{1.2a}\n",
+        pages = {"docs/theory/model.md": "# 1 Model\n## 1.1 Elements\n\\tag{1.1}\n\\tag{1.2a}\n",
+                 "docs/theory/another.md": "# Another\n\\tag{1.2}\n",
                  "docs/format.md": "# Format\n## Matrices\n",
                  path: comment}
         for name, text in pages.items():
@@ -52,8 +53,8 @@ class CheckCitations(unittest.TestCase):
         self.assert_message(f"// {EQS} (1.1) and (1.2)", "(1.2) of NOT_IMPLEMENTED is cited")
 
     def test_unknown_and_unreadable_equations_are_reported(self):
-        self.assert_message(f"// {EQ} (1.3)", "src/a.cpp: docs/theory.md has no equation (1.3)")
-        self.assert_message(f"// {EQ} 1.1", "src/a.cpp: docs/theory.md has no equation (?)")
+        self.assert_message(f"// {EQ} (1.3)", "src/a.cpp: docs/theory has no equation (1.3)")
+        self.assert_message(f"// {EQ} 1.1", "src/a.cpp: docs/theory has no equation (?)")
 
     def test_unknown_sections_are_reported(self):
         self.assert_message(f"// {PAGE}, section 2", "has no section 2")

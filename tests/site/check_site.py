@@ -1,7 +1,7 @@
 """Checks the pages that scripts/site/make.py has made: check_site.py FOLDER/html REPOSITORY
 
 - Every link leads to a page and a place on it; nothing comes from a network.
-- Every equation of docs/theory.md can be led to, and says which code computes it, unless it is of a derivation.
+- Every equation of docs/theory can be led to, and says which code computes it, unless it is of a derivation.
 - Every citation of an equation in a public header is a link on the header's page.
 - All that `import elastogear` gives is on the page of the Python module.
 """
@@ -47,13 +47,14 @@ class Pages:
 
 def equations(pages, tags, exempt):
     """What is wrong with the numbered equations of the theory."""
-    found = {place: bool(code) for place, _, code in EQUATION.findall(pages.text["docs/theory.html"])}
+    chapters = "".join(text for page, text in pages.text.items() if page.startswith("docs/theory/"))
+    found = {place: bool(code) for place, _, code in EQUATION.findall(chapters)}
     for tag in tags:
         code = found.get("eq-" + tag.replace(".", "-"))
         if code is None:
-            yield f"docs/theory.html: equation ({tag}) has no place"
+            yield f"docs/theory: equation ({tag}) has no place"
         elif code == (tag in exempt):
-            yield f"docs/theory.html: equation ({tag}) {'names code' if code else 'names no code'}"
+            yield f"docs/theory: equation ({tag}) {'names code' if code else 'names no code'}"
 
 
 def citations(pages, repository, cited_lines):
@@ -66,7 +67,7 @@ def citations(pages, repository, cited_lines):
             continue
         numbers = set().union(*cited_lines(header.read_text(encoding="utf-8")).values())
         yield from (f"api/cpp/{name}: no link to equation ({number})" for number in sorted(numbers)
-                    if f"theory.html#eq-{number.replace('.', '-')}\"" not in text)
+                    if f".html#eq-{number.replace('.', '-')}\"" not in text)
 
 
 def module(pages):

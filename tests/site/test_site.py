@@ -10,7 +10,7 @@ import diagram  # noqa: E402
 import docstrings  # noqa: E402
 import links  # noqa: E402
 
-EQ, EQS, THEORY = "Eq" + ".", "Eqs" + ".", "docs/theory" + ".md"  # in parts: layering.citations reads this file, too
+EQ, EQS, THEORY = "Eq" + ".", "Eqs" + ".", "docs" + "/theory"  # in parts: layering.citations reads this file, too
 HEADER = f"""#pragma once
 // A file, {EQ} (1.1).
 
@@ -55,17 +55,17 @@ class Links(unittest.TestCase):
         return [(text[start:end], page, anchor) for start, end, page, anchor in links.found_in(text, docname, of_theory, self.warnings.append)]
 
     def test_equations_pages_and_sections(self):
-        self.assertEqual(self.found(f"{EQS} (3.1), (3.2)"), [("(3.1)", "docs/theory", "eq-3-1"), ("(3.2)", "docs/theory", "eq-3-2")])
-        self.assertEqual(self.found(f"{THEORY}, section\n6.11"), [(THEORY, "docs/theory", ""), ("6.11", "docs/theory", "section-6-11")])
+        self.assertEqual(self.found(f"{EQS} (3.1), (3.2)"), [("(3.1)", f"{THEORY}/floating_frame", "eq-3-1"), ("(3.2)", f"{THEORY}/floating_frame", "eq-3-2")])
+        self.assertEqual(self.found(f"{THEORY}, section\n6.11"), [(THEORY, f"{THEORY}/README", ""), ("6.11", f"{THEORY}/unilateral_contact", "section-6-11")])
         self.assertEqual(self.found("docs/life" + ".md, section 1"), [("docs/life" + ".md", "docs/life", "")])
         self.assertEqual(self.found("ASTM, sections 5.4.4 and 5.4.5"), [])
         self.assertEqual(self.found("a factor (3.1) of time"), [])
-        self.assertEqual(self.found("by (3.1) and (99.1)", "docs/life"), [("(3.1)", "docs/theory", "eq-3-1")])
+        self.assertEqual(self.found("by (3.1) and (99.1)", "docs/life"), [("(3.1)", f"{THEORY}/floating_frame", "eq-3-1")])
         self.assertEqual(self.found("12 s (3.1)", links.NO_EQUATIONS), [])
 
     def test_an_equation_that_is_not_there_is_a_warning(self):
         self.assertEqual(self.found(f"{EQ} (99.1)"), [])
-        self.assertEqual(self.warnings, ["docs/theory.md has no equation (99.1)"])
+        self.assertEqual(self.warnings, ["docs/theory has no equation (99.1)"])
 
 
 class Texts(unittest.TestCase):

@@ -1,5 +1,5 @@
 #pragma once
-// Rotation formulas (docs/theory.md, section 3.2). Rotation vectors in rad.
+// Rotation formulas (docs/theory, section 3.2). Rotation vectors in rad.
 
 #include <Eigen/Core>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The deformation by its best affine field (docs/theory.md, section 3.1): u ~ g + G X, nearest in the norm of
+// The deformation by its best affine field (docs/theory, section 3.1): u ~ g + G X, nearest in the norm of
 // the mass. Products of rotation and deformation need no more of it to first order.
 
 #include "elastogear/model/elastic_body.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Creep of what a modal basis leaves out of a viscoelastic body (docs/theory.md, section 2.9): contact forces
+// Creep of what a modal basis leaves out of a viscoelastic body (docs/theory, section 2.9): contact forces
 // f displace the nodes by w = R_0 f + sum_j D_j (psi_j - f) with the forces psi_j that f has grown to by
 // creep, psi of one law:
 //   psi - sum_i g_i eta_i = f,   eta_i' = (psi - eta_i)/tau_i,   eta_i(0) = 0   (Eq. (2.20)).

@@ -1,5 +1,5 @@
 #pragma once
-// How the deformation enters the inertia (docs/theory.md, section 3.1).
+// How the deformation enters the inertia (docs/theory, section 3.1).
 
 #include <Eigen/Core>
 

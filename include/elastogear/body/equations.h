@@ -1,5 +1,5 @@
 #pragma once
-// Equations of motion of one elastic body in the floating frame of reference (docs/theory.md,
+// Equations of motion of one elastic body in the floating frame of reference (docs/theory,
 // Eqs. (3.6), (3.14) and (3.15)), in minimal coordinates: s of the joint, q of the basis. With the frame's
 // acceleration a and angular acceleration alpha, the first moment S(q), inertia J(q) and coupling C_r(q),
 //

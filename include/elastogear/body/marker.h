@@ -1,5 +1,5 @@
 #pragma once
-// Motion of a marker, and how it changes with the body's coordinates (docs/theory.md, section 3.4).
+// Motion of a marker, and how it changes with the body's coordinates (docs/theory, section 3.4).
 
 #include "elastogear/body/equations.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Relaxation of one body's viscoelastic materials (docs/theory.md, section 3.7): internal variables z_i with
+// Relaxation of one body's viscoelastic materials (docs/theory, section 3.7): internal variables z_i with
 // z_i' = (q - z_i)/tau_i, one for each time that occurs in the body, and the elastic force
 //   K_r q - sum_p K_p w_p,   w_p = sum_i g_pi z_i.
 

@@ -1,5 +1,5 @@
 #pragma once
-// Derivative of a body's inertia, quadratic and gravity forces (docs/theory.md, section 8.1). With the
+// Derivative of a body's inertia, quadratic and gravity forces (docs/theory, section 8.1). With the
 // columns U through which the frame reaches q, [C_l, C_r, J_1] or those of the affine part,
 //
 //   d[F_s; F_q] = [C, (U rho)' + R_q; U beta + Q_s, sum_ab Gamma_ab S^ab] d[s; q],

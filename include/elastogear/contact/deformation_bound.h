@@ -1,5 +1,5 @@
 #pragma once
-// How far a surface is deformed at most, from the elastic energy alone (docs/theory.md, Eq. (5.4)): with C =
+// How far a surface is deformed at most, from the elastic energy alone (docs/theory, Eq. (5.4)): with C =
 // Phi_i K_r^-1 Phi_i' of node i, |Phi_i q|^2 <= |C| q'K_r q. Costs n_q operations and touches no node.
 
 #include <Eigen/Core>

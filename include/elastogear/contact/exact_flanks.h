@@ -1,5 +1,5 @@
 #pragma once
-// The exact flanks of one body in a chart (v, z), as stations see them (docs/theory.md, section 6.18).
+// The exact flanks of one body in a chart (v, z), as stations see them (docs/theory, section 6.18).
 
 #include <Eigen/Core>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 // One bilinear quadrilateral or plane triangle: interpolation, normals, and its extensions at the surface
-// boundary (docs/theory.md, section 6). Side i runs from corner i to corner i+1.
+// boundary (docs/theory, section 6). Side i runs from corner i to corner i+1.
 
 #include <Eigen/Core>
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-// Discrete oriented polytopes: convex bodies bounded by k planes of fixed orientation (docs/theory.md,
+// Discrete oriented polytopes: convex bodies bounded by k planes of fixed orientation (docs/theory,
 // section 5). k/2 directions B_i with entries 0 and +-1; a k-DOP is one interval per direction.
 
 #include <Eigen/Core>

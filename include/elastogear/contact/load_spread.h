@@ -1,5 +1,5 @@
 #pragma once
-// The force on a node of a contact surface, spread over the sides of cells around it (docs/theory.md, section
+// The force on a node of a contact surface, spread over the sides of cells around it (docs/theory, section
 // 4.6).
 
 #include <Eigen/Core>

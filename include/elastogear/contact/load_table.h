@@ -1,6 +1,6 @@
 #pragma once
 // Smooth loads of fixed stations at a grid of places across the profile. Loads in between are interpolated,
-// and so is all that is bilinear in them, exactly (docs/theory.md, section 6.18).
+// and so is all that is bilinear in them, exactly (docs/theory, section 6.18).
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -1,6 +1,6 @@
 #pragma once
 // The forces of stations that may press and not pull: a convex problem, whose solution is a function of the
-// gaps alone (docs/theory.md, section 6.18).
+// gaps alone (docs/theory, section 6.18).
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 // The local compliance of one station: both half-spaces below its own pressure, whose size follows from the
-// force as H. Hertz's does (docs/theory.md, section 6.18).
+// force as H. Hertz's does (docs/theory, section 6.18).
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #pragma once
 // Places of stations, where two exact flanks are nearest to each other: one minimisation in one variable each
-// (docs/theory.md, section 6.18).
+// (docs/theory, section 6.18).
 
 #include <Eigen/Core>
 #include <limits>

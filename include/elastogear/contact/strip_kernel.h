@@ -1,5 +1,5 @@
 #pragma once
-// Displacements of an elastic half-space by pressures on strips of a line of contact (docs/theory.md, section
+// Displacements of an elastic half-space by pressures on strips of a line of contact (docs/theory, section
 // 6.18). All are means of the inverse distance 1/r, in 1/m; (1 - nu^2) / (pi E) times that is m/N.
 
 #include <limits>

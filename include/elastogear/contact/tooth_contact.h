@@ -1,6 +1,6 @@
 #pragma once
 // Stations of all pairs of teeth that come near each other, at one placement of two bodies: their places,
-// gaps, loads on both meshes and half-spaces below these (docs/theory.md, section 6.18).
+// gaps, loads on both meshes and half-spaces below these (docs/theory, section 6.18).
 
 #include <Eigen/Core>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 // The true surface of a body behind its facets, as far as it is known: heights of an exact surface and
-// measured or designed deviations (docs/theory.md, section 6.8).
+// measured or designed deviations (docs/theory, section 6.8).
 
 #include <Eigen/Core>
 #include <functional>

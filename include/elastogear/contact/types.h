@@ -16,23 +16,23 @@ namespace elastogear::contact {
 enum class Update { bound, refit, realign };
 enum class Penalty { per_node, per_area };
 /// penalty: forces grow with the penetration. unilateral: there is none; gaps are closed by the residual
-/// flexibility of the bodies, which one side of the pair must have (docs/theory.md, section 6.11). augmented:
+/// flexibility of the bodies, which one side of the pair must have (docs/theory, section 6.11). augmented:
 /// there is none either, between bodies without residual flexibility; gaps close from equilibrium to
 /// equilibrium (section 6.14), or no longer close at the end of a step of a motion (section 6.15). automatic:
 /// see chosen_law.
 enum class ContactLaw { automatic, penalty, unilateral, augmented };
 /// What gaps and normals are taken from. facets: the faces as they are. smooth: a smooth surface through
 /// their nodes. exact, the default: the heights of a TrueSurface, and the smooth surface where none are
-/// known. docs/theory.md, section 6.8.
+/// known. docs/theory, section 6.8.
 enum class ContactSurface { facets, smooth, exact };
 /// Points of the slave surface that contact is prevented from passing. nodes: its nodes. minima: its nodes,
-/// and the places on its faces and their sides where the gap is least (docs/theory.md, section 6.12). faces:
+/// and the places on its faces and their sides where the gap is least (docs/theory, section 6.12). faces:
 /// all points of its faces, in the mean over the faces around each node (section 6.13). automatic: see
 /// chosen_points.
 /// stations: none; flanks touch at the stations of section 6.18.
 enum class SlavePoints { automatic, nodes, minima, faces, stations };
 /// By what flanks approach each other where they touch in a patch that is small beside the faces. mesh: by
-/// what the mesh makes of it. hertz: by H. Hertz in place of that (docs/theory.md, section 6.17). automatic:
+/// what the mesh makes of it. hertz: by H. Hertz in place of that (docs/theory, section 6.17). automatic:
 /// see dynamics::chosen_approach.
 enum class FlankApproach { automatic, mesh, hertz };
 /// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
@@ -83,7 +83,7 @@ ContactLaw chosen_law(const Settings& settings, bool has_residual_flexibility);
 /// whose nodes alone cannot bear an even pressure; nodes elsewhere and in two passes.
 SlavePoints chosen_points(const Settings& settings, const model::Surface& slave);
 
-/// A step of bodies in motion without a penalty: docs/theory.md, Eq. (6.32).
+/// A step of bodies in motion without a penalty: docs/theory, Eq. (6.32).
 struct ImpactStep {
   double dt = 0;       ///< s
   double alpha_f = 1;  ///< -, weight of its end in the velocities with which forces are found
@@ -105,7 +105,7 @@ struct SurfaceMotion {
   Eigen::Vector3d v_WB_B = Eigen::Vector3d::Zero();  ///< m/s, of the BRF's origin
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< rad/s
 };
-/// The deformed surface of a motion: docs/theory.md, Eq. (3.1).
+/// The deformed surface of a motion: docs/theory, Eq. (3.1).
 SurfaceState surface_state(const model::Surface& surface, const SurfaceMotion& motion);
 
 /// Residual displacement of the nodes of one surface beside X + Phi q: the part of the static response to
@@ -135,7 +135,7 @@ struct StickPoint {
 };
 
 /// Tangential force of a node that sticks, unilateral only, along two directions T normal to n:
-/// u + c t = 0 as long as |t| <= mu p, otherwise t = -mu p (u + c t) / |u + c t|. docs/theory.md, Eq.
+/// u + c t = 0 as long as |t| <= mu p, otherwise t = -mu p (u + c t) / |u + c t|. docs/theory, Eq.
 /// (6.24a).
 struct TangentialForce {
   Eigen::Matrix<double, 3, 2> T;  ///< world frame

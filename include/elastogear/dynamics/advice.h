@@ -1,6 +1,6 @@
 #pragma once
 // Advice for a run from its bodies and contacts: the time step that they require, and the limits of the
-// theory (docs/theory.md, section 8.5).
+// theory (docs/theory, section 8.5).
 
 #include <memory>
 
@@ -53,7 +53,7 @@ class ValidityGuard {
   std::vector<bool> too_fast_;  // pairs, said
 };
 
-/// Watches whether contact chatters (docs/theory.md, section 6.11), of pairs without a penalty whose forces
+/// Watches whether contact chatters (docs/theory, section 6.11), of pairs without a penalty whose forces
 /// are solved for together with static responses.
 class ChatterWatch {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 // Which pairs of bodies touch at stations, and which have the local approach of flanks by H. Hertz:
-// docs/theory.md, sections 6.18 and 6.17.
+// docs/theory, sections 6.18 and 6.17.
 
 #include <string>
 

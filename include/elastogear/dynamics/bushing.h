@@ -1,5 +1,5 @@
 #pragma once
-// The force law of a bushing, a spring and damper in all six directions between two markers (docs/theory.md,
+// The force law of a bushing, a spring and damper in all six directions between two markers (docs/theory,
 // section 3.5). Its axes are fixed to the first marker; z is the one about which it may turn all the way.
 
 #include "elastogear/body/marker.h"

@@ -1,5 +1,5 @@
 #pragma once
-// The system that stays when the elastic coordinates are eliminated, docs/theory.md, Eq. (8.16): unknowns are
+// The system that stays when the elastic coordinates are eliminated, docs/theory, Eq. (8.16): unknowns are
 // the n_s joint coordinates x_s of all bodies and lambda = V'x of the r columns of contact and markers.
 //
 // Most columns of a contact are weak: k times the compliance that they see is small, as it is where a force

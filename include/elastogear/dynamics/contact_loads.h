@@ -1,5 +1,5 @@
 #pragma once
-// From contact points (local displacements in the world frame) to generalised coordinates (docs/theory.md,
+// From contact points (local displacements in the world frame) to generalised coordinates (docs/theory,
 // section 6.4): node positions x = r(s) + R(s) (X + Phi q), so that a twist i moves them by
 // R (v_i + w_i x x_B), and dx/dq = R Phi, Eq. (6.9). Forces act on the joint's virtual twists H, positions
 // change by the twists P = [r; theta] of body::FrameDerivative.
@@ -19,7 +19,7 @@ struct NodalForces {
   Eigen::Matrix3Xd x_B;   ///< m, deformed position in the BRF
   Eigen::Matrix3Xd f_B;   ///< N, contact force in the BRF
   /// n_s, N or N m: on joint coordinates, in place of what the nodal forces are on them. Places of contact
-  /// move with these coordinates (docs/theory.md, section 6.18); empty: it is that of the nodal forces.
+  /// move with these coordinates (docs/theory, section 6.18); empty: it is that of the nodal forces.
   Eigen::VectorXd joint = {};
   Eigen::VectorXd joint_size = {};  ///< n_s: sums of the sizes of its parts by pairs of teeth
 };
@@ -30,7 +30,7 @@ struct PairContacts {
   std::vector<contact::ContactPoint> points;
 };
 
-/// Loads of the n stations of exact flanks that bear a force, of all pairs (docs/theory.md, section 6.18).
+/// Loads of the n stations of exact flanks that bear a force, of all pairs (docs/theory, section 6.18).
 struct StationLoads {
   /// 3 nodes x n of each body, BRF: forces of 1 N of each station on the nodes of its NodalForces.
   std::vector<Eigen::SparseMatrix<double>> body = {};

@@ -1,5 +1,5 @@
 #pragma once
-// How much a body is deformed: rotation and strain, which the theory takes to be small (docs/theory.md,
+// How much a body is deformed: rotation and strain, which the theory takes to be small (docs/theory,
 // section 8.5).
 
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 // The elastic block D = shift_a M_r + shift_v D_r + K_r - sum_p c_p K_p of one body's effective matrix, with
-// the shares c_p of the parts that relax (docs/theory.md, Eq. (3.24)), its exact inverse,
+// the shares c_p of the parts that relax (docs/theory, Eq. (3.24)), its exact inverse,
 // and the compliance E' D^-1 E that the joint and contact columns E see.
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 #pragma once
-// Generalised-alpha for F(t, U, V, A) = 0 as a PETSc TS type (docs/theory.md, section 8).
+// Generalised-alpha for F(t, U, V, A) = 0 as a PETSc TS type (docs/theory, section 8).
 //
 // The problem is given by TSSetI2Function, TSSetI2Jacobian and TS2SetSolution; everything else is PETSc's
 // usual TS. Options, beside -ts_*, -ts_adapt_*, -snes_*, -ksp_*:
@@ -42,7 +42,7 @@ struct MotionVectors {
 /// U by Eq. (8.10), V and A by Eq. (8.17) between the ends of the last step, as integrated.
 void generalized_alpha_interpolate(TS ts, double t, const MotionVectors& x);
 
-/// The same by a step from the start of the last one to t, at whose stage F = 0 (docs/theory.md,
+/// The same by a step from the start of the last one to t, at whose stage F = 0 (docs/theory,
 /// section 8.2); the run goes on from the end of the last step all the same. False: Newton's method does not
 /// converge, and x is none.
 bool generalized_alpha_solve_between(TS ts, double t, const MotionVectors& x);
@@ -64,7 +64,7 @@ void generalized_alpha_set_tolerances(TS ts, Vec scale, double position, double 
 void generalized_alpha_set_measure(TS ts,
                                    const std::function<PetscErrorCode(Vec error, PetscReal* norm)>& measure);
 
-/// What a step takes from the one before, besides U, V and A (docs/theory.md, Eq. (8.8)).
+/// What a step takes from the one before, besides U, V and A (docs/theory, Eq. (8.8)).
 /// Borrowed: a run that goes on gets both back in place, after set_state.
 struct StepHistory {
   Vec slope;     ///< of A in the last step

@@ -7,7 +7,7 @@
 // stays:
 //   [C - rho'G beta,  (W_s - rho'G L) k;  -V_s' + L_V'G beta,  I + L_V'G L k] [x_s; lambda]
 //     = [y_s - rho'p; L_V'p]
-// where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory.md, Eqs. (8.11), (8.12) and (8.16)). V_s differs from
+// where G = E'D^-1 E and p = E'D^-1 y_q (docs/theory, Eqs. (8.11), (8.12) and (8.16)). V_s differs from
 // W_s where coordinates are not the integrals of their rates (free joints), and both from W for forces that
 // have no potential. The residual displacement w = -R (beta x_s + L k lambda) makes lambda = V'x +
 // L_x'w, so that G + R takes the place of G, with L_x before R. At inertia level full A has further parts,

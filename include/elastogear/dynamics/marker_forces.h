@@ -1,5 +1,5 @@
 #pragma once
-// Loads, bushings and sensors at markers, and their part of the effective matrix (docs/theory.md,
+// Loads, bushings and sensors at markers, and their part of the effective matrix (docs/theory,
 // sections 3.5 and 8.1).
 
 #include <array>

@@ -34,7 +34,7 @@ struct TimeSettings {
   bool relax = false;
   double rest_tolerance = 1e-6;
   /// s; > 0: observe at its multiples in place of every n-th step. Steps that are chosen end there; between
-  /// the ends of others states are those of a step that ends there (docs/theory.md, section 8.2).
+  /// the ends of others states are those of a step that ends there (docs/theory, section 8.2).
   double output_dt = 0;
   /// s, ascending; observe at these times and at no others but the start and the end, in the same way.
   std::vector<double> output_times = {};
@@ -43,7 +43,7 @@ struct TimeSettings {
   /// so that it is at most the share step_error, -, of the elastic displacements and, in the energy norm, of
   /// the elastic state of each body, which bounds the stresses. The step in which bodies first touch
   /// is short, and surfaces of a pair go by less than the contact depth. velocity_tolerance, m/s, > 0:
-  /// velocities too. docs/theory.md, section 8.3.
+  /// velocities too. docs/theory, section 8.3.
   double step_error = 1e-4, step_tolerance = 0, velocity_tolerance = 0;
   std::function<void(const StepInfo&)> monitor = {};  ///< after every step
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Static equilibrium F(lambda, U, 0, 0) = 0 by Newton's method with load stepping (docs/theory.md,
+// Static equilibrium F(lambda, U, 0, 0) = 0 by Newton's method with load stepping (docs/theory,
 // section 8.6).
 
 #include "elastogear/dynamics/simulate.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Equilibria of a system in slow motion, one position after the other (docs/theory.md, section 8.6).
+// Equilibria of a system in slow motion, one position after the other (docs/theory, section 8.6).
 
 #include <memory>
 #include <optional>

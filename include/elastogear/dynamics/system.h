@@ -59,7 +59,7 @@ class System {
   std::vector<MovingBody> moving_bodies(const State& x) const;
   /// With the velocities that contact sees: those of the state, or prescribed ones.
   contact::SurfaceMotion surface_motion(std::size_t b, double time, ConstVector U, ConstVector V) const;
-  /// Prescribes the rates of all joint coordinates (n_s each, by body; docs/theory.md, section 8.6) with
+  /// Prescribes the rates of all joint coordinates (n_s each, by body; docs/theory, section 8.6) with
   /// which surfaces slide on each other, whatever V is, as of slow motion through equilibria; those of
   /// elastic coordinates are zero then. All other forces take V.
   void set_sliding(std::vector<Eigen::VectorXd> rates);
@@ -76,7 +76,7 @@ class System {
   /// Has a pair the augmented law?
   bool any_augmented() const;
   /// How far the gaps of the last evaluation are from closed, at most, over the depth of their pair; -.
-  /// Augmented law; docs/theory.md, Eq. (6.31).
+  /// Augmented law; docs/theory, Eq. (6.31).
   double unclosed() const;
   /// Gives its contacts the forces found there, with which gaps close further in the next equilibrium.
   void augment();
@@ -95,7 +95,7 @@ class System {
   /// Points of least gap that stay where a former evaluation of this time found them need no longer stay.
   /// Returns whether there are any, so that forces may be others.
   bool release_points();
-  /// Goes a share of the way to the local approach of flanks (docs/theory.md, section 6.17) by the contacts
+  /// Goes a share of the way to the local approach of flanks (docs/theory, section 6.17) by the contacts
   /// evaluated last. Returns the largest change of one, m; 0 where no pair has one.
   double find_approach(double share);
   /// Do materials relax with time, see Environment::moduli?

@@ -1,5 +1,5 @@
 #pragma once
-// Stations over the face of two gears in mesh, to which what bears there is shared out (docs/theory.md,
+// Stations over the face of two gears in mesh, to which what bears there is shared out (docs/theory,
 // section 10.3).
 
 #include <Eigen/Core>

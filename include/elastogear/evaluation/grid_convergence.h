@@ -1,5 +1,5 @@
 #pragma once
-// Estimated error of a figure from the same one on coarser meshes (docs/theory.md, section 10.7).
+// Estimated error of a figure from the same one on coarser meshes (docs/theory, section 10.7).
 
 #include <vector>
 

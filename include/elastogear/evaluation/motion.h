@@ -1,5 +1,5 @@
 #pragma once
-// Motion of two gears in mesh: transmission error, stiffness, sliding (docs/theory.md, section 10.2).
+// Motion of two gears in mesh: transmission error, stiffness, sliding (docs/theory, section 10.2).
 
 #include <Eigen/Core>
 #include <array>

@@ -11,7 +11,7 @@ namespace elastogear::fem {
 /// K in N/m, M in kg, MATAIJ, both symmetric positive definite when the restraint holds the body, and of one
 /// sparsity. (Not MATSBAIJ, which would halve the memory: on several ranks the inertia of K - sigma M formed
 /// by PETSc 3.18's MatAXPY came out wrong there; the cause is not known.)
-/// docs/theory.md, Eqs. (1.1) and (1.2).
+/// docs/theory, Eqs. (1.1) and (1.2).
 struct Matrices {
   UniqueMat K, M;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Mass moments of a mesh (docs/theory.md, section 3.1).
+// Mass moments of a mesh (docs/theory, section 3.1).
 
 #include <Eigen/Core>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace elastogear::fem {
 
 /// Moments of mass of the displacements of *all* nodes, restrained ones included: all that rigid-body inertia
-/// and its coupling to shape functions need. docs/theory.md, section 3.1.
+/// and its coupling to shape functions need. docs/theory, section 3.1.
 struct MassMoments {
   Eigen::VectorXd w_0;   ///< n_nodes, kg: integral of rho N_i dV
   Eigen::Matrix3Xd w_1;  ///< 3 x n_nodes, kg m: column i = integral of rho X N_i dV

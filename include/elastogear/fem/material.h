@@ -1,5 +1,5 @@
 #pragma once
-// Materials of a mesh: which cell has which, and what elements need of them (docs/theory.md, section
+// Materials of a mesh: which cell has which, and what elements need of them (docs/theory, section
 // 1.3).
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 #pragma once
-// The stiffness of what relaxes in a body with viscoelastic materials (docs/theory.md, section 1.4).
+// The stiffness of what relaxes in a body with viscoelastic materials (docs/theory, section 1.4).
 
 #include <vector>
 

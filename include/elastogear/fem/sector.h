@@ -1,6 +1,6 @@
 #pragma once
 // One sector of a body that repeats Z times around an axis, and displacements of one harmonic on it
-// (docs/theory.md, section 2.6).
+// (docs/theory, section 2.6).
 
 #include <mpi.h>
 

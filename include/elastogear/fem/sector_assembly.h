@@ -13,7 +13,7 @@ std::pair<int, int> own_orbits(MPI_Comm comm, const Sector& sector);
 
 /// K_k and M_k over the harmonic's coordinates, symmetric, MATAIJ, of one sparsity. Every eigenvalue of a
 /// harmonic that is not real is double: z and i z. Collective; needs no communication.
-/// docs/theory.md, Eq. (2.11).
+/// docs/theory, Eq. (2.11).
 Matrices assemble(MPI_Comm comm, const Sector& sector, const Harmonic& harmonic,
                   const std::vector<model::MaterialRegion>& regions, const model::Formulation& formulation);
 /// M_k alone.

@@ -1,6 +1,6 @@
 #pragma once
 // Nodal stress: the element's extrapolated stresses, averaged at each node, or on free surfaces the stress
-// that the strains of the surface and its zero traction give (docs/theory.md, section 1.5).
+// that the strains of the surface and its zero traction give (docs/theory, section 1.5).
 //
 // The mean at a node is the plain (unweighted) mean over the adjacent cells of *one* material region. Across
 // an interface stress jumps, so regions are never mixed: a node on an interface takes the region that comes
@@ -17,16 +17,16 @@
 namespace elastogear::fem {
 
 /// S at the given nodes, 6 n_e x 3 n_nodes, Pa/m: rows 6 i .. 6 i + 5 are xx yy zz xy yz xz at nodes[i].
-/// Throws Error when a node belongs to no cell. docs/theory.md, Eq. (4.1).
+/// Throws Error when a node belongs to no cell. docs/theory, Eq. (4.1).
 model::SparseRows stress_operator(const StressedBody& body, const std::vector<int>& nodes);
 
 /// What recovery on free surfaces gives at nodes less the mean there, whichever of them the body takes: 6 n_e
-/// x 3 n_nodes, Pa/m; rows of zeros where no free surface is. docs/theory.md, Eq. (1.16).
+/// x 3 n_nodes, Pa/m; rows of zeros where no free surface is. docs/theory, Eq. (1.16).
 model::SparseRows recovery_difference(StressedBody body, const std::vector<int>& nodes);
 
 /// The same at nodes that are loaded, as if they were not, of what both make of the strains within the
 /// surface: 6 n_e x 3 n_nodes, Pa/m; rows of zeros at nodes that are not loaded and inside the body.
-/// docs/theory.md, Eq. (1.16a).
+/// docs/theory, Eq. (1.16a).
 model::SparseRows difference_within_surface(StressedBody body, const std::vector<int>& nodes);
 
 /// Index into `regions` of the region whose stress each node of the mesh has; -1 outside all cells.

@@ -1,6 +1,6 @@
 #pragma once
 // Deviations of flanks from their exact shape: designed modifications (ISO 21771) and deviations of
-// manufacture, as distances along the normal of the exact flank (docs/theory.md, section 9).
+// manufacture, as distances along the normal of the exact flank (docs/theory, section 9).
 
 #include <Eigen/Core>
 #include <vector>

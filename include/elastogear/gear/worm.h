@@ -5,7 +5,7 @@
 // going once around, layer k becomes layer k + K with K = z1 (2 space + tooth). Beyond the thread that shift
 // is taken back one layer at a time: the stack of helical layers ends in K steps of one layer, and at each
 // step the step's riser is joined with the next edge of its tread, so that turn - K plain columns go on into
-// the shaft (docs/theory.md, section 9).
+// the shaft (docs/theory, section 9).
 
 #include "elastogear/gear/design.h"
 #include "elastogear/gear/size.h"

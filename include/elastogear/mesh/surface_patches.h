@@ -1,6 +1,6 @@
 #pragma once
 // Nodes that share a face of the boundary with given ones, and the order of the cells there, for estimates of
-// the error of stresses on free surfaces (docs/theory.md, section 1.7).
+// the error of stresses on free surfaces (docs/theory, section 1.7).
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Figures of merit of a reduction: how good the basis of a body is (docs/theory.md, section 2.3).
+// Figures of merit of a reduction: how good the basis of a body is (docs/theory, section 2.3).
 
 #include <Eigen/Core>
 #include <string>

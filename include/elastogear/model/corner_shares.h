@@ -1,6 +1,6 @@
 #pragma once
 // Nodes of second-order sides as shares of the corners: even pressure gives them uneven forces, and their
-// corners even ones (docs/theory.md, section 6.12).
+// corners even ones (docs/theory, section 6.12).
 
 #include <Eigen/Core>
 #include <array>

@@ -47,7 +47,7 @@ void add_force(const BasisRows& Phi, int node, const Eigen::Vector3d& f, Eigen::
 
 /// Inertia of the free node cloud, from the consistent mass M_f (restrained nodes carry mass too).
 /// S_t, S_r: rigid unit translations and rotations about the BRF origin.
-/// docs/theory.md, Eqs. (3.4) and (3.8).
+/// docs/theory, Eqs. (3.4) and (3.8).
 struct Inertia {
   double m = 0;                                  ///< kg, m I = S_t' M_f S_t
   Eigen::Vector3d c = Eigen::Vector3d::Zero();   ///< m, centre of mass
@@ -56,12 +56,12 @@ struct Inertia {
   Eigen::Matrix<double, Eigen::Dynamic, 3> C_r;  ///< n_q x 3, Phi' M_f S_r
   Eigen::Matrix<double, 9, Eigen::Dynamic> S_1;  ///< 9 x n_q, row 3a+b: integral of rho X_a phi_b dV
   /// n_q x n_q each, [k, l]: integral of rho phi_ka phi_lb dV for ab = 11 22 33 12 23 13; may be empty (only
-  /// inertia level full needs it). Their counterparts ba are the transposes. docs/theory.md, Eq. (3.11a).
+  /// inertia level full needs it). Their counterparts ba are the transposes. docs/theory, Eq. (3.11a).
   std::vector<BasisRows> S_2;
 };
 
 /// First-order change of J with the elastic coordinate k: J(q) = J + sum_k q_k J_1(k), from S_1.
-/// docs/theory.md, Eq. (3.11).
+/// docs/theory, Eq. (3.11).
 Eigen::Matrix3d J_1(const Inertia& inertia, int k);
 
 struct Surface {
@@ -97,7 +97,7 @@ struct Marker {
 };
 
 /// A part of a body's stiffness that relaxes, that of one material region by both moduli or by one of them.
-/// The elastic force is K_r q - sum_p K sum_i g_i z_i with z_i' = (q - z_i)/tau_i: docs/theory.md, Eq.
+/// The elastic force is K_r q - sum_p K sum_i g_i z_i with z_i' = (q - z_i)/tau_i: docs/theory, Eq.
 /// (2.19).
 struct RelaxingPart {
   std::string cell_set;  ///< of the region; empty: all cells that no other region names
@@ -109,14 +109,14 @@ struct RelaxingPart {
   std::vector<int> stress_node = {};  ///< evaluation nodes (local numbers) whose stress is that of the region
 };
 
-/// Displacements u = Phi q and the reduced matrices M_r, K_r: docs/theory.md, Eqs. (2.1) and (2.2).
+/// Displacements u = Phi q and the reduced matrices M_r, K_r: docs/theory, Eqs. (2.1) and (2.2).
 struct ElasticBody {
   std::string name;
   Basis basis = Basis::modal;
   bool floating = false;  ///< nothing was restrained: the basis moves about a frame that no node carries
   Inertia inertia;
   /// The last coordinates, of attachment modes: what the modes leave out of the static responses to loads at
-  /// markers. They are no vibrations of the body. docs/theory.md, section 2.10.
+  /// markers. They are no vibrations of the body. docs/theory, section 2.10.
   int n_attachments = 0;
   Eigen::VectorXd frequency;             ///< modal: n_q, Hz, ascending but for attachments; empty for full
   Eigen::SparseMatrix<double> M_r, K_r;  ///< n_q x n_q; modal: identity and diag(omega^2); K_r instantaneous

@@ -1,6 +1,6 @@
 #pragma once
 // Static responses of the whole body to forces on its contact surface, F = B' K^-1 B and G = S K^-1 B, from
-// which dynamics and recovery take what a truncated modal basis leaves out (docs/theory.md, section 6.9).
+// which dynamics and recovery take what a truncated modal basis leaves out (docs/theory, section 6.9).
 
 #include <Eigen/Core>
 #include <functional>
@@ -26,7 +26,7 @@ Images make_images(std::vector<int> orbit, std::vector<int> sector_index, int n_
 Images no_images(int n);
 
 /// F of the body with a share of its moduli relaxed, one of the states between which static responses are
-/// interpolated (docs/theory.md, Eq. (2.21)).
+/// interpolated (docs/theory, Eq. (2.21)).
 struct RelaxedResponse {
   Eigen::VectorXd share;  ///< n_p, gamma_p: which share of each relaxing part is gone
   Eigen::VectorXd self;   ///< n_orbits, m/N, as that of Flexibility

@@ -14,7 +14,7 @@ namespace elastogear::model {
 /// Rows of a basis at selected nodes, blocks of 3 (Phi: x y z) or 6 (Psi: xx yy zz xy yz xz) per node.
 using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// What a run asks of the rows Phi_i of all nodes i of a surface. K_r and M_r are diagonal. docs/theory.md,
+/// What a run asks of the rows Phi_i of all nodes i of a surface. K_r and M_r are diagonal. docs/theory,
 /// Eqs. (5.4) and (8.18).
 struct RowBounds {
   Eigen::VectorXd compliance;             ///< n_s, m/N, largest eigenvalue of Phi_i K_r^-1 Phi_i'

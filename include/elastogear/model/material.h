@@ -50,7 +50,7 @@ struct Material {
 };
 
 /// The material whose long-term moduli those of the given one are: with the instantaneous moduli of its Prony
-/// series, which must be valid. docs/theory.md, Eq. (1.10).
+/// series, which must be valid. docs/theory, Eq. (1.10).
 Material from_long_term(Material material);
 
 /// A material and the cell set it fills; the empty name stands for all cells that no other region names.
@@ -64,7 +64,7 @@ struct MaterialRegion {
 enum class Element { incompatible, plain, bbar };
 
 /// Shape functions in the mass of incompatible hex8: those of the nodes alone, or with the incompatible modes
-/// that the static condensation of the stiffness adds to them. docs/theory.md, Eq. (1.5b).
+/// that the static condensation of the stiffness adds to them. docs/theory, Eq. (1.5b).
 enum class ElementMass { compatible, condensed };
 
 /// How the stiffness and the mass of cells are computed.

@@ -1,6 +1,6 @@
 #pragma once
 // The state in which a viscoelastic body ends one run and begins another: its deformation and the internal
-// variables of its relaxation (docs/theory.md, sections 2.8 and 2.9).
+// variables of its relaxation (docs/theory, sections 2.8 and 2.9).
 
 #include <Eigen/Core>
 #include <vector>

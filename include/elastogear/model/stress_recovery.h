@@ -1,5 +1,5 @@
 #pragma once
-// How the stresses at nodes are recovered from displacements (docs/theory.md, sections 1.1 and 1.5).
+// How the stresses at nodes are recovered from displacements (docs/theory, sections 1.1 and 1.5).
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Linear viscoelasticity by a generalised Maxwell model (docs/theory.md, Eq. (1.9)): shear and bulk modulus
+// Linear viscoelasticity by a generalised Maxwell model (docs/theory, Eq. (1.9)): shear and bulk modulus
 //   G(t) = G_0 (1 - sum_i g_i (1 - exp(-t/tau_i))),   K(t) = K_0 (1 - sum_i k_i (1 - exp(-t/tau_i))).
 
 #include <string>

@@ -19,7 +19,7 @@ struct StressDeviation {
 };
 
 /// stress, reference: 6 n, Pa, the same n nodes in the same order. Over several nodes both numerator and
-/// denominator are root sums of squares (docs/theory.md, Eq. (4.4)).
+/// denominator are root sums of squares (docs/theory, Eq. (4.4)).
 StressDeviation stress_deviation(const Eigen::VectorXd& stress, const Eigen::VectorXd& reference);
 
 struct Extremum {
@@ -32,7 +32,7 @@ struct SignalDeviation {
   Extremum peak, reference_peak;
 };
 
-/// docs/theory.md, Eq. (4.5). signal, reference: n_t values at the times (s, increasing); integrals by the
+/// docs/theory, Eq. (4.5). signal, reference: n_t values at the times (s, increasing); integrals by the
 /// trapezoidal rule.
 SignalDeviation signal_deviation(const Eigen::VectorXd& time, const Eigen::VectorXd& signal,
                                  const Eigen::VectorXd& reference);

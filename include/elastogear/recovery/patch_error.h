@@ -1,6 +1,6 @@
 #pragma once
 // Error of stresses that are recovered on free surfaces, from what both recoveries of the same displacements
-// give at the nodes around (docs/theory.md, section 1.7).
+// give at the nodes around (docs/theory, section 1.7).
 
 #include <Eigen/Core>
 

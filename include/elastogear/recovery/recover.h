@@ -1,5 +1,5 @@
 #pragma once
-// Stresses and fields of the bodies of a run, with mode acceleration and estimated errors (docs/theory.md,
+// Stresses and fields of the bodies of a run, with mode acceleration and estimated errors (docs/theory,
 // sections 4.1 and 4.3).
 
 #include <memory>

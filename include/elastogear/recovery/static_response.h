@@ -14,7 +14,7 @@
 namespace elastogear::recovery {
 
 /// Forces to which a viscoelastic body of several materials responds as one of its relaxed states:
-/// docs/theory.md, Eq. (4.12).
+/// docs/theory, Eq. (4.12).
 struct CreptForces {
   Eigen::MatrixXd force;         ///< 3 n x n_t, N: chi_k of the n nodes that have been loaded
   Eigen::MatrixXd q, q_relaxed;  ///< n_q x n_t: the modes' response to chi_k, instantaneous and of the state

@@ -1,5 +1,5 @@
 #pragma once
-// Stress from reduced coordinates: sigma = Psi q (docs/theory.md, Eq. (4.1)), and the equivalent stresses
+// Stress from reduced coordinates: sigma = Psi q (docs/theory, Eq. (4.1)), and the equivalent stresses
 // engineers read. Components in the body frame, Pa, order xx yy zz xy yz xz.
 
 #include <Eigen/Core>

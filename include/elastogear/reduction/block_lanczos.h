@@ -1,5 +1,5 @@
 #pragma once
-// Block Lanczos with spectrum slicing as an EPS type of SLEPc (docs/theory.md, section 2.2).
+// Block Lanczos with spectrum slicing as an EPS type of SLEPc (docs/theory, section 2.2).
 //
 // For K phi = lambda M phi with real symmetric K and positive definite M (EPS_GHEP). The problem is given by
 // EPSSetOperators; everything else is SLEPc's usual EPS: EPSSolve, EPSGetEigenpair, EPSComputeError,

@@ -1,6 +1,6 @@
 #pragma once
 // Static completeness: the share of the static response to a load on the surface that the modes have
-// (docs/theory.md, section 2.3).
+// (docs/theory, section 2.3).
 
 #include <Eigen/Core>
 #include <string>

@@ -18,7 +18,7 @@ void require_mode_count(int n_modes, int n_free);
 /// not choose the number of modes. Of a small body of which a large part of the spectrum is wanted, by LAPACK
 /// unless asks_slepc. Reports the stage "eigenmodes". Collective. Throws Error when n_modes is not
 /// in 1..n (n: size of K) or no mode lies in the interval, when K is singular (the body is not held, or has a
-/// mechanism), when modes do not converge or are missing. docs/theory.md, Eq. (2.3).
+/// mechanism), when modes do not converge or are missing. docs/theory, Eq. (2.3).
 Eigenmodes find_eigenmodes(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                            const Progress& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Static responses to unit forces on the contact surface (docs/theory.md, section 6.9).
+// Static responses to unit forces on the contact surface (docs/theory, section 6.9).
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 // Bodies that nothing holds: rigid modes known from the coordinates, elastic modes orthogonal to them
-// (docs/theory.md, section 2.4).
+// (docs/theory, section 2.4).
 
 #include <slepcbv.h>
 

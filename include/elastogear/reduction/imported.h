@@ -1,5 +1,5 @@
 #pragma once
-// K and M of another program: read on rank 0, distributed, checked (docs/theory.md, section 2.5).
+// K and M of another program: read on rank 0, distributed, checked (docs/theory, section 2.5).
 
 #include <mpi.h>
 

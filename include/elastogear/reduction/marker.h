@@ -1,5 +1,5 @@
 #pragma once
-// Markers: node sets or face sets whose mean motion loads, bushings and sensors use (docs/theory.md,
+// Markers: node sets or face sets whose mean motion loads, bushings and sensors use (docs/theory,
 // section 3.4).
 
 #include <string>

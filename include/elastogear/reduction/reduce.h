@@ -29,7 +29,7 @@ namespace elastogear::reduction {
 /// simulation and stress histories need. all: at every node, for whole fields.
 enum class Store { surface, all };
 
-/// linear: what inertia levels constant and linear need. full: S_2 too (docs/theory.md, Eq. (3.11a)).
+/// linear: what inertia levels constant and linear need. full: S_2 too (docs/theory, Eq. (3.11a)).
 enum class Invariants { linear, full };
 
 /// Modes from one sector where the mesh, materials and restraint repeat around an axis, or from the whole

@@ -5,7 +5,7 @@
 
 namespace elastogear::reduction {
 
-/// docs/theory.md, section 2.7.
+/// docs/theory, section 2.7.
 enum class RitzKind { modal_attachment, krylov, craig_bampton };
 
 struct RitzOptions {

@@ -1,5 +1,5 @@
 #pragma once
-// Static response of the unreduced body: displacement K^-1 f and stress S K^-1 f (docs/theory.md, section
+// Static response of the unreduced body: displacement K^-1 f and stress S K^-1 f (docs/theory, section
 // 4.1).
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace elastogear::reduction {
 
 /// Factorises K of the whole body, once, on this process alone; of a held body that repeats around an axis
 /// the stiffness of its harmonics, anew in each call and one after the other, which takes less memory
-/// (docs/theory.md, section 4.1). Nodes are mesh numbers; forces on restrained nodes do nothing.
+/// (docs/theory, section 4.1). Nodes are mesh numbers; forces on restrained nodes do nothing.
 class StaticResponse {
  public:
   /// The source must outlive this. floating: nothing holds the body, whose loads are balanced by the inertia

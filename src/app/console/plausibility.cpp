@@ -16,7 +16,7 @@ constexpr double kLightest = 50, kHeaviest = 30e3;         // kg/m^3
 constexpr double kLargestBody = 10, kSmallestBody = 1e-4;  // m, a mesh's longest side
 
 // Poisson's ratios from which frequencies of a block that is held at one end are 2 % and more too high
-// (docs/theory.md, section 1.1).
+// (docs/theory, section 1.1).
 constexpr double kLocksIncompatible = 0.49, kLocks = 0.45;
 
 constexpr double kPoorShape = 0.1;  // scaled Jacobian

@@ -75,7 +75,7 @@ const Rows<RitzOptions> kRitzRows = {
      "modes"},
 };
 
-// Hz, of the highest mode that counts: docs/theory.md, Eq. (6.20b).
+// Hz, of the highest mode that counts: docs/theory, Eq. (6.20b).
 double highest_mode(const LoadSpectrum& spectrum) {
   const double by_rise = spectrum.rise_time ? 0.5 / *spectrum.rise_time : 0;
   const double f = std::max(by_rise, spectrum.frequency.value_or(0));

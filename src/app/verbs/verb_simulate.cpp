@@ -110,7 +110,7 @@ Analysis analysis(const Options& options) { return analysis_settings(options).ki
 constexpr double kDamped = 0.8;
 
 // With friction that sticks, rest is a range of states, in which nodes creep on for tens of thousands of
-// steps (docs/theory.md, section 8.7): the default of rest_tolerance is larger then.
+// steps (docs/theory, section 8.7): the default of rest_tolerance is larger then.
 TimeSettings time_settings(const Options& options) {
   TimeSettings time;
   time.relax = analysis(options) == Analysis::relax;

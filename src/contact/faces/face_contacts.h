@@ -1,6 +1,6 @@
 #pragma once
 // Contact integrated over the faces of the slave: one contact point for each of its nodes, with the gap
-// weighted by the node's interpolation function (docs/theory.md, section 6.13).
+// weighted by the node's interpolation function (docs/theory, section 6.13).
 
 #include <functional>
 #include <map>

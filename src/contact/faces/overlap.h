@@ -1,6 +1,6 @@
 #pragma once
 // The parts of a slave face that faces of the master lie over, and quadrature on them: faces are cut along
-// the sides of the master's, so that integrands are smooth within each part (docs/theory.md, section 6.13).
+// the sides of the master's, so that integrands are smooth within each part (docs/theory, section 6.13).
 
 #include <Eigen/Core>
 #include <array>

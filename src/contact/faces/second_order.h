@@ -1,6 +1,6 @@
 #pragma once
 // Points of faces that are parts of second-order sides: their displacement is that of the side, by all of its
-// nodes (docs/theory.md, section 6.13).
+// nodes (docs/theory, section 6.13).
 
 #include <Eigen/Core>
 #include <functional>
@@ -12,7 +12,7 @@ namespace elastogear::contact {
 using SecondOrderSide = Eigen::Matrix<int, 8, 1>;  ///< as in model::Surface
 
 /// Weights of a side's nodes in one of its points, less those that the face which is a part of it gives them:
-/// docs/theory.md, Eq. (6.30).
+/// docs/theory, Eq. (6.30).
 struct SideWeights {
   int n = 0;  ///< nodes: 6 or 8; 0 of a face that is a whole side
   std::array<int, 8> node{};

@@ -1,6 +1,6 @@
 #pragma once
 // The slave nodes whose weighted gaps may lie within the reach, told from the gaps at the nodes
-// (docs/theory.md, section 6.13).
+// (docs/theory, section 6.13).
 
 #include <map>
 #include <vector>

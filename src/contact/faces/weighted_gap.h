@@ -1,5 +1,5 @@
 #pragma once
-// The gap of a slave node weighted with its interpolation function, and its force: docs/theory.md, Eqs.
+// The gap of a slave node weighted with its interpolation function, and its force: docs/theory, Eqs.
 // (6.28) and (6.29).
 
 #include <functional>

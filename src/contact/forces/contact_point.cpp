@@ -62,7 +62,7 @@ FaceFunction fade_at(const MasterSide& master, const Face& face, const Projectio
 }
 
 // Displacement of the closest point over the master since the last step, and the stretch of the spring then.
-// docs/theory.md, Eq. (6.18).
+// docs/theory, Eq. (6.18).
 StickMotion stick_motion(const SurfaceView& master, const StickPoint& stuck, const Projection& w,
                          const ProjectionKinematics& kinematics) {
   const Face face = face_of(master, stuck.face);

@@ -15,7 +15,7 @@ Projection kept_projection(const MasterSide& master, const Projection& now, cons
                            int before);
 
 /// Contact point of the frictionless, undamped penalty on facets, whose F derives from a potential, W = V:
-/// docs/theory.md, Eqs. (6.4) and (6.5). Not for points on an extended side.
+/// docs/theory, Eqs. (6.4) and (6.5). Not for points on an extended side.
 ContactPoint potential_contact(const MasterSide& master, const Projection& projection, const Law& law,
                                bool full_tangent);
 

@@ -42,7 +42,7 @@ struct ForceDirection {
 
 /// The gradient n of the gap at the foot point w of a slave point at q (m), on a face; near a side that is
 /// shared with another face blended with the gradient over that face, half of each at the side: a point that
-/// passes from face to face turns its force gradually. xi_q: of the foot point, 1/m. docs/theory.md, Eq.
+/// passes from face to face turns its force gradually. xi_q: of the foot point, 1/m. docs/theory, Eq.
 /// (6.27a).
 ForceDirection force_direction(const MasterSide& master, const Projection& w, const Eigen::Vector3d& q,
                                const ForceDirection& gradient, const Eigen::Matrix<double, 2, 3>& xi_q);

@@ -1,5 +1,5 @@
 #pragma once
-// Coulomb friction of a slave point: regularised, by a spring up to its limit, or given (docs/theory.md,
+// Coulomb friction of a slave point: regularised, by a spring up to its limit, or given (docs/theory,
 // section 6.7, Eq. (6.24a)).
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #pragma once
 // The search for the places where the gap between two smooth surfaces is least: along the sides of slave
-// faces and within them (docs/theory.md, section 6.12).
+// faces and within them (docs/theory, section 6.12).
 
 #include <map>
 #include <vector>

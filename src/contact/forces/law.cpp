@@ -24,7 +24,7 @@ struct Varying {
 
 Local flat(const LocalVectors& v) { return v.reshaped(); }  // of a slave point and its master's nodes
 
-// Velocity of the slave node against the master, v_r of docs/theory.md, Eq. (6.13), and its derivatives.
+// Velocity of the slave node against the master, v_r of docs/theory, Eq. (6.13), and its derivatives.
 Varying relative_velocity(const ProjectionKinematics& kinematics, const LocalVectors& v) {
   Varying rate;
   rate.value = kinematics.G * flat(v);
@@ -168,7 +168,7 @@ Matrix3d force_directions(const Gap& gap, const Parts& parts) {
 }
 
 // F = B' f + spin' (f x d) = G' f, W = [G' b, P_alpha, spin' T]: dF = G' b (b^-1 df) + P_alpha dxi_alpha +
-// spin' T T' (f x dd). The change of the spin is left out. docs/theory.md, Eq. (6.14).
+// spin' T T' (f x dd). The change of the spin is left out. docs/theory, Eq. (6.14).
 void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, const Matrix3d& b,
                  ContactPoint& contact) {
   const auto T = couple_directions(kinematics);
@@ -189,7 +189,7 @@ void set_tangent(const ProjectionKinematics& kinematics, const Varying& f, const
   if (!f.v.isZero(0)) contact.V_dot.leftCols<3>() = -(b_inverse * f.v).transpose();
 }
 
-// Sets the compliance c and the gradients F_p, g_x of a contact without penalty: docs/theory.md, Eq. (6.24).
+// Sets the compliance c and the gradients F_p, g_x of a contact without penalty: docs/theory, Eq. (6.24).
 void set_unilateral(const Law& law, const ProjectionKinematics& kinematics, const Gap& gap,
                     const Parts& parts, ContactPoint& contact) {
   const bool follows_p = law.v_0 > 0;  // what sticks has a tangential force of its own

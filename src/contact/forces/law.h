@@ -1,5 +1,5 @@
 #pragma once
-// Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory.md, sections
+// Contact force of one slave node from its gap, its rate and its tangential motion (docs/theory, sections
 // 6.6 and 6.7), with the derivatives that the consistent tangent takes.
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace elastogear::contact {
 
 /// A point without a penalty between bodies in motion: the force p of a step with 0 <= p, 0 <= g_t -
-/// least_rate, one of them 0, for the rate g_t of the gap at its end (docs/theory.md, Eq. (6.32)). Which one
+/// least_rate, one of them 0, for the rate g_t of the gap at its end (docs/theory, Eq. (6.32)). Which one
 /// is not 0 is given. Between two steps the force is.
 struct Impact {
   bool in_step = false;    ///< is the force of a step looked for?

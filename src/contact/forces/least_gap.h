@@ -1,5 +1,5 @@
 #pragma once
-// The places on one side or face of the slave where its gap is least, by Newton's method (docs/theory.md,
+// The places on one side or face of the slave where its gap is least, by Newton's method (docs/theory,
 // section 6.12).
 
 #include <array>

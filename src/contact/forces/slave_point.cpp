@@ -11,7 +11,7 @@ namespace {
 using SlaveRows = Eigen::Matrix<double, 3, 12>;
 using FaceColumns = Eigen::Matrix<double, 24, Eigen::Dynamic, 0, 24, kColumns>;
 
-// Velocity of the point by those of its nodes: sum_i N_i v_i + Omega x e. docs/theory.md, Eq. (6.26).
+// Velocity of the point by those of its nodes: sum_i N_i v_i + Omega x e. docs/theory, Eq. (6.26).
 SlaveRows carried(const SlaveGeometry& s) {
   SlaveRows S = -skew(s.e) * face_spin(s.face, s.at[0], s.at[1]);
   for (int i = 0; i < 4; ++i) S.middleCols<3>(3 * i).diagonal().array() += s.N[i];
@@ -184,7 +184,7 @@ void spread_without_force(const SlaveGeometry& s, ContactPoint& c) {
 
 }  // namespace
 
-// The point follows the nodes: docs/theory.md, Eq. (6.27).
+// The point follows the nodes: docs/theory, Eq. (6.27).
 void spread_over_face(const SlaveGeometry& s, int n_dir, const Gap& gap, ContactPoint& c) {
   if (is_without_force(c)) return spread_without_force(s, c);
   const Eigen::Matrix2d curvature = gap_curvature(s, n_dir, {gap.g, gap.n, gap.n_x.leftCols<3>()});
@@ -197,7 +197,7 @@ LocalRow way_across(const Crossing& crossing, const ProjectionKinematics& kinema
   return crossing.outward.transpose() * kinematics.D;
 }
 
-// docs/theory.md, Eq. (6.27b).
+// docs/theory, Eq. (6.27b).
 void spread_crossing(const SlaveGeometry& s, const Crossing& crossing, const OpenPoint& open, double per_gap,
                      ContactPoint& c) {
   const LocalRow b_x = way_across(crossing, open.kinematics);

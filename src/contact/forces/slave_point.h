@@ -1,6 +1,6 @@
 #pragma once
 // Points of the slave surface that are not nodes: on a face or one of its sides, on the smooth surface behind
-// it (docs/theory.md, section 6.12).
+// it (docs/theory, section 6.12).
 
 #include <Eigen/Core>
 

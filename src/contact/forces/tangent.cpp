@@ -38,7 +38,7 @@ Tangent normal_part(const Projection& w, const NormalStiffness& normal) {
   return t;
 }
 
-// The closest point is inside the face: W = [N, D_1, D_2, N_1, N_2]. docs/theory.md, Eq. (6.7).
+// The closest point is inside the face: W = [N, D_1, D_2, N_1, N_2]. docs/theory, Eq. (6.7).
 Tangent face_tangent(const Face& face, const Projection& w, const NormalStiffness& normal) {
   const Shape s = shape(face.sides, w.point.u, w.point.v);
   const Eigen::Vector3d a_u = combine(face, s.N_u), a_v = combine(face, s.N_v);
@@ -63,7 +63,7 @@ Tangent face_tangent(const Face& face, const Projection& w, const NormalStiffnes
 }
 
 // The closest point is on a side: W = [V_n, V_p, V_e, E_n], with the side's direction e and p = n x e.
-// docs/theory.md, Eq. (6.8).
+// docs/theory, Eq. (6.8).
 Tangent edge_tangent(const Face& face, const Projection& w, const NormalStiffness& normal) {
   const int side = w.point.part, next = (side + 1) % face.sides;
   const Eigen::Vector3d along = face.x[next] - face.x[side];

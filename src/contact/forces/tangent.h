@@ -1,5 +1,5 @@
 #pragma once
-// Consistent tangent of one penalty contact (docs/theory.md, section 6.3).
+// Consistent tangent of one penalty contact (docs/theory, section 6.3).
 
 #include <Eigen/Core>
 

@@ -48,7 +48,7 @@ constexpr double kConverged = 1e-13, kConvergedQuadratically = 1e-9;
 constexpr double kFarAway = 3;  // local coordinates beyond which the foot point cannot return to the face
 
 // Foot point from a start: Gauss-Newton steps first, then full Newton. Where
-// the full Hessian is indefinite, Gauss-Newton goes on: only it descends there. docs/theory.md, Eq. (6.2).
+// the full Hessian is indefinite, Gauss-Newton goes on: only it descends there. docs/theory, Eq. (6.2).
 bool foot_point(const Bilinear& x, Eigen::Vector2d& at) {
   for (int i = 0; i < kSteps; ++i) {
     Eigen::Vector2d delta;
@@ -139,7 +139,7 @@ bool is_irregular(const Bilinear& x) {
 
 // The distance from q to the line of constant u, squared, is |n|^2 / m with n = (c + a u) x (b + t u) and m =
 // |b + t u|^2. The coefficients of m d|n|^2/du - |n|^2 dm/du, by ascending powers of u.
-// docs/theory.md, Eq. (6.2a).
+// docs/theory, Eq. (6.2a).
 std::vector<double> slope_of_distance(const Bilinear& x) {
   const Eigen::Vector3d n[3] = {x.c.cross(x.b), x.c.cross(x.t) + x.a.cross(x.b), x.a.cross(x.t)};
   const double m[3] = {x.b.squaredNorm(), 2 * x.b.dot(x.t), x.t.squaredNorm()};

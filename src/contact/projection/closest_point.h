@@ -1,5 +1,5 @@
 #pragma once
-// Closest point on a face: its interior (docs/theory.md, Eq. (6.2)), its sides and its corners.
+// Closest point on a face: its interior (docs/theory, Eq. (6.2)), its sides and its corners.
 
 #include "elastogear/contact/face.h"
 
@@ -26,7 +26,7 @@ struct ClosestPoint {
 ClosestPoint closest_point(const Face& face, const Eigen::Vector3d& q);
 
 /// Tells that q is farther than `distance` (m) from a face, where a plane between both shows it:
-/// docs/theory.md, Eq. (6.2c). Of triangles it is not told.
+/// docs/theory, Eq. (6.2c). Of triangles it is not told.
 bool is_farther(const Face& face, const Eigen::Vector3d& q, double distance);
 
 }  // namespace elastogear::contact

@@ -1,5 +1,5 @@
 #pragma once
-// Normals of the smooth surface behind facets at their nodes (docs/theory.md, section 6.8).
+// Normals of the smooth surface behind facets at their nodes (docs/theory, section 6.8).
 
 #include <Eigen/Core>
 #include <vector>

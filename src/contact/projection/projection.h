@@ -1,5 +1,5 @@
 #pragma once
-// The one face, edge or vertex of the master surface that a slave node touches (docs/theory.md, section
+// The one face, edge or vertex of the master surface that a slave node touches (docs/theory, section
 // 6.2).
 
 #include <Eigen/Core>

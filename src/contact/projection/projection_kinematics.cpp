@@ -82,7 +82,7 @@ void set_kinematics(const Face& face, const Projection& projection, const Vector
   set_normal(x_slave, kinematics);
 }
 
-// Angular velocity Omega of the face at the closest point (docs/theory.md, Eq. (6.13)): that of its normal
+// Angular velocity Omega of the face at the closest point (docs/theory, Eq. (6.13)): that of its normal
 // and, about the normal, that of the edge or the mean of the tangents'.
 void set_spin(const Face& face, const Projection& w, ProjectionKinematics& kinematics) {
   kinematics.spin.setZero();

@@ -1,6 +1,6 @@
 #pragma once
 // Kinematics of a slave node over its closest point x_c = sum_i N_i x_i on a face, edge or vertex of the
-// master (docs/theory.md, section 6.5). Columns of derivatives are the 15 local coordinates:
+// master (docs/theory, section 6.5). Columns of derivatives are the 15 local coordinates:
 // slave node, four master nodes, x y z each.
 
 #include <Eigen/Core>

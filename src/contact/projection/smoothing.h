@@ -1,6 +1,6 @@
 #pragma once
 // How far the smooth surface behind a faceted one stands out of each facet: a cubic height over the face
-// whose slopes at the corners follow the normals at the nodes (docs/theory.md, section 6.8).
+// whose slopes at the corners follow the normals at the nodes (docs/theory, section 6.8).
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 // Contact on the extension at a surface boundary of the master, over which the fade factor w falls to zero:
-// the potential is w(xi) times that of a node on the surface (docs/theory.md, section 6.2).
+// the potential is w(xi) times that of a node on the surface (docs/theory, section 6.2).
 
 #include "contact/forces/law.h"
 

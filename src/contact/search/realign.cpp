@@ -61,7 +61,7 @@ std::vector<Ranked> combinations_of(int k, const Eigen::Vector3d& u) {
   return result;
 }
 
-// Adds the interval of sum_j w_j B_j . x, x in dop; returns its roundoff. docs/theory.md, Eq. (5.3).
+// Adds the interval of sum_j w_j B_j . x, x in dop; returns its roundoff. docs/theory, Eq. (5.3).
 double interval(const Kdop& dop, const Combination& c, double& lo, double& hi) {
   double size = 0;
   for (int j = 0; j < 3; ++j) {

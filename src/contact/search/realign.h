@@ -1,6 +1,6 @@
 #pragma once
 // Realignment: the k-DOP around a rotated k-DOP, the paper's first way of keeping a tree valid
-// (docs/theory.md, section 5.1).
+// (docs/theory, section 5.1).
 //
 // The new extent in direction u (in the old frame) is the largest u . x over the old k-DOP's hull points. By
 // linear-programming duality it is the smallest of sum_j w_j d_j over all ways to write u = sum_j w_j B_j as

@@ -196,7 +196,7 @@ void Tracker::place_for(int slave, const Neighbours& near) {
   for (int f : near.around) place_face(1 - slave, f);
 }
 
-// Bound of the relative motion of both surfaces since `then`: docs/theory.md, Eq. (5.5).
+// Bound of the relative motion of both surfaces since `then`: docs/theory, Eq. (5.5).
 double Tracker::distance_since(const SurfaceMotion then[2]) const {
   double distance = 0;
   double rigid = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 #pragma once
 // Which nodes and faces of two moving surfaces can touch, where those nodes are and how fast they move. A
-// search is made only when the surfaces have used up a skin (docs/theory.md, section 5.1).
+// search is made only when the surfaces have used up a skin (docs/theory, section 5.1).
 
 #include <optional>
 

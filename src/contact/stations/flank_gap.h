@@ -1,5 +1,5 @@
 #pragma once
-// The gap between two exact flanks over the chart of the owner's (docs/theory.md, section 6.18).
+// The gap between two exact flanks over the chart of the owner's (docs/theory, section 6.18).
 
 #include <Eigen/Core>
 #include <array>

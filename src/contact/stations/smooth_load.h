@@ -1,6 +1,6 @@
 #pragma once
 // Loads that are smooth to the mesh of a flank, around the places of stations, and what they do to an elastic
-// half-space (docs/theory.md, section 6.18).
+// half-space (docs/theory, section 6.18).
 
 #include <Eigen/Core>
 #include <array>

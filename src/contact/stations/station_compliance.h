@@ -1,5 +1,5 @@
 #pragma once
-// The compliance among the stations of two bodies in contact, right below their meshes (docs/theory.md,
+// The compliance among the stations of two bodies in contact, right below their meshes (docs/theory,
 // section 6.18).
 
 #include <Eigen/Core>

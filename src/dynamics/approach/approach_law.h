@@ -4,7 +4,7 @@
 namespace elastogear::dynamics {
 
 /// e(F) = c ((F + F_0)^m - F_0^m), F_0 = kTouch F_n: through e_n at F_n with the exponent m of the patch
-/// there, and with a finite slope at touch. docs/theory.md, Eq. (6.37).
+/// there, and with a finite slope at touch. docs/theory, Eq. (6.37).
 struct ApproachLaw {
   static constexpr double kTouch = 1e-2;
 

@@ -14,7 +14,7 @@
 namespace elastogear::dynamics {
 
 /// A pressure with the resultant 1 N that falls from a corner of the sides of cells, linearly along their
-/// edges, to zero at their other corners. docs/theory.md, Eq. (6.36).
+/// edges, to zero at their other corners. docs/theory, Eq. (6.36).
 struct HatPressure {
   struct Part {  // of a side, small beside it
     Eigen::Vector3d x;

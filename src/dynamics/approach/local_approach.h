@@ -1,6 +1,6 @@
 #pragma once
 // The local approach of flanks by H. Hertz, in place of what meshes make of it whose faces are wider than the
-// patch of contact: docs/theory.md, section 6.17. Each flank of one body of a pair, in contact with one flank
+// patch of contact: docs/theory, section 6.17. Each flank of one body of a pair, in contact with one flank
 // of the other, is displaced along its normals by e(F), a function of the force F between both.
 
 #include <map>

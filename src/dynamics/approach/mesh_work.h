@@ -1,6 +1,6 @@
 #pragma once
 // The work of the contact forces of a patch on the mesh's own local deformation, with that of smooth
-// pressures on an elastic half-space in its place: docs/theory.md, Eq. (6.36).
+// pressures on an elastic half-space in its place: docs/theory, Eq. (6.36).
 
 #include <map>
 #include <unordered_map>

@@ -99,7 +99,7 @@ void add_joint_rows(const JointTwists& twists, const BodyColumns& c, const conta
   }
 }
 
-// d(velocity): s_i turns it and adds P_dot_i at x_B. docs/theory.md, Eq. (6.12).
+// d(velocity): s_i turns it and adds P_dot_i at x_B. docs/theory, Eq. (6.12).
 void add_joint_rates(const JointTwists& twists, const BodyColumns& c, const contact::ContactPoint& point,
                      const contact::SurfaceState& state, Eigen::Index first, BodyTerms& terms) {
   for (Eigen::Index a = 0; a < c.n(); ++a) {
@@ -249,7 +249,7 @@ body::MotionSubspace velocity_twists(const body::Joint& joint, const body::Motio
 namespace {
 
 // Phi q' grows by shift_v Phi q and turns with w. What residual flexibility adds to positions has no rate of
-// its own, but turns, too. docs/theory.md, Eq. (6.12).
+// its own, but turns, too. docs/theory, Eq. (6.12).
 void append_rows(const JointTwists& twists, const BodyColumns& c, Eigen::Index first, Eigen::Index count,
                  BodyTerms& terms) {
   append(c, c.W, first, count, terms.L);

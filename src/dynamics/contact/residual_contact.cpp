@@ -159,7 +159,7 @@ VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& fou
 }
 
 // With w = R (f - L k lambda), lambda = L_V' (w - w_now) of all bodies: (I + H k) lambda = L_V' (R f -
-// w_now), H = L_V' R L. docs/theory.md, Eq. (6.21).
+// w_now), H = L_V' R L. docs/theory, Eq. (6.21).
 VectorXd ResidualContact::newton_step(const ContactState& state) {
   const std::vector<NodalForces>& found = state.force;
   const std::vector<VectorXd> w = displacements(state);

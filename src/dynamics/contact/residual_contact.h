@@ -1,7 +1,7 @@
 #pragma once
 // Contact of bodies with residual flexibility: contact forces f and the static responses w = R f to them
 // depend on each other, f = f(x + R f). Newton's method solves for both at every evaluation, so that f stays
-// a function of the coordinates (docs/theory.md, section 6.9).
+// a function of the coordinates (docs/theory, section 6.9).
 
 #include <functional>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 // Residual flexibility R = F - Phi_c K_r^-1 Phi_c' of one modal body: what the modes leave out of its static
-// response to contact forces (docs/theory.md, Eq. (6.20)), and how that creeps where the body is viscoelastic
+// response to contact forces (docs/theory, Eq. (6.20)), and how that creeps where the body is viscoelastic
 // (section 2.9).
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #pragma once
 // One Newton step for contact forces f and the static responses w = R f of the bodies to them, at unchanged
-// closest points (docs/theory.md, Eq. (6.21)).
+// closest points (docs/theory, Eq. (6.21)).
 
 #include <vector>
 

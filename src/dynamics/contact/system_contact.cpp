@@ -243,7 +243,7 @@ bool SystemContact::has_friction(std::size_t p, contact::FrictionLaw law) const 
 }
 
 // Energy that regularised friction takes as static responses change, in J since the last accepted state. The
-// slip velocity does not contain that change. docs/theory.md, Eq. (7.2a).
+// slip velocity does not contain that change. docs/theory, Eq. (7.2a).
 double SystemContact::friction_loss_of_responses() {
   if (!residual_contact_.any()) return 0;
   std::vector<PairContacts> rubbing;

@@ -259,7 +259,7 @@ void UnilateralForces::let_turn(Contact& contact) {
 }
 
 // The displacements u of the contacts that turn, and the forces z, are linear in each other: u = a + B z +
-// M u, y = q + C z + D u: docs/theory.md, Eq. (6.25a).
+// M u, y = q + C z + D u: docs/theory, Eq. (6.25a).
 std::optional<UnilateralForces::Turning> UnilateralForces::turning() const {
   Index n = 0;
   for (const Contact& contact : contacts_) n += contact.n_turns;

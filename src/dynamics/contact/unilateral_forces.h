@@ -1,6 +1,6 @@
 #pragma once
 // The forces of contacts without a penalty, and their static responses w = R f, which close the gaps: one
-// step of Newton's method from contacts that were found with other forces (docs/theory.md, Eqs. (6.24) and
+// step of Newton's method from contacts that were found with other forces (docs/theory, Eqs. (6.24) and
 // (6.25)).
 
 #include <optional>

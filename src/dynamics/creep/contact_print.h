@@ -1,5 +1,5 @@
 #pragma once
-// What the nodes of a viscoelastic body remember that are out of contact (docs/theory.md, section 3.8).
+// What the nodes of a viscoelastic body remember that are out of contact (docs/theory, section 3.8).
 // Without a force the states of all of them go on by the same matrix of the step, one for each law, so that
 // they and all that is linear or quadratic in them go on together, however many they are.
 

@@ -1,5 +1,5 @@
 #pragma once
-// History of the forces on a viscoelastic body, by which its residual displacement creeps (docs/theory.md,
+// History of the forces on a viscoelastic body, by which its residual displacement creeps (docs/theory,
 // section 3.8): states of the nodes that bear a force or did so lately, step by step; the print of all others
 // together.
 

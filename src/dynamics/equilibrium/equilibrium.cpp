@@ -13,7 +13,7 @@ namespace {
 
 // The joint block of the matrix is C + sigma M: no coordinate is without resistance before contact holds it.
 // The relative imbalance scales it down, so that Newton's method converges superlinearly in the end.
-// docs/theory.md, Eq. (8.19).
+// docs/theory, Eq. (8.19).
 constexpr double kResistance = 1;  // 1/s^2, sigma at full imbalance
 constexpr double kFreely = 1e-6;   // 1/s^2, while no bodies touch: they go as far as they may
 constexpr double kDistancePerDepth =

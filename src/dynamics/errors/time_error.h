@@ -1,5 +1,5 @@
 #pragma once
-// The error that the steps of a run have left in elastic coordinates (docs/theory.md, section 8.8). Private
+// The error that the steps of a run have left in elastic coordinates (docs/theory, section 8.8). Private
 // to module dynamics.
 
 #include <Eigen/Core>

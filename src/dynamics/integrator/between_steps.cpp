@@ -34,7 +34,7 @@ PetscErrorCode step_to(TS ts, PetscReal t, const Motion& x) {
 
 }  // namespace
 
-// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated: docs/theory.md,
+// Cubic Hermite polynomial through U and V at both ends of the last step, as integrated: docs/theory,
 // Eq. (8.10).
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   const Method& m = method(ts);
@@ -48,7 +48,7 @@ PetscErrorCode interpolate(TS ts, PetscReal t, Vec U) {
   return VecMAXPY(U, 4, weights, ends);
 }
 
-// Derivative of the Hermite polynomial of interpolate, docs/theory.md, Eq. (8.17).
+// Derivative of the Hermite polynomial of interpolate, docs/theory, Eq. (8.17).
 PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V) {
   const Method& m = method(ts);
   const PetscReal dt = m.step_size, s = (t - m.step_time) / dt, slope = 6 * s * (1 - s) / dt;
@@ -58,7 +58,7 @@ PetscErrorCode interpolate_velocity(TS ts, PetscReal t, Vec V) {
   return VecMAXPY(V, 4, weights, ends);
 }
 
-// Linear between the ends of the last step, docs/theory.md, Eq. (8.17).
+// Linear between the ends of the last step, docs/theory, Eq. (8.17).
 PetscErrorCode interpolate_acceleration(TS ts, PetscReal t, Vec A) {
   const Method& m = method(ts);
   const PetscReal s = (t - m.step_time) / m.step_size;

@@ -166,7 +166,7 @@ PetscErrorCode velocity_error_norm(TS ts, NormType type, PetscReal* norm) {
   return code;
 }
 
-// Local error of U, third order in dt, and of the predicted V, second order: docs/theory.md,
+// Local error of U, third order in dt, and of the predicted V, second order: docs/theory,
 // Eq. (8.9).
 PetscErrorCode evaluate_wlte(TS ts, NormType type, PetscInt* order, PetscReal* wlte) {
   const Method& m = method(ts);

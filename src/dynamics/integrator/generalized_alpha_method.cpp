@@ -20,7 +20,7 @@ PetscErrorCode destroy(Motion& x) {
   return 0;
 }
 
-// Newmark's formulas, docs/theory.md, Eq. (8.3): U, V at the end of a step from its start and the
+// Newmark's formulas, docs/theory, Eq. (8.3): U, V at the end of a step from its start and the
 // acceleration at the end.
 PetscErrorCode newmark(const Parameters& p, PetscReal dt, const Motion& start, const Motion& end) {
   PetscCall(VecCopy(start.V, end.V));
@@ -50,7 +50,7 @@ PetscErrorCode blend(PetscReal alpha, Vec a, Vec b, Vec y) {
   return 0;
 }
 
-// The stage between both ends of the step: docs/theory.md, Eqs. (8.2) and (8.6).
+// The stage between both ends of the step: docs/theory, Eqs. (8.2) and (8.6).
 PetscErrorCode set_stage(TS ts) {
   Method& m = method(ts);
   const Parameters& p = m.parameters;

@@ -1,5 +1,5 @@
 #pragma once
-// The arithmetic of one generalised-alpha step and its nonlinear solves (docs/theory.md, section 8). Private
+// The arithmetic of one generalised-alpha step and its nonlinear solves (docs/theory, section 8). Private
 // to module dynamics.
 
 #include <petscts.h>

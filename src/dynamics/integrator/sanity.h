@@ -1,5 +1,5 @@
 #pragma once
-// Checks that a computed state is one that the theory describes (docs/theory.md, section 8.5). Private to
+// Checks that a computed state is one that the theory describes (docs/theory, section 8.5). Private to
 // module dynamics.
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class Sanity {
   /// level linear that is no longer positive definite.
   void require_small(const model::Snapshot& now) const;
   /// Error when energy came from nowhere: in ten successive steps more than a tenth of what is turned over,
-  /// or a hundred times as much at once. docs/theory.md, section 8.5.
+  /// or a hundred times as much at once. docs/theory, section 8.5.
   void require_balance(double time, const model::Energies& now);
   /// J, stored at the start and turned over by loads and motions since: what a balance is to be compared
   /// with.

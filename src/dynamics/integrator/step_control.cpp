@@ -19,7 +19,7 @@ constexpr double kFirstShare = 1e-3;    // of the run, that the first step takes
 constexpr double kMostError = 2;        // of the tolerated error, with which a step is still taken
 constexpr double kSafety = 0.9;         // of the step that would have the tolerated error
 // A step over the one before, at most and at least. Below this bound no sequence that was looked for makes
-// energy of vibrations with rho_inf up to 0.8 (docs/theory.md, section 8.3); the least one is PETSc's.
+// energy of vibrations with rho_inf up to 0.8 (docs/theory, section 8.3); the least one is PETSc's.
 constexpr double kMostGrowth = 1.5, kMostCut = 0.1;
 // Displacements over the size of the bodies: one that stands for elastic displacements that are smaller, and
 // one that stands for them where no body is elastic.

@@ -1,6 +1,6 @@
 #pragma once
 // Contact of exact flanks at stations, of all pairs of a system at one state: gaps, compliance, forces and
-// their tangent (docs/theory.md, section 6.18). A function of the state alone.
+// their tangent (docs/theory, section 6.18). A function of the state alone.
 
 #include <array>
 #include <memory>

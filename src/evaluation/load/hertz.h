@@ -1,6 +1,6 @@
 #pragma once
 // Flank pressure by H. Hertz under the forces of a run: what a mesh shows whose faces are wider than the
-// patch of contact are means over the faces (docs/theory.md, sections 6.10 and 10.6).
+// patch of contact are means over the faces (docs/theory, sections 6.10 and 10.6).
 
 #include <Eigen/Core>
 #include <array>

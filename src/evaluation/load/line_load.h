@@ -1,5 +1,5 @@
 #pragma once
-// Load over the face width and its unevenness (docs/theory.md, section 10.3).
+// Load over the face width and its unevenness (docs/theory, section 10.3).
 
 #include <Eigen/Core>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The mass of a cell, whose displacements may have incompatible modes (docs/theory.md, section 1.1).
+// The mass of a cell, whose displacements may have incompatible modes (docs/theory, section 1.1).
 
 #include <Eigen/Core>
 
@@ -8,7 +8,7 @@
 namespace elastogear::fem {
 
 /// Mass of a cell with the displacements u = sum_a N_a u_a + sum_k P_k alpha_k of its nodal functions N_a and
-/// of modes P_k that vanish at the nodes, with the amplitudes alpha = T u_e: docs/theory.md, Eq. (1.5a).
+/// of modes P_k that vanish at the nodes, with the amplitudes alpha = T u_e: docs/theory, Eq. (1.5a).
 struct CellMass {
   Eigen::MatrixXd scalar;  ///< kg, integral of rho f_i f_j dV for the N_a, then the P_k
   Eigen::MatrixXd T;       ///< -, 3 n_P x 3 n_nodes, row 3 k + d; empty: the cell has no modes

@@ -72,7 +72,7 @@ const std::array<Sample, 27>& mass_points() {
 Eigen::Matrix3d centre_jacobian(const Coordinates& X) { return X * shape_derivatives(Point::Zero()); }
 
 // Gradients of the eight shape functions and the three corrected incompatible modes at one Gauss point.
-// docs/theory.md, Eq. (1.5).
+// docs/theory, Eq. (1.5).
 Gradients gradients(const Coordinates& X, const Sample& point, const Eigen::Matrix3d& J_0, double* det) {
   const Eigen::Matrix3d J = X * point.dN;
   *det = J.determinant();
@@ -122,7 +122,7 @@ Eigen::Matrix<double, 24, 1> mean_divergence(const Coordinates& X) {
   return sum / volume(X);
 }
 
-// K of all kFunctions functions, before condensation. docs/theory.md, Eq. (1.6).
+// K of all kFunctions functions, before condensation. docs/theory, Eq. (1.6).
 FullStiffness full_stiffness(const Coordinates& X, const Lame& material, model::Element element) {
   if (element != model::Element::bbar)
     return isotropic_stiffness<kFunctions, 8>(weighted_gradients(X), material);

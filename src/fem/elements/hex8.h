@@ -1,5 +1,5 @@
 #pragma once
-// The 8-node hexahedron: plain, with nine incompatible modes, or B-bar (docs/theory.md, section 1.1).
+// The 8-node hexahedron: plain, with nine incompatible modes, or B-bar (docs/theory, section 1.1).
 //
 // Incompatible modes: P_k = 1 - xi_k^2, k = 1..3, for each direction of displacement; E. L. Wilson's modes
 // with the corrected gradient grad P = (det J_0/det J) J_0^-T dP/dxi (J_0: Jacobian at the centre) of R. L.
@@ -34,7 +34,7 @@ double smallest_jacobian(const Coordinates& X);
 Stiffness stiffness(const Coordinates& X, const Elasticity& material, model::Element element);
 
 /// Stiffness of the cell by a part of the material's elasticity, with the incompatible amplitudes of the
-/// whole material: parts sum to stiffness(). docs/theory.md, Eq. (1.13).
+/// whole material: parts sum to stiffness(). docs/theory, Eq. (1.13).
 Stiffness stiffness_of_part(const Coordinates& X, const Elasticity& material, const Elasticity& part,
                             model::Element element);
 
@@ -46,7 +46,7 @@ Mass mass(const Coordinates& X, double rho);
 MassWithModes mass_with_modes(const Coordinates& X, double rho);
 
 /// Amplitudes of the incompatible modes per nodal displacement by static condensation: zero for every rigid
-/// motion. docs/theory.md, Eq. (1.5a).
+/// motion. docs/theory, Eq. (1.5a).
 Amplitudes incompatible_amplitudes(const Coordinates& X, const Elasticity& material);
 
 /// Stress at the 2x2x2 Gauss points, incompatible part included, extrapolated trilinearly to the nodes.

@@ -11,7 +11,7 @@ namespace elastogear::fem {
 /// Stiffness of n functions in three directions from their gradients at n_p points,
 ///   K[(a,i),(b,j)] = sum_p w_p (lambda g_ai g_bj + mu g_aj g_bi + mu delta_ij g_a . g_b),
 /// read off the one product T = G G'. G: 3n x n_p, column p = sqrt(w_p) (g_1x g_1y g_1z g_2x ...).
-/// docs/theory.md, Eq. (1.4).
+/// docs/theory, Eq. (1.4).
 template <int n, int n_p>
 Eigen::Matrix<double, 3 * n, 3 * n> isotropic_stiffness(const Eigen::Matrix<double, 3 * n, n_p>& G,
                                                         const Lame& material) {

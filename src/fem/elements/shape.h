@@ -1,5 +1,5 @@
 #pragma once
-// Shape functions of all cell types (docs/theory.md, section 1.1).
+// Shape functions of all cell types (docs/theory, section 1.1).
 //
 // Reference cells: hexahedra [-1, 1]^3; tetrahedra xi, eta, zeta >= 0 with sum <= 1; wedges triangle times
 // [-1, 1]; the pyramid [-1, 1]^3 with the face zeta = 1 collapsed into the apex.

@@ -74,7 +74,7 @@ bool is_well_posed(const Patch& patch) {
 }
 
 // Derivatives at the origin of the polynomial of degree 2 that fits values at the nodes best. Where they
-// leave the curvature open it is the least one. docs/theory.md, Eq. (1.14).
+// leave the curvature open it is the least one. docs/theory, Eq. (1.14).
 Eigen::Matrix2Xd derivatives(const Patch& patch, bool well_posed) {
   const auto P = polynomials(patch.z);
   FitMatrix N = fit_matrix(patch);
@@ -121,7 +121,7 @@ Matrix3d symmetric_product(const Vector3d& a, const Vector3d& b) {
 }
 
 // Stress per strain in the directions of the tensors G (six entries each): the others are without traction.
-// docs/theory.md, Eq. (1.15).
+// docs/theory, Eq. (1.15).
 template <int k>
 Eigen::Matrix<double, 6, k> stress_per_strain(const Eigen::Matrix<double, 6, k>& G, const Matrix6& H) {
   const Eigen::Matrix<double, 6, k> compliance = H.ldlt().solve(G);
@@ -129,7 +129,7 @@ Eigen::Matrix<double, 6, k> stress_per_strain(const Eigen::Matrix<double, 6, k>&
 }
 
 // The projection of stresses on those that have no traction and the same strains in the directions of the
-// tensors G (six entries each). docs/theory.md, Eq. (1.16a).
+// tensors G (six entries each). docs/theory, Eq. (1.16a).
 template <int k>
 Matrix6 within(const Eigen::Matrix<double, 6, k>& G, const Matrix6& H) {
   return stress_per_strain(G, H) * H.ldlt().solve(G).transpose();

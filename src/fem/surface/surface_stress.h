@@ -1,5 +1,5 @@
 #pragma once
-// Stress on a free surface from the displacements of the surface alone (docs/theory.md, section 1.5).
+// Stress on a free surface from the displacements of the surface alone (docs/theory, section 1.5).
 
 #include <Eigen/Core>
 #include <optional>

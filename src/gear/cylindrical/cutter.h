@@ -1,6 +1,6 @@
 #pragma once
 // Internal teeth as a pinion-type cutter generates them whose pitch circle rolls inside the gear's: involute,
-// and the trochoid of the cutter's rounded tip as fillet (docs/theory.md, section 9). Transverse section.
+// and the trochoid of the cutter's rounded tip as fillet (docs/theory, section 9). Transverse section.
 
 #include <Eigen/Core>
 

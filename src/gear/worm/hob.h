@@ -1,5 +1,5 @@
 #pragma once
-// The hob that makes a wheel, and the surface that it leaves (docs/theory.md, section 9).
+// The hob that makes a wheel, and the surface that it leaves (docs/theory, section 9).
 //
 // The hob turns about an axis that stands a from the wheel's, swivelled by sigma about the centre line (+Y)
 // against the worm's, while the wheel turns by z1/z2. All here is the space beside the left flank of the

@@ -45,7 +45,7 @@ void describe_energies(Out& out, const EnergyHistory& energy) {
   line(out, "energy balance: at most ", energy.balance.cwiseAbs().maxCoeff(), " J off");
 }
 
-// At the time `step` of the largest von Mises stress, Pa; see docs/theory.md, section 4.3.
+// At the time `step` of the largest von Mises stress, Pa; see docs/theory, section 4.3.
 void describe_error(Out& out, const StressSet& set, double peak, Eigen::Index step) {
   if (set.error.size() == 0) return line(out, "  estimated error of the reduction: none in the file");
   const double error = set.peak_error[step], share = peak > 0 ? 100 * error / peak : 0;
@@ -53,7 +53,7 @@ void describe_error(Out& out, const StressSet& set, double peak, Eigen::Index st
        set.error.maxCoeff(), " Pa at one node");
 }
 
-// The estimated error by `cause` in the largest stress: docs/theory.md, sections 1.7, 4.6
+// The estimated error by `cause` in the largest stress: docs/theory, sections 1.7, 4.6
 // and 4.7.
 void describe_error_by(Out& out, const char* cause, const StressSet& set, const Eigen::MatrixXd& error_by,
                        Eigen::Index node, Eigen::Index step) {

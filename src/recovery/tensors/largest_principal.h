@@ -1,5 +1,5 @@
 #pragma once
-// Largest principal values of symmetric tensors in closed form, several tensors at a time (docs/theory.md,
+// Largest principal values of symmetric tensors in closed form, several tensors at a time (docs/theory,
 // Eq. (4.2a)).
 
 #include <Eigen/Core>

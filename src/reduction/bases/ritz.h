@@ -1,5 +1,5 @@
 #pragma once
-// Rayleigh-Ritz vectors of (K, M) in the span of given columns (docs/theory.md, section 2.7).
+// Rayleigh-Ritz vectors of (K, M) in the span of given columns (docs/theory, section 2.7).
 
 #include <Eigen/Core>
 

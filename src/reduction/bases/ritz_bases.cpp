@@ -77,7 +77,7 @@ RitzSpace modal_attachment(const RitzTask& task, const RitzSpace& empty, const P
 
 double shift_in_rad(double hz) { return std::pow(2 * M_PI * hz, 2); }
 
-// Columns of one shift, until there are `size`. docs/theory.md, Eq. (2.18).
+// Columns of one shift, until there are `size`. docs/theory, Eq. (2.18).
 void add_chain(RitzSpace& space, ShiftedFactor& factor, MatrixXd W, int size) {
   factor.solve(W);
   MatrixXd Q = extend(space, std::move(W), size - space.size);
@@ -115,7 +115,7 @@ int interface_count(const RitzTask& task, int n) {
 }
 
 // Own rows of the lowest n vectors of the condensed pencil. The constraint modes span what K^-1 makes of the
-// forces on the interface. docs/theory.md, Eq. (2.17).
+// forces on the interface. docs/theory, Eq. (2.17).
 MatrixXd interface_vectors(const RitzTask& task, const RitzSpace& empty, int n, const Progress& progress) {
   RitzSpace constraint = make_space(*empty.K, *empty.M, static_cast<int>(task.interface_rows.size()));
   add_static_solutions(constraint, task, progress);

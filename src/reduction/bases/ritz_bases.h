@@ -1,5 +1,5 @@
 #pragma once
-// Bases of a held body beside its eigenmodes, to compare with (docs/theory.md, section 2.7).
+// Bases of a held body beside its eigenmodes, to compare with (docs/theory, section 2.7).
 
 #include <Eigen/Core>
 #include <vector>

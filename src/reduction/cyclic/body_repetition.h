@@ -1,6 +1,6 @@
 #pragma once
 // Finds whether a whole body, its mesh, its restraint and its materials, repeats around an axis:
-// docs/theory.md, section 2.6.
+// docs/theory, section 2.6.
 
 #include <vector>
 

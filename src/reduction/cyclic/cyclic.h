@@ -1,6 +1,6 @@
 #pragma once
 // Exact eigenmodes of a body that repeats around an axis, from one sector (D. L. Thomas, "Dynamics of
-// rotationally periodic structures", Int. J. Numer. Meth. Eng. 14 (1979) 81-102; docs/theory.md, section
+// rotationally periodic structures", Int. J. Numer. Meth. Eng. 14 (1979) 81-102; docs/theory, section
 // 2.6).
 
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// Eigenmodes of several harmonics at once from the sector cut open (docs/theory.md, section 2.6, Eq.
+// Eigenmodes of several harmonics at once from the sector cut open (docs/theory, section 2.6, Eq.
 // (2.11b)).
 
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// Eigenmodes of one harmonic of a body that repeats around an axis (docs/theory.md, section 2.6).
+// Eigenmodes of one harmonic of a body that repeats around an axis (docs/theory, section 2.6).
 
 #include <Eigen/Core>
 

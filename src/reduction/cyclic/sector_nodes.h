@@ -1,6 +1,6 @@
 #pragma once
 // Nodes of a sector that is cut open, and how their displacements follow from a harmonic's coordinates
-// (docs/theory.md, Eqs. (2.10) to (2.12), (2.11a)).
+// (docs/theory, Eqs. (2.10) to (2.12), (2.11a)).
 
 #include <Eigen/Core>
 #include <complex>

@@ -1,5 +1,5 @@
 #pragma once
-// Block L D L' of K - sigma M over the parts of a nested dissection (docs/theory.md, Eq. (2.10a)).
+// Block L D L' of K - sigma M over the parts of a nested dissection (docs/theory, Eq. (2.10a)).
 
 #include <Eigen/SparseCore>
 #include <memory>

@@ -238,7 +238,7 @@ bool is_counted(const Search& search, const Choice& choice) {
   return choice.modes[search.wanted() - 1].first < search.slicing.counted_below;
 }
 
-// Returns whether the number of modes found under the shift is right: docs/theory.md, Eq. (2.5). The last
+// Returns whether the number of modes found under the shift is right: docs/theory, Eq. (2.5). The last
 // window is counted up to its end, too; that leaves the factor at the shift again when modes are missing.
 bool is_complete(Search& search, const Shift& shift, const Choice& choice) {
   if (!search.slicing.verify_count) return true;

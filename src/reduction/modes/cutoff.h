@@ -21,7 +21,7 @@ using Count = std::function<int(double sigma)>;
 double find_cutoff(const Count& count, CountRange wanted, double start);
 
 /// The sigma below which an elastic body of the sector's volume and surface has n modes if it is large: H.
-/// Weyl's law for compression, shear and surface waves. docs/theory.md, Eq. (2.15).
+/// Weyl's law for compression, shear and surface waves. docs/theory, Eq. (2.15).
 double weyl_cutoff(const fem::Sector& sector, const std::vector<model::MaterialRegion>& regions, double n);
 
 }  // namespace elastogear::reduction

@@ -12,7 +12,7 @@ constexpr double kEqual = 1e-5;  ///< relative difference of eigenvalues that be
 /// body small enough for dense matrices.
 bool suits_dense(int n, int n_modes);
 
-/// find_eigenmodes without a shift or a search (docs/theory.md, section 2.2). Memory on rank 0: 5 n^2
+/// find_eigenmodes without a shift or a search (docs/theory, section 2.2). Memory on rank 0: 5 n^2
 /// numbers.
 Eigenmodes find_by_lapack(Mat K, Mat M, const EigenOptions& options, const ModeSink& sink,
                           const Progress& progress);

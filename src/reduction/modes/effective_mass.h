@@ -1,5 +1,5 @@
 #pragma once
-// Effective modal mass: how much of the body's inertia its modes carry (docs/theory.md, section 2.3).
+// Effective modal mass: how much of the body's inertia its modes carry (docs/theory, section 2.3).
 
 #include <Eigen/Core>
 #include <functional>

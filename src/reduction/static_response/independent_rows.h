@@ -18,7 +18,7 @@ struct IndependentRows {
   int n_nodes() const { return static_cast<int>(first.size()) - 1; }
 };
 
-/// S: rows of a stress operator, six of each node. docs/theory.md, Eq. (1.15).
+/// S: rows of a stress operator, six of each node. docs/theory, Eq. (1.15).
 IndependentRows independent_rows(const model::SparseRows& S);
 
 }  // namespace elastogear::reduction

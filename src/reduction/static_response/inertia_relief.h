@@ -1,6 +1,6 @@
 #pragma once
 // Static responses of a free body: loads are balanced by inertia, and responses are orthogonal to rigid
-// motions (docs/theory.md, section 2.4).
+// motions (docs/theory, section 2.4).
 
 #include <Eigen/Core>
 

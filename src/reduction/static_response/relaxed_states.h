@@ -1,6 +1,6 @@
 #pragma once
 // States of relaxation between which static responses of a viscoelastic body of several materials are
-// interpolated (docs/theory.md, section 2.9).
+// interpolated (docs/theory, section 2.9).
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 // Static responses of the harmonics of a body that repeats, from one elimination of its sector
-// (docs/theory.md, Eq. (6.20d)).
+// (docs/theory, Eq. (6.20d)).
 
 #include "elastogear/fem/sector_assembly.h"
 #include "reduction/cyclic/condensed_sector.h"

@@ -1,6 +1,6 @@
 #pragma once
 // Static responses P K^-1 P' are a sum over parts of K; a contribution is one term of it
-// (docs/theory.md, Eqs. (6.20a) and (6.20c)).
+// (docs/theory, Eqs. (6.20a) and (6.20c)).
 
 #include <Eigen/Core>
 #include <functional>

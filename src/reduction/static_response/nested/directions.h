@@ -1,5 +1,5 @@
 #pragma once
-// Orthonormal columns that sort what rows know of each other (docs/theory.md, Eq. (6.20c)).
+// Orthonormal columns that sort what rows know of each other (docs/theory, Eq. (6.20c)).
 
 #include <Eigen/Core>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Dense matrices of a part of a sparse one while it is eliminated (docs/theory.md, Eq. (6.20a)).
+// Dense matrices of a part of a sparse one while it is eliminated (docs/theory, Eq. (6.20a)).
 
 #include <Eigen/Core>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Static responses where they are wanted, P K^-1 P', by nested dissection (docs/theory.md, Eq. (6.20a)).
+// Static responses where they are wanted, P K^-1 P', by nested dissection (docs/theory, Eq. (6.20a)).
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
