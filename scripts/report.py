@@ -18,11 +18,12 @@ import numpy as np
 import yaml
 
 import results
-from page import bundle, curves, evaluation, example, fields, pack, texts
+from page import bundle, curves, evaluation, pack, texts
 
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 PROGRAM = os.path.join(SCRIPTS, "..", "build", "release", "src", "app", "elastogear")
 SOURCE = os.path.join(SCRIPTS, "page", "src")
+EXAMPLES = ("impact", "turn_in", "rolling")  # of the paper, in page/example.py
 MOST_BYTES = 15_000_000  # of the page
 QUANTITIES = (("von_mises", "Von Mises stress"), ("rankine", "Largest principal stress"), ("contact_traction", "Contact pressure"),
               ("pattern", "Contact pattern, largest pressure of all times"), ("error_of_von_mises", "Estimated error by the reduction"),
@@ -130,6 +131,10 @@ def start_step(case, times):
 
 def view_data(case, collection, room):
     """Everything that the picture needs. room: characters that it may take."""
+    try:
+        from page import fields  # here, so that a page without bodies needs no VTK
+    except ModuleNotFoundError as error:
+        sys.exit(f"report: the bodies in three dimensions need the Python package {error.name} (python3-vtk9); --no-picture leaves them out")
     times, surfaces = fields.read_surfaces(collection, case.result)
     return {"times": times.tolist(), "start": start_step(case, times), "x": case.axis.data(), "quantities": quantities(case, surfaces),
             "scales": scales(surfaces), "bodies": pack.pack(surfaces, room)}
@@ -273,6 +278,8 @@ def report_input(options):
 
 def report_example(options):
     """Page of an example of the paper: that of its last run, with the paper's figures and tables."""
+    from page import example  # here, so that a drive's page needs no matplotlib
+
     chosen = example.Example(options.input, options.folder)
     if chosen.name == "rolling":
         example.require_rolling(chosen)
@@ -303,7 +310,7 @@ def arguments():
     parser.add_argument("--elastogear", default=PROGRAM, help="program")
     parser.add_argument("--out", help="default: INPUT_report.html")
     options = parser.parse_args()
-    if (options.input in example.TITLE) != bool(options.folder):
+    if (options.input in EXAMPLES) != bool(options.folder):
         parser.error("expected an input file, or impact, turn_in or rolling with the folder of its results")
     if options.times < 1:
         parser.error(f"--times is {options.times}, must be at least 1")

@@ -2,6 +2,8 @@
 import ast
 import os
 import re
+import subprocess
+import sys
 import unittest
 
 import yaml
@@ -48,6 +50,11 @@ class Packaging(unittest.TestCase):
         self.assertEqual([node.name for node in recipe.body if isinstance(node, ast.ClassDef)], ["Elastogear"])
         self.assertEqual(yaml.safe_load(read("packaging", "spack", "repo.yaml"))["repo"]["namespace"], "elastogear")
         self.assertEqual(conda_recipe()["package"], {"name": "elastogear", "version": "version"})
+
+    def test_page_of_a_drive_needs_no_plots(self):
+        """The packages on which the .deb depends are enough for the page that `run` makes: neither matplotlib nor VTK."""
+        without = "import sys; sys.modules.update(matplotlib=None, vtk=None); import report; print(report.EXAMPLES)"
+        subprocess.run([sys.executable, "-B", "-c", without], cwd=os.path.join(ROOT, "scripts"), check=True, stdout=subprocess.DEVNULL)
 
 
 if __name__ == "__main__":
