@@ -9,6 +9,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libopenblas0, python3, python3-numpy, python3-h5py, python3-yaml")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS  # for programs that use the library
-    "libpetsc-real-dev, libslepc-real-dev, libhdf5-openmpi-dev, libmetis-dev, libeigen3-dev")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS  # for plots, for bodies in the report page, and for programs that use the library
+    "python3-matplotlib, python3-vtk9, libpetsc-real-dev, libslepc-real-dev, libhdf5-openmpi-dev, libmetis-dev, libeigen3-dev")
 include(CPack)
