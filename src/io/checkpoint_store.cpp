@@ -120,7 +120,8 @@ bool CheckpointReader::has(const std::string& array) const { return h5::exists(d
 
 Eigen::MatrixXd CheckpointReader::read(const std::string& array) const {
   const h5::Shape shape = h5::shape(data_->file, "/" + array);
-  const auto values = h5::read<double>(data_->file, "/" + array, {h5::kAny, h5::kAny});
+  // The end of a search that found all there is is infinite.
+  const auto values = h5::read<double>(data_->file, "/" + array, {h5::kAny, h5::kAny}, h5::Finite::any);
   return Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(shape[1]),
                                            static_cast<Eigen::Index>(shape[0]));
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "sample_body.h"
@@ -16,6 +18,8 @@ struct Pieces : testing::Test {
   std::string path = folder / "body.h5.partial";
   Eigen::MatrixXd A = Eigen::MatrixXd::Random(3, 2);
   Eigen::VectorXd row = Eigen::VectorXd::Random(1000);
+
+  Pieces() { A(1, 1) = -std::numeric_limits<double>::infinity(); }
 
   void write(CheckpointStore& store, const std::string& name) const {
     CheckpointWriter writer(store, name);
