@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
+#include "app/console/blas_kernels.h"
 #include "app/console/console.h"
 #include "app/console/environment.h"
 #include "app/console/lone_process.h"
 #include "app/options/command_line.h"
 #include "app/verbs/registry.h"
+#include "app/way_out.h"
+#include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/version.h"
@@ -68,21 +72,49 @@ PetscWords petsc_words(int argc, char** argv) {
   }
 }
 
+// Runs the verb; returns what went wrong, or nothing.
+std::string failure_of(const std::vector<Verb>& verbs, const CommandLine& line, const std::string& problem,
+                       int argc, char** argv) {
+  try {
+    require(problem.empty(), problem);
+    collectively(PETSC_COMM_WORLD, take_blas_memory);
+    run(find_verb(verbs, line.verb), verbs, line, argc, argv);
+    return "";
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, const std::string& problem,
                     int argc, char** argv) {
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  CommonEnd end;
+  const std::string failure = failure_of(verbs, line, problem, argc, argv);
+  if (rank == 0 && failure.empty()) warn_of_unused_options();
+  if (rank == 0 && !failure.empty())
+    std::fprintf(stderr, "elastogear %s: error: %s\n", line.verb.c_str(), failure.c_str());
+  end.wait(failure, rank == 0);
+  return failure.empty() ? 0 : 1;
+}
+
+int main_with_solvers(const std::vector<Verb>& verbs, const CommandLine& line, int argc, char** argv) {
+  PetscWords petsc = petsc_words(argc, argv);
+  std::vector<char*> words;
+  for (std::string& word : petsc.words) words.push_back(word.data());
+  int n_words = static_cast<int>(words.size());
+  words.push_back(nullptr);
+  char** first_word = words.data();
   try {
-    require(problem.empty(), problem);
-    run(find_verb(verbs, line.verb), verbs, line, argc, argv);
-    if (rank == 0) warn_of_unused_options();
-    return 0;
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "elastogear %s: error: out of memory\n", line.verb.c_str());
-  } catch (const std::exception& error) {
-    if (rank == 0) std::fprintf(stderr, "elastogear %s: error: %s\n", line.verb.c_str(), error.what());
+    Session session(n_words, first_word);
+    return main_in_session(verbs, line, petsc.problem, argc, argv);
+  } catch (const Error& error) {  // on some ranks only, perhaps
+    std::fprintf(stderr, "elastogear: error: %s\n", error.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    return 1;
   }
-  return 1;
 }
 
 }  // namespace
@@ -92,6 +124,7 @@ int main(int argc, char** argv) {
   using namespace elastogear;
   const std::vector<app::Verb> verbs = app::all_verbs();
   const app::CommandLine line = app::parse_command_line(argc, argv);
+  app::report_closed_pipes(line.verb);
   if (line.version) return std::printf("elastogear %s (%s)\n", version(), git_hash()), 0;
   if (line.verb.empty()) return app::print_usage(verbs), line.help ? 0 : 1;
   if (line.help) {
@@ -100,18 +133,8 @@ int main(int argc, char** argv) {
     return app::print_usage(verbs), 1;
   }
   app::start_with_settings(line.verb, argv);
-  app::start_alone_without_networks();
-  app::PetscWords petsc = app::petsc_words(argc, argv);
-  std::vector<char*> words;
-  for (std::string& word : petsc.words) words.push_back(word.data());
-  int n_words = static_cast<int>(words.size());
-  words.push_back(nullptr);
-  char** first_word = words.data();
-  try {
-    Session session(n_words, first_word);
-    return app::main_in_session(verbs, line, petsc.problem, argc, argv);
-  } catch (const Error& error) {  // on some ranks only, perhaps
-    std::fprintf(stderr, "elastogear: error: %s\n", error.what());
-    MPI_Abort(MPI_COMM_WORLD, 1);
-  }
+  const bool alone = app::start_alone();
+  const int code = app::checked_output(app::main_with_solvers(verbs, line, argc, argv), line.verb);
+  if (alone) std::_Exit(code);
+  return code;
 }

@@ -1,9 +1,15 @@
 #include "app/console/blas_kernels.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
+
+#include "elastogear/base/dense_product.h"
+#include "elastogear/base/error.h"
 
 namespace elastogear::app {
 namespace {
@@ -24,6 +30,14 @@ Instructions kernel_instructions() {
   if (best_instructions() != Instructions::portable) return Instructions::avx2;
 #endif
   return Instructions::portable;
+}
+
+// Bytes that the process may have.
+rlim_t memory_limit() {
+  rlim_t least = RLIM_INFINITY;
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA})
+    if (rlimit limit{}; getrlimit(resource, &limit) == 0) least = std::min(least, limit.rlim_cur);
+  return least;
 }
 
 }  // namespace
@@ -51,6 +65,20 @@ void use_one_blas_thread() {
   using Set = void (*)(int);
   const auto set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
   if (set && !std::getenv("OPENBLAS_NUM_THREADS")) set(1);
+}
+
+void take_blas_memory() {
+  constexpr std::size_t kBuffer = std::size_t{1} << 27, kWork = std::size_t{1} << 25;  // bytes
+  constexpr Eigen::Index kRows = 200;  // smaller products go without the buffer
+  if (openblas_core().empty() || memory_limit() == RLIM_INFINITY) return;
+  void* room = mmap(nullptr, kBuffer + kWork, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  require(room != MAP_FAILED, "the limit of memory, ", memory_limit() / 1024,
+          " kB (ulimit -v or -d), leaves no room for the ", kBuffer / 1024,
+          " kB that OpenBLAS needs: raise it");
+  munmap(room, kBuffer + kWork);
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(kRows, kRows);
+  Eigen::MatrixXd C = A;
+  multiply(Op::plain, Op::plain, 1.0, A, A, 0.0, C);
 }
 
 }  // namespace elastogear::app

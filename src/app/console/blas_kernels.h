@@ -26,4 +26,8 @@ std::string blas_advice();
 /// processor each time. Those that OPENBLAS_NUM_THREADS asks for remain.
 void use_one_blas_thread();
 
+/// Lets OpenBLAS take its buffer of memory while that is there: it asks for ever where the system refuses.
+/// Error when memory is limited (ulimit -v, -d) and there is no room for it.
+void take_blas_memory();
+
 }  // namespace elastogear::app

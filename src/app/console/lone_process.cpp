@@ -1,5 +1,6 @@
 #include "app/console/lone_process.h"
 
+#include <mpi.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,11 +17,14 @@ bool is_of_launcher(std::string_view variable) {
   });
 }
 
-void start_alone_without_networks() {
+bool start_alone() {
   constexpr int kKeep = 0;  // what the user has set
   for (char** variable = environ; variable && *variable; ++variable)
-    if (is_of_launcher(*variable)) return;
+    if (is_of_launcher(*variable)) return false;
   setenv("OMPI_MCA_pml", "ob1", kKeep);
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", kKeep);
+  setenv("OMPI_MCA_orte_create_session_dirs", "false", kKeep);
+  return MPI_Init(nullptr, nullptr) == MPI_SUCCESS;
 }
 
 }  // namespace elastogear::app
