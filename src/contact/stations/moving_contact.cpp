@@ -129,7 +129,7 @@ StationLaw law_of_point(const ToothContact& contact, double compliance) {
   return point_law(at.least, at.largest, compliance);
 }
 
-// Eq. (6.39) with Eq. (6.54).
+// Eqs. (6.39) and (6.54).
 Eigen::MatrixXd local_compliance(const ToothContact& contact) {
   const AmongStations& among = contact.pair->among;
   const Eigen::VectorXd L = (contact.side[0].moving.along / among.along).cwiseSqrt().cwiseInverse();
