@@ -1,15 +1,17 @@
 #!/usr/bin/python3
-"""Random elastic cylindrical drives, size tiny, over a pitch under four loads: is every position found, and is its error smooth?
+"""Random elastic drives, size tiny, over a pitch under four loads: is every position found, and is its error smooth?
 
     studies/random_sweeps.py --elastogear build/release/src/app/elastogear --out random_sweeps --drives 100 --seed 1
 
 Drives: external spur (a third) and helical gears to 35 deg, internal ones (a fifth); modules 1 to 6 mm, 9 to 70 teeth, profile shifts
 -0.5 to 0.8, faces 3 to 10 modules wide, equal or not, offset along the axis or not, with or without tip relief and lead crowning;
-hexahedra of 8 or of 20 nodes, without modes. Designs that the program refuses, and pairs with a contact ratio below 1.1 or tips below 0.2
-modules, are drawn anew. Before them stand fixed drives: the test gears A of the FZG, and drives of which positions were once lost.
+hexahedra of 8 or of 20 nodes, without modes. Worm drives (--worms): of all forms of flank and wheel, either hand, 1 to 6 starts, modules
+1 to 8 mm, 28 to 60 teeth, 15 to 25 deg, a fifth of the hobs larger than the worm. Designs that the program refuses, and pairs with a
+contact ratio below 1.1 or tips below 0.2 modules, are drawn anew. Before them stand fixed drives: the test gears A of the FZG, and drives
+of which positions were once lost.
 
 Each stands at 32 roll angles under 0.001, 0.1, 1 and 5 times the torque whose tangential force is 100 MPa times module and face width,
-some 300 MPa at the roots. Over a line of the table: positions that are found; the mean transmission error under each load; whether it
+some 300 MPa at the roots; of worms' wheels 40 MPa. Over a line of the table: positions that are found; the mean transmission error under each load; whether it
 falls with the load at every angle (the first gear stays behind the more the larger its torque); outliers, positions whose transmission
 error stands out of that of its two neighbours on each side by more than 0.1 of its range at that load and 0.01 um.
 """
@@ -29,6 +31,7 @@ from random_drives import bore, possible, text_of
 LOADS = (0.001, 0.1, 1, 5)  # of the nominal torque
 POSITIONS = 32
 STRESS = 100e6  # Pa, tangential force over module and face width
+STRESS_WORM = 40e6  # Pa, the same of the wheel of a worm
 JUMP, LEAST_JUMP = 0.1, 1e-8  # of the range of the transmission error; m
 HEAD = ("drive", "order", "found", *(f"{load:g}" for load in LOADS), "monotonous", "outliers", "s")
 
@@ -75,6 +78,22 @@ def random_drive(random):
     r_1 = m * z_1 / (2 * np.cos(np.radians(beta)))
     torque = float(f"{STRESS * m * width * r_1 * 1e-9:.4g}")
     return {**drive, "pinion": pinion, "wheel": wheel, "torque": torque, "element_order": int(random.integers(1, 3))}
+
+
+def random_worm(random):
+    m = random.uniform(1, 8)
+    starts = int(random.integers(1, 7))
+    quotient = random.uniform(max(7, 2.2 * starts), max(14, 2.5 * starts))
+    flank, form = str(random.choice(["ZA", "ZN", "ZI", "ZK"])), str(random.choice(["throated", "cylindrical", "helical"]))
+    flank = "ZI" if form == "helical" else flank
+    teeth, angle = int(random.integers(28, 61)), random.uniform(15, 25)
+    drive = {"drive": "worm", "module": mm(m), "pressure_angle": f"{angle:.4g} deg", "diameter_quotient": f"{quotient:.4g}",
+             "hand": str(random.choice(["left", "right"])), "worm": {"starts": starts, "flank": flank}, "wheel": {"teeth": teeth, "form": form}}
+    if form != "helical" and random.random() < 0.2:
+        drive["hob_oversize"] = mm(random.uniform(0.1, 1) * m)
+    width = 0.75 * m * (quotient + 2)  # of the worm's tip diameter
+    torque = float(f"{STRESS_WORM * m * width * m * starts / 2 * 1e-9:.4g}")
+    return {**drive, "torque": torque, "element_order": int(random.integers(1, 3))}
 
 
 def sweep(drive):
@@ -133,7 +152,7 @@ def try_drive(name, numbers, options):
     except Refused:
         facts = ""
     module = float(re.match(r"[\d.]+", numbers["module"]).group(0))
-    if facts and possible(facts, module):
+    if facts and (numbers["drive"] == "worm" or possible(facts, module)):
         return run_drive(name, numbers, drive, options)
     shutil.rmtree(folder)
     return None
@@ -165,6 +184,7 @@ def main():
     parser.add_argument("--elastogear", required=True)
     parser.add_argument("--out", required=True, help="folder; drives with lost positions or outliers stay in it")
     parser.add_argument("--drives", type=int, default=100, help="random ones")
+    parser.add_argument("--worms", action="store_true", help="worm drives in place of cylindrical ones")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", help="a drive's name, random_<number> or one of the fixed ones")
     parser.add_argument("--keep", action="store_true", help="all folders")
@@ -182,12 +202,12 @@ def main():
             counts.update(drives=counts["drives"] + 1, found=counts["found"] + found, all=counts["all"] + of_all)
         return line is not None
 
-    for name, numbers in fixed_drives().items():
+    for name, numbers in ({} if options.worms else fixed_drives()).items():
         show(name, numbers)
     random, number, run = np.random.default_rng(options.seed), 0, 0
     while run < options.drives:
         number += 1
-        run += show(f"random_{number}", random_drive(random))
+        run += show(f"random_{number}", (random_worm if options.worms else random_drive)(random))
     print(f"\n{counts['found']} of {counts['all']} positions of {counts['drives']} drives found")
 
 
