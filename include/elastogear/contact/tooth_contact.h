@@ -109,10 +109,11 @@ struct ToothContact {
   std::array<Side, 2> side;
   FaceEnds ends = {};  ///< of faces that round flanks, where stations move over them
   const ToothedPair* pair = nullptr;
-  Eigen::VectorXd gap;          ///< n, m, of the bodies as if they were rigid
-  Eigen::MatrixXd local;        ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
-  std::vector<StationLaw> own;  ///< n
-  Eigen::VectorXd across;       ///< n, -, distance across the line of contact for each m of the owner's v
+  std::vector<int> number = {};  ///< of stations that move, among those of the pair's strips
+  Eigen::VectorXd gap;           ///< n, m, of the bodies as if they were rigid
+  Eigen::MatrixXd local;         ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
+  std::vector<StationLaw> own;   ///< n
+  Eigen::VectorXd across;        ///< n, -, distance across the line of contact for each m of the owner's v
 
   Eigen::Index n() const { return gap.size(); }
   bool is_moving() const { return !side[0].loads; }

@@ -13,25 +13,28 @@ namespace elastogear::app {
 namespace {
 
 using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr int kAcross = 20, kAlong = 16;  // points across the profile and along a piece of the face
 
-// Chebyshev polynomials at x from -1 to 1, or their derivatives.
-VectorXd polynomials(double x, int n) {
-  VectorXd T(n);
+using Across = Eigen::Matrix<double, kAcross, 1>;
+using Along = Eigen::Matrix<double, kAlong, 1>;
+
+// Chebyshev polynomials at x from -1 to 1, and their derivatives.
+template <class Vector>
+Vector polynomials(double x) {
+  Vector T;
   T[0] = 1;
   T[1] = x;
-  for (Index k = 2; k < n; ++k) T[k] = 2 * x * T[k - 1] - T[k - 2];
+  for (Index k = 2; k < T.size(); ++k) T[k] = 2 * x * T[k - 1] - T[k - 2];
   return T;
 }
-VectorXd slopes(double x, int n) {
-  VectorXd U(n), dT(n);
+template <class Vector>
+Vector slopes(double x) {
+  Vector U;
   U[0] = 1;
   U[1] = 2 * x;
-  for (Index k = 2; k < n; ++k) U[k] = 2 * x * U[k - 1] - U[k - 2];
-  dT[0] = 0;
-  for (Index k = 1; k < n; ++k) dT[k] = static_cast<double>(k) * U[k - 1];
+  for (Index k = 2; k < U.size(); ++k) U[k] = 2 * x * U[k - 1] - U[k - 2];
+  Vector dT = Vector::Zero();
+  for (Index k = 1; k < U.size(); ++k) dT[k] = static_cast<double>(k) * U[k - 1];
   return dT;
 }
 double node(int i, int n) { return std::cos(std::numbers::pi * (i + 0.5) / n); }
@@ -46,14 +49,15 @@ Eigen::MatrixXd to_coefficients(int n) {
 
 // A piece of the face, of a flank of a left side.
 struct Piece {
-  double from, to;      // m, z
-  Eigen::MatrixXd psi;  // coefficients across the profile, from r_form to r_a, and along the piece
-  VectorXd r_form, r_a;
+  double from, to;  // m, z
+  // Coefficients across the profile, from r_form to r_a, and along the piece.
+  Eigen::Matrix<double, kAcross, kAlong> psi;
+  Along r_form, r_a;
 };
 
 Piece piece(const gear::Toothing& t, double from, double to) {
   const Eigen::MatrixXd across = to_coefficients(kAcross), along = to_coefficients(kAlong);
-  Piece p{from, to, Eigen::MatrixXd(kAcross, kAlong), VectorXd(kAlong), VectorXd(kAlong)};
+  Piece p{from, to, {}, {}, {}};
   for (int j = 0; j < kAlong; ++j) {
     const double z = (from + to) / 2 + (to - from) / 2 * node(j, kAlong);
     const gear::FlankEnds ends = t.ends(z);
@@ -62,9 +66,9 @@ Piece piece(const gear::Toothing& t, double from, double to) {
     for (int i = 0; i < kAcross; ++i)
       p.psi(i, j) = gear::psi(t, std::lerp(ends.r_form, ends.r_a, (1 + node(i, kAcross)) / 2), z);
   }
-  p.psi = across * p.psi * along.transpose();
-  p.r_form = along * p.r_form;
-  p.r_a = along * p.r_a;
+  p.psi = (across * p.psi * along.transpose()).eval();
+  p.r_form = (along * p.r_form).eval();
+  p.r_a = (along * p.r_a).eval();
   return p;
 }
 
@@ -116,22 +120,22 @@ class HobbedFlanks : public FormedFlanks {
     x = std::clamp((2 * z - p->from - p->to) / (p->to - p->from), -1., 1.);
     return *p;
   }
-  static Ends ends_of(const Piece& p, const VectorXd& T, const VectorXd& dT) {
+  static Ends ends_of(const Piece& p, const Along& T, const Along& dT) {
     return {p.r_form.dot(T), p.r_a.dot(T), p.r_form.dot(dT), p.r_a.dot(dT)};
   }
   Ends ends_at(double z) const {
     double x = 0;
     const Piece& p = piece_at(z, x);
-    return ends_of(p, polynomials(x, kAlong), 2 / (p.to - p.from) * slopes(x, kAlong));
+    return ends_of(p, polynomials<Along>(x), 2 / (p.to - p.from) * slopes<Along>(x));
   }
   // Linear beyond both ends of the profile, and the same beyond the ends of the face.
   Place place(double u, double z) const {
     double x = 0;
     const Piece& p = piece_at(z, x);
-    const VectorXd T_z = polynomials(x, kAlong), dT_z = 2 / (p.to - p.from) * slopes(x, kAlong);
+    const Along T_z = polynomials<Along>(x), dT_z = 2 / (p.to - p.from) * slopes<Along>(x);
     const double within = std::clamp(u, 0., 1.), beyond = u - within;
-    const VectorXd T = polynomials(2 * within - 1, kAcross), dT = 2 * slopes(2 * within - 1, kAcross);
-    const VectorXd psi = p.psi * T_z, psi_z = p.psi * dT_z;
+    const Across T = polynomials<Across>(2 * within - 1), dT = 2 * slopes<Across>(2 * within - 1);
+    const Across psi = p.psi * T_z, psi_z = p.psi * dT_z;
     const Ends ends = ends_of(p, T_z, dT_z);
     return {std::lerp(ends.r_form, ends.r_a, u),
             ends.r_a - ends.r_form,

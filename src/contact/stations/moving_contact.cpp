@@ -57,15 +57,18 @@ Eigen::MatrixXd shared_kernel(const ToothedBody& body, const std::vector<Strip>&
   return shared_kernel(boxes, width.a * scale.across, ends);
 }
 
-// -: dv/dz of the line of contact at each station, from its neighbours' places.
-std::vector<double> slopes(const std::vector<double>& v, const std::vector<double>& z) {
-  const std::size_t n = v.size();
-  std::vector<double> slope(n, 0);
-  for (std::size_t i = 0; n > 1 && i < n; ++i) {
-    const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, n - 1);
-    slope[i] = z[b] == z[a] ? 0 : (v[b] - v[a]) / (z[b] - z[a]);
-  }
-  return slope;
+// A station on the flank of one body.
+struct MovingPlace {
+  double v, z;   // m
+  double slope;  // -, dv/dz of the line of contact, from its neighbours' places
+};
+
+std::array<MovingPlace, 2> moving_place(const std::vector<NearestPlace>& places, std::size_t i) {
+  const NearestPlace &here = places[i], &a = places[i > 0 ? i - 1 : i],
+                     &b = places[std::min(i + 1, places.size() - 1)];
+  const auto slope = [](double dv, double dz) { return dz == 0 ? 0 : dv / dz; };
+  return {{{here.v, here.face.centre(), slope(b.v - a.v, b.face.centre() - a.face.centre())},
+           {here.mate_v, here.mate_z, slope(b.mate_v - a.mate_v, b.mate_z - a.mate_z)}}};
 }
 
 // Some lines on a worm run up its profile; loads follow them as far as they are not steep.
@@ -74,27 +77,27 @@ double bounded(double slope, const FlankPoint& at) {
   return std::clamp(slope, -most, most);
 }
 
-// length: m, of stations along the line; 0 of a point. nodes: those to take; null: those that are near.
-MovingLoads moving_loads(const FlankMesh& mesh, const ExactFlanks& flanks, const ToothContact::Side& side,
-                         const std::vector<double>& length, const std::vector<int>* nodes) {
+// Those of stations with this length along the line, m; 0 of a point. nodes: to take; null: those near.
+MovingLoads moving_loads(const FlankMesh& mesh, const ExactFlanks& flanks,
+                         const std::vector<MovingPlace>& places, const std::vector<double>& length,
+                         const std::vector<int>* nodes) {
   const LoadWidth width = load_width(mesh.grid);
-  const auto n = std::ssize(side.v);
-  const std::vector<double> slope = slopes(side.v, side.z);
+  const auto n = std::ssize(places);
   Eigen::MatrixXd weight(n, mesh.grid.n_nodes);
   Eigen::RowVectorXd near = Eigen::RowVectorXd::Zero(mesh.grid.n_nodes);
   MovingLoads loads{{}, {}, Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const FlankPoint at = flanks.point(mesh.name, side.v[k], side.z[k]);
-    const double along = bounded(slope[k], at);
+    const auto& [v, z, slope] = places[static_cast<std::size_t>(i)];
+    const FlankPoint at = flanks.point(mesh.name, v, z);
+    const double along = bounded(slope, at);
     const LineScale scale = line_scale(at, along);
-    const LoadWidth size{width.a, std::max(width.c, length[k] / (2 * scale.along))};
-    weight.row(i) = point_weights(mesh.grid, side.v[k], side.z[k], along, size);
-    loads.smooth[i] = point_kernel(mesh.grid, side.v[k], side.z[k], size, scale);
+    const LoadWidth size{width.a, std::max(width.c, length[static_cast<std::size_t>(i)] / (2 * scale.along))};
+    weight.row(i) = point_weights(mesh.grid, v, z, along, size);
+    loads.smooth[i] = point_kernel(mesh.grid, v, z, size, scale);
     loads.along[i] = scale.along;
     if (nodes) continue;
     const LoadWidth larger{kFarther * size.a, kFarther * size.c};
-    near += point_weights(mesh.grid, side.v[k], side.z[k], along, larger).cwiseAbs();
+    near += point_weights(mesh.grid, v, z, along, larger).cwiseAbs();
   }
   if (nodes) {
     loads.node = *nodes;
@@ -136,58 +139,80 @@ Eigen::MatrixXd local_compliance(const ToothContact& contact) {
   Eigen::MatrixXd local = Eigen::MatrixXd::Zero(contact.n(), contact.n());
   for (std::size_t s : {0, 1}) {
     const Eigen::VectorXd D = contact.side[s].moving.smooth.cwiseSqrt();
-    local += compliance_of(*contact.pair, s) * (L.asDiagonal() * among.line[s] * L.asDiagonal());
-    local -= compliance_of(*contact.pair, s) * (D.asDiagonal() * among.smooth[s] * D.asDiagonal());
+    const Eigen::MatrixXd line = among.line[s](contact.number, contact.number),
+                          smooth = among.smooth[s](contact.number, contact.number);
+    local += compliance_of(*contact.pair, s) * (L.asDiagonal() * line * L.asDiagonal());
+    local -= compliance_of(*contact.pair, s) * (D.asDiagonal() * smooth * D.asDiagonal());
   }
   return local;
 }
 
-void set_sides(const std::array<const FlankMesh*, 2>& mesh, ToothContact& contact,
-               const std::array<const std::vector<int>*, 2>& nodes) {
-  const RelativePlacement& placement = contact.placement;
-  std::vector<double> length;
+// all: places on all strips of the pair.
+void set_sides(const std::array<const FlankMesh*, 2>& mesh, const std::vector<NearestPlace>& all,
+               const std::array<const std::vector<int>*, 2>& nodes, ToothContact& contact) {
+  const auto n = std::ssize(contact.number);
+  std::array<std::vector<MovingPlace>, 2> at;
+  for (int i : contact.number)
+    for (std::size_t s : {0, 1}) at[s].push_back(moving_place(all, static_cast<std::size_t>(i))[s]);
+  std::vector<double> length(contact.places.size(), 0);
   for (std::size_t s : {0, 1}) {
     ToothContact::Side side{mesh[s]->name, mesh[s], nullptr, {}, {}, {}, {}};
-    side.direction.resize(3, std::ssize(contact.places));
-    for (Eigen::Index i = 0; const NearestPlace& place : contact.places) {
-      side.v.push_back(s == 0 ? place.v : place.mate_v);
-      side.z.push_back(s == 0 ? place.face.centre() : place.mate_z);
-      side.direction.col(i++) = s == 0 ? place.n : Eigen::Vector3d(-(placement.R.transpose() * place.n));
+    side.direction.resize(3, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      side.v.push_back(at[s][k].v);
+      side.z.push_back(at[s][k].z);
+      side.direction.col(i) = contact.places[k].n;
     }
-    const ExactFlanks& flanks = s == 0 ? *contact.flanks.owner : *contact.flanks.mate;
-    if (s == 0) length.assign(side.v.size(), 0);
-    side.moving = moving_loads(*mesh[s], flanks, side, length, nodes[s]);
-    if (s == 0)
-      for (std::size_t i = 0; i < length.size(); ++i)
-        length[i] = contact.places[i].face.length() * side.moving.along[static_cast<Eigen::Index>(i)];
+    if (s == 1) side.direction = -(contact.placement.R.transpose() * side.direction);
+    side.moving = moving_loads(*mesh[s], s == 0 ? *contact.flanks.owner : *contact.flanks.mate, at[s], length,
+                               nodes[s]);
+    for (std::size_t i = 0; s == 0 && i < length.size(); ++i)
+      length[i] = contact.places[i].face.length() * side.moving.along[static_cast<Eigen::Index>(i)];
     contact.side[s] = std::move(side);
+  }
+  contact.across.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& [v, z, slope] = at[0][static_cast<std::size_t>(i)];
+    const FlankPoint point = contact.flanks.owner->point(contact.flanks.on_owner, v, z);
+    contact.across[i] = line_scale(point, bounded(slope, point)).across;
   }
 }
 
-// nodes: see moving_loads.
-ToothContact make_contact(const ToothedPair& pair, const std::array<const FlankMesh*, 2>& mesh,
-                          const FlankPair& flanks, const FaceEnds& ends, const RelativePlacement& placement,
-                          std::vector<NearestPlace> places,
+// Two flanks near each other.
+struct NearFlanks {
+  FlankPair flanks;
+  std::array<const FlankMesh*, 2> mesh;
+  FaceEnds ends;
+};
+
+// number: of the stations among all places. nodes: see moving_loads.
+ToothContact make_contact(const ToothedPair& pair, const NearFlanks& near, const RelativePlacement& placement,
+                          const std::vector<NearestPlace>& all, const std::vector<int>& number,
                           const std::array<const std::vector<int>*, 2>& nodes) {
-  ToothContact contact{flanks, placement, std::move(places), {}, ends, &pair, {}, {}, {}, {}};
-  const auto n = std::ssize(contact.places);
-  set_sides(mesh, contact, nodes);
-  contact.gap.resize(n);
-  contact.across.resize(n);
-  const std::vector<double> slope = slopes(contact.side[0].v, contact.side[0].z);
+  ToothContact contact{near.flanks, placement, {}, {}, near.ends, &pair, number, {}, {}, {}, {}};
+  for (int i : number) contact.places.push_back(all[static_cast<std::size_t>(i)]);
+  set_sides(near.mesh, all, nodes, contact);
+  contact.gap.resize(std::ssize(number));
   const double compliance = pair.owner->compliance() + pair.mate->compliance();
-  for (std::size_t i = 0; i < contact.places.size(); ++i) {
+  for (std::size_t i = 0; i < number.size(); ++i) {
     const NearestPlace& place = contact.places[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    const FlankPoint at = flanks.owner->point(flanks.on_owner, place.v, place.face.centre());
-    contact.across[k] = line_scale(at, bounded(slope[i], at)).across;
-    contact.gap[k] = place.gap - pair.owner->deviation(*mesh[0], place.v, place.face.centre()) -
-                     pair.mate->deviation(*mesh[1], place.mate_v, place.mate_z);
+    contact.gap[static_cast<Eigen::Index>(i)] =
+        place.gap - pair.owner->deviation(*near.mesh[0], place.v, place.face.centre()) -
+        pair.mate->deviation(*near.mesh[1], place.mate_v, place.mate_z);
     contact.own.push_back(pair.strips[0].empty() ? law_of_point(contact, compliance)
                                                  : law_of_strip(contact, i, compliance));
   }
   contact.local = local_compliance(contact);
   return contact;
+}
+
+// Stations whose gaps a force may close.
+std::vector<int> close_ones(const std::vector<NearestPlace>& places, double of_height) {
+  std::vector<int> close;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (places[i].gap < kReach * of_height) close.push_back(static_cast<int>(i));
+  return close;
 }
 
 // The middle of a flank.
@@ -263,15 +288,17 @@ std::vector<ToothContact> moving_contacts(const ToothedPair& pair, const Relativ
       const FlankPoint seen = of_mate ? from_mate(at, placement) : from_owner(at, placement);
       if (!(of_mate ? is_near(seen, owner, on_owner.name, near) : is_near(seen, mate, on_mate.name, near)))
         continue;
-      const FlankPair flanks{&owner, on_owner.name, &mate, on_mate.name};
-      FaceEnds ends{{on_owner.grid.z.front(), on_owner.grid.z.back()},
-                    {on_mate.grid.z.front(), on_mate.grid.z.back()}};
-      if (!pair.strips[0].empty()) ends.owner = FaceEnds::kNone;
+      NearFlanks near_ones{{&owner, on_owner.name, &mate, on_mate.name},
+                           {&on_owner, &on_mate},
+                           {{on_owner.grid.z.front(), on_owner.grid.z.back()},
+                            {on_mate.grid.z.front(), on_mate.grid.z.back()}}};
+      if (!pair.strips[0].empty()) near_ones.ends.owner = FaceEnds::kNone;
       const Eigen::Vector2d start = owner.chart(on_owner.name, of_mate ? seen.x : at.x);
-      std::vector<NearestPlace> places = places_of(pair, flanks, ends, placement, start);
+      const std::vector<NearestPlace> places =
+          places_of(pair, near_ones.flanks, near_ones.ends, placement, start);
       if (touches(places, of_height))
-        contacts.push_back(make_contact(pair, {&on_owner, &on_mate}, flanks, ends, placement,
-                                        std::move(places), {nullptr, nullptr}));
+        contacts.push_back(make_contact(pair, near_ones, placement, places, close_ones(places, of_height),
+                                        {nullptr, nullptr}));
     }
   return contacts;
 }
@@ -311,9 +338,9 @@ double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f
   const NearestPlace& first = contact.places.front();
   const RelativePlacement then = moved(contact.placement, twist, time);
   const ToothContact there = make_contact(
-      *contact.pair, {contact.side[0].mesh, contact.side[1].mesh}, contact.flanks, contact.ends, then,
+      *contact.pair, {contact.flanks, {contact.side[0].mesh, contact.side[1].mesh}, contact.ends}, then,
       places_of(*contact.pair, contact.flanks, contact.ends, then, {first.v, first.face.centre()}),
-      {&contact.side[0].moving.node, &contact.side[1].moving.node});
+      contact.number, {&contact.side[0].moving.node, &contact.side[1].moving.node});
   return change +
          (potential_beside_flanks(there, f, of_nodes) - potential_beside_flanks(contact, f, of_nodes)) / time;
 }

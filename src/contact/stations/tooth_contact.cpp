@@ -64,7 +64,7 @@ double radius(const ToothContact& contact, std::size_t i, double b) {
 ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, const FlankMesh& on_mate,
                           const FlankPair& flanks, const RelativePlacement& placement,
                           std::vector<NearestPlace> places) {
-  ToothContact contact{flanks, placement, std::move(places), {}, {}, &pair, {}, {}, {}, {}};
+  ToothContact contact{flanks, placement, std::move(places), {}, {}, &pair, {}, {}, {}, {}, {}};
   const std::array<ToothedBody*, 2> body{pair.owner, pair.mate};
   const std::array<const FlankMesh*, 2> mesh{&on_owner, &on_mate};
   const auto n = std::ssize(contact.places);

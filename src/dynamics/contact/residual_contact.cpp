@@ -108,8 +108,9 @@ contact::ResidualDisplacement ResidualContact::residual(std::size_t b) {
 
 void ResidualContact::seen() { std::fill(change_.begin(), change_.end(), 0); }
 
-MatrixXd ResidualContact::among(std::size_t b, const std::vector<int>& node) {
-  return has_flexibility(b) ? tangent(b, node) : MatrixXd();
+const MatrixXd& ResidualContact::among(std::size_t b, const std::vector<int>& node) {
+  static const MatrixXd kNone;
+  return has_flexibility(b) ? tangent(b, node) : kNone;
 }
 
 const MatrixXd& ResidualContact::tangent(std::size_t b, const std::vector<int>& node) {

@@ -40,7 +40,7 @@ class ResidualContact {
   }
   /// R among the nodes (model::Surface numbers), m/N, with the tangent of the local approach; empty for a
   /// body without residual flexibility.
-  Eigen::MatrixXd among(std::size_t b, const std::vector<int>& node);
+  const Eigen::MatrixXd& among(std::size_t b, const std::vector<int>& node);
 
   /// N, norm of the change of all forces with a penalty that the roundoff of positions makes.
   void expect_roundoff(double force) { roundoff_ = force; }
