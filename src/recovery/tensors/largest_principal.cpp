@@ -104,7 +104,7 @@ template <class T>
 }
 
 [[gnu::always_inline]] inline void together(const double* s, double* values) {
-  Lanes t[6], result;
+  Lanes t[6] = {}, result;
   for (int i = 0; i < kLanes; ++i)
     for (int c = 0; c < 6; ++c) t[c][i] = s[6 * i + c];
   result = largest<Lanes>({t[0], t[1], t[2], t[3], t[4], t[5]});
