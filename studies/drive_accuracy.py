@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What `elastogear drive.yaml` says by default, beside the same on much finer meshes, as the tables of docs/validation.md:
+"""What `elastogear drive.yaml` says by default, beside the same on much finer meshes, as the tables of docs/validation/gears.md:
 
     studies/drive_accuracy.py --elastogear build/release/src/app/elastogear --out drive_accuracy [--drives readme,c14]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """How honest the estimated errors of stresses are: over the peak von Mises stress of every set of runs that scripts/example
-has made, beside the unreduced bodies. Prints the table of docs/validation.md, section 8.
+has made, beside the unreduced bodies. Prints the table of docs/validation/recovery.md, section Estimated errors of stresses.
 
     scripts/example impact --size tiny --law penalty --bases modal,modal_residual --modes 10,25,50,100,200       and so on
     studies/estimates.py out/examples/tiny/impact out/examples/tiny/turn_in ...

@@ -4,7 +4,7 @@
     studies/root_convergence.py --study build/release/studies/drive_roots --out roots [--figure docs/root_convergence.svg]
 
 Runs the study drive_roots once for each size and order and prints nodes, CPU seconds, and the errors of the largest von Mises
-stress, averaged and recovered, beside the references of docs/validation.md, section 36 (--wheel, --worm, MPa). Bodies are those of
+stress, averaged and recovered, beside the references of docs/validation/recovery.md, section Roots (--wheel, --worm, MPa). Bodies are those of
 the study: the worm, and five teeth of the wheel on their part of the disc."""
 import argparse
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What hexahedra make of pressures on their sides: docs/validation.md, section 43.
+"""What hexahedra make of pressures on their sides: docs/validation/contact.md, section Local contact compliance of flanks.
 
 A block of 18 x 18 x 9 sides of the length h = 1, held at its base, by a quarter of it; E = 1, nu = 0.3. Printed are mean
 displacements by loads under themselves, as means of 1/r in 1/h, less what base and faces of the block add. That is

@@ -19,7 +19,7 @@ CHAPTERS = {f"{THEORY}{path.stem}": path.read_text(encoding="utf-8") for path in
 SECTIONS = {number: page for page, text in CHAPTERS.items() for number in SECTION.findall(text)}  # by number: its page
 EQUATIONS = {number: page for page, text in CHAPTERS.items() for number in TAG.findall(text)}
 BARE = re.compile(r"\((\d+\.\d+[a-z]?)\)")
-PAGE = re.compile(r"\bdocs/(?:(\w+)\.md|theory)\b(?!/)")
+PAGE = re.compile(r"\bdocs/(?:((?:\w+/)?\w+)\.md|theory)\b(?!/)")
 IN_SECTION = re.compile(r"\bsections?\s+((?:\d+(?:\.\d+)?(?:,\s+|\s+and\s+|\s+to\s+)?)+)(?![\d.]*\d)")
 NO_LINKS = (nodes.literal, nodes.literal_block, nodes.reference, nodes.title, nodes.raw, nodes.comment, nodes.math,
             nodes.math_block, addnodes.desc_signature, addnodes.pending_xref, addnodes.toctree)

@@ -11,9 +11,9 @@ from headers import Interface, escaped
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 PLACE = re.compile(r"`((?:src|include|tests|scripts|studies|examples)/[\w./]+):([\w:~]+)`")
 MODULE_ROW = re.compile(r"^\| `(\w+)` \| \d \| [\w ]+ \| (.+) \|$", re.MULTILINE)
-PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/theory/*.md", "*/README.md", "examples/*/README.md")
+PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/*/*.md", "*/README.md", "examples/*/README.md")
 USING = ("tutorial", "drives", "examples", "evaluation", "life", "polymers", "python", "report", "file_format")
-KNOWING = ("theory/README", "notation", "bases", "validation", "performance", "architecture")
+KNOWING = ("theory/README", "notation", "bases", "validation/README", "performance", "architecture")
 PYTHON = {
     "Drives and simulations": ["elastogear.Drive", "elastogear.System", "elastogear.Simulation", "elastogear.Report", "elastogear.Quantity"],
     "States of a simulation": ["elastogear.State", *(f"elastogear._elastogear.{part}State" for part in ("Body", "Pair", "Bushing", "Load", "Sensor"))],
@@ -63,10 +63,10 @@ def contents(pages):
 
 
 def with_toctree(page, text, pages):
-    """A page with the pages below it in the sidebar: all of the site, the chapters of the theory."""
+    """A page with the pages below it in the sidebar: all of the site, or the chapters of a document."""
     if page == "README.md":
         return f"{text}\n{contents(pages)}"
-    if page == "docs/theory/README.md":
+    if re.fullmatch(r"docs/\w+/README\.md", page):
         return f"{text}\n" + toctree("Chapters", list(dict.fromkeys(re.findall(r"\]\((\w+)\.md\)", text))))
     return text
 

@@ -7,7 +7,7 @@ FREE_TIP = (2714.739, 2714.739, 10040.04, 14086.12)  # Hz
 TIP_IN_Y = (2714.741, 10466.62, 14086.58, 16412.49)
 OF_WEDGES = (2641.862, 3484.293)
 OF_TETRAHEDRA = (3240.267, 3780.357)
-FEWER_POINTS = 4e-3  # by which CalculiX's mass of wedges and tetrahedra is off (docs/validation.md, section 1)
+FEWER_POINTS = 4e-3  # by which CalculiX's mass of wedges and tetrahedra is off (docs/validation/statics_and_modes.md, section Frequencies of elements)
 HEAVY_CORNER = (613.9447, 630.5974, 2522.251, 5816.802)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The mesh of 20-node hexahedra of size small has the lowest two frequencies of the reference wheel, which err most of the first 20,
-within 1 % of those that meshes go to (docs/validation.md, section 42), and `mesh` says so. That of 8-node hexahedra has not.
+within 1 % of those that meshes go to (docs/validation/gears.md, section Meshes), and `mesh` says so. That of 8-node hexahedra has not.
 
     frequencies.py PATH/TO/elastogear PATH/TO/examples/worm_gear"""
 import os

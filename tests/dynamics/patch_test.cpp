@@ -104,7 +104,7 @@ TEST(PatchTest, is_passed_by_residual_flexibility_without_a_penalty) {
   }
 }
 
-// The table of docs/validation.md, section 9.
+// The table of docs/validation/contact.md, section Patch.
 struct Stated {
   Patch patch;
   PatchErrors error;

@@ -41,8 +41,8 @@ TEST(SecondOrderMesh, is_conforming_with_good_cells_and_nodes_on_the_flanks) {
   expect_flank(wheel, "tooth_01_right", g.wheel, 0, -1);
 }
 
-// The sizes and numbers of nodes of docs/validation.md, section 36; the paper's worm and wheel have 90,082
-// and 468,587 nodes.
+// The sizes and numbers of nodes of docs/validation/recovery.md, section Roots; the paper's worm and wheel
+// have 90,082 and 468,587 nodes.
 TEST(SecondOrderMesh, of_larger_sizes_has_good_cells_and_at_most_the_papers_nodes) {
   for (Size size : {Size::small, Size::medium, Size::paper}) {
     const mesh::Mesh worm = quadratic_worm({}, size), wheel = quadratic_wheel({}, size);

@@ -14,7 +14,7 @@ TAG = re.compile(r"\\tag\{([^}]+)\}")
 HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 LINE_BREAK = re.compile(r"\s*\n\s*(?:///?<?|#)?\s*")
 EQUATIONS = re.compile(r"\bEqs?\.((?: ?(?:,|to|and)? ?\(\d+\.\d+[a-z]?\))*)")
-SECTIONS = re.compile(r"\b(\w+\.md|docs/theory), sections? ([\w.]*\w)(?: and ([\w.]*\w))?")
+SECTIONS = re.compile(r"\b((?:\w+/)?\w+\.md|docs/theory), sections? ([\w.]*\w)(?: and ([\w.]*\w))?")
 
 
 def read(*path):  # empty when there is no such file
@@ -55,7 +55,7 @@ def violations(repository):
             in_code.update(equations if path.startswith(CODE) else [])
             found += [f"{path}: docs/theory has no equation ({e})" for e in equations or ["?"] if e not in tags]
         for page, *sections in SECTIONS.findall(text):
-            place = page if page == "docs/theory" else f"docs/{page}"
+            place = page if page == "docs/theory" else f"docs/{page.removeprefix('docs/')}"
             headings = HEADING.findall(equations_text if page == "docs/theory" else read(repository, place))
             found += [f"{path}: {place} has no section {s}" for s in sections
                       if s and not any(re.match(re.escape(s) + r"\b(?!\.)", heading) for heading in headings)]

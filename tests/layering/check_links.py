@@ -7,7 +7,7 @@ import re
 import sys
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-PAGES = ("*.md", "docs/*.md", "docs/theory/*.md", "*/README.md", "examples/*/README.md", ".github/*.md", ".github/*/*.md")
+PAGES = ("*.md", "docs/*.md", "docs/*/*.md", "*/README.md", "examples/*/README.md", ".github/*.md", ".github/*/*.md")
 PLACE = re.compile(r"`((?:src|include|tests|scripts|studies|examples)/[\w./]+):([\w:~]+)`")
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$")
 

@@ -6,8 +6,8 @@ namespace elastogear::app {
 namespace {
 
 // Error of the largest stress at a root, recovered on the free surface, under a load that is spread along a
-// flank, of the wheel under one as narrow as a patch of contact, too (docs/validation.md, section 36): a row
-// for meshes of order 1 and 2, a column for the sizes tiny, small, medium and paper.
+// flank, of the wheel under one as narrow as a patch of contact, too (docs/validation/recovery.md, section
+// Roots): a row for meshes of order 1 and 2, a column for the sizes tiny, small, medium and paper.
 constexpr const char* kWorm[2][4] = {{"22 % low", "21 % low", "14 % low", "11 % low"},
                                      {"within 9 %", "within 3 %", "within 1 %", "within 1 %"}};
 constexpr const char* kWheel[2][4] = {
@@ -17,7 +17,7 @@ constexpr const char* kWheel[2][4] = {
      "within 1 % (under a patch of contact 6 % low)",
      "within 1 % (under a patch of contact 0.4 to 1.4 % low)"}};
 
-// Error of the first 20 frequencies, rows and columns as above (docs/validation.md, section 42).
+// Error of the first 20 frequencies, rows and columns as above (docs/validation/gears.md, section Meshes).
 constexpr const char* kWormFrequencies[2][4] = {
     {"up to 6.1 % high", "up to 2 % high", "up to 2 % high", "within 1 %"},
     {"up to 1.1 % high", "within 1 %", "within 1 %", "within 1 %"}};
@@ -26,7 +26,7 @@ constexpr const char* kWheelFrequencies[2][4] = {
     {"up to 6.4 % high", "within 1 %", "within 1 %", "within 1 %"}};
 
 // Secant mesh stiffness of the reference drive beside what meshes go to with the local approach of
-// flanks, with that and without; rows and columns as above (docs/validation.md, section 42).
+// flanks, with that and without; rows and columns as above (docs/validation/gears.md, section Meshes).
 constexpr const char* kStiffness[2][4] = {
     {"8 % high (without the approach by H. Hertz 50 %)", "5 % high (without the approach by H. Hertz 26 %)",
      "3 % high (without the approach by H. Hertz 17 %)", "2 % high (without the approach by H. Hertz 10 %)"},

@@ -126,8 +126,8 @@ TimeSettings time_settings(const Options& options) {
   return time;
 }
 
-// With 18 nodes on the patch its largest pressure is 4 % off (docs/validation.md, section 11), with 37 less
-// than 0.1 %. Stations do not need a mesh that resolves it.
+// With 18 nodes on the patch its largest pressure is 4 % off (docs/validation/contact.md, section Flank),
+// with 37 less than 0.1 %. Stations do not need a mesh that resolves it.
 void print_resolution(const Options& options, const dynamics::SystemModel& system,
                       const dynamics::RunSummary& run) {
   constexpr int kResolved = 18;
