@@ -1,0 +1,48 @@
+"""The check of prose finds words, sentences and lines that it is there for, and nothing else."""
+import unittest
+
+import check_prose
+
+SHORT = "So it is. " * 4
+
+
+def of(count):
+    return " ".join(["x"] * count)
+
+
+class Prose(unittest.TestCase):
+    def assert_found(self, text, *messages):
+        found = check_prose.violations(text)
+        self.assertEqual(len(found), len(messages), found)
+        for message, complaint in zip(messages, found):
+            self.assertIn(message, complaint)
+
+    def test_plain_sentences_pass(self):
+        self.assert_found("# A heading\n\nThe wheel turns. A formula $a = b$ stands for a word (A. Author, J. Mech. 3 (1999) 1-2).\n")
+
+    def test_words_are_found_in_prose_tables_and_headings(self):
+        self.assert_found("Nodes at points\nof least gap.\n", "minimum-gap")
+        self.assert_found("| points of least gap | 1 |\n\n# Points of least gap\n", "minimum-gap", "minimum-gap")
+
+    def test_words_in_code_and_what_only_looks_alike_pass(self):
+        self.assert_found("Coordinates are told apart. `to and fro` is code. What is left out counts.\n")
+
+    def test_long_sentences_are_found(self):
+        self.assert_found(f"{SHORT}\n{of(46)}.\n", "a sentence of 46 words")
+        self.assert_found(f"{SHORT}\n{of(23)}. {of(23)}.\n")
+
+    def test_a_formula_goes_on_with_its_sentence_unless_it_ends_it(self):
+        self.assert_found(f"{SHORT}\n\n{of(23)}\n\n$$ a = b, \\tag{{1.1}} $$\n\n{of(23)}.\n", "a sentence of 47 words")
+        self.assert_found(f"{SHORT}\n\n{of(23)}\n\n$$ a = b . \\tag{{1.1}} $$\n\n{of(23)}.\n")
+
+    def test_the_median_is_bounded(self):
+        self.assert_found(f"{of(25)}.\n", "25 words in the median")
+
+    def test_wide_lines_are_found_but_for_tables_code_and_links(self):
+        wide = " ".join(["a. b."] * 30)
+        self.assert_found(f"{wide}\n", "a line of 179 characters")
+        self.assert_found(f"| {wide} |\n\n    {wide}\n\n[a](b) {wide}\n\n```\n{wide}\n```\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
