@@ -7,7 +7,7 @@
 
 drive: examples/drives/steering_worm.yaml, 10 modes a body and residual flexibility, at rest under its torque at 32 roll angles:
 mesh stiffness, operating contact ratio, largest pressure by H. Hertz and its mean over the roll angle, largest tension at the roots
-(mean over the roll angle), and CPU time of the reduction; with --approach hertz, by the bodies of an earlier run, with the flanks' local approach by H. Hertz.
+(mean over the roll angle), and CPU time of the reduction; with --points stations, by the bodies of an earlier run, with flanks at stations.
 frequencies: the first 20 of worm or wheel, held as in examples/worm_gear, beside those of the last mesh, one by one with --each;
 --element-mass as of `reduce`. web=5 is the count -wheel_count_web 5 of the wheel (-worm_count_... of the worm).
 What is there already is read again.
@@ -58,8 +58,8 @@ def drive(options):
     for mesh in options.meshes:
         folder = os.path.join(options.out, "drive_" + folder_name(mesh))
         arguments = [os.path.abspath(os.path.join(EXAMPLES, "drives", "steering_worm.yaml")), *mesh_options(mesh), "-modes", "10"]
-        if options.approach != "mesh":
-            reduced, folder = os.path.abspath(folder), folder + "_" + options.approach
+        if options.points != "minima":
+            reduced, folder = os.path.abspath(folder), folder + "_" + options.points
             for body in ("worm.h5", "wheel.h5"):
                 os.makedirs(folder, exist_ok=True)
                 if not os.path.exists(os.path.join(folder, body)):
@@ -69,7 +69,7 @@ def drive(options):
         if not os.path.exists(os.path.join(folder, "wheel.h5")):
             seconds = run(options, folder, "reduce", *arguments)
         if not os.path.exists(os.path.join(folder, "steering_worm_evaluation.h5")):
-            run(options, folder, "simulate", *arguments, "-analysis", "sweep", "-contact_approach", options.approach)
+            run(options, folder, "simulate", *arguments, "-analysis", "sweep", "-contact_points", options.points)
             run(options, folder, "evaluate", *arguments)
         nodes = [nodes_of(os.path.join(folder, body + ".h5")) for body in ("worm", "wheel")]
         with h5py.File(os.path.join(folder, "steering_worm_evaluation.h5")) as file:
@@ -105,7 +105,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--elastogear", required=True)
     parser.add_argument("--out", required=True)
-    parser.add_argument("--approach", choices=("mesh", "hertz"), default="mesh", help="of flanks, by the bodies of an earlier run")
+    parser.add_argument("--points", choices=("minima", "stations"), default="minima", help="of contact, by the bodies of an earlier run")
     parser.add_argument("--element-mass", choices=("compatible", "condensed"), default="compatible", help="of hexahedra of 8 nodes, for frequencies")
     parser.add_argument("--each", action="store_true", help="print the error of each frequency")
     parser.add_argument("what", choices=("drive", "frequencies"))

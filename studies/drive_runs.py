@@ -75,9 +75,9 @@ class Drive:
         if not any(name.endswith(".h5") for name in os.listdir(self.folder)):
             self.run("reduce", *options)
 
-    def at(self, roll, *options, approach="mesh"):
-        """The drive at rest at a roll angle, in pitches of the first gear; approach: of the flanks."""
-        self.run("simulate", "-roll", repr(float(roll)), "-output", self.output, "-contact_approach", approach, *options)
+    def at(self, roll, *options, points="minima"):
+        """The drive at rest at a roll angle, in pitches of the first gear; points: of contact."""
+        self.run("simulate", "-roll", repr(float(roll)), "-output", self.output, "-contact_points", points, *options)
         with results.open_file(self.output, "result") as file:
             torque = [float(f["joint_force"][-1, 0]) for f in file["bodies"].values() if f["joint_force"].shape[1]]
         return Position(self.output, torque[0])

@@ -6,8 +6,8 @@
 //        |  wheel     4. simulate    static: the blocks approach each other until some 50 N are between them
 //        |            5. compare     largest nodal force over nodal area, half axes, stress
 //
-// Sample run:   hertz /tmp modal_residual 4 8     (folder; or: full, unilateral, faces, minima, approach;
-// facets across the ellipse; with minima and approach nodes of the wheel are moved by an eighth of a facet)
+// Sample run:   hertz /tmp modal_residual 4 8     (folder; or: full, unilateral, faces, minima;
+// facets across the ellipse; with minima nodes of the wheel are moved by an eighth of a facet)
 // Expected:     exit code 0: from 8 facets on the peak pressure is within 5 % of Hertz's.
 
 #include <Eigen/Eigenvalues>
@@ -187,7 +187,6 @@ struct Method {
   bool full = false;  // the full basis; otherwise ten modes with residual flexibility
   contact::ContactLaw law = contact::ContactLaw::penalty;
   contact::SlavePoints points = contact::SlavePoints::nodes;
-  contact::FlankApproach approach = contact::FlankApproach::mesh;
 };
 
 Method method(const std::string& name) {
@@ -197,11 +196,7 @@ Method method(const std::string& name) {
   if (name == "faces") return {.law = contact::ContactLaw::unilateral, .points = contact::SlavePoints::faces};
   if (name == "minima")
     return {.law = contact::ContactLaw::unilateral, .points = contact::SlavePoints::minima};
-  if (name == "approach")
-    return {.law = contact::ContactLaw::unilateral,
-            .points = contact::SlavePoints::minima,
-            .approach = contact::FlankApproach::hertz};
-  fail("no method '", name, "': full, modal_residual, unilateral, faces, minima or approach");
+  fail("no method '", name, "': full, modal_residual, unilateral, faces or minima");
 }
 
 std::shared_ptr<const model::ElasticBody> reduced(const mesh::Mesh& mesh, bool full,
@@ -246,7 +241,6 @@ dynamics::System pressed(const Flank& worm, const Flank& wheel, double approach,
       .law = method.law, .points = method.points, .slave = 1, .surface = contact::ContactSurface::smooth};
   if (method.points == contact::SlavePoints::minima) {
     contact.surface = contact::ContactSurface::exact;
-    contact.approach = method.approach;
     fixed.true_surface = true_surface(worm, fixed.body->surface);
     moving.true_surface = true_surface(wheel, moving.body->surface);
     fixed.surface_compliance = moving.surface_compliance = (1 - kNu * kNu) / kE;

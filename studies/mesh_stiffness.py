@@ -65,7 +65,7 @@ def main():
     parser.add_argument("--bore", type=float, default=0.4, help="of the root diameters")
     parser.add_argument("--torque", type=float, default=9000, help="N m")
     parser.add_argument("--positions", type=int, default=16)
-    parser.add_argument("--approach", choices=("mesh", "hertz"), default="mesh", help="of the flanks")
+    parser.add_argument("--points", choices=("minima", "stations"), default="minima", help="of contact")
     options = parser.parse_args()
     folder = os.path.join(options.out, f"{options.size}_{options.bore:g}")
     os.makedirs(folder, exist_ok=True)
@@ -79,7 +79,7 @@ def main():
     ways, largest = [], []
     for roll in np.arange(options.positions) / options.positions:
         try:
-            state = drive.at(roll, approach=options.approach)
+            state = drive.at(roll, points=options.points)
         except Refused as why:
             print(f"roll {roll:.4f}: left out: {why}", flush=True)
             continue

@@ -102,7 +102,7 @@ def found_stiffness(program):
         file.write(GEARS)
     if not os.path.exists("static_evaluation.h5"):
         run(program, "reduce", "static.yaml")
-        run(program, "simulate", "static.yaml", "-analysis", "sweep", "-sweep_positions", 64, "-contact_approach", "mesh")
+        run(program, "simulate", "static.yaml", "-analysis", "sweep", "-sweep_positions", 64, "-contact_points", "minima")
         run(program, "evaluate", "static.yaml", "-root_stress", "false")
     found = only_case("static_evaluation.h5")
     with h5py.File("wheel.h5", "r") as file:
@@ -141,7 +141,7 @@ def elastic_history(program, ramp, name, damping, dt):
     with open(f"{name}.yaml", "w", encoding="utf-8") as file:
         file.write(dynamic_text(ramp, name, damping, dt))
     if not os.path.exists(f"{name}_evaluation.h5"):
-        run(program, "simulate", f"{name}.yaml", "-contact_approach", "mesh")
+        run(program, "simulate", f"{name}.yaml", "-contact_points", "minima")
         run(program, "evaluate", f"{name}.yaml", "-root_stress", "false")
     found = only_case(f"{name}_evaluation.h5")
     return found["time"][:], -found["transmission_error/loaded"][:]

@@ -82,11 +82,11 @@ def turn(angle):
 class Elastogear:
     """Equilibrium at one roll angle: start and end of the pinion's angle, places of both, forces by pair of areas."""
 
-    def __init__(self, program, folder, roll, torque, surface, approach="mesh"):
-        name = f"roll_{roll:g}_{torque:g}_{surface}_{approach}"
+    def __init__(self, program, folder, roll, torque, surface, points="minima"):
+        name = f"roll_{roll:g}_{torque:g}_{surface}_{points}"
         output = name + ".h5"
         if not os.path.exists(os.path.join(folder, output)):
-            run([program, "simulate", "drive.yaml", "-roll", repr(roll), "-torque", repr(torque), "-contact_surface", surface, "-contact_approach", approach,
+            run([program, "simulate", "drive.yaml", "-roll", repr(roll), "-torque", repr(torque), "-contact_surface", surface, "-contact_points", points,
                  "-output", output], folder, name + ".log")
         with results.open_file(os.path.join(folder, output), "result") as file:
             self.start = float(file["provenance"].attrs["option_pinion_angle0"])

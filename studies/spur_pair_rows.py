@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Secant mesh stiffness of a spur pair by the rows of faces up its flanks, with the mesh's approach and with that by H. Hertz:
+"""Secant mesh stiffness of a spur pair by the rows of faces up its flanks, at minimum-gap points and at stations:
 
     studies/spur_pair_rows.py --elastogear build/release/src/app/elastogear --mesh build/release/studies/spur_pair_mesh --out spur_pair_rows
 
@@ -31,10 +31,10 @@ def reduce(options, folder, rows):
              "-restrain", "hub", "-surface", flanks, "-stress_nodes", "root", "-modes", MODES, "-output", name + ".h5"], folder, f"reduce_{name}.log")
 
 
-def stiffness(options, folder, roll, approach):
+def stiffness(options, folder, roll, points):
     """N/m."""
-    name = f"{approach}_{roll:g}"
-    run([os.path.abspath(options.elastogear), "simulate", "drive.yaml", "-roll", roll, "-torque", TORQUE, "-contact_approach", approach, "-output",
+    name = f"{points}_{roll:g}"
+    run([os.path.abspath(options.elastogear), "simulate", "drive.yaml", "-roll", roll, "-torque", TORQUE, "-contact_points", points, "-output",
          name + ".h5"], folder, name + ".log")
     with results.open_file(os.path.join(folder, name + ".h5"), "result") as file:
         turned = file["bodies/pinion/rigid"][-1, 0] - float(file["provenance"].attrs["option_pinion_angle0"])
@@ -53,7 +53,7 @@ def main():
     for rows in options.rows:
         folder = os.path.join(options.out, str(rows))
         reduce(options, folder, rows)
-        found = [[stiffness(options, folder, roll, approach) / 1e6 for approach in ("mesh", "hertz")] for roll in options.rolls]
+        found = [[stiffness(options, folder, roll, points) / 1e6 for points in ("minima", "stations")] for roll in options.rolls]
         print(f"| {rows} | " + " | ".join(f"{mesh:.1f}, {hertz:.1f}" for mesh, hertz in found) + " |", flush=True)
 
 

@@ -39,7 +39,7 @@ def make(program, drive, folder, size, positions):
     if not os.path.exists(paths[0]):
         run(program, folder, "reduce", name, *common)
         run(program, folder, "simulate", name, *common, "-analysis", "sweep", "-sweep_positions", positions, "-output", "reduced_result.h5",
-            "-contact_approach", "mesh")
+            "-contact_points", "minima")
         run(program, folder, "evaluate", name, *common, "-result", "reduced_result.h5", "-output", "reduced_evaluation.h5")
     files = full_files(folder)
     if not os.path.exists(paths[1]):

@@ -17,7 +17,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../tests/app"))
 from micro_geometry import DRIVE, R_B, TEETH, UM, WIDTH, Drive, move_flanks, tip_relief  # noqa: E402
 
-SWEEP = ("-analysis", "sweep", "-sweep_positions", "16", "-contact_approach", "mesh")
+SWEEP = ("-analysis", "sweep", "-sweep_positions", "16", "-contact_points", "minima")
 
 
 def transmission_error(path):

@@ -52,7 +52,7 @@ def main():
         prepare(options, folder)
         run([os.path.abspath(options.elastogear), "wear", "drive.yaml", "-torque", options.torque, "-sweep_positions", options.positions,
              "-coefficient", K, "-revolutions", TURNS, "-increment", 1, "-cells_along", CELLS, "-cells_across", 2, "-output", "wear.h5",
-             "-contact_approach", "mesh"],
+             "-contact_points", "minima"],
             folder, "wear.log")
         with results.open_file(os.path.join(folder, "wear.h5"), "wear") as file:
             for i, gear in enumerate(NAMES):

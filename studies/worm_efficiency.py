@@ -142,7 +142,7 @@ def sweep(options, folder, common, name, mu, side, more):
     if os.path.exists(os.path.join(folder, name + "_evaluation.h5")):
         return
     run(options.elastogear, folder, "simulate", *common, "-analysis", "sweep", "-sweep_positions", options.positions, "-contact_friction", mu,
-        "-side", side, "-output", name + ".h5", "-contact_approach", "mesh", *more)
+        "-side", side, "-output", name + ".h5", "-contact_points", "minima", *more)
     run(options.elastogear, folder, "evaluate", *common, "-side", side, "-result", name + ".h5", "-output", name + "_evaluation.h5",
         "-root_stress", "false")
 

@@ -10,7 +10,7 @@
 #include "app/tables/initial_state.h"
 #include "app/tables/marker_options.h"
 #include "elastogear/base/error.h"
-#include "elastogear/dynamics/approach_choice.h"
+#include "elastogear/dynamics/station_choice.h"
 
 namespace elastogear::app {
 namespace {
@@ -56,27 +56,14 @@ const Rows<Environment> kEnvironmentRows = {
      "its best affine field), or full (needs bodies reduced with -invariants full)"},
 };
 
-std::string approach_text(const contact::Settings& settings) {
-  return settings.approach == contact::FlankApproach::hertz ? ", approach by H. Hertz" : "";
-}
-
-// Why exact flanks approach each other as the mesh has it, where nobody asks for that.
-void print_approach(const Options& options, const dynamics::SystemModel& system,
-                    const dynamics::PairSetup& pair) {
-  const auto is_exact = [&](int b) { return system.bodies[static_cast<std::size_t>(b)].true_surface; };
-  if (pair.settings.points == contact::SlavePoints::stations) return;
-  if (options.text("contact_points") == "stations") {
-    dynamics::PairSetup asked = pair;
-    if (options.text("contact_approach") == "auto")
-      asked.settings.approach = contact::FlankApproach::automatic;
-    print_item("contact at stations",
-               "not of " + pair.name + ": " + dynamics::lacks_for_stations(system, asked));
-  }
-  if (pair.settings.approach == contact::FlankApproach::hertz || options.text("contact_approach") == "mesh" ||
-      !std::all_of(std::begin(pair.body), std::end(pair.body), is_exact))
+// Why flanks touch as the mesh has it, where nobody asks for that.
+void print_what_lacks(const Options& options, const dynamics::SystemModel& system,
+                      const dynamics::PairSetup& pair) {
+  if (options.text("contact_points") != "stations" || pair.settings.points == contact::SlavePoints::stations)
     return;
-  print_item("approach of flanks", "as the mesh has it, which is too stiff (" + pair.name +
-                                       "); not by H. Hertz: " + dynamics::lacks_for_approach(system, pair));
+  print_item("contact at stations",
+             "not of " + pair.name + ", whose flanks are too stiff where they touch, as the mesh has it: " +
+                 dynamics::lacks_for_stations(system, pair));
 }
 
 std::string points_text(const contact::Settings& settings) {
@@ -121,9 +108,8 @@ void print_laws(const Options& options, const dynamics::SystemModel& system) {
   for (const dynamics::PairSetup& pair : system.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     print_detail("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +
-                                       points_text(pair.settings) + approach_text(pair.settings) + " (" +
-                                       pair.name + ")");
-    print_approach(options, system, pair);
+                                       points_text(pair.settings) + " (" + pair.name + ")");
+    print_what_lacks(options, system, pair);
     warn_of_facets(options, pair, options.list("bodies"));
   }
 }

@@ -42,29 +42,15 @@ std::vector<char> loadable(const model::ElasticBody& body) {
   return may_bear;
 }
 
-// Square roots of what nodes at these vectors weigh where a load is spread across a line. Eq. (6.36a).
-Eigen::VectorXd weigh_across(const Eigen::Matrix3Xd& away, const Eigen::Vector3d& along) {
-  constexpr double kSteep = 4;  // squared slope against the line, by which half of the weight is left
-  constexpr int kPower = 4;
-  Eigen::VectorXd weight(away.cols());
-  for (Eigen::Index i = 0; i < away.cols(); ++i) {
-    const double t = std::pow(away.col(i).dot(along), 2), c = away.col(i).squaredNorm() - t;
-    weight[i] = t > 0 ? 1 / std::sqrt(1 + std::pow(kSteep * t / std::max(c, 1e-6 * t), kPower)) : 1;
-  }
-  return weight;
-}
-
 }  // namespace
 
-Eigen::VectorXd spread_weights(const Eigen::Matrix3Xd& away, const Eigen::Vector3d& along) {
+Eigen::VectorXd spread_weights(const Eigen::Matrix3Xd& away) {
   const Eigen::JacobiSVD<Eigen::Matrix3Xd> axes(away, Eigen::ComputeFullU);
   Eigen::Matrix3Xd A(3, away.cols());
   A.row(0).setOnes();
   A.bottomRows<2>() =
       axes.matrixU().leftCols<2>().transpose() * away / std::max(axes.singularValues()[0], 1e-300);
-  const Eigen::VectorXd D = weigh_across(away, along);
-  A *= D.asDiagonal();
-  return D.cwiseProduct(A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(1, 0, 0)));
+  return A.completeOrthogonalDecomposition().solve(Eigen::Vector3d(1, 0, 0));
 }
 
 Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& sides, int node,
@@ -75,7 +61,7 @@ Spread spread(const Eigen::Matrix3Xd& X, const std::vector<std::vector<int>>& si
       if (may_bear[static_cast<std::size_t>(other)] != 0) result.node.push_back(other);
   std::sort(result.node.begin(), result.node.end());
   result.node.erase(std::unique(result.node.begin(), result.node.end()), result.node.end());
-  result.weight = spread_weights(X(Eigen::all, result.node).colwise() - X.col(node), Eigen::Vector3d::Zero());
+  result.weight = spread_weights(X(Eigen::all, result.node).colwise() - X.col(node));
   return result;
 }
 

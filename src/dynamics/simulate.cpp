@@ -243,15 +243,6 @@ bool begins_deformed(const System& system) {
                      [](const System::Body& body) { return !body.relaxed.empty(); });
 }
 
-// The local approach of flanks that touch at the start, by the forces that it leads to.
-void settle_approach(System& system) {
-  constexpr int kMost = 30;
-  for (int round = 0; round < kMost; ++round) {
-    system.contacts(0, system.initial_position(), system.initial_velocity());
-    if (system.find_approach(1) == 0) return;
-  }
-}
-
 }  // namespace
 
 struct Simulation::Data {
@@ -290,7 +281,7 @@ Simulation::Simulation(System& system, TimeSettings settings, Observer observer,
   d.V = vector(system.initial_velocity());
   d.ts = make_ts(d.run, d.U, d.V, d.J);
   if (anew) {
-    settle_approach(system);
+    system.contacts(0, system.initial_position(), system.initial_velocity());
     system.accept({0, system.initial_position(), system.initial_velocity(), system.initial_velocity()});
   } else
     go_on_from(d.run, d.ts, d.checkpoints.state);

@@ -136,10 +136,7 @@ void EnergyLedger::enter_relaxation(const System& system, std::size_t b, const m
 }
 
 void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
-  if (bodies_.empty()) {
-    stored_0_ = stored(snapshot.energy);
-    approach_0_ = system.approach_taken();
-  }
+  if (bodies_.empty()) stored_0_ = stored(snapshot.energy);
   enter_weight(system, snapshot);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const System::Body& body = system.bodies()[b];
@@ -154,9 +151,8 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
   snapshot.energy.dissipated = dissipated_ + crept + system.contact_loss();
   snapshot.energy.work = work_;
   snapshot.energy.relaxation = relaxation_ + crept;
-  snapshot.energy.approach = system.approach_taken() - approach_0_;
-  snapshot.energy.balance = stored(snapshot.energy) + snapshot.energy.dissipated + snapshot.energy.approach -
-                            snapshot.energy.work - stored_0_;
+  snapshot.energy.balance =
+      stored(snapshot.energy) + snapshot.energy.dissipated - snapshot.energy.work - stored_0_;
   time_ = snapshot.time;
   bodies_ = snapshot.bodies;
   bushings_ = snapshot.bushings;
@@ -164,8 +160,7 @@ void EnergyLedger::enter(const System& system, model::Snapshot& snapshot) {
 }
 
 void EnergyLedger::serialize(Archive& archive) {
-  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_, &time_, &relaxation_, &approach_0_})
-    archive(*x);
+  for (double* x : {&stored_0_, &dissipated_, &work_, &weight_, &time_, &relaxation_}) archive(*x);
   archive.each(bodies_, [&](model::BodyState& body) {
     archive(body.r_WB);
     archive(body.R_WB);

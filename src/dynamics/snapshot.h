@@ -35,8 +35,7 @@ class EnergyLedger {
   double stored_0_ = 0, dissipated_ = 0, work_ = 0;
   double weight_ = 0;  // J, potential of the full weight in the snapshot before
   double time_ = 0;
-  double relaxation_ = 0;  // J, part of dissipated_: of the elastic coordinates
-  double approach_0_ = 0;  // J, what changes of the local approach took before the first snapshot
+  double relaxation_ = 0;                 // J, part of dissipated_: of the elastic coordinates
   std::vector<model::BodyState> bodies_;  // of the snapshot before; empty: none yet
   std::vector<model::BushingState> bushings_;
   std::vector<model::LoadState> loads_;

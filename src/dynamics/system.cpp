@@ -206,12 +206,10 @@ void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_
 void System::let_move(double unbalanced) { contact_->let_move(unbalanced); }
 void System::seek_rest(double tolerance) { contact_->seek_rest(tolerance); }
 bool System::release_points() { return contact_->release_points(); }
-double System::find_approach(double share) { return contact_->find_approach(share); }
 bool System::change_closed() { return contact_->change_closed(); }
 bool System::had_impulse() const { return contact_->had_impulse(); }
 bool System::had_impulse_before() const { return contact_->had_impulse_before(); }
 double System::contact_loss() const { return contact_->loss(); }
-double System::approach_taken() const { return contact_->approach_taken(); }
 double System::residual_energy(std::size_t b) { return contact_->residual_energy(b); }
 double System::residual_loss(std::size_t b) const { return contact_->residual_loss(b); }
 

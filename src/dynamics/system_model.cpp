@@ -9,7 +9,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/contact/topology.h"
-#include "elastogear/dynamics/approach_choice.h"
+#include "elastogear/dynamics/station_choice.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -192,8 +192,6 @@ void add_pair(const PairSetup& setup, SystemModel& model) {
   settings.law = contact::chosen_law(settings, flexible);
   settings.points = contact::chosen_points(
       settings, model.bodies[setup.body[settings.slave == 0 ? 0 : 1]].eq.body->surface);
-  if (settings.points != contact::SlavePoints::stations)
-    settings.approach = chosen_approach(model, model.pairs.back());
 }
 
 // Pairs of a system touch at stations together, as their forces depend on each other, or not at all: then
@@ -204,8 +202,10 @@ void choose_stations(SystemModel& model) {
   });
   for (PairSetup& pair : model.pairs) {
     if (pair.settings.points != contact::SlavePoints::stations) continue;
-    if (!all) pair.settings.points = contact::SlavePoints::minima;
-    pair.settings.approach = all ? contact::FlankApproach::mesh : chosen_approach(model, pair);
+    if (all)
+      pair.settings.law = contact::ContactLaw::unilateral;
+    else
+      pair.settings.points = contact::SlavePoints::minima;
   }
 }
 
@@ -291,11 +291,7 @@ model::ResultHeader result_header(const SystemModel& model) {
   for (const PairSetup& pair : model.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     model::ResultHeader::Pair entry{
-        pair.name,
-        {pair.body[0], pair.body[1]},
-        {},
-        unilateral ? "unilateral" : "penalty",
-        pair.settings.approach == contact::FlankApproach::hertz ? "hertz" : "mesh"};
+        pair.name, {pair.body[0], pair.body[1]}, {}, unilateral ? "unilateral" : "penalty"};
     for (int side : {0, 1})
       entry.group_name[side] = model.bodies[pair.body[side]].eq.body->surface.group_name;
     header.pairs.push_back(entry);

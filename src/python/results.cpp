@@ -86,7 +86,6 @@ py::dict energies(const std::string& path) {
   all["contact"] = vector(std::move(h.contact));
   all["bushing"] = vector(std::move(h.bushing));
   all["dissipated"] = vector(std::move(h.dissipated));
-  all["approach"] = vector(std::move(h.approach));
   all["work"] = vector(std::move(h.work));
   all["balance"] = vector(std::move(h.balance));
   return all;

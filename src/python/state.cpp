@@ -148,7 +148,6 @@ py::dict energies(const StateView& state) {
   all["contact"] = e.contact;
   all["bushing"] = e.bushing;
   all["dissipated"] = e.dissipated;
-  all["approach"] = e.approach;
   all["work"] = e.work;
   all["balance"] = e.balance;
   return all;

@@ -217,8 +217,8 @@ def check_elastic(drive):
 
 def check_bearings(drive):
     """Under 300 N m each bearing gives way by the normal force over its stiffness, along the line of action. That moves the contact over
-    the faces, on which the flanks' local approach depends by some hundredths of a micrometre: it is left out."""
-    of_mesh = ["-contact_approach", "mesh"]
+    the faces, on which contact at stations depends by some hundredths of a micrometre: it is at minimum-gap points."""
+    of_mesh = ["-contact_points", "minima"]
     stiff = drive.transmission_error(0.1, *of_mesh)
     force = 300 / R_B[0]
     drive.run("simulate", "drive.yaml", "-roll", "0.1", "-output", "result.h5", "-pinion_bearing_radial",

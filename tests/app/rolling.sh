@@ -14,12 +14,11 @@ for part in worm wheel; do
   "$elastogear" mesh $part.yaml -size tiny >log 2>&1 || { cat log; exit 1; }
   "$elastogear" reduce $part.yaml -basis modal_residual -modes 10 >log 2>&1 || { cat log; exit 1; }
 done
-# The approach of flanks by H. Hertz changes from step to step, by which the balance of energy is off in long steps: the first run
-# has the mesh's. After 2.009 rad the worm's thread has its point of contact by the end of a flank of the wheel.
+# After 2.009 rad the worm's thread has its point of contact by the end of a flank of the wheel.
 rolling=("$elastogear" simulate rolling.yaml -contact_law unilateral -contact_surface exact -contact_points minima
          -contact_two_pass false -worm_flanks worm.yaml -wheel_flanks wheel.yaml
          -worm_angle0 2.0091288 -worm_omega0 126.35 -wheel_angle0 0.1735838 -wheel_omega0 6.1637)
-"${rolling[@]}" -contact_approach mesh -ts_dt 1e-5 -ts_max_time 1.5e-3 -output rolling.h5 >log 2>&1 || { cat log; exit 1; }
+"${rolling[@]}" -ts_dt 1e-5 -ts_max_time 1.5e-3 -output rolling.h5 >log 2>&1 || { cat log; exit 1; }
 "${rolling[@]}" -ts_dt 2e-6 -ts_max_time 0.6e-3 -output fine.h5 >fine.log 2>&1 || { cat fine.log; exit 1; }
 iterations=$(awk '/Newton iterations/ { print $3 }' fine.log)
 [ "$iterations" -lt 360 ] || { echo "FAIL: $iterations Newton iterations in 300 steps"; cat fine.log; exit 1; }

@@ -131,8 +131,8 @@ TEST(StationLaw, has_width_and_pressure_of_hertz) {
   EXPECT_NEAR(kSteel.pressure(f), std::sqrt(w * E / (std::numbers::pi * kSteel.radius)), 1);
 }
 
-// A long line of even load presses the middle in by (w / (pi E*)) (2 ln(2 l / b) + 1), the limit of Eq.
-// (6.35).
+// A long line of even load presses the middle in by (w / (pi E*)) (2 ln(2 l / b) + 1), as cylinders in closed
+// form.
 TEST(StationLaw, of_many_strips_is_the_approach_of_long_cylinders) {
   constexpr int kStrips = 201;
   const double w = 400e3, f = w * kSteel.length, l = kStrips * kSteel.length;

@@ -17,9 +17,8 @@ struct Spread {
 };
 
 /// n, Eq. (4.13): weights of least square sum of places that lie away from a force by 3 x n m. They sum to 1,
-/// with their centre at the force in the plane that the places lie in. along: unit vector of a line, across
-/// which the force is spread, Eq. (6.36a); 0: to all directions.
-Eigen::VectorXd spread_weights(const Eigen::Matrix3Xd& away, const Eigen::Vector3d& along);
+/// with their centre at the force in the plane that the places lie in.
+Eigen::VectorXd spread_weights(const Eigen::Matrix3Xd& away);
 
 /// sides: of the surface, lists of local nodes; those at `node` count. Nodes for which `may_bear` is 0 are
 /// left out.

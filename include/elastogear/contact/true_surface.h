@@ -32,9 +32,6 @@ struct TrueSurface {
   /// n_s, m, of each node along the outward normal of the surface, linear between nodes; > 0: material added.
   /// Empty: none.
   Eigen::VectorXd deviation = {};
-  /// n_s, 1/m, of each node on an exact flank: the symmetric tensor S with which the normal n of the flank
-  /// changes by S t along small tangents t; > 0: convex. NaN on other nodes. Empty: nowhere known.
-  std::vector<Eigen::Matrix3d> curvature = {};
   std::shared_ptr<const ExactFlanks> flanks = {};  ///< null: they have no charts
 };
 

@@ -31,10 +31,6 @@ enum class ContactSurface { facets, smooth, exact };
 /// chosen_points.
 /// stations: none; flanks touch at the stations of section 6.18.
 enum class SlavePoints { automatic, nodes, minima, faces, stations };
-/// By what flanks approach each other where they touch in a patch that is small beside the faces. mesh: by
-/// what the mesh makes of it. hertz: by H. Hertz in place of that (docs/theory, section 6.17). automatic:
-/// see dynamics::chosen_approach.
-enum class FlankApproach { automatic, mesh, hertz };
 /// regularised: -mu p v_t / sqrt(v_t^2 + v_0^2), for rolling. stick: a spring up to the limit, for
 /// standstill.
 enum class FrictionLaw { regularised, stick };
@@ -67,7 +63,6 @@ struct Settings {
   double restitution = 0;     ///< -, 0..1, of impacts of bodies in motion without a penalty
   double offset = 0;          ///< m, added to every gap: > 0 takes overlap out, < 0 backlash
   ContactSurface surface = ContactSurface::exact;
-  FlankApproach approach = FlankApproach::automatic;
   double feature_angle = 30;  ///< deg, edges that turn by more stay sharp
   FrictionSettings friction;
   double extension = 0.2;  ///< of the master at its surface boundary, as part of a face's length;

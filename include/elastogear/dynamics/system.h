@@ -89,15 +89,11 @@ class System {
   /// elsewhere.
   void let_move(double unbalanced);
   /// From here on states are those of iterations towards a state of rest: forces of contacts without a
-  /// penalty need be no more exact than this share of them, and the local approach of flanks follows them.
-  /// 0: they no longer are.
+  /// penalty need be no more exact than this share of them. 0: they no longer are.
   void seek_rest(double tolerance);
   /// Points of least gap that stay where a former evaluation of this time found them need no longer stay.
   /// Returns whether there are any, so that forces may be others.
   bool release_points();
-  /// Goes a share of the way to the local approach of flanks (docs/theory, section 6.17) by the contacts
-  /// evaluated last. Returns the largest change of one, m; 0 where no pair has one.
-  double find_approach(double share);
   /// Do materials relax with time, see Environment::moduli?
   bool relaxes_in_time() const;
   /// z of a viscoelastic body at the state, n_q x n_z; of elastic bodies without columns.
@@ -126,8 +122,6 @@ class System {
   void accept(const State& x, bool is_observed = true);
   /// J, taken by damping and friction of contact up to the last accepted state.
   double contact_loss() const;
-  /// J, taken by changes of the local approach of flanks: Eq. (7.2b).
-  double approach_taken() const;
   /// J, stored in the residual flexibility of a body by the contact forces of the last evaluation.
   double residual_energy(std::size_t b);
   /// J, that has been taken by the creep of its residual displacement up to the last accepted state.

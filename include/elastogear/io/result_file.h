@@ -75,7 +75,6 @@ struct EnergyHistory {
   Eigen::VectorXd kinetic, elastic, contact, dissipated, work, balance;
   Eigen::VectorXd bushing;     ///< zero in a run without bushings
   Eigen::VectorXd relaxation;  ///< zero in a run without viscoelastic materials
-  Eigen::VectorXd approach;    ///< zero in a run without the local approach of flanks by H. Hertz
 };
 
 /// Histories of one bushing, 3 x n_t each; see model::BushingState.

@@ -93,10 +93,9 @@ struct SensorState {
 struct Energies {
   double kinetic = 0, elastic = 0, contact = 0;  ///< J, stored
   double dissipated = 0, work = 0;               ///< J, since the start: by damping; by loads
-  double balance = 0;     ///< J, stored + dissipated + approach - work - stored at the start
-  double bushing = 0;     ///< J, stored
-  double relaxation = 0;  ///< J, of dissipated: by viscoelastic materials
-  double approach = 0;    ///< J, since the start: by changes of flanks' local approach
+  double balance = 0;                            ///< J, stored + dissipated - work - stored at the start
+  double bushing = 0;                            ///< J, stored
+  double relaxation = 0;                         ///< J, of dissipated: by viscoelastic materials
 };
 
 struct Snapshot {
@@ -120,7 +119,6 @@ struct ResultHeader {
     int body[2] = {0, 1};                    ///< indices into bodies
     std::vector<std::string> group_name[2];  ///< face groups of both surfaces
     std::string law = {};                    ///< of contact: penalty or unilateral; empty: not known
-    std::string approach = {};               ///< of flanks: mesh or hertz; empty: not known
   };
   std::vector<Body> bodies;
   std::vector<Pair> pairs;

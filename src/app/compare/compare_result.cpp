@@ -68,11 +68,6 @@ void warn_of_laws(const model::ResultHeader& file, const model::ResultHeader& re
                    "contact " + a.name + ": the law of contact is " + a.law + ", that of the reference " +
                        b.law +
                        "; for a difference of the bodies alone run both with one, -contact_law penalty");
-      else if (a.name == b.name && !a.approach.empty() && !b.approach.empty() && a.approach != b.approach)
-        print_item("warning",
-                   "contact " + a.name + ": the local approach of flanks is that of " + a.approach +
-                       ", of the reference that of " + b.approach +
-                       "; for a difference of the bodies alone run both with -contact_approach mesh");
 }
 
 Signals read_signals(const std::string& path, const model::ResultHeader& header) {

@@ -25,14 +25,11 @@ constexpr const char* kWheelFrequencies[2][4] = {
     {"up to 17 % high", "up to 5.3 % high", "up to 3 % high", "up to 1.3 % high"},
     {"up to 6.4 % high", "within 1 %", "within 1 %", "within 1 %"}};
 
-// Secant mesh stiffness of the reference drive beside what meshes go to with the local approach of
-// flanks, with that and without; rows and columns as above (docs/validation/gears.md, section Meshes).
-constexpr const char* kStiffness[2][4] = {
-    {"8 % high (without the approach by H. Hertz 50 %)", "5 % high (without the approach by H. Hertz 26 %)",
-     "3 % high (without the approach by H. Hertz 17 %)", "2 % high (without the approach by H. Hertz 10 %)"},
-    {"5 % high (without the approach by H. Hertz 34 %)", "2 % high (without the approach by H. Hertz 22 %)",
-     "2 % high (without the approach by H. Hertz 20 %)", "1 % high (without the approach by H. Hertz 14 %)"}};
-constexpr const char* kMeasured = "within 1 % (without the approach by H. Hertz 4 %)";
+// Secant mesh stiffness of the reference drive beside what meshes go to; rows and columns as above
+// (docs/validation/gears.md, section Meshes).
+constexpr const char* kStiffness[2][4] = {{"8 % high", "5 % high", "3 % high", "2 % high"},
+                                          {"5 % high", "2 % high", "2 % high", "1 % high"}};
+constexpr const char* kMeasured = "within 1 %";
 constexpr const char* kHertz[2][4] = {{kMeasured, kMeasured, kMeasured, kMeasured},
                                       {kMeasured, kMeasured, kMeasured, kMeasured}};
 

@@ -187,20 +187,6 @@ Heights add_heights(const model::Surface& surface, const Teeth& teeth, contact::
   return heights;
 }
 
-// Adds the curvatures of all flanks at their nodes.
-void add_curvatures(const model::Surface& surface, const gear::Toothing& toothing,
-                    contact::TrueSurface& known) {
-  known.curvature.assign(surface.node.size(),
-                         Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
-  for (int f = 0; f < surface.face.cols(); ++f) {
-    const auto flank = gear::flank_of(toothing, surface.group_name[surface.group[f]]);
-    if (!flank) continue;
-    for (int node : surface.face.col(f))
-      if (Eigen::Matrix3d& S = known.curvature[static_cast<std::size_t>(node)]; std::isnan(S(0, 0)))
-        S = gear::flank_curvature(toothing, *flank, surface.X.col(node));
-  }
-}
-
 // file: where the gear data come from.
 void add_flanks(const Teeth& teeth, const std::string& file, const std::string& body,
                 const model::Surface& surface, contact::TrueSurface& known) {
@@ -214,7 +200,6 @@ void add_flanks(const Teeth& teeth, const std::string& file, const std::string& 
           kOnFlank, " m: name the files that the body was meshed from by -", body,
           "_flanks, or mesh it anew");
   const Heights heights = add_heights(surface, teeth, known);
-  add_curvatures(surface, teeth.toothing, known);
   known.flanks = exact_flanks(teeth.toothing, teeth.deviations, teeth.layers);
   print_detail("flanks of " + body, std::to_string(heights.n_faces) + " faces, nodes within " +
                                         with_unit(farthest.distance, "m") + " of " + file);

@@ -22,7 +22,6 @@ std::string positions_text(const std::vector<dynamics::MissingPosition>& missing
 // The energies of a unit count from the last position of the one before.
 void go_on_from(const model::Energies& before, model::Energies& energy) {
   energy.dissipated += before.dissipated;
-  energy.approach += before.approach;
   energy.work += before.work;
   energy.balance += before.balance;
 }

@@ -168,8 +168,7 @@ dynamics::BodySetup body_setup(const Options& options, const std::string& name, 
     own.true_surface_input = input;
   }
   setup.true_surface = own.true_surface;
-  const bool may_approach = own.true_surface && options.text("contact_approach") != "mesh";
-  if (may_approach && options.given(name + "_file")) {
+  if (own.true_surface && options.given(name + "_file")) {
     if (!own.surface_compliance)
       own.surface_compliance = surface_compliance(options.text(name + "_file"), setup.body->surface);
     setup.surface_compliance = *own.surface_compliance;

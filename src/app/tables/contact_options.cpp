@@ -34,11 +34,6 @@ const Rows<S> kContactRows = {
      "cannot bear an even pressure, unless there are two passes; nodes elsewhere; stations: exact involute "
      "flanks touch along their lines of contact, or at points on axes that cross, on any mesh (unilateral; "
      "minima where that cannot be); drives take stations"},
-    {"contact_approach", &S::approach, one_of("auto", "mesh", "hertz"),
-     "of flanks that touch in a patch smaller than the faces: as the mesh makes it, which is too stiff; by "
-     "H. Hertz in its place (law unilateral, points minima, exact flanks, elastic bodies of one material "
-     "with "
-     "residual flexibility); auto: by H. Hertz where that can be"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
      "penalty stiffness per_area (Pa/m) or per_node (N/m)"},
     {"contact_stiffness", &S::stiffness, "Pa/m or N/m",

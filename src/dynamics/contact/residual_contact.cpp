@@ -85,11 +85,7 @@ double tolerance(const ContactState& state, ForceAccuracy accuracy, double asked
 }  // namespace
 
 ResidualContact::ResidualContact(const SystemModel& model)
-    : flexibility_(model.bodies.size()),
-      approach_(model),
-      tangent_(model.bodies.size()),
-      left_(model.bodies.size()),
-      change_(model.bodies.size(), 0) {
+    : flexibility_(model.bodies.size()), left_(model.bodies.size()), change_(model.bodies.size(), 0) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (const model::ElasticBody& body = *model.bodies[b].eq.body; !body.flexibility.empty())
       flexibility_[b].emplace(body);
@@ -102,23 +98,15 @@ bool ResidualContact::any() const {
 contact::ResidualDisplacement ResidualContact::residual(std::size_t b) {
   if (!has_flexibility(b)) return {};
   ResidualFlexibility& R = *flexibility_[b];
-  return {[this, b](int node) { return displacement(b, node); },
-          R.bound(R.forces()) + R.lag_bound() + approach_.largest(b), change_[b]};
+  return {[this, b](int node) { return displacement(b, node); }, R.bound(R.forces()) + R.lag_bound(),
+          change_[b]};
 }
 
 void ResidualContact::seen() { std::fill(change_.begin(), change_.end(), 0); }
 
 const MatrixXd& ResidualContact::among(std::size_t b, const std::vector<int>& node) {
   static const MatrixXd kNone;
-  return has_flexibility(b) ? tangent(b, node) : kNone;
-}
-
-const MatrixXd& ResidualContact::tangent(std::size_t b, const std::vector<int>& node) {
-  const MatrixXd& R = flexibility_[b]->among(node);
-  if (!approach_.acts_on(b)) return R;
-  tangent_[b] = R;
-  approach_.add_tangent(b, node, tangent_[b]);
-  return tangent_[b];
+  return has_flexibility(b) ? flexibility_[b]->among(node) : kNone;
 }
 
 ResidualContact::ForceResidual ResidualContact::force_residual(const std::vector<NodalForces>& found) const {
@@ -135,7 +123,6 @@ void ResidualContact::respond_to(std::size_t b, const NodalForces& forces) {
   ResidualFlexibility& R = *flexibility_[b];
   change_[b] += R.bound(difference(forces, R.forces()));
   R.set_forces(forces);
-  change_[b] += approach_.set_forces(b, forces);
 }
 
 std::vector<VectorXd> ResidualContact::displacements(const ContactState& state) {
@@ -154,8 +141,7 @@ VectorXd ResidualContact::missing_response(std::size_t b, const NodalForces& fou
                                            const VectorXd& w) {
   VectorXd missing = R * found.f_B.reshaped() - w;
   for (std::size_t i = 0; i < found.node.size(); ++i)
-    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) +=
-        flexibility_[b]->lag(found.node[i]) + approach_.lag(b, found.node[i]);
+    missing.segment<3>(static_cast<Eigen::Index>(3 * i)) += flexibility_[b]->lag(found.node[i]);
   return missing;
 }
 
@@ -168,7 +154,7 @@ VectorXd ResidualContact::newton_step(const ContactState& state) {
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = found[b].node;
-    const MatrixXd& R = tangent(b, node);
+    const MatrixXd& R = flexibility_[b]->among(node);
     newton.add({b, state.surface[b].R_WB, node, R}, missing_response(b, found[b], R, w[b]));
   }
   const VectorXd lambda = newton.solve();
@@ -243,25 +229,11 @@ void ResidualContact::solve(ContactState& state, const std::function<void()>& de
 
 std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState& state, double share) {
   const std::vector<VectorXd> w = displacements(state);
-  approach_.find_new(state, flexibility_);
-  return close_gaps(state, share, w);
-}
-
-std::optional<ResidualContact::Change> ResidualContact::follow_approach(ContactState& state) {
-  state.force = nodal_forces(state.pair, state.surface);
-  const std::vector<VectorXd> w = displacements(state);
-  if (approach_.find(state, flexibility_, 1) == 0) return Change{};
-  return close_gaps(state, 1, w);
-}
-
-std::optional<ResidualContact::Change> ResidualContact::close_gaps(ContactState& state, double share,
-                                                                   const std::vector<VectorXd>& w) {
-  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
   UnilateralForces unilateral(state.pair);
   for (std::size_t b = 0; b < state.force.size(); ++b) {
     if (!has_flexibility(b)) continue;
     const std::vector<int>& node = state.force[b].node;
-    const MatrixXd& R = tangent(b, node);
+    const MatrixXd& R = flexibility_[b]->among(node);
     unilateral.add({b, state.surface[b].R_WB, node, R}, missing_response(b, state.force[b], R, w[b]));
   }
   if (!unilateral.solve(std::max(kTurningTolerance, kTurningShare * allowed_))) return {};
@@ -298,7 +270,7 @@ void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accura
   std::optional<Change> change;
   double before = 0;
   const double allowed = allowed_ = std::max(sought_, tolerance(state, accuracy, asked_));
-  bool settled = false, follows = sought_ > 0 && approach_.any();
+  bool settled = false;
   for (int trial = 0; !settled && trial < kMostTrials; ++trial) {
     change = close_gaps(state, trial < kFullTrials ? 1 : 0.5);
     if (!change) break;
@@ -307,13 +279,7 @@ void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accura
     const double first_rate = change->bends ? std::min(kFirstRate, kBend * now) : kFirstRate;
     expected_ = now * (trial > 0 ? std::min(1.0, now / before) : first_rate);
     const bool is_roundoff = trial > 0 && now < kRoundoffResidual && now > 0.1 * before;
-    bool is_exact = expected_ <= allowed && now < kJump;
-    if (is_exact && std::exchange(follows, false)) {
-      change = follow_approach(state);
-      if (!change) break;
-      expected_ = std::max(expected_, kBend * change->forces * change->forces);
-      is_exact = expected_ <= allowed && change->forces < kJump;
-    }
+    const bool is_exact = expected_ <= allowed && now < kJump;
     settled = (is_exact || is_roundoff) && !change->slides_anew;
     before = now;
     if (!settled) detect();
@@ -326,8 +292,6 @@ void ResidualContact::solve_unilateral(ContactState& state, ForceAccuracy accura
 }
 
 void ResidualContact::predict(double time) {
-  approach_.extrapolate(time);
-  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
   if (before_.forces.empty() || !(last_.time > before_.time)) return;
   const double share = (time - before_.time) / (last_.time - before_.time);
   for (std::size_t b = 0; b < flexibility_.size(); ++b)
@@ -353,22 +317,7 @@ bool ResidualContact::seek_rest(double tolerance) {
   return expected_ > std::max(tolerance, kMovingTolerance);
 }
 
-double ResidualContact::find_approach(const ContactState& state, double share) {
-  if (!approach_.any()) return 0;
-  const double difference = approach_.find(state, flexibility_, share);
-  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
-  return difference;
-}
-
-void ResidualContact::accept_approach(const ContactState& state, double time) {
-  if (!approach_.any()) return;
-  approach_.accept(state, flexibility_, time);
-  for (std::size_t b = 0; b < change_.size(); ++b) change_[b] += approach_.take_change(b);
-}
-
-double ResidualContact::energy(std::size_t b) {
-  return has_flexibility(b) ? flexibility_[b]->energy() + approach_.energy(b) : 0;
-}
+double ResidualContact::energy(std::size_t b) { return has_flexibility(b) ? flexibility_[b]->energy() : 0; }
 double ResidualContact::loss(std::size_t b) const { return has_flexibility(b) ? flexibility_[b]->loss() : 0; }
 
 double ResidualContact::work(const std::vector<NodalForces>& then, const std::vector<NodalForces>& now) {
@@ -400,7 +349,6 @@ void ResidualContact::serialize(Archive& archive) {
     if (!has_flexibility(b)) continue;
     flexibility_[b]->serialize(archive);
   }
-  approach_.serialize(archive);
   for (Accepted* accepted : {&last_, &before_}) {
     archive(accepted->time);
     archive.each(accepted->forces, visit);

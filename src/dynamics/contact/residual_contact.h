@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/approach/local_approach.h"
 #include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/archive.h"
 
@@ -30,15 +29,15 @@ class ResidualContact {
   contact::ResidualDisplacement residual(std::size_t b);
   void seen();
   Eigen::Vector3d displacement(std::size_t b, int node) {
-    return flexibility_[b]->displacement(node) + approach_.displacement(b, node);
-  }  ///< m, BRF, with the local approach of flanks
+    return flexibility_[b]->displacement(node);
+  }  ///< m, BRF
   /// m, BRF: what is left of former forces; zero for an elastic body.
   Eigen::Vector3d lag(std::size_t b, int node) { return flexibility_[b]->lag(node); }
   /// Puts the static response of a body to these forces in place.
   void respond(std::size_t b, const NodalForces& forces) {
     if (has_flexibility(b)) respond_to(b, forces);
   }
-  /// R among the nodes (model::Surface numbers), m/N, with the tangent of the local approach; empty for a
+  /// R among the nodes (model::Surface numbers), m/N; empty for a
   /// body without residual flexibility.
   const Eigen::MatrixXd& among(std::size_t b, const std::vector<int>& node);
 
@@ -60,12 +59,6 @@ class ResidualContact {
   void ask_forces(double tolerance) { asked_ = tolerance; }
   /// See System::seek_rest. Returns whether forces must be more exact than before.
   bool seek_rest(double tolerance);
-  /// Goes a share of the way to the local approach of flanks by the contacts of a state, for later
-  /// evaluations. Returns its largest difference, m.
-  double find_approach(const ContactState& state, double share);
-  /// Takes that approach for the one at the end of a step.
-  void accept_approach(const ContactState& state, double time);
-  double approach_taken() const { return approach_.taken(); }
   /// Does the residual displacement of a body creep, whatever the moduli are?
   bool creeps(std::size_t b) const { return has_flexibility(b) && flexibility_[b]->is_viscoelastic(); }
   /// From here on its states are at this point of a step.
@@ -103,7 +96,6 @@ class ResidualContact {
   bool linear_step(ContactState& state);
   // Puts the forces whose static responses are in place in the place of those found.
   void take_forces_of_response(ContactState& state) const;
-  const Eigen::MatrixXd& tangent(std::size_t b, const std::vector<int>& node);
   // m, BRF, of each body: 3 n, of the nodes of the state's forces, with the responses in place.
   std::vector<Eigen::VectorXd> displacements(const ContactState& state);
   // w: m, 3 n, displacements of the nodes that contacts were found with.
@@ -116,13 +108,8 @@ class ResidualContact {
     bool bends = true;         // is what is left of second order?
   };
   // Closes the gaps at unchanged closest points: sets the forces of the contacts and the static responses,
-  // these by the given share of their change. w: of each body, displacements of the state's nodes that gaps
-  // were found with. Returns nothing where there is no solution.
-  std::optional<Change> close_gaps(ContactState& state, double share, const std::vector<Eigen::VectorXd>& w);
-  // Finds the local approach of flanks that have none, and closes the gaps as above.
+  // these by the given share of their change. Returns nothing where there is no solution.
   std::optional<Change> close_gaps(ContactState& state, double share);
-  // Lets it follow the forces found, and closes the gaps that this opens.
-  std::optional<Change> follow_approach(ContactState& state);
   double least_force(const ContactState& state) const;
 
   struct Accepted {
@@ -132,15 +119,13 @@ class ResidualContact {
 
   std::vector<std::optional<ResidualFlexibility>> flexibility_;  // of each body
   Accepted last_, before_;
-  LocalApproach approach_;
-  double roundoff_ = 0;                   // N, see expect_roundoff
-  double expected_ = 0;                   // expected change of the forces found last, as part of them
-  double asked_ = 0;                      // tolerance of forces that Newton's method of the system needs
-  double sought_ = 0;                     // tolerance of forces in iterations towards rest; 0: there are none
-  double allowed_ = 0;                    // tolerance of the forces that are being found
-  std::vector<Eigen::MatrixXd> tangent_;  // of each body, R with the tangent of the local approach
-  std::vector<NodalForces> left_;         // of each body, the forces before the last Newton step
-  std::vector<double> change_;            // m, not yet seen by all pairs
+  double roundoff_ = 0;            // N, see expect_roundoff
+  double expected_ = 0;            // expected change of the forces found last, as part of them
+  double asked_ = 0;               // tolerance of forces that Newton's method of the system needs
+  double sought_ = 0;              // tolerance of forces in iterations towards rest; 0: there are none
+  double allowed_ = 0;             // tolerance of the forces that are being found
+  std::vector<NodalForces> left_;  // of each body, the forces before the last Newton step
+  std::vector<double> change_;     // m, not yet seen by all pairs
 };
 
 }  // namespace elastogear::dynamics

@@ -15,7 +15,6 @@ using body::CreepState;
 namespace {
 
 constexpr std::size_t kMostBlocks = 4'000'000;     // that are kept: 288 MB
-constexpr std::size_t kMostResponses = 1'000'000;  // of the whole body that are kept: 100 MB
 
 // A B' of three rows each, n numbers one after the other. All nine sums at once: every number is read once.
 Eigen::Matrix3d product(const double* A, const double* B, Eigen::Index n) {
@@ -64,20 +63,6 @@ const ResidualFlexibility::Columns& ResidualFlexibility::columns(int orbit) {
   const auto [at, is_new] = columns_.try_emplace(orbit);
   if (is_new) at->second = model::displacement_columns(body_->flexibility, orbit);
   return at->second;
-}
-
-Eigen::Matrix3d ResidualFlexibility::static_response(int a, int b) {
-  const model::Flexibility& flexibility = body_->flexibility;
-  const auto key = static_cast<std::int64_t>(a) * static_cast<std::int64_t>(rows_.size()) + b;
-  if (const auto known = responses_.find(key); known != responses_.end()) return known->second;
-  if (responses_.size() >= kMostResponses) responses_.clear();
-  const int position_a = model::find_loaded(flexibility, a), position_b = model::find_loaded(flexibility, b);
-  Eigen::Matrix3d F = Eigen::Matrix3d::Zero();
-  if (position_a >= 0 && position_b >= 0)
-    F = model::displacement_response(
-        flexibility, position_a, position_b,
-        columns(flexibility.surface.orbit[static_cast<std::size_t>(position_b)]));
-  return responses_.emplace(key, F).first->second;
 }
 
 int ResidualFlexibility::number(int node) {

@@ -31,9 +31,6 @@ class ResidualFlexibility {
   void set_forces(const NodalForces& forces);
   const NodalForces& forces() const { return forces_; }
   Eigen::Vector3d displacement(int node);  ///< m, BRF: w of the node
-  /// m/N, BRF: displacement of node a by unit forces on node b, of the whole body; zero for nodes that the
-  /// flexibility does not provide for. Kept when it has been asked for.
-  Eigen::Matrix3d static_response(int a, int b);
   /// m, BRF: what is left of w without forces; zero for an elastic body.
   Eigen::Vector3d lag(int node);
   double largest() const { return largest_; }  ///< m/N, bound of |R(b, b)|
@@ -120,7 +117,6 @@ class ResidualFlexibility {
   std::vector<Bearing> bearing_;              // of the nodes of forces_
   std::unordered_map<int, int> number_of_;    // node -> number among those that were loaded so far, -1: R = 0
   std::unordered_map<int, Columns> columns_;  // of F, by orbit: images share them
-  std::unordered_map<std::int64_t, Eigen::Matrix3d> responses_;  // F(a, b) by a n + b, n nodes of the surface
   std::vector<Loaded> loaded_;                                   // these
   std::vector<Row> rows_;  // of each node of the surface, empty before it is asked for
   std::size_t n_rows_ = 0;

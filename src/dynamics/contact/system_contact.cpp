@@ -289,14 +289,7 @@ void SystemContact::accept() {
   history_.time = time_;
   history_.power = power;
   if (residual_contact_.any()) residual_contact_.accept(time_);
-  residual_contact_.accept_approach(state_, time_);
   if (any_sticks) forget();  // forces of the same state start from the new history
-}
-
-double SystemContact::find_approach(double share) {
-  const double difference = residual_contact_.find_approach(state_, share);
-  if (difference > 0) forget();
-  return difference;
 }
 
 void SystemContact::serialize(Archive& archive) {

@@ -63,12 +63,8 @@ class SystemContact {
   void follow_contacts(bool follow) { follows_ = follow; }
   /// Accepts the last evaluation as the end of a step.
   void accept();
-  /// Goes a share of the way to the local approach of flanks by the last evaluation, which it forgets.
-  /// Returns the largest change of one, m.
-  double find_approach(double share);
   /// J, taken by damping and friction up to the last accepted state.
   double loss() const { return history_.loss; }
-  double approach_taken() const { return residual_contact_.approach_taken(); }
   /// The history of contact, and all else that later evaluations take from earlier ones.
   void serialize(Archive& archive);
 

@@ -28,7 +28,7 @@ constexpr double kClosed = 1e-6;        // of the depth, by which points that be
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr int kMostSeeking = 12;      // evaluations in which flanks' approach follows the forces
+constexpr int kMostSeeking = 12;      // evaluations in which forces need not be exact
 constexpr double kLoose = 1e-3;       // of the last imbalance, by which forces of contact may err
 constexpr double kTight = 1e-10;      // of the forces, which always may
 constexpr double kHeldBySigma = 0.5;  // share of sigma in a coordinate's stiffness: nothing else holds it
@@ -254,7 +254,7 @@ std::string free_coordinates(const Equilibrium& at) {
        ". Try more load steps, a softer contact, or a dynamic relaxing in place of the static analysis");
 }
 
-// n_seeking: evaluations in which the local approach of flanks follows the forces.
+// n_seeking: evaluations in which contact need not be more exact than the imbalance asks.
 bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary, int n_seeking = 0) {
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscInt iterations = 0;
@@ -305,28 +305,13 @@ double allowed_open(const System& system) {
   return minima ? kBesideMinima * kClosed : kClosed;
 }
 
-// Finds equilibria until the local approach of flanks, which is that of the last one, is at rest.
-bool settle_approach(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
-  System& system = at.problem.system;
-  constexpr int kFreeRounds = 5;  // before it goes half of the way, as contacts come and go
-  for (int round = 0; round < kMostRounds; ++round) {
-    {
-      const ReadView u(U);
-      system.contacts(at.factor, *u, at.zero);
-    }
-    if (system.find_approach(round < kFreeRounds ? 1 : 0.5) == 0) return true;
-    if (!solve(at, snes, U, summary)) return false;
-  }
-  return false;
-}
-
 // Points of contact that vanish stay where they were found, in states that may be far from the equilibrium:
 // the search goes on from there without them, until none stays or they stay where they should.
 bool settle_points(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   constexpr int kMostReleases = 3;
   for (int round = 0; round < kMostReleases; ++round) {
     if (!at.problem.system.release_points()) return true;
-    if (!solve(at, snes, U, summary) || !settle_approach(at, snes, U, summary)) return false;
+    if (!solve(at, snes, U, summary)) return false;
   }
   return true;
 }
@@ -335,8 +320,7 @@ bool settle_points(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
 // (6.31).
 bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   System& system = at.problem.system;
-  if (!solve(at, snes, U, summary, at.begins_near ? kMostSeeking : 0) ||
-      !settle_approach(at, snes, U, summary) || !settle_points(at, snes, U, summary))
+  if (!solve(at, snes, U, summary, at.begins_near ? kMostSeeking : 0) || !settle_points(at, snes, U, summary))
     return false;
   double before = kFar;
   for (int round = 0; system.any_augmented(); ++round) {

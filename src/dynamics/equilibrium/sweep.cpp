@@ -161,9 +161,8 @@ double friction_power(const model::Snapshot& x) {
 // Work and losses from the first equilibrium on, over all systems that were led.
 struct SweepLedger {
   EnergyLedger ledger = {};
-  double lost_before = 0;      // J, less what the present system says it has lost
-  double approach_before = 0;  // J, the same of the local approach of flanks
-  double turning = 0;          // J, of bushings
+  double lost_before = 0;  // J, less what the present system says it has lost
+  double turning = 0;      // J, of bushings
   model::Snapshot last = {};
 };
 
@@ -173,16 +172,13 @@ void enter(SweepLedger& all, Sweep& sweep, bool first, model::Snapshot& found) {
   found.time = sweep.position;
   if (!all.last.bodies.empty()) {
     all.turning += work_of_turning(sweep.motion, all.last, found);
-    if (first) {
-      all.approach_before -= sweep.system.approach_taken();
+    if (first)
       all.lost_before +=
           0.5 * (found.time - all.last.time) * (friction_power(all.last) + friction_power(found));
-    }
   }
   found.energy.dissipated += all.lost_before;
   found.energy.work += all.turning;
-  found.energy.approach += all.approach_before;
-  found.energy.balance += all.lost_before + all.approach_before - all.turning;
+  found.energy.balance += all.lost_before - all.turning;
   all.last = found;
 }
 
@@ -232,12 +228,10 @@ bool load_anew(Leader& leader, double position) {
 bool find(Leader& leader, double position, model::Snapshot& found) {
   RunSummary& run = leader.summary.run;
   const bool was_led = leader.sweep != nullptr;
-  const double lost = was_led ? leader.sweep->system.contact_loss() : 0,
-               taken = was_led ? leader.sweep->system.approach_taken() : 0;
+  const double lost = was_led ? leader.sweep->system.contact_loss() : 0;
   const bool led = was_led && go_on(*leader.sweep, position, run);
   if (!led) {
     leader.ledger.lost_before += lost;
-    leader.ledger.approach_before += taken;
     if (!load_anew(leader, position)) return false;
     if (was_led) {
       ++leader.summary.restarts;

@@ -83,8 +83,6 @@ model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& nam
   const std::vector<int> body = h5::int_attribute(file, group, "body");
   require(body.size() == 2, file.path, ": ", group, ": attribute body must be two numbers");
   if (h5::has_attribute(file, group, "law")) pair.law = h5::string_attribute(file, group, "law");
-  if (h5::has_attribute(file, group, "approach"))
-    pair.approach = h5::string_attribute(file, group, "approach");
   for (int side : {0, 1}) {
     require(body[side] >= 0 && body[side] < static_cast<int>(n_bodies), file.path, ": ", group,
             " names body ", body[side], " of ", n_bodies);
@@ -219,7 +217,6 @@ EnergyHistory read_energies(const std::string& path) {
                        read("work"),
                        read("balance"),
                        {},
-                       {},
                        {}};
   const auto read_if_there = [&](const std::string& name) -> Eigen::VectorXd {
     if (h5::exists(file, name)) return read_vector(file, name, time_count(file));
@@ -227,7 +224,6 @@ EnergyHistory read_energies(const std::string& path) {
   };
   energy.bushing = read_if_there("/energy/bushing");
   energy.relaxation = read_if_there(kRelaxationLoss);
-  energy.approach = read_if_there(kApproachLoss);
   return energy;
 }
 

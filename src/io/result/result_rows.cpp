@@ -181,9 +181,6 @@ void ResultRows::append_energy(const model::Energies& energy) {
   if (std::any_of(header_.bodies.begin(), header_.bodies.end(),
                   [](const auto& body) { return body.relaxes; }))
     append(kRelaxationLoss, energy.relaxation, "J");
-  if (std::any_of(header_.pairs.begin(), header_.pairs.end(),
-                  [](const auto& pair) { return pair.approach == "hertz"; }))
-    append(kApproachLoss, energy.approach, "J");
 }
 
 void ResultRows::append_bushing(const std::string& group, const model::BushingState& bushing) {

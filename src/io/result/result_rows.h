@@ -15,7 +15,6 @@ constexpr const char* kSide[2] = {"a", "b"};    ///< the two bodies of a pair, a
 constexpr const char* kTimeError = "/q_error";  ///< by the steps in time: model::BodyState::q_error
 constexpr const char* kRelaxed = "/q_relaxed";  ///< of a viscoelastic body: model::BodyState::w
 constexpr const char* kRelaxationLoss = "/energy/relaxation";
-constexpr const char* kApproachLoss = "/energy/approach";
 
 /// Rows of the histories that come before a part of them.
 struct RowCount {

@@ -1,20 +1,15 @@
-#include "elastogear/dynamics/approach_choice.h"
+#include "elastogear/dynamics/station_choice.h"
 
 #include <Eigen/Core>
 #include <array>
 
-#include "elastogear/base/error.h"
-
 namespace elastogear::dynamics {
-
-using contact::FlankApproach;
-
 namespace {
 
-// Of one elastic material at the surface, with static responses.
+// Of one elastic material at the surface, and not with all displacements of its nodes.
 std::string lacks_of_body(const SystemModel::Body& body) {
-  if (body.eq.body->flexibility.empty())
-    return "no residual flexibility; reduce it with -basis modal_residual";
+  if (body.eq.body->basis == model::Basis::full && body.eq.n_q() > 0)
+    return "the full basis; reduce it with -basis modal_residual";
   if (!(body.surface_compliance > 0) || !body.eq.body->relaxing.empty())
     return "several, orthotropic or viscoelastic materials";
   return {};
@@ -36,7 +31,6 @@ double cosine_of_axes(const SystemModel& model, const PairSetup& pair) {
 
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
   constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
-  if (pair.settings.approach != FlankApproach::automatic) return "an approach of flanks is given";
   for (int b : pair.body) {
     const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
     const std::string who = "body '" + body.name + "' has ";
@@ -46,32 +40,11 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
   if (cosine_of_axes(model, pair) < -kParallel) return "axes run against each other";
   if (pair.settings.friction.mu > 0 && pair.settings.friction.law == contact::FrictionLaw::stick)
     return "friction sticks";
-  if (pair.settings.law != contact::ContactLaw::unilateral) return "it needs the law 'unilateral'";
+  const contact::ContactLaw law = pair.settings.law;  // augmented: unilateral, of bodies that do not respond
+  if (law != contact::ContactLaw::unilateral && law != contact::ContactLaw::augmented)
+    return "it needs the law 'unilateral'";
   if (pair.settings.surface != contact::ContactSurface::exact) return "it needs the surface 'exact'";
   return {};
-}
-
-std::string lacks_for_approach(const SystemModel& model, const PairSetup& pair) {
-  for (int b : pair.body) {
-    const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
-    const std::string who = "body '" + body.name + "' has ";
-    if (!body.true_surface || body.true_surface->curvature.empty())
-      return who + "no exact flanks; name the gear data it was meshed from";
-    if (const std::string lacks = lacks_of_body(body); !lacks.empty()) return who + lacks;
-  }
-  if (pair.settings.points != contact::SlavePoints::minima ||
-      pair.settings.law != contact::ContactLaw::unilateral)
-    return "it needs the law 'unilateral' and the points 'minima'";
-  return {};
-}
-
-FlankApproach chosen_approach(const SystemModel& model, const PairSetup& pair) {
-  if (pair.settings.approach == FlankApproach::mesh) return FlankApproach::mesh;
-  const std::string lacks = lacks_for_approach(model, pair);
-  if (lacks.empty()) return FlankApproach::hertz;
-  require(pair.settings.approach == FlankApproach::automatic, "contact approach 'hertz' of the pair ",
-          pair.name, ": ", lacks, ", or take the approach 'mesh'");
-  return FlankApproach::mesh;
 }
 
 }  // namespace elastogear::dynamics

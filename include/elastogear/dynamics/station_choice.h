@@ -1,0 +1,14 @@
+#pragma once
+// Which pairs of bodies touch at stations: docs/theory, section 6.18.
+
+#include <string>
+
+#include "elastogear/dynamics/system_model.h"
+
+namespace elastogear::dynamics {
+
+/// What a pair lacks for contact at stations: charts of exact flanks and one elastic material at the surface
+/// of both bodies, which are rigid or reduced, no penalty and no friction that sticks. Empty: nothing.
+std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair);
+
+}  // namespace elastogear::dynamics
