@@ -25,7 +25,8 @@ StationProblem random_problem(int n, std::mt19937& random) {
   StationProblem problem;
   problem.C = 1e-9 * (A * A.transpose() / n + 0.1 * Eigen::MatrixXd::Identity(n, n));
   problem.gap = Eigen::VectorXd::NullaryExpr(n, [&] { return 5e-6 * (normal(random) - 0.3); });
-  for (int i = 0; i < n; ++i) problem.own.push_back({2e-3 * even(random), 10e-3 * even(random), kCompliance});
+  for (int i = 0; i < n; ++i)
+    problem.own.push_back({2e-3 * even(random), 10e-3 * even(random), kCompliance, 0.4e-3});
   return problem;
 }
 

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -64,19 +66,27 @@ TEST(StripKernel, of_a_strip_on_itself_is_the_mean_of_inverse_distances) {
           return 2 * (D - z) / (D * D) * mean_over_width(z, q) * 3 * D * s * s;
         },
         0, 1, 200);
-    EXPECT_NEAR(own_kernel(q / D) / D, numeric, 1e-5 * numeric) << q;
     EXPECT_NEAR(line_inverse_distance({0, D}, {0, D}, q), numeric, 1e-5 * numeric) << q;
   }
 }
 
-TEST(StripKernel, has_the_derivatives_that_it_says) {
-  for (double t : {1e-3, 0.02, 0.4, 3.}) {
-    const double h = 1e-5 * t;
-    EXPECT_NEAR((own_kernel(t + h) - own_kernel(t - h)) / (2 * h), own_kernel_slope(t),
-                1e-7 * std::abs(own_kernel_slope(t)));
-    const double integrand = t * t * t * own_kernel(t);
-    EXPECT_NEAR((own_kernel_moment(t + h) - own_kernel_moment(t - h)) / (2 * h), integrand, 1e-8 * integrand);
-  }
+// Pressures of one width do work on what they do, whatever their strips' lengths are beside it, and images at
+// free ends add to it: H and H less its images have no eigenvalue at or below zero.
+TEST(StripKernel, is_positive_definite_on_strips_of_any_length_beside_their_width) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (int n : {2, 16, 48})
+    for (double q : {0.02, 0.3, 1., 3., 10.})  // over the length of a strip
+      for (const FreeEnds& ends :
+           {FreeEnds{}, FreeEnds{0, infinity}, FreeEnds{0, 1. * n}, FreeEnds{-2, n + 0.5}}) {
+        std::vector<Strip> strips;
+        for (int i = 0; i < n; ++i) strips.push_back({1. * i, i + 1.});
+        const Eigen::MatrixXd H = line_kernel(strips, q, ends), alone = line_kernel(strips, q, {});
+        const auto least = [](const Eigen::MatrixXd& M) {
+          return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues().minCoeff();
+        };
+        EXPECT_GT(least(alone), 0.3 / (0.3 + q)) << n << ' ' << q;
+        EXPECT_GE(least(H), least(alone) * (1 - 1e-9)) << n << ' ' << q;
+      }
 }
 
 // An image makes of a strip at a free end one that is twice as long, of which only one half is asked.
@@ -98,26 +108,35 @@ TEST(StripKernel, has_images_beyond_free_ends) {
                   0.7 * (line_inverse_distance(strips[0], above, 0.1) +
                          line_inverse_distance(strips[0], far_below, 0.1)),
               1e-12);
-  EXPECT_NEAR(
-      H(0, 0),
-      0.7 * (line_inverse_distance(strips[0], {2, 3}, 0.1) + line_inverse_distance(strips[0], below, 0.1)),
-      1e-12);
+  EXPECT_NEAR(H(0, 0),
+              line_inverse_distance(strips[0], strips[0], 0.1) +
+                  0.7 * (line_inverse_distance(strips[0], {2, 3}, 0.1) +
+                         line_inverse_distance(strips[0], below, 0.1)),
+              1e-12);
   EXPECT_EQ(H(0, 1), H(1, 0));
 }
 
-const StationLaw kSteel{2e-3, 15e-3, 2 * (1 - 0.09) / (std::numbers::pi * 210e9)};
+const StationLaw kSteel{2e-3, 15e-3, 2 * (1 - 0.09) / (std::numbers::pi * 210e9), 0.4e-3};
 
-TEST(StationLaw, has_the_derivatives_that_it_says) {
-  for (double f : {1e-6, 1e-2, 30., 1000., 1e5}) {
+// The contact is as wide as q at 1.4 kN. Beyond that over e it grows no more.
+TEST(StationLaw, has_the_derivatives_that_it_says_and_is_convex) {
+  for (double f : {1e-6, 1e-2, 30., 500., 520., 1000., 1e5}) {
     const double h = 1e-5 * f;
     EXPECT_NEAR((kSteel.energy(f + h) - kSteel.energy(f - h)) / (2 * h), kSteel.approach(f),
                 1e-8 * kSteel.approach(f))
         << f;
     EXPECT_NEAR((kSteel.approach(f + h) - kSteel.approach(f - h)) / (2 * h), kSteel.slope(f),
-                1e-8 * kSteel.slope(f))
+                1e-8 * kSteel.secant(f))
         << f;
-    EXPECT_GT(kSteel.slope(f), 0);
+    EXPECT_GE(kSteel.slope(f), 0);
     EXPECT_LT(kSteel.slope(f), kSteel.secant(f));
+    StationLaw flatter = kSteel, rounder = kSteel;
+    const double dR = 1e-5 * kSteel.radius;
+    flatter.radius += dR;
+    rounder.radius -= dR;
+    EXPECT_NEAR((flatter.energy(f) - rounder.energy(f)) / (2 * dR), kSteel.energy_by_radius(f),
+                1e-8 * kSteel.energy(f) / kSteel.radius)
+        << f;
   }
   EXPECT_EQ(kSteel.energy(0), 0);
   EXPECT_EQ(kSteel.approach(0), 0);
@@ -131,20 +150,24 @@ TEST(StationLaw, has_width_and_pressure_of_hertz) {
   EXPECT_NEAR(kSteel.pressure(f), std::sqrt(w * E / (std::numbers::pi * kSteel.radius)), 1);
 }
 
-// A long line of even load presses the middle in by (w / (pi E*)) (2 ln(2 l / b) + 1), as cylinders in closed
-// form.
+// A long line of even load presses the middle in by (w / (pi E*)) (2 ln(2 l / b) + 1), as of
+// cylinders in closed form, whatever q is and however long strips are beside the contact, which is 0.51 mm wide.
 TEST(StationLaw, of_many_strips_is_the_approach_of_long_cylinders) {
-  constexpr int kStrips = 201;
-  const double w = 400e3, f = w * kSteel.length, l = kStrips * kSteel.length;
-  const Strip middle{-kSteel.length / 2, kSteel.length / 2};
-  const double q = std::sqrt(std::numbers::e) / 2 * kSteel.half_width(f);
-  double approach = kSteel.approach(f);
-  for (int i = 1; i <= kStrips / 2; ++i) {
-    const Strip other{middle.from + i * kSteel.length, middle.to + i * kSteel.length};
-    approach += 2 * kSteel.compliance * f * line_inverse_distance(middle, other, q);
-  }
-  const double expected = kSteel.compliance * w * (2 * std::log(2 * l / kSteel.half_width(f)) + 1);
-  EXPECT_NEAR(approach, expected, 1e-4 * expected);
+  constexpr double kHalf = 0.2;  // m, of the line
+  const double w = 400e3;
+  for (double q : {0.4e-3, 1e-3})
+    for (double D : {2e-3, 0.5e-3, 0.1e-3}) {
+      StationLaw law = kSteel;
+      law.length = D;
+      law.q = q;
+      const Strip middle{-D / 2, D / 2}, line{-kHalf, kHalf};
+      const double f = w * D, b = law.half_width(f);
+      ASSERT_NEAR(b, 0.257e-3, 1e-6);
+      const double approach =
+          law.approach(f) + law.compliance * w * line.length() * line_inverse_distance(middle, line, q);
+      const double expected = law.compliance * w * (2 * std::log(4 * kHalf / b) + 1);
+      EXPECT_NEAR(approach, expected, 1e-3 * expected) << q << ' ' << D;
+    }
 }
 
 }  // namespace

@@ -33,18 +33,19 @@ struct LoadTable {
   double v_0 = 0, step = 0;   ///< m, places v_0 + g step
   int n_v = 0;
   LoadWidth width{};
+  double q = 0;                                    ///< m, half width of pressures on the half-space
   LineScale scale;                                 ///< in the middle of the flank
   Eigen::SparseMatrix<double, Eigen::RowMajor> W;  ///< n n_v x nodes: forces of 1 N on each strip alone
   Eigen::MatrixXd Z;                               ///< n x n: spread along the face. Eq. (6.45)
   Eigen::MatrixXd smooth;                          ///< n n_v x n n_v, 1/m: half-space below. Eq. (6.46)
-  Eigen::MatrixXd line;                            ///< n x n, 1/m: of line loads, but for own parts
+  Eigen::MatrixXd line;                            ///< n x n, 1/m: of pressures of the half width q
 
   int n() const { return static_cast<int>(strips.size()); }
 };
 
-/// slope: dv/dz of lines of contact at v. Strips have one length.
+/// slope: dv/dz of lines of contact at v. Strips have one length. q: m.
 LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
-                     const std::function<double(double v)>& slope, const LineScale& scale);
+                     const std::function<double(double v)>& slope, const LineScale& scale, double q);
 
 /// At the place v, m; beyond the ends of the flank that of the end.
 Stencil stencil(const LoadTable& table, double v);

@@ -29,7 +29,7 @@ double potential(const StationProblem& problem, const Eigen::VectorXd& f);
 /// m: gaps under any forces >= 0, the gradient of the potential. Eq. (6.38).
 Eigen::VectorXd loaded_gaps(const StationProblem& problem, const Eigen::VectorXd& f);
 /// The forces with the least potential, without a start value. Eq. (6.47). Throws Error where the potential
-/// is not convex, as where strips are narrower than the contact.
+/// is not convex, as by wrong static responses.
 StationForces station_forces(const StationProblem& problem);
 
 }  // namespace elastogear::contact

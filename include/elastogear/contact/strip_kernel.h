@@ -34,14 +34,7 @@ std::vector<Strip> images(const Strip& strip, const FreeEnds& ends);
 /// strips that do not overlap. Eq. (6.40).
 double line_inverse_distance(const Strip& a, const Strip& b, double q);
 
-/// n x n, 1/m: the same among strips of one line, with images, without what each does to itself.
+/// n x n, 1/m: the same among strips of one line, with images. Symmetric and positive definite for q > 0.
 Eigen::MatrixXd line_kernel(const std::vector<Strip>& strips, double q, const FreeEnds& ends);
-
-/// D / m of what an even pressure of the half width q = t D does on its own centre line, D its length, with
-/// its first derivative with respect to t. Eq. (6.41a).
-double own_kernel(double t);
-double own_kernel_slope(double t);
-/// The integral of t^3 own_kernel(t) from 0. Eq. (6.41b).
-double own_kernel_moment(double t);
 
 }  // namespace elastogear::contact

@@ -38,8 +38,8 @@ class ToothedBody {
   double compliance_of_mesh() const { return responds_ ? compliance_ : 0; }
   /// The nodes of a flank, in the order of its tables.
   const std::vector<int>& nodes(const FlankName& flank) const;
-  /// Loads on strips of the flanks of one side; made when they are first asked for.
-  const LoadTable& loads(int side, const std::vector<Strip>& strips);
+  /// Loads on strips of the flanks of one side, of the half width q; made when they are first asked for.
+  const LoadTable& loads(int side, const std::vector<Strip>& strips, double q);
   /// m, of the surface beside its exact flank; linear between nodes.
   double deviation(const FlankMesh& mesh, double v, double z) const;
   /// m, points spread over each flank, by which those that are near others are found; 3 x n each.
@@ -63,7 +63,7 @@ class ToothedBody {
 /// What n stations that move over the flanks do to each other in the half-spaces of both bodies, as if they
 /// stood side by side along a straight line.
 struct AmongStations {
-  std::array<Eigen::MatrixXd, 2> line;    ///< n x n, 1/m: of line loads, but for own parts
+  std::array<Eigen::MatrixXd, 2> line;    ///< n x n, 1/m: of pressures of the pair's half width
   std::array<Eigen::MatrixXd, 2> smooth;  ///< n x n, -, of smooth loads, over what each does to itself
   double along = 1;                       ///< -, length along that line for each m of the owner's z
 };
@@ -74,6 +74,7 @@ struct AmongStations {
 struct ToothedPair {
   ToothedBody *owner, *mate;
   std::array<std::vector<Strip>, 2> strips;  ///< m, of the owner's face, and of the mate's
+  double q = 0;                              ///< m, half width of the strips' pressures
   bool is_crossed = false;
   AmongStations among = {};  ///< of those that move
 };

@@ -10,6 +10,8 @@ inline constexpr double kDeepest =
     0.25;  // of a flank's height: a larger overlap is one with the tooth behind
 inline constexpr double kWidth =
     0.02;  // of a flank's height: half width of contact at loads that steel bears
+inline constexpr double kWidest =
+    0.1;  // of a flank's height: half width of even pressures below which contact grows with loads
 
 /// m, of a flank across the profile.
 inline double height(const ExactFlanks& flanks) {

@@ -100,11 +100,12 @@ class SmoothTable {
 }  // namespace
 
 LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
-                     const std::function<double(double v)>& slope, const LineScale& scale) {
+                     const std::function<double(double v)>& slope, const LineScale& scale, double q) {
   LoadTable table;
   table.strips = strips;
   table.width = load_width(flank);
   table.scale = scale;
+  table.q = q;
   table.v_0 = flank.v.front();
   const double height = flank.v.back() - flank.v.front();
   table.n_v = static_cast<int>(std::max(3., std::ceil(height / (kStep * table.width.a)))) + 1;
@@ -114,7 +115,7 @@ LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
   SmoothTable(flank, slope, table).fill();
   std::vector<Strip> along;
   for (const Strip& strip : strips) along.push_back({strip.from * scale.along, strip.to * scale.along});
-  table.line = line_kernel(along, 0, {flank.z.front() * scale.along, flank.z.back() * scale.along});
+  table.line = line_kernel(along, q, {flank.z.front() * scale.along, flank.z.back() * scale.along});
   return table;
 }
 

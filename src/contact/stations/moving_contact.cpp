@@ -122,7 +122,8 @@ StationLaw law_of_strip(const ToothContact& contact, std::size_t i, double compl
   const double opens = opening(contact.flanks, contact.placement, contact.places[i], h);
   const double across = h * contact.across[k];
   const double radius = opens > 0 ? std::min(flattest, across * across / (2 * opens)) : flattest;
-  return {contact.places[i].face.length() * contact.side[0].moving.along[k], radius, compliance};
+  return {contact.places[i].face.length() * contact.side[0].moving.along[k], radius, compliance,
+          contact.pair->q};
 }
 
 StationLaw law_of_point(const ToothContact& contact, double compliance) {
@@ -270,8 +271,8 @@ void set_moving_stations(ToothedPair& pair, int n) {
         {pair.strips[0].back().from * pair.among.along, pair.strips[0].back().to * pair.among.along});
   }
   const FreeEnds ends{along.front().from, along.back().to};  // those of the mate are far
-  const double q = kWidth * height(owner);
-  pair.among.line = {line_kernel(along, q, ends), line_kernel(along, q, {})};
+  pair.q = kWidest * height(owner);
+  pair.among.line = {line_kernel(along, pair.q, ends), line_kernel(along, pair.q, {})};
   pair.among.smooth = {shared_kernel(*pair.owner, along, ends), shared_kernel(*pair.mate, along, {})};
 }
 

@@ -30,8 +30,8 @@ struct BodyLoads {
 /// m/N, n x n, symmetric: mean static response of a body to the loads. Eq. (6.39).
 Eigen::MatrixXd body_compliance(const BodyLoads& loads, const NodalResponse& response);
 
-/// m/N, n x n, symmetric: what the half-spaces of a body add below the mesh, without each station's own part.
-/// q: m, half width of the strips of all stations where they act on others. Eq. (6.39).
+/// m/N, n x n, symmetric: what the half-spaces of a body add below the mesh. q: m, half width of the
+/// pressures of all stations. Eq. (6.39).
 Eigen::MatrixXd local_compliance(const std::vector<StationLine>& stations, const BodyLoads& loads, double q);
 
 }  // namespace elastogear::contact

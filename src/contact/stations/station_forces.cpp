@@ -54,16 +54,24 @@ std::vector<int> free_stations(const Eigen::VectorXd& f, const Eigen::VectorXd& 
 }
 
 // m/N: second derivatives of the potential among stations. Those without a force yet have the slope at
-// `typical`; lagged: widths of strips are left as they are.
+// `typical`.
 Eigen::MatrixXd second_derivatives(const StationProblem& problem, const Eigen::VectorXd& f,
-                                   const std::vector<int>& among, double typical, bool lagged) {
+                                   const std::vector<int>& among, double typical) {
   Eigen::MatrixXd M = problem.C(among, among);
   for (std::size_t a = 0; a < among.size(); ++a) {
     const StationLaw& law = problem.own[static_cast<std::size_t>(among[a])];
     const double at = f[among[a]] > 0 ? f[among[a]] : typical;
-    M(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a)) += lagged ? law.secant(at) : law.slope(at);
+    M(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a)) += law.slope(at);
   }
   return M;
+}
+
+Eigen::LLT<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& derivatives) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(derivatives);
+  require(factor.info() == Eigen::Success, "the compliance of ", derivatives.rows(),
+          " stations in contact is not positive definite: static responses of a flank are wrong or not "
+          "symmetric");
+  return factor;
 }
 
 // N: where Newton's method goes from f, with what is held at zero. Eq. (6.47).
@@ -72,11 +80,7 @@ Eigen::VectorXd newton_target(const StationProblem& problem, const Eigen::Vector
   const std::vector<int> free = free_stations(f, gap, kNearZero * f.maxCoeff());
   Eigen::VectorXd target = Eigen::VectorXd::Zero(f.size());
   if (free.empty()) return target;
-  Eigen::LLT<Eigen::MatrixXd> factor(second_derivatives(problem, f, free, typical, false));
-  if (factor.info() != Eigen::Success) factor.compute(second_derivatives(problem, f, free, typical, true));
-  require(factor.info() == Eigen::Success, "the compliance of ", free.size(),
-          " stations in contact is not positive definite; strips must be wider than the contact, here up to ",
-          problem.own[static_cast<std::size_t>(free[0])].half_width(typical) * 2, " m");
+  const Eigen::LLT<Eigen::MatrixXd> factor = factor_of(second_derivatives(problem, f, free, typical));
   const Eigen::VectorXd before = f(free), there = before - factor.solve(gap(free));
   target(free) = there;
   return target;
@@ -113,9 +117,8 @@ void set_tangent(const StationProblem& problem, StationForces& forces) {
     if (forces.f[i] > 0) forces.active.push_back(static_cast<int>(i));
   const auto n = std::ssize(forces.active);
   if (n == 0) return;
-  const Eigen::LLT<Eigen::MatrixXd> factor(second_derivatives(problem, forces.f, forces.active, 0, false));
-  require(factor.info() == Eigen::Success, "the compliance of ", n,
-          " stations in contact is not positive definite; strips must be wider than the contact");
+  const Eigen::LLT<Eigen::MatrixXd> factor =
+      factor_of(second_derivatives(problem, forces.f, forces.active, 0));
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(n, n));
   forces.stiffness = (inverse + inverse.transpose()) / 2;
 }

@@ -1,9 +1,8 @@
 #include "elastogear/contact/station_law.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "elastogear/contact/strip_kernel.h"
 
 namespace elastogear::contact {
 namespace {
@@ -14,8 +13,13 @@ using std::numbers::pi;
 // line.
 const double kEvenWidth = std::sqrt(std::numbers::e) / 2;
 
-// t = q / D. Eq. (6.40a).
-double relative_width(const StationLaw& law, double f) { return kEvenWidth * law.half_width(f) / law.length; }
+// N: under which the contact is as wide as q. Eq. (6.41).
+double widest_force(const StationLaw& law) {
+  return std::pow(law.q / kEvenWidth, 2) * law.length / (4 * law.compliance * law.radius);
+}
+
+// N: up to which widths grow with the force. Eq. (6.41a).
+double last_growth(const StationLaw& law) { return widest_force(law) / std::numbers::e; }
 
 }  // namespace
 
@@ -37,33 +41,33 @@ double StationLaw::pressure(double f) const {
 double StationLaw::energy(double f) const {
   if (f <= 0) return 0;
   if (ellipse) return 3. / 5 * f * ellipse->approach(f);
-  const double t = relative_width(*this, f);
-  return 2 * compliance * f * f / length * own_kernel_moment(t) / std::pow(t, 4);
+  const double f_c = last_growth(*this);
+  return compliance / length *
+         (f < f_c ? f * f / 4 * (2 * std::log(widest_force(*this) / f) + 1) : f_c * (f - f_c / 4));
 }
 
-// U depends on t = q / D alone beside f, and t^2 on R.
 double StationLaw::energy_by_radius(double f) const {
   if (f <= 0) return 0;
-  const double t = relative_width(*this, f);
-  return compliance * f * f / (length * radius) * (own_kernel(t) - 4 * own_kernel_moment(t) / std::pow(t, 4));
+  const double f_c = last_growth(*this);
+  return -compliance / (length * radius) * (f < f_c ? f * f / 2 : f_c * (f - f_c / 2));
 }
 
 double StationLaw::approach(double f) const { return f > 0 ? secant(f) * f : 0; }
 
 double StationLaw::slope(double f) const {
   if (ellipse) return 2. / 3 * secant(f);
-  const double t = relative_width(*this, f);
-  return compliance / length * (own_kernel(t) + t / 2 * own_kernel_slope(t));
+  return compliance / length * std::max(0., std::log(widest_force(*this) / f) - 1);
 }
 
 double StationLaw::secant(double f) const {
   if (ellipse) return ellipse->approach(f) / f;
-  return compliance / length * own_kernel(relative_width(*this, f));
+  const double f_c = last_growth(*this);
+  return compliance / length * (f < f_c ? std::log(widest_force(*this) / f) : f_c / f);
 }
 
 StationLaw point_law(double least, double largest, double compliance) {
   const double E_star = 1 / (pi * compliance);
-  return {0, 1 / largest, compliance, model::hertz_ellipse(least / 2, largest / 2, E_star)};
+  return {0, 1 / largest, compliance, 0, model::hertz_ellipse(least / 2, largest / 2, E_star)};
 }
 
 }  // namespace elastogear::contact

@@ -35,24 +35,11 @@ Eigen::MatrixXd line_kernel(const std::vector<Strip>& strips, double q, const Fr
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j <= i; ++j) {
       const Strip &a = strips[static_cast<std::size_t>(i)], &b = strips[static_cast<std::size_t>(j)];
-      double sum = i == j ? 0 : line_inverse_distance(a, b, q);
+      double sum = line_inverse_distance(a, b, q);
       for (const Strip& image : images(b, ends)) sum += ends.share * line_inverse_distance(a, image, q);
       H(i, j) = H(j, i) = sum;
     }
   return H;
-}
-
-double own_kernel(double t) {
-  return std::asinh(t) / t + 2 * std::asinh(1 / t) - 1 / (t + std::sqrt(1 + t * t));
-}
-
-double own_kernel_slope(double t) { return 1 - std::asinh(t) / (t * t) - std::sqrt(1 + t * t) / t; }
-
-// With d = sqrt(1 + t^2) - 1 the constants cancel, so that nothing is lost where t is small.
-double own_kernel_moment(double t) {
-  const double s = std::sqrt(1 + t * t), d = t * t / (1 + s), t_3 = t * t * t;
-  return t_3 / 3 * std::asinh(t) + t_3 * t / 2 * std::asinh(1 / t) + t_3 * t * t / 5 -
-         d * d * (5. / 6 + d * (29. / 18 + d * (1 + d / 5)));
 }
 
 }  // namespace elastogear::contact

@@ -69,10 +69,10 @@ ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, co
   const std::array<const FlankMesh*, 2> mesh{&on_owner, &on_mate};
   const auto n = std::ssize(contact.places);
   contact.gap.resize(n);
-  contact.across.setConstant(n, pair.owner->loads(on_owner.name.side, pair.strips[0]).scale.across);
+  contact.across.setConstant(n, pair.owner->loads(on_owner.name.side, pair.strips[0], pair.q).scale.across);
   contact.local = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t s : {0, 1}) {
-    const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair.strips[s]);
+    const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair.strips[s], pair.q);
     contact.side[s] = make_side(contact.places, placement, *mesh[s], loads, s == 0);
     contact.local += body[s]->compliance() * loads.line -
                      body[s]->compliance_of_mesh() * smooth_kernel(loads, contact.side[s].at);
@@ -84,7 +84,7 @@ ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, co
       contact.gap[i] -= body[s]->deviation(*mesh[s], contact.side[s].v[j], contact.side[s].z[j]);
     contact.own.push_back({contact.places[j].face.length() * contact.side[0].loads->scale.along,
                            radius(contact, j, width_for_curvature(pair.owner->flanks())),
-                           pair.owner->compliance() + pair.mate->compliance()});
+                           pair.owner->compliance() + pair.mate->compliance(), pair.q});
   }
   return contact;
 }
@@ -131,17 +131,17 @@ const FlankMesh& ToothedBody::mesh(const FlankName& flank) const {
 
 const std::vector<int>& ToothedBody::nodes(const FlankName& flank) const { return mesh(flank).node; }
 
-const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips) {
+const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips, double q) {
   std::list<LoadTable>& tables = tables_[side > 0 ? 1 : 0];
   for (const LoadTable& table : tables)
-    if (table.strips == strips) return table;
+    if (table.strips == strips && table.q == q) return table;
   const auto mesh =
       std::find_if(meshes_.begin(), meshes_.end(), [&](const FlankMesh& at) { return at.name.side == side; });
   const double z = (mesh->grid.z.front() + mesh->grid.z.back()) / 2;
   const auto slope = [&](double v) { return generator_slope(*flanks_, mesh->name, v, z); };
   const double v = middle(*flanks_);
   tables.push_back(
-      load_table(mesh->grid, strips, slope, line_scale(flanks_->point(mesh->name, v, z), slope(v))));
+      load_table(mesh->grid, strips, slope, line_scale(flanks_->point(mesh->name, v, z), slope(v)), q));
   return tables.back();
 }
 
@@ -157,7 +157,7 @@ ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePl
   const double shift = mate.flanks().chart(on_mate.name, placement.R.transpose() * (x - placement.r))[1];
   const double from = std::max(on_owner.grid.z.front(), on_mate.grid.z.front() - shift);
   const double to = std::min(on_owner.grid.z.back(), on_mate.grid.z.back() - shift);
-  ToothedPair pair{&owner, &mate, {}};
+  ToothedPair pair{&owner, &mate, {}, kWidest * height(owner.flanks())};
   for (int i = 0; to > from && i < n; ++i) {
     const Strip strip{from + i * (to - from) / n, from + (i + 1) * (to - from) / n};
     pair.strips[0].push_back(strip);
