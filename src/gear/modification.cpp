@@ -17,12 +17,15 @@ constexpr double kLargest = 0.1;      // modules: larger deviations are another 
 constexpr double kMicron = 1e-6;      // m
 constexpr double kTolerance = 1e-13;  // m
 constexpr int kSteps = 50;
+constexpr double kRound = 0.05;  // of the length of a linear relief: to both sides of its beginning
 
-// distance: from the beginning of the relief towards its end.
+// distance: from the beginning of the relief towards its end. Linear ones begin with a parabola. Eq. (9.7a).
 double removed(const Relief& relief, double distance) {
-  if (relief.amount == 0 || distance <= 0) return 0;
-  const double t = distance / relief.length;
-  return relief.amount * (relief.parabolic ? t * t : t);
+  if (relief.amount == 0) return 0;
+  const double t = distance / relief.length, blend = relief.parabolic ? 0 : kRound;
+  if (t <= -blend) return 0;
+  if (relief.parabolic) return relief.amount * t * t;
+  return relief.amount * (t < blend ? (t + blend) * (t + blend) / (4 * blend) : t);
 }
 
 // roll: from the start of contact. z: from the middle of the face.

@@ -145,7 +145,11 @@ def check_misalignment(drive):
 
 
 def tip_relief(gear, amount):
-    return lambda roll: amount * np.clip((roll - TIP[gear] + RELIEF[gear]) / RELIEF[gear], 0, None)
+    def removed(roll):  # a parabola within 1/20 of the length around its beginning
+        way = (roll - TIP[gear] + RELIEF[gear]) / RELIEF[gear]
+        return amount * np.where(np.abs(way) < 0.05, (way + 0.05)**2 / 0.2, np.clip(way, 0, None))
+
+    return removed
 
 
 def profile_crowning(gear, amount):

@@ -57,6 +57,19 @@ TEST_F(Modification, reliefs_begin_at_their_length_and_end_with_their_amount) {
   EXPECT_EQ(at(0.9, 8e-3, right), 0);
 }
 
+// At a corner of a flank its normal would jump, and with it the force of a line of contact that stands there.
+TEST_F(Modification, linear_reliefs_begin_without_a_corner) {
+  d.left.tip = {20e-6, 0.4 * profile, false};
+  const double h = 1e-6, bend = 20e-6 / (0.4 * 0.4) / (2 * 0.05);
+  for (double s = 0.57; s < 0.63; s += 0.001) {
+    const double slope = (at(s + h) - at(s - h)) / (2 * h),
+                 next = (at(s + 0.001 + h) - at(s + 0.001 - h)) / (2 * h);
+    EXPECT_LT(std::abs(next - slope), 1.01 * 0.001 * bend) << s;
+  }
+  EXPECT_NEAR(at(0.6), -20e-6 * 0.05 / 4, kRoundoff);
+  EXPECT_EQ(at(0.579), 0);
+}
+
 TEST_F(Modification, crownings_slopes_and_twist_have_their_amounts_at_the_ends) {
   d.left.C_alpha = 3e-6;
   EXPECT_NEAR(at(0), -3e-6, kRoundoff);
