@@ -67,7 +67,7 @@ class Runs(WithDrive):
         self.assertEqual(done.returncode, 0, done.stderr)
         by_program = eg.Stress("program_stress.h5")["pinion", "root"]
         np.testing.assert_array_equal(root.stress, by_program.stress)
-        self.assertEqual(set(result.energies), {"kinetic", "elastic", "contact", "bushing", "dissipated", "approach", "work", "balance"})
+        self.assertEqual(set(result.energies), {"kinetic", "elastic", "contact", "bushing", "dissipated", "work", "balance"})
         body = eg.Body("pinion.h5")
         self.assertEqual(body.stress("root", result.body("pinion").q[-1]).shape, (len(root.node), 6))
         self.assertEqual(len(body.frequencies), 4)
