@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""The meshes and the wheel's body of docs/tutorial.md, section 2, made as it says: each line that it shows is printed, with these numbers.
+
+    tutorial.py PATH/TO/elastogear PATH/TO/docs/tutorial.md"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+DIGITS = 2e-5  # relative: of numbers that are printed with six digits
+program = os.path.abspath(sys.argv[1])
+with open(sys.argv[2], encoding="utf-8") as file:
+    page = file.read()
+NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
+
+
+def run(command):
+    done = subprocess.run([program, *command.split()[1:]], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"FAIL: {command}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    return done.stdout
+
+
+def shown(command):
+    """The lines that the page shows below a command, but for those that are cut off, and times."""
+    below = page.split(f"    {command}\n")[1].split("\n")
+    lines = []
+    for line in below:
+        if not line.startswith("      "):
+            break
+        if "..." not in line and " about " not in line:
+            lines.append(line)
+    return lines
+
+
+def alike(line, printed):
+    """Do two lines have the same words and, to their digits, the same numbers?"""
+    if NUMBER.sub("#", " ".join(line.split())) != NUMBER.sub("#", " ".join(printed.split())):
+        return False
+    pairs = zip(map(float, NUMBER.findall(line)), map(float, NUMBER.findall(printed)))
+    return all(abs(a - b) <= DIGITS * max(abs(a), abs(b)) for a, b in pairs)
+
+
+def check(command, output):
+    lines = shown(command)
+    missing = [line.strip() for line in lines if not any(alike(line, printed) for printed in output.split("\n"))]
+    assert lines and not missing, f"{command} does not print {missing} but\n{output}"
+
+
+def write(name, text):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+blocks = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+design = next(block for block in blocks if block.startswith("z1:"))
+worm = next(block for block in blocks if block.startswith("part: worm"))
+wheel = re.sub(r"^(\w+:) .*?# (?:.*; )?wheel: (.*)$", r"\1 \2", worm, flags=re.MULTILINE)  # what comments say of it
+for word in ("part: worm", "worm.msh", "worm.h5"):
+    wheel = re.sub(re.escape(word), word.replace("worm", "wheel"), wheel)
+with tempfile.TemporaryDirectory() as work:
+    os.chdir(work)
+    write("design.yaml", design)
+    write("worm.yaml", worm)
+    write("wheel.yaml", wheel)
+    for commands in ("elastogear mesh design.yaml worm.yaml && elastogear mesh design.yaml wheel.yaml", "elastogear info wheel.msh"):
+        check(commands, [run(command) for command in commands.split(" && ")][-1])
+    check("elastogear reduce worm.yaml && elastogear reduce wheel.yaml", run("elastogear reduce wheel.yaml"))
+print("all good")
