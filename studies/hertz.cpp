@@ -225,7 +225,6 @@ std::shared_ptr<const contact::TrueSurface> true_surface(const Flank& flank, con
       for (int i = 0; i < kIterations; ++i) way -= distance(flank, x + way * n) / flank.n.dot(n);
       return way;
     }));
-  known->curvature.assign(surface.node.size(), curvature(flank));
   return known;
 }
 
@@ -243,7 +242,6 @@ dynamics::System pressed(const Flank& worm, const Flank& wheel, double approach,
     contact.surface = contact::ContactSurface::exact;
     fixed.true_surface = true_surface(worm, fixed.body->surface);
     moving.true_surface = true_surface(wheel, moving.body->surface);
-    fixed.surface_compliance = moving.surface_compliance = (1 - kNu * kNu) / kE;
   } else {
     contact.stiffness = kStiff * moving.body->surface.c_f.mean();
   }

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "app/console/console.h"
-#include "app/console/mesh_accuracy.h"
 #include "app/console/outputs.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drawing.h"
@@ -66,12 +65,9 @@ void mesh_drive(const Options& options) {
     meshes.push_back(drive.members[i].mesh(density));
     print_item("mesh of " + drive.members[i].name, "");
     print_mesh(meshes.back());
-    if (density.refinement == 1) print_mesh_accuracy(drive.members[i].is_worm, density.size, density.order);
     mesh::write_mesh(paths[i], meshes.back());
     print_item("written", paths[i]);
   }
-  if (density.refinement == 1)
-    print_item("the drive on such meshes", drive_accuracy(density.size, density.order));
   const OutputLock lock(drawing);
   write_drawing(drawing, join(options.files()), drive, meshes);
   print_item("drawing", drawing);
@@ -95,10 +91,6 @@ void run_mesh(const Options& given, const std::vector<std::string>&) {
                                : gear::wheel_mesh(d, with_given(wheel_counts, wheel_count_rows(), options));
   print_toothing(geometry, worm ? geometry.worm : geometry.wheel);
   print_mesh(mesh);
-  const OptionTable counts = table_of(worm_count_rows(), wheel_count_rows());
-  if (times == 1 &&
-      std::none_of(counts.begin(), counts.end(), [&](const auto& spec) { return options.given(spec.name); }))
-    print_mesh_accuracy(worm, size, order);
   mesh::write_mesh(path, mesh);
   print_item("written", path);
 }

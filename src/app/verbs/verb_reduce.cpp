@@ -11,7 +11,6 @@
 
 #include "app/console/blas_kernels.h"
 #include "app/console/console.h"
-#include "app/console/mesh_accuracy.h"
 #include "app/console/outputs.h"
 #include "app/console/plausibility.h"
 #include "app/gear/design_options.h"
@@ -309,14 +308,8 @@ void reduce_drive(const Options& options) {
   const Drive drive = read_drive(options);
   const MeshDensity density = mesh_density(options);
   print_facts(drive);
-  if (density.refinement == 1)
-    print_detail("the drive on such meshes", drive_accuracy(density.size, density.order));
   for (const DriveMember& member : drive.members) {
     print_detail("body " + member.name, "");
-    {
-      const Silence unless_asked(!is_verbose());
-      if (density.refinement == 1) print_mesh_accuracy(member.is_worm, density.size, density.order);
-    }
     reduce_body(member_options(options, member), [&] {
       Nodes nodes{.mesh = member.mesh(density), .report = {}, .open = {}};
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));
