@@ -19,7 +19,7 @@ SAY = {  # what is not said, and the field's word
     r"points? of least gap": "local minimum-gap points",
     r"forces (do not )?turn at once": "rotation of contact forces: coupled, frozen",
     r"states? of rest\b": "static equilibria",
-    r"bears? (a|no|its) (force|load)": "active, loaded",
+    r"\bbears?\b": "is loaded, active, carries",
     r"what is left\b(?! out)": "residual",
     r"(is|are|was|were) told\b(?! apart)|tells? of\b": "is reported",
     r"open ends?\b": "free boundary",
