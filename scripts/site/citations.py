@@ -6,7 +6,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/layering"))
-from check_citations import CODE, EQUATIONS, TAG, cited, tags_of, theory  # noqa: E402  (found through the line above)
+from check_citations import CODE, EQUATIONS, cited, tags_of, theory  # noqa: E402  (found through the line above)
 
 TAGS = tags_of(theory(ROOT))
 MARGIN = re.compile(r"\n[ \t]*(?:///?<?|#)?[ \t]*")  # the end of a line of a comment, and the margin of the next

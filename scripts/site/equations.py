@@ -6,7 +6,8 @@ from pathlib import Path
 from docutils import nodes
 
 import links
-from citations import TAG, places
+from citations import places
+from check_citations import TAG  # found through citations
 
 LEADING = re.compile(r"[\w:~]*::")
 
