@@ -83,7 +83,7 @@ class ElasticBlock {
   bool diagonal_ = false, exact_ = true;
   std::function<void()> pulse_;
   Eigen::VectorXd inverse_;  // of a diagonal D
-  Eigen::SparseMatrix<double, Eigen::RowMajor> D_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor, PetscInt> D_;
   UniqueMat D_mat_;  // borrows D_'s arrays
   UniqueKSP ksp_;
   Eigen::MatrixXd rigid_;                          // of the near-null space, once needed

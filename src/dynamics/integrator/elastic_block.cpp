@@ -137,8 +137,7 @@ void ElasticBlock::set_shifts(double shift_v, double shift_a, const Eigen::Vecto
   D_mat_ = {};
   D_ = shift_a * body_->M_r + shift_v * D_r_ + body_->K_r;
   for (Eigen::Index p = 0; p < following.size(); ++p)
-    D_ -= Eigen::SparseMatrix<double, Eigen::RowMajor>(following[p] *
-                                                       body_->relaxing[static_cast<std::size_t>(p)].K);
+    D_ -= decltype(D_)(following[p] * body_->relaxing[static_cast<std::size_t>(p)].K);
   D_.makeCompressed();
   if (diagonal_) {
     inverse_ = D_.diagonal().cwiseInverse();
