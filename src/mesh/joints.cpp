@@ -45,7 +45,7 @@ std::vector<int> places(const Mesh& mesh) {
 
 // A side of a cell, by its corners.
 struct Side {
-  Face key, face;           // of places; the face points outward
+  Face key{}, face{};       // of places; the face points outward
   std::uint64_t nodes = 0;  // the same for sides of the same nodes, in any order
   int cell = 0, side = 0;
 
