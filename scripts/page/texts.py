@@ -1,5 +1,6 @@
 """What the page says in words and tables, from a result and a stress file: question, answer, trust, inputs, provenance."""
 import html
+import json
 import math
 import os
 import re
@@ -230,7 +231,7 @@ def cards(case):
     for body, name, group, peak in sorted(case.peaks, key=lambda entry: -entry[3].value):
         node = int(group["nodes"][peak.row])
         place = getattr(peak, "place", f"node {node}") + (f", {case.axis.at(case.time[peak.step])}" if len(case.time) > 1 else "")
-        visit = escape(f'{{"body": "{body}", "node": {node}, "time": {case.time[peak.step]!r}}}')
+        visit = escape(json.dumps({"body": body, "node": node, "time": float(case.time[peak.step])}))
         yield (f'<li class="card"><h3>{escape(body)}, {escape(name.replace("_", " "))}</h3>'
                f'<p class="figure">{plus_minus(peak.value, peak.error if peak.whole_error is None else peak.whole_error)} <span class="unit">MPa</span></p><p>{peak.what}, {light_of(peak)}</p>'
                f'<p class="where">{escape(place)} <button type="button" data-visit="{visit}">Show</button></p></li>')

@@ -1,4 +1,5 @@
 """The page of a drive, used in headless Chromium without a network: test_page.py PATH/TO/elastogear [FOLDER to keep]"""
+import html
 import json
 import os
 import re
@@ -8,6 +9,7 @@ import sys
 import tempfile
 import types
 import unittest
+import unittest.mock
 
 import numpy as np
 import vtk
@@ -41,6 +43,17 @@ def run(command, folder):
 
 def number(text):
     return float(re.search(r"[-\d.]+", text).group())
+
+
+class Names(unittest.TestCase):
+    def test_a_card_of_a_body_with_quotes_names_it(self):
+        body = 'wheel "A" <b>'
+        peak = types.SimpleNamespace(row=0, step=0, value=2e8, error=1e6, whole_error=None, what="largest", rest=None)
+        case = types.SimpleNamespace(peaks=[(body, "root", {"nodes": [7]}, peak)], time=np.array([0.5]), pressures=[], result={"contact": {}})
+        with unittest.mock.patch.object(texts, "light_of", return_value=texts.light("good")):
+            card = "".join(texts.cards(case))
+        self.assertEqual(json.loads(html.unescape(re.search('data-visit="([^"]*)"', card)[1])), {"body": body, "node": 7, "time": 0.5})
+        self.assertNotIn("<b>", card)
 
 
 class Packing(unittest.TestCase):
