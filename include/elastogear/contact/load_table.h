@@ -26,31 +26,34 @@ struct Stencil {
   std::array<double, 4> N{}, dN{};  ///< -, 1/m
 };
 
-/// n stations of all flanks of one side of a body, at n_v places each, Eq. (6.51). Row i n_v + g: station i
-/// at the place g.
+/// Loads on n strips of all flanks of one side of a body, at n_v places each, Eq. (6.51). Row i n_v + g:
+/// strip i at the place g. Each strip bears the forces of `pieces` stations, which are equal pieces of it.
 struct LoadTable {
-  std::vector<Strip> strips;  ///< m, pieces of the face, side by side
-  double v_0 = 0, step = 0;   ///< m, places v_0 + g step
+  std::vector<Strip> strips;  ///< m, of the face, side by side
+  int pieces = 1;
+  double v_0 = 0, step = 0;  ///< m, places v_0 + g step
   int n_v = 0;
   LoadWidth width{};
   double q = 0;                                    ///< m, half width of pressures on the half-space
   LineScale scale;                                 ///< in the middle of the flank
   Eigen::SparseMatrix<double, Eigen::RowMajor> W;  ///< n n_v x nodes: forces of 1 N on each strip alone
-  Eigen::MatrixXd Z;                               ///< n x n: spread along the face. Eq. (6.45)
+  Eigen::MatrixXd Z;                               ///< stations x n: spread along the face. Eq. (6.45)
   Eigen::MatrixXd smooth;                          ///< n n_v x n n_v, 1/m: half-space below. Eq. (6.46)
-  Eigen::MatrixXd line;                            ///< n x n, 1/m: of pressures of the half width q
+  Eigen::MatrixXd line;  ///< stations x stations, 1/m: of pressures of the half width q
 
   int n() const { return static_cast<int>(strips.size()); }
 };
 
+/// Stations: equal pieces of each strip.
+std::vector<Strip> pieces_of(const std::vector<Strip>& strips, int pieces);
 /// slope: dv/dz of lines of contact at v. Strips have one length. q: m.
-LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
+LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips, int pieces,
                      const std::function<double(double v)>& slope, const LineScale& scale, double q);
 
 /// At the place v, m; beyond the ends of the flank that of the end.
 Stencil stencil(const LoadTable& table, double v);
 
-/// n x n, 1/m: the half-space below loads at these places, spread along the face.
+/// Among stations, 1/m: the half-space below loads of strips at these places, spread along the face.
 Eigen::MatrixXd smooth_kernel(const LoadTable& table, const std::vector<Stencil>& at);
 
 /// n x nodes: nodal forces of 1 N on each strip alone.
@@ -62,13 +65,13 @@ using NodalResponse = std::function<Eigen::Matrix3d(int a, int b)>;
 /// one, whose tables' nodes are these; x, y and z of each place after each other.
 Eigen::MatrixXd response_table(const LoadTable& a, const std::vector<int>& nodes_a, const LoadTable& b,
                                const std::vector<int>& nodes_b, const NodalResponse& response);
-/// n x n, m/N: among stations at these places with these directions, 3 x n, from their response_table.
+/// m/N: among stations on strips at these places with these directions, 3 x n, from their response_table.
 Eigen::MatrixXd responses(const LoadTable& a, const std::vector<Stencil>& at_a,
                           const Eigen::Matrix3Xd& direction_a, const LoadTable& b,
                           const std::vector<Stencil>& at_b, const Eigen::Matrix3Xd& direction_b,
                           const Eigen::MatrixXd& table);
 
-/// Displacements at n stations on one body.
+/// Displacements at n strips on one body.
 struct StationDisplacements {
   Eigen::Matrix3Xd u;    ///< m
   Eigen::Matrix3Xd u_v;  ///< -, by how much they grow with the place v of the station

@@ -17,6 +17,7 @@
 namespace elastogear::contact {
 
 struct FlankMesh;
+struct ToothedPair;
 
 /// The flanks of one body, with what contact takes from its mesh and material.
 class ToothedBody {
@@ -38,8 +39,9 @@ class ToothedBody {
   double compliance_of_mesh() const { return responds_ ? compliance_ : 0; }
   /// The nodes of a flank, in the order of its tables.
   const std::vector<int>& nodes(const FlankName& flank) const;
-  /// Loads on strips of the flanks of one side, of the half width q; made when they are first asked for.
-  const LoadTable& loads(int side, const std::vector<Strip>& strips, double q);
+  /// Loads on the pair's strips of the flanks of one side; made when they are first asked for. s: which body
+  /// of the pair this is.
+  const LoadTable& loads(int side, const ToothedPair& pair, std::size_t s);
   /// m, of the surface beside its exact flank; linear between nodes.
   double deviation(const FlankMesh& mesh, double v, double z) const;
   /// m, points spread over each flank, by which those that are near others are found; 3 x n each.
@@ -68,17 +70,18 @@ struct AmongStations {
   double along = 1;                       ///< -, length along that line for each m of the owner's z
 };
 
-/// Two bodies whose flanks may touch. On parallel axes stations fill the face that both have where they stand
+/// Two bodies whose flanks may touch. On parallel axes strips fill the face that both have where they stand
 /// at the start. On axes that cross stations move over the mate's flank: those of a hobbed owner stand on
 /// strips of its whole face; of others each pair of teeth has one, at a point that moves over both flanks.
 struct ToothedPair {
   ToothedBody *owner, *mate;
   std::array<std::vector<Strip>, 2> strips;  ///< m, of the owner's face, and of the mate's
   double q = 0;                              ///< m, half width of the strips' pressures
+  int pieces = 1;                            ///< of a strip, each a station
   bool is_crossed = false;
   AmongStations among = {};  ///< of those that move
 };
-/// n: stations of a pair of teeth. placement: of the mate in the owner's frame.
+/// n: strips of a pair of teeth. placement: of the mate in the owner's frame.
 ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePlacement& placement, int n);
 
 /// Smooth loads of 1 N at n places that move over a flank.
@@ -89,18 +92,18 @@ struct MovingLoads {
   Eigen::VectorXd along;   ///< n, -, length along the line of contact for each m of z
 };
 
-/// n stations of one pair of teeth. Side 0 is the owner of the stations.
+/// n stations of one pair of teeth, on strips of loads. Side 0 is the owner of the stations.
 struct ToothContact {
   struct Side {
     FlankName flank;
     const FlankMesh* mesh;
     const LoadTable* loads;      ///< of strips; null where loads move
-    std::vector<Stencil> at;     ///< places of the stations among those of the loads
+    std::vector<Stencil> at;     ///< places of the strips among those of the loads
     std::vector<double> v, z;    ///< m, places
-    Eigen::Matrix3Xd direction;  ///< 3 x n, unit vectors of the forces on this body, in its frame
+    Eigen::Matrix3Xd direction;  ///< 3 x strips, unit vectors of the forces on this body, in its frame
     MovingLoads moving = {};
 
-    /// Does a station stand beyond an end of the mesh's flank? Its loads are at the end then.
+    /// Does a strip stand beyond an end of the mesh's flank? Its loads are at the end then.
     bool is_clamped(Eigen::Index i) const {
       if (!loads) return false;
       const double from = loads->v_0, to = from + (loads->n_v - 1) * loads->step;
@@ -119,9 +122,17 @@ struct ToothContact {
   Eigen::MatrixXd local;         ///< n x n, m/N: half-spaces below the meshes' smooth loads. Eq. (6.39)
   std::vector<StationLaw> own;   ///< n
   Eigen::VectorXd across;        ///< n, -, distance across the line of contact for each m of the owner's v
+  int pieces = 1;                ///< stations of a strip, an odd number; 1 where they move
 
   Eigen::Index n() const { return gap.size(); }
   bool is_moving() const { return !side[0].loads; }
+  Eigen::Index n_strips() const { return n() / pieces; }
+  Eigen::Index strip_of(Eigen::Index station) const { return station / pieces; }
+  /// The station in the middle of a strip, whose place and direction the strip's loads have.
+  Eigen::Index middle_of(Eigen::Index strip) const { return strip * pieces + pieces / 2; }
+  const NearestPlace& strip_place(Eigen::Index strip) const {
+    return places[static_cast<std::size_t>(middle_of(strip))];
+  }
 };
 
 /// The contacts of all pairs of teeth with a station whose gap is small beside the height of a tooth.
@@ -129,17 +140,17 @@ std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const Relative
 
 /// Nodes of the surface that the loads of a side act on, those of all its flank or near loads that move.
 const std::vector<int>& loaded_nodes(const ToothContact::Side& side);
-/// n x n: how strips share the forces of stations, Eq. (6.45); 1 of loads that move.
+/// n x strips: how strips share the forces of stations, Eq. (6.45); 1 of loads that move.
 Eigen::MatrixXd spread(const ToothContact::Side& side);
-/// n x loaded nodes: nodal forces of 1 N of each strip or load that moves.
+/// strips x loaded nodes: nodal forces of 1 N of each strip or load that moves.
 Eigen::MatrixXd weights(const ToothContact::Side& side);
-/// m, 3 x n, at its stations, by displacements of the loaded nodes, 3 x nodes, m.
+/// m, 3 x strips, by displacements of the loaded nodes, 3 x nodes, m.
 Eigen::Matrix3Xd displacements(const ToothContact::Side& side, const Eigen::Matrix3Xd& of_nodes);
 
-/// Derivatives of the potential with places and directions of the stations' loads on one side.
+/// Derivatives of the potential with places and directions of the strips' loads on one side.
 struct PotentialSlopes {
-  Eigen::VectorXd v;           ///< n, N
-  Eigen::Matrix3Xd direction;  ///< 3 x n, J
+  Eigen::VectorXd v;           ///< of each strip, N
+  Eigen::Matrix3Xd direction;  ///< 3 x strips, J
 };
 /// The same with a motion of the mate against the owner (see place_rates), as gaps, places, directions and
 /// curvatures of the stations change under their forces f, N; of strips.

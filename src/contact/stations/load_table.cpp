@@ -99,10 +99,20 @@ class SmoothTable {
 
 }  // namespace
 
-LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
+std::vector<Strip> pieces_of(const std::vector<Strip>& strips, int pieces) {
+  std::vector<Strip> parts;
+  for (const Strip& strip : strips)
+    for (int i = 0; i < pieces; ++i)
+      parts.push_back(
+          {strip.from + strip.length() * i / pieces, strip.from + strip.length() * (i + 1) / pieces});
+  return parts;
+}
+
+LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips, int pieces,
                      const std::function<double(double v)>& slope, const LineScale& scale, double q) {
   LoadTable table;
   table.strips = strips;
+  table.pieces = pieces;
   table.width = load_width(flank);
   table.scale = scale;
   table.q = q;
@@ -110,11 +120,14 @@ LoadTable load_table(const FlankGrid& flank, const std::vector<Strip>& strips,
   const double height = flank.v.back() - flank.v.front();
   table.n_v = static_cast<int>(std::max(3., std::ceil(height / (kStep * table.width.a)))) + 1;
   table.step = height / (table.n_v - 1);
-  table.Z = spread_along(strips, table.width.c);
+  const Eigen::MatrixXd Z = spread_along(strips, table.width.c);
+  table.Z.resize(table.n() * pieces, table.n());
+  for (Eigen::Index i = 0; i < table.Z.rows(); ++i) table.Z.row(i) = Z.row(i / pieces);
   set_weights(flank, slope, table);
   SmoothTable(flank, slope, table).fill();
   std::vector<Strip> along;
-  for (const Strip& strip : strips) along.push_back({strip.from * scale.along, strip.to * scale.along});
+  for (const Strip& part : pieces_of(strips, pieces))
+    along.push_back({part.from * scale.along, part.to * scale.along});
   table.line = line_kernel(along, q, {flank.z.front() * scale.along, flank.z.back() * scale.along});
   return table;
 }

@@ -13,8 +13,9 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr int kMarks = 5;            // along the face, of each flank
-constexpr double kNearMarks = 1.5;   // of a flank's height, that marks of flanks in contact may be apart
+constexpr int kMarks = 5;           // along the face, of each flank
+constexpr double kNearMarks = 1.5;  // of a flank's height, that marks of flanks in contact may be apart
+constexpr int kPieces = 3;  // of strips over which lines of contact lean by more than their width, odd
 constexpr double kSlopeStep = 1e-4;  // of a flank's height, for slopes
 constexpr double kFlattest = 1e3;    // of the height of a flank: radii of flanks that hardly part, or overlap
                                      // in fillets, where they bear no force
@@ -35,19 +36,30 @@ double generator_slope(const ExactFlanks& flanks, const FlankName& flank, double
   return -n_v.dot(n_z) / n_v.squaredNorm();
 }
 
-// Places of stations on one body.
-ToothContact::Side make_side(const std::vector<NearestPlace>& places, const RelativePlacement& placement,
-                             const FlankMesh& mesh, const LoadTable& loads, bool is_owner) {
+// Places of strips on one body.
+ToothContact::Side make_side(const ToothContact& contact, const FlankMesh& mesh, const LoadTable& loads,
+                             bool is_owner) {
   ToothContact::Side side{mesh.name, &mesh, &loads, {}, {}, {}, {}};
-  side.direction.resize(3, std::ssize(places));
-  for (const NearestPlace& place : places) {
-    const auto i = std::ssize(side.v);
-    side.direction.col(i) = is_owner ? place.n : Eigen::Vector3d(-(placement.R.transpose() * place.n));
+  side.direction.resize(3, loads.n());
+  for (Eigen::Index i = 0; i < loads.n(); ++i) {
+    const NearestPlace& place = contact.strip_place(i);
+    side.direction.col(i) =
+        is_owner ? place.n : Eigen::Vector3d(-(contact.placement.R.transpose() * place.n));
     side.v.push_back(std::clamp(is_owner ? place.v : place.mate_v, mesh.grid.v.front(), mesh.grid.v.back()));
     side.z.push_back(loads.strips[static_cast<std::size_t>(i)].centre());
     side.at.push_back(stencil(loads, side.v.back()));
   }
   return side;
+}
+
+// (v, z) of a station on one body, m, beside the place of its strip.
+Eigen::Vector2d station_at(const ToothContact& contact, std::size_t s, Eigen::Index i) {
+  const auto strip = static_cast<std::size_t>(contact.strip_of(i));
+  const NearestPlace &here = contact.places[static_cast<std::size_t>(i)],
+                     &middle = contact.strip_place(contact.strip_of(i));
+  const double along = here.face.centre() - middle.face.centre();
+  const double across = s == 0 ? here.v - middle.v : here.mate_v - middle.mate_v;
+  return {contact.side[s].v[strip] + across, contact.side[s].z[strip] + along};
 }
 
 // m, along the profile: the half width of contact over which gaps are taken for parabolas.
@@ -64,24 +76,26 @@ double radius(const ToothContact& contact, std::size_t i, double b) {
 ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, const FlankMesh& on_mate,
                           const FlankPair& flanks, const RelativePlacement& placement,
                           std::vector<NearestPlace> places) {
-  ToothContact contact{flanks, placement, std::move(places), {}, {}, &pair, {}, {}, {}, {}, {}};
+  ToothContact contact{flanks, placement, std::move(places), {}, {}, &pair, {}, {}, {}, {}, {}, pair.pieces};
   const std::array<ToothedBody*, 2> body{pair.owner, pair.mate};
   const std::array<const FlankMesh*, 2> mesh{&on_owner, &on_mate};
   const auto n = std::ssize(contact.places);
-  contact.gap.resize(n);
-  contact.across.setConstant(n, pair.owner->loads(on_owner.name.side, pair.strips[0], pair.q).scale.across);
+  contact.gap = Eigen::VectorXd::Zero(n);
+  contact.across.setConstant(n, pair.owner->loads(on_owner.name.side, pair, 0).scale.across);
   contact.local = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t s : {0, 1}) {
-    const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair.strips[s], pair.q);
-    contact.side[s] = make_side(contact.places, placement, *mesh[s], loads, s == 0);
+    const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair, s);
+    contact.side[s] = make_side(contact, *mesh[s], loads, s == 0);
     contact.local += body[s]->compliance() * loads.line -
                      body[s]->compliance_of_mesh() * smooth_kernel(loads, contact.side[s].at);
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto j = static_cast<std::size_t>(i);
     contact.gap[i] = contact.places[j].gap;
-    for (std::size_t s : {0, 1})
-      contact.gap[i] -= body[s]->deviation(*mesh[s], contact.side[s].v[j], contact.side[s].z[j]);
+    for (std::size_t s : {0, 1}) {
+      const Eigen::Vector2d at = station_at(contact, s, i);
+      contact.gap[i] -= body[s]->deviation(*mesh[s], at[0], at[1]);
+    }
     contact.own.push_back({contact.places[j].face.length() * contact.side[0].loads->scale.along,
                            radius(contact, j, width_for_curvature(pair.owner->flanks())),
                            pair.owner->compliance() + pair.mate->compliance(), pair.q});
@@ -131,17 +145,17 @@ const FlankMesh& ToothedBody::mesh(const FlankName& flank) const {
 
 const std::vector<int>& ToothedBody::nodes(const FlankName& flank) const { return mesh(flank).node; }
 
-const LoadTable& ToothedBody::loads(int side, const std::vector<Strip>& strips, double q) {
+const LoadTable& ToothedBody::loads(int side, const ToothedPair& pair, std::size_t s) {
   std::list<LoadTable>& tables = tables_[side > 0 ? 1 : 0];
   for (const LoadTable& table : tables)
-    if (table.strips == strips && table.q == q) return table;
+    if (table.strips == pair.strips[s] && table.pieces == pair.pieces && table.q == pair.q) return table;
   const auto mesh =
       std::find_if(meshes_.begin(), meshes_.end(), [&](const FlankMesh& at) { return at.name.side == side; });
   const double z = (mesh->grid.z.front() + mesh->grid.z.back()) / 2;
   const auto slope = [&](double v) { return generator_slope(*flanks_, mesh->name, v, z); };
   const double v = middle(*flanks_);
-  tables.push_back(
-      load_table(mesh->grid, strips, slope, line_scale(flanks_->point(mesh->name, v, z), slope(v)), q));
+  tables.push_back(load_table(mesh->grid, pair.strips[s], pair.pieces, slope,
+                              line_scale(flanks_->point(mesh->name, v, z), slope(v)), pair.q));
   return tables.back();
 }
 
@@ -164,6 +178,8 @@ ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePl
     pair.strips[1].push_back({std::max(strip.from + shift, on_mate.grid.z.front()),
                               std::min(strip.to + shift, on_mate.grid.z.back())});
   }
+  const double lean = generator_slope(owner.flanks(), on_owner.name, middle(owner.flanks()), 0);
+  if (std::abs(lean) * (to - from) / n > kWidth * height(owner.flanks())) pair.pieces = kPieces;
   return pair;
 }
 
@@ -172,6 +188,7 @@ std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const Relative
   std::vector<ToothContact> contacts;
   const ToothedBody &owner = *pair.owner, &mate = *pair.mate;
   if (pair.strips[0].empty()) return contacts;
+  const std::vector<Strip> stations = pieces_of(pair.strips[0], pair.pieces);
   const double near = kNearMarks * std::max(height(owner.flanks()), height(mate.flanks()));
   const double of_height = std::min(height(owner.flanks()), height(mate.flanks()));
   for (std::size_t a = 0; a < owner.meshes().size(); ++a)
@@ -181,7 +198,7 @@ std::vector<ToothContact> tooth_contacts(const ToothedPair& pair, const Relative
         continue;
       const FlankMesh &on_owner = owner.meshes()[a], &on_mate = mate.meshes()[b];
       const FlankPair flanks{&owner.flanks(), on_owner.name, &mate.flanks(), on_mate.name};
-      std::vector<NearestPlace> places = nearest_places(flanks, placement, pair.strips[0]);
+      std::vector<NearestPlace> places = nearest_places(flanks, placement, stations);
       if (touches(places, of_height))
         contacts.push_back(make_contact(pair, on_owner, on_mate, flanks, placement, std::move(places)));
     }
@@ -195,15 +212,20 @@ double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f
   for (Eigen::Index i = 0; i < contact.n(); ++i) {
     const StationLaw& law = contact.own[static_cast<std::size_t>(i)];
     const NearestPlace& place = contact.places[static_cast<std::size_t>(i)];
-    if (slopes[0].v[i] == 0 && slopes[1].v[i] == 0 && f[i] <= 0) continue;
+    const Eigen::Index strip = contact.strip_of(i);
+    const auto loads = [&](std::size_t s) { return !slopes[s].direction.col(strip).isZero(0); };
+    const bool moves_loads = i == contact.middle_of(strip) && (loads(0) || loads(1));
+    if (!moves_loads && f[i] <= 0) continue;
     const double b = width_for_curvature(*contact.flanks.owner);
     const double across = b * contact.across[i];
     const PlaceRates rates = place_rates(contact.flanks, contact.placement, place, twist, b);
     const Eigen::Vector3d x =
         contact.flanks.owner->point(contact.flanks.on_owner, place.v, place.face.centre()).x;
     change -= f[i] * place.n.dot(twist.head<3>() + twist.tail<3>().cross(x));  // the gap itself
-    change += slopes[0].v[i] * rates.v + slopes[1].v[i] * rates.mate_v +
-              slopes[0].direction.col(i).dot(rates.n) - slopes[1].direction.col(i).dot(rates.mate_n);
+    if (moves_loads)
+      change += slopes[0].v[strip] * rates.v + slopes[1].v[strip] * rates.mate_v +
+                slopes[0].direction.col(strip).dot(rates.n) -
+                slopes[1].direction.col(strip).dot(rates.mate_n);
     // R = across^2 / (2 opening)
     change -= law.energy_by_radius(f[i]) * 2 * law.radius * law.radius / (across * across) * rates.opening;
   }
@@ -245,8 +267,9 @@ StationLaw fitting_law(const ToothContact& contact, std::size_t i, double f) {
 ContactPoint station_point(const ToothContact& contact, const ToothedPair& pair, Eigen::Index i, double f,
                            const RelativePlacement& at) {
   const auto j = static_cast<std::size_t>(i);
-  const FaceOfFlank here = face_at(*contact.side[0].mesh, contact.side[0].v[j], contact.side[0].z[j]);
-  const FaceOfFlank there = face_at(*contact.side[1].mesh, contact.side[1].v[j], contact.side[1].z[j]);
+  const Eigen::Vector2d on_owner = station_at(contact, 0, i), on_mate = station_at(contact, 1, i);
+  const FaceOfFlank here = face_at(*contact.side[0].mesh, on_owner[0], on_owner[1]);
+  const FaceOfFlank there = face_at(*contact.side[1].mesh, on_mate[0], on_mate[1]);
   const Eigen::Vector4d N = shape(4, here.xi, here.eta).N, N_there = shape(4, there.xi, there.eta).N;
   const Eigen::Vector4i nodes = pair.owner->surface().face.col(here.face),
                         nodes_there = pair.mate->surface().face.col(there.face);

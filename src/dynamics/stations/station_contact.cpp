@@ -19,7 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int kStations = 16;        // of a pair of teeth
+constexpr int kStrips = 16;          // of a pair of teeth
 constexpr int kMostRounds = 50;      // of forces and what their friction does to gaps
 constexpr double kSettled = 1e-11;   // of the largest force, its last change by that
 constexpr double kResisting = 1e-3;  // of the largest resistance to sliding: smaller ones are left out
@@ -68,11 +68,11 @@ Eigen::Matrix<double, 6, 1> relative_twist(const contact::RelativePlacement& pla
   return twist;
 }
 
-// m, of the stations on one side, in its body's frame.
+// m, of the strips on one side, in its body's frame.
 Matrix3Xd points(const ToothContact& contact, std::size_t s) {
-  Matrix3Xd x(3, contact.n());
+  Matrix3Xd x(3, contact.n_strips());
   for (Index i = 0; i < x.cols(); ++i) {
-    const contact::NearestPlace& place = contact.places[static_cast<std::size_t>(i)];
+    const contact::NearestPlace& place = contact.strip_place(i);
     x.col(i) = contact.flanks.owner->point(contact.flanks.on_owner, place.v, place.face.centre()).x;
     if (s == 1) x.col(i) = contact.placement.R.transpose() * (x.col(i) - contact.placement.r);
   }
@@ -92,7 +92,7 @@ StationContact::StationContact(const SystemModel& model) : model_(&model) {
                       pair.settings.offset,
                       pair.settings.friction,
                       contact::toothed_pair(*bodies_[owner].toothed, *bodies_[mate].toothed,
-                                            relative(start(model, owner), start(model, mate)), kStations)});
+                                            relative(start(model, owner), start(model, mate)), kStrips)});
     for (std::size_t body : {a, b})
       bodies_[body].by_nodes = bodies_[body].by_nodes || pairs_.back().toothed.is_crossed;
   }
@@ -144,10 +144,10 @@ void StationContact::set_traction(const Motions& motion, Teeth& teeth) const {
     v[s] += contact::displacements(side, node_displacements({&teeth, s}, pair.body[s], m.q_dot));
   }
   teeth.sliding = v[0] - contact.placement.R * v[1];
-  teeth.traction[0].resize(3, contact.n());
-  teeth.resistance.resize(contact.n());
-  for (Index i = 0; i < contact.n(); ++i) {
-    const Eigen::Vector3d n = contact.places[static_cast<std::size_t>(i)].n.normalized();
+  teeth.traction[0].resize(3, contact.n_strips());
+  teeth.resistance.resize(contact.n_strips());
+  for (Index i = 0; i < contact.n_strips(); ++i) {
+    const Eigen::Vector3d n = contact.strip_place(i).n.normalized();
     teeth.sliding.col(i) -= n * n.dot(teeth.sliding.col(i));
     const double v_0 = pair.friction.v_0, speed = std::hypot(teeth.sliding.col(i).norm(), v_0);
     teeth.traction[0].col(i) = -pair.friction.mu / speed * teeth.sliding.col(i);
@@ -439,7 +439,7 @@ void StationContact::set_loads(const std::vector<Teeth>& teeth, const std::vecto
       for (std::size_t s : {0, 1}) {
         const ToothContact::Side& side = t.contact.side[s];
         const std::size_t b = pairs_[t.pair].body[s];
-        const contact::NearestPlace& place = t.contact.places[static_cast<std::size_t>(k)];
+        const contact::NearestPlace& place = t.contact.strip_place(k);
         Eigen::Vector3d along =
             t.contact.flanks.owner->point(t.contact.flanks.on_owner, place.v, place.face.centre()).x_v;
         if (s == 1) along = -(t.contact.placement.R.transpose() * along);
@@ -484,13 +484,13 @@ void StationContact::set_points(const Motions& motion, const std::vector<Teeth>&
       state.pair[t.pair].points.back().slave_side = pair.owner;
       if (t.traction[0].cols() == 0) continue;
       contact::ContactPoint& point = state.pair[t.pair].points.back();
-      const Eigen::Vector3d friction = f_i * (R_WB * t.traction[0].col(i));
+      const Eigen::Vector3d friction = f_i * (R_WB * t.traction[0].col(t.contact.strip_of(i)));
       point.f += friction;
       for (Index k = 0; k < 4; ++k) {
         point.F.col(k) += point.slave_N[k] * friction;
         point.F.col(4 + k) -= point.N[k] * friction;
       }
-      point.slip = R_WB * t.sliding.col(i);
+      point.slip = R_WB * t.sliding.col(t.contact.strip_of(i));
       point.friction_power = -friction.dot(point.slip);
     }
   }
