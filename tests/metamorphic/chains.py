@@ -13,7 +13,7 @@ from drives import Chain, cylindrical, drive, same_chains
 from lab import Broken, Unfit, alike, at_most, choice, near
 
 KHBETA = 1.15  # of an aligned pair: the pinion's twist over up to half its diameter takes some hundredths, meshes of size tiny as much
-EVEN = 0.1  # share: what wider teeth and bodies add in stiffness at the ends of the narrower face; docs/validation.md, section 45
+EVEN = 0.1  # share: what wider teeth and bodies add in stiffness at the ends of the narrower face; docs/validation/gears.md
 
 
 def columns(path):

@@ -19,7 +19,7 @@ enum class ForceAccuracy { balanced, observed };
 class ResidualContact {
  public:
   /// Bodies without static responses have no residual displacement. The bodies of the model must outlive
-  /// this. Throws the errors of LocalApproach.
+  /// this.
   explicit ResidualContact(const SystemModel& model);
 
   bool any() const;
