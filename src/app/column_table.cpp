@@ -7,13 +7,12 @@
 
 #include "app/options/units.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 
 namespace elastogear::app {
 ColumnTable::ColumnTable(const std::string& file)
-    : in_(file), reader_(in_, file, io::DelimitedReader::Separator::one) {
-  require(in_.good(), file, ": cannot be read");
-}
+    : in_(open_input(file)), reader_(in_, file, io::DelimitedReader::Separator::one) {}
 
 bool ColumnTable::next() {
   while (reader_.next("#")) {

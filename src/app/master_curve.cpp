@@ -9,6 +9,7 @@
 
 #include "app/options/units.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 
 namespace elastogear::app {
@@ -63,8 +64,7 @@ Eigen::VectorXd values(const std::map<std::string, Column>& columns, const std::
 }  // namespace
 
 model::MasterCurve read_master_curve(const std::string& path) {
-  std::ifstream file(path);
-  require(file.good(), path, ": the master curve cannot be read");
+  std::ifstream file = open_input(path);
   std::string line;
   require(static_cast<bool>(std::getline(file, line)), path, ": is empty");
   std::vector<std::string> names;

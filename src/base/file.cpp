@@ -23,6 +23,13 @@ namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;  // as many as Linux follows
 
+void require_regular(const std::string& path) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  require(fs::exists(status), path, ": there is no such file");
+  require(fs::is_regular_file(status), path, ": is not a regular file");
+}
+
 Stream open(const std::string& path) {
   Stream file(std::fopen(path.c_str(), "rb"));
   require(file != nullptr, path, ": cannot be opened: ", std::strerror(errno));
@@ -77,11 +84,16 @@ bool is_file(const std::string& path) {
   return std::filesystem::is_regular_file(path, error);
 }
 
+std::ifstream open_input(const std::string& path) {
+  require_regular(path);
+  std::ifstream in(path, std::ios::binary);
+  require(in.good(), path, ": cannot be opened: ", std::strerror(errno));
+  return in;
+}
+
 std::string read_file(const std::string& path) {
   std::error_code error;
-  const auto status = fs::status(path, error);
-  require(fs::exists(status), path, ": there is no such file");
-  require(fs::is_regular_file(status), path, ": is not a regular file");
+  require_regular(path);
   const auto size = fs::file_size(path, error);
   require(!error, path, ": cannot be read: ", error.message());
   const Stream file = open(path);

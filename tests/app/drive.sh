@@ -307,7 +307,7 @@ refused "bearings.csv, line 1: must be a designation" simulate spur.yaml -wheel_
 refused "unknown option -old_at" simulate spur.yaml -old_at 1
 refused "rack_protuberance = 0.5: must be 0 to 0.2" mesh spur.yaml -rack_protuberance 0.5
 refused "rack_protuberance_angle = 25 deg: must be" mesh spur.yaml -rack_protuberance 0.02 -rack_protuberance_angle 25
-refused "none.csv: cannot be read" mesh spur.yaml -wheel_topography none.csv
+refused "none.csv: there is no such file" mesh spur.yaml -wheel_topography none.csv
 printf 'diameter,z,height\n0.13,0,1e-6\n0.13,0,2e-6\n' >twice.csv
 refused "twice.csv, line 3: this point of the flank is given twice" mesh spur.yaml -wheel_topography twice.csv
 refused "unknown option -pinion_middle_tip_relief" mesh spur.yaml -pinion_middle_tip_relief "1 um"

@@ -96,7 +96,7 @@ refused "no_node.csv, line 1: node 999999 is not on the surface of body 'worm'" 
 refused "twice.csv, line 2: node $node is given twice" -worm_deviation twice.csv
 refused "micrometres.csv, line 1: deviation 5 m of node $node exceeds" -worm_deviation micrometres.csv
 refused "one_column.csv, line 1: must be two numbers" -worm_deviation one_column.csv
-refused "nosuch.csv: cannot be read" -worm_deviation nosuch.csv
+refused "nosuch.csv: there is no such file" -worm_deviation nosuch.csv
 sed 's/, flanks: wheel.yaml//; /flanks: worm.yaml/s/flanks: worm.yaml//' drive.yaml >plain.yaml
 if "$elastogear" simulate plain.yaml -contact_surface exact -output no.h5 >log 2>&1 || ! grep -q "neither body of the pair worm:wheel" log; then
   cat log; exit 1

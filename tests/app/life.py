@@ -182,7 +182,7 @@ def look(program, scripts):
     run(*one, "100 MPa, 5", fails="is no unit of it")
     run(*one, "100 N m, 5 mm", fails="is no unit of it")
     run(*one, "100 N m, 2 h", "-speed", "0", fails="needs the speed")
-    run(*one, "nosuch.csv", fails="nosuch.csv: cannot be read")
+    run(*one, "nosuch.csv", fails="nosuch.csv: there is no such file")
     run("-files", "100.h5", fails="-duty_cycle is missing")
     run("-duty_cycle", "100 N m, 1e5", fails="sweep the drive first")
     run("-files", "nosuch.h5", "-duty_cycle", "100 N m, 1e5", fails="nosuch.h5")

@@ -41,7 +41,7 @@ REDUCE = [
     Case("static responses of a polymer", r"", "{reduce} -material_prony_tau 1 -material_prony 0.3 -basis modal_residual -surface TOP", kind="good", leaves=r"kept\.h5"),
     Case("no relaxed state", r"relaxed_states.*0", "{reduce} -relaxed_states 0"),
     Case("too many relaxed states", r"relaxed_states = 9, must be at most 8", "{reduce} -relaxed_states 9"),
-    Case("master curve that is none", r"nosuch.csv: the master curve cannot be read", "{reduce} -material_master_curve nosuch.csv"),
+    Case("master curve that is none", r"nosuch.csv: there is no such file", "{reduce} -material_master_curve nosuch.csv"),
     Case("master curve without units", r"no_units.csv: heading 'modulus' lacks its unit", "{reduce} -material_master_curve no_units.csv"),
     Case("master curve with a negative modulus", r"negative_modulus.csv: modulus -2", "{reduce} -material_master_curve negative_modulus.csv"),
     Case("master curve with a word", r"soft_curve.csv, line 3: 'soft' is not a number", "{reduce} -material_master_curve soft_curve.csv"),

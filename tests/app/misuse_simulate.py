@@ -1,4 +1,6 @@
 """The misuses of the verb simulate."""
+import os
+
 import numpy as np
 
 from misuse_case import (again, Case, edited, flipped, full, garbled, goes_on, HALT, incomplete, KILL_AT_SECOND_STATE,
@@ -74,7 +76,9 @@ SIMULATE = [
     Case("bodies deep inside each other", r"(deep|penetrat)", "{simulate} -b_position 0.003,0,0.004 -b_rotation 3.14159265,0,0"),
     Case("table that ends early", r"covers 0 .. 5e-07 s, the run needs 0 .. 1e-06 s", "{hinged} -a_torque table,short.csv"),
     Case("table with equal times", r"equal.csv: table row 2: time 0 s", "{hinged} -a_torque table,equal.csv"),
-    Case("table that is not there", r"nosuch.csv: cannot be read", "{hinged} -a_rotation_motion table,nosuch.csv"),
+    Case("table of a pipe", r"pipe.csv: is not a regular file", "{hinged} -a_rotation_motion table,pipe.csv",
+         before=lambda bench: os.mkfifo(bench.path("pipe.csv")), after=lambda bench: os.remove(bench.path("pipe.csv"))),
+    Case("table that is not there", r"nosuch.csv: there is no such file", "{hinged} -a_rotation_motion table,nosuch.csv"),
     Case("static motion without end", r"needs the time", "{elastogear} simulate -bodies a -a_file body.h5 -a_joint revolute -a_rotation_motion speed,2 -analysis static -output kept_run.h5"),
     Case("static with an initial speed", r"no initial velocity", "{hinged} -a_omega0 1 -analysis static"),
     Case("speed as a vector on a hinge", r"free or spherical", "{hinged} -a_omega0 1,2,3"),

@@ -1,6 +1,7 @@
 #pragma once
 // Whole files read at once, and files that appear under their name only when complete.
 
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -30,7 +31,10 @@ std::string place_of_output(const std::string& path);
 /// power leaves the old file or the new one. WriteFailure when it cannot.
 void put_in_place(const std::string& file, const std::string& path);
 
-/// The whole content of a regular file; Error naming the path and the reason.
+/// A regular file, to be read from its beginning; Error naming the path and the reason. Devices and pipes are
+/// refused: they may have no end.
+std::ifstream open_input(const std::string& path);
+/// The whole content of a regular file; errors as above.
 std::string read_file(const std::string& path);
 
 /// A file that is written under a temporary name beside `path`, or beside the file that the link `path` leads

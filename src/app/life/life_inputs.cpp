@@ -10,6 +10,7 @@
 #include "app/finite_elements.h"
 #include "app/options/units.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/describe.h"
@@ -69,9 +70,9 @@ std::size_t column_of(const std::string& file, const std::vector<std::string>& h
 // The table of cases that a sweep with several torques or variants writes.
 std::vector<SweptTorque> of_cases(const Options& options, const std::string& table,
                                   const std::string& variant) {
-  std::ifstream in(table);
+  std::ifstream in = open_input(table);
   std::string line;
-  require(in.good() && std::getline(in, line), table, ": cannot be read");
+  require(static_cast<bool>(std::getline(in, line)), table, ": cannot be read");
   const std::vector<std::string> heading = fields_of(line);
   const std::size_t file = column_of(table, heading, "file"), torque = column_of(table, heading, "torque"),
                     name = column_of(table, heading, "variant");

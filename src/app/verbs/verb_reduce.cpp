@@ -23,6 +23,7 @@
 #include "app/verbs/verbs.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 #include "elastogear/base/log_stage.h"
 #include "elastogear/base/number.h"
 #include "elastogear/base/petsc.h"
@@ -88,8 +89,7 @@ Nodes read_nodes(const Options& options) {
   }
   const std::string path = options.text("nodes");
   require(!options.given("mesh"), "options -mesh and -nodes: only one of them can give the nodes");
-  std::ifstream in(path);
-  require(in.good(), path, ": cannot be opened");
+  std::ifstream in = open_input(path);
   io::NodeTable table = io::read_node_table(in, path);
   nodes.mesh.X = unit_in_m(options) * table.X;
   nodes.report.node_number = std::move(table.number);

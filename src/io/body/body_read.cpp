@@ -36,9 +36,18 @@ model::Inertia read_inertia(const h5::File& file, Eigen::Index n_q) {
   return inertia;
 }
 
+// Numbers of nodes of the mesh.
+std::vector<int> read_nodes(const h5::File& file, const std::string& name) {
+  auto nodes = h5::read<int>(file, name, {h5::kAny});
+  const auto n = static_cast<int>(h5::shape(file, "/mesh/X").at(0));
+  const auto beyond = std::find_if(nodes.begin(), nodes.end(), [n](int i) { return i < 0 || i >= n; });
+  if (beyond != nodes.end()) fail(file.path, ": ", name, " holds ", *beyond, ", must be within 0..", n - 1);
+  return nodes;
+}
+
 model::Surface read_surface(const h5::File& file) {
   model::Surface surface;
-  surface.node = h5::read<int>(file, "/surface/nodes", {h5::kAny});
+  surface.node = read_nodes(file, "/surface/nodes");
   surface.X = read_points(file, "/surface/X");
   const auto face = h5::read<int>(file, "/surface/face", {h5::kAny, 4});
   surface.face =
@@ -56,7 +65,7 @@ model::Surface read_surface(const h5::File& file) {
 
 model::Stress read_stress(const h5::File& file) {
   model::Stress stress;
-  stress.node = h5::read<int>(file, "/stress/nodes", {h5::kAny});
+  stress.node = read_nodes(file, "/stress/nodes");
   stress.X = read_points(file, "/stress/X");
   stress.Psi = read_rows(file, "/stress/Psi", 6);
   for (const std::string& name : h5::members(file, "/stress/sets"))

@@ -8,18 +8,13 @@
 
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
 
 namespace elastogear::reduction {
 namespace {
 
 constexpr std::size_t kPiece = 1 << 16;  // entries that travel together
 constexpr double kSymmetry = 1e-9;       // of the largest entry: what rounded output may differ by
-
-std::ifstream open(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  require(in.good(), path, ": cannot be opened");
-  return in;
-}
 
 std::pair<int, int> place(const Entry& e) { return std::minmax(e.row, e.column); }
 
@@ -40,7 +35,7 @@ struct File {
   std::ifstream in;
   io::MatrixReader reader;
 
-  File(const std::string& path, io::MatrixFormat format) : in(open(path)), reader(in, path, format) {}
+  File(const std::string& path, io::MatrixFormat format) : in(open_input(path)), reader(in, path, format) {}
 };
 
 // All entries of `path` whose smaller index this rank owns.
@@ -127,7 +122,7 @@ LabelTable::LabelTable(const mesh::Mesh& mesh, const ImportedFiles& files)
     std::iota(dof_of_row_.begin(), dof_of_row_.end(), 0);
     return;
   }
-  std::ifstream in = open(files.dofs);
+  std::ifstream in = open_input(files.dofs);
   for (const io::MatrixLabel& label : io::read_dof_table(in, files.dofs))
     dof_of_row_.push_back(dof(label, files.dofs));
 }
