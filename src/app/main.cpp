@@ -15,6 +15,7 @@
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
+#include "elastogear/base/text.h"
 #include "elastogear/base/version.h"
 
 namespace elastogear::app {
@@ -95,7 +96,8 @@ int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, con
   const std::string failure = failure_of(verbs, line, problem, argc, argv);
   if (rank == 0 && failure.empty()) warn_of_unused_options();
   if (rank == 0 && !failure.empty())
-    std::fprintf(stderr, "elastogear %s: error: %s\n", line.verb.c_str(), failure.c_str());
+    std::fprintf(stderr, "elastogear %s: error: %s\n", printable(line.verb).c_str(),
+                 printable(failure).c_str());
   end.wait(failure, rank == 0);
   return failure.empty() ? 0 : 1;
 }

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <thread>
 
+#include "elastogear/base/text.h"
+
 namespace elastogear::app {
 namespace {
 
@@ -52,7 +54,7 @@ void CommonEnd::wait(const std::string& failure, bool said) {
       continue;
     }
     std::fprintf(stderr, "elastogear: error: rank %d of %d fails alone%s%s\n", rank_, size_, said ? "" : ": ",
-                 said ? "" : failure.c_str());
+                 said ? "" : printable(failure).c_str());
     MPI_Abort(MPI_COMM_WORLD, 1);
   }
   MPI_Comm_free(&comm_);

@@ -64,6 +64,11 @@ TEST(Yaml, ErrorsNameTheLine) {
 
 TEST(Yaml, EndlessMapsEnd) {
   EXPECT_NE(error_of("a: &a {b: *a}\n").find("nested more than"), std::string::npos);
+  for (const std::string bracket : {"[", "{a: "}) {  // at once: libyaml would take minutes
+    std::string deep = "a: 1\nb: ";
+    for (int i = 0; i < 100000; ++i) deep += bracket;
+    EXPECT_NE(error_of(deep).find("line 2: lists and maps are nested more than"), std::string::npos);
+  }
   std::string bomb = "$$0: &a0 {x: 1}\n";
   for (int i = 1; i < 30; ++i) {
     const std::string last = std::to_string(i - 1), now = std::to_string(i);

@@ -1,5 +1,5 @@
 #pragma once
-// Lists as text.
+// Lists as text, and text on a terminal.
 
 #include <functional>
 #include <string>
@@ -26,5 +26,9 @@ template <class Map>
 std::string join_keys(const Map& map) {
   return join(map, ", ", [](const auto& entry) { return entry.first; });
 }
+
+/// The text with its control characters written out, "\x1b", but for ends of lines and tabs: a terminal would
+/// obey those of files that others wrote. UTF-8 stays.
+std::string printable(std::string_view text);
 
 }  // namespace elastogear

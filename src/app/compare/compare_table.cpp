@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "elastogear/base/text.h"
 #include "elastogear/io/csv.h"
 
 namespace elastogear::app {
@@ -36,11 +37,11 @@ void print(const Table& table) {
   std::size_t first = table.heading.size();
   for (const std::string& name : table.names) first = std::max(first, name.size());
   const int indent = static_cast<int>(first);
-  std::printf("\n%s\n%-*s", table.title.c_str(), indent, table.heading.c_str());
+  std::printf("\n%s\n%-*s", printable(table.title).c_str(), indent, table.heading.c_str());
   for (const auto& column : table.columns) std::printf("%*s", width_of(column), title_of(column).c_str());
   std::printf("\n");
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    std::printf("%-*s", indent, table.names[i].c_str());
+    std::printf("%-*s", indent, printable(table.names[i]).c_str());
     for (std::size_t j = 0; j < table.columns.size(); ++j)
       std::printf("%*s", width_of(table.columns[j]),
                   number(table.rows[i][static_cast<Eigen::Index>(j)]).c_str());

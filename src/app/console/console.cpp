@@ -17,6 +17,7 @@
 
 #include "app/console/embedding.h"
 #include "app/console/progress_line.h"
+#include "elastogear/base/text.h"
 
 namespace elastogear::app {
 namespace {
@@ -118,7 +119,7 @@ void print_item(const std::string& name, const std::string& text) {
   if (const Embedding* in = embedding()) return in->item(name, text);
   if (world_rank() > 0) return;
   clear_line();
-  std::printf("  %-30s %s\n", name.c_str(), text.c_str());
+  std::printf("  %-30s %s\n", printable(name).c_str(), printable(text).c_str());
   std::fflush(stdout);  // a killed run has said it
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/console/console.h"
 #include "app/evaluate/evaluate_tables.h"
+#include "elastogear/base/text.h"
 
 namespace elastogear::app {
 namespace {
@@ -177,7 +178,7 @@ std::string largest_pressure(const std::vector<EvaluationItem>& items) {
 
 void print_figures(const CaseFigures& of) {
   for (const PairFigures& pair : of.pairs) {
-    std::printf("%s, %s\n", of.of.name.c_str(), pair.pair.c_str());
+    std::printf("%s, %s\n", printable(of.of.name).c_str(), printable(pair.pair).c_str());
     const Reader reader{pair.items};
     print_error(reader);
     print_pitches(reader);
@@ -207,7 +208,7 @@ void print_cases(const std::vector<CaseFigures>& cases) {
   std::printf("\n");
   for (const CaseFigures& of : cases)
     for (const PairFigures& pair : of.pairs) {
-      std::printf("%-24s %-20s %13s %13s", of.of.name.c_str(), pair.pair.c_str(),
+      std::printf("%-24s %-20s %13s %13s", printable(of.of.name).c_str(), printable(pair.pair).c_str(),
                   largest_tension(pair.items).c_str(), largest_pressure(pair.items).c_str());
       for (const Column& column : kColumns) {
         const EvaluationItem* item = find_item(pair.items, column.path);

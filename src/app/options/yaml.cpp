@@ -128,6 +128,29 @@ void read_map(Reader& reader, const yaml_node_t& map, const Place& place) {
   }
 }
 
+void set_input(Parser& parser, const std::string& text) {
+  yaml_parser_set_input_string(&parser.raw, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+}
+
+// Lists and maps in brackets, of which libyaml takes a time that grows with the square of their depth: too
+// deep ones are refused before the rest of them is read. What is no YAML is left to load().
+void require_shallow(const std::string& text, const std::string& file) {
+  Parser parser;
+  set_input(parser, text);
+  int depth = 0;
+  for (bool ended = false; !ended;) {
+    yaml_event_t event;
+    if (!yaml_parser_parse(&parser.raw, &event)) return;
+    const std::size_t line = event.start_mark.line + 1;
+    depth += (event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT) -
+             (event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT);
+    ended = event.type == YAML_STREAM_END_EVENT;
+    yaml_event_delete(&event);
+    require(depth <= 2 * kDeepest, file, ", line ", line, ": lists and maps are nested more than ",
+            2 * kDeepest, " deep");
+  }
+}
+
 void load(Parser& parser, Document& document, const std::string& file) {
   if (yaml_parser_load(&parser.raw, &document.raw)) return;
   const std::string problem = parser.raw.problem ? parser.raw.problem : "cannot be read";
@@ -162,8 +185,9 @@ std::vector<YamlEntry> each_once(const std::vector<YamlEntry>& all, const std::s
 }  // namespace
 
 std::vector<YamlEntry> parse_yaml(const std::string& text, const std::string& file) {
+  require_shallow(text, file);
   Parser parser;
-  yaml_parser_set_input_string(&parser.raw, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  set_input(parser, text);
   std::vector<YamlEntry> all;
   while (true) {
     Document document;

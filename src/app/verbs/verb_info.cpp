@@ -4,6 +4,7 @@
 
 #include "app/verbs/verbs.h"
 #include "elastogear/base/error.h"
+#include "elastogear/base/text.h"
 #include "elastogear/io/describe.h"
 
 namespace elastogear::app {
@@ -12,7 +13,7 @@ namespace {
 void run_info(const Options& options, const std::vector<std::string>& files) {
   options.reject_unknown();
   require(!files.empty(), "no file given: elastogear info FILE ...");
-  for (const std::string& file : files) std::fputs(io::describe(file).c_str(), stdout);
+  for (const std::string& file : files) std::fputs(printable(io::describe(file)).c_str(), stdout);
 }
 
 }  // namespace
