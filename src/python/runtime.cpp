@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <set>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -16,12 +17,13 @@ namespace elastogear::python {
 namespace {
 
 constexpr double kLookEvery = 0.02;  // s
+constexpr std::chrono::milliseconds kAwaitEvery{5};
 
 /// The state of the library in this process. It is never destroyed.
 struct Process {
   pid_t owner = getpid();  // of what the module was imported in, later of what started PETSc
-  bool started = false, ended = false;
-  std::atomic<bool> busy = false;
+  bool started = false;
+  std::atomic<bool> ended = false, busy = false;
   std::set<Resource*> resources;
   std::vector<std::shared_ptr<void>> waiting;  // to be destroyed
 };
@@ -56,11 +58,20 @@ void start() {
   state.started = true;
 }
 
+// Threads that the interpreter does not wait for may be at work. What they do stops as by an interrupt.
+void await_work(const Process& state) {
+  while (state.busy) {
+    const py::gil_scoped_release released;
+    std::this_thread::sleep_for(kAwaitEvery);
+  }
+}
+
 // Called by atexit, before the interpreter and mpi4py end.
 void end() {
   Process& state = process();
   if (!state.started || state.ended || is_forked()) return;
   state.ended = true;
+  await_work(state);
   for (Resource* resource : std::set<Resource*>(state.resources)) resource->close();
   state.waiting.clear();
   PetscBool finalized = PETSC_FALSE;
@@ -92,7 +103,9 @@ bool Interrupts::pending() {
   if (time - looked_ < kLookEvery) return false;
   looked_ = time;
   const py::gil_scoped_acquire gil;
-  if (PyErr_CheckSignals() != 0) kept_.emplace();
+  if (process().ended)
+    PyErr_SetString(PyExc_SystemExit, "the interpreter is ending");  // ends a thread silently
+  if (process().ended || PyErr_CheckSignals() != 0) kept_.emplace();
   return kept_.has_value();
 }
 

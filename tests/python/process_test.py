@@ -101,6 +101,22 @@ class Processes(WithDrive):
                       f"s = eg.Drive({SPUR}).simulation(**{MOTION})\ns.step()\nprint(s.state.time)")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def test_interpreter_ends_while_a_thread_simulates(self):
+        done = python(f"""import elastogear as eg, threading, warnings
+warnings.simplefilter('ignore')
+under_way = threading.Event()
+drive = eg.Drive({SPUR})
+work = lambda: drive.simulate(analysis='dynamic', output='left.h5', resume='discard',
+                              progress=lambda stage, fraction: under_way.set(), **{ENDLESS})
+threading.Thread(target=work, daemon=True).start()
+under_way.wait()""")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertFalse([name for name in os.listdir() if ".tmp" in name or name.endswith(".lock")])
+
+    def test_interpreter_ends_with_a_body_alive(self):
+        done = python("import elastogear as eg\nbody = eg.Body('pinion.h5')")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_forked_before_the_first_use(self):
         done = python("import os, elastogear as eg\n"
                       "if os.fork() == 0:\n    eg.describe('pinion.h5')\n"

@@ -27,8 +27,9 @@ class Id {
   }
   Id(const Id&) = delete;
   Id& operator=(const Id&) = delete;
+  /// At the end of a process HDF5 may have closed all of its objects before.
   ~Id() {
-    if (id_ >= 0) H5Idec_ref(id_);
+    if (id_ >= 0 && H5Iis_valid(id_) > 0) H5Idec_ref(id_);
   }
   operator hid_t() const { return id_; }
 
