@@ -30,11 +30,12 @@ void require_names(const std::string& path, const Sets& sets) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report) {
+Mesh read_mesh(const std::string& path, double unit_in_m, ReadReport* report, const std::string& instance) {
   require(std::isfinite(unit_in_m) && unit_in_m > 0, path, ": unit of length is ", unit_in_m,
           " m, must be positive");
-  Mesh mesh =
-      extension(path) == ".msh" ? read_msh(path, unit_in_m, report) : read_inp(path, unit_in_m, report);
+  const bool msh = extension(path) == ".msh";
+  require(!msh || instance.empty(), path, ": a .msh has no instances; give no instance");
+  Mesh mesh = msh ? read_msh(path, unit_in_m, report) : read_inp(path, unit_in_m, report, instance);
   require_names(path, mesh.node_sets);
   require_names(path, mesh.face_sets);
   return mesh;

@@ -101,6 +101,17 @@ def part(n=NODES, e=ELEMENTS, instance="*INSTANCE, NAME=BAR-1, PART=BAR\n*END IN
             "*END ASSEMBLY\n" + MATERIAL.replace("*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n", "") + "*BOUNDARY\nHELD, ENCASTRE\n" + STEP)
 
 
+def two_parts():
+    """The bar beside a longer one of other sets, which is placed first and held elsewhere."""
+    long = ("*PART, NAME=LONG\n*NODE\n1, 0., 0., 0.\n2, 99., 0., 0.\n3, 99., 9., 0.\n4, 0., 9., 0.\n5, 0., 0., 9.\n6, 99., 0., 9.\n"
+            "7, 99., 9., 9.\n8, 0., 9., 9.\n*ELEMENT, TYPE=C3D8, ELSET=EALL\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*NSET, NSET=FIX\n1, 2\n"
+            "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n,\n*END PART\n")
+    deck = part(instance="*INSTANCE, NAME=LONG-1, PART=LONG\n0., 0., 50.\n*END INSTANCE\n*INSTANCE, NAME=BAR-1, PART=BAR\n100., 0., 5.\n*END INSTANCE\n"
+                "*NSET, NSET=OTHER, INSTANCE=LONG-1\n1, 2\n*ELSET, ELSET=_TOP_S2, INTERNAL, INSTANCE=LONG-1\n1\n"
+                "*SURFACE, NAME=TOP, TYPE=ELEMENT\n_TOP_S2, S2\n")
+    return deck.replace("*PART, NAME=BAR", long + "*PART, NAME=BAR").replace("*BOUNDARY\n", "*BOUNDARY\nOTHER, ENCASTRE\nLONG-1.FIX, 1, 3\n")
+
+
 READ = [
     Deck("the bar", BAR, FREE_TIP),
     Deck("mass at a corner", BAR_MASS, HEAVY_CORNER),
@@ -157,6 +168,7 @@ READ = [
          "*END INSTANCE\n"), FREE_TIP, same_as=BAR),
     Deck("instance that is turned askew", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n0., 0., 0.\n0., 1., 0., 1., 2., 1., 33.\n"
          "*END INSTANCE\n"), FREE_TIP, same_as=BAR),
+    Deck("one of two instances", two_parts(), FREE_TIP, same_as=BAR, options="-instance bar-1"),
     Deck("names in Latin-1", bar().replace("FIX", "B\u00dcGEL"), FREE_TIP, encoding="latin-1", same_as=BAR),
     Deck("names in UTF-8 behind its mark", bar().replace("FIX", "B\u00dcGEL"), FREE_TIP, encoding="utf-8-sig", same_as=BAR),
     Deck("names with commas", bar().replace("FIX", '"FIX, LEFT"'), FREE_TIP, same_as=BAR),
@@ -210,7 +222,9 @@ REFUSED = [
     Deck("instance that is moved, with axes", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n100., 0., 5.\n*END INSTANCE\n").replace(
         "*MATERIAL", "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n*MATERIAL"), error="INSTANCE that is moved"),
     Deck("second instance", part(instance="*INSTANCE, NAME=BAR-1, PART=BAR\n*END INSTANCE\n*INSTANCE, NAME=BAR-2, PART=BAR\n*END INSTANCE\n"),
-         error=r"a second \*INSTANCE"),
+         error=r"a second \*INSTANCE, 'BAR-2' after 'BAR-1'.*option instance"),
+    Deck("second part", two_parts(), error=r"a second \*PART.*option instance"),
+    Deck("instance that is not there", two_parts(), error=r"no instance 'BAR-7'; its instances are: LONG-1, BAR-1", options="-instance BAR-7"),
     Deck("element that is inside out", bar(e=ELEMENTS + "500011, 1, 10, 11, 2, 28, 37, 38, 29\n"), error="cell 500011, of node 1, .*Jacobian"),
     Deck("node twice", bar(n=NODES + "1, 0., 0., 0.\n"), error="node 1 is defined twice"),
     Deck("element of an unknown node", bar(e=ELEMENTS + "500011, 1, 2, 11, 10, 28, 29, 38, 9999\n"), error="element 500011 names node 9999"),

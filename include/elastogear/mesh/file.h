@@ -10,8 +10,9 @@ namespace elastogear::mesh {
 
 /// Reads and validates. `unit_in_m`: length of one unit of the file's coordinates in m (0.001 for mm);
 /// materials of the file are in N and s with it (MPa and t/mm^3 for mm). Error naming file and place for
-/// anything that is not a complete mesh of known cells.
-Mesh read_mesh(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
+/// anything that is not a complete mesh of known cells. `instance`: of an .inp with several, the one to read.
+Mesh read_mesh(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr,
+               const std::string& instance = "");
 
 /// Validates and writes (binary for .msh), coordinates in m; the file appears only when complete.
 void write_mesh(const std::string& path, const Mesh& mesh);

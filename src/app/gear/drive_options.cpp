@@ -47,8 +47,8 @@ constexpr const char* kShared[] = {"size",           "element_order",   "refinem
                                    "pressure_angle", "centre_distance", "backlash",   "face_width"};
 
 // Options of reduce that a drive sets itself for each gear.
-const std::vector<std::string> kOfDrive = {"mesh", "unit",          "output", "stiffness",
-                                           "mass", "matrix_format", "dofs",   "nodes"};
+const std::vector<std::string> kOfDrive = {"mesh",          "unit", "output", "stiffness", "mass",
+                                           "matrix_format", "dofs", "nodes",  "instance"};
 
 bool any_material(const Options& options) {
   const auto all = options.given_to_verb();

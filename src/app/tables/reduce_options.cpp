@@ -20,6 +20,7 @@ const Rows<ReductionOptions> kMeshRows = {
     {"unit", "-", "m",
      "unit of length of the mesh file or node table: m, mm (then matrices and the file's materials are in N, "
      "mm and t), um or in (then materials are those of options)"},
+    {"instance", "-", "", "of an .inp file with several instances of parts, the one that is the body"},
     {"output", "-", "", "body file to write (HDF5)"},
     {"element", &ReductionOptions::element, one_of("incompatible", "plain", "bbar"),
      "8-node hexahedra: incompatible (modes), plain or bbar (mean dilatation)"},

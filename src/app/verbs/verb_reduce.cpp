@@ -83,7 +83,8 @@ void look_at_joints(const Options& options, Nodes& nodes) {
 Nodes read_nodes(const Options& options) {
   Nodes nodes;
   if (!options.given("nodes")) {
-    nodes.mesh = mesh::read_mesh(options.text("mesh"), unit_in_m(options), &nodes.report);
+    nodes.mesh = mesh::read_mesh(options.text("mesh"), unit_in_m(options), &nodes.report,
+                                 options.given("instance") ? options.text("instance") : "");
     look_at_joints(options, nodes);
     return nodes;
   }

@@ -13,7 +13,9 @@ namespace elastogear::mesh {
 /// Element types C3D4, 5, 6, 8, 10, 15, 20; letters behind (C3D8I, C3D20R) do not matter, because a body's
 /// formulation is chosen when it is reduced. Set names match without regard to case and keep their first
 /// spelling. Units as in read_mesh. Error naming file and line.
-Mesh read_inp(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr);
+/// `instance`: which *INSTANCE of an *ASSEMBLY of several is read; empty: the only one.
+Mesh read_inp(const std::string& path, double unit_in_m = 1, ReadReport* report = nullptr,
+              const std::string& instance = "");
 
 /// A file's content in memory; `open` gives that of the files it includes and throws Error when there is
 /// none.
@@ -21,6 +23,7 @@ struct InpText {
   std::string path;  ///< for errors, and the folder that names of included files are relative to
   std::string content;
   std::function<std::string(const std::string& path)> open = read_file;
+  std::string instance = {};  ///< which *INSTANCE is read; empty: the only one
 };
 Mesh parse_inp(InpText text, double unit_in_m = 1, ReadReport* report = nullptr);
 

@@ -25,7 +25,19 @@ struct SurfaceLine {
   int line = 0;
 };
 
+/// Of a deck with several instances, the one that is read, and what belongs to the others and is passed over.
+struct ChosenInstance {
+  std::string name, part;         // in capitals; empty: there is only one
+  std::set<std::string> others;   // in capitals: names of instances
+  std::set<std::string> members;  // in capitals: sets of the assembly that hold other instances' members
+  bool in_other_part = false, in_other = false;
+
+  /// Returns whether a set or surface line names a member of another instance: "Part-2-1.Set-2".
+  bool leaves_out(std::string_view field) const;
+};
+
 struct InpDeck : RawMesh {
+  ChosenInstance chosen;
   OtherElements others;
   std::map<Tag, CellNodes> collapsed;  // elements that repeat nodes, as the file has them
   InpSets node_sets{"node"}, cell_sets{"element"};
@@ -53,6 +65,11 @@ struct InpDeck : RawMesh {
   /// A member of a set or surface without the name of its instance ("Part-1-1.Set-2").
   std::string_view member(std::string_view field) const;
 };
+
+/// Finds the instance and its part. Error when there is none of the name.
+ChosenInstance choose_instance(const InpText& text);
+/// Returns whether the present keyword belongs to another instance than the chosen one.
+bool belongs_to_others(const Keyword& key, ChosenInstance& chosen);
 
 /// *NSET or *ELSET, and *SURFACE by elements.
 void read_set(InpLines& in, const Keyword& key, InpDeck& deck);

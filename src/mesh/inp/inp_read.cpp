@@ -120,9 +120,13 @@ void place_instance(const InpLines& in, InpDeck& deck) {
 
 // *PART, *ASSEMBLY and *INSTANCE as Abaqus CAE writes them around a single part.
 bool read_structure(InpLines& in, const Keyword& key, InpDeck& deck) {
-  if (key.name == "PART" && ++deck.n_parts > 1) in.fail_here("a second *PART: a body is one part");
+  if (key.name == "PART" && ++deck.n_parts > 1)
+    in.fail_here(
+        "a second *PART: a body is one part; option instance of reduce chooses one by its *INSTANCE");
   if (key.name == "INSTANCE") {
-    if (!deck.instance.empty()) in.fail_here("a second *INSTANCE: a body is one part");
+    if (!deck.instance.empty())
+      in.fail_here("a second *INSTANCE, '", key.value("NAME"), "' after '", deck.instance,
+                   "': a body is one of them, which option instance of reduce chooses");
     deck.instance = key.value("NAME");
     if (deck.instance.empty()) in.fail_here("*INSTANCE without NAME=name");
     read_placement(in, deck);
@@ -201,6 +205,10 @@ void pass_over(InpLines& in, const Keyword& key, InpDeck& deck) {
 // A step is what another program does with the body, but for what holds it.
 void read_keyword(InpLines& in, InpDeck& deck) {
   const Keyword key = in.keyword();
+  if (belongs_to_others(key, deck.chosen)) {
+    while (in.next_data()) continue;
+    return;
+  }
   if (key.name == "STEP") ++deck.n_steps;
   if (key.name == "STEP") deck.in_step = true;
   const KeywordKind kind = key.row ? key.row->kind : KeywordKind::lost;
@@ -268,11 +276,16 @@ std::string_view InpDeck::member(std::string_view field) const {
 Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   InpDeck deck;
   check_end(text.path, text.content, deck);
+  deck.chosen = choose_instance(text);
   InpLines in(std::move(text));
   while (in.next()) {
     if (!in.at_keyword()) in.fail_here("data before the first keyword");
     read_keyword(in, deck);
   }
+  std::erase_if(deck.boundary,
+                [&](const BoundaryLine& line) { return deck.chosen.leaves_out(line.members); });
+  std::erase_if(deck.transforms,
+                [&](const Transform& transform) { return deck.chosen.leaves_out(transform.members); });
   for (BoundaryLine& line : deck.boundary) line.members = std::string(deck.member(line.members));
   for (Transform& transform : deck.transforms)
     transform.members = std::string(deck.member(transform.members));
@@ -292,8 +305,8 @@ Mesh parse_inp(InpText text, double unit_in_m, ReadReport* report) {
   return mesh;
 }
 
-Mesh read_inp(const std::string& path, double unit_in_m, ReadReport* report) {
-  return parse_inp({path, read_file(path)}, unit_in_m, report);
+Mesh read_inp(const std::string& path, double unit_in_m, ReadReport* report, const std::string& instance) {
+  return parse_inp({path, read_file(path), read_file, instance}, unit_in_m, report);
 }
 
 }  // namespace elastogear::mesh

@@ -134,6 +134,7 @@ void read_set(InpLines& in, const Keyword& key, InpDeck& deck) {
       continue;
     }
     for (std::string_view field : in.fields()) {
+      if (deck.chosen.leaves_out(field)) continue;
       const std::string_view member = deck.member(field);
       if (const auto number = parse<Tag>(member)) {
         sets.add(name, {*number}, in.number());
@@ -153,12 +154,19 @@ void read_surface(InpLines& in, const Keyword& key, InpDeck& deck) {
     return deck.notes.lose(in, "*SURFACE, TYPE=" + key.value("TYPE"), key.line,
                            "this surface is not read: name a node set, or give it by elements");
   }
+  bool left_out = false;
   while (in.next_data()) {
     const auto& fields = in.fields();
+    if (deck.chosen.leaves_out(fields[0])) {
+      left_out = true;
+      continue;
+    }
     const std::string label = fields.size() > 1 ? upper(fields[1]) : "";
     deck.surface_lines.push_back(
         {name, std::string(deck.member(fields[0])), label, side_of(label), in.number()});
   }
+  const bool has_lines = !deck.surface_lines.empty() && deck.surface_lines.back().name == name;
+  if (left_out && !has_lines) deck.surfaces.spelling.erase(upper(name));
 }
 
 void build_surfaces(const InpLines& in, InpDeck& deck, const TagTable& nodes, const TagTable& cells,
