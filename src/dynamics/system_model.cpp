@@ -202,10 +202,7 @@ void choose_stations(SystemModel& model) {
   });
   for (PairSetup& pair : model.pairs) {
     if (pair.settings.points != contact::SlavePoints::stations) continue;
-    if (all)
-      pair.settings.law = contact::ContactLaw::unilateral;
-    else
-      pair.settings.points = contact::SlavePoints::minima;
+    if (!all) pair.settings.points = contact::SlavePoints::minima;
   }
 }
 

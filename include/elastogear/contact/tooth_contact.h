@@ -23,11 +23,10 @@ struct ToothedPair;
 class ToothedBody {
  public:
   /// compliance: 1/Pa, (1 - nu^2) / (pi E). deviation: m, of each node of the surface along the outward
-  /// normal, or empty. responds: does its mesh have static responses, so that the half-space below smooth
-  /// loads on it is in them? The surface must outlive this. Throws Error for flanks that are not in rows and
+  /// normal, or empty. The surface must outlive this. Throws Error for flanks that are not in rows and
   /// layers.
   ToothedBody(const model::Surface& surface, std::shared_ptr<const ExactFlanks> flanks, double compliance,
-              const Eigen::VectorXd& deviation, bool responds);
+              const Eigen::VectorXd& deviation);
   ~ToothedBody();
   ToothedBody(ToothedBody&&) noexcept;
 
@@ -35,8 +34,6 @@ class ToothedBody {
   const std::vector<FlankMesh>& meshes() const { return meshes_; }
   const model::Surface& surface() const { return *surface_; }
   double compliance() const { return compliance_; }
-  /// 1/Pa, of the half-space that is taken out of static responses.
-  double compliance_of_mesh() const { return responds_ ? compliance_ : 0; }
   /// The nodes of a flank, in the order of its tables.
   const std::vector<int>& nodes(const FlankName& flank) const;
   /// Loads on the pair's strips of the flanks of one side; made when they are first asked for. s: which body
@@ -55,7 +52,6 @@ class ToothedBody {
   std::shared_ptr<const ExactFlanks> flanks_;
   double compliance_;
   Eigen::VectorXd deviation_;
-  bool responds_;
   std::vector<FlankMesh> meshes_;
   std::vector<Eigen::Matrix3Xd> marks_;
   std::vector<Eigen::Vector3d> mark_normals_;

@@ -7,8 +7,8 @@
 
 namespace elastogear::dynamics {
 
-/// What a pair lacks for contact at stations: charts of exact flanks and one elastic material at the surface
-/// of both bodies, which are rigid or reduced, no penalty and no friction that sticks. Empty: nothing.
+/// What a pair lacks for contact at stations: charts of exact flanks, static responses and one elastic
+/// material at the surface of both bodies, no penalty and no friction that sticks. Empty: nothing.
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair);
 
 }  // namespace elastogear::dynamics

@@ -15,8 +15,8 @@ constexpr double kNear = 1.5;      // of a flank's height, that a mate's flank i
 constexpr double kFarther = 1.01;  // times the size of a load, that of those it may become in a small motion
 constexpr double kSteepest = 1;    // slope of a line of contact that loads follow, lengths along both
 
-const ToothedBody& body_of(const ToothedPair& pair, std::size_t s) {
-  return s == 0 ? *pair.owner : *pair.mate;
+double compliance_of(const ToothedPair& pair, std::size_t s) {
+  return (s == 0 ? pair.owner : pair.mate)->compliance();
 }
 
 // Loads even over boxes around places along a straight line, over what each does to itself without images.
@@ -142,9 +142,9 @@ Eigen::MatrixXd local_compliance(const ToothContact& contact) {
     const Eigen::VectorXd D = contact.side[s].moving.smooth.cwiseSqrt();
     const Eigen::MatrixXd line = among.line[s](contact.number, contact.number),
                           smooth = among.smooth[s](contact.number, contact.number);
-    const ToothedBody& body = body_of(*contact.pair, s);
-    local += body.compliance() * (L.asDiagonal() * line * L.asDiagonal());
-    local -= body.compliance_of_mesh() * (D.asDiagonal() * smooth * D.asDiagonal());
+    const double compliance = compliance_of(*contact.pair, s);
+    local += compliance * (L.asDiagonal() * line * L.asDiagonal());
+    local -= compliance * (D.asDiagonal() * smooth * D.asDiagonal());
   }
   return local;
 }

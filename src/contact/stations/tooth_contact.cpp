@@ -86,8 +86,7 @@ ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, co
   for (std::size_t s : {0, 1}) {
     const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair, s);
     contact.side[s] = make_side(contact, *mesh[s], loads, s == 0);
-    contact.local += body[s]->compliance() * loads.line -
-                     body[s]->compliance_of_mesh() * smooth_kernel(loads, contact.side[s].at);
+    contact.local += body[s]->compliance() * (loads.line - smooth_kernel(loads, contact.side[s].at));
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto j = static_cast<std::size_t>(i);
@@ -106,12 +105,11 @@ ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, co
 }  // namespace
 
 ToothedBody::ToothedBody(const model::Surface& surface, std::shared_ptr<const ExactFlanks> flanks,
-                         double compliance, const Eigen::VectorXd& deviation, bool responds)
+                         double compliance, const Eigen::VectorXd& deviation)
     : surface_(&surface),
       flanks_(std::move(flanks)),
       compliance_(compliance),
       deviation_(deviation),
-      responds_(responds),
       meshes_(flank_meshes(surface, *flanks_)) {
   const double v = middle(*flanks_);
   for (const FlankMesh& mesh : meshes_) {

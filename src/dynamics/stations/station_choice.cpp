@@ -6,10 +6,10 @@
 namespace elastogear::dynamics {
 namespace {
 
-// Of one elastic material at the surface, and not with all displacements of its nodes.
+// Of one elastic material at the surface, with static responses.
 std::string lacks_of_body(const SystemModel::Body& body) {
-  if (body.eq.body->basis == model::Basis::full && body.eq.n_q() > 0)
-    return "the full basis; reduce it with -basis modal_residual";
+  if (body.eq.body->flexibility.empty())
+    return "no residual flexibility; reduce it with -basis modal_residual";
   if (!(body.surface_compliance > 0) || !body.eq.body->relaxing.empty())
     return "several, orthotropic or viscoelastic materials";
   return {};
@@ -40,9 +40,7 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
   if (cosine_of_axes(model, pair) < -kParallel) return "axes run against each other";
   if (pair.settings.friction.mu > 0 && pair.settings.friction.law == contact::FrictionLaw::stick)
     return "friction sticks";
-  const contact::ContactLaw law = pair.settings.law;  // augmented: unilateral, of bodies that do not respond
-  if (law != contact::ContactLaw::unilateral && law != contact::ContactLaw::augmented)
-    return "it needs the law 'unilateral'";
+  if (pair.settings.law != contact::ContactLaw::unilateral) return "it needs the law 'unilateral'";
   if (pair.settings.surface != contact::ContactSurface::exact) return "it needs the surface 'exact'";
   return {};
 }

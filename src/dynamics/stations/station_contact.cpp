@@ -103,7 +103,7 @@ void StationContact::add_body(const SystemModel::Body& body) {
   if (!body.in_contact) return;
   bodies_.back().toothed = std::make_unique<contact::ToothedBody>(
       body.eq.body->surface, body.true_surface->flanks, body.surface_compliance / std::numbers::pi,
-      body.true_surface->deviation, !body.eq.body->flexibility.empty());
+      body.true_surface->deviation);
   bodies_.back().tables = std::make_unique<ResponseTables>(*body.eq.body, *bodies_.back().toothed);
 }
 
@@ -216,7 +216,6 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
 MatrixXd StationContact::compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
                                     bool of_friction, ResidualContact& responses) {
   MatrixXd C = MatrixXd::Zero(loads.S.cols(), loads.S.cols());
-  if (!responses.has_flexibility(body)) return C;
   if (bodies_[body].by_nodes) {
     const Sparse& S = of_friction ? loads.S_t : loads.S;
     if (S.nonZeros() > 0) C = loads.S.transpose() * MatrixXd(responses.among(body, loads.node) * S);
@@ -293,7 +292,6 @@ contact::StationDisplacements StationContact::moved(const Part& part, std::size_
   const ToothContact::Side& side = part.side();
   contact::StationDisplacements moved =
       contact::displacements(*side.loads, side.at, node_displacements(part, body, q));
-  if (model_->bodies[body].eq.body->flexibility.empty()) return moved;
   for (const Part& other : parts_of(body, teeth)) {
     const ToothContact::Side& there = other.side();
     const VectorXd strip =
@@ -309,7 +307,6 @@ contact::StationDisplacements StationContact::moved(const Part& part, std::size_
 Matrix3Xd StationContact::moved_nodes(const Part& part, std::size_t body, const VectorXd& q,
                                       ResidualContact& responses) const {
   Matrix3Xd u = node_displacements(part, body, q);
-  if (!responses.has_flexibility(body)) return u;
   for (Index a = 0; int node : contact::loaded_nodes(part.side()))
     u.col(a++) += responses.displacement(body, node);
   return u;
@@ -322,7 +319,7 @@ contact::PotentialSlopes StationContact::slopes(const Part& part, std::size_t bo
   const ToothContact::Side& side = part.side();
   const VectorXd strip =
       contact::spread(side).transpose() * f.segment(part.teeth->first, part.teeth->contact.n());
-  const double compliance = bodies_[body].toothed->compliance_of_mesh();
+  const double compliance = bodies_[body].toothed->compliance();
   const auto along = [&](const Matrix3Xd& u) {
     return VectorXd(u.cwiseProduct(side.direction).colwise().sum().transpose());
   };
@@ -345,9 +342,7 @@ void StationContact::add_joint_forces(const Motions& motion, const std::vector<T
     state.force[b].joint = state.force[b].joint_size = VectorXd::Zero(model_->bodies[b].eq.n_s());
     VectorXd on_modes = loads[b].Phi_S * f;
     if (loads[b].Phi_S_t.cols() > 0) on_modes += loads[b].Phi_S_t * f;
-    q[b] = motion[b].q;
-    if (responses.has_flexibility(b))
-      q[b] -= on_modes.cwiseQuotient(model_->bodies[b].eq.body->K_r.diagonal());
+    q[b] = motion[b].q - on_modes.cwiseQuotient(model_->bodies[b].eq.body->K_r.diagonal());
   }
   for (const Teeth& t : teeth) {
     const VectorXd f_t = f.segment(t.first, t.contact.n());
