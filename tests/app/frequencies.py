@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The mesh of 20-node hexahedra of size small has the lowest two frequencies of the reference wheel, which err most of the first 20,
-within 1 % of those that meshes go to (docs/validation/gears.md, section Meshes), and `mesh` says so. That of 8-node hexahedra has not.
+within 1 % of those that meshes go to (docs/validation/gears.md, section Meshes). That of 8-node hexahedra has not.
 
     frequencies.py PATH/TO/elastogear PATH/TO/examples/worm_gear"""
 import os
@@ -18,14 +18,12 @@ def run(*words):
     done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, check=False)
     if done.returncode:
         sys.exit(f"FAIL: {' '.join(map(str, words))}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
-    return done.stdout
 
 
 with tempfile.TemporaryDirectory() as work:
     os.chdir(work)
-    for order, said, low, high in ((2, "first 20 within 1 %", 0, 0.01), (1, "first 20 up to 5.3 % high", 0.03, 0.05)):
-        text = run("mesh", f"{examples}/wheel.yaml", "-size", "small", "-element_order", order, "-mesh", "wheel.msh")
-        assert said in text, text
+    for order, low, high in ((2, 0, 0.01), (1, 0.03, 0.05)):
+        run("mesh", f"{examples}/wheel.yaml", "-size", "small", "-element_order", order, "-mesh", "wheel.msh")
         run("reduce", f"{examples}/wheel.yaml", "-mesh", "wheel.msh", "-basis", "modal", "-modes", 2, "-surface", "", "-stress_nodes", "",
             "-completeness", "false", "-output", "wheel.h5")
         with h5py.File("wheel.h5") as file:
