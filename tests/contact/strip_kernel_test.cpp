@@ -151,7 +151,8 @@ TEST(StationLaw, has_width_and_pressure_of_hertz) {
 }
 
 // A long line of even load presses the middle in by (w / (pi E*)) (2 ln(2 l / b) + 1), as of
-// cylinders in closed form, whatever q is and however long strips are beside the contact, which is 0.51 mm wide.
+// cylinders in closed form, whatever q is and however long strips are beside the contact, which is 0.51 mm
+// wide.
 TEST(StationLaw, of_many_strips_is_the_approach_of_long_cylinders) {
   constexpr double kHalf = 0.2;  // m, of the line
   const double w = 400e3;
