@@ -44,6 +44,6 @@ BEFORE_THE_SANITIZERS void take_one_thread(int, char** argv, char** environment)
   syscall(SYS_execve, program, argv, variables);  // returns where it fails, and all stays as it is
 }
 
-__attribute__((section(".preinit_array"), used)) void (*const first)(int, char**, char**) = take_one_thread;
+__attribute__((section(".preinit_array"), used)) void (*const kFirst)(int, char**, char**) = take_one_thread;
 
 }  // namespace

@@ -64,9 +64,12 @@ def drive(random, orders=(1, 1, 2), friction=False):
 
 
 def worm(random):
-    """A worm drive with an involute worm, which costs least."""
+    """A worm drive: points of contact with a helical wheel, which costs least, or lines with one that is hobbed."""
+    form = choice(random, "helical", "throated", "cylindrical")
+    flank = "ZI" if form == "helical" else choice(random, "ZA", "ZN", "ZI", "ZK")
     return {"drive": "worm", "module": between(random, 1e-3, 4e-3, 2), "diameter_quotient": float(round(random.uniform(8, 11), 1)),
-            "worm": {"starts": int(random.integers(1, 4))}, "wheel": {"teeth": int(random.integers(28, 42))},
+            "pressure_angle": 20.0, "element_order": 1, "worm": {"starts": int(random.integers(1, 4)), "flank": flank},
+            "wheel": {"teeth": int(random.integers(28, 42)), "form": form},
             "modes": int(random.integers(2, 5)), "hand": choice(random, "right", "left"), "torque": 1.0,
             "side": choice(random, "drive", "coast")}
 

@@ -42,11 +42,22 @@ Eigen::MatrixXd shared_kernel(const std::vector<Strip>& boxes, double across, co
 // m, beyond the middle of each strip along the line, where its smooth load on this body reaches.
 double half_length(const Strip& strip, double c) { return std::max(strip.length() / 2, c); }
 
+// By the mean of both halves of the face: in its middle the chart of a hobbed flank has a crease.
+LineScale middle_scale(const ToothedBody& body) {
+  constexpr double kBeside = 0.05;  // of the face
+  const FlankMesh& mesh = body.meshes().front();
+  const double from = mesh.grid.z.front(), to = mesh.grid.z.back(), beside = kBeside * (to - from);
+  const auto at = [&](double z) {
+    return line_scale(body.flanks().point(mesh.name, middle(body.flanks()), (from + to) / 2 + z), 0);
+  };
+  const LineScale a = at(-beside), b = at(beside);
+  return {(a.along + b.along) / 2, (a.across + b.across) / 2};
+}
+
 Eigen::MatrixXd shared_kernel(const ToothedBody& body, const std::vector<Strip>& strips,
                               const FreeEnds& ends) {
   const FlankMesh& mesh = body.meshes().front();
-  const double z = (mesh.grid.z.front() + mesh.grid.z.back()) / 2;
-  const LineScale scale = line_scale(body.flanks().point(mesh.name, middle(body.flanks()), z), 0);
+  const LineScale scale = middle_scale(body);
   const LoadWidth width = load_width(mesh.grid);
   std::vector<Strip> boxes;
   for (const Strip& strip : strips) {
@@ -263,7 +274,7 @@ void set_moving_stations(ToothedPair& pair, int n) {
   const ExactFlanks& owner = pair.owner->flanks();
   const FlankMesh& mesh = pair.owner->meshes().front();
   const double from = mesh.grid.z.front(), length = (mesh.grid.z.back() - from) / n;
-  pair.among.along = line_scale(owner.point(mesh.name, middle(owner), from + n * length / 2), 0).along;
+  pair.among.along = middle_scale(*pair.owner).along;
   std::vector<Strip> along;
   for (int i = 0; i < n; ++i) {
     pair.strips[0].push_back({from + i * length, from + (i + 1) * length});

@@ -9,6 +9,7 @@
 
 #include "dynamics/contact/residual_flexibility.h"
 #include "elastogear/base/archive.h"
+#include "elastogear/dynamics/system_model.h"
 
 namespace elastogear::dynamics {
 
