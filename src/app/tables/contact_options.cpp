@@ -31,7 +31,7 @@ const Rows<S> kContactRows = {
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
      "node (pressure as a field); auto: faces where the slave's cells are of second order, whose nodes alone "
-     "cannot bear an even pressure, unless there are two passes; nodes elsewhere; stations: exact involute "
+     "cannot bear an even pressure, unless there are two passes; nodes elsewhere; stations: exact "
      "flanks touch along their lines of contact, or at points on axes that cross, on any mesh (unilateral; "
      "minima where that cannot be); drives take stations"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
