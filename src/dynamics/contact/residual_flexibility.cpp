@@ -14,7 +14,7 @@ using body::CreepState;
 
 namespace {
 
-constexpr std::size_t kMostBlocks = 4'000'000;     // that are kept: 288 MB
+constexpr std::size_t kMostBlocks = 4'000'000;  // that are kept: 288 MB
 
 // A B' of three rows each, n numbers one after the other. All nine sums at once: every number is read once.
 Eigen::Matrix3d product(const double* A, const double* B, Eigen::Index n) {

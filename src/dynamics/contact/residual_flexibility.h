@@ -117,8 +117,8 @@ class ResidualFlexibility {
   std::vector<Bearing> bearing_;              // of the nodes of forces_
   std::unordered_map<int, int> number_of_;    // node -> number among those that were loaded so far, -1: R = 0
   std::unordered_map<int, Columns> columns_;  // of F, by orbit: images share them
-  std::vector<Loaded> loaded_;                                   // these
-  std::vector<Row> rows_;  // of each node of the surface, empty before it is asked for
+  std::vector<Loaded> loaded_;                // these
+  std::vector<Row> rows_;                     // of each node of the surface, empty before it is asked for
   std::size_t n_rows_ = 0;
   struct Among {
     std::vector<int> node = {};
