@@ -29,7 +29,7 @@ BEFORE_THE_SANITIZERS bool is_short(int resource) {
   return limit.rlim_cur < static_cast<rlim_t>(n) * kForEachThread;
 }
 
-// What is called here must not need the C library's own start.
+// Runs before the C library has started: it calls nothing that needs that.
 BEFORE_THE_SANITIZERS void take_one_thread(int, char** argv, char** environment) {
   static char* variables[kMostVariables + 2];
   static char program[4096];

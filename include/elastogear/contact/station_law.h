@@ -1,6 +1,6 @@
 #pragma once
-// What a station's own pressure adds to the displacement there, as its size follows from the force by H.
-// Hertz (docs/theory, section 6.18).
+// The law of one station: how its own pressure displaces it, whose size follows from the force as H.
+// Hertz has it (docs/theory, section 6.18).
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What charts of flanks that are no involutes have in common: distances by projection onto the chart.
+// Charts of flanks that are no involutes share this base: a distance is found by projection onto the chart.
 
 #include "app/surface/exact_flanks.h"
 

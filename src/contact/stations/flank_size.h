@@ -13,6 +13,9 @@ inline constexpr double kWidth =
 inline constexpr double kWidest =
     0.1;  // of a flank's height: half width of even pressures below which contact grows with loads
 
+inline constexpr double kFlattest = 1e3;  // of a flank's height: radii of flanks that hardly part, or overlap
+                                          // in fillets, where they carry no force
+
 /// m, of a flank across the profile.
 inline double height(const ExactFlanks& flanks) {
   const ExactFlanks::Extent extent = flanks.extent();

@@ -88,7 +88,8 @@ double bounded(double slope, const FlankPoint& at) {
   return std::clamp(slope, -most, most);
 }
 
-// Those of stations with this length along the line, m; 0 of a point. nodes: to take; null: those near.
+// The smooth loads of stations on one flank. length: m, of each along the line of contact; 0 of a point.
+// nodes: those of the surface to take; null: all that are near.
 MovingLoads moving_loads(const FlankMesh& mesh, const ExactFlanks& flanks,
                          const std::vector<MovingPlace>& places, const std::vector<double>& length,
                          const std::vector<int>* nodes) {
@@ -126,9 +127,10 @@ MovingLoads moving_loads(const FlankMesh& mesh, const ExactFlanks& flanks,
   return loads;
 }
 
-// Of strips that are as long as the line of contact is within them.
+// The law of a station on a strip of the face; its length is that of the line of contact within the strip.
 StationLaw law_of_strip(const ToothContact& contact, std::size_t i, double compliance) {
-  const double h = kWidth * height(*contact.flanks.owner), flattest = 1e3 * height(*contact.flanks.owner);
+  const double h = kWidth * height(*contact.flanks.owner),
+               flattest = kFlattest * height(*contact.flanks.owner);
   const auto k = static_cast<Eigen::Index>(i);
   const double opens = opening(contact.flanks, contact.placement, contact.places[i], h);
   const double across = h * contact.across[k];

@@ -17,8 +17,6 @@ constexpr int kMarks = 5;           // along the face, of each flank
 constexpr double kNearMarks = 1.5;  // of a flank's height, that marks of flanks in contact may be apart
 constexpr int kPieces = 3;  // of strips over which lines of contact lean by more than their width, odd
 constexpr double kSlopeStep = 1e-4;  // of a flank's height, for slopes
-constexpr double kFlattest = 1e3;    // of the height of a flank: radii of flanks that hardly part, or overlap
-                                     // in fillets, where they bear no force
 
 // The distance between marks at the same parts of both faces, the least one.
 double mark_distance(const Eigen::Matrix3Xd& owner, const Eigen::Matrix3Xd& mate,
