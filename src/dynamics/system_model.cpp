@@ -287,8 +287,11 @@ model::ResultHeader result_header(const SystemModel& model) {
                              !body.eq.body->relaxing.empty()});
   for (const PairSetup& pair : model.pairs) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
-    model::ResultHeader::Pair entry{
-        pair.name, {pair.body[0], pair.body[1]}, {}, unilateral ? "unilateral" : "penalty"};
+    model::ResultHeader::Pair entry{pair.name,
+                                    {pair.body[0], pair.body[1]},
+                                    {},
+                                    unilateral ? "unilateral" : "penalty",
+                                    strips_of(model, pair)};
     for (int side : {0, 1})
       entry.group_name[side] = model.bodies[pair.body[side]].eq.body->surface.group_name;
     header.pairs.push_back(entry);

@@ -16,6 +16,10 @@ namespace {
 
 const char* side_name(int side) { return side > 0 ? "left" : "right"; }
 
+FaceStations stations_of(const PairOfRun& pair, int along) {
+  return stations(both(pair), pair.slave_side, pair.strips, along);
+}
+
 // Numbers of teeth from 1, as in the names of sets.
 Eigen::MatrixXd numbers_of(const ToothPairs& pairs) {
   Eigen::MatrixXd tooth(static_cast<Eigen::Index>(pairs.tooth.size()), 2);
@@ -73,7 +77,7 @@ void add_place(const Gear& gear, const FlankContact& c, int g, const std::string
 
 void add_patterns(const PairOfRun& pair, int g, Items& items) {
   const Gear& gear = pair.gear[static_cast<std::size_t>(g)];
-  const Eigen::VectorXd over_face = stations(both(pair), pair.slave_side, g);
+  const FaceStations over_face = stations_of(pair, g);
   for (int side : {1, -1}) {
     const auto pattern = contact_pattern(pair.contacts, gear, g, side, half_way(pair, gear), over_face);
     if (!pattern) continue;
@@ -159,10 +163,11 @@ void add_teeth(const PairOfRun& pair, Items& items) {
 }
 
 void add_line_load(const PairOfRun& pair, Items& items) {
-  const LineLoad load = line_load(pair.contacts, stations(both(pair), pair.slave_side, 1));
+  const LineLoad load = line_load(pair.contacts, stations_of(pair, 1));
   const double factor = face_load_factor(load);
   if (!std::isfinite(factor)) return;
-  items.curve("line_load/z", "m", "stations along the second gear's axis, its body frame", load.z);
+  items.curve("line_load/z", "m", "stations along the second gear's axis, its body frame", load.stations.z);
+  items.curve("line_load/width", "m", "of the face that each of them stands for", load.stations.widths());
   items.table("line_load/value", "N/m", "normal force of all pairs of teeth per width", load.value);
   items.curve("line_load/mean", "N/m", "the same in the mean over the run", mean_line_load(load));
   items.number("line_load/KHbeta", "1", "largest over mean line load, in the mean over the run", factor);
@@ -171,14 +176,14 @@ void add_line_load(const PairOfRun& pair, Items& items) {
 void take_hertz(PairOfRun& pair) {
   const double E_star = plane_modulus(pair);
   if (!(E_star > 0)) return;
-  take_hertz(both(pair), pair.slave_side, E_star, pair.contacts);
+  take_hertz(both(pair), stations_of(pair, 1), E_star, pair.contacts);
   pair.by_hertz = transmission(pair.gear[0], pair.gear[1], 1).parallel;
 }
 
 void add_hertz(const PairOfRun& pair, Items& items) {
   const double E_star = plane_modulus(pair);
   if (!(E_star > 0)) return;
-  const auto hertz = hertz_pressure(both(pair), pair.contacts, pair.slave_side, E_star);
+  const auto hertz = hertz_pressure(both(pair), pair.contacts, stations_of(pair, 1), E_star);
   if (!hertz || !(hertz->peak > 0)) return;
   items.curve("pressure/hertz", "Pa", "largest contact pressure by H. Hertz under the forces of the run",
               hertz->largest);

@@ -102,9 +102,9 @@ TEST(ContactPattern, holds_the_largest_pressure_of_all_teeth_at_each_place) {
   const Gear& gear = pair.gear[0];
   const ContactHistory contacts = {
       {contact(0, 5, 10, 3e6)}, {contact(1, 6, 10, 5e6)}, {contact(2, 7, 1, 4e6)}};
-  const auto pattern = contact_pattern(contacts, gear, 0, 1, 0.5e-3, gear.layers);
+  const auto pattern = contact_pattern(contacts, gear, 0, 1, 0.5e-3, at_layers(gear.layers));
   ASSERT_TRUE(pattern);
-  EXPECT_FALSE(contact_pattern(contacts, gear, 0, -1, 0.5e-3, gear.layers));
+  EXPECT_FALSE(contact_pattern(contacts, gear, 0, -1, 0.5e-3, at_layers(gear.layers)));
   Eigen::Index p = 0, z = 0;
   EXPECT_EQ(pattern->pressure.maxCoeff(&p, &z), 5e6);
   EXPECT_EQ((pattern->pressure.array() > 0).count(), (pattern->pressure.array() == 5e6).count());
@@ -116,7 +116,8 @@ TEST(ContactPattern, holds_the_largest_pressure_of_all_teeth_at_each_place) {
         EXPECT_LT(std::abs(pattern->z[j] - 0.002), 2.5e-3 + 0.3e-3);
       }
   // Within what both faces have in common.
-  const auto narrow = contact_pattern(contacts, gear, 0, 1, 0.5e-3, Eigen::Vector3d(-0.003, 0, 0.003));
+  const auto narrow =
+      contact_pattern(contacts, gear, 0, 1, 0.5e-3, at_layers(Eigen::Vector3d(-0.003, 0, 0.003)));
   ASSERT_TRUE(narrow);
   for (Eigen::Index j = 0; j < narrow->z.size(); ++j)
     if (std::abs(narrow->z[j]) > 0.003 + 0.3e-3) {

@@ -40,37 +40,38 @@ Eigen::VectorXd places_of_contact(const test::RollingPair& pair, double offset) 
 }
 
 // Consistent forces (N) of an even load at places between which displacements are linear.
-Eigen::VectorXd even_forces(const Eigen::VectorXd& z) {
-  const Eigen::VectorXd ends = ends_of_parts(z);
-  return kMean * (ends.tail(z.size()) - ends.head(z.size()));
-}
+Eigen::VectorXd even_forces(const Eigen::VectorXd& z) { return kMean * at_layers(z).widths(); }
 
 TEST(Stations, show_an_even_load_on_the_common_face_as_even) {
   for (double first : {20e-3, 20.5e-3, 22e-3, 24e-3, 27e-3, 18e-3})
     for (double offset : {0.0, 2.5e-10, -2.5e-10, 1e-3, -3.1e-3}) {
       const test::RollingPair pair = gears(first, 20e-3, offset);
-      const Eigen::VectorXd z = places_of_contact(pair, offset), at = stations(pair.both(), 0, 1);
+      const Eigen::VectorXd z = places_of_contact(pair, offset);
+      const FaceStations at = stations(pair.both(), 0, 0, 1);
       const Eigen::VectorXd w = line_load(at, z, even_forces(z));
       EXPECT_LT((w.array() / kMean - 1).abs().maxCoeff(), 1e-9) << first << ' ' << offset << '\n' << w;
-      EXPECT_NEAR(at[0], z[0], 1e-15);
-      EXPECT_NEAR(at[at.size() - 1], z[z.size() - 1], 1e-15);
-      EXPECT_GE(at.size(), 4);
+      EXPECT_NEAR(at.z[0], z[0], 1e-15);
+      EXPECT_NEAR(at.z[at.n() - 1], z[z.size() - 1], 1e-15);
+      EXPECT_GE(at.n(), 4);
     }
 }
 
 TEST(Stations, along_either_axis_are_the_same_places) {
   test::RollingPair pair = gears(22e-3, 20e-3, 1e-3);
-  for (int slave : {0, 1}) {
-    const Eigen::VectorXd first = stations(pair.both(), slave, 0), second = stations(pair.both(), slave, 1);
-    ASSERT_EQ(first.size(), second.size());
-    EXPECT_LT((first.array() - 1e-3 - second.array()).abs().maxCoeff(), 1e-15);
-  }
+  for (int slave : {0, 1})
+    for (int strips : {0, 16}) {
+      const FaceStations first = stations(pair.both(), slave, strips, 0),
+                         second = stations(pair.both(), slave, strips, 1);
+      ASSERT_EQ(first.n(), second.n());
+      EXPECT_LT((first.z.array() - 1e-3 - second.z.array()).abs().maxCoeff(), 1e-15);
+      EXPECT_LT((first.ends.array() - 1e-3 - second.ends.array()).abs().maxCoeff(), 1e-15);
+    }
 }
 
 TEST(Stations, of_gears_that_look_against_each_other_ascend) {
   test::RollingPair pair = gears(22e-3, 20e-3, 1e-3);
   pair.gear[0].R = pair.gear[0].R * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX());
-  const Eigen::VectorXd at = stations(pair.both(), 0, 1);
+  const Eigen::VectorXd at = stations(pair.both(), 0, 0, 1).z;
   for (Eigen::Index i = 0; i + 1 < at.size(); ++i) EXPECT_LT(at[i], at[i + 1]);
   EXPECT_NEAR(at[0], -10e-3, 1e-15);
 }
@@ -109,7 +110,8 @@ TEST(Stations, show_an_even_load_on_sides_of_second_order_as_even) {
   test::RollingPair pair = gears(20e-3, 20e-3, 0);
   const model::Surface surface = quadratic_flank(4);
   pair.gear[0].layers = node_layers(flanks(pair.gear[0].toothing, surface)).array() - 10e-3;
-  const Eigen::VectorXd z = Eigen::VectorXd::LinSpaced(9, -10e-3, 10e-3), at = stations(pair.both(), 0, 1);
+  const Eigen::VectorXd z = Eigen::VectorXd::LinSpaced(9, -10e-3, 10e-3);
+  const FaceStations at = stations(pair.both(), 0, 0, 1);
   for (double midside : {2. / 3, 0.87}) {
     Eigen::VectorXd force(9);
     for (Eigen::Index i = 0; i < 9; ++i)
@@ -120,14 +122,28 @@ TEST(Stations, show_an_even_load_on_sides_of_second_order_as_even) {
 }
 
 TEST(ShareOut, keeps_sum_and_moment_and_ends_what_lies_beyond) {
-  const Eigen::VectorXd at = (Eigen::VectorXd(4) << -0.02, -0.01, 0, 0.02).finished();
+  const FaceStations at = at_layers((Eigen::VectorXd(4) << -0.02, -0.01, 0, 0.02).finished());
   const StationShare inside = share_out(at, 0.005);
   EXPECT_EQ(inside.station, (std::array<Eigen::Index, 2>{2, 3}));
   EXPECT_NEAR(inside.share[0] + inside.share[1], 1, 1e-15);
-  EXPECT_NEAR(inside.share[0] * at[2] + inside.share[1] * at[3], 0.005, 1e-15);
+  EXPECT_NEAR(inside.share[0] * at.z[2] + inside.share[1] * at.z[3], 0.005, 1e-15);
   EXPECT_EQ(share_out(at, 0.03).share[1], 1);
   EXPECT_EQ(share_out(at, -0.03).share[0], 1);
-  EXPECT_EQ(ends_of_parts(at), (Eigen::VectorXd(5) << -0.02, -0.015, -0.005, 0.01, 0.02).finished());
+  EXPECT_EQ(at.ends, (Eigen::VectorXd(5) << -0.02, -0.015, -0.005, 0.01, 0.02).finished());
+}
+
+// Layers that lie unevenly among strips took up to a tenth more or less of an even load.
+TEST(Stations, show_an_even_load_on_strips_as_even) {
+  for (double offset : {0.0, 2.5e-10, 1e-3}) {
+    const test::RollingPair pair = gears(22e-3, 20e-3, offset);
+    const FaceStations at = stations(pair.both(), 0, 16, 1);
+    ASSERT_EQ(at.n(), 16);
+    EXPECT_NEAR(at.widths().sum(), 20e-3, 1e-12 + offset);
+    const Eigen::VectorXd w = line_load(at, at.z, kMean * at.widths());
+    EXPECT_LT((w.array() / kMean - 1).abs().maxCoeff(), 1e-12) << w;
+    EXPECT_EQ(share_out(at, 1).station[0], 15);
+    EXPECT_EQ(share_out(at, -1).station[0], 0);
+  }
 }
 
 }  // namespace

@@ -79,7 +79,8 @@ TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
     contacts.push_back(
         contact_at(pair, pitch_point + Eigen::Vector3d(0, 0, at), 1, kForce / n * (is_end ? 0.5 : 1)));
   }
-  const auto found = hertz_pressure(pair.both(), {contacts}, 0, 1 / (2 * kCompliance));
+  const auto found =
+      hertz_pressure(pair.both(), {contacts}, stations(pair.both(), 0, 0, 1), 1 / (2 * kCompliance));
   ASSERT_TRUE(found);
   const double kappa = (1 / r[0] + 1 / r[1]) / std::tan(working);
   const HertzLine right = hertz_line(kForce / 25e-3, kappa, 1 / (2 * kCompliance));
@@ -87,7 +88,7 @@ TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
   EXPECT_NEAR(found->half_width, right.half_width, 1e-4 * right.half_width);
   EXPECT_EQ(found->largest[0], found->peak);
   ContactHistory taken = {contacts};
-  take_hertz(pair.both(), 0, 1 / (2 * kCompliance), taken);
+  take_hertz(pair.both(), stations(pair.both(), 0, 0, 1), 1 / (2 * kCompliance), taken);
   for (const FlankContact& c : taken[0]) {  // the ends of an evenly loaded face as its middle
     EXPECT_NEAR(c.pressure, right.pressure, 1e-4 * right.pressure);
     EXPECT_NEAR(c.half_width, right.half_width, 1e-4 * right.half_width);
@@ -100,7 +101,8 @@ TEST(HertzPressure, of_the_steering_worm_at_the_pitch_point) {
   const test::RollingPair pair = test::worm_pair();
   const Eigen::Vector3d pitch_point(0, pair.gear[1].toothing.r, 0);
   const ContactHistory contacts = {{contact_at(pair, pitch_point, 1, 50)}};
-  const auto found = hertz_pressure(pair.both(), contacts, 1, 210e9 / 0.91 / 2);
+  const FaceStations over_face = stations(pair.both(), 1, 0, 1);
+  const auto found = hertz_pressure(pair.both(), contacts, over_face, 210e9 / 0.91 / 2);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->peak, 798e6, 8e6);
 }
@@ -111,10 +113,11 @@ TEST(HertzPressure, leaves_out_patches_at_the_ends_of_flanks) {
   const gear::Toothing& wheel = pair.gear[1].toothing;
   const FlankContact inside = contact_at(pair, Eigen::Vector3d(0, wheel.r, 0), 1, 50);
   FlankContact at_tip = contact_at(pair, Eigen::Vector3d(0, wheel.r_a - 1e-6, 0), 1, 50);
+  const FaceStations over_face = stations(pair.both(), 1, 0, 1);
   at_tip.flank[0].tooth = at_tip.flank[1].tooth = inside.flank[0].tooth + 1;
-  EXPECT_FALSE(hertz_pressure(pair.both(), {{at_tip}}, 1, 210e9 / 0.91 / 2));
-  const auto one = hertz_pressure(pair.both(), {{inside}}, 1, 210e9 / 0.91 / 2);
-  const auto both = hertz_pressure(pair.both(), {{inside, at_tip}}, 1, 210e9 / 0.91 / 2);
+  EXPECT_FALSE(hertz_pressure(pair.both(), {{at_tip}}, over_face, 210e9 / 0.91 / 2));
+  const auto one = hertz_pressure(pair.both(), {{inside}}, over_face, 210e9 / 0.91 / 2);
+  const auto both = hertz_pressure(pair.both(), {{inside, at_tip}}, over_face, 210e9 / 0.91 / 2);
   ASSERT_TRUE(one && both);
   EXPECT_EQ(both->peak, one->peak);
   EXPECT_EQ(one->left_out, 0);

@@ -28,26 +28,25 @@ double face_load_factor_of(double c, const Gap& h) {
     const double delta = (low + high) / 2;
     (load(delta).sum() < kMean * kWidth ? low : high) = delta;
   }
-  LineLoad all{z, line_load(z, z, load(high)).transpose()};
+  const FaceStations at = at_layers(z);
+  LineLoad all{at, line_load(at, z, load(high)).transpose()};
   return face_load_factor(all);
 }
 
 TEST(LineLoad, of_an_even_load_is_even_wherever_the_forces_stand) {
-  const Eigen::VectorXd stations = (Eigen::VectorXd(4) << -0.02, -0.01, 0, 0.02).finished();
+  const FaceStations stations = at_layers((Eigen::VectorXd(4) << -0.02, -0.01, 0, 0.02).finished());
   const Eigen::VectorXd z = Eigen::VectorXd::LinSpaced(4000, -0.019995, 0.019995);
   const Eigen::VectorXd w = line_load(stations, z, Eigen::VectorXd::Constant(4000, kMean * kWidth / 4000));
   for (double value : w) EXPECT_NEAR(value, kMean, 1e-5 * kMean);
 }
 
 TEST(LineLoad, keeps_force_and_moment) {
-  const Eigen::VectorXd stations = Eigen::VectorXd::LinSpaced(5, -0.02, 0.02);
+  const FaceStations stations = at_layers(Eigen::VectorXd::LinSpaced(5, -0.02, 0.02));
   const Eigen::Vector3d z(-0.013, 0.004, 0.0199), f(3, 5, 7);
   const Eigen::VectorXd w = line_load(stations, z, f);
-  const double end = 0.005, inner = 0.01;
-  const Eigen::VectorXd force =
-      w.cwiseProduct((Eigen::VectorXd(5) << end, inner, inner, inner, end).finished());
+  const Eigen::VectorXd force = w.cwiseProduct(stations.widths());
   EXPECT_NEAR(force.sum(), 15, 1e-12);
-  EXPECT_NEAR(force.dot(stations), f.dot(z), 1e-14);
+  EXPECT_NEAR(force.dot(stations.z), f.dot(z), 1e-14);
 }
 
 TEST(FaceLoadFactor, of_aligned_uncrowned_bodies_is_one) {
@@ -73,7 +72,7 @@ TEST(FaceLoadFactor, of_a_crowned_rigid_body_on_a_winkler_layer) {
 }
 
 TEST(FaceLoadFactor, is_that_of_the_mean_over_the_run_and_none_without_load) {
-  LineLoad load{Eigen::Vector3d(-1, 0, 1), Eigen::MatrixXd(2, 3)};
+  LineLoad load{at_layers(Eigen::Vector3d(-1, 0, 1)), Eigen::MatrixXd(2, 3)};
   load.value << 2, 1, 0, 0, 1, 2;
   EXPECT_DOUBLE_EQ(face_load_factor(load), 1);
   load.value << 4, 2, 0, 2, 1, 0;

@@ -11,4 +11,8 @@ namespace elastogear::dynamics {
 /// material at the surface of both bodies, no penalty and no friction that sticks. Empty: nothing.
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair);
 
+inline constexpr int kStrips = 16;  ///< of a pair of teeth, over the face
+/// Strips on which stations of a pair stand; 0: it has none, or points that move along the face.
+int strips_of(const SystemModel& model, const PairSetup& pair);
+
 }  // namespace elastogear::dynamics

@@ -24,7 +24,8 @@ struct PairOfRun {
   ContactHistory contacts;         ///< n_t
   Eigen::Matrix3Xd force, torque;  ///< 3 x n_t, N, N m about the world origin, on the second gear, world
   bool friction = true;            ///< do contact forces have friction in them?
-  int slave_side = 0;              ///< which gear's nodes come into contact
+  int slave_side = 0;              ///< which gear's nodes come into contact, or owns strips of contact
+  int strips = 0;                  ///< of contact over the face; 0: none
   std::array<double, 2> compliance = {};  ///< 1/Pa, (1 - nu^2) / E behind the flanks; 0: not known
   bool by_hertz = false;                  ///< are the pressures of the contacts those by H. Hertz?
   Eigen::VectorXd unloaded = {};          ///< n_t, m, transmission error without load; empty: not known

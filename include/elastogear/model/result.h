@@ -119,6 +119,7 @@ struct ResultHeader {
     int body[2] = {0, 1};                    ///< indices into bodies
     std::vector<std::string> group_name[2];  ///< face groups of both surfaces
     std::string law = {};                    ///< of contact: penalty or unilateral; empty: not known
+    int strips = 0;                          ///< over the face, where contact has stations; 0: none
   };
   std::vector<Body> bodies;
   std::vector<Pair> pairs;

@@ -100,20 +100,20 @@ life::ContactTrack track(const Placed& at, int side, double u, double z, const d
 // Shares the volume of a contact out to the stations of one gear's face, and lays it on the parts that these
 // stand for.
 void lay_over_face(const Placed& at, const gear::Flank& flank, double u, const Eigen::Vector3d& x_W,
-                   const Eigen::VectorXd& stations, double step, double volume, Eigen::MatrixXd& sum) {
+                   const evaluation::FaceStations& stations, double step, double volume,
+                   Eigen::MatrixXd& sum) {
   const double z = (at.R.transpose() * (x_W - at.r))[2];
-  const Eigen::VectorXd ends = evaluation::ends_of_parts(stations);
   const auto [station, share] = evaluation::share_out(stations, z);
   for (std::size_t k : {0, 1})
     if (share[k] > 0)
-      life::lay_volume(at.gear->cells, track(at, flank.side, u, z, &ends[station[k]], step),
+      life::lay_volume(at.gear->cells, track(at, flank.side, u, z, &stations.ends[station[k]], step),
                        share[k] * volume, sum);
 }
 
-// stations: over the face of each gear of the pair, m. step: pitches from one position to the next. weight:
+// stations: over the face of each gear of the pair. step: pitches from one position to the next. weight:
 // of what is worn there.
 void add_contact(const model::ContactRecord& contact, const Placed (&of_pair)[2],
-                 const Eigen::VectorXd (&stations)[2], double step, double weight,
+                 const evaluation::FaceStations (&stations)[2], double step, double weight,
                  std::vector<PassedVolume>& volumes) {
   const int of[2] = {contact.slave_side, 1 - contact.slave_side};
   const Placed* const at[2] = {&of_pair[of[0]], &of_pair[of[1]]};
@@ -203,8 +203,9 @@ std::vector<PassedVolume> passed_volume(const std::string& result, const Drive& 
     };
     const evaluation::Gear first = gear_of(placed(0, 0)), second = gear_of(placed(1, 0));
     const int slave = evaluation::slave_side(contacts);
-    const Eigen::VectorXd stations[2] = {evaluation::stations({&first, &second}, slave, 0),
-                                         evaluation::stations({&first, &second}, slave, 1)};
+    const evaluation::FaceStations stations[2] = {
+        evaluation::stations({&first, &second}, slave, pair.strips, 0),
+        evaluation::stations({&first, &second}, slave, pair.strips, 1)};
     for (std::size_t t = 0; t < contacts.size(); ++t) {
       const Placed at[2] = {placed(0, t), placed(1, t)};
       for (const model::ContactRecord& contact : contacts[t])

@@ -6,6 +6,8 @@
 namespace elastogear::dynamics {
 namespace {
 
+constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
+
 // Of one elastic material at the surface, with static responses.
 std::string lacks_of_body(const SystemModel::Body& body) {
   if (body.eq.body->flexibility.empty())
@@ -30,7 +32,6 @@ double cosine_of_axes(const SystemModel& model, const PairSetup& pair) {
 }  // namespace
 
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
-  constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
   for (int b : pair.body) {
     const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
     const std::string who = "body '" + body.name + "' has ";
@@ -43,6 +44,14 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
   if (pair.settings.law != contact::ContactLaw::unilateral) return "it needs the law 'unilateral'";
   if (pair.settings.surface != contact::ContactSurface::exact) return "it needs the surface 'exact'";
   return {};
+}
+
+int strips_of(const SystemModel& model, const PairSetup& pair) {
+  if (pair.settings.points != contact::SlavePoints::stations) return 0;
+  bool on_strips = cosine_of_axes(model, pair) > kParallel;
+  for (int b : pair.body)
+    on_strips = on_strips || model.bodies[static_cast<std::size_t>(b)].true_surface->flanks->is_hobbed();
+  return on_strips ? kStrips : 0;
 }
 
 }  // namespace elastogear::dynamics

@@ -8,6 +8,7 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
+#include "elastogear/dynamics/station_choice.h"
 
 namespace elastogear::dynamics {
 namespace {
@@ -19,7 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int kStrips = 16;          // of a pair of teeth
 constexpr int kMostRounds = 50;      // of forces and what their friction does to gaps
 constexpr double kSettled = 1e-11;   // of the largest force, its last change by that
 constexpr double kResisting = 1e-3;  // of the largest resistance to sliding: smaller ones are left out

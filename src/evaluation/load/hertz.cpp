@@ -6,7 +6,6 @@
 #include <map>
 #include <vector>
 
-#include "elastogear/evaluation/face_stations.h"
 #include "elastogear/model/hertz.h"
 #include "evaluation/load/line_load.h"
 
@@ -29,7 +28,7 @@ Pairs pairs_of(const std::vector<FlankContact>& contacts) {
 // Line contact of one pair of teeth on parallel axes at each station of the face.
 std::vector<HertzLine> line_contact(const std::array<const Gear*, 2>& gear,
                                     const std::vector<const FlankContact*>& contacts,
-                                    const Eigen::VectorXd& stations, double E_star, std::size_t step) {
+                                    const FaceStations& stations, double E_star, std::size_t step) {
   const auto n = static_cast<Eigen::Index>(contacts.size());
   Eigen::VectorXd z(n), force(n), per_length(n), curved(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -53,7 +52,7 @@ HertzLine largest_of(const std::vector<HertzLine>& lines) {
                            [](const HertzLine& a, const HertzLine& b) { return a.pressure < b.pressure; });
 }
 
-HertzLine at_place(const std::vector<HertzLine>& lines, const Eigen::VectorXd& stations, double z) {
+HertzLine at_place(const std::vector<HertzLine>& lines, const FaceStations& stations, double z) {
   const auto [station, share] = share_out(stations, z);
   HertzLine here;
   for (std::size_t k : {0, 1}) {
@@ -117,16 +116,16 @@ Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const
 }
 
 std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& gear,
-                                            const ContactHistory& contacts, int slave_side, double E_star) {
+                                            const ContactHistory& contacts, const FaceStations& over_face,
+                                            double E_star) {
   const bool parallel = transmission(*gear[0], *gear[1], 1).parallel;
-  const Eigen::VectorXd z = stations(gear, slave_side, 1);
   HertzPressure found{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()))};
   int n_pairs = 0, n_left_out = 0;
   for (std::size_t step = 0; step < contacts.size(); ++step)
     for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
-      const std::optional<HertzLine> here = parallel
-                                                ? largest_of(line_contact(gear, of_pair, z, E_star, step))
-                                                : point_contact(gear, of_pair, E_star, step);
+      const std::optional<HertzLine> here =
+          parallel ? largest_of(line_contact(gear, of_pair, over_face, E_star, step))
+                   : point_contact(gear, of_pair, E_star, step);
       ++n_pairs;
       if (!here || !std::isfinite(here->pressure)) {
         ++n_left_out;
@@ -144,19 +143,18 @@ std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& ge
   return found;
 }
 
-void take_hertz(const std::array<const Gear*, 2>& gear, int slave_side, double E_star,
+void take_hertz(const std::array<const Gear*, 2>& gear, const FaceStations& over_face, double E_star,
                 ContactHistory& contacts) {
   const bool parallel = transmission(*gear[0], *gear[1], 1).parallel;
-  const Eigen::VectorXd z = stations(gear, slave_side, 1);
   for (std::size_t step = 0; step < contacts.size(); ++step) {
     const auto changed = [&](const FlankContact* c) -> FlankContact& {
       return contacts[step][static_cast<std::size_t>(c - contacts[step].data())];
     };
     for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
       if (parallel) {
-        const std::vector<HertzLine> lines = line_contact(gear, of_pair, z, E_star, step);
+        const std::vector<HertzLine> lines = line_contact(gear, of_pair, over_face, E_star, step);
         for (const FlankContact* c : of_pair) {
-          const HertzLine here = at_place(lines, z, c->x_B[1][2]);
+          const HertzLine here = at_place(lines, over_face, c->x_B[1][2]);
           changed(c).pressure = here.pressure;
           changed(c).half_width = here.half_width;
         }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "elastogear/evaluation/contact.h"
+#include "elastogear/evaluation/face_stations.h"
 
 namespace elastogear::evaluation {
 
@@ -24,14 +25,14 @@ struct HertzPressure {
 /// Of parallel axes, line contact under the line load of each pair of teeth; of crossed ones, point contact
 /// under the force of each pair. It leaves out pairs on crossed axes that touch along lines, as those of
 /// enveloping wheels do, or along more than half the face, and patches that reach beyond the end of a flank.
-/// Nothing where that leaves none. slave_side: which gear's nodes come into contact;
-/// E_star: Pa.
+/// Nothing where that leaves none. over_face: along the second gear's axis; E_star: Pa.
 std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& gear,
-                                            const ContactHistory& contacts, int slave_side, double E_star);
+                                            const ContactHistory& contacts, const FaceStations& over_face,
+                                            double E_star);
 
 /// Sets the half width of each contact's patch, and on parallel axes the pressure: that of the line load at
 /// its place along the face.
-void take_hertz(const std::array<const Gear*, 2>& gear, int slave_side, double E_star,
+void take_hertz(const std::array<const Gear*, 2>& gear, const FaceStations& over_face, double E_star,
                 ContactHistory& contacts);
 
 }  // namespace elastogear::evaluation

@@ -4,21 +4,22 @@
 #include <Eigen/Core>
 
 #include "elastogear/evaluation/contact.h"
+#include "elastogear/evaluation/face_stations.h"
 
 namespace elastogear::evaluation {
 
 /// Normal force of all pairs of teeth per width at stations over the face.
 struct LineLoad {
-  Eigen::VectorXd z;      ///< n, m, along the second gear's axis in its body frame, ascending
+  FaceStations stations;  ///< n, along the second gear's axis
   Eigen::MatrixXd value;  ///< n_t x n, N/m
 };
 
-/// Forces (N) at z (m) shared out to the stations around them by linear functions, over the width that each
-/// station stands for, N/m: Eq. (10.7). Forces beyond the ends count at the end. At least two stations.
-Eigen::VectorXd line_load(const Eigen::VectorXd& stations, const Eigen::VectorXd& z,
+/// Forces (N) at z (m) shared out to the stations, over the width that each station stands for, N/m: Eq.
+/// (10.7). Forces beyond the ends count at the end.
+Eigen::VectorXd line_load(const FaceStations& stations, const Eigen::VectorXd& z,
                           const Eigen::VectorXd& force);
 
-LineLoad line_load(const ContactHistory& contacts, const Eigen::VectorXd& stations);
+LineLoad line_load(const ContactHistory& contacts, const FaceStations& stations);
 
 /// Largest over mean line load, of the mean over all times: KHbeta, Eq. (10.8); NaN without load.
 double face_load_factor(const LineLoad& load);

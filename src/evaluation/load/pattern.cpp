@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "elastogear/evaluation/face_stations.h"
 #include "elastogear/gear/modification.h"
 
 namespace elastogear::evaluation {
@@ -17,11 +16,13 @@ Eigen::VectorXd middles(double begin, double end, int n) {
   return Eigen::VectorXd::LinSpaced(n, begin + half, end - half);
 }
 
-// The part of the face that a contact at z stands for: half of the way to the next stations, within them.
-std::array<double, 2> part_of_face(const Eigen::VectorXd& stations, double z) {
+// The part of the face that a contact at z stands for: that of its station, or half of the way to the next
+// stations, within them.
+std::array<double, 2> part_of_face(const FaceStations& stations, double z) {
   const Eigen::Index left = share_out(stations, z).station[0];
-  const double half = (stations[left + 1] - stations[left]) / 2;
-  return {std::max(z - half, stations[0]), std::min(z + half, stations[stations.size() - 1])};
+  if (stations.of_parts) return {stations.ends[left], stations.ends[left + 1]};
+  const double half = (stations.z[left + 1] - stations.z[left]) / 2;
+  return {std::max(z - half, stations.z[0]), std::min(z + half, stations.z[stations.n() - 1])};
 }
 
 // First and last cell whose middles lie in a span; first > last: none does, then the nearest one is taken.
@@ -34,7 +35,7 @@ std::pair<Eigen::Index, Eigen::Index> cells(const Eigen::VectorXd& middle, doubl
   return {index(begin), index(end)};
 }
 
-void cover(ContactPattern& pattern, const Eigen::VectorXd& stations, const FlankPlace& at, double reach,
+void cover(ContactPattern& pattern, const FaceStations& stations, const FlankPlace& at, double reach,
            double pressure) {
   const auto [begin, end] = part_of_face(stations, at.z);
   const auto [p_0, p_1] = cells(pattern.profile, at.profile - reach, at.profile + reach);
@@ -53,7 +54,7 @@ FlankPlace flank_place(const gear::Toothing& toothing, const Eigen::Vector3d& x_
 }
 
 std::optional<ContactPattern> contact_pattern(const ContactHistory& contacts, const Gear& gear, int g,
-                                              int side, double reach, const Eigen::VectorXd& stations) {
+                                              int side, double reach, const FaceStations& stations) {
   const gear::Toothing& t = gear.toothing;
   const auto profile = [&](double r) { return flank_place(t, {r, 0, 0}).profile; };
   const auto [begin, end] = std::minmax({profile(t.r_form), profile(t.r_a)});

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "elastogear/evaluation/contact.h"
+#include "elastogear/evaluation/face_stations.h"
 
 namespace elastogear::evaluation {
 
@@ -29,7 +30,7 @@ struct ContactPattern {
 /// covers half the way to the next position along the profile, `reach` (m), and to the next stations along
 /// this gear's face.
 std::optional<ContactPattern> contact_pattern(const ContactHistory& contacts, const Gear& gear, int g,
-                                              int side, double reach, const Eigen::VectorXd& stations);
+                                              int side, double reach, const FaceStations& stations);
 
 /// Largest pressure of a run and its place.
 struct PressurePeak {

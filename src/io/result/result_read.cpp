@@ -76,6 +76,14 @@ std::vector<NodalForce> stored_forces(const h5::File& file, const std::string& b
   return forces;
 }
 
+int read_strips(const h5::File& file, const std::string& group) {
+  constexpr int kMost = 1000;
+  const std::vector<int> strips = h5::int_attribute(file, group, "strips");
+  require(strips.size() == 1 && strips[0] > 0 && strips[0] <= kMost, file.path, ": ", group,
+          ": attribute strips must be a number from 1 to ", kMost);
+  return strips[0];
+}
+
 model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& name, std::size_t n_bodies) {
   const std::string group = "/contact/" + name;
   model::ResultHeader::Pair pair;
@@ -83,6 +91,7 @@ model::ResultHeader::Pair read_pair(const h5::File& file, const std::string& nam
   const std::vector<int> body = h5::int_attribute(file, group, "body");
   require(body.size() == 2, file.path, ": ", group, ": attribute body must be two numbers");
   if (h5::has_attribute(file, group, "law")) pair.law = h5::string_attribute(file, group, "law");
+  if (h5::has_attribute(file, group, "strips")) pair.strips = read_strips(file, group);
   for (int side : {0, 1}) {
     require(body[side] >= 0 && body[side] < static_cast<int>(n_bodies), file.path, ": ", group,
             " names body ", body[side], " of ", n_bodies);

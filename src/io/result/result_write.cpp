@@ -39,6 +39,7 @@ void write_header(const h5::File& file, const model::ResultHeader& header) {
     h5::set_attribute(file, group, "number", static_cast<int>(i));
     h5::set_attribute(file, group, "body", std::vector{pair.body[0], pair.body[1]});
     if (!pair.law.empty()) h5::set_attribute(file, group, "law", pair.law);
+    if (pair.strips > 0) h5::set_attribute(file, group, "strips", pair.strips);
     for (int side : {0, 1})
       h5::write_strings(file, group + "/groups/" + kSide[side] + "/name", pair.group_name[side]);
   }
