@@ -100,6 +100,21 @@ ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, co
   return contact;
 }
 
+// m: by how much z of the mate is larger than z of the owner where teeth of parallel axes touch, on the line
+// of centres. On either side of it leaning axes have other z.
+double axial_shift(const ToothedBody& owner, const ToothedBody& mate, const RelativePlacement& placement) {
+  const auto radius = [](const ToothedBody& body) {
+    return body.flanks().point(body.meshes().front().name, middle(body.flanks()), 0).x.head<2>().norm();
+  };
+  const Eigen::Vector3d towards = Eigen::Vector3d(placement.r[0], placement.r[1], 0).normalized();
+  const auto on_mate = [&](double sign) {
+    return Eigen::Vector3d(placement.R.transpose() * (sign * radius(owner) * towards - placement.r));
+  };
+  const auto beside = [&](const Eigen::Vector3d& x) { return std::abs(x.head<2>().norm() - radius(mate)); };
+  const Eigen::Vector3d ahead = on_mate(1), behind = on_mate(-1);  // behind: of a pinion in a ring
+  return (beside(ahead) < beside(behind) ? ahead : behind)[2];
+}
+
 }  // namespace
 
 ToothedBody::ToothedBody(const model::Surface& surface, std::shared_ptr<const ExactFlanks> flanks,
@@ -163,8 +178,7 @@ ToothedPair toothed_pair(ToothedBody& owner, ToothedBody& mate, const RelativePl
     return pair;
   }
   const FlankMesh &on_owner = owner.meshes().front(), &on_mate = mate.meshes().front();
-  const Eigen::Vector3d x = owner.flanks().point(on_owner.name, middle(owner.flanks()), 0).x;
-  const double shift = mate.flanks().chart(on_mate.name, placement.R.transpose() * (x - placement.r))[1];
+  const double shift = axial_shift(owner, mate, placement);
   const double from = std::max(on_owner.grid.z.front(), on_mate.grid.z.front() - shift);
   const double to = std::min(on_owner.grid.z.back(), on_mate.grid.z.back() - shift);
   ToothedPair pair{&owner, &mate, {}, kWidest * height(owner.flanks())};
