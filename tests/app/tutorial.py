@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The meshes and the wheel's body of docs/tutorial.md, section 2, made as it says: each line that it shows is printed, with these numbers.
+"""What docs/tutorial.md and README.md show is what the program prints: the drive of section 1, the meshes and the wheel's body of section 2.
 
     tutorial.py PATH/TO/elastogear PATH/TO/docs/tutorial.md"""
 import os
@@ -12,6 +12,8 @@ DIGITS = 2e-5  # relative: of numbers that are printed with six digits
 program = os.path.abspath(sys.argv[1])
 with open(sys.argv[2], encoding="utf-8") as file:
     page = file.read()
+with open(os.path.join(os.path.dirname(sys.argv[2]), "..", "README.md"), encoding="utf-8") as file:
+    readme = file.read()
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 
 
@@ -22,14 +24,13 @@ def run(command):
     return done.stdout
 
 
-def shown(command):
-    """The lines that the page shows below a command, but for those that are cut off, and times."""
-    below = page.split(f"    {command}\n")[1].split("\n")
+def shown(text, heading):
+    """The lines below a heading of a page, but for those that are cut off, times, and the report, which is left out here."""
     lines = []
-    for line in below:
-        if not line.startswith("      "):
+    for line in text.split(heading)[1].split("\n"):
+        if not line.startswith("    ") or line.startswith("    elastogear"):
             break
-        if "..." not in line and " about " not in line:
+        if "..." not in line and " about " not in line and not line.strip().startswith("report "):
             lines.append(line)
     return lines
 
@@ -42,8 +43,7 @@ def alike(line, printed):
     return all(abs(a - b) <= DIGITS * max(abs(a), abs(b)) for a, b in pairs)
 
 
-def check(command, output):
-    lines = shown(command)
+def check(lines, command, output):
     missing = [line.strip() for line in lines if not any(alike(line, printed) for printed in output.split("\n"))]
     assert lines and not missing, f"{command} does not print {missing} but\n{output}"
 
@@ -65,6 +65,17 @@ with tempfile.TemporaryDirectory() as work:
     write("worm.yaml", worm)
     write("wheel.yaml", wheel)
     for commands in ("elastogear mesh design.yaml worm.yaml && elastogear mesh design.yaml wheel.yaml", "elastogear info wheel.msh"):
-        check(commands, [run(command) for command in commands.split(" && ")][-1])
-    check("elastogear reduce worm.yaml && elastogear reduce wheel.yaml", run("elastogear reduce wheel.yaml"))
+        check(shown(page, f"    {commands}\n"), commands, [run(command) for command in commands.split(" && ")][-1])
+    commands = "elastogear reduce worm.yaml && elastogear reduce wheel.yaml"
+    check(shown(page, f"    {commands}\n"), commands, run("elastogear reduce wheel.yaml"))
+
+    drive = next(block for block in blocks if block.startswith("drive:"))
+    askew = next(block for block in blocks if block.startswith("wheel:"))
+    command = "elastogear drive.yaml -report none"
+    write("drive.yaml", drive)
+    output = run(command)
+    check(shown(page, "    elastogear drive.yaml\n"), command, output)
+    check(shown(readme, "It prints\n\n"), command, output)
+    write("drive.yaml", re.sub(r"^wheel:.*\n", askew, drive, flags=re.MULTILINE))
+    check(shown(page.split("skew: 0.02 deg")[1], "    elastogear drive.yaml\n"), command, run(command))
 print("all good")
