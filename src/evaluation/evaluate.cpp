@@ -132,7 +132,7 @@ PairEvaluation evaluate(const PairOfRun& pair) {
   require_run(pair);
   const Transmission t = transmission(pair.gear[0], pair.gear[1], pair.sense);
   Losses losses = evaluation::losses(both(pair), pair.contacts, pair.force, pair.torque, speed_of(pair));
-  if (!pair.friction) losses.friction.setZero();
+  if (pair.friction == 0) losses.friction.setZero();
   PairEvaluation evaluation{{}, transmission_error(pair), losses.torque_2 / t.radius};
   Items items;
   items.curve("roll", "pitches", "roll angle of the drive's first gear", pair.roll);

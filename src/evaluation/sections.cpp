@@ -184,13 +184,16 @@ void add_hertz(const PairOfRun& pair, Items& items) {
   const double E_star = plane_modulus(pair);
   if (!(E_star > 0)) return;
   const auto hertz = hertz_pressure(both(pair), pair.contacts, stations_of(pair, 1), E_star);
-  if (!hertz || !(hertz->peak > 0)) return;
+  if (!hertz || !(hertz->patch.pressure > 0)) return;
   items.curve("pressure/hertz", "Pa", "largest contact pressure by H. Hertz under the forces of the run",
               hertz->largest);
-  items.number("pressure/hertz_peak", "Pa", "its largest value", hertz->peak);
+  items.number("pressure/hertz_peak", "Pa", "its largest value", hertz->patch.pressure);
   items.number("pressure/hertz_peak_roll", "1", "roll angle of it, pitches", pair.roll[hertz->step]);
   items.number("pressure/hertz_half_width", "m", "half the patch's width there, by H. Hertz",
-               hertz->half_width);
+               hertz->patch.half_width);
+  const model::ShearBelow shear = model::largest_shear(hertz->patch, pair.friction);
+  items.number("pressure/hertz_shear", "Pa", "largest shear stress below it, by H. Hertz", shear.stress);
+  items.number("pressure/hertz_shear_depth", "m", "depth of it below the flank", shear.depth);
   items.number("pressure/hertz_left_out", "1",
                "share of the pairs of teeth of all times whose patch has no such figure", hertz->left_out);
 }

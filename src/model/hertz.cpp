@@ -17,7 +17,7 @@ Curvatures principal_curvatures(const Eigen::Matrix3d& Q, const Eigen::Vector3d&
   return {axes.eigenvalues()[0], axes.eigenvalues()[1], T * axes.eigenvectors().col(0)};
 }
 
-HertzLine hertz_line(double w, double kappa, double E_star) {
+HertzPatch hertz_line(double w, double kappa, double E_star) {
   const double b = std::sqrt(4 * w / (pi * E_star * kappa));
   return {2 * w / (pi * b), b};
 }

@@ -37,11 +37,11 @@ FlankContact contact_at(const test::RollingPair& pair, const Eigen::Vector3d& x_
 }
 
 // The pressure of the C14 gears of the FZG at the pitch point: 5912.1 N over 14 mm, 1347.3 MPa.
-TEST(HertzLine, of_the_c14_gears_at_the_pitch_point) {
+TEST(HertzPatch, of_the_c14_gears_at_the_pitch_point) {
   const double alpha = 20 * pi / 180, r_b[] = {36e-3 * std::cos(alpha), 54e-3 * std::cos(alpha)};
   const double working = std::acos((r_b[0] + r_b[1]) / 91.5e-3);
   const double kappa = 1 / (r_b[0] * std::tan(working)) + 1 / (r_b[1] * std::tan(working));
-  const HertzLine line = hertz_line(5912.1 / 14e-3, kappa, 1 / (2 * kCompliance));
+  const HertzPatch line = hertz_line(5912.1 / 14e-3, kappa, 1 / (2 * kCompliance));
   EXPECT_NEAR(line.pressure, 1347.3e6, 0.1e6);
   EXPECT_NEAR(line.half_width, 0.1995e-3, 1e-7);
 }
@@ -60,6 +60,36 @@ TEST(HertzEllipse, that_is_long_has_the_pressure_of_its_line_load) {
   const HertzEllipse h = hertz_ellipse(kA, kB, kE);
   const double w = h.pressure(kForce) * pi / 2 * h.k * h.a(kForce);  // at the middle
   EXPECT_NEAR(hertz_line(w, 2 * kB, kE).pressure, h.pressure(kForce), 1e-3 * h.pressure(kForce));
+}
+
+// K. L. Johnson, Contact Mechanics, sections 4.2 (line), 3.4 (circle) and table 4.1 (ellipses), nu = 0.3.
+TEST(LargestShear, without_friction_is_that_of_the_closed_forms) {
+  const ShearBelow line = largest_shear({1e9, 2e-4}, 0);
+  EXPECT_NEAR(line.stress, 0.30028e9, 1e4);
+  EXPECT_NEAR(line.depth, 0.78615 * 2e-4, 1e-3 * 2e-4);
+  const ShearBelow circle = largest_shear({1e9, 2e-4, 1}, 0);
+  const auto on_axis = [](double z) {
+    return 0.5 * std::abs(1.3 * (1 - z * std::atan(1 / z)) - 1.5 / (1 + z * z));
+  };
+  EXPECT_NEAR(circle.stress, 1e9 * on_axis(circle.depth / 2e-4), 2e5);
+  EXPECT_NEAR(circle.depth, 0.481 * 2e-4, 0.01 * 2e-4);
+  const double table[][3] = {{0.2, 0.322, 0.745}, {0.4, 0.325, 0.665}, {0.8, 0.317, 0.53}};  // table 4.1
+  for (const auto& [axes, stress, depth] : table) {
+    const ShearBelow ellipse = largest_shear({1e9, 2e-4, axes}, 0);
+    EXPECT_NEAR(ellipse.stress, stress * 1e9, 1e6) << axes;
+    EXPECT_NEAR(ellipse.depth, depth * 2e-4, 0.01 * 2e-4) << axes;
+  }
+}
+
+// On the surface the shear of a sliding line is mu p_0 wherever there is contact; little friction adds
+// little.
+TEST(LargestShear, with_friction_rises_to_the_surface) {
+  const ShearBelow much = largest_shear({1e9, 2e-4}, 0.5), little = largest_shear({1e9, 2e-4}, 0.05);
+  EXPECT_NEAR(much.stress, 0.5e9, 1e6);
+  EXPECT_LT(much.depth, 0.02 * 2e-4);
+  EXPECT_GT(little.stress, 0.30028e9);
+  EXPECT_LT(little.stress, 0.305e9);
+  EXPECT_NEAR(little.depth, 0.786 * 2e-4, 0.1 * 2e-4);
 }
 
 // Radii of curvature of involutes on the line of action: their sum is its length between the base circles.
@@ -83,10 +113,10 @@ TEST(HertzPressure, of_spur_gears_is_that_of_cylinders_under_the_line_load) {
       hertz_pressure(pair.both(), {contacts}, stations(pair.both(), 0, 0, 1), 1 / (2 * kCompliance));
   ASSERT_TRUE(found);
   const double kappa = (1 / r[0] + 1 / r[1]) / std::tan(working);
-  const HertzLine right = hertz_line(kForce / 25e-3, kappa, 1 / (2 * kCompliance));
-  EXPECT_NEAR(found->peak, right.pressure, 1e-4 * right.pressure);
-  EXPECT_NEAR(found->half_width, right.half_width, 1e-4 * right.half_width);
-  EXPECT_EQ(found->largest[0], found->peak);
+  const HertzPatch right = hertz_line(kForce / 25e-3, kappa, 1 / (2 * kCompliance));
+  EXPECT_NEAR(found->patch.pressure, right.pressure, 1e-4 * right.pressure);
+  EXPECT_NEAR(found->patch.half_width, right.half_width, 1e-4 * right.half_width);
+  EXPECT_EQ(found->largest[0], found->patch.pressure);
   ContactHistory taken = {contacts};
   take_hertz(pair.both(), stations(pair.both(), 0, 0, 1), 1 / (2 * kCompliance), taken);
   for (const FlankContact& c : taken[0]) {  // the ends of an evenly loaded face as its middle
@@ -104,7 +134,7 @@ TEST(HertzPressure, of_the_steering_worm_at_the_pitch_point) {
   const FaceStations over_face = stations(pair.both(), 1, 0, 1);
   const auto found = hertz_pressure(pair.both(), contacts, over_face, 210e9 / 0.91 / 2);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->peak, 798e6, 8e6);
+  EXPECT_NEAR(found->patch.pressure, 798e6, 8e6);
 }
 
 // A patch that reaches beyond the tip of the wheel is not Hertz's.
@@ -119,7 +149,7 @@ TEST(HertzPressure, leaves_out_patches_at_the_ends_of_flanks) {
   const auto one = hertz_pressure(pair.both(), {{inside}}, over_face, 210e9 / 0.91 / 2);
   const auto both = hertz_pressure(pair.both(), {{inside, at_tip}}, over_face, 210e9 / 0.91 / 2);
   ASSERT_TRUE(one && both);
-  EXPECT_EQ(both->peak, one->peak);
+  EXPECT_EQ(both->patch.pressure, one->patch.pressure);
   EXPECT_EQ(one->left_out, 0);
   EXPECT_EQ(both->left_out, 0.5);
 }

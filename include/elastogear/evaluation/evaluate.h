@@ -23,7 +23,7 @@ struct PairOfRun {
   double speed = 0;                ///< rad/s, > 0, of the drive's first gear; 0: not known
   ContactHistory contacts;         ///< n_t
   Eigen::Matrix3Xd force, torque;  ///< 3 x n_t, N, N m about the world origin, on the second gear, world
-  bool friction = true;            ///< do contact forces have friction in them?
+  double friction = 0;             ///< coefficient of friction that contact forces have in them
   int slave_side = 0;              ///< which gear's nodes come into contact, or owns strips of contact
   int strips = 0;                  ///< of contact over the face; 0: none
   std::array<double, 2> compliance = {};  ///< 1/Pa, (1 - nu^2) / E behind the flanks; 0: not known

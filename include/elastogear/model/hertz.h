@@ -17,12 +17,13 @@ struct Curvatures {
 /// Q: 1/m, the relative curvature, the gap is x'Q x / 2; n: unit normal.
 Curvatures principal_curvatures(const Eigen::Matrix3d& Q, const Eigen::Vector3d& n);
 
-/// Line contact of a load per length w (N/m) where the gap is kappa x^2 / 2 (1/m): Eq. (10.12).
-struct HertzLine {
+struct HertzPatch {
   double pressure = 0;    ///< Pa, largest
-  double half_width = 0;  ///< m
+  double half_width = 0;  ///< m, b, half the minor axis
+  double axes = 0;        ///< b / a of an ellipse; 0: a line
 };
-HertzLine hertz_line(double w, double kappa, double E_star);
+/// Line contact of a load per length w (N/m) where the gap is kappa x^2 / 2 (1/m): Eq. (10.12).
+HertzPatch hertz_line(double w, double kappa, double E_star);
 
 /// Point contact where the gap is A x^2 + B y^2, 0 < A <= B: Eq. (6.23).
 struct HertzEllipse {
@@ -34,5 +35,14 @@ struct HertzEllipse {
   double approach(double F) const;  ///< m, of distant points
 };
 HertzEllipse hertz_ellipse(double A, double B, double E_star);
+
+/// Largest shear stress in the bodies and how deep below the surface it is.
+struct ShearBelow {
+  double stress = 0;  ///< Pa
+  double depth = 0;   ///< m
+};
+/// Of a line that slides with the coefficient of friction mu, in the plane across it, Eq. (10.13); of an
+/// ellipse without friction, on its axis, for Poisson's ratio 0.3, Eq. (10.14).
+ShearBelow largest_shear(const HertzPatch& patch, double mu);
 
 }  // namespace elastogear::model

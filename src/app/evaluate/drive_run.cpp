@@ -172,7 +172,7 @@ PairOfRun read_pair(const DriveOfRun& of, Bodies& bodies, const Source& source,
   const auto contacts = io::read_contacts(source.path, of_pair.name);
   pair.slave_side = evaluation::slave_side(contacts);
   pair.strips = of_pair.strips;
-  pair.friction = number_of(source.header, "contact_friction") != 0;
+  pair.friction = number_of(source.header, "contact_friction");
   const auto n = static_cast<Eigen::Index>(source.steps.size());
   pair.force.resize(3, n), pair.torque.resize(3, n);
   if (source.kind == Kind::in_time) pair.time.resize(n);

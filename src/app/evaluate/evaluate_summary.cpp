@@ -197,6 +197,14 @@ void print_roots(const CaseFigures& of, const Surroundings& about) {
   print_limit(*least_sure, about);
 }
 
+// "; below it 500 MPa of shear, 0.21 mm deep".
+std::string shear_below(const Items& items) {
+  const double shear = number(items, "pressure/hertz_shear");
+  if (!std::isfinite(shear)) return {};
+  return "; below it " + short_number(1e-6 * shear) + " MPa of shear, " +
+         short_number(1e3 * number(items, "pressure/hertz_shear_depth")) + " mm deep";
+}
+
 void print_pressure(const PairsOfKind& of, const Surroundings& about) {
   const auto peak_of = [](const PairFigures& pair) {
     const double hertz = number(pair.items, "pressure/hertz_peak");
@@ -217,7 +225,8 @@ void print_pressure(const PairsOfKind& of, const Surroundings& about) {
                                ", " + flank(word(pair.items, place + "/side"), about) + ", diameter " +
                                in_mm_of("/diameter") + ", z " + in_mm_of("/z")
                          : ", roll angle " + short_number(number(pair.items, "pressure/hertz_peak_roll")) +
-                               " pitches"));
+                               " pitches") +
+                 shear_below(pair.items));
 }
 
 // Amplitudes of the first orders of the mesh, "1: 5.87, 2: 2.42".

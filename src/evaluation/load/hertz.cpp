@@ -10,7 +10,7 @@
 #include "evaluation/load/line_load.h"
 
 namespace elastogear::evaluation {
-using model::HertzEllipse, model::HertzLine;
+using model::HertzEllipse, model::HertzPatch;
 
 namespace {
 
@@ -26,9 +26,9 @@ Pairs pairs_of(const std::vector<FlankContact>& contacts) {
 }
 
 // Line contact of one pair of teeth on parallel axes at each station of the face.
-std::vector<HertzLine> line_contact(const std::array<const Gear*, 2>& gear,
-                                    const std::vector<const FlankContact*>& contacts,
-                                    const FaceStations& stations, double E_star, std::size_t step) {
+std::vector<HertzPatch> line_contact(const std::array<const Gear*, 2>& gear,
+                                     const std::vector<const FlankContact*>& contacts,
+                                     const FaceStations& stations, double E_star, std::size_t step) {
   const auto n = static_cast<Eigen::Index>(contacts.size());
   Eigen::VectorXd z(n), force(n), per_length(n), curved(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -41,22 +41,22 @@ std::vector<HertzLine> line_contact(const std::array<const Gear*, 2>& gear,
   }
   const Eigen::VectorXd load = line_load(stations, z, force), w = line_load(stations, z, per_length),
                         kappa = line_load(stations, z, curved);
-  std::vector<HertzLine> lines(static_cast<std::size_t>(load.size()));
+  std::vector<HertzPatch> lines(static_cast<std::size_t>(load.size()));
   for (Eigen::Index i = 0; i < load.size(); ++i)
     if (load[i] > 0) lines[static_cast<std::size_t>(i)] = model::hertz_line(w[i], kappa[i] / load[i], E_star);
   return lines;
 }
 
-HertzLine largest_of(const std::vector<HertzLine>& lines) {
+HertzPatch largest_of(const std::vector<HertzPatch>& lines) {
   return *std::max_element(lines.begin(), lines.end(),
-                           [](const HertzLine& a, const HertzLine& b) { return a.pressure < b.pressure; });
+                           [](const HertzPatch& a, const HertzPatch& b) { return a.pressure < b.pressure; });
 }
 
-HertzLine at_place(const std::vector<HertzLine>& lines, const FaceStations& stations, double z) {
+HertzPatch at_place(const std::vector<HertzPatch>& lines, const FaceStations& stations, double z) {
   const auto [station, share] = share_out(stations, z);
-  HertzLine here;
+  HertzPatch here;
   for (std::size_t k : {0, 1}) {
-    const HertzLine& line = lines[static_cast<std::size_t>(station[k])];
+    const HertzPatch& line = lines[static_cast<std::size_t>(station[k])];
     here.pressure += share[k] * line.pressure;
     here.half_width += share[k] * line.half_width;
   }
@@ -83,9 +83,9 @@ bool crosses_end(const std::array<const Gear*, 2>& gear, const std::vector<const
 
 // Point contact of one pair of teeth on crossed axes, under the force of all its contacts and with their mean
 // curvature.
-std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
-                                       const std::vector<const FlankContact*>& contacts, double E_star,
-                                       std::size_t step) {
+std::optional<HertzPatch> point_contact(const std::array<const Gear*, 2>& gear,
+                                        const std::vector<const FlankContact*>& contacts, double E_star,
+                                        std::size_t step) {
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
   Eigen::Vector3d n = Eigen::Vector3d::Zero();
   double F = 0;
@@ -98,7 +98,7 @@ std::optional<HertzLine> point_contact(const std::array<const Gear*, 2>& gear,
   if (!(at.least > 0)) return {};
   const HertzEllipse ellipse = model::hertz_ellipse(at.least / 2, at.largest / 2, E_star);
   if (ellipse.k < model::kLeastAxes || ellipse.a(F) > std::min(gear[0]->width, gear[1]->width) / 2) return {};
-  const HertzLine found{ellipse.pressure(F), ellipse.k * ellipse.a(F)};
+  const HertzPatch found{ellipse.pressure(F), ellipse.k * ellipse.a(F), ellipse.k};
   if (!std::isfinite(found.pressure) || crosses_end(gear, contacts, found.half_width)) return {};
   return found;
 }
@@ -123,7 +123,7 @@ std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& ge
   int n_pairs = 0, n_left_out = 0;
   for (std::size_t step = 0; step < contacts.size(); ++step)
     for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
-      const std::optional<HertzLine> here =
+      const std::optional<HertzPatch> here =
           parallel ? largest_of(line_contact(gear, of_pair, over_face, E_star, step))
                    : point_contact(gear, of_pair, E_star, step);
       ++n_pairs;
@@ -133,10 +133,9 @@ std::optional<HertzPressure> hertz_pressure(const std::array<const Gear*, 2>& ge
       }
       const auto i = static_cast<Eigen::Index>(step);
       found.largest[i] = std::max(found.largest[i], here->pressure);
-      if (here->pressure <= found.peak) continue;
-      found.peak = here->pressure;
+      if (here->pressure <= found.patch.pressure) continue;
+      found.patch = *here;
       found.step = i;
-      found.half_width = here->half_width;
     }
   if (n_left_out == n_pairs) return {};
   found.left_out = static_cast<double>(n_left_out) / n_pairs;
@@ -152,9 +151,9 @@ void take_hertz(const std::array<const Gear*, 2>& gear, const FaceStations& over
     };
     for (const auto& [teeth, of_pair] : pairs_of(contacts[step])) {
       if (parallel) {
-        const std::vector<HertzLine> lines = line_contact(gear, of_pair, over_face, E_star, step);
+        const std::vector<HertzPatch> lines = line_contact(gear, of_pair, over_face, E_star, step);
         for (const FlankContact* c : of_pair) {
-          const HertzLine here = at_place(lines, over_face, c->x_B[1][2]);
+          const HertzPatch here = at_place(lines, over_face, c->x_B[1][2]);
           changed(c).pressure = here.pressure;
           changed(c).half_width = here.half_width;
         }

@@ -8,6 +8,7 @@
 
 #include "elastogear/evaluation/contact.h"
 #include "elastogear/evaluation/face_stations.h"
+#include "elastogear/model/hertz.h"
 
 namespace elastogear::evaluation {
 
@@ -17,9 +18,8 @@ Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const
 
 struct HertzPressure {
   Eigen::VectorXd largest;  ///< n_t, Pa; 0 where nothing bears
-  double peak = 0;          ///< Pa, largest of all
   Eigen::Index step = 0;    ///< of it
-  double half_width = 0;    ///< m, of the patch there
+  model::HertzPatch patch;  ///< there
   double left_out = 0;      ///< -, share of the pairs of teeth of all times that it does not tell of
 };
 /// Of parallel axes, line contact under the line load of each pair of teeth; of crossed ones, point contact
