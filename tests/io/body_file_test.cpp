@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 
 #include "../fem/other_cells.h"
 #include "elastogear/base/error.h"

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 
 #include <functional>
 
@@ -10,6 +9,7 @@
 #include "elastogear/base/file.h"
 #include "elastogear/io/describe.h"
 #include "elastogear/io/stress_file.h"
+#include "io/hdf5/hdf5_api.h"
 #include "sample_body.h"
 #include "sample_result.h"
 

@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
@@ -10,6 +9,7 @@
 #include "elastogear/io/polydata_file.h"
 #include "elastogear/io/stress_file.h"
 #include "elastogear/mesh/file.h"
+#include "io/hdf5/hdf5_api.h"
 #include "sample_body.h"
 #include "sample_result.h"
 

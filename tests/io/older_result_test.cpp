@@ -3,13 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 
 #include "../mesh/box_mesh.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/io/body_file.h"
 #include "elastogear/io/describe.h"
+#include "io/hdf5/hdf5_api.h"
 #include "sample_result.h"
 
 namespace elastogear::older_result_test {
