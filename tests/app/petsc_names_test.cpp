@@ -107,8 +107,7 @@ TEST(PetscNames, AllThatObjectsPrintAsTheirHelpAreKnown) {
   EPSDestroy(&eps);
   const std::set<std::string> names = names_in(help);
   EXPECT_GT(names.size(), 500u);
-  for (const char* name :
-       {"ts_dt", "snes_rtol", "eps_ncv", "st_type", "elastic_ksp_rtol", "elastic_pc_factor_levels"})
+  for (const char* name : {"ts_dt", "snes_rtol", "eps_ncv", "st_type", "elastic_ksp_rtol", "elastic_pc_type"})
     EXPECT_TRUE(names.contains(name)) << name;
   for (const std::string& name : names) EXPECT_TRUE(is_petsc_name(name)) << name;
 }
@@ -120,6 +119,7 @@ TEST(PetscNames, OptionsOfNestedSolversAndOfPetscItselfAreKnown) {
                            "elastic_mg_coarse_sub_pc_type",
                            "elastic_mg_levels_3_esteig_ksp_max_it",
                            "elastic_fieldsplit_0_pc_type",
+                           "elastic_pc_factor_levels",
                            "pc_fieldsplit_0_fields",
                            "st_ksp_rtol",
                            "TS_DT",

@@ -72,11 +72,13 @@ struct Estimates {
 };
 
 Estimates estimate(const Forced& forced, double rho_inf, double dt, bool changing) {
+  constexpr double kEnd = 50;
   Estimates found;
   TimeError error(oscillator(forced.d));
   Integration* run = nullptr;
   std::ostringstream options;
-  options << "-ts_max_time 50 -ts_dt " << dt << " -ts_alpha_radius " << rho_inf << " -snes_rtol 1e-12";
+  options << "-ts_max_time " << kEnd << " -ts_dt " << dt << " -ts_alpha_radius " << rho_inf
+          << " -snes_rtol 1e-12";
   Integration integration(forced.problem(), options.str());
   run = &integration;
   VectorXd U[2], V[2], A[2];
@@ -98,7 +100,8 @@ Estimates estimate(const Forced& forced, double rho_inf, double dt, bool changin
     ASSERT_TRUE(generalized_alpha_solve_between(run->ts, middle, {u, v, a}));
     const double between = error.within(middle, values(u))[0] - (values(u)[0] - forced.at(middle));
     found.off_between = std::max(found.off_between, std::abs(between));
-    if (changing) check(TSSetTimeStep(run->ts, dt * (steps % 3 == 0 ? 1.4 : steps % 3 == 1 ? 1 : 0.7)));
+    const double next = dt * (steps % 3 == 0 ? 1.4 : steps % 3 == 1 ? 1 : 0.7);
+    if (changing && t < kEnd) check(TSSetTimeStep(run->ts, std::min(next, kEnd - t)));
   };
   integration.solve();
   return found;
