@@ -263,7 +263,9 @@ TEST_P(StressConcentration, is_nearer_to_the_closed_form_than_averages) {
     EXPECT_GT(of_averaged.median, 1);
     EXPECT_LT(of_averaged.median, 6);
     EXPECT_GT(of_recovered.median, 1);
-    if (c.type == CellType::hex8 || c.type == CellType::tet4) EXPECT_LT(of_recovered.median, 15);
+    if (c.type == CellType::hex8 || c.type == CellType::tet4) {
+      EXPECT_LT(of_recovered.median, 15);
+    }
     EXPECT_LT(recovered, 0.6 * averaged);
   }
   EXPECT_LT(recovered, c.at_finest);
