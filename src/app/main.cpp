@@ -10,6 +10,7 @@
 #include "app/console/environment.h"
 #include "app/console/lone_process.h"
 #include "app/options/command_line.h"
+#include "app/options/petsc_names.h"
 #include "app/verbs/registry.h"
 #include "app/way_out.h"
 #include "elastogear/base/collectively.h"
@@ -35,16 +36,7 @@ void print_help(const Verb& verb) {
   std::printf(
       "elastogear %s\n  %s\n\noptions (SI units; on the command line, or as keys of a YAML file):\n%s\n",
       verb.usage.c_str(), verb.summary.c_str(), help_text(verb.table).c_str());
-  std::printf("PETSc's and SLEPc's options (-eps_*, -st_*, -ts_*, -snes_*, -log_view) work beside these.\n");
-}
-
-// An option of PETSc that is known, but that the solvers of this run have not asked for.
-void warn_of_unused_options() {
-  PetscInt n = 0;
-  char **names = nullptr, **values = nullptr;
-  check(PetscOptionsLeftGet(nullptr, &n, &names, &values));
-  for (PetscInt i = 0; i < n; ++i) std::fprintf(stderr, "warning: nothing used the option -%s\n", names[i]);
-  check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
+  std::printf("PETSc's and SLEPc's options work beside these: %s-log_view.\n", verb.solvers);
 }
 
 void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& line, int argc, char** argv) {
@@ -94,7 +86,9 @@ int main_in_session(const std::vector<Verb>& verbs, const CommandLine& line, con
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   CommonEnd end;
   const std::string failure = failure_of(verbs, line, problem, argc, argv);
-  if (rank == 0 && failure.empty()) warn_of_unused_options();
+  if (rank == 0 && failure.empty())
+    for (const std::string& name : unused_petsc_options())
+      std::fprintf(stderr, "warning: nothing used the option -%s\n", name.c_str());
   if (rank == 0 && !failure.empty())
     std::fprintf(stderr, "elastogear %s: error: %s\n", printable(line.verb).c_str(),
                  printable(failure).c_str());

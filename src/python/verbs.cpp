@@ -6,22 +6,13 @@
 #include <variant>
 
 #include "app/gear/drive_options.h"
+#include "app/options/petsc_names.h"
 #include "app/verbs/registry.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/describe.h"
 
 namespace elastogear::python {
 namespace {
-
-// Options of PETSc that are known, but that the solvers of this run have not asked for.
-void note_unused_options(Items& items) {
-  PetscInt n = 0;
-  char **names = nullptr, **values = nullptr;
-  check(PetscOptionsLeftGet(nullptr, &n, &names, &values));
-  for (PetscInt i = 0; i < n; ++i)
-    items.emplace_back("warning", std::string("nothing used the option -") + names[i]);
-  check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
-}
 
 // All ranks reduce and sweep together; what else simulate does is for one of them.
 Ranks ranks_of(const app::Verb& verb, const std::vector<app::Verb>& verbs, const Given& given) {
@@ -43,7 +34,8 @@ Items run_verb(const std::string& name, const Given& given, const py::object& pr
   const app::EmbeddingScope scope(embedding);
   work.without_gil([&] {
     verb.run(app::load_options(verb, verbs, sources(given)), given.files);
-    note_unused_options(listener.items);
+    for (const std::string& name : app::unused_petsc_options())
+      listener.items.emplace_back("warning", "nothing used the option -" + name);
   });
   work.raise_kept();
   return listener.items;

@@ -44,7 +44,7 @@ OPTIONS = [
     Case("options of PETSc", r"", "{single} -ts_adapt_type none -ts_monitor -snes_rtol 1e-9 -snes_monitor -ksp_rtol 1e-6 -pc_type shell "
          "-elastic_pc_type cholesky -log_view -malloc_debug -options_left -options_view -on_error_abort -memory_view -citations "
          "-no_signal_handler", kind="good", leaves=r"kept_run\.h5"),
-    Case("options of SLEPc", r"", "{reduce} -eps_tol 1e-9 -eps_ncv 30 -st_type sinvert -st_pc_type cholesky -mat_mumps_icntl_14 30 "
+    Case("options of SLEPc", r"", "{reduce} -eps_tol 1e-9 -eps_ncv 30 -st_type sinvert -st_pc_type cholesky "
          "-st_mat_mumps_icntl_14 30 -eps_monitor", kind="good", leaves=r"kept\.h5"),
     Case("another eigensolver of SLEPc", r"", "{reduce_brick} -eps_type krylovschur -eps_nev 3", kind="good",
          leaves=r"kept\.h5"),

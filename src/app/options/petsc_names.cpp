@@ -27,6 +27,9 @@ const std::map<std::string, std::string> kOwnTypes = {
 constexpr const char* kOwnOptions[] = {"eps_block_lanczos_window", "eps_block_lanczos_block",
                                        "eps_block_lanczos_count"};
 
+// PETSc asks for these when it ends.
+constexpr std::string_view kAskedAtEnd[] = {"citations", "get_total_flops", "options_left", "options_view"};
+
 // Literals of the libraries, sorted.
 struct Literals {
   std::vector<std::string> names;     // of options
@@ -222,6 +225,18 @@ bool is_petsc_name(const std::string& name) {
   constexpr int kMostPrefixes = 6;
   const std::string small = folded(name);
   return petsc_names().empty() || is_library_option(small) || is_nested(small, kMostPrefixes);
+}
+
+std::vector<std::string> unused_petsc_options() {
+  PetscInt n = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &n, &names, &values));
+  std::vector<std::string> unused(names, names + n);
+  check(PetscOptionsLeftRestore(nullptr, &n, &names, &values));
+  std::erase_if(unused, [](const std::string& name) {
+    return std::find(std::begin(kAskedAtEnd), std::end(kAskedAtEnd), name) != std::end(kAskedAtEnd);
+  });
+  return unused;
 }
 
 }  // namespace elastogear::app

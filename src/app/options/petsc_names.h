@@ -23,4 +23,8 @@ void check_petsc_limits(const std::string& label, const std::string& name, const
 /// -snes_type, -ts_type, and -ksp_type and -pc_type under any prefix) and there is none of this name.
 void check_petsc_type(const std::string& label, const std::string& name, const std::string& value);
 
+/// Options in the database that PETSc knows, and that the solvers of this run have not asked for. What PETSc
+/// itself asks for when it ends is none of them.
+std::vector<std::string> unused_petsc_options();
+
 }  // namespace elastogear::app

@@ -342,6 +342,7 @@ Verb reduce_verb() {
           "finite-element mesh -> body file, or drive file -> all its bodies; under mpirun for large meshes",
           all_reduce_options(),
           run_reduce,
+          "-eps_*, -st_*, ",
           true};
 }
 

@@ -200,6 +200,7 @@ Verb run_verb() {
           "drive.yaml'",
           all_run_options(),
           run_all,
+          "-eps_*, -st_* (modes), -snes_* (equilibria), ",
           true};
 }
 

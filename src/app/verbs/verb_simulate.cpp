@@ -358,6 +358,7 @@ Verb simulate_verb() {
           "bodies, joints, loads, contact -> result file",
           simulate_table(),
           run_simulate,
+          "-snes_*, -ksp_*, and in time -ts_* and -elastic_*; ",
           true};
 }
 

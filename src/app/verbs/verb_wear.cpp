@@ -172,8 +172,12 @@ OptionTable all_wear_options() {
 }  // namespace
 
 Verb wear_verb() {
-  return {"wear", "wear drive.yaml [-option value ...]",
-          "worn depth and mass of the flanks of a drive over its revolutions", all_wear_options(), run_wear};
+  return {"wear",
+          "wear drive.yaml [-option value ...]",
+          "worn depth and mass of the flanks of a drive over its revolutions",
+          all_wear_options(),
+          run_wear,
+          "-snes_*, "};
 }
 
 }  // namespace elastogear::app

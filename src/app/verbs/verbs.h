@@ -14,8 +14,9 @@ struct Verb {
   std::string summary;  ///< one line
   OptionTable table;
   void (*run)(const Options& options, const std::vector<std::string>& arguments);
-  bool parallel = false;   ///< may run on more than one rank
-  bool configured = true;  ///< the arguments are YAML files, not data
+  const char* solvers = "";  ///< options of PETSc and SLEPc that it asks for: "-eps_*, -st_*, "
+  bool parallel = false;     ///< may run on more than one rank
+  bool configured = true;    ///< the arguments are YAML files, not data
 };
 
 Verb run_verb();
