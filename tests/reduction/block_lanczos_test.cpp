@@ -234,6 +234,24 @@ TEST(BlockLanczos, takes_the_options_of_slepc) {
   }
 }
 
+TEST(BlockLanczos, takes_fewer_blocks_where_the_tolerance_is_larger) {
+  const Pair pair = membrane();
+  const Eigen::VectorXd all = by_krylov_schur(pair, 10);
+  PetscInt before = 0;
+  for (double tolerance : {1e-3, 1e-6, 1e-10}) {
+    SCOPED_TRACE(tolerance);
+    PetscInt blocks = 0;
+    const UniqueEPS eps = create(pair, 10);
+    reduction::block_lanczos_set(eps, {.window = 10, .block = 2});
+    check(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
+    const Eigen::VectorXd error = solve(eps).head(10).cwiseQuotient(all).array() - 1;
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), tolerance);
+    check(EPSGetIterationNumber(eps, &blocks));
+    EXPECT_GT(blocks, before);
+    before = blocks;
+  }
+}
+
 TEST(BlockLanczos, continued_from_any_window_gives_the_same_to_the_bit) {
   const Pair pair = membrane();
   std::vector<reduction::SearchState> states;

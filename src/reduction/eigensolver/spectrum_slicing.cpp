@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kGap = 1e-5;       // relative, of eigenvalues: room for a window's end
 constexpr int kEndChoices = 8;      // gaps of which the widest becomes the end
-constexpr double kFirstLook = 0.9;  // of these sizes: when Ritz values are first looked at
+constexpr double kFirstLook = 0.9;  // of what is needed: when Ritz values are first looked at
 constexpr double kGrowth = 1.02;    // of the basis between two looks at its Ritz values
 constexpr int kLargestBlock = 128;  // after modes were missed
 constexpr int kSpare = 2;           // modes above the wanted ones that show the gap there
@@ -160,7 +160,8 @@ bool has_blocks_left(const Search& search) { return search.state.iterations < se
 // window, or holds all that are wanted, or is full.
 std::optional<Choice> grow(Search& search, KrylovBasis<>& basis, RitzPairs<>& pairs, int modes) {
   std::optional<Choice> choice;
-  for (double next = std::max(kFirstLook * needed_columns(modes, search.block), kGrowth * basis.size);
+  const double needed = needed_columns(modes, search.block, search.slicing.tolerance);
+  for (double next = std::max(kFirstLook * needed, kGrowth * basis.size);
        has_room(basis) && has_blocks_left(search) && !choice;) {
     expand(basis, search.transform.solve(basis.M_next));
     ++search.state.iterations;

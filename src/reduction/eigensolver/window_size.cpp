@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace elastogear::reduction {
 namespace {
 
 constexpr double kColumnsPerMode = 1.7;  // of a Krylov basis without restarts, measured
-constexpr double kFirstBlocks = 24;      // more of them, until the first Ritz values converge
+constexpr double kBlocksPerDigit = 2.4;  // more of them, until the first Ritz values converge
 constexpr double kFewestColumns = 200;   // of a basis, however small the window
 constexpr double kRoom = 1.3;            // columns there is room for, over those needed
 
@@ -22,7 +23,9 @@ constexpr std::array kBlocks{8, 16, 24, 32};
 
 }  // namespace
 
-double needed_columns(int modes, int block) { return kColumnsPerMode * modes + kFirstBlocks * block; }
+double needed_columns(int modes, int block, double tolerance) {
+  return kColumnsPerMode * modes - kBlocksPerDigit * std::log10(tolerance) * block;
+}
 
 int columns_with_room(const WindowSize& size, int n, int most_columns) {
   const double allowed = std::min<double>(kRoom * needed_columns(size.modes, size.block), most_columns);

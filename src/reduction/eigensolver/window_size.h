@@ -12,8 +12,9 @@ struct WindowSize {
   int modes = 0, block = 0;
 };
 
-/// Columns that a Krylov basis without restarts needs for so many modes on both sides of the shift.
-double needed_columns(int modes, int block);
+/// Columns that a Krylov basis without restarts needs until so many modes on both sides of the shift have
+/// converged to the tolerance, relative.
+double needed_columns(int modes, int block, double tolerance = 1e-10);
 
 /// Columns that there is to be room for among n rows: more than are needed, and not more than `most_columns`
 /// unless these are less than 200.
