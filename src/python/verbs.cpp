@@ -34,8 +34,8 @@ Items run_verb(const std::string& name, const Given& given, const py::object& pr
   const app::EmbeddingScope scope(embedding);
   work.without_gil([&] {
     verb.run(app::load_options(verb, verbs, sources(given)), given.files);
-    for (const std::string& name : app::unused_petsc_options())
-      listener.items.emplace_back("warning", "nothing used the option -" + name);
+    for (const std::string& unused : app::unused_petsc_options())
+      listener.items.emplace_back("warning", "nothing used the option -" + unused);
   });
   work.raise_kept();
   return listener.items;

@@ -112,7 +112,7 @@ def complaint(case, status, output):
     if case.kind == "warning" and status != 0:
         return f"a warning is enough, exit code {status}"
     if case.kind == "good" and "nothing used the option" in output:
-        return "says that an option is not used"
+        return re.search(r"nothing used the option \S+", output)[0]
     if case.kind == "good" or (case.kind == "right or error" and status == 0):
         return f"exit code {status}" if status else ""
     if not re.search(rf"{case.kind.split()[-1]}\b.*{case.words}", " ".join(output.split())):

@@ -28,7 +28,8 @@ constexpr const char* kOwnOptions[] = {"eps_block_lanczos_window", "eps_block_la
                                        "eps_block_lanczos_count"};
 
 // PETSc asks for these when it ends.
-constexpr std::string_view kAskedAtEnd[] = {"citations", "get_total_flops", "options_left", "options_view"};
+constexpr std::string_view kAskedAtEnd[] = {"citations", "get_total_flops", "no_signal_handler",
+                                            "options_left", "options_view"};
 
 // Literals of the libraries, sorted.
 struct Literals {

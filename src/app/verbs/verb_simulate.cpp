@@ -358,7 +358,7 @@ Verb simulate_verb() {
           "bodies, joints, loads, contact -> result file",
           simulate_table(),
           run_simulate,
-          "-snes_*, -ksp_*, and in time -ts_* and -elastic_*; ",
+          "-snes_*, in time -ts_*, with bodies of basis full -elastic_* and -ksp_*; ",
           true};
 }
 
