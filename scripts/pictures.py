@@ -5,6 +5,12 @@
       von Mises stress on the deformed body, whole and around the largest stress
   pictures.py boxes --surfaces A.vtu B.vtu --boxes A.vtp B.vtp --levels 1 5 leaf --out PICTURE.png
       bodies with the k-DOPs of some tree levels, whole and where the bodies meet; all files in one frame
+  pictures.py parts --body-file worm=worm.h5 wheel=wheel.h5 --out PICTURE.png
+      each body by itself, with what is held
+  pictures.py setup RESULT.h5 --body-file worm=worm.h5 wheel=wheel.h5 --out PICTURE.png
+      the bodies at the start of a run
+  pictures.py spots --body-file worm=worm.h5 --node worm=12 worm=345 --out PICTURE.png
+      nodes on their bodies
 """
 import argparse
 import os
@@ -14,15 +20,15 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
+import bodies
 import results
 import scene
+from bodies import COLOURS as BODY_COLOURS
+from views import box_views, diagonal, points_of, stress_views, unit
 
-BODY_COLOURS = ("#D55E00", "#0072B2")  # vermillion and blue, told apart by colour-blind readers too
 WARP_SHARE = 0.04  # of the body's size: how large the largest displacement is drawn
-ZOOM_SHARE = 0.09  # of the body's size: half height of the enlarged view
 STANDS_OUT = 3  # times that quantile
 SHOWN_QUANTILE = 0.999  # colours end there, so that a few contact nodes do not hide the roots
-MARGIN = 1.1  # around a whole body
 BOX_HEIGHT, BOX_ASPECT = 675, 1.1  # of one panel with boxes: pixels, width/height
 GAP = 0.004  # between panels, of the picture's width
 
@@ -57,18 +63,6 @@ def surface_of(data):
     return extract.GetOutput()
 
 
-def points_of(data):
-    return vtk_to_numpy(data.GetPoints().GetData())
-
-
-def diagonal(points):
-    return float(np.linalg.norm(np.ptp(points, axis=0)))
-
-
-def unit(vector):
-    return vector / np.linalg.norm(vector)
-
-
 def round_down(value):
     """Largest 1, 2 or 5 times a power of ten that is not above `value`."""
     power = 10.0 ** np.floor(np.log10(value))
@@ -98,44 +92,6 @@ def colour_range(stress):
         shown = float(stress.max())
     step = round_down(shown / 5) if shown > 0 else 0.2
     return step * np.ceil(shown / step)
-
-
-def axis_of(points):
-    """Axis of a worm (its longest) or of a wheel (its shortest principal direction)."""
-    variance, direction = np.linalg.eigh(np.cov(points.T))
-    return direction[:, 2 if variance[2] - variance[1] > variance[1] - variance[0] else 0]
-
-
-def fitted_view(points, direction, up, aspect):
-    """View that shows all points in a panel of this width/height ratio."""
-    right = unit(np.cross(up, direction))
-    frame = np.array([right, np.cross(direction, right), direction])
-    seen = points @ frame.T
-    low, high = seen.min(axis=0), seen.max(axis=0)
-    half_height = MARGIN * max(high[1] - low[1], (high[0] - low[0]) / aspect) / 2
-    return scene.View((low + high) / 2 @ frame, diagonal(points) * direction, up, half_height)
-
-
-def normal_at(surface, point):
-    """Outward unit normal of the surface at one of its points."""
-    normals = vtk.vtkPolyDataNormals()
-    normals.SetInputData(surface)
-    normals.SplittingOff()
-    normals.AutoOrientNormalsOn()
-    normals.Update()
-    return vtk_to_numpy(normals.GetOutput().GetPointData().GetNormals())[point].astype(float)
-
-
-def stress_views(surface, hot, aspect):
-    """Whole body and the point `hot`, which is seen from outside and from the side it faces; the axis is horizontal."""
-    points, normal = points_of(surface), normal_at(surface, hot)
-    axis = axis_of(points)
-    offset = points[hot] - (points.max(axis=0) + points.min(axis=0)) / 2
-    radial = unit(offset - (axis @ offset) * axis)
-    direction = unit(radial + 0.3 * normal + 0.15 * np.sign(axis @ normal) * axis)
-    up = unit(np.cross(direction, axis))
-    zoom = scene.View(points[hot], diagonal(points) * direction, up, ZOOM_SHARE * diagonal(points))
-    return fitted_view(points, direction, up, aspect), zoom
 
 
 def stress_surface(path, scale=0):
@@ -202,20 +158,6 @@ def boxes_of_level(boxes, level, path):
     return surface_of(select.GetOutput())
 
 
-def meeting_point(surfaces):
-    """Centre of the region that the bounding boxes of all surfaces share."""
-    low = np.max([points_of(surface).min(axis=0) for surface in surfaces], axis=0)
-    high = np.min([points_of(surface).max(axis=0) for surface in surfaces], axis=0)
-    return (low + high) / 2
-
-
-def box_views(surfaces, boxes, direction, aspect):
-    points = np.vstack([points_of(data) for data in surfaces + boxes])
-    up, distance = np.array([0.0, 0.0, 1.0]), diagonal(points) * direction
-    zoom = scene.View(meeting_point(surfaces), distance, up, ZOOM_SHARE * diagonal(points))
-    return fitted_view(points, direction, up, aspect), zoom
-
-
 def distinct_names(paths):
     """File names without extension and without the leading words that all share: impact_worm -> worm."""
     words = [os.path.splitext(os.path.basename(path))[0].split("_") for path in paths]
@@ -263,10 +205,18 @@ def arguments():
     boxes.add_argument("--boxes", nargs="+", required=True, metavar="FILE", help=".vtp with cell data level")
     boxes.add_argument("--levels", nargs="+", default=["1", "5", "leaf"], help="tree levels, root 0; leaf: the deepest")
     boxes.add_argument("--title", default="k-DOPs", help="default: %(default)s")
-    boxes.add_argument("--view", nargs=3, type=float, default=(0.35, 0.75, 0.55), metavar=("X", "Y", "Z"),
-                       help="from where to look")
     boxes.set_defaults(draw=draw_boxes)
-    for command in (stress, boxes):
+    parts = commands.add_parser("parts", help="each body, with what is held")
+    setup = commands.add_parser("setup", help="the bodies at the start of a run")
+    setup.add_argument("result", help="result file of `elastogear simulate`")
+    spots = commands.add_parser("spots", help="nodes on their bodies")
+    spots.add_argument("--node", nargs="+", required=True, metavar="BODY=NUMBER", help="mesh nodes to show")
+    for command, function in ((parts, bodies.draw_parts), (setup, bodies.draw_setup), (spots, bodies.draw_spots)):
+        command.add_argument("--body-file", nargs="+", required=True, metavar="BODY=FILE")
+        command.set_defaults(draw=function)
+    for command in (boxes, parts, setup):
+        command.add_argument("--view", nargs=3, type=float, default=(0.35, 0.75, 0.55), metavar=("X", "Y", "Z"), help="from where to look")
+    for command in (stress, boxes, parts, setup, spots):
         command.add_argument("--out", required=True, help="PNG file to write")
     return parser.parse_args()
 

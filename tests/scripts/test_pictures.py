@@ -6,14 +6,17 @@ import tempfile
 import unittest
 import unittest.mock
 
+import h5py
 import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
 sys.path.insert(0, SCRIPTS)
-import pictures  # noqa: E402  (found through the line above)
+import bodies  # noqa: E402  (found through the line above)
+import pictures  # noqa: E402
 import scene  # noqa: E402
+import views  # noqa: E402
 
 
 def add_array(attributes, name, values):
@@ -37,6 +40,24 @@ def write_field(path, with_stress=True, stress=np.arange(8) * 1e7):
     writer.SetFileName(path)
     writer.SetInputData(grid)
     writer.Write()
+
+
+def write_body(path):
+    """A unit cube of one hexahedron, held at its bottom."""
+    with h5py.File(path, "w") as file:
+        file.attrs["format"] = "elastogear body"
+        file["mesh/X"] = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], dtype=float)
+        file["mesh/cell_type"], file["mesh/cell_offset"], file["mesh/cell_nodes"] = [0], [0, 8], np.arange(8)
+        file["reduced/free_dof"] = np.arange(12, 24)
+
+
+def write_start(path):
+    """The cube, which turns about z under a torque."""
+    with h5py.File(path, "w") as file:
+        file.attrs["format"] = "elastogear result"
+        body = file.create_group("bodies/cube")
+        body.attrs["joint"], body["rotation"], body["position"] = "revolute", np.eye(3)[None], np.zeros((1, 3))
+        body["rigid_velocity"], body["joint_force"] = [[1.0]], [[-2.0]]
 
 
 def write_boxes(path):
@@ -70,6 +91,18 @@ class Files(unittest.TestCase):
             run = self.run_pictures(*arguments)
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertGreater(os.path.getsize(self.path(arguments[-1])), 1000)
+
+    def test_bodies_are_drawn_from_their_files(self):
+        write_body(self.path("cube.h5"))
+        write_start(self.path("result.h5"))
+        for name, colour, *arguments in (("parts", bodies.HELD, "--view", "0.3", "0.5", "-0.8"), ("setup", bodies.SPEED, "result.h5"),
+                                         ("spots", bodies.SPOT, "--node", "cube=6")):
+            run = self.run_pictures(name, *arguments, "--body-file", "cube=cube.h5", "--out", name + ".png")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            pixels = self.pixels(name + ".png")
+            wanted = np.array([int(colour[i:i + 2], 16) for i in (1, 3, 5)])
+            shade = (pixels @ wanted) / np.maximum(np.linalg.norm(pixels, axis=1) * np.linalg.norm(wanted), 1)  # of any brightness
+            self.assertTrue((shade > 0.995).any(), name)
 
     def pixels(self, name):
         """n x 3 colours of a picture, 0 .. 255."""
@@ -133,7 +166,7 @@ class Choices(unittest.TestCase):
         circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
         for height in (0.2, 9.0):  # disc, rod
             points = np.vstack([circle, circle + [0, 0, height]])
-            np.testing.assert_allclose(np.abs(pictures.axis_of(points)), [0, 0, 1], atol=1e-12)
+            np.testing.assert_allclose(np.abs(views.axis_of(points)), [0, 0, 1], atol=1e-12)
 
 
 if __name__ == "__main__":
