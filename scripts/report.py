@@ -2,8 +2,7 @@
 """One HTML page of a run that can be turned and played, without a network: question, answer and how sure it is, stresses on the
 bodies, curves, tables, inputs, versions (docs/report.md).
 
-  report.py drive.yaml                         the input file of simulate and recover; its result file is there already
-  report.py impact|turn_in|rolling FOLDER      an example that scripts/example has run in out/examples/SIZE/EXAMPLE
+  report.py drive.yaml       the input file of simulate and recover; its result file is there already
 """
 import argparse
 import base64
@@ -23,7 +22,6 @@ from page import bundle, curves, evaluation, pack, texts
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 PROGRAM = os.path.join(SCRIPTS, "..", "build", "release", "src", "app", "elastogear")
 SOURCE = os.path.join(SCRIPTS, "page", "src")
-EXAMPLES = ("impact", "turn_in", "rolling")  # of the paper, in page/example.py
 MOST_BYTES = 15_000_000  # of the page
 QUANTITIES = (("von_mises", "Von Mises stress"), ("rankine", "Largest principal stress"), ("contact_traction", "Contact pressure"),
               ("pattern", "Contact pattern, largest pressure of all times"), ("error_of_von_mises", "Estimated error by the reduction"),
@@ -41,7 +39,7 @@ def read_keys(path):
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         sys.exit(f"{path}: cannot be read: {error}")
     if not isinstance(keys, dict):
-        sys.exit(f"{path}: holds no keys: expected an input file of elastogear simulate, or the name of an example")
+        sys.exit(f"{path}: holds no keys: expected an input file of elastogear simulate")
     return keys
 
 
@@ -222,7 +220,7 @@ def compose(case, collection, parts, out, evaluated=None, mark=""):
     charts = curves.charts(case) + (evaluation.charts(evaluated, case.result.filename) if evaluated else [])
     data = {"charts": charts, "x": case.axis.data()}
     parts = {"title": texts.escape(case.title()), "results": texts.stress_table(case) + texts.contact_table(case)
-             + (evaluation.table(evaluated, case.result.filename) if evaluated else ""), "more": "", "view": "", "top": "top", **parts}
+             + (evaluation.table(evaluated, case.result.filename) if evaluated else ""), "view": "", "top": "top", **parts}
     room = MOST_BYTES - len(script) - len(style) - len(script_data(data)) - sum(map(len, parts.values()))
     if collection:
         data.update(view_data(case, collection, room - 300_000))
@@ -276,29 +274,9 @@ def report_input(options):
                     out, evaluated if evaluated and os.path.isfile(evaluated) else None, mark)
 
 
-def report_example(options):
-    """Page of an example of the paper: that of its last run, with the paper's figures and tables."""
-    from page import example  # here, so that a drive's page needs no matplotlib
-
-    chosen = example.Example(options.input, options.folder)
-    if chosen.name == "rolling":
-        example.require_rolling(chosen)
-    label = chosen.labels[-1]
-    collection = chosen.path(label + ".pvd")
-    with chosen.result(label) as result, chosen.stress(label) as stress:
-        case = texts.Case(result, stress, {})
-        inputs = "".join(example.inputs(chosen)) + texts.inputs_table(case, "")
-        commands = [f"scripts/example {chosen.name}", f"scripts/report.py {chosen.name} {options.folder}"]
-        more = f'<section class="more" aria-label="Beside the paper">{"".join(example.sections(chosen))}</section>'
-        compose(case, collection if os.path.exists(collection) else None,
-                {"title": texts.escape(example.TITLE[chosen.name]), "summary": texts.summary(case, mesh_sizes(case, {})), "more": more, "inputs": inputs,
-                 "provenance": texts.provenance_table(case, [chosen.path(label + ".h5")], commands)}, options.out or chosen.path("report.html"))
-
-
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("input", help="input file, or impact, turn_in or rolling")
-    parser.add_argument("folder", nargs="?", help="of an example's results")
+    parser.add_argument("input", help="input file")
     parser.add_argument("--result", help="result file; default: the one that simulate writes with the input file")
     parser.add_argument("--stress", help="stress file of recover; without it and --fields recover is run")
     parser.add_argument("--fields", help="collection (.pvd) of recover's fields")
@@ -310,19 +288,13 @@ def arguments():
     parser.add_argument("--elastogear", default=PROGRAM, help="program")
     parser.add_argument("--out", help="default: INPUT_report.html")
     options = parser.parse_args()
-    if (options.input in EXAMPLES) != bool(options.folder):
-        parser.error("expected an input file, or impact, turn_in or rolling with the folder of its results")
     if options.times < 1:
         parser.error(f"--times is {options.times}, must be at least 1")
     return options
 
 
 def main():
-    options = arguments()
-    if options.folder:
-        report_example(options)
-    else:
-        report_input(options)
+    report_input(arguments())
 
 
 if __name__ == "__main__":

@@ -24,11 +24,24 @@ def show(text, terminal):
     print(f"\r\033[K{text[:COLUMNS]}" if terminal else text[:COLUMNS], end="" if terminal else "\n", flush=True)
 
 
-class Steps:
-    """`total`: of the steps of the chain; 0 when it is not known."""
+def left(seconds):
+    """A time that remains, in words: "about 25 min left"."""
+    return f"about {max(round(seconds / 60), 1)} min left" if seconds < 3600 else f"about {seconds / 3600:.1f} h left"
 
-    def __init__(self, total=0):
-        self.total, self.done, self.terminal = total, 0, sys.stdout.isatty()
+
+class Steps:
+    """`total`: of the steps of the chain; 0 when it is not known. `costs`: seconds that each step is expected to take, in their
+    order; only their ratios count once a step has ended."""
+
+    def __init__(self, total=0, costs=()):
+        self.total, self.done, self.terminal = total or len(costs), 0, sys.stdout.isatty()
+        self.costs, self.start = list(costs), time.monotonic()
+
+    def remaining(self):
+        """How long the steps that follow take, when costs are known and steps do follow."""
+        if not sum(self.costs[self.done:]):
+            return ""
+        return ", " + left(sum(self.costs[self.done:]) * (time.monotonic() - self.start) / sum(self.costs[:self.done]))
 
     def run(self, name, command, log):
         """CPU time (s), wall-clock time (s) and largest memory (MB) of a command, printed. Exits with what it printed when it fails."""
@@ -55,5 +68,5 @@ class Steps:
             with open(log, encoding="utf-8", errors="replace") as file:
                 sys.exit(f"{name}: {' '.join(command)}\n{file.read()[-2000:]}")
         figures = usage.ru_utime + usage.ru_stime, time.monotonic() - start, usage.ru_maxrss / 1024
-        print("{:<34} {:9.1f} s CPU {:9.1f} s wall {:8.0f} MB".format(place[:34], *figures), flush=True)
+        print("{:<34} {:9.1f} s CPU {:9.1f} s wall {:8.0f} MB".format(place[:34], *figures) + self.remaining(), flush=True)
         return figures

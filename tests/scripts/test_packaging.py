@@ -53,7 +53,7 @@ class Packaging(unittest.TestCase):
 
     def test_page_of_a_drive_needs_no_plots(self):
         """The packages on which the .deb depends are enough for the page that `run` makes: neither matplotlib nor VTK."""
-        without = "import sys; sys.modules.update(matplotlib=None, vtk=None); import report; print(report.EXAMPLES)"
+        without = "import sys; sys.modules.update(matplotlib=None, vtk=None); import report; print(report.PROGRAM)"
         subprocess.run([sys.executable, "-B", "-c", without], cwd=os.path.join(ROOT, "scripts"), check=True, stdout=subprocess.DEVNULL)
 
 

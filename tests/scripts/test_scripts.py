@@ -200,17 +200,6 @@ class Scripts(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertNotIn("does not roll", run.stdout)
 
-    def test_a_report_of_rolling_that_stopped_is_refused(self):
-        os.makedirs(self.path("rolling"))
-        write_result(self.path("rolling/modal_10.h5"))
-        with h5py.File(self.path("rolling/modal_10.h5"), "r+") as file:
-            del file["bodies/worm/rigid_velocity"]
-            file["bodies/worm/rigid_velocity"] = np.full((5, 1), 2 * 2 * np.pi / (TIME[-1] - TIME[0]))
-            file["bodies/worm/rigid"] = 2 * np.pi * np.reshape([0, 0.15, 0.2, 0.1, 0.05], (5, 1))
-        write_stress(self.path("rolling/modal_10_stress.h5"))
-        self.assert_fails(self.run_script("report.py", "rolling", "rolling"), "modal_10.h5", "does not roll", "size small")
-        self.assertFalse(os.path.exists(self.path("rolling/report.html")))
-
     def test_every_plot_is_drawn(self):
         run = self.run_script("plots.py", "result.h5", "stress.h5", "--body-file", "worm=worm.h5", "--out", "plots")
         self.assertEqual(run.returncode, 0, run.stderr)
