@@ -31,7 +31,7 @@ void read_moduli(const Options& options, const std::string& name, Environment& e
     return;
   }
   require(!has_states_of_rest(options) || environment.moduli != body::Moduli::relaxing, options.label(name),
-          " = 'relaxing': states of rest have no history; give instantaneous or long_term, or a "
+          " = 'relaxing': static equilibria have no history; give instantaneous or long_term, or a "
           "time_under_load of analysis: static");
 }
 
@@ -49,7 +49,7 @@ const Rows<Environment> kEnvironmentRows = {
     {"moduli", "-", "",
      "of viscoelastic materials: relaxing with time (analysis: dynamic, or static with time_under_load); "
      "instantaneous, as of loads put on just now; or long_term, after all relaxation (default: relaxing; of "
-     "states of rest, analysis: static, relax or sweep, instantaneous)",
+     "static equilibria, analysis: static, relax or sweep, instantaneous)",
      read_moduli},
     {"inertia", &Environment::inertia, body::inertia_level_names(),
      "what the inertia keeps of the deformation: constant (nothing), linear (first order), affine (all of "

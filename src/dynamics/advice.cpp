@@ -188,7 +188,7 @@ std::vector<std::string> ChatterWatch::warnings(const model::Snapshot& snapshot)
     std::ostringstream text;
     text.precision(3);
     text << "contact " << system_->pairs()[p].name << " at t = " << snapshot.time
-         << " s: chatters, its force goes to and fro from output to output; neither it nor the energy is to "
+         << " s: chatters, its force rises and falls from output to output; neither it nor the energy is to "
             "be "
             "trusted. Give bodies with damping_ratio, or a penalty (-contact_law penalty), which bodies that "
             "begin in touch may need a gap of 1e-7 m for, or outputs nearer to each other";

@@ -69,7 +69,7 @@ bool is_out_of_steps(TS ts);
 
 /// Message where a state of rest is looked for and materials relax with time.
 inline constexpr const char* kNoHistory =
-    "states of rest have no history: viscoelastic materials need their instantaneous or their long-term "
+    "static equilibria have no history: viscoelastic materials need their instantaneous or their long-term "
     "moduli there (option moduli)";
 
 /// Throws Error when surfaces of a pair lie inside each other at the start.

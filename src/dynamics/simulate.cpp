@@ -84,9 +84,10 @@ void require_solved(const Run& run, TS ts) {
   const std::string& trouble = run.problem.trouble;
   require(reason > 0, "the step at t = ", time, " s cannot be solved, not even with dt cut to ", dt,
           " s: ", trouble.empty() ? "Newton's method does not converge" : trouble, " (",
-          TSConvergedReasons[reason], "). Try a smaller time step", friction_advice(run.problem.system),
+          TSConvergedReasons[reason], "). Try a smaller time step (-ts_dt)",
+          friction_advice(run.problem.system),
           is_undamped(ts) ? ", numerical damping (-ts_alpha_radius 0.8)" : "",
-          run.summary.pair.empty() ? "" : ", a softer contact or a larger contact depth");
+          run.summary.pair.empty() ? "" : ", a smaller -contact_stiffness or a larger -contact_depth");
 }
 
 // The first step must not pass the end.

@@ -43,9 +43,9 @@ void add_path(const PairOfRun& pair, const ToothPairs& pairs, const Eigen::Matri
   const auto bears = (pairs.share.array() > kBears).eval();
   if (!bears.any()) return;
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  items.number("teeth/begins", "1", "smallest place of a pair of teeth that bears, pitches",
+  items.number("teeth/begins", "1", "smallest place of a loaded pair of teeth, pitches",
                bears.select(place.array(), kFar).minCoeff());
-  items.number("teeth/ends", "1", "largest place of a pair of teeth that bears, pitches",
+  items.number("teeth/ends", "1", "largest place of a loaded pair of teeth, pitches",
                bears.select(place.array(), -kFar).maxCoeff());
   const auto path = path_of_contact(pair.gear[0], pair.gear[1], loaded_side(pair.contacts, 1));
   if (!path) return;

@@ -95,7 +95,7 @@ compare whole.h5 cut.h5 || fail "the result files differ"
 
 # A step that cannot be solved: the last good state is in the file, and a run with other options goes on from it.
 "${simulate[@]}" -output deep.h5 -contact_depth 2e-5 >run.log 2>&1 && fail "penetrates by more than the contact depth"
-grep -Eq "error: .*nearly the contact depth.*Try a smaller time step, numerical damping.*The result until t = .* is in deep.h5" run.log ||
+grep -Eq "error: .*nearly the contact depth.*Try a smaller time step \(-ts_dt\), numerical damping.*The result until t = .* is in deep.h5" run.log ||
   { cat run.log; fail "the message on a step that cannot be solved"; }
 "$elastogear" info deep.h5 | grep -q "incomplete" || fail "the result of a failed run is not called incomplete"
 "${simulate[@]}" -output deep.h5 -contact_depth 1e-3 >run.log 2>&1 && fail "continued with another depth unasked"

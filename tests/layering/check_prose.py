@@ -1,4 +1,5 @@
-"""Reads the documents and reports words of a private vocabulary, sentences that are too long, and lines that are too wide.
+"""Reads the documents and reports words of a private vocabulary, sentences that are too long, and lines that are too wide. Of the
+program's sources it reads the texts in quotation marks, for the words.
 
 A sentence counts code, formulas, links and references to literature as few words, as one reads them. Tables, code and
 headings are no prose. Usage: check_prose.py REPOSITORY [PAGE ...], where pages are shown with all their long sentences.
@@ -33,6 +34,8 @@ SAY = {  # what is not said, and the field's word
     r"come together": "converge",
     r"softer contact": "a smaller `contact_stiffness`",
 }
+SOURCES = ("src/**/*.cpp", "src/**/*.h")
+LITERAL = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')  # with those that follow, which are one text
 REFERENCE = re.compile(r"\([^()]*\((?:18|19|20)\d\d\)[^()]*\)")
 ABBREVIATION = re.compile(r"(?:(?<!\d )\b[A-Z]|\b(?:Eqs?|Fig|Figs|Tab|No|vol|pp|ed|et al|e\.g|i\.e|cf|Int|Numer|Meth|Eng|Engng|Comput|Appl|Mech|Soc|Chem|Am))\.$")
 FORMULA = re.compile(r"\n*\$\$(.*?)\$\$\n*", re.DOTALL)
@@ -84,6 +87,14 @@ def words(text):  # what is said in other words than the field's
     return [f'"{found[0]}": say {better}' for pattern, better in SAY.items() for found in re.finditer(pattern, prose, re.IGNORECASE)]
 
 
+def messages(source):
+    """What the texts of a source say in other words than the field's."""
+    code = re.sub(r"^\s*(//|#include).*", "", source, flags=re.MULTILINE)
+    said = [re.sub(r'"\s*"', "", match[0]) for match in LITERAL.finditer(code)]
+    return [f'"{found[0]}" in {text[:60]} ...: say {better}' for text in said for pattern, better in SAY.items()
+            for found in re.finditer(pattern, text, re.IGNORECASE)]
+
+
 def wide(text):
     text = re.sub(r"^```.*?^```|\$\$.*?\$\$", "", text, flags=re.MULTILINE | re.DOTALL)
     return [line for line in text.split("\n") if len(re.sub(r"`[^`]*`", "", line)) > WIDTH and is_prose(line) and "](" not in line]
@@ -101,8 +112,10 @@ def violations(text):
 
 def check(repository):
     pages = [path for pattern in PAGES for path in sorted(pathlib.Path(repository).glob(pattern))]
-    return [f"{path.relative_to(repository)}: {complaint}" for path in pages
-            for complaint in violations(path.read_text(encoding="utf-8"))]
+    found = [(path, complaint) for path in pages for complaint in violations(path.read_text(encoding="utf-8"))]
+    sources = [path for pattern in SOURCES for path in sorted(pathlib.Path(repository).glob(pattern))]
+    found += [(path, complaint) for path in sources for complaint in messages(path.read_text(encoding="utf-8"))]
+    return [f"{path.relative_to(repository)}: {complaint}" for path, complaint in found]
 
 
 def show(path):  # a page's sentences of more than the median that is asked for
@@ -118,5 +131,5 @@ if __name__ == "__main__":
         show(page)
     if len(sys.argv) == 2:
         complaints = check(sys.argv[1])
-        print("\n".join(complaints) or "the documents hold to words, sentences and lines")
+        print("\n".join(complaints) or "documents and messages hold to words, sentences and lines")
         sys.exit(bool(complaints))

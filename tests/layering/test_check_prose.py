@@ -27,6 +27,11 @@ class Prose(unittest.TestCase):
     def test_words_in_code_and_what_only_looks_alike_pass(self):
         self.assert_found("Coordinates are told apart. `to and fro` is code. What is left out counts.\n")
 
+    def test_words_are_found_in_the_texts_of_a_source_but_not_in_its_comments(self):
+        source = '// "A softer contact" is a comment.\nfail("try a softer "\n     "contact, or \\"more\\" steps");\n#include "to and fro.h"\n'
+        self.assertEqual(len(check_prose.messages(source)), 1)
+        self.assertIn("contact_stiffness", check_prose.messages(source)[0])
+
     def test_long_sentences_are_found(self):
         self.assert_found(f"{SHORT}\n{of(46)}.\n", "a sentence of 46 words")
         self.assert_found(f"{SHORT}\n{of(23)}. {of(23)}.\n")

@@ -77,10 +77,10 @@ void print_stiffness(const Reader& of) {
 void print_load(const Reader& of) {
   if (of.has("teeth/contact_ratio"))
     print_item("operating contact ratio", digits_of(of.value("teeth/contact_ratio"), 4) +
-                                              "; one pair of teeth bears up to " +
+                                              "; one pair of teeth carries up to " +
                                               of.in("teeth/largest_share", 100, "%"));
   if (of.has("teeth/begins"))
-    print_item("a pair of teeth bears",
+    print_item("a pair of teeth is loaded",
                "from " + digits_of(of.value("teeth/begins"), 4) + " to " +
                    digits_of(of.value("teeth/ends"), 4) + " pitches of its way" +
                    (of.has("teeth/path_begins")

@@ -234,7 +234,7 @@ void print_sweep(const SweepJob& job, const SweepFound& found) {
                                              with_unit(pair.peak_time, "pitches"));
   if (summary.run.unbalanced > 0)
     print_item("unbalanced", with_unit(100 * summary.run.unbalanced, "%") +
-                                 " of the forces at most, where points of contact come and go");
+                                 " of the forces at most, where the active set of contact chatters");
   if (!job.cases.several) {
     print_detail("work of the torques", with_unit(found.work, "J"));
     print_detail("loss by friction", with_unit(found.dissipated, "J"));

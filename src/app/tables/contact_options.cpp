@@ -31,7 +31,7 @@ const Rows<S> kContactRows = {
      "of the slave that are kept from entering the master: its nodes; minima, also the least gaps along the "
      "sides of its faces and within them (unilateral, smooth); faces, all points in the mean around each "
      "node (pressure as a field); auto: faces where the slave's cells are of second order, whose nodes alone "
-     "cannot bear an even pressure, unless there are two passes; nodes elsewhere; stations: exact "
+     "cannot carry an even pressure, unless there are two passes; nodes elsewhere; stations: exact "
      "flanks touch along their lines of contact, or at points on axes that cross, on any mesh (unilateral; "
      "minima where that cannot be); drives take stations"},
     {"contact_penalty", &S::penalty, one_of("per_node", "per_area"),
@@ -54,7 +54,8 @@ const Rows<S> kContactRows = {
     {"contact_feature_angle", &S::feature_angle, "deg",
      "smooth surfaces: edges that turn by more stay sharp"},
     {"contact_extension", &S::extension, "-",
-     "nodes: share of a face's length by which surfaces are prolonged at open ends; forces fade out over it"},
+     "nodes: share of a face's length by which surfaces are prolonged at free boundaries; forces fade out "
+     "over it"},
     {"contact_damping", &S::damping, "Pa s/m or N s/m",
      "damping while bodies approach, per area or per node"},
     {"contact_hysteresis", &S::hysteresis, "s/m",

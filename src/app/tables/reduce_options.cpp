@@ -66,9 +66,9 @@ const Rows<ReductionOptions> kReduceRows = {
     {"marker_weights", &ReductionOptions::marker_weights, one_of("equal", "area"),
      "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
     {"window", "-", "auto",
-     "eigenmodes found at a time, by block Lanczos in windows (SLEPc's -eps_type block_lanczos); auto: of "
-     "the "
-     "best size; 0: all at once by -eps_type krylovschur, of the whole body. SLEPc's options work with both, "
+     "eigenmodes found at a time, by block Lanczos and spectrum slicing (SLEPc's -eps_type block_lanczos); "
+     "auto: of the best size; 0: all at once by -eps_type krylovschur, of the whole body. SLEPc's options "
+     "work with both, "
      "for the whole body and in every harmonic: -eps_type, -eps_tol, -eps_ncv, -eps_mpd, -eps_monitor, "
      "-eps_view, -st_*; -eps_nev is modes, -eps_interval a,b in (rad/s)^2 takes all modes in it"},
     {"store", &ReductionOptions::store, one_of("surface", "all"),

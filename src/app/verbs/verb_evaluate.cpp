@@ -50,7 +50,7 @@ std::string no_orders(const evaluation::PairOfRun& run) {
 void add_bearing(const evaluation::PairOfRun& run, const BearingOfRun& bearing,
                  std::vector<io::EvaluationItem>& items) {
   const std::string group = "bearings/" + bearing.name + "/";
-  items.push_back({group + "gear", "1", "gear that it bears", {1}, {}, {bearing.gear}});
+  items.push_back({group + "gear", "1", "gear that it supports", {1}, {}, {bearing.gear}});
   const auto add = [&](const char* name, const char* unit, const std::string& what,
                        const Eigen::VectorXd& values) {
     if (!(values.cwiseAbs().maxCoeff() > 0)) return;

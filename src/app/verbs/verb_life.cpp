@@ -26,7 +26,7 @@ void refuse_different_teeth(const Drive& drive, const std::string& file, const l
   for (const DriveMember& member : drive.members)
     require(!teeth_differ(member), file, ": teeth of ", member.name,
             " differ (pitch_deviation, run_out or topography), and this sweep does not go over whole "
-            "revolutions: what one tooth bears is not what the next one bears; sweep with sweep_pitches: "
+            "revolutions: the load of one tooth is not that of the next one; sweep with sweep_pitches: "
             "hunting");
 }
 

@@ -179,7 +179,7 @@ void print_summary(const Options& options, const dynamics::SystemModel& system,
   if (analysis(options) == Analysis::equilibrium) print_item("work of the loads", with_unit(run.work, "J"));
   if (run.unbalanced > 0)
     print_item("unbalanced", with_unit(100 * run.unbalanced, "%") +
-                                 " of the forces at most, where points of contact come and go");
+                                 " of the forces at most, where the active set of contact chatters");
   if (analysis(options) != Analysis::relax)
     print_item("largest error of the balance", with_unit(run.largest_imbalance, "J"));
   if (analysis(options) == Analysis::dynamic) warn_of_balance(run);

@@ -251,7 +251,7 @@ std::string free_coordinates(const Equilibrium& at) {
   require(free.empty(), "no equilibrium at load factor ", at.factor,
           ": nothing holds (neither contact nor a spring) ", free);
   fail("no equilibrium found at load factor ", at.factor, ": ", trouble_of(at),
-       ". Try more load steps, a softer contact, or a dynamic relaxing in place of the static analysis");
+       ". Try more load steps (-static_steps), a smaller -contact_stiffness, or -analysis relax");
 }
 
 // n_seeking: evaluations in which contact need not be more exact than the imbalance asks.

@@ -141,7 +141,7 @@ bool is_admissible(Problem& problem, double time, ConstVector U, ConstVector V) 
   else if (problem.system.depth_share(time, U, V) > kDeepest)
     problem.trouble = "bodies penetrate each other by nearly the contact depth";
   else if (!problem.system.contacts(time, U, V).balanced)
-    problem.trouble = "contact forces and the residual answers to them do not come together";
+    problem.trouble = "contact forces and residual flexibility do not converge";
   return problem.trouble.empty();
 }
 
