@@ -1,4 +1,7 @@
-"""The page of scripts/paper: each figure and table of the paper that is of its method, beside what the paper shows (paper.yaml)."""
+"""The page of scripts/paper: each figure and table of the paper that is of its method, beside what the paper shows.
+
+FUNCTIONS, below, says which function makes which of them; each takes the folder of results and returns HTML. paper.yaml has their
+titles, the paper's numbers and the words beside them."""
 import csv
 import glob
 import html
@@ -59,6 +62,10 @@ class Paper:
         label = example.reference(self.label(example))
         return label if os.path.isfile(example.path(label + "_stress.h5")) else None
 
+    def leading(self, example):
+        """The run by which nodes are chosen: the unreduced one, else that of the tables."""
+        return self.reference(example) or self.label(example)
+
     def labels(self, example):
         """The unreduced run, if there is one, and the reduced ones."""
         return [label for label in (self.reference(example),) if label] + example.labels
@@ -71,13 +78,13 @@ class Paper:
     def spots(self, name):
         """(body, node) of the stress evaluation of an example: at the roots and on the flanks."""
         example = self.example(name)
-        with example.stress(self.labels(example)[0]) as file:
+        with example.stress(self.leading(example)) as file:
             sets = [(body, set_name) for body, set_name, _ in results.stress_sets(file)]
         return [(body, self.spot(example, body, set_name)) for body, set_name in sorted(sets, key=lambda entry: (entry[0] == "wheel", entry[1] != "root"))]
 
     def spot(self, example, body, set_name):
         """The node of a set with the largest von Mises stress of the reference; of a root away from all contacts."""
-        label = self.labels(example)[0]
+        label = self.leading(example)
         with example.stress(label) as file:
             group = file[body][set_name]
             steps = runs.peak_steps(example, file["time"][:])[label.startswith("full")]
