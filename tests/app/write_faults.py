@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""A write, a rename or a sync that fails ends sweep, evaluate and run with an error that names the file, without a signal and without a
+temporary file; what was there stays as it was or is new and whole, and the same command, given again, makes what it makes undisturbed.
+
+    write_faults.py PATH/TO/elastogear PATH/TO/libfaults.so
+"""
+import glob
+import os
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+program, faults = (os.path.abspath(path) for path in sys.argv[1:])
+DRIVE = """
+drive: cylindrical
+module: 3 mm
+face_width: 9 mm
+size: tiny
+element_order: 1
+pinion: {teeth: 12, profile_shift: 0.5}
+wheel: {teeth: 13, profile_shift: 0.3}
+torque: 20 N m
+modes: 0
+sweep_positions: 2
+analysis: sweep
+"""
+REDUCE, SWEEP, EVALUATE = ["reduce", "drive.yaml"], ["simulate", "drive.yaml"], ["evaluate", "drive.yaml"]
+RUN = ["run", "drive.yaml", "-report", "none"]
+# verb: the command, what goes before it, outputs
+TABLE = {
+    "sweep": (SWEEP, [REDUCE], ["drive_result.h5"]),
+    "evaluate": (EVALUATE, [REDUCE, SWEEP], ["drive_evaluation.h5"]),
+    "run": (RUN, [], ["pinion.h5", "wheel.h5", "drive_result.h5", "drive_evaluation.h5"]),
+}
+CALLS = ("write", "rename", "fsync")
+FACTOR = 2.3  # from one call that is struck to the next
+ERROR = 5  # EIO, "Input/output error"
+
+
+def start(command, **environment):
+    return subprocess.run([program, *command], capture_output=True, text=True, check=False, env={**os.environ, **environment})
+
+
+def good(command):
+    done = start(command)
+    assert done.returncode == 0, f"{command}: {done.stdout[-1000:]}{done.stderr}"
+
+
+def datasets(path):
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: found.update({name: np.asarray(item[()]).tobytes()}) if isinstance(item, h5py.Dataset) else None)
+    return {name: value for name, value in found.items() if "time" not in name.split("/")[-1] and not name.startswith("provenance")}
+
+
+def strike(verb, call, number, whole, again):
+    """Returns whether there was such a call. again: the command is given once more, undisturbed."""
+    command, _, outputs = TABLE[verb]
+    for name in outputs:
+        if os.path.exists(name):
+            os.remove(name)
+    if os.path.exists("struck"):
+        os.remove("struck")
+    done = start(command, LD_PRELOAD=faults, FAULT=str(ERROR), FAULT_AT=str(number), FAULT_CALL=call,
+                 FAULT_FILE="." if call == "rename" else os.getcwd(),  # whose names may be relative
+                
+                 FAULT_LOG=os.path.join(os.getcwd(), "struck"), ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0")
+    if not os.path.exists("struck"):
+        return False
+    with open("struck", encoding="utf-8") as file:
+        what = f"{verb}, {call} number {number}, {file.read().strip()}"
+    assert done.returncode >= 0, f"{what}: ends with signal {-done.returncode}: {done.stderr}"
+    left = [path for path in glob.glob("**", recursive=True) if ".tmp" in path]
+    assert not left, f"{what}: leaves {left}"
+    if done.returncode == 0:  # locks are signed where they can be
+        assert what.endswith(".lock"), f"{what}: is not noticed: {done.stderr}"
+    else:
+        assert "error:" in done.stderr and "nput/output error" in done.stderr, f"{what}: {done.stderr}"
+    for name in outputs:
+        assert not os.path.exists(name) or datasets(name) == whole[name], f"{what}: leaves another {name}"
+    if again:
+        good(command)
+        for name in outputs:
+            assert datasets(name) == whole[name], f"{what}: {name} differs afterwards"
+    return True
+
+
+def main():
+    for verb, (command, before, outputs) in TABLE.items():
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            with open("drive.yaml", "w", encoding="utf-8") as file:
+                file.write(DRIVE)
+            for earlier in before:
+                good(earlier)
+            good(command)
+            whole = {name: datasets(name) for name in outputs}
+            counts = []
+            for call in CALLS:
+                number, struck = 1, 0
+                while strike(verb, call, number, whole, again=struck % 3 == 1):
+                    struck += 1
+                    number = int(FACTOR * number)
+                counts.append(f"{struck} of {call}")
+                assert struck, f"{verb}: has no {call}"
+            print(f"{verb}: {', '.join(counts)}", flush=True)
+            os.chdir("/")
+
+
+if __name__ == "__main__":
+    main()
