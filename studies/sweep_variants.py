@@ -63,7 +63,7 @@ if __name__ == "__main__":
             text.write(DRIVE)
         d = Drive(program)
         d.run("reduce", "drive.yaml")
-        d.run("mesh", "drive.yaml", "-pinion_mesh", "pinion.inp")
+        d.run("mesh", "drive.yaml", "-pinion_mesh_output", "pinion.inp")
         worst = np.max([check(d, i + 1, round(random.uniform(2, 30), 1), round(random.uniform(0, 15), 1),
                               round(random.uniform(-0.03, 0.03), 4)) for i in range(count)], axis=0)
         print(f"largest: transmission error {100 * worst[0]:.2f} %, root stress {100 * worst[1]:.2f} % and "

@@ -63,7 +63,7 @@ bool is_of_a_body(const Options& options, const std::string& name) {
 Weight weight_for_results(const Options& of_simulate, const std::string& name) {
   if (is_of_design(name)) return Weight::always;
   const bool is_body_file = name.ends_with("_file") && name != "initial_file";  // by the identities of bodies
-  if (!affects_results(name) || is_body_file || name.ends_with("_mesh")) return Weight::none;
+  if (!affects_results(name) || is_body_file) return Weight::none;
   return is_of_a_body(of_simulate, name) || of_simulate.is_own(name) ? Weight::of_files : Weight::none;
 }
 

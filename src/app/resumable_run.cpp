@@ -16,7 +16,8 @@ namespace {
 // Options on which results do not depend, and parts of the names of others and of entries of the provenance.
 const std::vector<std::string> kWithoutEffect = {"output",       "checkpoint_every", "resume", "sensor_csv",
                                                  "ts_max_steps", "drawing",          "mesh",   "verbose"},
-                               kPartsWithoutEffect = {"monitor", "_view", "option_log_", "in_files_"};
+                               kPartsWithoutEffect = {"monitor", "_view", "option_log_", "in_files_",
+                                                      "_mesh_output"};
 
 volatile std::sig_atomic_t stop_signal = 0;
 
@@ -51,7 +52,7 @@ std::vector<std::string> files_in(const Options& options, const std::string& key
       key.starts_with("option_") &&
       (key == "option_output_times" || key == "option_variants" || key.ends_with("_flanks") ||
        key.ends_with("_deviation") || key.ends_with("_topography") || key.ends_with("_wear") ||
-       key.ends_with("_master_curve") || key == "option_bearing_catalogue");
+       key.ends_with("_master_curve") || key.ends_with("_mesh") || key == "option_bearing_catalogue");
   return names_files ? options.list(key.substr(7)) : std::vector<std::string>{};
 }
 

@@ -92,13 +92,6 @@ std::vector<ToothStress> way_of_tooth(const io::StressSet& set, const Gear& gear
 
 }  // namespace
 
-gear::Flank nearest_flank(const gear::Toothing& t, const Eigen::Vector3d& x) {
-  const double turned = std::atan2(x[1], x[0]) - x[2] / t.p - t.theta_1;
-  const double teeth = turned * t.z / (2 * std::numbers::pi), nearest = std::round(teeth);
-  const int tooth = static_cast<int>(nearest) % t.z;
-  return {tooth < 0 ? tooth + t.z : tooth, teeth >= nearest ? 1 : -1};
-}
-
 Beside beside_contacts(const io::StressSet& set, const Gear& gear, const ContactHistory& contacts,
                        std::size_t g) {
   constexpr double kAtForm = 1e-6;  // of the form radius

@@ -37,9 +37,6 @@ struct RootStress {
   double range = 0;              ///< Pa, largest less smallest `stress` of one node on that way
 };
 
-/// Tooth (0-based) whose centre is nearest to a point, and the side of it that the point is on.
-gear::Flank nearest_flank(const gear::Toothing& toothing, const Eigen::Vector3d& x_B);
-
 /// Nodes and times (n x n_t) at which stress is that of a contact and not of a root: nodes at or beyond the
 /// form circle, and those within two half widths of a patch that bears on gear g. A set without any node
 /// below the form circle has the latter alone.

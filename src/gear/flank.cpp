@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string_view>
 
 #include "gear/flank_place.h"
@@ -43,6 +44,13 @@ std::optional<Flank> flank_of(const std::string& face_set) {
 std::optional<Flank> flank_of(const Toothing& toothing, const std::string& group) {
   const bool only = toothing.z == 1 && (group == "left" || group == "right");
   return flank_of(only ? "thread_1_" + group : group);
+}
+
+Flank nearest_flank(const Toothing& t, const Eigen::Vector3d& x) {
+  const double turned = std::atan2(x[1], x[0]) - x[2] / t.p - t.theta_1;
+  const double teeth = turned * t.z / (2 * std::numbers::pi), nearest = std::round(teeth);
+  const int tooth = static_cast<int>(nearest) % t.z;
+  return {tooth < 0 ? tooth + t.z : tooth, teeth >= nearest ? 1 : -1};
 }
 
 Eigen::Vector3d flank_normal(const Toothing& t, const Flank& flank, const Eigen::Vector3d& x) {

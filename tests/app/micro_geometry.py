@@ -206,7 +206,7 @@ def check_elastic(drive):
     """Tip relief and lead crowning as deviations on the exact mesh, and in the mesh."""
     options = ("-pinion_tip_relief", "20 um", "-pinion_lead_crowning", "10 um")
     relief = tip_relief(0, 20 * UM)
-    drive.run("mesh", "drive.yaml", "-pinion_mesh", "pinion.inp")
+    drive.run("mesh", "drive.yaml", "-pinion_mesh_output", "pinion.inp")
     move_flanks("pinion.inp", "moved.inp", 0, lambda roll, z: relief(roll) + 10 * UM * (2 * z / WIDTH)**2)
     drive.run("reduce", "-mesh", "moved.inp", "-output", "moved.h5", "-surface", "flanks", "-stress_nodes", "root",
               "-restrain", "bore", "-modes", "10", "-material_E", "210e9", "-material_nu", "0.3", "-material_rho",

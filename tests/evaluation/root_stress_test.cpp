@@ -109,7 +109,7 @@ TEST(NearestFlank, follows_a_helix) {
   for (int tooth : {0, 20, 40})
     for (int side : {1, -1}) {
       const double angle = gear::tooth_angle(t, tooth) + z / t.p + side * 0.01;
-      const gear::Flank flank = nearest_flank(t, {r * std::cos(angle), r * std::sin(angle), z});
+      const gear::Flank flank = gear::nearest_flank(t, {r * std::cos(angle), r * std::sin(angle), z});
       EXPECT_EQ(flank.tooth, tooth);
       EXPECT_EQ(flank.side, side);
     }

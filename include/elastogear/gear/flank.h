@@ -22,6 +22,9 @@ std::optional<Flank> flank_of(const std::string& face_set);
 /// sets of all threads, which are as large as thread_1_left and thread_1_right and come first by name.
 std::optional<Flank> flank_of(const Toothing& toothing, const std::string& group);
 
+/// Tooth whose centre is nearest to a point of the body frame, and the side of it that the point is on.
+Flank nearest_flank(const Toothing& toothing, const Eigen::Vector3d& x);
+
 /// Outward unit normal of the surface of constant flank_distance through x (body frame, m).
 Eigen::Vector3d flank_normal(const Toothing& toothing, const Flank& flank, const Eigen::Vector3d& x);
 

@@ -5,9 +5,13 @@
 #include <numbers>
 
 #include "app/console/console.h"
+#include "app/gear/drive_options.h"
 #include "app/options/rows.h"
+#include "app/tables/reduce_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/gear/cylindrical.h"
+#include "elastogear/gear/own_mesh.h"
+#include "elastogear/mesh/file.h"
 
 namespace elastogear::app {
 namespace {
@@ -100,6 +104,11 @@ const Rows<GearChoices> kGearRows = {
     {"<gear>_web_diameter", of_blank(&gear::Blank::web_diameter), "m",
      "cylindrical: outer diameter of the web, inner of the ring", kDependent},
     {"<gear>_web_width", of_blank(&gear::Blank::web_width), "m", "cylindrical: width of the web", kDependent},
+    {"<gear>_mesh", "-", "",
+     "cylindrical: mesh of your own, .msh or .inp, with z as its axis, whose flanks are those of the data; "
+     "it is "
+     "moved along z and turned into place, and flanks, roots and the bore are found"},
+    {"<gear>_unit", "-", "", "cylindrical: unit of length of that file, m, mm, um or in (default: unit)"},
     {"<gear>_mate", &GearChoices::mate, "-",
      "cylindrical: an earlier gear that this one is in mesh with (default: the one before), or several, "
      "planets",
@@ -259,6 +268,36 @@ Facts pair_facts(const CylindricalDrive& d, const CylindricalGeometry& g, std::s
           {"largest sliding", with_unit(sliding, "of the pitch-line speed"), {{"largest sliding", sliding}}}};
 }
 
+mesh::Mesh read_own_mesh(const Options& options, const std::string& file, const gear::OwnGear& gear,
+                         mesh::ReadReport& report) {
+  mesh::Mesh mesh = mesh::read_mesh(file, unit_in_m(options, gear.name), &report);
+  const gear::MeshFit fit = [&] {
+    try {
+      return gear::fit_own_mesh(mesh, gear);
+    } catch (const Error& error) {
+      fail(options.label(gear.name + "_mesh"), " = '", file, "': ", error.what());
+    }
+  }();
+  print_item("mesh of " + gear.name, file + ", moved by " + in_mm(fit.shift) +
+                                         " along its axis and turned by " +
+                                         with_unit(fit.turn / kRadPerDegree, "deg") +
+                                         " into place; corners of its flanks are within " +
+                                         in_mm(fit.farthest) + " of those of the data, and put onto them");
+  return mesh;
+}
+
+// The member's mesh is its user's.
+void take_own_mesh(const Options& options, const std::string& file, double end_diameter,
+                   DriveMember& member) {
+  const std::string& name = member.name;
+  const bool names_held = options.given(name + "_restrain") || options.given("restrain");
+  const gear::OwnGear gear{name, member.toothing, member.width, names_held ? "" : member.held,
+                           end_diameter / 2};
+  member.mesh = [=](const MeshDensity&, mesh::ReadReport& report) {
+    return read_own_mesh(options, file, gear, report);
+  };
+}
+
 }  // namespace
 
 OptionTable cylindrical_table() { return table_of(kRackRows, kGearRows); }
@@ -274,7 +313,7 @@ Drive cylindrical_drive(const Options& options) {
     DriveMember member{.name = d.gears[i].name,
                        .toothing = g.gear[i],
                        .mesh =
-                           [=](const MeshDensity& by) {
+                           [=](const MeshDensity& by, mesh::ReadReport&) {
                              const auto n = gear::cylindrical_counts(d, g, k, by.size, by.order);
                              return gear::cylindrical_mesh(d, g, k, gear::refined(n, by.refinement));
                            },
@@ -282,6 +321,8 @@ Drive cylindrical_drive(const Options& options) {
     member.position.head<2>() = g.axis[i];
     member.angle = angle[i];
     member.width = g.blank[i].face_width;
+    if (const std::string file = own_mesh(options, member.name); !file.empty())
+      take_own_mesh(options, file, g.blank[i].end_diameter(), member);
     drive.members.push_back(member);
     drive.facts.push_back(member_facts(d, g, k));
   }

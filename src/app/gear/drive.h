@@ -12,6 +12,7 @@
 #include "elastogear/gear/size.h"
 #include "elastogear/gear/toothing.h"
 #include "elastogear/mesh/mesh.h"
+#include "elastogear/mesh/read_report.h"
 
 namespace elastogear::app {
 
@@ -26,7 +27,8 @@ struct MeshDensity {
 struct DriveMember {
   std::string name;
   gear::Toothing toothing;
-  std::function<mesh::Mesh(const MeshDensity&)> mesh;
+  /// The report is that of a mesh of one's own.
+  std::function<mesh::Mesh(const MeshDensity&, mesh::ReadReport&)> mesh;
   bool is_worm = false;                                  ///< its stresses are those of a worm, not of a wheel
   std::string held;                                      ///< node set that carries the body frame
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< m, of the body frame's origin in the world

@@ -35,7 +35,7 @@ const Rows<DriveChoices> kDriveRows = {
      "drive: on the first gear, in the sense that presses the flanks of side together; the last one is held "
      "at rest (static, relax) and carries the torque in motion"},
     {"drawing", "-", "", "drive: SVG file that mesh draws the gears in (default: the file's name, .svg)"},
-    {"<gear>_mesh", "-", "", "drive: mesh file that mesh writes, .msh or .inp (default: <gear>.msh)"},
+    {"<gear>_mesh_output", "-", "", "drive: mesh file that mesh writes, .msh or .inp (default: <gear>.msh)"},
     {"<gear>_file", "-", "", "drive: body file that reduce writes and simulate reads (default: <gear>.h5)"},
     {"speed", &DriveChoices::speed, "rad/s",
      "drive: of the first gear at the start of a motion, in that sense; with its unit, 1500 rpm"},
@@ -47,8 +47,8 @@ constexpr const char* kShared[] = {"size",           "element_order",   "refinem
                                    "pressure_angle", "centre_distance", "backlash",   "face_width"};
 
 // Options of reduce that a drive sets itself for each gear.
-const std::vector<std::string> kOfDrive = {"mesh",          "unit", "output", "stiffness", "mass",
-                                           "matrix_format", "dofs", "nodes",  "instance"};
+const std::vector<std::string> kOfDrive = {"mesh",          "output", "stiffness", "mass",
+                                           "matrix_format", "dofs",   "nodes",     "instance"};
 
 bool any_material(const Options& options) {
   const auto all = options.given_to_verb();
@@ -80,7 +80,8 @@ std::vector<std::string> given_of(const Options& options, const OptionTable& tab
 void refuse_others(const Options& options) {
   for (const char* name : kOfParts)
     require(!options.given(name), options.label(name),
-            ": is for a single body; a drive names its gears' files ", "by <gear>_mesh and <gear>_file");
+            ": is for a single body; a drive names its gears' files ",
+            "by <gear>_file, what mesh writes by <gear>_mesh_output, and meshes of your own by <gear>_mesh");
   const bool worm = is_worm_drive(options);
   OptionTable of_worms = table_of(design_rows());
   for (const OptionSpec& spec : worm_table()) of_worms.push_back(spec);
@@ -124,6 +125,11 @@ std::string body_file(const Options& options, const DriveMember& member) {
   return options.given(option) ? options.text(option) : member.name + ".h5";
 }
 
+std::string own_mesh(const Options& options, const std::string& gear) {
+  const std::string option = gear + "_mesh";
+  return options.given(option) ? options.text(option) : "";
+}
+
 bool is_drive(const Options& options) { return options.given("drive"); }
 
 Options with_gears(Options options) {
@@ -164,12 +170,16 @@ Options member_options(const Options& options, const DriveMember& member) {
   own.set_default("surface", "flanks");
   own.set_default("stress_nodes", "root");
   own.set_default("restrain", member.held);
-  if (any_material(own)) return own;
+  if (any_material(own) || !own_mesh(options, member.name).empty()) return own;
   print_detail("material", "steel: 210 GPa, nu 0.3, 7850 kg/m^3 (none is given)");
-  own.set_default("material_E", "210e9");
-  own.set_default("material_nu", "0.3");
-  own.set_default("material_rho", "7850");
-  return own;
+  return with_steel(own);
+}
+
+Options with_steel(Options options) {
+  options.set_default("material_E", "210e9");
+  options.set_default("material_nu", "0.3");
+  options.set_default("material_rho", "7850");
+  return options;
 }
 
 Options with_recovery(Options options, const Drive& drive) {

@@ -20,6 +20,9 @@ std::string drive_stem(const Options& options);
 /// The member's body file.
 std::string body_file(const Options& options, const DriveMember& member);
 
+/// The file of a mesh of one's own for this gear; empty: the data make it.
+std::string own_mesh(const Options& options, const std::string& gear);
+
 /// Is this the run of a drive file?
 bool is_drive(const Options& options);
 
@@ -29,8 +32,12 @@ Options with_gears(Options options);
 /// Throws Error, naming value and remedy, for drives that do not exist.
 Drive read_drive(const Options& options);
 
-/// Options of a member for `reduce`: its section, then what the drive says where nothing is given.
+/// Options of a member for `reduce`: its section, then what the drive says where nothing is given. A mesh of
+/// one's own may have materials in its file and gets none here.
 Options member_options(const Options& options, const DriveMember& member);
+
+/// Options with the material of gears where none is given.
+Options with_steel(Options options);
 
 /// Options with bodies, places, joints, bearings, loads, contact and files of the drive where nothing is
 /// given.

@@ -208,7 +208,7 @@ Drive worm_drive(const Options& options) {
   DriveMember worm{.name = "worm",
                    .toothing = g.worm,
                    .mesh =
-                       [d](const MeshDensity& by) {
+                       [d](const MeshDensity& by, mesh::ReadReport&) {
                          const gear::WormCounts n = gear::worm_counts(by.size, d.z1, by.order);
                          return gear::worm_mesh(d, gear::refined(n, d.z1, by.refinement));
                        },
@@ -221,7 +221,7 @@ Drive worm_drive(const Options& options) {
   DriveMember wheel{.name = "wheel",
                     .toothing = g.wheel,
                     .mesh =
-                        [d](const MeshDensity& by) {
+                        [d](const MeshDensity& by, mesh::ReadReport&) {
                           const gear::WheelCounts n = gear::wheel_counts(by.size, by.order);
                           return gear::wheel_mesh(d, gear::refined(n, by.refinement));
                         },

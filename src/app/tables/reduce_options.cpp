@@ -157,9 +157,21 @@ OptionTable reduce_table() {
   return table;
 }
 
-double unit_in_m(const Options& options) {
+namespace {
+
+double unit_of_option(const Options& options, const std::string& name) {
   constexpr double kLengths[] = {1, 1e-3, 1e-6, 25.4e-3};
-  return kLengths[options.choice("unit", {"m", "mm", "um", "in"})];
+  return kLengths[options.choice(name, {"m", "mm", "um", "in"})];
+}
+
+}  // namespace
+
+double unit_in_m(const Options& options) { return unit_of_option(options, "unit"); }
+
+double unit_in_m(const Options& options, const std::string& gear) {
+  for (const std::string& name : {gear + "_unit", std::string("unit")})
+    if (options.given(name)) return unit_of_option(options, name);
+  return 1;
 }
 
 void require_consistent_unit(const Options& options, const std::string& what) {

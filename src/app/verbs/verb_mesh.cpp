@@ -52,7 +52,7 @@ void mesh_drive(const Options& options) {
   const MeshDensity density = mesh_density(options);
   std::vector<std::string> paths;
   for (const DriveMember& member : drive.members) {
-    const std::string option = member.name + "_mesh";
+    const std::string option = member.name + "_mesh_output";
     paths.push_back(options.given(option) ? options.text(option) : member.name + ".msh");
     protect_inputs(options, {{option, {paths.back()}}});
   }
@@ -62,8 +62,9 @@ void mesh_drive(const Options& options) {
   std::vector<mesh::Mesh> meshes;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const OutputLock lock(paths[i]);
-    meshes.push_back(drive.members[i].mesh(density));
-    print_item("mesh of " + drive.members[i].name, "");
+    mesh::ReadReport report;
+    meshes.push_back(drive.members[i].mesh(density, report));
+    if (own_mesh(options, drive.members[i].name).empty()) print_item("mesh of " + drive.members[i].name, "");
     print_mesh(meshes.back());
     mesh::write_mesh(paths[i], meshes.back());
     print_item("written", paths[i]);

@@ -72,11 +72,9 @@ struct Nodes {
   std::vector<std::string> open;  // what cells leave open between them
 };
 
-// Matrices of another program may join what the mesh does not.
-void look_at_joints(const Options& options, Nodes& nodes) {
-  if (options.given("stiffness")) return;
+void look_at_joints(const std::string& file, Nodes& nodes) {
   mesh::JointFaults faults = mesh::joint_faults(nodes.mesh, nodes.report);
-  require(faults.overlap.empty(), options.text("mesh"), ": ", faults.overlap);
+  require(faults.overlap.empty(), file, ": ", faults.overlap);
   nodes.open = std::move(faults.open);
 }
 
@@ -85,7 +83,8 @@ Nodes read_nodes(const Options& options) {
   if (!options.given("nodes")) {
     nodes.mesh = mesh::read_mesh(options.text("mesh"), unit_in_m(options), &nodes.report,
                                  options.given("instance") ? options.text("instance") : "");
-    look_at_joints(options, nodes);
+    // Matrices of another program may join what the mesh does not.
+    if (!options.given("stiffness")) look_at_joints(options.text("mesh"), nodes);
     return nodes;
   }
   const std::string path = options.text("nodes");
@@ -147,6 +146,11 @@ void take_materials(const Options& options, const mesh::ReadReport& report, Redu
   o.regions = report.regions;
   broadcast(PETSC_COMM_WORLD, o.regions);
   if (o.regions.empty() && o.imported) return;
+  if (o.regions.empty() && is_drive(options)) {  // with a mesh of its user's
+    o.regions = material_options(with_steel(options));
+    return print_detail("material",
+                        "steel: 210 GPa, nu 0.3, 7850 kg/m^3 (neither options nor the mesh give any)");
+  }
   require(!o.regions.empty(), "option -material_E is missing, and ", options.text("mesh"),
           " gives no material to its cells (*SOLID SECTION)");
   o.provenance["materials_from"] = "mesh";
@@ -304,7 +308,7 @@ void reduce_body(const Options& options, const NodeSource& read) {
   in_short ? print_in_short(report, output) : print_summary(report, output);
 }
 
-// All members of a drive file, each meshed here, so that bodies and drive belong together.
+// All members of a drive file, each meshed or checked here, so that bodies and drive belong together.
 void reduce_drive(const Options& options) {
   const Drive drive = read_drive(options);
   const MeshDensity density = mesh_density(options);
@@ -312,7 +316,12 @@ void reduce_drive(const Options& options) {
   for (const DriveMember& member : drive.members) {
     print_detail("body " + member.name, "");
     reduce_body(member_options(options, member), [&] {
-      Nodes nodes{.mesh = member.mesh(density), .report = {}, .open = {}};
+      Nodes nodes;
+      nodes.mesh = member.mesh(density, nodes.report);
+      if (const std::string own = own_mesh(options, member.name); !own.empty()) {
+        look_at_joints(own, nodes);
+        return nodes;
+      }
       nodes.report.node_number.resize(static_cast<std::size_t>(nodes.mesh.n_nodes()));
       std::iota(nodes.report.node_number.begin(), nodes.report.node_number.end(), 1);
       return nodes;

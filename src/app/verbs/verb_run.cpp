@@ -59,7 +59,13 @@ bool relaxes_by(const Options& options) {
 }
 
 // Does the run look for the mesh?
-bool chooses_mesh(const Options& given, const RunOnMesh& of) {
+bool chooses_mesh(const Options& given, const RunOnMesh& of, const Drive& drive) {
+  for (const DriveMember& member : drive.members)
+    if (const std::string own = own_mesh(given, member.name); !own.empty()) {
+      require(!given.given("accuracy"), given.label("accuracy"), ": nothing refines the mesh of ",
+              member.name, ", ", own, "; leave it out, or the mesh");
+      return false;
+    }
   for (const char* mesh : {"size", "element_order", "refinement"})
     if (given.given(mesh)) {
       require(!given.given("accuracy"), given.label("accuracy"), ": is not for a mesh that ",
@@ -176,7 +182,7 @@ void run_all(const Options& given, const std::vector<std::string>&) {
   given.choice("report", {"page", "none"});  // another word is refused before the work
   const Drive drive = read_drive(with_gears(given));
   RunOnMesh of = run_options(given);
-  if (!chooses_mesh(given, of)) return make(of, drive, {}), make_report(given, of);
+  if (!chooses_mesh(given, of, drive)) return make(of, drive, {}), make_report(given, of);
   // Equilibria take static responses alone, and errors by the mesh come from coarser ones.
   if (of.reduce.text("basis") == "modal_residual" && !relaxes_by(of.reduce))
     for (Options* options : {&of.reduce, &of.simulate, &of.evaluate}) options->set_default("modes", "0");
