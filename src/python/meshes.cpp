@@ -140,8 +140,10 @@ std::map<std::string, SharedMesh> drive_meshes(const Given& given) {
     options.reject_unknown();
     std::map<std::string, SharedMesh> meshes;
     const app::MeshDensity density = app::mesh_density(options);
-    for (const app::DriveMember& member : app::read_drive(options).members)
-      meshes[member.name] = std::make_shared<Mesh>(member.mesh(density));
+    for (const app::DriveMember& member : app::read_drive(options).members) {
+      mesh::ReadReport report;
+      meshes[member.name] = std::make_shared<Mesh>(member.mesh(density, report));
+    }
     return meshes;
   });
 }
