@@ -6,6 +6,7 @@ namespace elastogear::contact {
 namespace {
 
 constexpr double kDifference = 1e-6;  // of the height of the flank, for slopes of deviations and edges
+constexpr double kBeside = 1e-4;      // of that height, more than a place moves by such a difference
 
 double beyond(double x, double from, double to) { return std::max({from - x, x - to, 0.}); }
 
@@ -37,17 +38,24 @@ double FlankGap::added_by_mate(double v, double z) const {
   return taken_by_edges(mate_, ends_.mate, v, z) - flanks_.mate->deviation(flanks_.on_mate, v, z);
 }
 
+double FlankGap::added_by_owner(double v, double z) const {
+  return taken_by_edges(owner_, ends_.owner, v, z) - flanks_.owner->deviation(flanks_.on_owner, v, z);
+}
+
 double FlankGap::added(double v, double z, const Seen& seen) const {
-  return taken_by_edges(owner_, ends_.owner, v, z) - flanks_.owner->deviation(flanks_.on_owner, v, z) +
-         added_by_mate(seen.mate.v, mate_z(seen));
+  return added_by_owner(v, z) + added_by_mate(seen.mate.v, mate_z(seen));
+}
+
+bool FlankGap::mate_is_plain_around(const Seen& seen) const {
+  const double near = kBeside * (mate_.upper - mate_.lower), v = seen.mate.v, z = mate_z(seen);
+  return added_by_mate(v, z) == 0 && added_by_mate(v + near, z) == 0 && added_by_mate(v - near, z) == 0 &&
+         added_by_mate(v, z + near) == 0 && added_by_mate(v, z - near) == 0;
 }
 
 Eigen::Vector3d FlankGap::mate_normal(const Seen& seen) const {
-  const double h = kDifference * (mate_.upper - mate_.lower), z = mate_z(seen), v = seen.mate.v;
+  const double h = kDifference * (mate_.upper - mate_.lower);
   Eigen::Vector3d n = seen.mate.gradient;
-  const bool is_plain = added_by_mate(v + h, z) == 0 && added_by_mate(v - h, z) == 0 &&
-                        added_by_mate(v, z + h) == 0 && added_by_mate(v, z - h) == 0;
-  if (is_plain) return n;
+  if (mate_is_plain_around(seen)) return n;
   const auto added_at = [&](const Eigen::Vector3d& x) {
     return added_by_mate(flanks_.mate->distance(flanks_.on_mate, x).v,
                          flanks_.mate->chart(flanks_.on_mate, x)[1]);
@@ -74,18 +82,23 @@ double FlankGap::taken(bool of_owner, double v, double z) const {
   return of_owner ? taken_by_edges(owner_, ends_.owner, v, z) : taken_by_edges(mate_, ends_.mate, v, z);
 }
 
+double FlankGap::added_slope(double v, double z, int along, const Seen& seen) const {
+  const double h = kDifference * height(), h_v = along == 0 ? h : 0, h_z = along == 1 ? h : 0;
+  if (mate_is_plain_around(seen))
+    return (added_by_owner(v + h_v, z + h_z) - added_by_owner(v - h_v, z - h_z)) / (2 * h);
+  return (added(v + h_v, z + h_z, this->seen(v + h_v, z + h_z)) -
+          added(v - h_v, z - h_z, this->seen(v - h_v, z - h_z))) /
+         (2 * h);
+}
+
 double FlankGap::slope_v(double v, double z) const {
-  const double h = kDifference * height();
   const Seen seen = this->seen(v, z);
-  return (placement_.R * seen.mate.gradient).dot(seen.owner.x_v) +
-         (added(v + h, z, this->seen(v + h, z)) - added(v - h, z, this->seen(v - h, z))) / (2 * h);
+  return (placement_.R * seen.mate.gradient).dot(seen.owner.x_v) + added_slope(v, z, 0, seen);
 }
 
 double FlankGap::slope_z(double v, double z) const {
-  const double h = kDifference * height();
   const Seen seen = this->seen(v, z);
-  return (placement_.R * seen.mate.gradient).dot(seen.owner.x_z) +
-         (added(v, z + h, this->seen(v, z + h)) - added(v, z - h, this->seen(v, z - h))) / (2 * h);
+  return (placement_.R * seen.mate.gradient).dot(seen.owner.x_z) + added_slope(v, z, 1, seen);
 }
 
 }  // namespace elastogear::contact

@@ -41,7 +41,10 @@ class FlankGap {
 
  private:
   double added(double v, double z, const Seen& seen) const;
+  double added_by_owner(double v, double z) const;
   double added_by_mate(double v, double z) const;
+  double added_slope(double v, double z, int along, const Seen& seen) const;
+  bool mate_is_plain_around(const Seen& seen) const;  // without deviation and off its edges
 
   const FlankPair& flanks_;
   const RelativePlacement& placement_;

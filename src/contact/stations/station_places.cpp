@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact/stations/flank_gap.h"
 #include "elastogear/base/rotation.h"
@@ -11,31 +12,52 @@ namespace elastogear::contact {
 namespace {
 
 constexpr int kMostSteps = 60;
-constexpr double kSolved = 1e-13;   // of the height of the flank, its place
-constexpr double kRateStep = 1e-5;  // of the height of the flank, by which the mate is moved for rates
+constexpr double kSolved = 1e-13;    // of the height of the flank, its place
+constexpr double kNearGuess = 0.02;  // of that height, from strip to strip
+constexpr double kRateStep = 1e-5;   // of the height of the flank, by which the mate is moved for rates
 
-// Place of the least gap at one z: the zero of its derivative between the ends of the flank with its rounded
-// edge. The method of Illinois: secants of an interval, whose end counts half when it stays.
-double least(const FlankGap& gap, double z) {
-  double low = gap.low(), high = gap.high(), at_low = gap.slope_v(low, z), at_high = gap.slope_v(high, z);
-  if (at_low >= 0) return low;
-  if (at_high <= 0) return high;
-  const double solved = kSolved * (high - low);
-  double last = low;
+// Slopes of the gap at both ends of an interval.
+struct Bracket {
+  double low, high, at_low, at_high;
+
+  Bracket(const FlankGap& gap, double z, double from, double to)
+      : low(from), high(to), at_low(gap.slope_v(from, z)), at_high(gap.slope_v(to, z)) {}
+  bool holds_zero() const { return at_low < 0 && at_high > 0; }
+};
+
+// The zero of the gap's slope. The method of Illinois: secants of an interval, whose end counts half when it
+// stays.
+double zero_between(const FlankGap& gap, double z, Bracket b) {
+  const double solved = kSolved * gap.height();
+  double last = b.low;
   int stayed = 0;  // which end stayed last
-  for (int step = 0; step < kMostSteps && high - low > solved; ++step) {
-    const double v = step % 8 == 7 ? (low + high) / 2 : (low * at_high - high * at_low) / (at_high - at_low);
+  for (int step = 0; step < kMostSteps && b.high - b.low > solved; ++step) {
+    const double v = step % 8 == 7 ? (b.low + b.high) / 2
+                                   : (b.low * b.at_high - b.high * b.at_low) / (b.at_high - b.at_low);
     const double here = gap.slope_v(v, z);
     if (here == 0) return v;
     const bool below = here < 0;
-    (below ? low : high) = v;
-    (below ? at_low : at_high) = here;
-    if (stayed == (below ? 1 : -1)) (below ? at_high : at_low) /= 2;
+    (below ? b.low : b.high) = v;
+    (below ? b.at_low : b.at_high) = here;
+    if (stayed == (below ? 1 : -1)) (below ? b.at_high : b.at_low) /= 2;
     stayed = below ? 1 : -1;
     if (std::abs(v - last) <= solved) return v;
     last = v;
   }
-  return (low * at_high - high * at_low) / (at_high - at_low);
+  return (b.low * b.at_high - b.high * b.at_low) / (b.at_high - b.at_low);
+}
+
+// Place of the least gap at one z, between the ends of the flank with its rounded edge; near `guess`, that of
+// the strip before, if it is there.
+double least(const FlankGap& gap, double z, std::optional<double> guess) {
+  const double low = gap.low(), high = gap.high(), near = kNearGuess * gap.height();
+  if (guess && *guess - near > low && *guess + near < high)
+    if (const Bracket beside(gap, z, *guess - near, *guess + near); beside.holds_zero())
+      return zero_between(gap, z, beside);
+  const Bracket whole(gap, z, low, high);
+  if (whole.at_low >= 0) return low;
+  if (whole.at_high <= 0) return high;
+  return zero_between(gap, z, whole);
 }
 
 // m: the mean by which the gap opens at the distances h to both sides across the profile.
@@ -75,7 +97,11 @@ std::vector<NearestPlace> nearest_places(const FlankPair& flanks, const Relative
                                          const std::vector<Strip>& strips, const FaceEnds& ends) {
   const FlankGap gap(flanks, placement, ends);
   std::vector<NearestPlace> places;
-  for (const Strip& strip : strips) places.push_back(place_at(gap, strip, least(gap, strip.centre())));
+  std::optional<double> guess;
+  for (const Strip& strip : strips) {
+    guess = least(gap, strip.centre(), guess);
+    places.push_back(place_at(gap, strip, *guess));
+  }
   return places;
 }
 
