@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Meshes of one's own in a drive: a gear's mesh without its sets, in mm, renumbered, turned and moved along its axis gives the sweep of the
-mesh that the data make; with holes in its blank it is softer. Meshes of other gears are refused with the node that is farthest off.
+mesh that the data make; with holes in its blank it is softer; cut into wedges, whose flanks are triangles in no rows, it gives nearly the
+same sweep. Meshes of other gears are refused with the node that is farthest off.
 
     own_gear.py PATH/TO/elastogear
 """
@@ -31,6 +32,7 @@ analysis: sweep
 """
 OWN = ", mesh: own.inp, unit: mm, file: own.h5"
 TURN, SHIFT = 1.234, 7.0  # rad, mm
+WEDGES = 0.03  # what other elements differ by on the coarsest mesh
 ROUNDOFF = 1e-7  # of coordinates with 15 digits, through the equilibrium
 
 
@@ -76,6 +78,28 @@ def write_inp(path, X, cells, kind):
         for i in random.permutation(len(cells)):
             row = [i + 1, *number[cells[i]]]
             file.write(", ".join(map(str, row[:16])) + (",\n" + ", ".join(map(str, row[16:])) if len(row) > 16 else "") + "\n")
+
+
+def into_wedges(X, cells):
+    """Each hexahedron of 20 nodes as two wedges of 15, cut across the tooth from flank to flank."""
+    X, middle = list(X), {}
+
+    def between(a, b, face):
+        # the middle of a side of 8 nodes
+        key = tuple(sorted((a, b)))
+        if key not in middle:
+            corner, edge = (np.array([X[i] for i in part]) for part in face)
+            middle[key] = len(X)
+            X.append(edge.sum(axis=0) / 2 - corner.sum(axis=0) / 4)
+        return middle[key]
+
+    wedges = []
+    for c in cells:
+        near = between(c[0], c[5], (c[[0, 1, 5, 4]], c[[8, 17, 12, 16]]))
+        far = between(c[3], c[6], (c[[3, 2, 6, 7]], c[[10, 18, 14, 19]]))
+        wedges.append([c[0], c[5], c[1], c[3], c[6], c[2], near, c[17], c[8], far, c[18], c[10], c[11], c[13], c[9]])
+        wedges.append([c[0], c[4], c[5], c[3], c[7], c[6], c[16], c[12], near, c[19], c[14], far, c[11], c[15], c[13]])
+    return np.array(X), np.array(wedges)
 
 
 def sweep():
@@ -127,6 +151,12 @@ def main():
         write_drive(1, more=OWN)
         soft = sweep()
         assert 1.02 < soft["transmission error"] / expected["transmission error"] < 1.6, (soft, expected)
+        write_drive(2)
+        run("mesh", "drive.yaml", "-pinion_mesh_output", "pinion.inp")
+        expected = sweep()
+        write_inp("own.inp", *into_wedges(*read_inp("pinion.inp")), 15)
+        write_drive(2, more=OWN)
+        near("wedges", sweep(), expected, WEDGES)
         os.chdir("/")
     print("meshes of one's own are right")
 

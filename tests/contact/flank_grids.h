@@ -1,6 +1,7 @@
 #pragma once
 // Structured flanks with uneven rows and layers.
 
+#include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
@@ -54,6 +55,27 @@ Eigen::VectorXd at_nodes(const FlankGrid& flank, const Function& g) {
       value[node[7]] = g(v_0, (z_0 + z_1) / 2);
     }
   return value;
+}
+
+/// The same faces in no rows and layers; those of 4 nodes each as two triangles where wanted.
+inline FlankGrid in_patches(const FlankGrid& flank, bool in_triangles) {
+  FlankGrid patches{{flank.v.front(), flank.v.back()}, {}, {flank.z.front(), flank.z.back()}};
+  patches.n_nodes = flank.n_nodes;
+  const auto n = static_cast<std::size_t>(flank.n_layers());
+  for (std::size_t f = 0; f < flank.face.size(); ++f) {
+    const double v_0 = flank.v[f / n], v_1 = flank.v[f / n + 1], z_0 = flank.z[f % n],
+                 z_1 = flank.z[f % n + 1];
+    const FlankGrid::Face& node = flank.face[f];
+    Eigen::Matrix<double, 2, 4> at;
+    at << v_0, v_1, v_1, v_0, z_0, z_0, z_1, z_1;
+    if (!in_triangles) {
+      patches.patch.push_back({{node.begin(), node.begin() + (flank.v_mid.empty() ? 4 : 8)}, at});
+      continue;
+    }
+    patches.patch.push_back({{node[0], node[1], node[2]}, at(Eigen::all, {0, 1, 2, 2})});
+    patches.patch.push_back({{node[0], node[2], node[3]}, at(Eigen::all, {0, 2, 3, 3})});
+  }
+  return patches;
 }
 
 /// n even strips from z_0 to z_1, on a line of contact that crosses z = 0 at v.

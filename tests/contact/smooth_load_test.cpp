@@ -84,6 +84,36 @@ TEST(ConsistentWeights, keep_the_place_along_the_face) {
     EXPECT_NEAR(z[i], stations[static_cast<std::size_t>(i)].face.centre(), 1e-12);
 }
 
+TEST(ConsistentWeights, on_triangles_in_no_rows_keep_force_and_place) {
+  const FlankGrid flank = numbered_flank(kRows, kLayers, false), patches = in_patches(flank, true);
+  const auto stations = even_stations(7, -12e-3, 13e-3, 3.7e-3);
+  const Eigen::MatrixXd s = consistent_weights(patches, stations, {0.9e-3, 0});
+  EXPECT_LT((s.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
+  const Eigen::VectorXd v = s * at_nodes(flank, [](double at, double) { return at; }),
+                        z = s * at_nodes(flank, [](double, double at) { return at; });
+  for (Eigen::Index i = 0; i < 7; ++i) {
+    EXPECT_NEAR(v[i], 3.7e-3, 1e-12);
+    EXPECT_NEAR(z[i], stations[static_cast<std::size_t>(i)].face.centre(), 1e-12);
+  }
+}
+
+TEST(ConsistentWeights, of_faces_in_no_rows_are_nearly_those_in_rows_and_layers) {
+  for (bool second_order : {false, true}) {
+    FlankGrid flank = numbered_flank(kRows, kLayers, second_order);
+    for (std::size_t i = 0; i < flank.v_mid.size(); ++i) flank.v_mid[i] = (flank.v[i] + flank.v[i + 1]) / 2;
+    const FlankGrid patches = in_patches(flank, false);
+    const LoadWidth width = load_width(flank);
+    EXPECT_NEAR(load_width(patches).a, width.a, 1e-15);
+    EXPECT_NEAR(load_width(patches).c, width.c, 1e-15);
+    for (double v : {2.1e-3, 4.4e-3, 6.2e-3}) {
+      const auto stations = even_stations(5, -12e-3, 13e-3, v);
+      const Eigen::MatrixXd s = consistent_weights(flank, stations, width),
+                            of_patches = consistent_weights(patches, stations, width);
+      EXPECT_LT((s - of_patches).norm(), 5e-3 * s.norm()) << v;
+    }
+  }
+}
+
 // Of shape functions that are exact for quadratic functions, the mean over the load is known.
 TEST(ConsistentWeights, are_those_of_an_even_pressure) {
   const FlankGrid flank = numbered_flank({0, 1, 2.5, 4}, {0, 2, 5}, false);

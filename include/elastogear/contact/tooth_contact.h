@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <list>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -23,8 +24,7 @@ struct ToothedPair;
 class ToothedBody {
  public:
   /// compliance: 1/Pa, (1 - nu^2) / (pi E). deviation: m, of each node of the surface along the outward
-  /// normal, or empty. The surface must outlive this. Throws Error for flanks that are not in rows and
-  /// layers.
+  /// normal, or empty. The surface must outlive this.
   ToothedBody(const model::Surface& surface, std::shared_ptr<const ExactFlanks> flanks, double compliance,
               const Eigen::VectorXd& deviation);
   ~ToothedBody();
@@ -36,9 +36,11 @@ class ToothedBody {
   double compliance() const { return compliance_; }
   /// The nodes of a flank, in the order of its tables.
   const std::vector<int>& nodes(const FlankName& flank) const;
-  /// Loads on the pair's strips of the flanks of one side; made when they are first asked for. s: which body
-  /// of the pair this is.
-  const LoadTable& loads(int side, const ToothedPair& pair, std::size_t s);
+  /// Do flanks, so many teeth apart, have the same mesh, nodes in the same order?
+  bool repeats(int period) const;
+  /// Loads on the pair's strips of a flank and those like it; made when they are first asked for. s: which
+  /// body of the pair this is.
+  const LoadTable& loads(const FlankMesh& mesh, const ToothedPair& pair, std::size_t s);
   /// m, of the surface beside its exact flank; linear between nodes.
   double deviation(const FlankMesh& mesh, double v, double z) const;
   /// m, points spread over each flank, by which those that are near others are found; 3 x n each.
@@ -55,7 +57,7 @@ class ToothedBody {
   std::vector<FlankMesh> meshes_;
   std::vector<Eigen::Matrix3Xd> marks_;
   std::vector<Eigen::Vector3d> mark_normals_;
-  std::array<std::list<LoadTable>, 2> tables_;  // of right and left flanks
+  std::map<int, std::list<LoadTable>> tables_;  // of flanks that are like this one
 };
 
 /// What n stations that move over the flanks do to each other in the half-spaces of both bodies, as if they

@@ -40,6 +40,12 @@ void require_side_by_side(const std::vector<Strip>& strips) {
 
 LoadWidth load_width(const FlankGrid& flank) {
   LoadWidth width{0, 0};
+  for (const FlankPatch& patch : flank.patch) {
+    const Eigen::Vector2d size = patch.at.rowwise().maxCoeff() - patch.at.rowwise().minCoeff();
+    width.a = std::max(width.a, 0.75 * size[0]);
+    width.c = std::max(width.c, 0.5 * size[1]);
+  }
+  if (!flank.patch.empty()) return width;
   for (std::size_t i = 1; i < flank.v.size(); ++i)
     width.a = std::max(width.a, 0.75 * (flank.v[i] - flank.v[i - 1]));
   for (std::size_t i = 1; i < flank.z.size(); ++i)

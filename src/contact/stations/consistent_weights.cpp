@@ -1,12 +1,15 @@
 // Consistent nodal forces of smooth loads on the faces of a flank.
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "contact/stations/smooth_load.h"
 #include "elastogear/base/error.h"
+#include "elastogear/contact/face.h"
+#include "elastogear/model/side_shape.h"
 
 namespace elastogear::contact {
 namespace {
@@ -15,20 +18,6 @@ struct GaussPoint {
   double at, weight;  // on [-1, 1]
 };
 const std::array<GaussPoint, 3> kGauss{{{-std::sqrt(0.6), 5. / 9}, {0, 8. / 9}, {std::sqrt(0.6), 5. / 9}}};
-
-// Shape functions of a face at its coordinates from -1 to 1 along v and z.
-std::array<double, 8> face_shape(double x, double y, bool second_order) {
-  std::array<double, 8> N{(1 - x) * (1 - y) / 4, (1 + x) * (1 - y) / 4, (1 + x) * (1 + y) / 4,
-                          (1 - x) * (1 + y) / 4};
-  if (!second_order) return N;
-  const std::array<double, 4> middle{(1 - x * x) * (1 - y) / 2, (1 + x) * (1 - y * y) / 2,
-                                     (1 - x * x) * (1 + y) / 2, (1 - x) * (1 - y * y) / 2};
-  for (std::size_t i = 0; i < 4; ++i) {
-    N[i] -= (middle[i] + middle[(i + 3) % 4]) / 2;
-    N[4 + i] = middle[i];
-  }
-  return N;
-}
 
 // v over a row as its nodes have it: middle + rise x + bend x^2, x from -1 to 1.
 struct RowMap {
@@ -62,14 +51,70 @@ void add_across(const FlankGrid& flank, const AcrossLoad& load, std::size_t laye
     for (const GaussPoint& point : kGauss) {
       const double x = (x_0 + x_1) / 2 + point.at * (x_1 - x_0) / 2;
       const double share = force * point.weight * (x_1 - x_0) / 2 * map.slope(x) * load.density(map.v(x));
-      const auto N = face_shape(x, y, !flank.v_mid.empty());
-      for (std::size_t i = 0; i < (flank.v_mid.empty() ? 4U : 8U); ++i) weight[node[i]] += share * N[i];
+      const model::SideShape N = model::side_shape(flank.v_mid.empty() ? 4 : 8, x, y);
+      for (Eigen::Index i = 0; i < N.size(); ++i) weight[node[static_cast<std::size_t>(i)]] += share * N[i];
     }
   }
 }
 
+// m, the largest sizes of patches across the profile and along the face.
+Eigen::Vector2d patch_size(const FlankGrid& flank) {
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+  for (const FlankPatch& patch : flank.patch)
+    size = size.cwiseMax(patch.at.rowwise().maxCoeff() - patch.at.rowwise().minCoeff());
+  return size;
+}
+
+// Adds a force at a place, on the patch that it is on or nearest to.
+void add_at(const FlankGrid& flank, const Eigen::Vector2d& place, double force,
+            Eigen::Ref<Eigen::RowVectorXd> weight) {
+  const FlankPatch* on = nullptr;
+  PlaceOnSide best{0, {0, 0}, std::numeric_limits<double>::infinity()};
+  for (const FlankPatch& patch : flank.patch) {
+    const Eigen::Vector2d low = patch.at.rowwise().minCoeff(), high = patch.at.rowwise().maxCoeff();
+    const double off = ((low - place).cwiseMax(place - high).array() / (high - low).array()).maxCoeff();
+    if (off >= best.beyond) continue;
+    const PlaceOnSide here = place_on_side(patch.at, place);
+    if (here.beyond >= best.beyond) continue;
+    best = here;
+    on = &patch;
+    if (best.beyond <= 0) break;
+  }
+  if (best.corners == 4) {
+    best.at = best.at.cwiseMax(-1.).cwiseMin(1.);
+  } else {
+    best.at = best.at.cwiseMax(0.);
+    best.at /= std::max(1., best.at.sum());
+  }
+  const auto n = static_cast<int>(on->node.size());
+  const model::SideShape N = model::side_shape(n, best.at[0], best.at[1]);
+  for (int i = 0; i < n; ++i) weight[on->node[static_cast<std::size_t>(i)]] += force * N[i];
+}
+
+// The integrals by Gauss's rule over pieces smaller than patches, whose edges they do not follow.
+Eigen::RowVectorXd patch_weights(const FlankGrid& flank, const StationPlace& station, double a) {
+  constexpr double kPiece = 0.25;  // of the largest patch
+  const Eigen::Vector2d piece = kPiece * patch_size(flank);
+  Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(flank.n_nodes);
+  const auto visit = [](double from, double to, double most, const auto& use) {
+    const int n = static_cast<int>(std::ceil((to - from) / most));
+    for (int i = 0; i < n; ++i)
+      for (const GaussPoint& point : kGauss)
+        use(from + (to - from) * (i + (1 + point.at) / 2) / n, point.weight / 2 * (to - from) / n);
+  };
+  visit(station.face.from, station.face.to, piece[1], [&](double z, double dz) {
+    const double v = station.v + station.slope * (z - station.face.centre());
+    const AcrossLoad load = across_load(v, a, flank.v.front(), flank.v.back());
+    visit(load.from, load.to, piece[0], [&](double at, double dv) {
+      add_at(flank, {at, z}, dz / station.face.length() * dv * load.density(at), weight);
+    });
+  });
+  return weight;
+}
+
 // Nodal forces of 1 N, even over the strip.
 Eigen::RowVectorXd strip_weights(const FlankGrid& flank, const StationPlace& station, double a) {
+  if (!flank.patch.empty()) return patch_weights(flank, station, a);
   Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(flank.n_nodes);
   for (std::size_t layer = 0; layer < static_cast<std::size_t>(flank.n_layers()); ++layer) {
     const double low = flank.z[layer], high = flank.z[layer + 1];
@@ -95,6 +140,22 @@ void require_on_flank(const FlankGrid& flank, const StationPlace& station) {
 }
 
 }  // namespace
+
+PlaceOnSide place_on_side(const Eigen::Matrix<double, 2, 4>& corner, const Eigen::Vector2d& place) {
+  constexpr int kSteps = 3;  // sides are nearly parallelograms
+  PlaceOnSide on{corner.col(2) == corner.col(3) ? 3 : 4, {0, 0}, 0};
+  for (int step = 0; step < kSteps; ++step) {
+    const Shape s = shape(on.corners, on.at[0], on.at[1]);
+    Eigen::Matrix2d J;
+    J << corner * s.N_u, corner * s.N_v;
+    on.at -= J.inverse() * (corner * s.N - place);
+  }
+  if (on.corners == 4)
+    on.beyond = on.at.cwiseAbs().maxCoeff() - 1;
+  else
+    on.beyond = 2 * std::max({-on.at[0], -on.at[1], on.at.sum() - 1});
+  return on;
+}
 
 Eigen::MatrixXd consistent_weights(const FlankGrid& flank, const std::vector<StationPlace>& stations,
                                    const LoadWidth& width) {

@@ -7,14 +7,14 @@
 #include <numeric>
 #include <set>
 
-#include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
 #include "elastogear/contact/face.h"
 
 namespace elastogear::contact {
 namespace {
 
-constexpr double kSameLine = 1e-3;  // of the extent of a flank's corners, within which they are one line
+constexpr double kSameLine = 1e-3;   // of the extent of a flank's corners, within which they are one line
+constexpr double kSamePlace = 1e-6;  // of that extent, of nodes of flanks that are copies of each other
 
 // Ascending values without those that are nearly equal to the one before.
 std::vector<double> lines(std::vector<double> value) {
@@ -41,19 +41,20 @@ int nearest(const std::vector<double>& line, double x) {
   return static_cast<int>(at - line.begin());
 }
 
-// The nodes of the sides of cells that the faces of a flank are parts of: 4 or 8 each, as FlankGrid::Face.
-std::vector<FlankGrid::Face> sides(const model::Surface& surface, const std::vector<int>& face,
-                                   const std::string& group) {
-  std::set<FlankGrid::Face> all;
+// The nodes of the sides of cells that the faces of a flank are parts of, corners first.
+using SideNodes = std::vector<int>;
+
+std::vector<SideNodes> sides(const model::Surface& surface, const std::vector<int>& face) {
+  std::set<SideNodes> all;
   for (int f : face) {
-    FlankGrid::Face nodes;
-    nodes.fill(-1);
-    if (surface.side.cols() > 0 && surface.side(0, f) >= 0)
-      for (std::size_t i = 0; i < 8; ++i) nodes[i] = surface.side(static_cast<Eigen::Index>(i), f);
-    else
-      for (std::size_t i = 0; i < 4; ++i) nodes[i] = surface.face(static_cast<Eigen::Index>(i), f);
-    require(nodes[3] >= 0 && nodes[2] != nodes[3] && (nodes[4] < 0 || nodes[7] >= 0), "the flank ", group,
-            " has triangles; contact at stations needs quadrilaterals in rows and layers");
+    SideNodes nodes;
+    if (surface.side.cols() > 0 && surface.side(0, f) >= 0) {
+      for (int node : surface.side.col(f))
+        if (node >= 0) nodes.push_back(node);
+    } else {
+      for (int node : surface.face.col(f)) nodes.push_back(node);
+      if (nodes[2] == nodes[3]) nodes.pop_back();
+    }
     all.insert(nodes);
   }
   return {all.begin(), all.end()};
@@ -61,11 +62,9 @@ std::vector<FlankGrid::Face> sides(const model::Surface& surface, const std::vec
 
 class GridOfFlank {
  public:
-  GridOfFlank(const model::Surface& surface, const ExactFlanks& flanks, FlankMesh& mesh, std::string group)
-      : mesh_(mesh), group_(std::move(group)), sides_(sides(surface, mesh.face, group_)) {
-    for (const FlankGrid::Face& side : sides_)
-      for (int node : side)
-        if (node >= 0) mesh_.node.push_back(node);
+  GridOfFlank(const model::Surface& surface, const ExactFlanks& flanks, FlankMesh& mesh)
+      : mesh_(mesh), sides_(sides(surface, mesh.face)) {
+    for (const SideNodes& side : sides_) mesh_.node.insert(mesh_.node.end(), side.begin(), side.end());
     sort_unique(mesh_.node);
     for (int node : mesh_.node) at_.push_back(flanks.chart(mesh.name, surface.X.col(node)));
     mesh_.grid.n_nodes = static_cast<int>(mesh_.node.size());
@@ -73,8 +72,11 @@ class GridOfFlank {
   }
   void build() {
     set_lines();
-    set_order();
-    set_faces();
+    place_.resize(mesh_.node.size());
+    std::iota(place_.begin(), place_.end(), 0);
+    const bool grid = is_grid() && (set_order(), set_faces());
+    if (!grid) set_patches();
+    for (int node : mesh_.node) mesh_.place.push_back(at(node));
   }
 
  private:
@@ -97,7 +99,6 @@ class GridOfFlank {
       const auto row_a = std::llround(a[0] / near), row_b = std::llround(b[0] / near);
       return std::abs(row_a - row_b) > 1 ? row_a < row_b : a[1] < b[1];
     });
-    place_.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
       place_[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
       mesh_.node[i] = by_number_[static_cast<std::size_t>(order[i])];
@@ -106,23 +107,34 @@ class GridOfFlank {
 
   void set_lines() {
     std::vector<double> v, z;
-    for (const FlankGrid::Face& side : sides_)
-      for (std::size_t i = 0; i < 4; ++i) {
+    for (const SideNodes& side : sides_)
+      for (std::size_t i = 0; i < corners_of(side); ++i) {
         v.push_back(at(side[i])[0]);
         z.push_back(at(side[i])[1]);
       }
     mesh_.grid.v = lines(v);
     mesh_.grid.z = lines(z);
-    const std::size_t n = (mesh_.grid.v.size() - 1) * (mesh_.grid.z.size() - 1);
-    require(sides_.size() == n, "the flank ", group_, " has ", sides_.size(), " faces in ",
-            mesh_.grid.v.size() - 1, " rows and ", mesh_.grid.z.size() - 1,
-            " layers; contact at stations needs one in each");
-    mesh_.grid.face.resize(n);
-    if (sides_.front()[4] >= 0) mesh_.grid.v_mid.assign(mesh_.grid.v.size() - 1, 0);
   }
 
-  void set_faces() {
-    for (const FlankGrid::Face& side : sides_) {
+  static std::size_t corners_of(const SideNodes& side) { return side.size() % 3 == 0 ? 3 : 4; }
+
+  // Quadrilaterals of one kind, one in each row of each layer?
+  bool is_grid() {
+    const std::size_t n = (mesh_.grid.v.size() - 1) * (mesh_.grid.z.size() - 1),
+                      nodes = sides_.front().size();
+    if (sides_.size() != n || nodes % 4 != 0) return false;
+    for (const SideNodes& side : sides_)
+      if (side.size() != nodes) return false;
+    FlankGrid::Face none;
+    none.fill(-1);
+    mesh_.grid.face.assign(n, none);
+    if (nodes == 8) mesh_.grid.v_mid.assign(mesh_.grid.v.size() - 1, 0);
+    return true;
+  }
+
+  // Returns whether each place has its face.
+  bool set_faces() {
+    for (const SideNodes& side : sides_) {
       std::array<int, 4> row{}, layer{};
       for (std::size_t i = 0; i < 4; ++i) {
         row[i] = nearest(mesh_.grid.v, at(side[i])[0]);
@@ -131,40 +143,128 @@ class GridOfFlank {
       const int r = *std::min_element(row.begin(), row.end());
       const int l = *std::min_element(layer.begin(), layer.end());
       const auto row_begin = static_cast<std::size_t>(r) * static_cast<std::size_t>(mesh_.grid.n_layers());
+      if (row_begin + static_cast<std::size_t>(l) >= mesh_.grid.face.size()) return false;
       FlankGrid::Face& face = mesh_.grid.face[row_begin + static_cast<std::size_t>(l)];
-      face = in_order(side, row, layer, r, l);
+      if (face[0] >= 0 || !set_in_order(side, row, layer, r, l, face)) return false;
       if (face[4] >= 0)
         mesh_.grid.v_mid[static_cast<std::size_t>(r)] = at(mesh_.node[static_cast<std::size_t>(face[4])])[0];
     }
+    return true;
   }
 
-  // Nodes of a side from the corner low-low to that high in v on.
-  FlankGrid::Face in_order(const FlankGrid::Face& side, const std::array<int, 4>& row,
-                           const std::array<int, 4>& layer, int r, int l) const {
-    const auto corner = [&](int up, int far) {
-      for (std::size_t i = 0; i < 4; ++i)
-        if (row[i] == r + up && layer[i] == l + far) return i;
-      fail("a face of the flank ", group_, " is no rectangle of its rows and layers");
-    };
-    const std::array<std::size_t, 4> order{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
-    FlankGrid::Face face;
-    face.fill(-1);
+  // Nodes of a side from the corner low-low to that high in v on; false where it is no rectangle of its rows
+  // and layers.
+  bool set_in_order(const SideNodes& side, const std::array<int, 4>& row, const std::array<int, 4>& layer,
+                    int r, int l, FlankGrid::Face& face) const {
+    constexpr std::array<std::array<int, 2>, 4> kCorners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    std::array<std::size_t, 4> order{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      std::size_t i = 0;
+      while (i < 4 && (row[i] != r + kCorners[c][0] || layer[i] != l + kCorners[c][1])) ++i;
+      if (i == 4) return false;
+      order[c] = i;
+    }
     for (std::size_t i = 0; i < 4; ++i) {
       face[i] = local(side[order[i]]);
-      if (side[4] < 0) continue;
+      if (side.size() == 4) continue;
       const std::size_t a = order[i], b = order[(i + 1) % 4];
       face[4 + i] = local(side[4 + ((a + 1) % 4 == b ? a : b)]);  // midside node i stands behind corner i
     }
-    return face;
+    return true;
+  }
+
+  void set_patches() {
+    FlankGrid& grid = mesh_.grid;
+    mesh_.node = by_number_;
+    std::iota(place_.begin(), place_.end(), 0);
+    grid.v = {grid.v.front(), grid.v.back()};
+    grid.z = {grid.z.front(), grid.z.back()};
+    grid.v_mid.clear();
+    grid.face.clear();
+    for (const SideNodes& side : sides_) {
+      FlankPatch patch;
+      for (int node : side) patch.node.push_back(local(node));
+      for (std::size_t i = 0; i < 4; ++i)
+        patch.at.col(static_cast<Eigen::Index>(i)) = at(side[std::min(i, corners_of(side) - 1)]);
+      grid.patch.push_back(patch);
+    }
   }
 
   FlankMesh& mesh_;
-  std::string group_;
-  std::vector<FlankGrid::Face> sides_;
+  std::vector<SideNodes> sides_;
   std::vector<int> by_number_;       // nodes of the surface, ascending
   std::vector<Eigen::Vector2d> at_;  // of each of them
   std::vector<int> place_;           // the same, row by row
 };
+
+bool has_same_grid(const FlankGrid& a, const FlankGrid& b) {
+  const double near = kSameLine * (a.v.back() - a.v.front());
+  const auto same = [near](const std::vector<double>& x, const std::vector<double>& y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                      [near](double x_i, double y_i) { return std::abs(x_i - y_i) <= near; });
+  };
+  return a.face == b.face && same(a.v, b.v) && same(a.z, b.z) && same(a.v_mid, b.v_mid);
+}
+
+// For each node of the first flank the one of the second in its place; empty when there is none.
+std::vector<int> nodes_in_same_places(const FlankMesh& first, const FlankMesh& second) {
+  const double near = kSamePlace * (first.grid.v.back() - first.grid.v.front());
+  std::vector<int> there;
+  if (first.place.size() != second.place.size()) return there;
+  for (const Eigen::Vector2d& x : first.place) {
+    const auto at = std::find_if(second.place.begin(), second.place.end(), [&](const Eigen::Vector2d& y) {
+      return (x - y).cwiseAbs().maxCoeff() <= near;
+    });
+    if (at == second.place.end()) return {};
+    there.push_back(static_cast<int>(at - second.place.begin()));
+  }
+  return there;
+}
+
+std::set<SideNodes> sorted_patches(const FlankMesh& mesh, const std::vector<int>& number) {
+  std::set<SideNodes> all;
+  for (const FlankPatch& patch : mesh.grid.patch) {
+    SideNodes nodes;
+    for (int node : patch.node) nodes.push_back(number[static_cast<std::size_t>(node)]);
+    std::sort(nodes.begin(), nodes.end());
+    all.insert(nodes);
+  }
+  return all;
+}
+
+// Puts the nodes of the second flank in the order of the first where both have the same patches.
+bool takes_patches(const FlankMesh& first, FlankMesh& second) {
+  const std::vector<int> there = nodes_in_same_places(first, second);
+  if (there.empty()) return false;
+  std::vector<int> own(there.size()), to_first(there.size(), -1);
+  std::iota(own.begin(), own.end(), 0);
+  for (std::size_t i = 0; i < there.size(); ++i)
+    to_first[static_cast<std::size_t>(there[i])] = static_cast<int>(i);
+  if (sorted_patches(first, own) != sorted_patches(second, to_first)) return false;
+  FlankMesh ordered = second;
+  for (std::size_t i = 0; i < there.size(); ++i)
+    ordered.node[i] = second.node[static_cast<std::size_t>(there[i])];
+  ordered.grid = first.grid;
+  ordered.place = first.place;
+  second = std::move(ordered);
+  return true;
+}
+
+// Have both flanks the same rows and layers, or the same patches? Then they share their loads.
+bool is_like(const FlankMesh& first, FlankMesh& second) {
+  if (first.name.side != second.name.side || first.grid.patch.size() != second.grid.patch.size())
+    return false;
+  return first.grid.patch.empty() ? has_same_grid(first.grid, second.grid) : takes_patches(first, second);
+}
+
+void set_like(std::vector<FlankMesh>& meshes) {
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    meshes[i].like = static_cast<int>(i);
+    for (std::size_t j = 0; j < i && meshes[i].like == static_cast<int>(i); ++j)
+      if (meshes[j].like == static_cast<int>(j) && is_like(meshes[j], meshes[i]))
+        meshes[i].like = static_cast<int>(j);
+  }
+}
 
 }  // namespace
 
@@ -182,7 +282,7 @@ std::vector<FlankMesh> flank_meshes(const model::Surface& surface, const ExactFl
   }
   std::vector<FlankMesh> meshes;
   for (auto& [group, mesh] : by_group) {
-    GridOfFlank(surface, flanks, mesh, surface.group_name[static_cast<std::size_t>(group)]).build();
+    GridOfFlank(surface, flanks, mesh).build();
     for (int f : mesh.face) {
       Eigen::Matrix<double, 2, 4> corners;
       for (Eigen::Index i = 0; i < 4; ++i)
@@ -191,44 +291,18 @@ std::vector<FlankMesh> flank_meshes(const model::Surface& surface, const ExactFl
     }
     meshes.push_back(std::move(mesh));
   }
+  set_like(meshes);
   return meshes;
 }
-
-namespace {
-
-// Local coordinates of a place on a face by Newton's method, and how far it lies beyond the face.
-struct OnFace {
-  int sides;
-  Eigen::Vector2d at;
-  double beyond;
-};
-
-OnFace on_face(const Eigen::Matrix<double, 2, 4>& corner, const Eigen::Vector2d& place) {
-  constexpr int kSteps = 3;  // faces are nearly parallelograms
-  OnFace on{corner.col(2) == corner.col(3) ? 3 : 4, {0, 0}, 0};
-  for (int step = 0; step < kSteps; ++step) {
-    const Shape s = shape(on.sides, on.at[0], on.at[1]);
-    Eigen::Matrix2d J;
-    J << corner * s.N_u, corner * s.N_v;
-    on.at -= J.inverse() * (corner * s.N - place);
-  }
-  if (on.sides == 4)
-    on.beyond = on.at.cwiseAbs().maxCoeff() - 1;
-  else
-    on.beyond = 2 * std::max({-on.at[0], -on.at[1], on.at.sum() - 1});
-  return on;
-}
-
-}  // namespace
 
 FaceOfFlank face_at(const FlankMesh& flank, double v, double z) {
   FaceOfFlank best{-1, 0, 0};
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < flank.face.size(); ++f) {
-    const OnFace on = on_face(flank.at[f], {v, z});
+    const PlaceOnSide on = place_on_side(flank.at[f], {v, z});
     if (!(on.beyond < least)) continue;
     least = on.beyond;
-    const Eigen::Vector2d natural = natural_coordinates(on.sides, on.at[0], on.at[1]);
+    const Eigen::Vector2d natural = natural_coordinates(on.corners, on.at[0], on.at[1]);
     best = {flank.face[f], std::clamp(natural[0], -1., 1.), std::clamp(natural[1], -1., 1.)};
   }
   return best;

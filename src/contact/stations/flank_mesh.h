@@ -12,14 +12,15 @@ namespace elastogear::contact {
 /// One flank of a mesh.
 struct FlankMesh {
   FlankName name;
-  FlankGrid grid = {};         ///< its nodes are numbers in `node`; the same of all flanks of a side
-  std::vector<int> node = {};  ///< of the surface, row by row
-  std::vector<int> face = {};  ///< of the surface
+  FlankGrid grid = {};                      ///< its nodes are numbers in `node`
+  std::vector<int> node = {};               ///< of the surface, row by row; with patches in any order
+  std::vector<int> face = {};               ///< of the surface
+  std::vector<Eigen::Vector2d> place = {};  ///< m, (v, z) of each node
+  int like = 0;                             ///< the first flank with the same grid, nodes in the same order
   std::vector<Eigen::Matrix<double, 2, 4>> at = {};  ///< m, (v, z) of the corners of each face
 };
 
-/// All flanks of a surface that its exact flanks name. Throws Error for faces that are not quadrilaterals in
-/// rows and layers.
+/// All flanks of a surface that its exact flanks name.
 std::vector<FlankMesh> flank_meshes(const model::Surface& surface, const ExactFlanks& flanks);
 
 /// Where a place of the chart lies on the faces of a flank.

@@ -12,17 +12,32 @@
 
 namespace elastogear::contact {
 
-/// The faces of a flank in rows along the profile and layers along the face. Places are (v, z), m: the arc
-/// length of the profile, the same in all layers, and the face coordinate.
+/// A side of a cell on a flank whose sides are in no rows and layers.
+struct FlankPatch {
+  std::vector<int> node;           ///< 3, 4, 6 or 8, corners first
+  Eigen::Matrix<double, 2, 4> at;  ///< m, (v, z) of its corners; a triangle repeats its third one
+};
+
+/// Local coordinates of a place, and how far it lies beyond the corners, as a part of half their distance.
+struct PlaceOnSide {
+  int corners;
+  Eigen::Vector2d at;
+  double beyond;
+};
+PlaceOnSide place_on_side(const Eigen::Matrix<double, 2, 4>& corner, const Eigen::Vector2d& place);
+
+/// The faces of a flank in rows along the profile and layers along the face, or patches. Places are (v, z),
+/// m: the arc length of the profile, the same in all layers, and the face coordinate.
 struct FlankGrid {
   using Face = std::array<int, 8>;  ///< corners around the face, then midside nodes from corner 0 - 1 on
 
-  std::vector<double> v;        ///< limits of n_rows rows, ascending
+  std::vector<double> v;        ///< limits of n_rows rows, ascending; with patches the ends of the flank
   std::vector<double> v_mid;    ///< of midside nodes within each row; empty: faces have 4 nodes
-  std::vector<double> z;        ///< limits of n_layers layers, ascending
+  std::vector<double> z;        ///< limits of n_layers layers, ascending; with patches the ends of the face
   std::vector<Face> face = {};  ///< row i n_layers + layer; corners at (v, z) low-low, high-low, high-high,
                                 ///< low-high; nodes are numbers below n_nodes
   int n_nodes = 0;
+  std::vector<FlankPatch> patch = {};  ///< in place of v_mid and face
 
   int n_rows() const { return static_cast<int>(v.size()) - 1; }
   int n_layers() const { return static_cast<int>(z.size()) - 1; }

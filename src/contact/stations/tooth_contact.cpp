@@ -79,10 +79,10 @@ ToothContact make_contact(const ToothedPair& pair, const FlankMesh& on_owner, co
   const std::array<const FlankMesh*, 2> mesh{&on_owner, &on_mate};
   const auto n = std::ssize(contact.places);
   contact.gap = Eigen::VectorXd::Zero(n);
-  contact.across.setConstant(n, pair.owner->loads(on_owner.name.side, pair, 0).scale.across);
+  contact.across.setConstant(n, pair.owner->loads(on_owner, pair, 0).scale.across);
   contact.local = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t s : {0, 1}) {
-    const LoadTable& loads = body[s]->loads(mesh[s]->name.side, pair, s);
+    const LoadTable& loads = body[s]->loads(*mesh[s], pair, s);
     contact.side[s] = make_side(contact, *mesh[s], loads, s == 0);
     contact.local += body[s]->compliance() * (loads.line - smooth_kernel(loads, contact.side[s].at));
   }
@@ -156,17 +156,24 @@ const FlankMesh& ToothedBody::mesh(const FlankName& flank) const {
 
 const std::vector<int>& ToothedBody::nodes(const FlankName& flank) const { return mesh(flank).node; }
 
-const LoadTable& ToothedBody::loads(int side, const ToothedPair& pair, std::size_t s) {
-  std::list<LoadTable>& tables = tables_[side > 0 ? 1 : 0];
+bool ToothedBody::repeats(int period) const {
+  return std::all_of(meshes_.begin(), meshes_.end(), [&](const FlankMesh& of) {
+    const FlankName first{of.name.tooth % period, of.name.side};
+    return std::any_of(meshes_.begin(), meshes_.end(),
+                       [&](const FlankMesh& at) { return at.name == first && at.like == of.like; });
+  });
+}
+
+const LoadTable& ToothedBody::loads(const FlankMesh& of, const ToothedPair& pair, std::size_t s) {
+  std::list<LoadTable>& tables = tables_[of.like];
   for (const LoadTable& table : tables)
     if (table.strips == pair.strips[s] && table.pieces == pair.pieces && table.q == pair.q) return table;
-  const auto mesh =
-      std::find_if(meshes_.begin(), meshes_.end(), [&](const FlankMesh& at) { return at.name.side == side; });
-  const double z = (mesh->grid.z.front() + mesh->grid.z.back()) / 2;
-  const auto slope = [&](double v) { return generator_slope(*flanks_, mesh->name, v, z); };
+  const FlankMesh& like = meshes_[static_cast<std::size_t>(of.like)];
+  const double z = (like.grid.z.front() + like.grid.z.back()) / 2;
+  const auto slope = [&](double v) { return generator_slope(*flanks_, like.name, v, z); };
   const double v = middle(*flanks_);
-  tables.push_back(load_table(mesh->grid, pair.strips[s], pair.pieces, slope,
-                              line_scale(flanks_->point(mesh->name, v, z), slope(v)), pair.q));
+  tables.push_back(load_table(like.grid, pair.strips[s], pair.pieces, slope,
+                              line_scale(flanks_->point(like.name, v, z), slope(v)), pair.q));
   return tables.back();
 }
 

@@ -13,6 +13,7 @@ ResponseTables::ResponseTables(const model::ElasticBody& body, const contact::To
   const int teeth = toothed.flanks().teeth(), sectors = body.flexibility.n_sectors;
   const bool about_z = body.flexibility.axis.isApprox(Eigen::Vector3d::UnitZ());
   period_ = about_z && sectors > 0 && teeth % sectors == 0 ? teeth / sectors : teeth;
+  if (!toothed.repeats(period_)) period_ = teeth;
 }
 
 const Eigen::MatrixXd& ResponseTables::table(const ToothContact::Side& a, const ToothContact::Side& b) {
