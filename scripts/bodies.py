@@ -13,6 +13,7 @@ PLAIN, HELD, SPOT = "#C9CDD4", "#0033CC", "#D0021B"
 SPEED, TORQUE = "#009E73", "#000000"  # of arrows
 SPOT_SHARE = 0.004  # of a body's size: radius of a node that is marked
 ASPECT = 1.2  # width/height of a panel
+MOST_EDGES = 25000  # faces of a whole body whose edges can still be told from each other
 
 
 class Body:
@@ -76,6 +77,13 @@ def meshed_actor(surface, colour):
     return actor
 
 
+def whole_actors(surface, colour, edges=True):
+    """A body that is seen as a whole: with the edges of its faces, or where these are too many or not wanted, where it turns."""
+    if edges and surface.GetNumberOfPolys() < MOST_EDGES:
+        return [meshed_actor(surface, colour)]
+    return [scene.plain_actor(surface, colour, 1), scene.crease_actor(surface)]
+
+
 def sphere_actor(centre, radius):
     ball = vtk.vtkSphereSource()
     ball.SetCenter(*centre)
@@ -111,10 +119,10 @@ def draw_parts(options):
         rest = faces_of(body.surface, np.ones(len(body.nodes), dtype=bool))
         held = faces_of(body.surface, body.held)
         view = views.fitted_view(views.points_of(body.surface), *lying(body, views.unit(np.array(options.view))), ASPECT)
-        actor = meshed_actor(held, HELD)
-        actor.GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
-        actor.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2)
-        picture.panel((left, 0.08, right, 1), [meshed_actor(rest, PLAIN), actor], view)
+        actors = whole_actors(held, HELD)
+        actors[0].GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
+        actors[0].GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2)
+        picture.panel((left, 0.08, right, 1), whole_actors(rest, PLAIN) + actors, view)
         picture.panel((left, 0, right, 0.08), [scene.text_actor(f"{body.name}; blue: held", 0.5, 0.5, 34)])
     picture.save(options.out)
 
@@ -167,18 +175,18 @@ def arrows_of(surface, state, direction):
 
 def draw_setup(options):
     """The bodies at the start of a run, whole and where they are about to touch; fixed ones grey."""
-    direction, surfaces, actors, arrows = views.unit(np.array(options.view)), [], [], []
+    direction, surfaces, actors, near_actors = views.unit(np.array(options.view)), [], [], []
     with results.open_file(options.result, "result") as file:
         for body, colour in zip(read_bodies(options.body_file), COLOURS):
             state = file[f"bodies/{body.name}"]
             surfaces.append(placed(body, state))
-            fixed = results.text(state.attrs["joint"]) == "fixed"
-            actors.append(meshed_actor(surfaces[-1], PLAIN if fixed else colour))
-            arrows += arrows_of(surfaces[-1], state, direction)
+            colour = PLAIN if results.text(state.attrs["joint"]) == "fixed" else colour
+            near_actors.append(meshed_actor(surfaces[-1], colour))
+            actors += whole_actors(surfaces[-1], colour, edges=False) + arrows_of(surfaces[-1], state, direction)
     whole, near = views.box_views(surfaces, [], direction, ASPECT)
     picture = scene.Picture(1800, 820)
-    picture.panel((0, 0.08, 0.498, 1), actors + arrows, whole)
-    picture.panel((0.502, 0.08, 1, 1), actors, near)
+    picture.panel((0, 0.08, 0.498, 1), actors, whole)
+    picture.panel((0.502, 0.08, 1, 1), near_actors, near)
     for i, (text, colour) in enumerate((("grey: fixed", scene.EDGE), ("arrow: speed", SPEED), ("arrow: torque", TORQUE))):
         picture.panel((i / 3, 0, (i + 1) / 3, 0.08), [scene.text_actor(text, 0.5, 0.5, 30, colour)])
     picture.save(options.out)
