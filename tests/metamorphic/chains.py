@@ -82,7 +82,7 @@ def an_aligned_pair_is_loaded_evenly(lab):
     keys = cylindrical(lab.random)
     if keys["wheel"].get("internal"):
         raise Unfit("an internal pair")
-    keys.update(analysis="sweep", sweep_positions=8, face_width=float(f"{keys['module'] * lab.random.uniform(4, 8):.3g}"))
+    keys.update(analysis="sweep", sweep_positions=16, face_width=float(f"{keys['module'] * lab.random.uniform(4, 8):.3g}"))
     other = copy.deepcopy(keys)
     width = keys["face_width"]
     more = float(round(lab.random.uniform(1.02, 1.25), 3))
