@@ -83,7 +83,7 @@ def value(name):
 
 
 def is_of_the_gears(name, of_reduction):
-    return name not in of_reduction and not CONTACT.search(name) and name not in IDLE and not name.endswith(("_mesh", "_file"))
+    return name not in of_reduction and not CONTACT.search(name) and name not in IDLE and not name.endswith(("_mesh_output", "_file"))
 
 
 def check_bodies():
@@ -132,7 +132,7 @@ def check_results():
         assert f" {name}: " in said, f"{name} is not refused: {said}"
     assert "elastogear simulate drive.yaml" in said
     for name in sorted(set(keys("evaluate")) & set(keys("reduce"))):
-        if name in IDLE or name.endswith(("_mesh", "_file")) or name in ("pinion_topography", "pinion_wear", "pinion_bearings"):
+        if name in IDLE or name.endswith(("_mesh_output", "_file")) or name in ("pinion_topography", "pinion_wear", "pinion_bearings"):
             continue
         changed({name: value(name)})
         done = call("evaluate", "drive.yaml")
