@@ -93,7 +93,7 @@ void add_at(const FlankGrid& flank, const Eigen::Vector2d& place, double force,
 
 // The integrals by Gauss's rule over pieces smaller than patches, whose edges they do not follow.
 Eigen::RowVectorXd patch_weights(const FlankGrid& flank, const StationPlace& station, double a) {
-  constexpr double kPiece = 0.25;  // of the largest patch
+  constexpr double kPiece = 0.125;  // of the largest patch
   const Eigen::Vector2d piece = kPiece * patch_size(flank);
   Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(flank.n_nodes);
   const auto visit = [](double from, double to, double most, const auto& use) {
