@@ -9,6 +9,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/mesh/named_nodes.h"
+#include "elastogear/mesh/outer_sides.h"
+#include "elastogear/model/side_shape.h"
 
 namespace elastogear::reduction {
 namespace {
@@ -25,28 +27,6 @@ struct Cloud {
   Eigen::Matrix3d J;     // second moment |r|^2 I - r r' about the mean, over the area
 };
 
-// Shape functions of a side of 3, 4, 6 or 8 nodes, corners first: of triangles at xi, eta >= 0 with a sum of
-// at most 1, of quadrilaterals in [-1, 1]^2.
-Eigen::VectorXd side_functions(int n, double xi, double eta) {
-  const int n_corners = n % 3 == 0 ? 3 : 4;
-  Eigen::VectorXd N(n);
-  if (n_corners == 3) {
-    const Eigen::Vector3d L(1 - xi - eta, xi, eta);
-    for (int i = 0; i < 3; ++i) N[i] = n == 3 ? L[i] : L[i] * (2 * L[i] - 1);
-    for (int i = 3; i < n; ++i) N[i] = 4 * L[i - 3] * L[(i - 2) % 3];
-    return N;
-  }
-  constexpr double kXi[] = {-1, 1, 1, -1, 0, 1, 0, -1}, kEta[] = {-1, -1, 1, 1, -1, 0, 1, 0};
-  for (int i = 0; i < n; ++i) {
-    const double u = 1 + kXi[i] * xi, v = 1 + kEta[i] * eta;
-    if (i < 4)
-      N[i] = u * v / 4 * (n == 4 ? 1 : u + v - 3);
-    else
-      N[i] = kXi[i] == 0 ? (1 - xi * xi) * v / 2 : (1 - eta * eta) * u / 2;
-  }
-  return N;
-}
-
 // The integrals of products of two shape functions over a side, m^2. X: 3 x n, m. The functions are of second
 // degree in each coordinate, whose differences over a unit are their derivatives.
 Eigen::MatrixXd side_products(const Eigen::Matrix3Xd& X) {
@@ -61,34 +41,17 @@ Eigen::MatrixXd side_products(const Eigen::Matrix3Xd& X) {
         xi = (1 + xi) / 2, eta = (1 + eta) / 2 * (1 - xi);
         w *= (1 - xi) / 4;
       }
-      const Eigen::Vector3d along = X * (side_functions(n, xi + 0.5, eta) - side_functions(n, xi - 0.5, eta)),
-                            across =
-                                X * (side_functions(n, xi, eta + 0.5) - side_functions(n, xi, eta - 0.5));
-      const Eigen::VectorXd N = side_functions(n, xi, eta);
+      const Eigen::Vector3d along = X * (model::side_shape(n, xi + 0.5, eta) -
+                                         model::side_shape(n, xi - 0.5, eta)),
+                            across = X * (model::side_shape(n, xi, eta + 0.5) -
+                                          model::side_shape(n, xi, eta - 0.5));
+      const Eigen::VectorXd N = model::side_shape(n, xi, eta);
       products += w * along.cross(across).norm() * N * N.transpose();
     }
   return products;
 }
 
 using Sides = std::vector<std::vector<int>>;  // nodes of each, corners first
-
-// The sides of cells that no other cell shares.
-Sides outer_sides(const mesh::Mesh& mesh) {
-  std::vector<int> cell_of;
-  const std::vector<mesh::Face> faces = mesh::boundary_faces(mesh, &cell_of);
-  Sides outer;
-  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
-    const int cell = cell_of[begin];
-    while (end < faces.size() && cell_of[end] == cell) ++end;
-    const auto of_cell = mesh.cells[cell];
-    const auto cut = mesh::cell_sides(mesh.cells.type[cell], of_cell);
-    const auto nodes = mesh::cell_side_nodes(mesh.cells.type[cell], of_cell);
-    for (std::size_t side = 0; side < cut.size(); ++side)
-      if (std::find(faces.begin() + begin, faces.begin() + end, cut[side][0]) != faces.begin() + end)
-        outer.push_back(nodes[side]);
-  }
-  return outer;
-}
 
 // Adds up the sides whose nodes are all in the set; `nodes` ascend.
 Eigen::SparseMatrix<double> products_of_set(const mesh::Mesh& mesh, const Sides& sides,
@@ -134,7 +97,7 @@ Cloud cloud(const mesh::Mesh& mesh, const std::string& set, const Sides* sides) 
 }
 
 Sides weighing_sides(const mesh::Mesh& mesh, MarkerWeights weights) {
-  return weights == MarkerWeights::area ? outer_sides(mesh) : Sides();
+  return weights == MarkerWeights::area ? mesh::outer_sides(mesh) : Sides();
 }
 
 bool turns(const Cloud& cloud) {
