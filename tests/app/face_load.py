@@ -68,7 +68,8 @@ def look(program, name, order=1, width=20, more=""):
     near(f"{name}: width of the strips", width_of.sum(), common, 1e-7)
     near(f"{name}: force", mean @ width_of, force, 1e-6 * force)
     z = np.array([z[0] - width_of[0] / 2, z[-1] + width_of[-1] / 2])  # ends of the common face
-    near(f"{name}: KHbeta", factor, 1.08, 0.08)  # the wider gear supports the ends of the other one
+    # The gear that stands over supports the end strips of the other one (docs/validation/gears.md, on finer meshes, too).
+    near(f"{name}: KHbeta", factor, 1.14 if "2 mm" in name or name == "offset" else 1.07 if "0.5 mm" in name else 1.03, 0.02)
     near(f"{name}: least line load", mean.min() * common / force, 0.95, 0.05)
     cell, largest = z_pattern[1] - z_pattern[0], pattern.max(axis=0)
     within, beyond = (z_pattern > z[0]) & (z_pattern < z[-1]), (z_pattern < z[0] - cell) | (z_pattern > z[-1] + cell)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The worm drive rolls on exact flanks at points of least gap, without a penalty, while a point of contact nears
+# The worm drive rolls on exact flanks at local minimum-gap points, without a penalty, while a point of contact nears
 # the end of the wheel's flank: no point that bears a force is missed or found too late, which the balance of
 # energy would show, and Newton's method needs little more than one iteration a step.
 #   rolling.sh PATH/TO/elastogear PATH/TO/examples/worm_gear

@@ -14,7 +14,7 @@ from lab import Broken, Unfit, alike, at_most, choice, near
 
 KHBETA = 1.15  # of an aligned pair: the pinion's twist over up to half its diameter takes some hundredths, meshes of size tiny as much
 EVEN = 0.1  # share: what wider teeth and bodies add in stiffness behind the ends of the narrower face; docs/validation/gears.md
-END = 1.4  # times: what they add to the quarter of the face at an end, most where lines of contact lean
+END = 1.3  # times: what they add to the quarter of the face at an end, most where lines of contact lean
 
 
 def columns(path):
