@@ -256,7 +256,7 @@ def parse(words=None):
     parser.add_argument("--out", help="folder of the bodies, with one folder for each example")
     parser.add_argument("--elastogear", default=os.path.join(REPOSITORY, "build/release/src/app/elastogear"))
     parser.add_argument("--law", default="unilateral", choices=("penalty", "unilateral"),
-                        help="of contact, for all bodies; unilateral: on exact flanks, at the points of least gap")
+                        help="of contact, for all bodies; unilateral: on exact flanks, without a penalty")
     return parser.parse_args(words)
 
 
