@@ -17,13 +17,25 @@ constexpr double kStepsPerPeriod = 10;
 constexpr double kLargestGradient = 0.05;  // elastic rotation (rad) and strain: second-order terms reach 5 %
 constexpr double kLargestSpeed = 0.1;      // of the lowest mode: centrifugal softening of its stiffness, 1 %
 constexpr double kLargestLoss = 0.01;      // of a frequency: Coriolis forces that the inertia leaves out
-constexpr int kWindow = 50;                // states in which a force is looked at
-constexpr double kChange = 0.7;            // of the force from state to state, in the mean
-constexpr double kTurns = 0.2 * kWindow;   // a period of ten states has as many
+constexpr int kStates = 50;                // in which a force is looked at, if it turns kTurns times in them
+constexpr int kTurns = 10;                 // five periods; of fifty states: a period has ten at most
+constexpr double kChange = 0.7;            // of the force, from state to state or from turn to turn, in the mean
+constexpr double kResolved = 0.5;          // of the highest mode's frequency: vibrations of several modes
 constexpr double kLargestShare = 0.05;     // of the contact forces, on nodes without a static response
 
 void raise(Vibration& to, const std::string& name, double frequency) {
   if (frequency > to.frequency) to = {name, frequency};
+}
+
+// Hz, up to which the modes of the bodies of pair p vibrate: of the body whose modes end first.
+double highest_mode(const System& system, std::size_t p) {
+  double highest = std::numeric_limits<double>::infinity();
+  for (int b : system.pairs()[p].body) {
+    const model::ElasticBody& body = *system.bodies()[b].eq.body;
+    if (body.frequency.size() > 0)
+      highest = std::min(highest, body.frequency.head(body.n_modes()).maxCoeff());
+  }
+  return highest;
 }
 
 double contact_frequency(const System& system, std::size_t p) {
@@ -164,33 +176,43 @@ std::vector<std::string> ValidityGuard::warnings(const model::Snapshot& snapshot
 }
 
 ChatterWatch::ChatterWatch(const System& system) : system_(&system), force_(system.pairs().size()) {
-  for (std::size_t p = 0; p < force_.size(); ++p)
+  for (std::size_t p = 0; p < force_.size(); ++p) {
     force_[p].watched = system.contact_settings(p).law == contact::ContactLaw::unilateral;
+    force_[p].highest_mode = highest_mode(system, p);
+  }
 }
 
-// Enters the force of a state. Returns true at the end of a window in which it went to and fro.
-bool ChatterWatch::chatters(Force& force, double now) {
+// Enters the force of a state. Returns what it did at the end of a window, or nothing.
+std::string ChatterWatch::unsteady(Force& force, double time, double now) {
   const double change = now - std::exchange(force.last, now);
   if (change != 0 && std::exchange(force.change, change) * change < 0) ++force.turns;
   force.sum += now;
   force.changes += std::abs(change);
-  if (++force.states < kWindow) return false;
-  const bool result = force.changes > kChange * force.sum && force.turns > kTurns;
-  force = {force.watched, force.last, force.change};
-  return result;
+  if (++force.states < kStates || force.turns < kTurns) return {};
+  const Force window = std::exchange(force, {force.watched, force.highest_mode, time, now, change});
+  const double mean = window.sum / window.states, frequency = window.turns / 2.0 / (time - window.begin);
+  if (window.changes > kChange * window.sum && window.turns > kTurns)
+    return "chatters, its force rises and falls from output to output; neither it nor the energy is to be "
+           "trusted";
+  if (window.changes < kChange * mean * window.turns || frequency < kResolved * window.highest_mode) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "its force vibrates at " << frequency << " Hz, beside modes of at most " << window.highest_mode
+       << " Hz: a shock has more than these modes; the mean of the force is right, its peaks are not";
+  return text.str();
 }
 
 std::vector<std::string> ChatterWatch::warnings(const model::Snapshot& snapshot) {
   std::vector<std::string> said;
   for (std::size_t p = 0; p < force_.size(); ++p) {
-    if (!force_[p].watched || !chatters(force_[p], snapshot.pairs[p].force.norm())) continue;
+    if (!force_[p].watched) continue;
+    const std::string what = unsteady(force_[p], snapshot.time, snapshot.pairs[p].force.norm());
+    if (what.empty()) continue;
     force_[p].watched = false;
     std::ostringstream text;
     text.precision(3);
-    text << "contact " << system_->pairs()[p].name << " at t = " << snapshot.time
-         << " s: chatters, its force rises and falls from output to output; neither it nor the energy is to "
-            "be "
-            "trusted. Give bodies with damping_ratio, or a penalty (-contact_law penalty), which bodies that "
+    text << "contact " << system_->pairs()[p].name << " at t = " << snapshot.time << " s: " << what
+         << ". Give bodies with damping_ratio, or a penalty (-contact_law penalty), which bodies that "
             "begin in touch may need a gap of 1e-7 m for, or outputs nearer to each other";
     said.push_back(text.str());
   }

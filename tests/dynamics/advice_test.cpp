@@ -272,10 +272,25 @@ TEST(ChatterWatch, warns_once_of_a_force_that_goes_to_and_fro) {
   EXPECT_NE(said[0].find("-contact_law penalty"), std::string::npos) << said[0];
 }
 
+// A force of mean 1 N that vibrates by so many Hz.
+auto vibration(double amplitude, double frequency) {
+  return [=](int state) { return 1 + amplitude * std::sin(2 * std::numbers::pi * frequency * 1e-3 * state); };
+}
+
+TEST(ChatterWatch, warns_of_a_force_that_vibrates_beyond_the_modes) {
+  System system = blocks_without_penalty();
+  const double mode = system.bodies()[0].eq.body->frequency[0];
+  const auto said = said_of(system, vibration(0.6, 1.2 * mode));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("a shock has more than these modes"), std::string::npos) << said[0];
+  EXPECT_TRUE(said_of(system, vibration(0.6, 0.4 * mode)).empty());
+  EXPECT_TRUE(said_of(system, vibration(0.3, 1.2 * mode)).empty());
+}
+
 TEST(ChatterWatch, is_silent_of_forces_that_vibrate_or_rise) {
   System system = blocks_without_penalty();
-  const auto vibrates = [](int state) { return 1 + std::sin(2 * std::numbers::pi * state / 20); };
-  EXPECT_TRUE(said_of(system, vibrates).empty()) << "20 states a period are resolved";
+  const double mode = system.bodies()[0].eq.body->frequency[0];
+  EXPECT_TRUE(said_of(system, vibration(1, 0.4 * mode)).empty()) << mode;
   EXPECT_TRUE(said_of(system, [](int state) { return state; }).empty());
   EXPECT_TRUE(said_of(system, [](int state) { return state % 2 == 0 ? 10.0 : 6.0; }).empty());
   EXPECT_TRUE(said_of(system, [](int) { return 0; }).empty());

@@ -4,7 +4,7 @@
   run.py [--program PATH/TO/elastogear] [--cases N] [--seed NUMBER|random] [--relation NAME ...] [--set ci|awaits|all] [--keep FOLDER]
   run.py --relation NAME --case NUMBER       repeats one case, and prints its input and commands
 
-A case is a relation with a number, which everything random in it follows from. Relations stand in systems.py, drives.py, chains.py and bodies.py; RELATIONS
+A case is a relation with a number, which everything random in it follows from. Relations stand in systems.py, drives.py, chains.py, bodies.py and contacts.py; RELATIONS
 below lists them with how often they come, and AWAITS those that a known fault of the program breaks. ctest runs the others.
 """
 
@@ -22,6 +22,7 @@ import numpy as np
 
 import bodies
 import chains
+import contacts
 import drives
 import systems
 from lab import Broken, Lab, Unfit
@@ -47,6 +48,10 @@ RELATIONS = {  # and how many cases of a hundred, by what they cost
     bodies.a_sensor_is_where_the_field_is: 5,
     bodies.a_sensor_on_a_flank_is_where_the_field_is: 5,
     bodies.the_static_response_to_loads_at_markers_is_whole: 5,
+    bodies.a_spinning_bar_has_its_coriolis_forces: 4,
+    bodies.a_cell_that_is_twice_there_is_named: 2,
+    contacts.contact_that_starts_closed_is_that_of_a_small_gap: 4,
+    contacts.bars_that_hit_do_not_chatter: 2,
 }
 
 AWAITS = {}  # relations that fail today, and the fault that breaks them: leave out here what is mended

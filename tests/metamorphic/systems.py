@@ -213,6 +213,14 @@ def turned(keys, matrix):
     return result
 
 
+def random_rotation(random):
+    axis = random.normal(size=3)
+    axis /= np.linalg.norm(axis)
+    cross = np.cross(np.eye(3), -axis)
+    angle = random.uniform(0.2, 2.5)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
 def rotation_vector(matrix):
     axis = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
     angle = np.arctan2(np.linalg.norm(axis), np.trace(matrix) - 1)
@@ -224,11 +232,7 @@ def a_turned_world_changes_nothing(lab):
     above rounding grows in a motion, by chaos of the pendulum too: 1e-5 of the largest energy."""
     keys, end = system(lab.random)
     keys.update(ts_max_time=min(end, 0.2), ts_dt=float(min(end, 0.2) / lab.random.integers(200, 500)))
-    axis = lab.random.normal(size=3)
-    axis /= np.linalg.norm(axis)
-    cross = np.cross(np.eye(3), -axis)
-    angle = lab.random.uniform(0.2, 2.5)
-    matrix = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    matrix = random_rotation(lab.random)
     lab.write("system.yaml", keys)
     lab.write("turned.yaml", turned(keys, matrix))
     lab.run("simulate", "system.yaml", "-output", "result.h5")

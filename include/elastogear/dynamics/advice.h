@@ -53,23 +53,25 @@ class ValidityGuard {
   std::vector<bool> too_fast_;  // pairs, said
 };
 
-/// Watches whether contact chatters (docs/theory, section 6.11), of pairs without a penalty whose forces
-/// are solved for together with static responses.
+/// Watches whether contact chatters or vibrates beyond the modes (docs/theory, section 6.11), of pairs without a
+/// penalty whose forces are solved for together with static responses.
 class ChatterWatch {
  public:
   explicit ChatterWatch(const System& system);
-  /// To be called with states one after the other. Returns one sentence for each pair whose force goes to and
-  /// fro from state to state for the first time.
+  /// To be called with states one after the other. Returns one sentence for each pair whose force turns from
+  /// state to state, or at a frequency that its modes do not resolve, for the first time.
   std::vector<std::string> warnings(const model::Snapshot& snapshot);
 
  private:
   struct Force {
     bool watched = false;
+    double highest_mode = 0;      // Hz
+    double begin = 0;             // s, of the present window
     double last = 0, change = 0;  // N, in the last state, and its change before
     int states = 0, turns = 0;    // of the present window, and how often the force turned in it
     double sum = 0, changes = 0;  // N, of the present window: of forces, and of their changes
   };
-  static bool chatters(Force& force, double now);
+  static std::string unsteady(Force& force, double time, double now);
 
   const System* system_;
   std::vector<Force> force_;  // of each pair
