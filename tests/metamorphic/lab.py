@@ -9,7 +9,7 @@ import numpy as np
 import yaml
 
 ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_pml": "ob1",
+    "MALLOC_PERTURB_": "165", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_pml": "ob1",
     "OPENBLAS_NUM_THREADS": "1"
 }
 ALONE = {"OMPI_MCA_ess_singleton_isolated": "1"}  # a program that mpirun does not start waits for no daemon
