@@ -12,7 +12,7 @@ constexpr double kOrder = 2;                       // assumed, of stresses of 20
 constexpr double kAssumed = 3, kObserved = 1.25;   // factors of safety with an assumed order, an observed one
 constexpr double kLeastOrder = 1, kMostOrder = 4;  // other ones are those of meshes too coarse to tell
 
-// Eq. (10.13)
+// Eq. (10.15)
 double of_two_meshes(double change, double ratio) {
   return kAssumed * std::abs(change) / (std::pow(ratio, kOrder) - 1);
 }
@@ -22,7 +22,7 @@ double ratio_of_changes(double order, double coarse, double fine) {
   return std::pow(fine, order) * (std::pow(coarse, order) - 1) / (std::pow(fine, order) - 1);
 }
 
-// Eq. (10.14) by bisection; its left side ascends with the order.
+// Eq. (10.16) by bisection; its left side ascends with the order.
 double observed_order(double changes, double coarse, double fine) {
   double low = kLeastOrder, high = kMostOrder;
   for (int i = 0; i < 50; ++i)
@@ -47,7 +47,7 @@ double mesh_error(const std::vector<double>& value, const std::vector<double>& r
     const double order = std::min(kOrder, observed_order(changes, coarse, fine));
     return kObserved * std::abs(change) / (std::pow(fine, order) - 1);
   }
-  // Eq. (10.15)
+  // Eq. (10.17)
   return std::max(of_two_meshes(change, fine), of_two_meshes(before, coarse) / std::pow(fine, kOrder));
 }
 

@@ -1,4 +1,5 @@
-"""Reads what comments cite of docs/ and reports citations that lead nowhere, and equations that no code cites.
+"""Reads what comments cite of docs/ and reports citations that lead nowhere, numbers that two equations have, and equations that no
+code cites.
 
 An equation is cited as `Eq` with a dot and a number that stands in a \\tag of docs/theory, several as `Eqs`, a
 range by "to"; a section by its page (docs/theory for all chapters) and its number, or by its name where the page has no numbers.
@@ -59,6 +60,7 @@ def violations(repository):
             headings = HEADING.findall(equations_text if page == "docs/theory" else read(repository, place))
             found += [f"{path}: {place} has no section {s}" for s in sections
                       if s and not any(re.match(re.escape(s) + r"\b(?!\.)", heading) for heading in headings)]
+    found += [f"docs/theory numbers two equations ({t})" for t in sorted(set(tags)) if tags.count(t) > 1]
     found += [f"no code cites equation ({t})" for t in tags if t not in in_code and t not in NOT_IMPLEMENTED]
     return found + [f"equation ({t}) of NOT_IMPLEMENTED is cited" for t in NOT_IMPLEMENTED if t in in_code]
 

@@ -33,13 +33,16 @@ class CheckCitations(unittest.TestCase):
         expected = [f"no code cites equation ({number})" for number in missing]
         self.assertEqual(violations_of(comment, path), expected)
 
-    def assert_message(self, comment, message):
-        self.assertTrue(any(message in found for found in violations_of(comment)))
+    def assert_message(self, comment, message, path="src/a.cpp"):
+        self.assertTrue(any(message in found for found in violations_of(comment, path)))
 
     def test_one_several_and_ranges_are_read(self):
         self.assert_missing(f"// {EQ} (1.1)", "1.2", "1.2a")
         self.assert_missing(f"// {EQS} (1.1), (1.2) and (1.2a)")
         self.assert_missing(f"// {EQS} (1.1) to (1.2a)")
+
+    def test_a_number_that_two_equations_have_is_reported(self):
+        self.assert_message("\\tag{1.2}", "numbers two equations (1.2)", path="docs/theory/third.md")
 
     def test_citations_go_on_in_the_next_line(self):
         self.assert_missing(f"/// {EQS} (1.1),\n  /// (1.2)", "1.2a")

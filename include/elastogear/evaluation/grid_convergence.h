@@ -5,7 +5,7 @@
 
 namespace elastogear::evaluation {
 
-/// How far the last value is from that of infinitely fine meshes, Eq. (10.13) to (10.15): the Grid
+/// How far the last value is from that of infinitely fine meshes, Eq. (10.15) to (10.17): the Grid
 /// Convergence Index of ASME V&V 20. value: on at least two meshes, the coarsest first; refinement: their
 /// numbers of cells along a line, up to a factor that they share. Throws Error unless these ascend.
 double mesh_error(const std::vector<double>& value, const std::vector<double>& refinement);

@@ -131,7 +131,7 @@ bool ends_here(int mesh, double error, double accuracy, double seconds) {
   return reached || !obstacle.empty();
 }
 
-// Refines from size tiny on, Eq. (10.13) to (10.15). All meshes but the last have their files in folders.
+// Refines from size tiny on, Eq. (10.15) to (10.17). All meshes but the last have their files in folders.
 void run_accurately(const RunOnMesh& of, const Drive& drive, double accuracy) {
   std::vector<std::string> coarser;
   for (int mesh = 0; mesh < kMeshes; ++mesh) {
