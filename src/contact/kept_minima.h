@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "contact/forces/history.h"
 #include "contact/forces/least_gap.h"
-#include "contact/history.h"
 
 namespace elastogear::contact {
 

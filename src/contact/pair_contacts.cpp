@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "contact/faces/face_contacts.h"
-#include "contact/impacts.h"
+#include "contact/forces/impacts.h"
 #include "contact/pair_data.h"
 #include "contact/projection/edges.h"
 #include "contact/settings.h"

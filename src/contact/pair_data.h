@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "contact/forces/gap_minima.h"
-#include "contact/history.h"
+#include "contact/forces/history.h"
 #include "contact/kept_minima.h"
 #include "contact/projection/heights.h"
-#include "contact/reach.h"
+#include "contact/search/reach.h"
 #include "contact/search/tracker.h"
 #include "contact/valley.h"
 #include "elastogear/contact/pair.h"

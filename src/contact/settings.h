@@ -1,5 +1,5 @@
 #pragma once
-// Settings of a pair: checks of what the user gave, defaults, and the law of each node.
+// Settings of a pair: checks, defaults, and the law of each node.
 
 #include "contact/forces/law.h"
 #include "elastogear/contact/types.h"
@@ -10,11 +10,6 @@ namespace elastogear::contact {
 void validate(const Settings& settings);
 
 void validate(const FrictionSettings& settings);
-
-/// Throws Error naming surface a (0) or b (1).
-void validate(const model::Surface& surface, int side);
-void validate(const SurfaceState& state, const model::Surface& surface, int side);
-void validate(const SurfaceMotion& motion, const model::Surface& surface, int side);
 
 /// Fills in what is 0. Stiffness: that of contact/stiffness.h, one value for the whole pair, so that forces
 /// derive from a potential. Depth: half the smaller face size, skin: a quarter of it. With slave

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "dynamics/run.h"
-#include "dynamics/vec_view.h"
+#include "dynamics/integrator/vec_view.h"
+#include "dynamics/run/run.h"
 #include "elastogear/dynamics/generalized_alpha.h"
 
 namespace elastogear::dynamics {

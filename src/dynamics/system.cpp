@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "dynamics/contact/system_contact.h"
-#include "dynamics/integrator/low_rank_columns.h"
+#include "dynamics/contact/low_rank_columns.h"
+#include "dynamics/system_contact.h"
 #include "dynamics/system_relaxation.h"
 #include "elastogear/body/tangent.h"
 

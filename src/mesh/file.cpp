@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "elastogear/base/error.h"
-#include "mesh/inp/inp.h"
+#include "mesh/inp/lines/inp.h"
 #include "mesh/msh/msh.h"
 
 namespace elastogear::mesh {

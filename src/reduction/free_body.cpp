@@ -7,7 +7,7 @@
 
 #include "elastogear/base/error.h"
 #include "reduction/dense/dense_eigenproblem.h"
-#include "reduction/static_response/residual.h"
+#include "reduction/dense/residual.h"
 
 namespace elastogear::reduction {
 namespace {

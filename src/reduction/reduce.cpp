@@ -6,8 +6,8 @@
 #include "elastogear/fem/gather.h"
 #include "elastogear/fem/restraint.h"
 #include "reduction/basis.h"
-#include "reduction/reduce_job.h"
-#include "reduction/second_moments.h"
+#include "reduction/job/reduce_job.h"
+#include "reduction/job/second_moments.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -14,8 +14,8 @@
 #include "elastogear/reduction/eigenmodes.h"
 #include "elastogear/reduction/marker.h"
 #include "reduction/cyclic/body_repetition.h"
-#include "reduction/reduce_job.h"
-#include "reduction/surface.h"
+#include "reduction/job/reduce_job.h"
+#include "reduction/job/surface.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -15,12 +15,12 @@
 #include "reduction/cyclic/cyclic.h"
 #include "reduction/cyclic/cyclic_masses.h"
 #include "reduction/cyclic/harmonic_checkpoints.h"
+#include "reduction/dense/residual.h"
 #include "reduction/fingerprint.h"
+#include "reduction/job/reduce_job.h"
+#include "reduction/job/second_moments.h"
 #include "reduction/modes/mode_checkpoints.h"
-#include "reduction/reduce_job.h"
-#include "reduction/second_moments.h"
 #include "reduction/static_response/attachments.h"
-#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

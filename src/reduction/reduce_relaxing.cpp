@@ -4,8 +4,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/fem/relaxing_stiffness.h"
 #include "elastogear/fem/stress.h"
-#include "reduction/reduce_job.h"
-#include "reduction/waiting_modes.h"
+#include "reduction/job/reduce_job.h"
+#include "reduction/job/waiting_modes.h"
 
 namespace elastogear::reduction {
 namespace {

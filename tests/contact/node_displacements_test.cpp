@@ -1,6 +1,6 @@
 // Displacements as combinations of those of earlier stages: the rows of the basis are taken away, so that
 // only combinations can be right.
-#include "contact/node_displacements.h"
+#include "contact/search/node_displacements.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "contact/projection/closest_point.h"
-#include "contact/search/face_boxes.h"
+#include "contact/projection/face_boxes.h"
 #include "contact/search/neighbour_list.h"
 #include "elastogear/base/error.h"
 #include "elastogear/contact/deformation_bound.h"

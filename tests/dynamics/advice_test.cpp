@@ -9,7 +9,7 @@
 
 #include "../body/random_body.h"
 #include "box_body.h"
-#include "dynamics/snapshot.h"
+#include "dynamics/run/snapshot.h"
 
 namespace elastogear::advice_test {
 using namespace dynamics;

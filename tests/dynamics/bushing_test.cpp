@@ -8,7 +8,7 @@
 
 #include "../fem/brick.h"
 #include "box_body.h"
-#include "dynamics/snapshot.h"
+#include "dynamics/run/snapshot.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"
 #include "elastogear/base/rotation.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Bodies whose contact is the point of a test, and equilibria of their systems.
 
-#include "dynamics/snapshot.h"
+#include "dynamics/run/snapshot.h"
 
 namespace elastogear::test {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "box_body.h"
-#include "dynamics/snapshot.h"
+#include "dynamics/run/snapshot.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/dynamics/system.h"

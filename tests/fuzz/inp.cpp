@@ -1,5 +1,5 @@
 // The .inp reader on any bytes. What stands behind the first zero byte is the file part.inp.
-#include "mesh/inp/inp.h"
+#include "mesh/inp/lines/inp.h"
 #include <algorithm>
 
 #include "elastogear/base/error.h"

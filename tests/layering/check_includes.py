@@ -6,7 +6,7 @@
 3. A header in include/ is public: another module, an example or a study includes it, directly or by another public header.
    The Python module is a second program: it uses the headers of `app`.
 4. Units (a header with its source) include each other at most in twos: a larger ring is a knot.
-5. A folder of a module holds at most 20 files.
+5. Folders of a module include each other in one direction: no rings of folders. The public headers of a module are one folder.
 
 Usage: check_includes.py REPOSITORY
 """
@@ -29,7 +29,6 @@ RUNNING = {"body", "contact", "dynamics", "life", "recovery"}  # uses body files
 ROOTS = ("src", "include/elastogear")
 PROGRAMS = ("examples", "studies")  # use the library as programs outside the tree do
 API = ["dynamics/generalized_alpha.h"]  # a TS type for programs of others
-MOST_FILES = 20
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<][^">]+)[">]', re.MULTILINE)
 
 
@@ -123,39 +122,45 @@ def unit_of(path):
     return module_of(path) + "/" + os.path.splitext(os.path.basename(path))[0]
 
 
-def knots(includes):
-    """Rule 4: sets of units that reach each other, by Tarjan's algorithm."""
-    edges = {}
-    for path, headers in includes.items():
-        edges.setdefault(unit_of(path), set()).update(unit_of(header) for header in headers)
+def rings(edges):
+    """Sets of nodes that reach each other, by Tarjan's algorithm."""
     index, low, stack, found = {}, {}, [], []
 
-    def visit(unit):
-        index[unit] = low[unit] = len(index)
-        stack.append(unit)
-        for target in sorted(edges.get(unit, ())):
+    def visit(node):
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for target in sorted(edges.get(node, ())):
             if target not in index:
                 visit(target)
             if target in stack:
-                low[unit] = min(low[unit], low[target])
-        if low[unit] == index[unit]:
-            ring = stack[stack.index(unit):]
-            del stack[stack.index(unit):]
-            if len(ring) > 2:
-                found.append("a knot of includes: " + ", ".join(sorted(ring)))
+                low[node] = min(low[node], low[target])
+        if low[node] == index[node]:
+            found.append(sorted(stack[stack.index(node):]))
+            del stack[stack.index(node):]
 
-    for unit in sorted(edges):
-        if unit not in index:
-            visit(unit)
+    for node in sorted(edges):
+        if node not in index:
+            visit(node)
     return found
 
 
-def crowded_folders(repository):
+def edges_between(includes, name_of):
+    """Which nodes include which others, by the node that a path belongs to."""
+    edges = {}
+    for path, headers in includes.items():
+        edges.setdefault(name_of(path), set()).update(name_of(header) for header in headers)
+    return edges
+
+
+def knots(includes):
+    """Rule 4."""
+    return ["a knot of includes: " + ", ".join(ring) for ring in rings(edges_between(includes, unit_of)) if len(ring) > 2]
+
+
+def rings_of_folders(includes):
     """Rule 5."""
-    for root in ROOTS:
-        for folder, _, names in os.walk(os.path.join(repository, root)):
-            if len(names) > MOST_FILES:
-                yield f"{os.path.relpath(folder, repository)}: {len(names)} files, at most {MOST_FILES}"
+    return ["folders include each other: " + ", ".join(ring) for ring in rings(edges_between(includes, os.path.dirname))
+            if len(ring) > 1]
 
 
 def violations(repository):
@@ -166,7 +171,7 @@ def violations(repository):
 def all_violations(repository):
     includes = {path: read_includes(path, repository) for path in source_files(repository)}
     return [*forbidden_edges(includes), *needless_public_headers(includes, repository), *knots(includes),
-            *crowded_folders(repository)]
+            *rings_of_folders(includes)]
 
 
 if __name__ == "__main__":

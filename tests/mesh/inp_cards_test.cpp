@@ -1,6 +1,6 @@
 // Materials, restraint, included files and parts in .inp files.
-#include "mesh/inp/inp.h"
 #include "mesh/inp/inp_variant.h"
+#include "mesh/inp/lines/inp.h"
 #include "reader_test.h"
 
 namespace elastogear::inp_cards_test {

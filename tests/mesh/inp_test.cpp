@@ -1,4 +1,4 @@
-#include "mesh/inp/inp.h"
+#include "mesh/inp/lines/inp.h"
 #include "elastogear/mesh/quality.h"
 #include "mesh/inp/cards/collapsed.h"
 #include "reader_test.h"

@@ -6,7 +6,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/mesh/file.h"
-#include "mesh/inp/inp.h"
+#include "mesh/inp/lines/inp.h"
 #include "mesh/msh/msh.h"
 
 namespace elastogear::mesh_file_test {

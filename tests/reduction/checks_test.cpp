@@ -8,8 +8,8 @@
 
 #include "../fem/system.h"
 #include "reduction/basis.h"
+#include "reduction/job/surface.h"
 #include "reduction/modes/effective_mass.h"
-#include "reduction/surface.h"
 
 namespace elastogear::checks_test {
 namespace {

@@ -1,6 +1,6 @@
 // Responses by nested dissection beside those of dense inverses, with leaves so small that there are many
 // separators.
-#include "reduction/static_response/nested/nested_response.h"
+#include "reduction/static_response/nested_response.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@
 
 #include "../fem/system.h"
 #include "elastogear/base/error.h"
+#include "reduction/nested/dissection.h"
 #include "reduction/static_response/nested/directions.h"
-#include "reduction/static_response/nested/dissection.h"
 
 namespace elastogear::nested_response_test {
 namespace {

@@ -1,6 +1,6 @@
 // The states of relaxation between which static responses are interpolated, and the laws between them.
 
-#include "reduction/static_response/relaxed_states.h"
+#include "reduction/job/relaxed_states.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reduction/eigensolver/spectrum_slicing.h"
+#include "reduction/slepc/spectrum_slicing.h"
 #include "elastogear/reduction/eigenmodes.h"
 
 #include <gtest/gtest.h>

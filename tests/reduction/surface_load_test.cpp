@@ -5,7 +5,7 @@
 
 #include "../fem/brick.h"
 #include "elastogear/base/error.h"
-#include "reduction/surface.h"
+#include "reduction/job/surface.h"
 
 namespace elastogear::surface_load_test {
 namespace {

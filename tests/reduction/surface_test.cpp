@@ -1,4 +1,4 @@
-#include "reduction/surface.h"
+#include "reduction/job/surface.h"
 
 #include <gtest/gtest.h>
 

@@ -53,8 +53,8 @@ class ValidityGuard {
   std::vector<bool> too_fast_;  // pairs, said
 };
 
-/// Watches whether contact chatters or vibrates beyond the modes (docs/theory, section 6.11), of pairs without a
-/// penalty whose forces are solved for together with static responses.
+/// Watches whether contact chatters or vibrates beyond the modes (docs/theory, section 6.11), of pairs
+/// without a penalty whose forces are solved for together with static responses.
 class ChatterWatch {
  public:
   explicit ChatterWatch(const System& system);

@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include "app/console/plausibility.h"
-#include "app/drive_input.h"
-#include "app/evaluate/flank_material.h"
-#include "app/finite_elements.h"
 #include "app/gear/drive_options.h"
 #include "app/gear/misalignment.h"
 #include "app/gear/modification_options.h"
+#include "app/input/finite_elements.h"
 #include "app/options/rows.h"
+#include "app/setup/drive_input.h"
+#include "app/surface/flank_material.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/io/body_file.h"

@@ -6,8 +6,8 @@
 
 #include "app/console/console.h"
 #include "app/gear/drive_options.h"
+#include "app/input/length_unit.h"
 #include "app/options/rows.h"
-#include "app/tables/reduce_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/gear/cylindrical.h"
 #include "elastogear/gear/own_mesh.h"

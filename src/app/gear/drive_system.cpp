@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/column_table.h"
 #include "app/gear/drive_options.h"
+#include "app/input/column_table.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"

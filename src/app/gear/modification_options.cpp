@@ -8,8 +8,8 @@
 #include <set>
 #include <tuple>
 
-#include "app/column_table.h"
 #include "app/console/console.h"
+#include "app/input/column_table.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 

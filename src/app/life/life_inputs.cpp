@@ -6,9 +6,9 @@
 #include <fstream>
 #include <set>
 
-#include "app/drive_input.h"
-#include "app/finite_elements.h"
+#include "app/input/finite_elements.h"
 #include "app/options/units.h"
+#include "app/setup/drive_input.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <optional>
 
-#include "app/column_table.h"
 #include "app/gear/drive_options.h"
+#include "app/input/column_table.h"
 #include "app/options/rows.h"
 #include "app/options/units.h"
 #include "elastogear/base/error.h"

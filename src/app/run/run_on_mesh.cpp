@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "app/console/console.h"
-#include "app/drive_input.h"
 #include "app/evaluate/cases.h"
 #include "app/evaluate/evaluate_options.h"
-#include "app/verbs/verbs.h"
+#include "app/options/verbs.h"
+#include "app/setup/drive_input.h"
 #include "elastogear/base/collectively.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/petsc.h"

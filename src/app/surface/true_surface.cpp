@@ -7,11 +7,11 @@
 #include <limits>
 #include <map>
 
-#include "app/column_table.h"
 #include "app/console/console.h"
 #include "app/gear/design_options.h"
 #include "app/gear/drive_options.h"
 #include "app/gear/modification_options.h"
+#include "app/input/column_table.h"
 #include "app/surface/exact_flanks.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"

@@ -5,7 +5,7 @@
 
 #include "app/gear/drive.h"
 #include "app/options/options.h"
-#include "app/system_setup.h"
+#include "app/setup/system_setup.h"
 #include "elastogear/dynamics/sweep.h"
 
 namespace elastogear::app {

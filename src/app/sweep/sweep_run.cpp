@@ -8,9 +8,9 @@
 
 #include "app/console/console.h"
 #include "app/console/outputs.h"
-#include "app/drive_input.h"
 #include "app/gear/worm_options.h"
-#include "app/resumable_run.h"
+#include "app/setup/drive_input.h"
+#include "app/setup/resumable_run.h"
 #include "app/sweep/sweep_cases.h"
 #include "app/sweep/sweep_options.h"
 #include "app/sweep/sweep_results.h"

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "app/console/console.h"
-#include "app/evaluate/flank_material.h"
 #include "app/options/rows.h"
+#include "app/surface/flank_material.h"
 #include "app/surface/true_surface.h"
 #include "app/tables/initial_state.h"
 #include "app/tables/marker_options.h"

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "app/console/console.h"
-#include "app/master_curve.h"
+#include "app/input/master_curve.h"
 #include "app/options/rows.h"
 #include "elastogear/base/error.h"
 

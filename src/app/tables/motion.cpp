@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/column_table.h"
+#include "app/input/column_table.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/number.h"
 

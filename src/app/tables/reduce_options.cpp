@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/input/length_unit.h"
 #include "app/options/rows.h"
 #include "app/tables/basis_options.h"
 #include "app/tables/material_options.h"
@@ -155,29 +156,6 @@ OptionTable reduce_table() {
   for (const OptionTable& more : {basis_table(), material_table()})
     table.insert(table.end(), more.begin(), more.end());
   return table;
-}
-
-namespace {
-
-double unit_of_option(const Options& options, const std::string& name) {
-  constexpr double kLengths[] = {1, 1e-3, 1e-6, 25.4e-3};
-  return kLengths[options.choice(name, {"m", "mm", "um", "in"})];
-}
-
-}  // namespace
-
-double unit_in_m(const Options& options) { return unit_of_option(options, "unit"); }
-
-double unit_in_m(const Options& options, const std::string& gear) {
-  for (const std::string& name : {gear + "_unit", std::string("unit")})
-    if (options.given(name)) return unit_of_option(options, name);
-  return 1;
-}
-
-void require_consistent_unit(const Options& options, const std::string& what) {
-  const std::string unit = options.text("unit");
-  require(unit == "m" || unit == "mm", options.label("unit"), " = '", unit, "': ", what,
-          " go with lengths in m or mm, in N and s; with others nobody knows their unit");
 }
 
 ReductionOptions reduction_options(const Options& options) {

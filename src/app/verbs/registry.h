@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/verbs/verbs.h"
+#include "app/options/verbs.h"
 
 namespace elastogear::app {
 

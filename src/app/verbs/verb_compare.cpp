@@ -7,7 +7,7 @@
 #include "app/compare/compare_stress.h"
 #include "app/console/console.h"
 #include "app/console/outputs.h"
-#include "app/verbs/verbs.h"
+#include "app/options/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/io/describe.h"
 

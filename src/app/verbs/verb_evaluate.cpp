@@ -12,7 +12,7 @@
 #include "app/evaluate/evaluate_tables.h"
 #include "app/evaluate/mesh_errors.h"
 #include "app/gear/drive_options.h"
-#include "app/verbs/verbs.h"
+#include "app/options/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "app/verbs/verbs.h"
+#include "app/options/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/io/describe.h"

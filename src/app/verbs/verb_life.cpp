@@ -6,7 +6,7 @@
 #include "app/console/outputs.h"
 #include "app/gear/drive_options.h"
 #include "app/life/life_of_set.h"
-#include "app/verbs/verbs.h"
+#include "app/options/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 

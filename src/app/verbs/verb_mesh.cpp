@@ -8,7 +8,7 @@
 #include "app/gear/design_options.h"
 #include "app/gear/drawing.h"
 #include "app/gear/drive_options.h"
-#include "app/verbs/verbs.h"
+#include "app/options/verbs.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/gear/wheel.h"

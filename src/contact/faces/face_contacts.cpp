@@ -8,7 +8,7 @@
 #include "contact/faces/second_order.h"
 #include "contact/faces/weighted_candidates.h"
 #include "contact/faces/weighted_gap.h"
-#include "contact/impacts.h"
+#include "contact/forces/impacts.h"
 #include "elastogear/base/sort_unique.h"
 
 namespace elastogear::contact {

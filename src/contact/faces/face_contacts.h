@@ -8,7 +8,7 @@
 
 #include "contact/faces/weighted_gap.h"
 #include "contact/forces/gap_minima.h"
-#include "contact/history.h"
+#include "contact/forces/history.h"
 
 namespace elastogear::contact {
 

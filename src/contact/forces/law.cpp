@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/projection/surface_boundary.h"
+#include "contact/forces/surface_boundary.h"
 #include "elastogear/base/rotation.h"
 
 namespace elastogear::contact {

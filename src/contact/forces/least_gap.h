@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact/forces/slave_point.h"
-#include "contact/reach.h"
+#include "contact/search/reach.h"
 
 namespace elastogear::contact {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/search/face_boxes.h"
+#include "contact/projection/face_boxes.h"
 
 namespace elastogear::contact {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "contact/settings.h"
+#include "contact/search/surface_checks.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/sort_unique.h"
 

@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "contact/node_displacements.h"
+#include "contact/projection/face_boxes.h"
 #include "contact/projection/projection.h"
 #include "contact/search/coarse_search.h"
-#include "contact/search/face_boxes.h"
 #include "contact/search/neighbour_list.h"
+#include "contact/search/node_displacements.h"
 #include "elastogear/base/archive.h"
 #include "elastogear/contact/deformation_bound.h"
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "contact/search/tracker.h"
-#include "contact/settings.h"
 #include "elastogear/base/rotation.h"
 
 namespace elastogear::contact {

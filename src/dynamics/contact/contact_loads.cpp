@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "dynamics/integrator/low_rank_columns.h"
+#include "dynamics/contact/low_rank_columns.h"
 #include "elastogear/base/sort_unique.h"
 
 namespace elastogear::dynamics {

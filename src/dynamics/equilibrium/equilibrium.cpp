@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/vec_view.h"
+#include "dynamics/integrator/vec_view.h"
 #include "elastogear/base/error.h"
 #include "elastogear/contact/pair.h"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dynamics/equilibrium/equilibrium.h"
-#include "dynamics/run.h"
-#include "dynamics/vec_view.h"
+#include "dynamics/integrator/vec_view.h"
+#include "dynamics/run/run.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {

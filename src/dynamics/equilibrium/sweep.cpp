@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "dynamics/equilibrium/equilibrium.h"
-#include "dynamics/run.h"
-#include "dynamics/vec_view.h"
+#include "dynamics/integrator/vec_view.h"
+#include "dynamics/run/run.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/dynamics/static.h"

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "dynamics/contact/low_rank_columns.h"
 #include "dynamics/integrator/gmres.h"
-#include "dynamics/integrator/low_rank_columns.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {

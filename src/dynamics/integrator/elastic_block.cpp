@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/rigid_fields.h"
-#include "dynamics/vec_view.h"
+#include "dynamics/integrator/rigid_fields.h"
+#include "dynamics/integrator/vec_view.h"
 #include "elastogear/base/error.h"
 #include "elastogear/body/tangent.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "dynamics/integrator/low_rank_columns.h"
+#include "dynamics/contact/low_rank_columns.h"
 #include "elastogear/body/deformed_inertia.h"
 
 namespace elastogear::dynamics {

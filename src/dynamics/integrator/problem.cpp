@@ -1,6 +1,6 @@
 #include "dynamics/integrator/problem.h"
 
-#include "dynamics/vec_view.h"
+#include "dynamics/integrator/vec_view.h"
 #include "elastogear/base/error.h"
 
 namespace elastogear::dynamics {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "dynamics/rigid_fields.h"
+#include "dynamics/integrator/rigid_fields.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/rotation.h"
 #include "elastogear/body/deformed_inertia.h"

@@ -12,8 +12,8 @@
 #include "mesh/inp/cards/collapsed.h"
 #include "mesh/inp/cards/materials.h"
 #include "mesh/inp/cards/others.h"
-#include "mesh/inp/inp_sets.h"
-#include "mesh/raw_mesh.h"
+#include "mesh/inp/lines/inp_sets.h"
+#include "mesh/raw/raw_mesh.h"
 
 namespace elastogear::mesh {
 

@@ -5,12 +5,12 @@
 
 #include "elastogear/base/file.h"
 #include "elastogear/base/sort_unique.h"
-#include "mesh/inp/cards/generate.h"
-#include "mesh/inp/inp.h"
+#include "mesh/inp/generate.h"
 #include "mesh/inp/inp_deck.h"
 #include "mesh/inp/inp_format.h"
-#include "mesh/inp/inp_lines.h"
 #include "mesh/inp/inp_variant.h"
+#include "mesh/inp/lines/inp.h"
+#include "mesh/inp/lines/inp_lines.h"
 
 namespace elastogear::mesh {
 namespace {

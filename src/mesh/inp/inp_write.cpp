@@ -3,10 +3,10 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/file.h"
 #include "elastogear/base/number.h"
-#include "mesh/face_owner.h"
-#include "mesh/inp/inp.h"
 #include "mesh/inp/inp_format.h"
-#include "mesh/inp/inp_lines.h"
+#include "mesh/inp/lines/inp.h"
+#include "mesh/inp/lines/inp_lines.h"
+#include "mesh/raw/face_owner.h"
 
 namespace elastogear::mesh {
 namespace {

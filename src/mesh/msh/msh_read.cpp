@@ -3,11 +3,11 @@
 
 #include "elastogear/base/file.h"
 #include "elastogear/base/sort_unique.h"
-#include "mesh/face_owner.h"
 #include "mesh/msh/msh.h"
 #include "mesh/msh/msh_format.h"
 #include "mesh/msh/msh_scanner.h"
-#include "mesh/raw_mesh.h"
+#include "mesh/raw/face_owner.h"
+#include "mesh/raw/raw_mesh.h"
 
 namespace elastogear::mesh {
 namespace {

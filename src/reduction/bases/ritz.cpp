@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "reduction/dense/dense_eigenproblem.h"
+#include "reduction/dense/residual.h"
 #include "reduction/eigensolver/krylov_basis.h"
-#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

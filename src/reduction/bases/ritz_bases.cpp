@@ -6,8 +6,8 @@
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 #include "elastogear/fem/assembly.h"
+#include "reduction/dense/residual.h"
 #include "reduction/eigensolver/factorisation.h"
-#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "elastogear/base/broadcast.h"
 #include "elastogear/reduction/surface_load.h"
-#include "reduction/surface.h"
+#include "reduction/job/surface.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "elastogear/reduction/completeness.h"
 #include "reduction/bases/ritz_bases.h"
-#include "reduction/reduce_job.h"
+#include "reduction/job/reduce_job.h"
 
 namespace elastogear::reduction {
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
+#include "reduction/dense/residual.h"
 #include "reduction/eigensolver/krylov_basis.h"
 #include "reduction/eigensolver/window_size.h"
-#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

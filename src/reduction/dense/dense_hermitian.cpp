@@ -7,7 +7,7 @@
 #include <complex>
 
 #include "elastogear/base/error.h"
-#include "reduction/static_response/residual.h"
+#include "reduction/dense/residual.h"
 
 // PETSc declares the routines of real numbers alone.
 // NOLINTBEGIN(readability-identifier-naming): the names are LAPACK's

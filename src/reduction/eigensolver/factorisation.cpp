@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "elastogear/base/error.h"
+#include "reduction/dense/residual.h"
 #include "reduction/eigensolver/ordering.h"
-#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

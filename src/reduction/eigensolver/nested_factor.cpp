@@ -5,8 +5,8 @@
 
 #include "reduction/dense/dense_blas.h"
 #include "reduction/dense/dense_inverse.h"
-#include "reduction/static_response/nested/csr_view.h"
-#include "reduction/static_response/residual.h"
+#include "reduction/dense/residual.h"
+#include "reduction/nested/csr_view.h"
 
 namespace elastogear::reduction {
 namespace {

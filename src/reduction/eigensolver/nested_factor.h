@@ -10,8 +10,8 @@
 #include "reduction/eigensolver/factorisation.h"
 #include "reduction/eigensolver/shifted_solver.h"
 #include "reduction/eigensolver/tall_basis.h"
-#include "reduction/static_response/nested/elimination_tree.h"
-#include "reduction/static_response/nested/front.h"
+#include "reduction/nested/elimination_tree.h"
+#include "reduction/nested/front.h"
 
 namespace elastogear::reduction {
 

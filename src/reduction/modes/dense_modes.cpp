@@ -9,7 +9,7 @@
 #include "elastogear/base/error.h"
 #include "elastogear/fem/gather.h"
 #include "reduction/dense/dense_eigenproblem.h"
-#include "reduction/static_response/residual.h"
+#include "reduction/dense/residual.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/block_lanczos.h"
+#include "reduction/dense/residual.h"
 #include "reduction/eigensolver/factorisation.h"
 #include "reduction/modes/dense_modes.h"
-#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

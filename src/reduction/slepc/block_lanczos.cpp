@@ -9,9 +9,9 @@
 
 #include "elastogear/base/error.h"
 #include "elastogear/reduction/block_lanczos.h"
-#include "reduction/eigensolver/spectrum_slicing.h"
 #include "reduction/slepc/ldl_preconditioner.h"
 #include "reduction/slepc/slab_vectors.h"
+#include "reduction/slepc/spectrum_slicing.h"
 
 namespace elastogear::reduction {
 namespace {

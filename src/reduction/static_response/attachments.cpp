@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "reduction/dense/residual.h"
 #include "reduction/eigensolver/factorisation.h"
-#include "reduction/second_moments.h"
+#include "reduction/job/second_moments.h"
 #include "reduction/static_response/inertia_relief.h"
-#include "reduction/static_response/residual.h"
 #include "reduction/static_response/whole_body_solver.h"
 
 namespace elastogear::reduction {

@@ -3,8 +3,8 @@
 // columns of the basis, Eq. (2.24). By them markers move under forces anywhere as in the whole body, Eq.
 // (2.25).
 
-#include "reduction/reduce_job.h"
-#include "reduction/waiting_modes.h"
+#include "reduction/job/reduce_job.h"
+#include "reduction/job/waiting_modes.h"
 
 namespace elastogear::reduction {
 

@@ -14,7 +14,7 @@
 #include "elastogear/base/error.h"
 #include "reduction/static_response/independent_rows.h"
 #include "reduction/static_response/inertia_relief.h"
-#include "reduction/static_response/nested/nested_response.h"
+#include "reduction/static_response/nested_response.h"
 
 namespace elastogear::reduction {
 namespace {

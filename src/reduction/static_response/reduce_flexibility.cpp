@@ -1,7 +1,7 @@
 #include <optional>
 #include <utility>
 
-#include "reduction/reduce_job.h"
+#include "reduction/job/reduce_job.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "elastogear/mesh/file.h"
 #include "mesh/inp/cards/transform.h"
-#include "mesh/inp/inp_notes.h"
+#include "mesh/inp/lines/inp_notes.h"
 
 namespace elastogear::mesh {
 

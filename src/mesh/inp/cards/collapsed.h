@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/raw_mesh.h"
+#include "mesh/raw/raw_mesh.h"
 
 namespace elastogear::mesh {
 

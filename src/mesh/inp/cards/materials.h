@@ -7,9 +7,9 @@
 
 #include "elastogear/mesh/mesh.h"
 #include "elastogear/model/material.h"
-#include "mesh/inp/inp_lines.h"
-#include "mesh/inp/inp_notes.h"
-#include "mesh/inp/inp_sets.h"
+#include "mesh/inp/lines/inp_lines.h"
+#include "mesh/inp/lines/inp_notes.h"
+#include "mesh/inp/lines/inp_sets.h"
 
 namespace elastogear::mesh {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "mesh/face_owner.h"
 #include "mesh/inp/cards/boundary.h"
+#include "mesh/raw/face_owner.h"
 
 namespace elastogear::mesh {
 namespace {

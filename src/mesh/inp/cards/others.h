@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "elastogear/mesh/read_report.h"
-#include "mesh/inp/inp_notes.h"
-#include "mesh/inp/inp_sets.h"
+#include "mesh/inp/lines/inp_notes.h"
+#include "mesh/inp/lines/inp_sets.h"
 
 namespace elastogear::mesh {
 

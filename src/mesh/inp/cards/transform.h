@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "elastogear/mesh/hold.h"
-#include "mesh/inp/inp_lines.h"
-#include "mesh/inp/inp_sets.h"
+#include "mesh/inp/lines/inp_lines.h"
+#include "mesh/inp/lines/inp_sets.h"
 
 namespace elastogear::mesh {
 

@@ -10,7 +10,7 @@
 #include "elastogear/base/rotation.h"
 #include "reduction/dense/dense_blas.h"
 #include "reduction/dense/dense_hermitian.h"
-#include "reduction/static_response/residual.h"
+#include "reduction/dense/residual.h"
 
 namespace elastogear::reduction {
 namespace {

@@ -5,7 +5,7 @@
 #include "elastogear/fem/sector_assembly.h"
 #include "reduction/cyclic/condensed_sector.h"
 #include "reduction/cyclic/responses/wanted_rows.h"
-#include "reduction/static_response/nested/nested_response.h"
+#include "reduction/static_response/nested_response.h"
 
 namespace elastogear::reduction {
 

@@ -19,7 +19,7 @@
 #include "reduction/cyclic/responses/wanted_rows.h"
 #include "reduction/static_response/independent_rows.h"
 #include "reduction/static_response/inertia_relief.h"
-#include "reduction/static_response/nested/nested_response.h"
+#include "reduction/static_response/nested_response.h"
 
 namespace elastogear::reduction {
 namespace {

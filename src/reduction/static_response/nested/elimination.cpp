@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "reduction/dense/dense_blas.h"
+#include "reduction/dense/residual.h"
 #include "reduction/eigensolver/factorisation.h"
-#include "reduction/static_response/nested/csr_view.h"
+#include "reduction/nested/csr_view.h"
+#include "reduction/nested/elimination_tree.h"
+#include "reduction/nested/front.h"
 #include "reduction/static_response/nested/directions.h"
-#include "reduction/static_response/nested/elimination_tree.h"
-#include "reduction/static_response/nested/front.h"
-#include "reduction/static_response/residual.h"
 
 namespace elastogear::reduction {
 namespace {

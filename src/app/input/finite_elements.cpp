@@ -1,0 +1,72 @@
+#include "app/input/finite_elements.h"
+
+#include <memory>
+#include <utility>
+
+#include "elastogear/fem/stress.h"
+#include "elastogear/mesh/surface_patches.h"
+#include "elastogear/reduction/static_response.h"
+#include "elastogear/reduction/stressed_body.h"
+
+namespace elastogear::app {
+namespace {
+
+recovery::UnreducedResponse unreduced_response(const io::BodySource& source, bool floating) {
+  const auto factor = std::make_shared<reduction::StaticResponse>(source, floating);
+  return {[factor](const std::vector<int>& loaded, const Eigen::MatrixXd& f) {
+            return factor->displacement(loaded, f);
+          },
+          [factor](const std::vector<int>& loaded, const std::vector<int>& evaluated) {
+            return factor->stress(loaded, evaluated);
+          }};
+}
+
+Eigen::MatrixXd nodal_stress(const io::BodySource& source, const Eigen::VectorXd& u) {
+  return fem::nodal_stress(reduction::stressed_body(source), u);
+}
+
+std::vector<int> node_regions(const io::BodySource& source) {
+  return fem::stress_regions(source.mesh, source.regions);
+}
+
+// Bodies whose stresses are means do not keep the nodes that are loaded.
+model::SparseRows recovery_difference(const io::BodySource& source, const std::vector<int>& loaded,
+                                      const std::vector<int>& nodes) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
+  return fem::recovery_difference(std::move(body), nodes);
+}
+
+model::SparseRows difference_within_surface(const io::BodySource& source, const std::vector<int>& loaded,
+                                            const std::vector<int>& nodes) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
+  return fem::difference_within_surface(std::move(body), nodes);
+}
+
+model::SparseRows stress_operator(const io::BodySource& source, const std::vector<int>& nodes) {
+  return fem::stress_operator(reduction::stressed_body(source), nodes);
+}
+
+Eigen::MatrixXd stress_difference(const io::BodySource& source, const std::vector<int>& loaded,
+                                  const Eigen::VectorXd& u) {
+  fem::StressedBody body = reduction::stressed_body(source);
+  if (body.recovery.method == model::RecoveryMethod::average) body.recovery.loaded = loaded;
+  body.recovery.method = model::RecoveryMethod::surface;
+  const Eigen::MatrixXd recovered = fem::nodal_stress(body, u);
+  body.recovery.method = model::RecoveryMethod::average;
+  return recovered - fem::nodal_stress(body, u);
+}
+
+recovery::SurfacePatches surface_patches(const io::BodySource& source, const std::vector<int>& nodes) {
+  return {mesh::surface_patches(source.mesh, nodes), mesh::cell_orders(source.mesh, nodes)};
+}
+
+}  // namespace
+
+recovery::FiniteElements finite_elements() {
+  return {unreduced_response,        nodal_stress,    node_regions,      recovery_difference,
+          difference_within_surface, stress_operator, stress_difference, surface_patches};
+}
+
+}  // namespace elastogear::app

@@ -1,0 +1,139 @@
+#include "app/setup/drive_input.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/console/console.h"
+#include "app/gear/cylindrical_options.h"
+#include "app/gear/design_options.h"
+#include "app/gear/worm_options.h"
+#include "app/options/input_differences.h"
+#include "app/options/verbs.h"
+#include "app/setup/resumable_run.h"
+#include "app/tables/reduce_options.h"
+#include "elastogear/base/error.h"
+#include "elastogear/base/file.h"
+#include "elastogear/base/number.h"
+#include "elastogear/base/text.h"
+#include "elastogear/io/describe.h"
+
+namespace elastogear::app {
+namespace {
+
+using Provenance = std::map<std::string, std::string>;
+
+// Options of reduce on which its bodies do not depend: files, and how the modes are found.
+constexpr const char* kOfReduceAlone[] = {"mesh",         "nodes",  "unit",    "output",
+                                          "completeness", "window", "symmetry"};
+
+bool is_of_reduction(const std::string& name) {
+  static const OptionTable table = reduce_table();
+  if (name == "eps_nev" || name == "eps_interval") return true;  // SLEPc's names of modes
+  return has(table, name) &&
+         std::find(std::begin(kOfReduceAlone), std::end(kOfReduceAlone), name) == std::end(kOfReduceAlone);
+}
+
+bool is_mesh_density(const std::string& name) {
+  return name == "size" || name == "element_order" || name == "refinement";
+}
+
+// Options that say what the gears are and where: all verbs derive them anew.
+bool is_of_design(const std::string& name) {
+  static const OptionTable tables[] = {cylindrical_table(), worm_table(), table_of(design_rows())};
+  if (name == "drive" || name == "gears") return true;
+  if (name == "part" || name == "mesh" || is_mesh_density(name)) return false;
+  return std::any_of(std::begin(tables), std::end(tables),
+                     [&](const auto& table) { return has(table, name); });
+}
+
+Weight weight_for_bodies(const std::string& name) {
+  if (is_of_design(name)) return Weight::always;
+  return is_of_reduction(name) || is_mesh_density(name) ? Weight::of_files : Weight::none;
+}
+
+// Of gears' own sections, too: "pinion_modes".
+bool is_of_a_body(const Options& options, const std::string& name) {
+  if (is_of_reduction(name)) return true;
+  const std::vector<std::string> gears = options.list("gears");
+  return std::any_of(gears.begin(), gears.end(), [&](const std::string& gear) {
+    return name.starts_with(gear + "_") && is_of_reduction(name.substr(gear.size() + 1));
+  });
+}
+
+Weight weight_for_results(const Options& of_simulate, const std::string& name) {
+  if (is_of_design(name)) return Weight::always;
+  const bool is_body_file = name.ends_with("_file") && name != "initial_file";  // by the identities of bodies
+  if (!affects_results(name) || is_body_file) return Weight::none;
+  return is_of_a_body(of_simulate, name) || of_simulate.is_own(name) ? Weight::of_files : Weight::none;
+}
+
+bool is_of_a_drive(const Provenance& provenance) { return provenance.contains("option_drive"); }
+
+std::string command_of(const Options& options, const std::string& verb) {
+  std::string text = "elastogear " + verb;
+  for (const std::string& file : options.files()) text.append(" ").append(file);
+  return text;
+}
+
+// "-side coast -torque 300" with what the file was made of.
+std::string as_options(const std::vector<InputDifference>& differences) {
+  std::string text;
+  for (const InputDifference& d : differences) {
+    const std::string value = d.there.substr(0, d.there.find(' '));
+    if (d.allowed || (value != d.there && !parse<double>(value))) continue;
+    text += " -" + d.name + " " + (value == d.there ? value : '"' + d.there + '"');
+  }
+  return text;
+}
+
+// A command line of reduce that departs from the drive file is not forgotten.
+void print_departures(const std::string& body, const std::vector<InputDifference>& differences) {
+  std::string text;
+  for (const InputDifference& d : differences)
+    if (d.allowed) text += (text.empty() ? "" : "; ") + d.name + " " + d.there + " for " + d.here;
+  if (!text.empty())
+    print_item("body " + body, "by the command line of reduce " + text + " of the drive file");
+}
+
+void require_body(const Options& of_reduce, const DriveMember& member) {
+  const std::string file = body_file(of_reduce, member);
+  if (!is_file(file)) return;  // reading it says what is missing
+  const Provenance provenance = io::read_provenance(file);
+  if (!is_of_a_drive(provenance)) return;
+  const auto differences = [&] {
+    const Silence silence;
+    return input_differences(member_options(of_reduce, member), provenance, [&](const std::string& name) {
+      // simulate takes damping of the gear's own section in place of the body's.
+      const bool replaced = name.starts_with("damping_") && of_reduce.given(member.name + "_" + name);
+      return replaced ? Weight::none : weight_for_bodies(name);
+    });
+  }();
+  const std::string refused = refused_text(differences);
+  require(refused.empty(), file, ": is not the body of ", member.name, " in this drive: ", refused,
+          ". Make it anew by '", command_of(of_reduce, "reduce"),
+          "', or give the drive what the body was made of");
+  print_departures(member.name, differences);
+}
+
+}  // namespace
+
+void require_bodies(const Options& options, const Drive& drive) {
+  const Options of_reduce = options.of_verb("reduce", reduce_verb().table);
+  for (const DriveMember& member : drive.members) require_body(of_reduce, member);
+}
+
+void require_input(const Options& options, const std::string& file) {
+  const Provenance provenance = io::read_provenance(file);
+  if (!is_of_a_drive(provenance)) return;
+  const Options of_simulate = options.of_verb("simulate", simulate_verb().table);
+  const auto differences = input_differences(of_simulate, provenance, [&](const std::string& name) {
+    const bool places_flanks = name == "side" && options.verb() == "evaluate";
+    return places_flanks ? Weight::always : weight_for_results(of_simulate, name);
+  });
+  const std::string refused = refused_text(differences), given = as_options(differences);
+  require(refused.empty(), file, ": is not that of the run that this drive describes: ", refused,
+          ". Make it anew by '", command_of(options, "simulate"), "', after reduce where bodies differ",
+          given.empty() ? "" : ", or give " + options.verb() + " the option" + given);
+}
+
+}  // namespace elastogear::app
