@@ -1,8 +1,8 @@
 #pragma once
-// Points of least gap that come and go while contact forces are solved for: where lines of contact run over
-// faces that deform under the forces, a minimum that bears one may vanish by it. Such points stay where they
-// were, as further points that must not enter the master (docs/theory, section 6.12). In a step of the
-// impact law all points stand (section 6.15).
+// Local minimum-gap points that open and close by turns while contact forces are solved for: where lines of
+// contact run over faces that deform under the forces, a minimum that bears one may vanish by it. Such points
+// stay where they were, as further points that must not enter the master (docs/theory, section 6.12). In a
+// step of the impact law all points stand (section 6.15).
 
 #include <map>
 #include <vector>
@@ -21,7 +21,7 @@ struct KeptMinimum {
 /// Of one slave surface, by number; those that stay have numbers of their own.
 using KeptMinima = std::map<int, KeptMinimum>;
 
-/// Keeps those of `minima` that bear a force, p > 0, in `contacts` of the same slave side.
+/// Keeps those of `minima` that carry a force, p > 0, in `contacts` of the same slave side.
 void keep_loaded(const std::vector<ContactPoint>& contacts, int slave_side,
                  const std::vector<Minimum>& minima, KeptMinima& kept);
 

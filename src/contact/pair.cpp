@@ -93,7 +93,7 @@ void Pair::Data::keep_stuck() {
   tracker.keep(std::move(corners));
 }
 
-// Keeps the points of least gap of an accepted step for the next one, where the law is that of impacts.
+// Keeps the local minimum-gap points of an accepted step for the next one, where the law is that of impacts.
 void Pair::Data::stand() {
   for (int slave : {0, 1})
     if (history[slave].step)

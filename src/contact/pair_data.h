@@ -1,6 +1,6 @@
 #pragma once
-// The data of a contact pair, and the functions that find its contacts: at nodes and points of least gap of
-// each slave in its own pass, or integrated over the faces of one slave.
+// The data of a contact pair, and the functions that find its contacts: at nodes and local minimum-gap points
+// of each slave in its own pass, or integrated over the faces of one slave.
 
 #include <array>
 #include <map>

@@ -203,8 +203,8 @@ double System::unclosed() const { return contact_->unclosed(); }
 void System::augment() { contact_->augment(); }
 void System::stiffen(double factor) { contact_->stiffen(factor); }
 void System::set_forces(const std::vector<PairContacts>& pairs) { contact_->set_forces(pairs); }
-void System::let_move(double unbalanced) { contact_->let_move(unbalanced); }
-void System::seek_rest(double tolerance) { contact_->seek_rest(tolerance); }
+void System::set_force_tolerance(double unbalanced) { contact_->set_force_tolerance(unbalanced); }
+void System::begin_equilibrium_search(double tolerance) { contact_->begin_equilibrium_search(tolerance); }
 bool System::release_points() { return contact_->release_points(); }
 bool System::change_closed() { return contact_->change_closed(); }
 bool System::had_impulse() const { return contact_->had_impulse(); }
@@ -219,7 +219,7 @@ void System::begin_step(double dt, double alpha_f) {
   if (any_augmented()) contact_->begin_step(dt, alpha_f);
 }
 
-void System::let_relax(double dt) {
+void System::advance_relaxation(double dt) {
   relaxation_->begin_step(dt, 1);
   contact_->forget();
 }

@@ -11,7 +11,7 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr int kFreeTrials = 3;  // of contact forces before points that come and go are kept
+constexpr int kFreeTrials = 3;  // of contact forces before points that open and close by turns are kept
 
 // Those of a system touch at stations together, as their forces depend on each other.
 bool uses_stations(const SystemModel& model) {
@@ -255,10 +255,10 @@ double SystemContact::friction_loss_of_responses() {
   return then.empty() ? 0 : -residual_contact_.work(then, history_.friction);
 }
 
-void SystemContact::seek_rest(double tolerance) {
+void SystemContact::begin_equilibrium_search(double tolerance) {
   residual_contact_.ask_forces(0);
   if (remembers_forces()) return;
-  if (residual_contact_.seek_rest(tolerance)) forget();
+  if (residual_contact_.begin_equilibrium_search(tolerance)) forget();
 }
 
 bool SystemContact::release_points() {

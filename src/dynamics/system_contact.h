@@ -55,8 +55,8 @@ class SystemContact {
   bool had_impulse() const { return history_.impulse; }
   bool had_impulse_before() const { return history_.impulse_before; }
 
-  void let_move(double unbalanced) { residual_contact_.ask_forces(unbalanced); }
-  void seek_rest(double tolerance);
+  void set_force_tolerance(double unbalanced) { residual_contact_.ask_forces(unbalanced); }
+  void begin_equilibrium_search(double tolerance);
   bool release_points();
   /// Whether evaluations from now on follow the contacts of the last one wherever bodies go, and miss new
   /// ones.

@@ -64,7 +64,7 @@ struct StressError {
 /// numbers in the body's stress.node.
 Eigen::MatrixXd upper_modes_stress(const model::ElasticBody& body, const std::vector<int>& members);
 
-/// Eqs. (4.6) to (4.9), and Eq. (4.12b) of bodies that relax. upper: upper_modes_stress at the n nodes. The
+/// Eqs. (4.6) to (4.9), and Eq. (4.12b) of viscoelastic bodies. upper: upper_modes_stress at the n nodes. The
 /// body's basis is modal.
 StressError reduction_error(const model::ElasticBody& body, const Eigen::Ref<const Eigen::MatrixXd>& upper,
                             const SplitCoordinates& coordinates, const RecoveredStress& recovered);

@@ -18,7 +18,7 @@ Eigen::MatrixXd dynamic_part(const model::ElasticBody& body, const Eigen::Matrix
 /// q_d without the static response to loads at markers, of a body that has attachment modes: Eq. (4.3b).
 Eigen::MatrixXd without_marker_loads(const model::ElasticBody& body, const Eigen::MatrixXd& q_d);
 
-/// What is dynamic in the coordinates of a body that relaxes, n_q x n_t: its instantaneous response to the
+/// What is dynamic in the coordinates of a viscoelastic body, n_q x n_t: its instantaneous response to the
 /// forces of inertia. q_d: its coordinates without their instantaneous response to the contact forces; w:
 /// n_q n_p x n_t. Eq. (4.12a).
 Eigen::MatrixXd inertial_part(const model::ElasticBody& body, const Eigen::MatrixXd& q_d,

@@ -135,7 +135,7 @@ void recover_times(SetOfBody& set, Range times, io::StressSet& result) {
   if (set.estimates) result.peak_error.segment(times.begin, times.count) = peaks.whole_error();
 }
 
-// Prepares estimates where errors can be told: the full basis leaves nothing out, and of bodies that relax
+// Prepares estimates where errors can be told: the full basis leaves nothing out, and of viscoelastic bodies
 // without residual flexibility the static response is not known.
 void prepare_errors(SetOfBody& set, io::StressSet& result) {
   const Eigen::Index n = result.von_mises.rows(), n_t = result.von_mises.cols();

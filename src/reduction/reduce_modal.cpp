@@ -318,7 +318,7 @@ Eigenmodes find_modes_of_sectors(Job& job, HarmonicCheckpoints& checkpoints,
   return find_cyclic_eigenmodes(job.comm, {body, job.plan.repetition}, options, keep, job.progress);
 }
 
-// From one sector of a body that repeats.
+// From one sector of a cyclically symmetric body.
 void reduce_sectors(Job& job) {
   job.begin_stage("eigenmodes");
   HarmonicCheckpoints checkpoints(job.comm, job.output + ".partial", fingerprint_of_sectors(job));

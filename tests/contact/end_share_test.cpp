@@ -1,4 +1,4 @@
-// The share of a force that is left over an open end of the master.
+// The share of a force that is left over a free boundary of the master.
 #include <gtest/gtest.h>
 
 #include "elastogear/contact/face.h"

@@ -158,7 +158,7 @@ TEST(Pair, forces_and_moments_on_both_sides_balance) {
   EXPECT_LT(moment.norm(), 1e-13 * size);
 }
 
-// All contact forces derive from the contact energy: over faces, ridges, valleys and open ends alike.
+// All contact forces derive from the contact energy: over faces, ridges, valleys and free boundaries alike.
 TEST(Pair, forces_are_the_slope_of_the_energy) {
   Random random(5);
   const model::Surface a = test::flipped(wavy(9, 0.05, 1)), b = wavy(8, 0.05, 0);
@@ -235,7 +235,7 @@ TEST(Pair, offset_is_added_to_every_gap) {
     }
 }
 
-// A punch flush with the master: every node lies on an edge or an open end.
+// A punch flush with the master: every node lies on an edge or a free boundary.
 TEST(Pair, flat_punch_on_a_conforming_mesh_has_every_node_in_contact) {
   Random random(6);
   const model::Surface master = test::plane(6, 6), punch = test::flipped(master);

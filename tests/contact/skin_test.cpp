@@ -159,7 +159,7 @@ TEST(Skin, way_of_a_deformed_surface_is_bounded) {
   EXPECT_GT(largest_share, 0.3);
 }
 
-// Faces have extensions at the open ends of the patch.
+// Faces have extensions at the free boundaries of the patch.
 TEST(Skin, boxes_around_faces_are_no_farther_than_these) {
   constexpr double kExtension = 0.3;
   Random random(7);

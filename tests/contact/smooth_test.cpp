@@ -37,7 +37,7 @@ double height_error(const model::Surface& s, int facets) {
     const Face face = face_of(view(s, map), f);
     const Vector3d centre = combine(face, shape(face.sides, 0.2, 0.2).N);
     const double phi = std::abs(std::atan2(centre.x(), centre.z()));
-    if (phi > 0.5 * kSpan - 1.2 * kSpan / facets) continue;  // at open ends the normals are one-sided
+    if (phi > 0.5 * kSpan - 1.2 * kSpan / facets) continue;  // at free boundaries the normals are one-sided
     for (double t : {0.2, 0.4, 0.7}) {
       const double u = face.sides == 4 ? 2 * t - 1 : t / 2, v = face.sides == 4 ? 0.3 : t / 3;
       const Vector3d x = combine(face, shape(face.sides, u, v).N);

@@ -173,7 +173,7 @@ TEST(CreepHistory, of_forces_that_wander_is_the_sum_over_all_nodes) {
     EXPECT_LT((state.force.middleCols(n * a, n) - all.state(a)).norm(), kRoundoff * all.state(a).norm()) << a;
 }
 
-// In a body that relaxes in one ratio no node lags farther than the product of all lags says, nor has it
+// In a viscoelastic body in one ratio no node lags farther than the product of all lags says, nor has it
 // changed by more since the point before.
 TEST(CreepHistory, bounds_how_far_nodes_lag) {
   const Ring ring({law({0.2, 0.2, 0.1})}, VectorXd::Ones(1));

@@ -84,7 +84,7 @@ TEST(ResidualContact, equilibrium_is_that_of_the_full_basis) {
   }
 }
 
-// Friction and the open ends of the surfaces give forces and couples beside those of the facets.
+// Friction and the free boundaries of the surfaces give forces and couples beside those of the facets.
 TEST(ResidualContact, forces_at_the_nodes_are_those_that_bend_the_bodies) {
   for (Kind kind : {Kind::modal, Kind::flexible, Kind::full})
     for (double mu : {0.0, 0.3}) {

@@ -52,7 +52,7 @@ struct Options {
   bool unilateral = false;
   bool impact = false;                               // in a step of bodies without residual flexibility
   bool sticks = false;                               // friction, since the state at the start
-  double extension = contact::Settings{}.extension;  // 0: without forces that push nodes off open ends
+  double extension = contact::Settings{}.extension;  // 0: without forces that push nodes off free boundaries
 };
 
 // Two hinged boxes, end against end, tilted a little, 0.02 deep in each other.

@@ -108,7 +108,7 @@ TEST(Unilateral, equilibrium_with_two_passes_lets_no_node_through) {
   for (const auto& contact : found.pairs[0].contacts) EXPECT_GT(contact.f.norm(), 0);
 }
 
-// By how much of the forces another look at the surfaces, in the same state, changes them.
+// By how much of the forces another contact detection, in the same state, changes them.
 double change_by_another_look(System& system, double time, const Eigen::VectorXd& U) {
   const Eigen::VectorXd V = Eigen::VectorXd::Zero(U.size());
   const auto forces = [&](const Eigen::VectorXd& velocity) {

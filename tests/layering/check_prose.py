@@ -1,5 +1,5 @@
 """Reads the documents and reports words of a private vocabulary, sentences that are too long, and lines that are too wide. Of the
-program's sources it reads the texts in quotation marks, for the words.
+program's sources it reads the texts in quotation marks, for the words, and the comments, for some of them.
 
 A sentence counts code, formulas, links and references to literature as few words, as one reads them. Tables, code and
 headings are no prose. Usage: check_prose.py REPOSITORY [PAGE ...], where pages are shown with all their long sentences.
@@ -11,30 +11,32 @@ import sys
 
 PAGES = ("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/*/*.md")
 MEDIAN, LONGEST, WIDTH = 20, 45, 120  # words, words, characters
-SAY = {  # what is not said, and the field's word
-    r"(a|another|more|fewer|each|less) looks?\b(?! at (the )?(page|picture|table|file))": "contact detection",
+IN_COMMENTS = {  # what is not said, and the field's word
     r"looks? at the surfaces": "contact detection",
     r"come into touch|came into touch": "new contacts",
     r"com(e|es|ing) and go(es|ing)?\b|to and fro": "chattering of the active set",
     r"points? of least gap": "local minimum-gap points",
-    r"forces (do not )?turn at once": "rotation of contact forces: coupled, frozen",
     r"states? of rest\b": "static equilibria",
-    r"\bbears?\b": "is loaded, active, carries",
-    r"what is left\b(?! out)": "residual",
-    r"(is|are|was|were) told\b(?! apart)|tells? of\b": "is reported",
     r"open ends?\b": "free boundary",
     r"deep within each other|deep in each other": "penetrate",
     r"flank approach|local approach": "local contact compliance",
-    r"read off a drive": "results of a drive",
-    r"\b(in|within) (a )?windows?\b|windows? of (modes|the s)": "interval of the spectrum",
-    r"part by part": "nested dissection",
     r"bod(y|ies) that repeats?|repeating bod(y|ies)": "cyclically symmetric bodies",
     r"\bbod(y|ies) that relax(es)?\b(?! in one)|relaxing bod(y|ies)": "viscoelastic bodies",
     r"contacts go that pull|that would be entered": "active-set update",
-    r"come together": "converge",
     r"softer contact": "a smaller `contact_stiffness`",
 }
-SOURCES = ("src/**/*.cpp", "src/**/*.h")
+SAY = IN_COMMENTS | {  # the same, of documents and messages
+    r"(a|another|more|fewer|each|less) looks?\b(?! at (the )?(page|picture|table|file))": "contact detection",
+    r"forces (do not )?turn at once": "rotation of contact forces: coupled, frozen",
+    r"\bbears?\b": "is loaded, active, carries",
+    r"what is left\b(?! out)": "residual",
+    r"(is|are|was|were) told\b(?! apart)|tells? of\b": "is reported",
+    r"read off a drive": "results of a drive",
+    r"\b(in|within) (a )?windows?\b|windows? of (modes|the s)": "interval of the spectrum",
+    r"part by part": "nested dissection",
+    r"come together": "converge",
+}
+SOURCES = ("src/**/*.cpp", "src/**/*.h", "include/**/*.h")
 LITERAL = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')  # with those that follow, which are one text
 REFERENCE = re.compile(r"\([^()]*\((?:18|19|20)\d\d\)[^()]*\)")
 ABBREVIATION = re.compile(r"(?:(?<!\d )\b[A-Z]|\b(?:Eqs?|Fig|Figs|Tab|No|vol|pp|ed|et al|e\.g|i\.e|cf|Int|Numer|Meth|Eng|Engng|Comput|Appl|Mech|Soc|Chem|Am))\.$")
@@ -95,6 +97,14 @@ def messages(source):
             for found in re.finditer(pattern, text, re.IGNORECASE)]
 
 
+def comments(source):
+    """What the comments of a source say in other words than the field's."""
+    blocks = re.findall(r"(?:^[^\n\"]*?//[^\n]*\n)+", source, re.MULTILINE)
+    said = [" ".join(" ".join(re.findall(r"//[/<!]*(.*)", block)).split()) for block in blocks]
+    return [f'"{found[0]}" in a comment, {text[:60]} ...: say {better}' for text in said for pattern, better in IN_COMMENTS.items()
+            for found in re.finditer(pattern, text, re.IGNORECASE)]
+
+
 def wide(text):
     text = re.sub(r"^```.*?^```|\$\$.*?\$\$", "", text, flags=re.MULTILINE | re.DOTALL)
     return [line for line in text.split("\n") if len(re.sub(r"`[^`]*`", "", line)) > WIDTH and is_prose(line) and "](" not in line]
@@ -114,7 +124,8 @@ def check(repository):
     pages = [path for pattern in PAGES for path in sorted(pathlib.Path(repository).glob(pattern))]
     found = [(path, complaint) for path in pages for complaint in violations(path.read_text(encoding="utf-8"))]
     sources = [path for pattern in SOURCES for path in sorted(pathlib.Path(repository).glob(pattern))]
-    found += [(path, complaint) for path in sources for complaint in messages(path.read_text(encoding="utf-8"))]
+    found += [(path, complaint) for path in sources for of in (messages, comments)
+              for complaint in of(path.read_text(encoding="utf-8"))]
     return [f"{path.relative_to(repository)}: {complaint}" for path, complaint in found]
 
 

@@ -32,6 +32,10 @@ class Prose(unittest.TestCase):
         self.assertEqual(len(check_prose.messages(source)), 1)
         self.assertIn("contact_stiffness", check_prose.messages(source)[0])
 
+    def test_words_of_contact_are_found_in_comments_across_lines(self):
+        found = check_prose.comments("// Nodes at points\n/// of least gap.\nint n;  // an open end\nint bears;  // what is left\n")
+        self.assertEqual([text.split('"')[1] for text in found], ["points of least gap", "open end"])
+
     def test_long_sentences_are_found(self):
         self.assert_found(f"{SHORT}\n{of(46)}.\n", "a sentence of 46 words")
         self.assert_found(f"{SHORT}\n{of(23)}. {of(23)}.\n")

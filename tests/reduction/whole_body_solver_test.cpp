@@ -1,4 +1,4 @@
-// Displacements of bodies that repeat by the factors of their harmonics against those by one factor.
+// Displacements of cyclically symmetric bodies by the factors of their harmonics against those by one factor.
 
 #include "reduction/static_response/whole_body_solver.h"
 

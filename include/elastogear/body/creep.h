@@ -16,10 +16,10 @@ namespace elastogear::body {
 using CreepState = Eigen::Matrix3Xd;
 using CreepColumns = Eigen::Ref<const Eigen::Matrix3Xd>;
 
-/// The n_laws series by which the residual displacement of a body creeps, one in a body that relaxes in one
+/// The n_laws series by which the residual displacement of a body creeps, one in a viscoelastic body in one
 /// ratio everywhere; none: not at all.
 std::vector<RelaxationLaw> creep_laws(const model::ElasticBody& body);
-/// C, (1 + n_laws) square, of a body that relaxes in different ratios: R_k of the states (R_0 first) give
+/// C, (1 + n_laws) square, of a viscoelastic body in different ratios: R_k of the states (R_0 first) give
 /// D_j = sum_k C_kj R_k. Eq. (2.23).
 Eigen::MatrixXd creep_coefficients(const model::Flexibility& flexibility);
 /// K_r of a state in which the share gamma_p of each part is gone, K_r - sum_p gamma_p K_p.

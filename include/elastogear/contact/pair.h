@@ -47,19 +47,19 @@ class Pair {
   /// m, in its BRF, of a node that a contact of the last detect (by motion) names; residual included.
   Eigen::Vector3d position(int side, int node) const;
 
-  /// Points of least gap without a penalty: of motions that differ little from one at which all that can
+  /// Local minimum-gap points without a penalty: of motions that differ little from one at which all that can
   /// touch was looked at the same points touch. From now on detect by motion follows them to where the gap is
   /// least, as long as that is sure.
   void follow_points();
   /// The next call of detect by motion looks at all that can touch.
   void look_at_all();
   /// Whether detect by motion follows points wherever bodies have gone since all was looked at, as long as
-  /// these are found and the nodes that could touch then are those that can now. What has come into touch
+  /// these are found and the nodes that could touch then are those that can now. What has touched
   /// since is missed.
   void follow_far(bool far);
 
-  /// Points of least gap that bear a force here are also found where they are no minima any more, at their
-  /// last places, until they are released: they are kept from entering like all points of the slave.
+  /// Local minimum-gap points that carry a force here are also found where they are no minima any more, at
+  /// their last places, until they are released: they are kept from entering like all points of the slave.
   void keep_minima(const std::vector<ContactPoint>& contacts);
   /// Returns whether any is no minimum any more.
   bool release_minima();
@@ -78,7 +78,7 @@ class Pair {
   void set_masses(int side, const Eigen::VectorXd& mass);
   /// Augmented law, of bodies in motion: detect finds the forces of this step from now on.
   void begin_step(const ImpactStep& step);
-  /// Lets contacts go that pull, and holds those that would be entered, at the end of the step. contacts:
+  /// Updates the active set of contacts, at the end of the step. contacts:
   /// that solve it with those held so far. Returns whether anything has changed.
   bool change_closed(const std::vector<ContactPoint>& contacts);
   /// The contacts that solve the step; null where it is not solved. From now on detect finds them with their

@@ -168,7 +168,7 @@ struct ContactPoint {
   double energy = 0;          ///< J, c_p g_n^2 / 2 and that of the tangential spring
   double power = 0;           ///< W, taken by damping
   double friction_power = 0;  ///< W, taken by friction
-  double fade = 1;            ///< -, share of the force that is left over an open end
+  double fade = 1;            ///< -, share of the force that is left over a free boundary
   double excess_rate = 0;     ///< m/s, of an impact: of the gap at the end of the step, beyond the least
   double work = 0;  ///< J, taken since the last accepted step by friction that sticks, and by impacts
   Eigen::Vector3d slip =

@@ -30,7 +30,7 @@ struct PairContacts {
   std::vector<contact::ContactPoint> points;
 };
 
-/// Loads of the n stations of exact flanks that bear a force, of all pairs (docs/theory, section 6.18).
+/// Loads of the n stations of exact flanks that carry a force, of all pairs (docs/theory, section 6.18).
 struct StationLoads {
   /// 3 nodes x n of each body, BRF: forces of 1 N of each station on the nodes of its NodalForces.
   std::vector<Eigen::SparseMatrix<double>> body = {};

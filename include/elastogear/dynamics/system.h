@@ -84,15 +84,15 @@ class System {
   void stiffen(double factor);
   /// Gives the contacts these forces back.
   void set_forces(const std::vector<PairContacts>& pairs);
-  /// From here on, until seek_rest is called, states are those of a motion in which forces may be unbalanced
-  /// by this share of them: those of contacts without a penalty need be no more exact. 0: they are as
-  /// elsewhere.
-  void let_move(double unbalanced);
-  /// From here on states are those of iterations towards a state of rest: forces of contacts without a
+  /// From here on, until begin_equilibrium_search is called, states are those of a motion in which forces may
+  /// be unbalanced by this share of them: those of contacts without a penalty need be no more exact. 0: they
+  /// are as elsewhere.
+  void set_force_tolerance(double unbalanced);
+  /// From here on states are those of iterations towards a static equilibrium: forces of contacts without a
   /// penalty need be no more exact than this share of them. 0: they no longer are.
-  void seek_rest(double tolerance);
-  /// Points of least gap that stay where a former evaluation of this time found them need no longer stay.
-  /// Returns whether there are any, so that forces may be others.
+  void begin_equilibrium_search(double tolerance);
+  /// Local minimum-gap points that stay where a former evaluation of this time found them need no longer
+  /// stay. Returns whether there are any, so that forces may be others.
   bool release_points();
   /// Do materials relax with time, see Environment::moduli?
   bool relaxes_in_time() const;
@@ -110,15 +110,15 @@ class System {
   void end_step(bool solved, double delivered);
   /// From here on states are those at rest at the end of a time dt (s) after the last accepted one, in which
   /// materials relax. Only where they do with time.
-  void let_relax(double dt);
+  void advance_relaxation(double dt);
   /// What a body remembers, with its deformation, of the last accepted state.
   model::RelaxedState relaxed_state(std::size_t b) const;
   /// Was there an impulse in the last step, or the one before it? It lasts for a step only.
   bool had_impulse() const;
   bool had_impulse_before() const;
   /// To be called once for the initial state and after every accepted step: what sticks now does so from
-  /// here, and the energy that contact has taken is added up. Where the state is not observed, what has come
-  /// into touch since the last stage may be missed, which the next stage finds.
+  /// here, and the energy that contact has taken is added up. Where the state is not observed, new
+  /// contacts since the last stage may be missed, which the next stage finds.
   void accept(const State& x, bool is_observed = true);
   /// J, taken by damping and friction of contact up to the last accepted state.
   double contact_loss() const;

@@ -43,7 +43,7 @@ struct Environment {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s^2, in W
   double gravity_rise = 0;  ///< s, from time 0 on, within which gravity grows from zero
   body::Moduli moduli =
-      body::Moduli::relaxing;  ///< of viscoelastic materials; states of rest have no history
+      body::Moduli::relaxing;  ///< of viscoelastic materials; static equilibria have no history
 };
 double gravity_share(const Environment& environment, double time);  ///< 0..1, of its gravity
 Eigen::Vector3d gravity(const Environment& environment, double time);

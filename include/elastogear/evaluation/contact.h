@@ -62,10 +62,11 @@ struct ToothPairs {
 inline constexpr double kBears = 1e-3;  ///< smallest share of a pair of teeth that counts as in contact
 ToothPairs tooth_pairs(const ContactHistory& contacts);
 
-/// Operating contact ratio: mean number of pairs of teeth that bear.
+/// Operating contact ratio: mean number of pairs of loaded teeth.
 double contact_ratio(const ToothPairs& pairs);
 
-/// The side of a gear's teeth (+1 left, -1 right) that bears most over the run, g: 0 or 1; 0 where none does.
+/// The side of a gear's teeth (+1 left, -1 right) that carries most over the run, g: 0 or 1; 0 where none
+/// does.
 int loaded_side(const ContactHistory& contacts, int g);
 
 }  // namespace elastogear::evaluation

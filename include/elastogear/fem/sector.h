@@ -1,5 +1,5 @@
 #pragma once
-// One sector of a body that repeats Z times around an axis, and displacements of one harmonic on it
+// One sector of a cyclically symmetric body of Z sectors, and displacements of one harmonic on it
 // (docs/theory, section 2.6).
 
 #include <mpi.h>

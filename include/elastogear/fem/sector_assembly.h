@@ -1,5 +1,5 @@
 #pragma once
-// Stiffness and mass of one harmonic of a body that repeats around an axis, from one sector's elements.
+// Stiffness and mass of one harmonic of a cyclically symmetric body, from one sector's elements.
 
 #include <utility>
 

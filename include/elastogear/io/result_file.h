@@ -104,8 +104,8 @@ BodyHistory read_body_history(const std::string& path, const std::string& body);
 BodyHistory read_joint_history(const std::string& path, const std::string& body);
 /// Contact forces on a body with this surface, over all output times. Files of version 1 and 2 hold contact
 /// points only: forces are taken to act along the facets' shape functions, without the couples of smoothed
-/// surfaces and the forces at their open ends. Error when a node or face is named that the surface does not
-/// have.
+/// surfaces and the forces at their free boundaries. Error when a node or face is named that the surface does
+/// not have.
 model::ForceHistory read_contact_forces(const std::string& path, const std::string& body,
                                         const model::Surface& surface);
 PairHistory read_pair_history(const std::string& path, const std::string& pair);

@@ -47,10 +47,10 @@ struct Flexibility {
   Eigen::MatrixXf G;            ///< 6 n_r x 3 n_orbits, Pa/N, order xx yy zz xy yz xz; or empty. Below it as
                                 ///< many rows of each of the relaxed states
   std::function<Eigen::MatrixXf(int orbit)> read_F = {};  ///< ... reads the three columns of an orbit
-  /// Of a body that relaxes in one ratio everywhere: its relaxing part, by whose series what the modes leave
+  /// Of a viscoelastic body in one ratio everywhere: its relaxing part, by whose series what the modes leave
   /// out creeps; otherwise -1.
   int creep = -1;
-  std::vector<RelaxedResponse> relaxed = {};  ///< n_s states of a body that relaxes in different ratios,
+  std::vector<RelaxedResponse> relaxed = {};  ///< n_s states of a viscoelastic body in different ratios,
   Eigen::MatrixXd law = {};                   ///< n_s x n_p, and mu_jp of the laws between them. Eq. (2.22)
 
   bool empty() const { return node.empty(); }

@@ -34,7 +34,8 @@ struct EigenOptions {
   bool verify_count = true;  ///< compare the number of modes with the inertia of K - sigma M
   /// All modes in it, in place of the n_modes lowest.
   std::optional<Interval> interval = {};
-  /// > 0: block Lanczos in windows of about so many modes; kAutomaticWindow; 0: Krylov-Schur, all at once.
+  /// > 0: block Lanczos in intervals of about so many modes; kAutomaticWindow; 0: Krylov-Schur, all
+  /// at once.
   int window = 0;
   int block = 0;             ///< right-hand sides that go through the factor together; 0: automatic
   double counted_below = 0;  ///< rad^2/s^2, known to have n_modes eigenvalues below (windows); 0: unknown

@@ -10,7 +10,7 @@
 
 namespace elastogear::reduction {
 
-/// Factorises K of the whole body, once, on this process alone; of a held body that repeats around an axis
+/// Factorises K of the whole body, once, on this process alone; of a held cyclically symmetric body
 /// the stiffness of its harmonics, anew in each call and one after the other, which takes less memory
 /// (docs/theory, section 4.1). Nodes are mesh numbers; forces on restrained nodes do nothing.
 class StaticResponse {

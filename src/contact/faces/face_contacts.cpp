@@ -130,7 +130,7 @@ std::vector<SlaveFace> slave_faces(const GapField& field, const SecondOrder& sec
   return found;
 }
 
-// The weighted gaps of these nodes that are within the reach or bear a force, still without points.
+// The weighted gaps of these nodes that are within the reach or carry a force, still without points.
 std::map<int, WeightedGap> weighted_gaps(const GapField& field, const std::vector<int>& nodes,
                                          const std::vector<SlaveFace>& faces,
                                          const std::map<int, double>& given) {

@@ -10,7 +10,7 @@ bool on_extension(const Projection& projection);
 
 /// The projection of a slave point at x (m) on the face `before` that it was on, where a smooth surface goes
 /// on from there to `now` and the point is hardly past that face; otherwise `now`. Points at an edge then do
-/// not pass to and fro. The nodes of that face must be placed.
+/// not jump between faces. The nodes of that face must be placed.
 Projection kept_projection(const MasterSide& master, const Projection& now, const Eigen::Vector3d& x,
                            int before);
 

@@ -13,12 +13,12 @@
 
 namespace elastogear::contact {
 
-/// Where and how fast a gap was, and the share of forces that was left there over an open end.
+/// Where and how fast a gap was, and the share of forces that was left there over a free boundary.
 struct GapRate {
   double gap, rate, fade;  ///< m, m/s, -
 };
 
-/// A point of a slave face that may bear a force in a step, and a face of the master near it.
+/// A point of a slave face that may carry a force in a step, and a face of the master near it.
 struct StandingPoint {
   int face;
   Eigen::Vector2d at;   ///< (u, v) of the face: where the gap was least after the last accepted step
@@ -40,7 +40,7 @@ struct History {
   std::set<int> closed = {};             ///< points whose rate is held in this step
   std::map<int, GapRate> start = {};     ///< after the last accepted step, of points that are near
   std::map<int, GapRate> near = {};      ///< of the last look between steps
-  std::map<int, StandingPoint> standing = {};  ///< points of least gap, of an impact law
+  std::map<int, StandingPoint> standing = {};  ///< local minimum-gap points, of an impact law
 };
 using Histories = std::array<History, 2>;  ///< of both surfaces
 

@@ -26,7 +26,8 @@ Impact impact_of(const History& history, int point, const Law& law) {
   impact.d = kBound * law.mass / step.dt;
   impact.stiffened = impact.d / (step.dt * law.c_p);
   impact.p_held = law.p_given;
-  if (start != history.start.end())  // over an open end points may come from the side, with an entered gap
+  if (start !=
+      history.start.end())  // over a free boundary points may come from the side, with an entered gap
     impact.p_held +=
         impact.stiffened * (1 - start->second.fade) * (law.p_given - law.c_p * start->second.gap);
   impact.alpha_f = step.alpha_f;

@@ -10,9 +10,9 @@ namespace elastogear::contact {
 
 /// Gives the law of a point, complete but for these, its force or what it takes from the start of the step.
 void set_given(const History& history, int point, Law& law);
-/// Holds the points that bear a force, and those that come to be entered.
+/// Holds the points that carry a force, and those that come to be entered.
 void begin_step(History& history, const ImpactStep& step);
-/// Lets points go that pull, and holds those that would be entered, at the end of a step. contacts: that
+/// Updates the active set of points, at the end of a step. contacts: that
 /// solve it with the points held so far. Returns whether anything has changed.
 bool change_closed(Histories& histories, const std::vector<ContactPoint>& contacts);
 /// Between two steps of an impact law: keeps gaps and rates, and takes the points without a force out.

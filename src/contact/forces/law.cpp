@@ -212,8 +212,8 @@ FadingEnergy fading_energy(const Law& law, const ProjectionKinematics& kinematic
           weight * parts.p * parts.p_v};
 }
 
-// w / (w + s (1 - w)) of the share w that is left over an open end: with it the stiffness s c_p closes gaps
-// up to the compliance (1 / w - 1) / c_p, as d of an impact does where s = d / (c_p dt).
+// w / (w + s (1 - w)) of the share w that is left over a free boundary: with it the stiffness s c_p closes
+// gaps up to the compliance (1 / w - 1) / c_p, as d of an impact does where s = d / (c_p dt).
 FaceFunction fade_of(const Law& law, const FaceFunction& w) {
   if (law.impact && !law.impact->in_step) return {1};  // the whole force is given
   const double s = law.impact ? law.impact->stiffened : law.stiffened, sum = w.f + s * (1 - w.f);

@@ -9,7 +9,7 @@
 
 namespace elastogear::contact {
 
-/// Corners of the boxes with the extensions of open ends, m, by face, in the frame of the surface.
+/// Corners of the boxes with the extensions of free boundaries, m, by face, in the frame of the surface.
 struct FaceBoxes {
   Eigen::Matrix3Xd low, high;
 };

@@ -26,7 +26,7 @@ constexpr double kTurningTolerance = 1e-10;  // of forces that turn as gaps clos
 constexpr double kTurningShare = 0.01;       // of the tolerance of contact forces, of those that turn
 constexpr double kFirstRate = 1e-3;          // by which a first change of forces is expected to fall
 constexpr double kBend = 0.1;     // and by this times itself, where points move and forces turn with it
-constexpr int kFullTrials = 12;   // before they go half of the way, as nodes pass to and fro between faces
+constexpr int kFullTrials = 12;   // before they go half of the way, as nodes jump between faces
 constexpr int kMostTrials = 40;   // until they fit
 constexpr int kMostHalvings = 5;  // of the way to the next trial, while it would be worse
 
@@ -49,8 +49,8 @@ NodalForces sum(const NodalForces& a, double share_a, const NodalForces& b, doub
 NodalForces mean(const NodalForces& a, const NodalForces& b, double share) {
   return sum(a, share, b, 1 - share);
 }
-// Without the nodes that bear no force, unless they are among `before`: which contacts are closed changes to
-// and fro, and a new set of nodes costs more than a few zeros.
+// Without the nodes that carry no force, unless they are among `before`: the active set
+// alternates, and a new set of nodes costs more than a few zeros.
 NodalForces loaded(const NodalForces& all, const std::vector<int>& before) {
   constexpr std::size_t kMostZeros = 3;  // nodes kept for each one loaded
   NodalForces result;
@@ -69,8 +69,8 @@ NodalForces loaded(const NodalForces& all, const std::vector<int>& before) {
 
 NodalForces difference(const NodalForces& a, const NodalForces& b) { return sum(a, 1, b, -1); }
 
-// Forces of points of least gap turn as these move, far on flat gaps: Newton's method of the system, whose
-// tangent is that of settled points, needs them more exactly. asked: by that method.
+// Forces of local minimum-gap points turn as these move, far on flat gaps: Newton's method of the system,
+// whose tangent is that of settled points, needs them more exactly. asked: by that method.
 double tolerance(const ContactState& state, ForceAccuracy accuracy, double asked) {
   if (accuracy == ForceAccuracy::observed) return std::max(kObservedTolerance, asked);
   const auto moves = [](const contact::ContactPoint& point) {
@@ -312,7 +312,7 @@ void ResidualContact::accept(double time) {
     if (flexibility) flexibility->accept();
 }
 
-bool ResidualContact::seek_rest(double tolerance) {
+bool ResidualContact::begin_equilibrium_search(double tolerance) {
   sought_ = tolerance;
   return expected_ > std::max(tolerance, kMovingTolerance);
 }

@@ -14,7 +14,7 @@
 namespace elastogear::dynamics {
 
 /// How exact forces without a penalty are: as all forces in balance are, for states that are solved for; or
-/// as results are read, for others, which takes fewer looks at the surfaces.
+/// as results are read, for others, which takes fewer contact detections.
 enum class ForceAccuracy { balanced, observed };
 
 class ResidualContact {
@@ -58,8 +58,8 @@ class ResidualContact {
   void accept(double time);
   /// Tolerance of forces in what follows, where it is above that which they have without.
   void ask_forces(double tolerance) { asked_ = tolerance; }
-  /// See System::seek_rest. Returns whether forces must be more exact than before.
-  bool seek_rest(double tolerance);
+  /// See System::begin_equilibrium_search. Returns whether forces must be more exact than before.
+  bool begin_equilibrium_search(double tolerance);
   /// Does the residual displacement of a body creep, whatever the moduli are?
   bool creeps(std::size_t b) const { return has_flexibility(b) && flexibility_[b]->is_viscoelastic(); }
   /// From here on its states are at this point of a step.

@@ -112,7 +112,7 @@ const Eigen::Matrix3d& ResidualFlexibility::block(Row& row, int a, int number) {
   return R;
 }
 
-// Blocks D_j(a, b) of a body that relaxes in different ratios. Eq. (2.23).
+// Blocks D_j(a, b) of a viscoelastic body in different ratios. Eq. (2.23).
 ResidualFlexibility::Blocks ResidualFlexibility::creep_blocks(int a, const Loaded& b,
                                                               const Eigen::Matrix3d& R_0) const {
   Blocks D = Blocks::Zero(3, 3 * laws().size());
@@ -249,7 +249,7 @@ double ResidualFlexibility::growth(const Eigen::VectorXd& before) const {
   return most;
 }
 
-// |D(a, :) h|^2 <= |D(a, a)| h'D h in a body that relaxes in one ratio, whose D = R_0 is positive
+// |D(a, :) h|^2 <= |D(a, a)| h'D h in a viscoelastic body in one ratio, whose D = R_0 is positive
 // semidefinite. In others the D_j are not: twice the largest lag of the nodes that have been loaded stands
 // for it, because what modes leave out is largest under the forces.
 double ResidualFlexibility::set_point(body::Moduli moduli, const body::StepPoint& at) {

@@ -76,7 +76,7 @@ class ResidualFlexibility {
     std::vector<Eigen::Matrix3d> R;  // R_0(a, b) by the number of b; not yet known: NaN
     std::vector<Blocks> D = {};      // D_j(a, b) of all laws, where that is not R_0; not yet known: empty
   };
-  struct Bearing {  // a node that bears a force
+  struct Bearing {  // a node that carries a force
     int number;
     Eigen::Vector3d f;
   };

@@ -102,7 +102,7 @@ VectorXd UnilateralForces::gaps() const {
   return q;
 }
 
-// Contacts that bear a force are likely to stay closed; before the first solution those that have been
+// Contacts that carry a force are likely to stay closed; before the first solution those that have been
 // entered are, too.
 std::vector<bool> UnilateralForces::likely() const {
   const bool first = z_ == z_found_;
@@ -207,7 +207,7 @@ void UnilateralForces::turn(const VectorXd& all) {
   }
 }
 
-void UnilateralForces::do_not_turn() {
+void UnilateralForces::freeze_directions() {
   for (Body& body : bodies_) body.turned.setZero();
   for (std::size_t c = 0; c < contacts_.size(); ++c) moved_[c] = {Along::Zero(contacts_[c].point->k.rows())};
 }
@@ -236,7 +236,7 @@ bool UnilateralForces::turn_step_by_step(double tolerance) {
 
 // W k V' takes p and t for those of a penalty 1 / c, K. What they make up for, A y_x' with A by gap and u, is
 // taken out of V: dF = -W k V_turn' dx at unchanged p and t, with W k (V - V_turn)' = F_z A y_x'.
-void UnilateralForces::let_turn(Contact& contact) {
+void UnilateralForces::couple_direction(Contact& contact) {
   const contact::ContactPoint& point = *contact.point;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, 3> F_z(point.W.rows(), contact.n),
       y_x(point.W.rows(), contact.n);
@@ -309,10 +309,10 @@ bool UnilateralForces::leave_out(const VectorXd& z, const VectorXd& u) {
 
 // Finds forces and the displacements by which they turn in one linear solution. Points may move so far on
 // flat gaps that substitution of one in the other does not come to rest.
-bool UnilateralForces::turn_at_once() {
+bool UnilateralForces::couple_directions() {
   constexpr int kMostRounds = 5;
   for (Contact& contact : contacts_)
-    if (contact.point->p > 0) let_turn(contact);
+    if (contact.point->p > 0) couple_direction(contact);
   for (int round = 0; round < kMostRounds; ++round) {
     Index n = 0;
     for (Contact& contact : contacts_) {
@@ -340,17 +340,17 @@ bool UnilateralForces::turn_at_once() {
 // Forces turn as gaps close. Where that is not found, by substitution or in one solution, their directions
 // stay those that the contacts were detected with.
 bool UnilateralForces::solve(double tolerance) {
-  do_not_turn();
+  freeze_directions();
   turns_ = turn_step_by_step(tolerance);
   if (turns_) return true;
-  if (turn_at_once()) {
+  if (couple_directions()) {
     turns_ = std::all_of(contacts_.begin(), contacts_.end(),
                          [](const Contact& c) { return c.point->p == 0 || c.n_turns > 0; });
     set_changes();
     set_moved();
     return true;
   }
-  do_not_turn();
+  freeze_directions();
   const std::optional<VectorXd> z = forces(C_, q_);
   if (!z) return false;
   z_ = *z;

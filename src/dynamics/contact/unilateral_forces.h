@@ -79,17 +79,17 @@ class UnilateralForces {
   Eigen::VectorXd turned_forces();
   Eigen::VectorXd all_turned() const;
   void turn(const Eigen::VectorXd& all);
-  void do_not_turn();
+  void freeze_directions();
   bool turn_step_by_step(double tolerance);
   // Complementarity of y = q + C z, and the displacements a + B z by which forces turn: Eq. (6.25a).
   struct Turning {
     Eigen::MatrixXd C, B;
     Eigen::VectorXd q, a;
   };
-  static void let_turn(Contact& contact);
+  static void couple_direction(Contact& contact);
   std::optional<Turning> turning() const;
   bool leave_out(const Eigen::VectorXd& z, const Eigen::VectorXd& u);
-  bool turn_at_once();
+  bool couple_directions();
 
   std::vector<Contact> contacts_;
   std::vector<CoulombContact> laws_;  // of each contact

@@ -1,7 +1,7 @@
 #pragma once
 // History of the forces on a viscoelastic body, by which its residual displacement creeps (docs/theory,
-// section 3.8): states of the nodes that bear a force or did so lately, step by step; the print of all others
-// together.
+// section 3.8): states of the nodes that carry a force or did so lately, step by step; the print of all
+// others together.
 
 #include <Eigen/Core>
 #include <functional>
@@ -16,9 +16,9 @@
 
 namespace elastogear::dynamics {
 
-/// Nodes are those of the surface. What a step takes grows with the nodes that bear a force, or did so within
-/// the last steps, and with those whose displacements are asked for, however many have borne one before. By
-/// linearity the history of a node is the sum of what it has in the print and of what came after.
+/// Nodes are those of the surface. What a step takes grows with the nodes that carry a force, or did so
+/// within the last steps, and with those whose displacements are asked for, however many have borne one
+/// before. By linearity the history of a node is the sum of what it has in the print and of what came after.
 class CreepHistory {
  public:
   CreepHistory(const std::vector<body::RelaxationLaw>& laws, std::size_t n_nodes);

@@ -14,8 +14,8 @@ namespace {
 // The joint block of the matrix is C + sigma M: no coordinate is without resistance before contact holds it.
 // The relative imbalance scales it down, so that Newton's method converges superlinearly in the end.
 // docs/theory, Eq. (8.19).
-constexpr double kResistance = 1;  // 1/s^2, sigma at full imbalance
-constexpr double kFreely = 1e-6;   // 1/s^2, while no bodies touch: they go as far as they may
+constexpr double kResistance = 1;         // 1/s^2, sigma at full imbalance
+constexpr double kFreeResistance = 1e-6;  // 1/s^2, while no bodies touch: they go as far as they may
 constexpr double kDistancePerDepth =
     0.5;                       // that a surface may go in one iteration, as a share of the contact depth
 constexpr double kTurn = 0.3;  // rad, that a body may
@@ -24,7 +24,7 @@ constexpr double kSmallestStep = 1e-3;  // of the first one
 constexpr double kStepRoundoff = 1e-9;  // of a load step
 constexpr int kMostRounds = 60;         // of equilibria, until gaps are closed
 constexpr double kRoundoff = 1e-13;     // of coordinates in rad and m: smaller changes are none
-constexpr double kClosed = 1e-6;        // of the depth, by which points that bear forces may be open
+constexpr double kClosed = 1e-6;        // of the depth, by which points that carry forces may be open
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -33,7 +33,7 @@ constexpr double kLoose = 1e-3;       // of the last imbalance, by which forces 
 constexpr double kTight = 1e-10;      // of the forces, which always may
 constexpr double kHeldBySigma = 0.5;  // share of sigma in a coordinate's stiffness: nothing else holds it
 
-// Tells of each pair whether its bodies touch.
+// Do the bodies of each pair touch?
 std::vector<bool> touching(Equilibrium& at, ConstVector U) {
   std::vector<bool> touch;
   for (const PairContacts& pair : at.problem.system.contacts(at.factor, U, at.zero).pair)
@@ -56,17 +56,17 @@ void remember_scale(Equilibrium& at) {
 // Evaluates the forces; false where there are none. Those of contact are as exact as Newton's method needs
 // them: in the end as all forces in balance are.
 bool evaluate(Equilibrium& at, ConstVector U) {
-  constexpr double kTold = 0.1;  // of the imbalance, below which an error of forces does not count
+  constexpr double kErrorShare = 0.1;  // of the imbalance, below which an error of forces does not count
   Problem& problem = at.problem;
   const bool seeks = at.n_to_seek > 0;
   if (seeks) --at.n_to_seek;
   double tolerance = seeks ? std::clamp(kLoose * at.last_imbalance, kTight, kLoose) : 0;
   while (true) {
-    problem.system.seek_rest(tolerance);
+    problem.system.begin_equilibrium_search(tolerance);
     if (!is_admissible(problem, at.factor, U, Eigen::VectorXd::Zero(U.size()))) return false;
     problem.residual = problem.system.residual(at.state(U));
     at.last_imbalance = imbalance(problem.residual);
-    if (tolerance <= std::max(kTight, kTold * at.last_imbalance)) return true;
+    if (tolerance <= std::max(kTight, kErrorShare * at.last_imbalance)) return true;
     tolerance = kTight;
   }
 }
@@ -87,7 +87,7 @@ PetscErrorCode jacobian(SNES, Vec U, Mat J, Mat P, void* ctx) {
   return guard(at.problem.pending, [&] {
     at.problem.pulse();
     const ReadView u(U);
-    const double sigma = (any_touch(at, *u) ? kResistance : kFreely) * imbalance(at.problem.residual);
+    const double sigma = (any_touch(at, *u) ? kResistance : kFreeResistance) * imbalance(at.problem.residual);
     EffectiveMatrix A = at.problem.system.effective_matrix(at.state(*u), {0, 0});
     EffectiveMatrix resisting = at.problem.system.effective_matrix(at.state(*u), {0, sigma});
     at.resistance.clear();
@@ -146,19 +146,19 @@ double excess(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& 
 }
 
 // Forces of contact have kinks, between which Newton's method may go round without an end; shorter steps end
-// on one. They have small jumps, too, where points of contact come and go: on one of them no state is in
+// on one. They have small jumps, too, where contacts open and close: on one of them no state is in
 // balance, and the one beside it is taken. Without load flanks in touch may press on each other by roundoff
 // alone, all of which may stay.
 double damping(Equilibrium& at, SNESLineSearch search, const Eigen::VectorXd& change) {
   constexpr int kPatience = 4, kInVain = 12;  // iterations in which the imbalance has hardly fallen
-  constexpr double kHardly = 0.9;
+  constexpr double kStagnationRatio = 0.9;
   SNES snes = nullptr;
   PetscInt iteration = 0;
   PetscReal norm = 0;
   check(SNESLineSearchGetSNES(search, &snes));
   check(SNESGetIterationNumber(snes, &iteration));
   check(SNESGetFunctionNorm(snes, &norm));
-  if (iteration == 0 || norm < kHardly * at.least_norm) {
+  if (iteration == 0 || norm < kStagnationRatio * at.least_norm) {
     at.least_norm = norm;
     at.n_in_vain = 0;
   } else {
@@ -170,7 +170,7 @@ double damping(Equilibrium& at, SNESLineSearch search, const Eigen::VectorXd& ch
 }
 
 // Share of a change of U until pairs that are apart touch; 1 when they stay apart. Looked for from below:
-// contact of bodies that are deep within each other takes long to compute.
+// contact of bodies that penetrate each other deeply takes long to compute.
 double until_touch(Equilibrium& at, const Eigen::VectorXd& U, const Eigen::VectorXd& change) {
   constexpr int kBisections = 8;
   constexpr double kLeast = 1e-6;
@@ -263,7 +263,7 @@ bool solve(Equilibrium& at, SNES snes, Vec U, RunSummary& summary, int n_seeking
   at.n_to_seek = n_seeking;
   at.last_imbalance = 1;
   check(SNESSolve(snes, nullptr, U), at.problem.pending);
-  at.problem.system.seek_rest(0);
+  at.problem.system.begin_equilibrium_search(0);
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
   summary.newton_iterations += iterations;
@@ -294,8 +294,8 @@ UniqueSNES make_snes(Equilibrium& at, UniqueMat& J) {
   return snes;
 }
 
-// By how much points that bear forces may be open, as a share of the depth. Nodes beside a point of least gap
-// are open by nanometres, and the force is not theirs to bear.
+// By how much points that carry forces may be open, as a share of the depth. Nodes beside a local minimum-gap
+// point are open by nanometres, and the force is not theirs to bear.
 double allowed_open(const System& system) {
   constexpr double kBesideMinima = 1e-2;
   const auto& pairs = system.pairs();
@@ -363,7 +363,7 @@ bool advance(Equilibrium& at, SNES snes, LoadPath& path, RunSummary& summary) {
   return true;
 }
 
-void let_stop(Equilibrium& at, const std::function<bool()>& stop) {
+void request_stop(Equilibrium& at, const std::function<bool()>& stop) {
   if (!stop) return;
   at.problem.pulse = [stop] {
     if (stop()) throw Interrupted();

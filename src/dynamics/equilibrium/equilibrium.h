@@ -31,7 +31,7 @@ struct Equilibrium {
 };
 
 /// Asks at each evaluation; true throws Interrupted.
-void let_stop(Equilibrium& at, const std::function<bool()>& stop);
+void request_stop(Equilibrium& at, const std::function<bool()>& stop);
 
 /// J is created.
 UniqueSNES make_snes(Equilibrium& at, UniqueMat& J);

@@ -58,7 +58,7 @@ void relax_once(Equilibrium& at, SNES snes, LoadPath& path, Span span, Found& to
   constexpr int kMostHalvings = 6;
   double step = span.end - span.reached;
   for (int halvings = 0;; ++halvings, step /= 2) {
-    at.problem.system.let_relax(step);
+    at.problem.system.advance_relaxation(step);
     if (find_equilibrium(at, snes, path.U, to.summary)) break;
     ++to.summary.rejected_steps;
     require(halvings < kMostHalvings, "no equilibrium found ", span.reached + step,
@@ -81,7 +81,7 @@ bool follow(Equilibrium& at, LoadPath& path, const StaticSettings& settings, Fou
   const UniqueSNES snes = make_snes(at, J);
   const bool relaxes = settings.time_under_load > 0;
   try {
-    if (relaxes) system.let_relax(0);
+    if (relaxes) system.advance_relaxation(0);
     while (path.reached < 1) {
       if (!advance(at, snes, path, to.summary)) continue;
       to.enter(at, path, relaxes ? 0 : path.reached, !relaxes || path.reached == 1);
@@ -138,7 +138,7 @@ RunSummary solve_static(System& system, const StaticSettings& settings, const Ob
   require_bodies_apart(system);
   const auto start = Clock::now();
   Equilibrium at(system);
-  let_stop(at, stop);
+  request_stop(at, stop);
   RunSummary summary = new_summary(system);
   LoadPath path(system, settings.steps);
   Found found{{}, Sanity(system), summary, observer};

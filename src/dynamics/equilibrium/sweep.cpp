@@ -79,7 +79,7 @@ struct Sweep {
         snes(make_snes(at, J)),
         first(p) {
     system.set_sliding(sliding(motion, system));
-    let_stop(at, stop);
+    request_stop(at, stop);
   }
 
   const SlowMotion& motion;

@@ -150,7 +150,7 @@ PetscErrorCode solve_for_delta(TS ts) {
   return count_iterations(ts, newton, linear);
 }
 
-// Solves again while F changes with its solution. One that changes to and fro is not solved.
+// Solves again while F changes with its solution. One that alternates is not solved.
 PetscErrorCode solve_until_settled(TS ts) {
   constexpr int kMostRounds = 30;
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;

@@ -67,7 +67,7 @@ UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J);
 /// Did it stop at the largest number of steps, before the end time?
 bool is_out_of_steps(TS ts);
 
-/// Message where a state of rest is looked for and materials relax with time.
+/// Message where a static equilibrium is looked for and materials relax with time.
 inline constexpr const char* kNoHistory =
     "static equilibria have no history: viscoelastic materials need their instantaneous or their long-term "
     "moduli there (option moduli)";
@@ -102,7 +102,7 @@ void control_steps(Run& run, TS ts);
 void measure_stress(Run& run, TS ts);
 /// Tells the system how closely forces are balanced where steps are chosen; to be called once options are
 /// read.
-void let_move(Run& run, TS ts);
+void set_force_tolerance(Run& run, TS ts);
 /// The first step, s, where there is no dt.
 double first_step(const Run& run);
 /// Takes the elastic displacements and energies of the last state for the tolerances of the next steps.

@@ -198,7 +198,7 @@ void complete_summary(Run& run, TS ts, bool ended) {
 }
 
 // A step that takes long is given up when the run is asked to stop.
-void let_stop(Run& run) {
+void request_stop(Run& run) {
   if (!run.checkpoints.stop) return;
   run.problem.pulse = [&run] {
     if (!run.checkpoints.stop() || seconds_since(run.step_start) < run.checkpoints.patience) return;
@@ -286,7 +286,7 @@ Simulation::Simulation(System& system, TimeSettings settings, Observer observer,
     system.accept({0, system.initial_position(), system.initial_velocity(), system.initial_velocity()});
   } else
     go_on_from(d.run, d.ts, d.checkpoints.state);
-  let_stop(d.run);
+  request_stop(d.run);
 }
 
 Simulation::~Simulation() = default;

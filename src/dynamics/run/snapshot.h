@@ -15,8 +15,8 @@ model::Snapshot snapshot(System& system, const State& x);
 /// velocity q'_m, which is exact for the midpoint rule (rho_inf = 1), second order otherwise. Loads and
 /// friction of joints likewise, and the dampers of bushings; drives and loads at markers by the mean of their
 /// forces at both ends. Of viscoelastic materials Eq. (3.26), which is exact for the midpoint rule. The
-/// weight's work is exact; while gravity grows it has its mean over the step. States
-/// of rest at growing load factors (analysis: static) are entered in the same distance.
+/// weight's work is exact; while gravity grows it has its mean over the step. Equilibria
+/// at growing load factors (analysis: static) are entered in the same distance.
 /// docs/theory, Eq. (7.2).
 class EnergyLedger {
  public:

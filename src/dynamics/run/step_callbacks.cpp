@@ -223,7 +223,7 @@ UniqueTS make_ts(Run& run, Vec U, Vec V, UniqueMat& J) {
   check(TS2SetSolution(ts, U, V));
   control_steps(run, ts);
   check(TSSetFromOptions(ts));
-  if (!run.settings.relax) let_move(run, ts);
+  if (!run.settings.relax) set_force_tolerance(run, ts);
   if (!run.settings.relax) run.time_error = new_time_errors(run.problem.system);
   measure_stress(run, ts);
   if (!run.settings.relax) follow_stages(run.problem.system, ts);

@@ -253,12 +253,12 @@ void measure_stress(Run& run, TS ts) {
   });
 }
 
-void let_move(Run& run, TS ts) {
+void set_force_tolerance(Run& run, TS ts) {
   SNES snes = nullptr;
   PetscReal unbalanced = 0;
   check(TSGetSNES(ts, &snes));
   check(SNESGetTolerances(snes, nullptr, &unbalanced, nullptr, nullptr, nullptr));
-  run.problem.system.let_move(has_step_error(run.settings) ? unbalanced : 0);
+  run.problem.system.set_force_tolerance(has_step_error(run.settings) ? unbalanced : 0);
 }
 
 void follow_displacement(Run& run) {

@@ -34,7 +34,7 @@ contact::SurfaceMotion start(const SystemModel& model, std::size_t b) {
   return {m.q, r_WB, R_WB};
 }
 
-// The columns of the stations that bear a force.
+// The columns of the stations that carry a force.
 Sparse columns(const Sparse& S, const std::vector<int>& of) {
   Sparse part(S.rows(), std::ssize(of));
   part.reserve(S.nonZeros());

@@ -22,8 +22,8 @@ struct NodalForce {
 
 /// Forces on a body of a result of version 1 or 2, which holds contact points only: f on the slave node, and
 /// -N_i f on the nodes of the face, docs/theory, Eqs. (6.1) and (6.4). The couples of smoothed surfaces
-/// and the forces at their open ends are not in such a file. Error when a point names a face that the surface
-/// does not have.
+/// and the forces at their free boundaries are not in such a file. Error when a point names a face that the
+/// surface does not have.
 std::vector<NodalForce> forces_of_points(const std::string& path, const std::string& body,
                                          const model::Surface& surface);
 

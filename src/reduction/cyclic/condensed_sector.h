@@ -1,5 +1,5 @@
 #pragma once
-// All harmonics of a body that repeats from one factor of its sector (docs/theory, Eq. (2.11a)).
+// All harmonics of a cyclically symmetric body from one factor of its sector (docs/theory, Eq. (2.11a)).
 
 #include <Eigen/Core>
 #include <optional>

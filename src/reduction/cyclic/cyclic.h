@@ -1,5 +1,5 @@
 #pragma once
-// Exact eigenmodes of a body that repeats around an axis, from one sector (D. L. Thomas, "Dynamics of
+// Exact eigenmodes of a cyclically symmetric body, from one sector (D. L. Thomas, "Dynamics of
 // rotationally periodic structures", Int. J. Numer. Meth. Eng. 14 (1979) 81-102; docs/theory, section
 // 2.6).
 

@@ -1,5 +1,5 @@
 #pragma once
-// Effective masses of a body that repeats around an axis, from its sector (docs/theory, section 2.3).
+// Effective masses of a cyclically symmetric body, from its sector (docs/theory, section 2.3).
 
 #include "elastogear/fem/balance.h"
 #include "elastogear/mesh/repetition.h"

@@ -1,5 +1,6 @@
 #pragma once
-// The state of a search for the modes of a body that repeats, and the bound up to which they are found.
+// The state of a search for the modes of a cyclically symmetric body, and the bound up to which they are
+// found.
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,6 @@
 #pragma once
-// Finished harmonics of a body that repeats, kept on disk, so that a killed reduction goes on where it was.
+// Finished harmonics of a cyclically symmetric body, kept on disk, so that a killed reduction goes on where
+// it was.
 
 #include <mpi.h>
 

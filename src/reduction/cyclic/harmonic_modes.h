@@ -1,5 +1,5 @@
 #pragma once
-// Eigenmodes of one harmonic of a body that repeats around an axis (docs/theory, section 2.6).
+// Eigenmodes of one harmonic of a cyclically symmetric body (docs/theory, section 2.6).
 
 #include <Eigen/Core>
 
@@ -20,10 +20,10 @@ struct HarmonicModes {
   Eigen::MatrixXd z;           ///< coordinates x columns, z' M_k z = 1; on rank 0 of the communicator
 };
 
-/// The lowest options.n_modes eigenvectors of the harmonic by block Lanczos in windows of options.window. Of
-/// a harmonic that is not real they are whole pairs, and of each pair one is returned. The phase rule: the
-/// component of largest modulus is real and positive; of components equal to 1e-6 the first decides.
-/// Collective. Leaves k's cutoff at 0. first_orbit: the first of this rank (fem::own_orbits).
+/// The lowest options.n_modes eigenvectors of the harmonic by block Lanczos with spectrum slicing of
+/// options.window. Of a harmonic that is not real they are whole pairs, and of each pair one is returned. The
+/// phase rule: the component of largest modulus is real and positive; of components equal to 1e-6 the first
+/// decides. Collective. Leaves k's cutoff at 0. first_orbit: the first of this rank (fem::own_orbits).
 HarmonicModes find_harmonic_modes(const fem::Matrices& matrices, const fem::Harmonic& harmonic,
                                   int first_orbit, const EigenOptions& options,
                                   const Progress& progress = {});

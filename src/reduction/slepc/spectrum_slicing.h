@@ -52,9 +52,9 @@ struct SliceHooks {
 /// Makes the basis, with room for so many columns, when that is known.
 using MakeBasis = std::function<TallBasis&(int n_columns)>;
 
-/// Block Lanczos in windows (docs/theory, section 2.2). Window ends lie in gaps of the spectrum, so that
-/// equal or close eigenvalues stay together. Returns the state after the last window. K: symmetric; M:
-/// symmetric and definite; their layouts are equal. Memory: the factor and the basis, 2 to 4 windows of
+/// Block Lanczos with spectrum slicing (docs/theory, section 2.2). Window ends lie in gaps of the spectrum,
+/// so that equal or close eigenvalues stay together. Returns the state after the last window. K: symmetric;
+/// M: symmetric and definite; their layouts are equal. Memory: the factor and the basis, 2 to 4 windows of
 /// vectors.
 SearchState slice_spectrum(Mat K, Mat M, SpectralTransform& transform, const Slicing& slicing,
                            const SliceHooks& hooks, const MakeBasis& make_basis);

@@ -235,8 +235,8 @@ StaticResponseCost forecast(const FlexibilityTask& task, const model::Flexibilit
   cost.n_columns = static_cast<std::size_t>(n_loads) * static_cast<std::size_t>(n_harmonics);
   cost.seconds = flops / (kShareOfSpeed * single_precision_speed() * at_work);
   cost.kept_bytes = (n_displacements + 6 * n_stress) * n_loads * kSingle;
-  // A body that repeats keeps the responses of all harmonics, from which F and G are made piece by piece;
-  // any other body keeps F and G.
+  // A cyclically symmetric body keeps the responses of all harmonics, from which F and G are made piece by
+  // piece; any other body keeps F and G.
   const double responses = Z > 1 ? n_harmonics * wanted * n_loads * kSingle : cost.kept_bytes;
   cost.bytes = responses + 4 * wanted * separator * kSingle * at_work;
   return cost;

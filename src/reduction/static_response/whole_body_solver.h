@@ -26,9 +26,9 @@ class WholeBodySolver {
 /// motions. Throws Error when a body is neither held nor floating, or the factorisation fails.
 std::unique_ptr<WholeBodySolver> factorise_whole(const io::BodySource& source, bool floating);
 
-/// Of a held body that repeats, a part for each harmonic: Eq. (4.3a). Factors live as long as their part is
-/// visited, one at a time, and take the less memory the more sectors there are. The source outlives the
-/// solver. Visiting throws Error when a factorisation fails.
+/// Of a held cyclically symmetric body, a part for each harmonic: Eq. (4.3a). Factors live as long as their
+/// part is visited, one at a time, and take the less memory the more sectors there are. The source outlives
+/// the solver. Visiting throws Error when a factorisation fails.
 std::unique_ptr<WholeBodySolver> factorise_harmonics(const io::BodySource& source,
                                                      const mesh::Repetition& repetition);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Static responses of the harmonics of a body that repeats, from one elimination of its sector
+// Static responses of the harmonics of a cyclically symmetric body, from one elimination of its sector
 // (docs/theory, Eq. (6.20d)).
 
 #include "elastogear/fem/sector_assembly.h"

@@ -1,5 +1,5 @@
 #pragma once
-// F and G of a body that repeats, a few columns at a time, from the responses of its harmonics.
+// F and G of a cyclically symmetric body, a few columns at a time, from the responses of its harmonics.
 
 #include <mpi.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of the static responses of a body that repeats that `reduce` stores, and the responses of one
+// Rows of the static responses of a cyclically symmetric body that `reduce` stores, and the responses of one
 // harmonic.
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 #pragma once
-// Elimination of a sparse matrix part by part, with what is wanted of its inverse (docs/theory, Eq.
+// Elimination of a sparse matrix by nested dissection, with what is wanted of its inverse (docs/theory, Eq.
 // (6.20a)).
 
 #include <Eigen/Core>
