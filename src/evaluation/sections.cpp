@@ -42,11 +42,11 @@ Eigen::MatrixXd places_of(const PairOfRun& pair, const ToothPairs& pairs) {
 void add_path(const PairOfRun& pair, const ToothPairs& pairs, const Eigen::MatrixXd& place, Items& items) {
   const auto bears = (pairs.share.array() > kBears).eval();
   if (!bears.any()) return;
-  constexpr double kFar = std::numeric_limits<double>::infinity();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   items.number("teeth/begins", "1", "smallest place of a loaded pair of teeth, pitches",
-               bears.select(place.array(), kFar).minCoeff());
+               bears.select(place.array(), kInfinity).minCoeff());
   items.number("teeth/ends", "1", "largest place of a loaded pair of teeth, pitches",
-               bears.select(place.array(), -kFar).maxCoeff());
+               bears.select(place.array(), -kInfinity).maxCoeff());
   const auto path = path_of_contact(pair.gear[0], pair.gear[1], loaded_side(pair.contacts, 1));
   if (!path) return;
   items.number("teeth/path_begins", "1", "place where rigid teeth begin to touch, pitches", path->front());

@@ -10,9 +10,9 @@
 namespace elastogear::app {
 namespace {
 
-constexpr double kFarTooLong = 10, kFarTooShort = 0.01;  // dt over the step asked for
-constexpr int kPaceSteps = 500;                          // over which the pace of a run is taken
-constexpr double kManySteps = 10000;                     // left to the end
+constexpr double kTooLongStep = 10, kTooShortStep = 0.01;  // dt over the step asked for
+constexpr int kPaceSteps = 500;                            // over which the pace of a run is taken
+constexpr double kManySteps = 10000;                       // left to the end
 
 // How far a run comes in a number of steps; the first ones, which grow from a small one, do not count.
 struct Pace {
@@ -61,10 +61,10 @@ void print_advice(const dynamics::System& system, double dt) {
   print("contact vibration", "pair", advice.contact);
   print_item("time step", dt > 0 ? with_unit(dt, "s") : "chosen by its error");
   const double share = dt / advice.step();
-  if (share > kFarTooLong)
+  if (share > kTooLongStep)
     print_item("warning", "the step is " + with_unit(share, "times") +
                               " what the fastest vibration asks for: it will not be resolved");
-  if (share > 0 && share < kFarTooShort)
+  if (share > 0 && share < kTooShortStep)
     print_item("warning", "the step is " + with_unit(share, "times") +
                               " what the fastest vibration asks for: a longer one would do");
   warn_of_rigid_blows(system);

@@ -143,7 +143,7 @@ class TurnedFaces {
   // The first face that was asked for whose corners, seen from its tooth, are those of face f; f when there
   // is none.
   int first(const model::Surface& surface, int f, const gear::Flank& flank) {
-    const double unit = kSame * std::max(toothing_.r_a, toothing_.r_f);
+    const double unit = kRoundoff * std::max(toothing_.r_a, toothing_.r_f);
     const Eigen::AngleAxisd back(-gear::tooth_angle(toothing_, flank.tooth), Eigen::Vector3d::UnitZ());
     Key key{flank.side};
     for (int c = 0; c < 4; ++c) {
@@ -154,7 +154,7 @@ class TurnedFaces {
   }
 
  private:
-  static constexpr double kSame = 1e-12;  // of the radius: some hundred times the roundoff of coordinates
+  static constexpr double kRoundoff = 1e-12;  // of the radius: some hundred times the roundoff of coordinates
   using Key = std::array<long long, 13>;
 
   const gear::Toothing& toothing_;

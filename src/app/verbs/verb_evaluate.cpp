@@ -138,10 +138,10 @@ void add_tangents(const std::vector<Evaluated>& cases, Evaluated& of) {
 // Adds the secant stiffness of drives with modified flanks, which needs the transmission error without load:
 // it is that of a case whose torque is next to nothing.
 void add_secants(const std::vector<Evaluated>& cases, Evaluated& of) {
-  constexpr double kNothing = 0.01;  // of the torque
+  constexpr double kLeastTorque = 0.01;  // of the torque
   const Evaluated* least = other_load(cases, of, [](double, double other) { return std::abs(other); });
   const double torque = std::abs(number_in_column(of.figures.of, "torque"));
-  if (!least || std::abs(number_in_column(least->figures.of, "torque")) > kNothing * torque) return;
+  if (!least || std::abs(number_in_column(least->figures.of, "torque")) > kLeastTorque * torque) return;
   for (std::size_t p = 0; p < of.pairs.size(); ++p)
     if (!find_item(of.figures.pairs[p].items, "transmission_error/unloaded"))
       append(evaluation::unloaded_items(of.pairs[p], least->pairs[p].error, of.width[p]),

@@ -55,7 +55,7 @@ FaceGaps face_gaps(const GapField& field, int f, const std::map<int, NodeGap>& n
 // Below the mean of a convex gap over the part of a face that a corner has: that over the tangent planes at
 // its centre; where a part of the face may lie beyond the master, the least known gap.
 double least_mean(const FaceGaps& gaps, const Vector2d& centre) {
-  double planes = -kFarGap, least = kFarGap;
+  double planes = -kNoGap, least = kNoGap;
   for (const CornerGap& t : gaps.known) {
     planes = std::max(planes, t.g + t.slope.dot(centre - t.at));
     least = std::min(least, t.g);

@@ -13,7 +13,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMisplaced = 0.5;  // of half a face, that the estimated place of a minimum may be off
-constexpr double kFar = kFarGap;
 
 const NodeGap* find(const std::map<int, NodeGap>& nodes, int node) {
   const auto at = nodes.find(node);
@@ -50,18 +49,18 @@ bool may_be_within(double estimate, double highest, double reach) {
 
 // Returns whether a convex gap has a minimum between the ends of a side that may lie below the reach.
 bool may_have_minimum(const SideGaps& side, double reach) {
-  if (side.g[0] == kFar && side.g[1] == kFar) return false;
-  if (side.g[0] != kFar && side.slope[0] >= 0) return false;
-  if (side.g[1] != kFar && side.slope[1] <= 0) return false;
-  if (side.g[0] == kFar) return side.g[1] - side.slope[1] < reach;
-  if (side.g[1] == kFar) return side.g[0] + side.slope[0] < reach;
+  if (side.g[0] == kNoGap && side.g[1] == kNoGap) return false;
+  if (side.g[0] != kNoGap && side.slope[0] >= 0) return false;
+  if (side.g[1] != kNoGap && side.slope[1] <= 0) return false;
+  if (side.g[0] == kNoGap) return side.g[1] - side.slope[1] < reach;
+  if (side.g[1] == kNoGap) return side.g[0] + side.slope[0] < reach;
   return may_be_within(least_of_cubic(side.g, side.slope).value, std::min(side.g[0], side.g[1]), reach);
 }
 
-// Gaps and slopes at the corners of a quadrilateral; -kFar where the gap is not known.
+// Gaps and slopes at the corners of a quadrilateral; -kNoGap where the gap is not known.
 FaceCorners corners_of(const GapField& field, int f, const std::map<int, NodeGap>& nodes) {
   FaceCorners corners;
-  corners.value.setConstant(-kFar);
+  corners.value.setConstant(-kNoGap);
   corners.slope.setZero();
   for (int c = 0; c < 4; ++c)
     if (const NodeGap* node = find(nodes, field.slave.face(c, f))) {
@@ -78,7 +77,7 @@ std::optional<FaceStart> estimate(const GapField& field, int f, const std::map<i
   if (side_count(field.slave.face, f) != 4) return {};
   const FaceCorners corners = corners_of(field, f, nodes);
   FaceStart start;
-  double nearest = kFar;
+  double nearest = kNoGap;
   bool all_known = true;
   for (int c = 0; c < 4; ++c) {
     const NodeGap* node = find(nodes, field.slave.face(c, f));
@@ -121,7 +120,7 @@ FaceStart least_corner(const GapField& field, int f, const std::map<int, NodeGap
 // Adds the gaps at the other corners of the faces, however large, where the master has a foot point for them.
 void add_corners(const GapField& field, const std::vector<int>& faces, std::map<int, NodeGap>& nodes) {
   Limits any = field.reach.limits;
-  any.outside = any.depth = kFar;
+  any.outside = any.depth = kNoGap;
   for (int f : faces) {
     const FaceStart start = least_corner(field, f, nodes);
     for (int c = 0; c < side_count(field.slave.face, f) && start.face >= 0; ++c) {
@@ -221,7 +220,7 @@ std::vector<Minimum> gap_minima(const GapField& field, std::map<int, NodeGap> no
     point.number = n_nodes + topology.edge_sides.size() + f;
     point.face = f;
     point.n_dir = 2;
-    for (const Minimum& m : minima_within(field, point, starts, sides.empty() ? kFar : sides.front().g))
+    for (const Minimum& m : minima_within(field, point, starts, sides.empty() ? kNoGap : sides.front().g))
       take(m);
   }
   return minima;

@@ -86,14 +86,14 @@ void keep_gaps(Histories& histories, std::vector<ContactPoint>& contacts) {
 }
 
 bool take_impulse(Histories& histories, double delivered) {
-  constexpr double kCounts = 0.1;  // of the forces
+  constexpr double kLeastChange = 0.1;  // of the forces
   double all = 0, anew = 0;
   for (const History& history : histories)
     for (const auto& [point, p] : history.p) {
       all += p;
       if (!history.p_before.contains(point)) anew += p;
     }
-  if (!(anew > kCounts * all)) return false;
+  if (!(anew > kLeastChange * all)) return false;
   for (History& history : histories)
     for (auto& [point, p] : history.p)
       if (!history.p_before.contains(point)) p *= delivered;

@@ -42,8 +42,8 @@ Minimum minimum(const GapField& field, const Trial& t) {
 
 // Limits of a search for minima of a gap.
 struct Sought {
-  double below = kFarGap;  // m, larger ones are of no interest
-  int known = -1;          // face of the master over which the least gap is known; -1: none
+  double below = kNoGap;  // m, larger ones are of no interest
+  int known = -1;         // face of the master over which the least gap is known; -1: none
 };
 
 // Is the least gap surely of no interest, by a value that falls at most by `fall` (m) along its parabola? Not
@@ -69,7 +69,7 @@ struct SideStart {
 };
 
 SideStart estimate(const SideGaps& side, int face) {
-  const bool known = side.g[0] != kFarGap && side.g[1] != kFarGap;
+  const bool known = side.g[0] != kNoGap && side.g[1] != kNoGap;
   return {known ? least_of_cubic(side.g, side.slope).s : 0.5, face};
 }
 
@@ -131,7 +131,7 @@ std::optional<Minimum> least_on_side(const GapField& field, SideGaps side, const
   constexpr int kMostSteps = 2 * kSteps;
   Bracket left;
   std::optional<Trial> last;
-  double s = begin.s, at = side.g[0] != kFarGap ? 0 : 1, slope = 0;  // of the last trial: at, slope
+  double s = begin.s, at = side.g[0] != kNoGap ? 0 : 1, slope = 0;  // of the last trial: at, slope
   int start = begin.face;
   for (int step = 0; step < kMostSteps && left.is_left(slope); ++step) {
     side.point.at = on_side(side.sides, side.side, s);
@@ -342,7 +342,7 @@ std::optional<Minimum> followed_minimum(const GapField& field, const Minimum& la
     const SideGaps side = side_with(field, last.point);
     now = least_on_side(field, side, {share_of_side(side, last.point.at), face}, {});
   } else {
-    now = least_within(field, last.point, {0, last.point.at, face}, kFarGap, {}).minimum;
+    now = least_within(field, last.point, {0, last.point.at, face}, kNoGap, {}).minimum;
   }
   if (!now || now->crossing.has_value() != last.crossing.has_value()) return {};
   if (!now->crossing && !is_sure(field, *now)) return {};

@@ -13,7 +13,7 @@
 
 namespace elastogear::contact {
 
-inline constexpr double kFarGap = std::numeric_limits<double>::infinity();
+inline constexpr double kNoGap = std::numeric_limits<double>::infinity();
 
 /// The slave surface and what its points are held against.
 struct GapField {
@@ -33,17 +33,17 @@ struct Minimum {
   std::optional<Crossing> crossing = {};  ///< of a point that is least as the side leaves the master
 };
 
-/// One side of a slave face with the gaps at its ends; kFarGap where they are beyond the limits.
+/// One side of a slave face with the gaps at its ends; kNoGap where they are beyond the limits.
 struct SideGaps {
   SlavePoint point;
   int side = 0, sides = 4;
-  std::array<double, 2> g{kFarGap, kFarGap}, slope{-kFarGap, kFarGap};  ///< m
-  double length = 0;                                                    ///< m
+  std::array<double, 2> g{kNoGap, kNoGap}, slope{-kNoGap, kNoGap};  ///< m
+  double length = 0;                                                ///< m
 };
 
 /// A point of a slave face from which a search for the least gap begins.
 struct FaceStart {
-  double g = kFarGap;  ///< m
+  double g = kNoGap;  ///< m
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   int face = -1;  ///< of the master
 };

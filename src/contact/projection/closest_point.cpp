@@ -45,7 +45,7 @@ bool step(const Derivatives& f, Eigen::Vector2d& delta) {
 
 constexpr int kGaussNewtonSteps = 3, kSteps = 25;
 constexpr double kConverged = 1e-13, kConvergedQuadratically = 1e-9;
-constexpr double kFarAway = 3;  // local coordinates beyond which the foot point cannot return to the face
+constexpr double kDivergence = 3;  // local coordinates beyond which the foot point cannot return to the face
 
 // Foot point from a start: Gauss-Newton steps first, then full Newton. Where
 // the full Hessian is indefinite, Gauss-Newton goes on: only it descends there. docs/theory, Eq. (6.2).
@@ -57,7 +57,7 @@ bool foot_point(const Bilinear& x, Eigen::Vector2d& at) {
       return false;
     delta *= std::min(1.0, 1 / delta.cwiseAbs().maxCoeff());
     at += delta;
-    if (at.cwiseAbs().maxCoeff() > kFarAway) return false;
+    if (at.cwiseAbs().maxCoeff() > kDivergence) return false;
     if (delta.cwiseAbs().maxCoeff() < (full ? kConvergedQuadratically : kConverged)) return true;
   }
   return false;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kRings = 3;              // of faces around a node: a cubic needs four nodes on one side of it
-constexpr int kEnough = 16;            // nodes beside the node itself; a cubic has nine coefficients
+constexpr int kPatchNodes = 16;        // nodes beside the node itself; a cubic has nine coefficients
 constexpr double kFacing = 0.5;        // least cosine between normals of faces and of the node
 constexpr double kIndependent = 0.03;  // share of a column that its predecessors do not explain
 
@@ -97,7 +97,7 @@ std::vector<int> nodes_near(PatchFinder& finder, int node, const std::vector<int
   std::vector<int> faces;
   for (int entry : beside) faces.push_back(entry / 4);
   std::vector<int> ring = take(finder, faces), all = ring;
-  for (int i = 1; i < kRings && static_cast<int>(all.size()) < kEnough; ++i) {
+  for (int i = 1; i < kRings && static_cast<int>(all.size()) < kPatchNodes; ++i) {
     faces.clear();
     for (int p : ring) grow(finder, p, n, faces);
     ring = take(finder, faces);

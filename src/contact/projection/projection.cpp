@@ -206,8 +206,8 @@ Approach approach(const SurfaceView& master, const Eigen::Vector3d& x, const Mov
                   std::span<const int> faces) {
   const auto& [reach, limit, around, bounds] = move;
   const Nearest any = nearest({master, x, reach, faces, -1, bounds}, [](auto&&...) { return true; });
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  if (!any.found()) return {kFar, kFar, {}, {}};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!any.found()) return {kInfinity, kInfinity, {}, {}};
   const double distance = std::sqrt(any.distance2);
   Approach result{distance, place(master, x, any) == Place::outside ? distance : 0, {}, {}};
   if (result.clearance > limit) return result;

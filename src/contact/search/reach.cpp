@@ -58,7 +58,7 @@ std::vector<int> sharp_faces(const SurfaceView& surface, double feature_angle) {
 // reach: m, how far a point may move as it is held against the surface. feature_angle: rad, beyond which
 // edges are sharp; 0: there are none.
 FaceShapes face_shapes(const Tracked& tracked, const Heights& heights, double reach, double feature_angle) {
-  constexpr int kNear = 8;  // lengths of a face, beyond which its surroundings are the whole surface
+  constexpr int kSurroundings = 8;  // lengths of a face, beyond which its surroundings are the whole surface
   const model::Surface& surface = *tracked.surface;
   const SurfaceView undeformed{surface.face, tracked.topology, surface.X, 0};
   const auto n = static_cast<int>(surface.face.cols());
@@ -75,8 +75,9 @@ FaceShapes face_shapes(const Tracked& tracked, const Heights& heights, double re
   for (int f = 0; f < n; ++f) {
     const double d = shapes.diagonal[f];
     shapes.curvature_around.push_back(
-        reach > kNear * d ? shapes.largest_curvature
-                          : largest_around(surface, tracked.topology, shapes.curvature, f, d + reach, seen));
+        reach > kSurroundings * d
+            ? shapes.largest_curvature
+            : largest_around(surface, tracked.topology, shapes.curvature, f, d + reach, seen));
   }
   return shapes;
 }

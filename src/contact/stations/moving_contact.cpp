@@ -11,9 +11,10 @@
 namespace elastogear::contact {
 namespace {
 
-constexpr double kNear = 1.5;      // of a flank's height, that a mate's flank in contact may be away
-constexpr double kFarther = 1.01;  // times the size of a load, that of those it may become in a small motion
-constexpr double kSteepest = 1;    // slope of a line of contact that loads follow, lengths along both
+constexpr double kMateDistance = 1.5;  // of a flank's height, that a mate's flank in contact may be away
+constexpr double kLoadMargin =
+    1.01;                        // times the size of a load, that of those it may become in a small motion
+constexpr double kSteepest = 1;  // slope of a line of contact that loads follow, lengths along both
 
 double compliance_of(const ToothedPair& pair, std::size_t s) {
   return (s == 0 ? pair.owner : pair.mate)->compliance();
@@ -108,7 +109,7 @@ MovingLoads moving_loads(const FlankMesh& mesh, const ExactFlanks& flanks,
     loads.smooth[i] = point_kernel(mesh.grid, v, z, size, scale);
     loads.along[i] = scale.along;
     if (nodes) continue;
-    const LoadWidth larger{kFarther * size.a, kFarther * size.c};
+    const LoadWidth larger{kLoadMargin * size.a, kLoadMargin * size.c};
     near += point_weights(mesh.grid, v, z, along, larger).cwiseAbs();
   }
   if (nodes) {
@@ -294,7 +295,7 @@ void set_moving_stations(ToothedPair& pair, int n) {
 std::vector<ToothContact> moving_contacts(const ToothedPair& pair, const RelativePlacement& placement) {
   std::vector<ToothContact> contacts;
   const ExactFlanks &owner = pair.owner->flanks(), &mate = pair.mate->flanks();
-  const double near = kNear * std::max(height(owner), height(mate));
+  const double near = kMateDistance * std::max(height(owner), height(mate));
   const double of_height = std::min(height(owner), height(mate));
   const bool of_mate = mate.teeth() > owner.teeth();
   for (const FlankMesh& on_owner : pair.owner->meshes())

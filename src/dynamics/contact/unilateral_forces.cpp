@@ -295,12 +295,12 @@ std::optional<UnilateralForces::Turning> UnilateralForces::turning() const {
 // Leaves the directions as they are of forces that end, and where they would change far beyond their size, as
 // at edges, to which they may point from anywhere. Returns whether there are any.
 bool UnilateralForces::leave_out(const VectorXd& z, const VectorXd& u) {
-  constexpr double kFar = 2;  // of the force
+  constexpr double kLargestChange = 2;  // of the force
   bool any = false;
   for (Contact& c : contacts_) {
     if (c.n_turns == 0) continue;
     const double turned = (c.W_k * u.segment(c.turn, c.n_turns)).norm();
-    if (z[c.first] > 0 && turned <= kFar * std::max(z[c.first], c.point->p)) continue;
+    if (z[c.first] > 0 && turned <= kLargestChange * std::max(z[c.first], c.point->p)) continue;
     c.n_turns = 0;
     any = true;
   }

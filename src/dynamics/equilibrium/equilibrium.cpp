@@ -27,10 +27,10 @@ constexpr double kRoundoff = 1e-13;     // of coordinates in rad and m: smaller 
 constexpr double kClosed = 1e-6;        // of the depth, by which points that carry forces may be open
 constexpr double kFall = 0.3;           // by which a round should lessen that
 constexpr double kStiffer = 4;
-constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr int kMostSeeking = 12;      // evaluations in which forces need not be exact
-constexpr double kLoose = 1e-3;       // of the last imbalance, by which forces of contact may err
-constexpr double kTight = 1e-10;      // of the forces, which always may
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMostSeeking = 12;            // evaluations in which forces need not be exact
+constexpr double kLoose = 1e-3;             // of the last imbalance, by which forces of contact may err
+constexpr double kLeastForceError = 1e-10;  // of the forces, which always may
 constexpr double kHeldBySigma = 0.5;  // share of sigma in a coordinate's stiffness: nothing else holds it
 
 // Do the bodies of each pair touch?
@@ -60,14 +60,14 @@ bool evaluate(Equilibrium& at, ConstVector U) {
   Problem& problem = at.problem;
   const bool seeks = at.n_to_seek > 0;
   if (seeks) --at.n_to_seek;
-  double tolerance = seeks ? std::clamp(kLoose * at.last_imbalance, kTight, kLoose) : 0;
+  double tolerance = seeks ? std::clamp(kLoose * at.last_imbalance, kLeastForceError, kLoose) : 0;
   while (true) {
     problem.system.begin_equilibrium_search(tolerance);
     if (!is_admissible(problem, at.factor, U, Eigen::VectorXd::Zero(U.size()))) return false;
     problem.residual = problem.system.residual(at.state(U));
     at.last_imbalance = imbalance(problem.residual);
-    if (tolerance <= std::max(kTight, kErrorShare * at.last_imbalance)) return true;
-    tolerance = kTight;
+    if (tolerance <= std::max(kLeastForceError, kErrorShare * at.last_imbalance)) return true;
+    tolerance = kLeastForceError;
   }
 }
 
@@ -322,7 +322,7 @@ bool find_equilibrium(Equilibrium& at, SNES snes, Vec U, RunSummary& summary) {
   System& system = at.problem.system;
   if (!solve(at, snes, U, summary, at.begins_near ? kMostSeeking : 0) || !settle_points(at, snes, U, summary))
     return false;
-  double before = kFar;
+  double before = kInfinity;
   for (int round = 0; system.any_augmented(); ++round) {
     const ReadView u(U);
     system.contacts(at.factor, *u, at.zero);

@@ -17,10 +17,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr Index kFew = 64;            // unknowns up to which all columns are factorised
-constexpr double kMostLeading = 0.6;  // share of the columns beyond which all are
-constexpr double kWeak = 0.5;         // k times compliance of a column that does not lead
-constexpr int kMostSteps = 30;        // of GMRES
+constexpr Index kDenseUnknowns = 64;   // unknowns up to which all columns are factorised
+constexpr double kMostLeading = 0.6;   // share of the columns beyond which all are
+constexpr double kWeakCoupling = 0.5;  // k times compliance of a column that does not lead
+constexpr int kMostSteps = 30;         // of GMRES
 
 // Columns of A, those of `columns`.
 Sparse select_columns(const Sparse& A, const std::vector<Index>& columns) {
@@ -146,7 +146,7 @@ const Sparse& CondensedSystem::V(const EffectiveMatrix& A, std::size_t b) const 
 bool CondensedSystem::choose_leading(const EffectiveMatrix& A) {
   const Index r = A.k.rows();
   leading_.clear();
-  if (n_s_ + r <= kFew) return false;
+  if (n_s_ + r <= kDenseUnknowns) return false;
   Weights weights{VectorXd::Zero(r), VectorXd::Zero(r)};
   weight_.setZero(r);
   for (std::size_t b = 0; b < body_.size(); ++b) {
@@ -160,7 +160,7 @@ bool CondensedSystem::choose_leading(const EffectiveMatrix& A) {
   for (VectorXd* w : {&weight_, &weights.W, &weights.V}) *w = w->cwiseSqrt().eval();
   const VectorXd strength = weights.strength(A.k);
   for (Index j = 0; j < r; ++j)
-    if (j >= A.n_contact || !(strength[j] < kWeak)) leading_.push_back(j);
+    if (j >= A.n_contact || !(strength[j] < kWeakCoupling)) leading_.push_back(j);
   return static_cast<double>(leading_.size()) <= kMostLeading * static_cast<double>(r);
 }
 

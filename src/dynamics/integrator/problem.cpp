@@ -11,7 +11,7 @@ constexpr int kNewtonLimit = 25;
 constexpr const char* kNotFinite = "the motion is not finite";
 // A block of equations (the joint or the elastic coordinates of a body) whose forces are below this share of
 // the largest block's has roundoff alone.
-constexpr double kNothing = 1e-14;
+constexpr double kZeroForce = 1e-14;
 constexpr double kDeepest = 0.9;  // share of the contact depth that may be used before a step is cut
 
 template <class Object>
@@ -101,7 +101,7 @@ PetscErrorCode converged(SNES snes, PetscInt, PetscReal, PetscReal, PetscReal no
 
 double imbalance(const Residual& r) {
   double share = 0;
-  const double nothing = kNothing * r.scale.maxCoeff();
+  const double nothing = kZeroForce * r.scale.maxCoeff();
   for (Eigen::Index i = 0; i < r.norm.size(); ++i)
     if (r.scale[i] > nothing) share = std::max(share, r.norm[i] / r.scale[i]);
   return share;

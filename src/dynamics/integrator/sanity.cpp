@@ -10,8 +10,8 @@
 namespace elastogear::dynamics {
 namespace {
 
-constexpr double kNothingLeft = 0.5;       // elastic rotation (rad) or strain
-constexpr double kFarBeyond = 100;         // energy that is made over the energy, at once
+constexpr double kLimitOfLinearity = 0.5;  // elastic rotation (rad) or strain
+constexpr double kEnergyGrowth = 100;      // energy that is made over the energy, at once
 constexpr double kMostMade = 0.1;          // energy that may be made, of the energy that is turned over
 constexpr int kMostBeyond = 10;            // successive steps with more
 constexpr double kNoEnergy = 1e-9;         // J, that may be roundoff of a system at rest
@@ -67,9 +67,9 @@ void Sanity::require_positive_mass(std::size_t b, const model::Snapshot& now) co
 void Sanity::require_small(const model::Snapshot& now) const {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const System::Body& body = system_->bodies()[b];
-    const double change = bodies_[b].deformation.largest(now.bodies[b].q, kNothingLeft);
-    require(!(change > kNothingLeft), "body '", body.name, "' at t = ", now.time,
-            " s: elastic rotation or strain ", change, ", beyond ", kNothingLeft,
+    const double change = bodies_[b].deformation.largest(now.bodies[b].q, kLimitOfLinearity);
+    require(!(change > kLimitOfLinearity), "body '", body.name, "' at t = ", now.time,
+            " s: elastic rotation or strain ", change, ", beyond ", kLimitOfLinearity,
             " nothing is left of equations that are linear in it. Are loads, stiffness and speeds those that "
             "were meant, and the time step short enough?");
     if (may_lose_its_mass(body)) require_positive_mass(b, now);
@@ -82,7 +82,7 @@ void Sanity::require_balance(double time, const model::Energies& now) {
   work_ = now.work;
   const double energy = std::max(turned_over(), kNoEnergy);
   beyond_ = now.balance > kMostMade * energy ? beyond_ + 1 : 0;
-  require(beyond_ < kMostBeyond && !(now.balance > kFarBeyond * energy), "at t = ", time,
+  require(beyond_ < kMostBeyond && !(now.balance > kEnergyGrowth * energy), "at t = ", time,
           " s the energy balance is off by ", now.balance, " J, more than ", 100 * kMostMade, " % of the ",
           energy,
           " J that there were at the start and came in by loads and motions: the run makes energy. Try a "

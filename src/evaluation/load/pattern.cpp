@@ -73,11 +73,12 @@ std::optional<ContactPattern> contact_pattern(const ContactHistory& contacts, co
 }
 
 std::optional<PressurePeak> largest_pressure(const ContactHistory& contacts) {
-  constexpr double kSame = 1e-6;  // of both ends of an even face, of which the first one is named
+  constexpr double kEqualEnds = 1e-6;  // of both ends of an even face, of which the first one is named
   std::optional<PressurePeak> peak;
   for (std::size_t step = 0; step < contacts.size(); ++step)
     for (const FlankContact& c : contacts[step])
-      if (!peak || c.pressure > (1 + kSame) * peak->pressure) peak = {c.pressure, static_cast<int>(step), c};
+      if (!peak || c.pressure > (1 + kEqualEnds) * peak->pressure)
+        peak = {c.pressure, static_cast<int>(step), c};
   return peak;
 }
 

@@ -11,7 +11,7 @@ namespace elastogear::fem {
 namespace {
 
 constexpr int kTerms = 6;            // of a polynomial of degree 2 in two variables
-constexpr int kEnough = 9;           // nodes of a patch, so that errors of single displacements are smoothed
+constexpr int kPatchNodes = 9;       // nodes of a patch, so that errors of single displacements are smoothed
 constexpr int kMostRings = 3;        // of faces around a node
 constexpr double kWellPosed = 1e-4;  // smallest eigenvalue of the fit's matrix in normalised coordinates
 constexpr double kRidge = 1e-6;      // weight of curvature where the nodes do not determine it
@@ -70,7 +70,7 @@ FitMatrix fit_matrix(const Patch& patch) {
 
 bool is_well_posed(const Patch& patch) {
   const Eigen::SelfAdjointEigenSolver<FitMatrix> modes(fit_matrix(patch), Eigen::EigenvaluesOnly);
-  return patch.node.size() >= kEnough && modes.eigenvalues()[0] > kWellPosed;
+  return patch.node.size() >= kPatchNodes && modes.eigenvalues()[0] > kWellPosed;
 }
 
 // Derivatives at the origin of the polynomial of degree 2 that fits values at the nodes best. Where they

@@ -11,9 +11,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTolerance = 1e-2;     // of a response in the family; those of bodies err by less
-constexpr double kNothing = 1e-9;       // relative to the response: is interpolated already
-constexpr double kLargestFactor = 3e4;  // of responses in single precision
+constexpr double kTolerance = 1e-2;           // of a response in the family; those of bodies err by less
+constexpr double kInterpolationError = 1e-9;  // relative to the response: is interpolated already
+constexpr double kLargestFactor = 3e4;        // of responses in single precision
 
 // Series that differ, and which of them each part has.
 struct Series {
@@ -110,7 +110,7 @@ bool add_worst(Choice& choice) {
   const MatrixXd error = choice.errors(choice.L);
   Index law = 0, point = error.cols() - 1;
   const double most = choice.law.size() == 1 ? error.col(point).maxCoeff(&law) : error.maxCoeff(&law, &point);
-  if (most < kNothing) return false;
+  if (most < kInterpolationError) return false;
   choice.law.push_back(law);
   choice.point.push_back(point);
   if (choice.coefficients().cwiseAbs().maxCoeff() < kLargestFactor) return true;
