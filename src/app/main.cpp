@@ -10,6 +10,7 @@
 #include "app/console/environment.h"
 #include "app/console/lone_process.h"
 #include "app/options/command_line.h"
+#include "app/options/help_topics.h"
 #include "app/options/petsc_names.h"
 #include "app/verbs/registry.h"
 #include "app/way_out.h"
@@ -28,15 +29,25 @@ void print_usage(const std::vector<Verb>& verbs) {
   for (const Verb& verb : verbs)
     std::printf("  elastogear %-52s %s\n", verb.usage.c_str(), verb.summary.c_str());
   std::printf(
-      "\n'elastogear VERB -help' lists every option with unit and default. Options stand in YAML files\n"
-      "(nested keys are joined by '_') and on the command line, which wins.\n");
+      "\n'elastogear VERB -help' lists the options of first need with unit and default, '-help all' all of "
+      "them,\n"
+      "'-help WORD' those about a word. Options stand in YAML files (nested keys are joined by '_') and on "
+      "the\n"
+      "command line, which wins.\n");
 }
 
-void print_help(const Verb& verb) {
+int print_help(const Verb& verb, const std::string& about) {
+  const std::string options = help_by_topic(verb.table, about);
+  if (options.empty() && !about.empty()) {
+    std::fprintf(stderr, "elastogear: error: %s has no option about '%s'; '%s -help all' lists all\n",
+                 verb.name.c_str(), about.c_str(), verb.name.c_str());
+    return 1;
+  }
   std::printf(
-      "elastogear %s\n  %s\n\noptions (SI units; on the command line, or as keys of a YAML file):\n%s\n",
-      verb.usage.c_str(), verb.summary.c_str(), help_text(verb.table).c_str());
+      "elastogear %s\n  %s\n\nOptions, on the command line or as keys of a YAML file, in SI units:\n\n%s",
+      verb.usage.c_str(), verb.summary.c_str(), options.c_str());
   std::printf("PETSc's and SLEPc's options work beside these: %s-log_view.\n", verb.solvers);
+  return 0;
 }
 
 void run(const Verb& verb, const std::vector<Verb>& verbs, const CommandLine& line, int argc, char** argv) {
@@ -125,7 +136,7 @@ int main(int argc, char** argv) {
   if (line.verb.empty()) return app::print_usage(verbs), line.help ? 0 : 1;
   if (line.help) {
     for (const app::Verb& verb : verbs)
-      if (verb.name == line.verb) return app::print_help(verb), 0;
+      if (verb.name == line.verb) return app::print_help(verb, line.help_about);
     return app::print_usage(verbs), 1;
   }
   app::start_with_settings(line.verb, argv);

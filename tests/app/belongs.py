@@ -60,7 +60,7 @@ def refusal(words, *arguments):
 
 def keys(verb, gear="pinion"):
     """Names and units of the options that a verb lists, of one of the gears."""
-    rows = re.findall(r"^  -(\S+)(?: \[(.*)\])?$", run(verb, "-help"), re.M)
+    rows = re.findall(r"^  -(\S+)(?: \[(.*)\])?$", run(verb, "-help", "all"), re.M)
     assert len(rows) > 100
     return {re.sub("<(gear|body|bearing)>", gear, name): unit for name, unit in rows if not re.search("<(?!gear|body|bearing)", name)}
 

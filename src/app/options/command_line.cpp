@@ -17,7 +17,10 @@ CommandLine parse_command_line(int argc, char** argv) {
   bool options_began = false;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (asks(word, "help") || word == "-h") line.help = true;
+    if (asks(word, "help") || word == "-h") {
+      line.help = true;
+      if (i + 1 < argc && !is_option(argv[i + 1])) line.help_about = argv[i + 1];
+    }
     if (asks(word, "version") && i == 1) line.version = true;
     options_began = options_began || is_option(word) || word.starts_with("--");
     if (options_began) continue;

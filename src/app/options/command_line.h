@@ -12,6 +12,7 @@ struct CommandLine {
   std::string verb;
   std::vector<std::string> arguments;  ///< words before the first option
   bool help = false, version = false;
+  std::string help_about = {};  ///< the word after -help
 };
 
 CommandLine parse_command_line(int argc, char** argv);

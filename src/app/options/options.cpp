@@ -244,7 +244,7 @@ void Options::reject_unknown(const PlaceholderValues& given_values) const {
     }
     fail("unknown ", label(name), value.empty() ? "" : " = '" + value + "'", "; the nearest known option is ",
          nearest_option(name, expand(own_, values), known, written_.contains(name)), ". 'elastogear ", verb_,
-         " -help' lists all.");
+         " -help all' lists all.");
   }
 }
 

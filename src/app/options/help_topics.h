@@ -1,0 +1,18 @@
+#pragma once
+// Options by topic, as -help prints them: those of first need, or all, or those about one word.
+
+#include <string>
+
+#include "app/options/option_table.h"
+
+namespace elastogear::app {
+
+/// The options of a table under the headings of their topics. about: "" for those of first need, with what
+/// asks for the others; "all"; or a word that the name of an option, its meaning or its topic holds. Empty
+/// where no option holds the word.
+std::string help_by_topic(const OptionTable& table, const std::string& about);
+
+/// The heading of an option, "other options" for one that no topic names.
+std::string topic_of(const std::string& option);
+
+}  // namespace elastogear::app

@@ -1,0 +1,43 @@
+// Which options -help prints, under which headings.
+#include "app/options/help_topics.h"
+
+#include <gtest/gtest.h>
+
+#include "app/verbs/registry.h"
+
+namespace elastogear::app::help_topics_test {
+namespace {
+
+std::ptrdiff_t rows(const std::string& help) {
+  std::ptrdiff_t n = 0;
+  for (std::size_t at = help.find("\n  -"); at != std::string::npos; at = help.find("\n  -", at + 1)) ++n;
+  return n;
+}
+
+TEST(HelpTopics, hold_every_option_of_every_verb_once) {
+  for (const Verb& verb : all_verbs()) {
+    std::ptrdiff_t with_help = 0;
+    for (const OptionSpec& spec : verb.table) {
+      EXPECT_NE(topic_of(spec.name), "other options") << verb.name << " -" << spec.name;
+      with_help += !spec.help.empty();
+    }
+    EXPECT_EQ(rows(help_by_topic(verb.table, "all")), with_help) << verb.name;
+  }
+}
+
+TEST(HelpTopics, of_first_need_are_sixty_options_at_most) {
+  for (const Verb& verb : all_verbs()) EXPECT_LE(rows(help_by_topic(verb.table, "")), 60) << verb.name;
+}
+
+TEST(HelpTopics, are_chosen_by_a_word_of_names_meanings_and_headings) {
+  const OptionTable table = {{"contact_friction", "-", "0", "coefficient of friction"},
+                             {"contact_skin", "m", "0", "width of a band"},
+                             {"torque", "N m", "0", "on the first gear"}};
+  EXPECT_EQ(rows(help_by_topic(table, "Contact")), 2);
+  EXPECT_EQ(rows(help_by_topic(table, "gear")), 1);
+  EXPECT_EQ(help_by_topic(table, "pizza"), "");
+  EXPECT_NE(help_by_topic(table, "").find("1 more options"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace elastogear::app::help_topics_test
