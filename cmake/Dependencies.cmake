@@ -1,7 +1,9 @@
 # Everything elastogear links, as imported targets; used by the build and by the installed package.
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET GLOBAL petsc>=3.18)
-pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET GLOBAL slepc>=3.18)
+# Debian's packages with 64-bit indices call themselves petsc64 and slepc64.
+pkg_search_module(PETSC REQUIRED IMPORTED_TARGET GLOBAL petsc>=3.18 petsc64>=3.18)
+string(REPLACE petsc slepc slepc_module "${PETSC_MODULE_NAME}")
+pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET GLOBAL ${slepc_module}>=3.18)
 # The types that are registered with PETSc and SLEPc (TS generalized_alpha, EPS block_lanczos, PC ldl, BV slabs) are
 # written against their private headers, those of 3.18.5 (Debian 12) and 3.22.5 (Debian 13).
 foreach(library PETSC SLEPC)
@@ -22,8 +24,11 @@ if(NOT TARGET METIS::METIS)
                         INTERFACE_INCLUDE_DIRECTORIES "${METIS_INCLUDE_DIR}")
 endif()
 if(NOT TARGET MUMPS::DMUMPS)
+  # That of PETSc (dmumps_64 with Debian's 64-bit indices): two of them in one program share the names of their functions.
+  set(dmumps_of_petsc ${PETSC_STATIC_LIBRARIES})
+  list(FILTER dmumps_of_petsc INCLUDE REGEX "^dmumps")
   find_path(MUMPS_INCLUDE_DIR dmumps_c.h REQUIRED)
-  find_library(DMUMPS_LIBRARY dmumps REQUIRED)
+  find_library(DMUMPS_LIBRARY NAMES ${dmumps_of_petsc} dmumps REQUIRED)
   add_library(MUMPS::DMUMPS UNKNOWN IMPORTED GLOBAL)
   set_target_properties(MUMPS::DMUMPS PROPERTIES IMPORTED_LOCATION "${DMUMPS_LIBRARY}"
                         INTERFACE_INCLUDE_DIRECTORIES "${MUMPS_INCLUDE_DIR}")

@@ -1,9 +1,11 @@
-"""The version, and the versions of PETSc and SLEPc that CMake takes, are the same wherever they stand; recipes can be read."""
+"""The version, and the versions of PETSc and SLEPc that CMake takes, are the same wherever they stand; recipes can be read;
+CMake takes the right MUMPS."""
 import ast
 import os
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import yaml
@@ -29,6 +31,20 @@ def conda_recipe():
     return yaml.safe_load(re.sub(r"\{\{ *(.*?) *\}\}", lambda word: word[1].replace('"', ""), "\n".join(lines)))
 
 
+# What pkg-config knows, and the libraries, of a system that has PETSc with 64-bit indices alone, as Debian names them.
+PKG_CONFIG = """Name: {name}
+Description: none
+Version: 3.22.5
+Libs: -lc
+Libs.private: -lzmumps_64 -ldmumps_64 -lmumps_common_64
+"""
+PROJECT = """cmake_minimum_required(VERSION 3.25)
+project(user LANGUAGES C CXX)
+include({dependencies})
+message(STATUS "links ${{DMUMPS_LIBRARY}} of ${{PETSC_MODULE_NAME}}, ${{SLEPC_MODULE_NAME}}")
+"""
+
+
 class Packaging(unittest.TestCase):
     def test_version(self):
         version = found(r"^project\(elastogear VERSION ([\d.]+)", "CMakeLists.txt")
@@ -44,6 +60,21 @@ class Packaging(unittest.TestCase):
         for library in ("petsc", "slepc"):
             self.assertIn(f"{library} >={oldest},<{newer}", conda_recipe()["requirements"]["host"])
             self.assertIn(f'"{library}@{oldest}:{newest}', spack)
+
+    def test_64_bit_indices(self):
+        """PETSc's own MUMPS is linked: dmumps_64, beside which dmumps may be there, too."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("petsc64", "slepc64"):
+                with open(os.path.join(folder, name + ".pc"), "w", encoding="utf-8") as file:
+                    file.write(PKG_CONFIG.format(name=name))
+            for name in ("dmumps", "dmumps_64"):
+                open(os.path.join(folder, f"lib{name}.so"), "wb").close()
+            with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+                file.write(PROJECT.format(dependencies=os.path.join(ROOT, "cmake", "Dependencies.cmake")))
+            run = subprocess.run(["cmake", "-S", folder, "-B", os.path.join(folder, "build"), f"-DCMAKE_LIBRARY_PATH={folder}"],
+                                 env={**os.environ, "PKG_CONFIG_LIBDIR": folder, "PKG_CONFIG_PATH": ""},
+                                 capture_output=True, text=True, check=False)
+            self.assertIn(f"links {folder}/libdmumps_64.so of petsc64, slepc64", run.stdout, run.stdout + run.stderr)
 
     def test_recipes(self):
         recipe = ast.parse(read("packaging", "spack", "packages", "elastogear", "package.py"))

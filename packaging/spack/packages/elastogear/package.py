@@ -17,7 +17,7 @@ class Elastogear(CMakePackage):
     depends_on("slepc@3.18:3.22")
     depends_on("hdf5 +mpi")
     depends_on("mumps +mpi")
-    depends_on("metis")
+    depends_on("metis ~int64")
     depends_on("eigen@3.4")
     depends_on("lapack")
     depends_on("blas")
