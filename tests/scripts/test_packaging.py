@@ -1,5 +1,5 @@
 """The version, and the versions of PETSc and SLEPc that CMake takes, are the same wherever they stand; recipes can be read;
-CMake takes the right MUMPS."""
+CMake takes the right MUMPS, and scripts/format the right clang-format."""
 import ast
 import os
 import re
@@ -81,6 +81,18 @@ class Packaging(unittest.TestCase):
         self.assertEqual([node.name for node in recipe.body if isinstance(node, ast.ClassDef)], ["Elastogear"])
         self.assertEqual(yaml.safe_load(read("packaging", "spack", "repo.yaml"))["repo"]["namespace"], "elastogear")
         self.assertEqual(conda_recipe()["package"], {"name": "elastogear", "version": "version"})
+
+    def test_format_refuses_another_version(self):
+        """Debian 13's clang-format would lay out 73 lines otherwise."""
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "clang-format")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write("#!/bin/sh\necho Debian clang-format version 19.1.7 '(3+b1)'\n")
+            os.chmod(program, 0o755)
+            run = subprocess.run([os.path.join(ROOT, "scripts", "format"), "--check"], env={**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"},
+                                 capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("version 19, must be 14", run.stderr)
 
     def test_page_of_a_drive_needs_no_plots(self):
         """The packages on which the .deb depends are enough for the page that `run` makes: neither matplotlib nor VTK."""
