@@ -8,7 +8,7 @@ struck() {
   shift 4
   rm -f struck.log
   # The sanitizers' library need not come first.
-  (LD_PRELOAD=${faults:?} FAULT=$what FAULT_AT=$nth FAULT_CALL=$call FAULT_FILE=$file FAULT_LOG=$PWD/struck.log \
+  (LD_PRELOAD=${faults:?}${LD_PRELOAD:+:$LD_PRELOAD} FAULT=$what FAULT_AT=$nth FAULT_CALL=$call FAULT_FILE=$file FAULT_LOG=$PWD/struck.log \
     ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0 exec "$@") >run.log 2>&1 || status=$?
   [ -e struck.log ] || { cat run.log; echo "FAIL: no call number $nth of $call on $file"; exit 1; }
   return $status

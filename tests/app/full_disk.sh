@@ -22,7 +22,7 @@ recover=("$elastogear" recover -result whole_result.h5 -stress_low FIX)
 full() {
   local space=$1
   shift
-  (LD_PRELOAD=$faults FAULT=full FAULT_CALL=write FAULT_FILE=$work/ FAULT_SPACE=$space \
+  (LD_PRELOAD=$faults${LD_PRELOAD:+:$LD_PRELOAD} FAULT=full FAULT_CALL=write FAULT_FILE=$work/ FAULT_SPACE=$space \
     ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0 exec "$@") >run.out 2>run.log
 }
 

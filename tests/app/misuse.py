@@ -75,7 +75,7 @@ class Bench:
         environment = {**os.environ, **MPI, "OMPI_MCA_orte_tmpdir_base": tempfile.mkdtemp(dir=os.path.dirname(self.folder))}
         if fault:
             environment.update({f"FAULT{'_' if key else ''}{key}": value for key, value in fault.items()})
-            environment.update(LD_PRELOAD=self.faults,
+            environment.update(LD_PRELOAD=f"{self.faults}:{os.environ.get('LD_PRELOAD', '')}",
                                ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0")
         return subprocess.Popen(expand(command, {"elastogear": self.program}), cwd=self.folder, env=environment,
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

@@ -56,8 +56,8 @@ grep -q "stopped by signal 15.*goes on from there" run.log || fail "a stopped sw
 grep -Eq "continued after +2 of 8 parts" run.log || fail "a sweep does not say that it continues"
 "${cases[@]}" -output cut.h5 -sweep_positions 21 >run.log 2>&1 && fail "continued with other positions"
 grep -q "sweep_positions 21 (was 20)" run.log || fail "the message on other positions"
-(LD_PRELOAD=$faults FAULT=full FAULT_CALL=write FAULT_FILE=$work/ FAULT_SPACE=40000 ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0 \
-  exec "${cases[@]}" -output cut.h5) >run.log 2>&1 && fail "a full disk is passed over"
+(LD_PRELOAD=$faults${LD_PRELOAD:+:$LD_PRELOAD} FAULT=full FAULT_CALL=write FAULT_FILE=$work/ FAULT_SPACE=40000 \
+  ASAN_OPTIONS=${ASAN_OPTIONS:-}:verify_asan_link_order=0 exec "${cases[@]}" -output cut.h5) >run.log 2>&1 && fail "a full disk is passed over"
 grep -q "no space left.*goes on from there" run.log || fail "the message on a full disk"
 killed_at 1 rename case_0002 "${cases[@]}" -output cut.h5
 "${cases[@]}" -output cut.h5 >run.log 2>&1 || fail "the last run"

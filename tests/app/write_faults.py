@@ -64,9 +64,9 @@ def strike(verb, call, number, whole, again):
             os.remove(name)
     if os.path.exists("struck"):
         os.remove("struck")
-    done = start(command, LD_PRELOAD=faults, FAULT=str(ERROR), FAULT_AT=str(number), FAULT_CALL=call,
+    done = start(command, LD_PRELOAD=f"{faults}:{os.environ.get('LD_PRELOAD', '')}", FAULT=str(ERROR),
+                 FAULT_AT=str(number), FAULT_CALL=call,
                  FAULT_FILE="." if call == "rename" else os.getcwd(),  # whose names may be relative
-                
                  FAULT_LOG=os.path.join(os.getcwd(), "struck"), ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0")
     if not os.path.exists("struck"):
         return False
