@@ -63,6 +63,9 @@ std::string fingerprint(const ElasticBody& body) {
   for (const Marker& marker : body.markers) {
     f.add_all(marker.X);
     add(f, marker.Phi);
+    if (!marker.area) continue;
+    f.add_all(marker.area->sum);
+    f.add_all(marker.area->moment);
   }
   for (const RelaxingPart& part : body.relaxing) add(f, part);
   return f.text();

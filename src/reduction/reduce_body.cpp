@@ -51,7 +51,7 @@ model::ElasticBody make_body(const mesh::Mesh& mesh, const ReductionOptions& opt
   body.beta = options.beta;
   if (!options.surface.empty()) body.surface = make_surface(mesh, options.regions, options.surface);
   body.stress = make_stress(mesh, options.stress_nodes);
-  body.markers = make_markers(mesh, options.markers, options.marker_weights);
+  body.markers = make_markers(mesh, options.markers);
   body.provenance = options.provenance;
   return body;
 }
@@ -227,7 +227,7 @@ model::StressRecovery make_recovery(const Job& job) {
 model::SparseRows field_operator(const Job& job) {
   const mesh::Mesh& mesh = job.mesh;
   const model::Stress& stress = job.plan.body.stress;
-  const model::SparseRows Q = marker_operator(mesh, job.options.markers, job.options.marker_weights);
+  const model::SparseRows Q = marker_operator(mesh, job.options.markers);
   if (stress.node.empty()) return Q;
   const model::SparseRows S = fem::stress_operator(stressed_body(job), stress.node);
   model::SparseRows both(S.rows() + Q.rows(), S.cols());

@@ -61,7 +61,6 @@ REDUCE = [
     Case("materials of a mesh in micrometres", r"unit = 'um': materials of the mesh file", "{elastogear} reduce -mesh millimetres.inp -unit um -basis modal -output kept.h5"),
     Case("unit of a mesh that is none", r"unit.*m, mm, um, in", "{reduce} -unit ft"),
     Case("moduli in kN/mm^2 and t/mm^3", r"", "{reduce} -material_E 210\\ kN/mm^2 -material_rho 7.85e-9\\ t/mm^3", kind="good", leaves=r"kept\.h5", after=mass_is(0.02355)),
-    Case("marker weights that are none", r"marker_weights.*equal, area", "{reduce} -marker_weights mass"),
     Case("stress recovery that is none", r"stress_recovery.*auto, average, surface", "{reduce} -stress_recovery nodal"),
     Case("invariants that are none", r"invariants.*linear, full", "{reduce} -invariants all"),
     Case("basis that is none", r"basis.*modal_residual, full, modal_attachment, krylov, craig_bampton", "{reduce} -basis best"),

@@ -138,9 +138,7 @@ class AttachmentModes : public Flexibility {
   }
   // Unit loads on the markers, 3 n_nodes x 12.
   Eigen::MatrixXd unit_loads(const io::BodySource& source) const {
-    return Eigen::MatrixXd(
-               reduction::marker_operator(source.mesh, {"inner", "one"}, reduction::MarkerWeights::equal))
-        .transpose();
+    return Eigen::MatrixXd(reduction::marker_operator(source.mesh, {"inner", "one"})).transpose();
   }
   Eigen::MatrixXd whole_response(const io::BodySource& source, bool floating,
                                  const Eigen::MatrixXd& f) const {

@@ -80,7 +80,6 @@ TEST_F(HeldDirections, on_both_sides_of_a_strip_give_plane_strain) {
   auto o = options({"zmin:z", "zmax:z", "xmin:x", "ymin:y"}, 1);
   o.basis = model::Basis::full;
   o.markers = {"xmax"};
-  o.marker_weights = reduction::MarkerWeights::area;
   o.stress_nodes = {"ymax"};
   reduce(test::brick({3, 2, 2}, l), o);
   if (!is_root()) return;

@@ -48,8 +48,9 @@ TEST(Marker, moves_with_a_rigid_motion_of_its_nodes) {
 
 // The rotation that leaves the least squares of u - mean - theta x r.
 TEST(Marker, has_the_rotation_of_least_squares) {
-  const mesh::Mesh mesh = example_mesh();
-  const auto& nodes = mesh.node_sets.at("xmax");
+  mesh::Mesh mesh = example_mesh();
+  auto& nodes = mesh.node_sets.at("xmax");
+  nodes.insert(nodes.begin(), 0);  // at another end: sides do not hold all of them, they weigh the same
   const VectorXd u = VectorXd::Random(3 * mesh.n_nodes());
   const Vector6 motion = reduction::marker_operator(mesh, {"xmax"}) * u;
   Vector3d gradient = Vector3d::Zero(), mean = mesh.X(Eigen::all, nodes).rowwise().mean();
@@ -68,12 +69,13 @@ TEST(Marker, weighed_by_area_lies_at_the_centre_of_its_surface_and_turns_with_it
   mesh::Mesh mesh = test::brick({2, 2, 1}, {2, 1, 1});
   for (int i = 0; i < mesh.n_nodes(); ++i)
     if (mesh.X(0, i) == 1) mesh.X(0, i) = 0.2;
-  const auto by_area = reduction::MarkerWeights::area;
-  EXPECT_LT(reduction::make_markers(mesh, {"zmin"})[0].X.x(), 0.8);
-  const auto markers = reduction::make_markers(mesh, {"zmin"}, by_area);
+  mesh.node_sets["and_another"] = mesh.node_sets.at("zmin");
+  mesh.node_sets["and_another"].push_back(mesh.n_nodes() - 1);
+  EXPECT_NEAR(reduction::make_markers(mesh, {"and_another"})[0].X.x(), (3 * 2.2 + 2) / 10, kRoundoff);
+  const auto markers = reduction::make_markers(mesh, {"zmin"});
   EXPECT_LT((markers[0].X - Vector3d(1, 0.5, 0)).norm(), kRoundoff);
   const Vector3d a(1, -2, 3), b(0.3, 0.2, -0.7);
-  const VectorXd motion = reduction::marker_operator(mesh, {"zmin"}, by_area) * rigid_field(mesh, a, b);
+  const VectorXd motion = reduction::marker_operator(mesh, {"zmin"}) * rigid_field(mesh, a, b);
   EXPECT_LT((motion.head<3>() - a - b.cross(markers[0].X)).norm(), kRoundoff);
   EXPECT_LT((motion.segment<3>(3) - b).norm(), kRoundoff);
 }
@@ -84,7 +86,7 @@ TEST(Marker, weighed_by_area_spreads_a_force_as_an_even_traction) {
   using mesh::CellType;
   const auto weights = [](CellType type) {
     const mesh::Mesh mesh = test::cells_of(type, test::brick({1, 1, 1}, {1, 1, 1}));
-    const auto Q = reduction::marker_operator(mesh, {"zmin"}, reduction::MarkerWeights::area);
+    const auto Q = reduction::marker_operator(mesh, {"zmin"});
     std::vector<double> all;
     for (int node : mesh.node_sets.at("zmin")) all.push_back(Q.coeff(0, 3 * node));
     std::sort(all.begin(), all.end());
@@ -101,7 +103,7 @@ TEST(Marker, weighed_by_area_spreads_a_force_as_an_even_traction) {
 TEST(Marker, weighed_by_area_has_the_second_moment_of_its_surface) {
   for (mesh::CellType type : {mesh::CellType::hex8, mesh::CellType::hex20, mesh::CellType::tet10}) {
     const mesh::Mesh mesh = test::cells_of(type, test::brick({2, 1, 1}, {3, 1, 1}));
-    const auto Q = reduction::marker_operator(mesh, {"zmin"}, reduction::MarkerWeights::area);
+    const auto Q = reduction::marker_operator(mesh, {"zmin"});
     VectorXd bent =
         VectorXd::Zero(3 * mesh.n_nodes());  // w = x y about the centre: neither moves nor turns it
     for (int i = 0; i < mesh.n_nodes(); ++i) bent[3 * i + 2] = (mesh.X(0, i) - 1.5) * (mesh.X(1, i) - 0.5);
@@ -113,8 +115,26 @@ TEST(Marker, weighed_by_area_has_the_second_moment_of_its_surface) {
   }
 }
 
-TEST(Marker, weighed_by_area_needs_a_surface) {
-  EXPECT_THROW(reduction::make_markers(example_mesh(), {"line"}, reduction::MarkerWeights::area), Error);
+// The sides of a closed surface sum up to nothing, and sweep three times its volume when all grows by itself.
+TEST(Marker, of_faces_has_the_volume_that_a_pressure_works_on) {
+  for (mesh::CellType type : {mesh::CellType::hex8, mesh::CellType::hex20, mesh::CellType::tet10}) {
+    mesh::Mesh mesh = test::cells_of(type, test::brick({2, 1, 1}, {3, 1, 2}));
+    mesh.face_sets = {{"all", mesh::boundary_faces(mesh)}, {"end", {}}};
+    for (const mesh::Face& face : mesh.face_sets["all"])
+      if (std::all_of(face.begin(), face.end(), [&](int node) { return mesh.X(0, node) == 3; }))
+        mesh.face_sets["end"].push_back(face);
+    const auto markers = reduction::make_markers(mesh, {"all", "end"});
+    ASSERT_EQ(markers.size(), 4u);
+    EXPECT_EQ(markers[3].name, model::pressure_marker("end"));
+    EXPECT_LT(markers[1].area->sum.norm() + markers[1].area->moment.norm(), kRoundoff);
+    EXPECT_LT((markers[3].area->sum - Vector3d(2, 0, 0)).norm(), kRoundoff);
+    EXPECT_LT((markers[3].area->moment - Vector3d(0, 2, -1)).norm(), kRoundoff);
+    const Eigen::MatrixXd Q = reduction::marker_operator(mesh, {"all", "end"});
+    EXPECT_NEAR(Q.row(6).dot(mesh.X.reshaped()), 3 * 6, kRoundoff);
+    EXPECT_NEAR(Q.row(18).dot(rigid_field(mesh, {1, -2, 3}, {0.3, 0.2, -0.7})), 2 * (1 + 0.2 * 1 + 0.7 * 0.5),
+                kRoundoff);
+    EXPECT_EQ(Q.middleRows(7, 5).norm() + Q.middleRows(19, 5).norm(), 0);
+  }
 }
 
 TEST(Marker, on_a_line_has_no_rotation) {

@@ -22,13 +22,15 @@ struct MarkerName {
 /// acceleration. It is asked any number of times in a step, in any order, and must depend on nothing else.
 using WrenchLaw = std::function<body::Wrench(double t, const body::MarkerMotion& marker)>;
 
-/// force and torque times the signal; in the world, or turning with the marker.
+/// force, torque and pressure times the signal; in the world, or turning with the marker. A pressure turns
+/// with the body's frame.
 struct LoadSetup {
   std::string name;
   MarkerName marker;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
-  bool follows = false;                              ///< components in the marker's frame
+  double pressure = 0;   ///< Pa, on the face set of the marker, against its normals
+  bool follows = false;  ///< components in the marker's frame
   Signal signal = constant_signal(1);
   WrenchLaw law = {};  ///< beside these, in the same frame
 };
@@ -111,6 +113,13 @@ class MarkerForces {
     Eigen::Index row = 0, column = 0;                  ///< first ones, in columns(body) and among all places'
     Eigen::Vector3d ground = Eigen::Vector3d::Zero();  ///< m
   };
+  /// What a pressure does at one place: on the volume that its faces sweep, and on the body's frame, with
+  /// which both turn.
+  struct Part {
+    std::size_t load = 0;
+    int place = 0;
+    body::Wrench wrench;
+  };
   struct Tangent {
     body::Shifts shift;
     body::Wrench wrench;
@@ -123,7 +132,9 @@ class MarkerForces {
   const Place& place(int i) const { return place_[static_cast<std::size_t>(i)]; }
   Eigen::Index marker_count(int b) const;
   void add_load(const LoadSetup& load);
+  void add_pressure(const LoadSetup& load, const std::string& who);
   void add_bushing(const BushingSetup& bushing);
+  body::Wrench part_wrench(const Part& part, double time, const body::MarkerMotion& marker) const;
   static void require_turning(const Place& place, const std::string& who);
   static body::MarkerMotion motion(const Place& place, const std::vector<MovingBody>& bodies);
   std::vector<body::MarkerMotion> motions(const std::vector<MovingBody>& bodies) const;
@@ -139,6 +150,7 @@ class MarkerForces {
   std::vector<Place> place_;                    ///< where forces act
   std::vector<int> load_at_;                    ///< indices into place_
   std::vector<std::array<int, 2>> bushing_at_;  ///< likewise
+  std::vector<Part> part_;
   std::vector<Place> sensor_at_;
   std::vector<Bushing> bushing_;
   Eigen::Index n_columns_ = 0;  ///< of all places

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -88,13 +89,25 @@ struct Stress {
 /// Name of the marker that every body has without storing it: its frame.
 inline constexpr const char* kFrameMarker = "frame";
 
-/// A place on the body that moves with the mean of a node set: loads, bushings and sensors act there.
+/// The area of faces along their normals, in the BRF.
+struct AreaVector {
+  Eigen::Vector3d sum;     ///< m^2
+  Eigen::Vector3d moment;  ///< m^3, about the origin
+};
+
+/// A place on the body that moves with the mean of a node set: loads, bushings and sensors act there. Or what
+/// a pressure on a face set acts on: the volume that the faces sweep is the first row of Phi, the others are
+/// zero.
 struct Marker {
-  std::string name;    ///< of the node set
+  std::string name;    ///< of the set; of a pressure pressure_marker
   Eigen::Vector3d X;   ///< m, mean reference position
   bool turns = true;   ///< has a rotation; not when the set lies on one line
   BasisRows Phi = {};  ///< 6 x n_q: mean displacement, mean small rotation (rad); zero where it does not turn
+  std::optional<AreaVector> area = {};  ///< of a pressure
 };
+
+/// Name of the marker of a pressure on a face set.
+inline std::string pressure_marker(const std::string& set) { return set + ":pressure"; }
 
 /// A part of a body's stiffness that relaxes, that of one material region by both moduli or by one of them.
 /// The elastic force is K_r q - sum_p K sum_i g_i z_i with z_i' = (q - z_i)/tau_i: docs/theory, Eq.

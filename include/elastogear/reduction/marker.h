@@ -10,18 +10,15 @@
 
 namespace elastogear::reduction {
 
-/// Weight of a node in the mean of its set: equal for all nodes, or by integrals of shape functions over the
-/// area of those outer sides whose nodes all belong to the set.
-enum class MarkerWeights { equal, area };
+/// One marker for each set, of that name, and one for a pressure behind it where the set is one of outer
+/// faces; Phi stays empty. Nodes weigh by integrals of shape functions over the outer sides whose nodes all
+/// belong to the set where these hold all of its nodes, else the same. Throws Error for an unknown, empty or
+/// repeated set, and for one that is named as the body frame.
+std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vector<std::string>& sets);
 
-/// One marker for each set, of that name; Phi stays empty. Throws Error for an unknown, empty or
-/// repeated set, for one that is named as the body frame, and for one that has no area when that is to weigh.
-std::vector<model::Marker> make_markers(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
-                                        MarkerWeights weights = MarkerWeights::equal);
-
-/// From the displacements of all nodes to mean displacement and mean small rotation of each set:
-/// 6 n_markers x 3 n_nodes. The rotation's rows are zero where the set lies on one line. Eq. (3.16).
-model::SparseRows marker_operator(const mesh::Mesh& mesh, const std::vector<std::string>& sets,
-                                  MarkerWeights weights = MarkerWeights::equal);
+/// From the displacements of all nodes to mean displacement and mean small rotation of each set, and to the
+/// volume that its faces sweep, Eq. (3.18a), in the first row of a pressure: 6 n_markers x 3 n_nodes. The
+/// rotation's rows are zero where the set lies on one line. Eq. (3.16).
+model::SparseRows marker_operator(const mesh::Mesh& mesh, const std::vector<std::string>& sets);
 
 }  // namespace elastogear::reduction

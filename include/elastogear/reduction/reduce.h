@@ -54,7 +54,6 @@ struct ReductionOptions {
   std::vector<std::string> stress_nodes = {};  ///< node sets, or face sets for their nodes
   RecoveryChoice stress_recovery = RecoveryChoice::automatic;
   std::vector<std::string> markers = {};  ///< node or face sets, see reduction/marker.h
-  MarkerWeights marker_weights = MarkerWeights::equal;
   model::Basis basis = model::Basis::modal;
   int n_modes = 100;                      ///< modal only
   std::optional<Interval> interval = {};  ///< all eigenmodes in it, in place of the n_modes lowest

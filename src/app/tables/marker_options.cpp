@@ -75,6 +75,9 @@ const Rows<Load> kLoadRows = {
      [](auto& o, auto& name, auto& load) { load.marker = marker_name(name, o.text(name)); }},
     {"<load>_force", &Load::force, "N", "force"},
     {"<load>_torque", &Load::torque, "N m", "torque"},
+    {"<load>_pressure", &Load::pressure, "Pa",
+     "pressure on the face set that the marker is, > 0 against its outward normals; it turns with the body's "
+     "frame"},
     {"<load>_frame", &Load::follows, one_of("world", "body"),
      "directions of force and torque: world, or body (they turn with the marker)"},
     {"<load>_signal", "-", "1", "factor: a number, [ramp, VALUE, DURATION] or [table, FILE.csv]",
@@ -124,8 +127,9 @@ PlaceholderValues simulate_names(const Options& options) {
 dynamics::MarkerSetups marker_setups(const Options& options) {
   dynamics::MarkerSetups setups;
   for (const std::string& name : options.list("loads")) {
-    require(options.given(name + "_force") || options.given(name + "_torque"), "load ", name, ": give -",
-            name, "_force or -", name, "_torque");
+    require(options.given(name + "_force") || options.given(name + "_torque") ||
+                options.given(name + "_pressure"),
+            "load ", name, ": give -", name, "_force, -", name, "_torque or -", name, "_pressure");
     read_rows(options, kLoadRows, setups.loads.emplace_back(Load{name, {}}), name);
   }
   for (const std::string& name : options.list("bushings"))

@@ -62,10 +62,9 @@ const Rows<ReductionOptions> kReduceRows = {
      "in fillets), average (mean of what the cells there extrapolate), or auto (surface; average where "
      "prony_g and prony_k differ)"},
     {"markers", &ReductionOptions::markers, "-",
-     "node sets or face sets whose mean motion is stored, for loads, bushings and sensors of simulate (which "
-     "always has the body frame); also single nodes by their numbers in the mesh file, [tip, 4711]"},
-    {"marker_weights", &ReductionOptions::marker_weights, one_of("equal", "area"),
-     "what the nodes of a marker weigh: equal, or area (their part of the outer faces within the set)"},
+     "node sets or face sets whose mean motion is stored, for loads, pressures on face sets, bushings and "
+     "sensors of simulate (which always has the body frame); also single nodes by their numbers in the mesh "
+     "file, [tip, 4711]. Nodes that outer faces hold together weigh by these, others the same"},
     {"window", "-", "auto",
      "eigenmodes found at a time, by block Lanczos and spectrum slicing (SLEPc's -eps_type block_lanczos); "
      "auto: of the best size; 0: all at once by -eps_type krylovschur, of the whole body. SLEPc's options "

@@ -29,7 +29,8 @@ void require_names(const Setups& setups, const std::string& kind) {
 
 std::string marker_list(const model::ElasticBody& body) {
   std::string list = model::kFrameMarker;
-  for (const model::Marker& marker : body.markers) list += ", " + marker.name;
+  for (const model::Marker& marker : body.markers)
+    if (!marker.area) list += ", " + marker.name;
   return list;
 }
 
@@ -45,6 +46,13 @@ Wrench wrench_of(const LoadSetup& load, double time, const MarkerMotion& marker)
   wrench.head<3>() += R * computed.head<3>();
   wrench.tail<3>() += R * computed.tail<3>();
   return wrench;
+}
+
+// R: of the frame that the wrench is given in.
+Wrench world_wrench(const Eigen::Matrix3d& R, const Wrench& wrench) {
+  Wrench in_world;
+  in_world << R * wrench.head<3>(), R * wrench.tail<3>();
+  return in_world;
 }
 
 // Changes place (m), orientation (rad), velocity (m/s) or angular velocity (rad/s) along one of the axes.
@@ -119,8 +127,32 @@ void MarkerForces::add_load(const LoadSetup& load) {
           ") and torque (", load.torque.transpose(), ") must be finite");
   for (double value : load.signal.value)
     require(std::isfinite(value), who, "signal ", value, " must be finite");
+  require(std::isfinite(load.pressure), who, "pressure ", load.pressure, " Pa must be finite");
   load_at_.push_back(use(load.marker, who));
+  if (load.pressure != 0) add_pressure(load, who);
   if (!load.torque.isZero(0) || load.follows || load.law) require_turning(place(load_at_.back()), who);
+}
+
+// Eq. (3.18a). Of the volume V that the faces sweep, in the first row of Phi of a marker at the origin, a
+// unit force along x there has the generalised force dV/dq. The frame takes what the sum over the faces has
+// beyond that force.
+void MarkerForces::add_pressure(const LoadSetup& load, const std::string& who) {
+  const std::size_t number = load_at_.size() - 1;
+  const Place& at = place(load_at_.back());
+  const auto& markers = bodies_[static_cast<std::size_t>(at.body)].body->markers;
+  const std::string name = model::pressure_marker(load.marker.marker);
+  const auto faces =
+      std::find_if(markers.begin(), markers.end(), [&](const model::Marker& m) { return m.name == name; });
+  require(faces != markers.end() && faces->area, who, "marker '", load.marker.marker, "' of body '",
+          load.marker.body,
+          "' is no set of outer faces, on which a pressure could act: reduce the body again with a face set "
+          "of its mesh in the option markers of reduce");
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  Wrench swept = Wrench::Zero(), frame;
+  swept.head<3>() = -load.pressure * x;
+  frame << -load.pressure * (faces->area->sum - x), -load.pressure * faces->area->moment;
+  part_.push_back({number, use({load.marker.body, name}, who), swept});
+  part_.push_back({number, use({load.marker.body, model::kFrameMarker}, who), frame});
 }
 
 void MarkerForces::add_bushing(const BushingSetup& bushing) {
@@ -187,10 +219,15 @@ std::vector<MarkerMotion> MarkerForces::motions(const std::vector<MovingBody>& b
   return all;
 }
 
+Wrench MarkerForces::part_wrench(const Part& part, double time, const MarkerMotion& marker) const {
+  return world_wrench(marker.R, at(setups_.loads[part.load].signal, time) * part.wrench);
+}
+
 std::vector<Wrench> MarkerForces::load_wrenches(double time, const std::vector<MarkerMotion>& motion) const {
   std::vector<Wrench> wrench(place_.size(), Wrench::Zero());
   for (std::size_t i = 0; i < load_at_.size(); ++i)
     wrench[load_at_[i]] += wrench_of(setups_.loads[i], time, motion[load_at_[i]]);
+  for (const Part& part : part_) wrench[part.place] += part_wrench(part, time, motion[part.place]);
   return wrench;
 }
 
@@ -229,6 +266,11 @@ MatrixXd MarkerForces::stiffness(double time, const std::vector<MarkerMotion>& m
   for (std::size_t i = 0; i < load_at_.size(); ++i) {
     const Index at = load_at_[i];
     add_stiffness(i, time, motion[at], K.block<6, kMotion>(6 * at, kMotion * at));
+  }
+  for (const Part& part : part_) {
+    const Wrench wrench = part_wrench(part, time, motion[part.place]);
+    K.block<3, 3>(6 * part.place, kMotion * part.place + 3) += skew(wrench.head<3>());
+    K.block<3, 3>(6 * part.place + 3, kMotion * part.place + 3) += skew(wrench.tail<3>());
   }
   for (std::size_t i = 0; i < bushing_.size(); ++i) {
     const auto& at = bushing_at_[i];
@@ -309,8 +351,15 @@ MarkerMotion MarkerForces::sensor_motion(std::size_t i, const std::vector<Moving
   return motion(sensor_at_[i], bodies);
 }
 
+// Of a pressure the sum over its faces, about the undeformed place of the marker.
 Wrench MarkerForces::load_wrench(std::size_t i, double time, const MarkerMotion& marker) const {
-  return wrench_of(setups_.loads[i], time, marker);
+  Wrench wrench = wrench_of(setups_.loads[i], time, marker);
+  Wrench pressure = Wrench::Zero();
+  for (const Part& part : part_)
+    if (part.load == i) pressure += part.wrench;
+  if (const Place& at_marker = place(load_at_[i]); at_marker.marker)
+    pressure.tail<3>() -= at_marker.marker->X.cross(pressure.head<3>());
+  return wrench + world_wrench(marker.R, at(setups_.loads[i].signal, time) * pressure);
 }
 
 BushingForce MarkerForces::bushing_force(std::size_t i, const std::vector<MovingBody>& bodies) const {

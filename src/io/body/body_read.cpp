@@ -85,15 +85,21 @@ int read_attachments(const h5::File& file) {
   return 0;
 }
 
+Eigen::Vector3d read_three(const h5::File& file, const std::string& name) {
+  const auto x = h5::read<double>(file, name, {3});
+  return Eigen::Map<const Eigen::Vector3d>(x.data());
+}
+
 std::vector<model::Marker> read_markers(const h5::File& file) {
   std::vector<model::Marker> markers;
   if (!h5::exists(file, "/markers")) return markers;
   for (const std::string& name : h5::members(file, "/markers")) {
     const std::string group = "/markers/" + name;
-    const auto X = h5::read<double>(file, group + "/X", {3});
-    markers.push_back({name, Eigen::Map<const Eigen::Vector3d>(X.data()),
+    markers.push_back({name, read_three(file, group + "/X"),
                        h5::int_attribute(file, group, "turns").front() != 0,
                        read_rows(file, group + "/Phi", 6)});
+    if (h5::exists(file, group + "/area"))
+      markers.back().area = {read_three(file, group + "/area"), read_three(file, group + "/area_moment")};
   }
   return markers;
 }

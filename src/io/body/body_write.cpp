@@ -72,6 +72,9 @@ void write_markers(const h5::File& file, const model::ElasticBody& body, const B
     h5::set_attribute(file, group, "turns", static_cast<int>(marker.turns));
     h5::write<double>(file, group + "/X", {{3}, marker.X.data()}, "m");
     write_rows(file, group + "/Phi", marker.Phi, 6, unit.marker);
+    if (!marker.area) continue;
+    h5::write<double>(file, group + "/area", {{3}, marker.area->sum.data()}, "m^2");
+    h5::write<double>(file, group + "/area_moment", {{3}, marker.area->moment.data()}, "m^3");
   }
 }
 

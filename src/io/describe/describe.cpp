@@ -187,8 +187,12 @@ void describe_body(Out& out, const std::string& path) {
            ? ", forces may act on " + counted(source.recovery.loaded.size(), "node")
            : "");
   for (const model::Marker& marker : body.markers)
-    line(out, "marker ", marker.name, ": (", marker.X.transpose().format(kRow), ") m",
-         marker.turns ? "" : ", without rotation: its nodes lie on a line");
+    if (marker.area)
+      line(out, "marker ", marker.name, ": area along its normals (",
+           marker.area->sum.transpose().format(kRow), ") m^2");
+    else
+      line(out, "marker ", marker.name, ": (", marker.X.transpose().format(kRow), ") m",
+           marker.turns ? "" : ", without rotation: its nodes lie on a line");
   describe_sets(out, "stress node", body.stress.sets);
   for (const model::Check& check : source.checks) describe_check(out, check);
   describe_mesh(out, source.mesh);

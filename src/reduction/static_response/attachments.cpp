@@ -36,7 +36,7 @@ MatrixXd on_root(const ElasticSystem& system, const MatrixXd& own) {
   return all;
 }
 
-// Q', a force and a moment in each direction on each marker, 3 n_nodes x 6 n_m. Rank 0.
+// Q', a force and a moment in each direction on each marker, or a pressure, 3 n_nodes x 6 n_m. Rank 0.
 MatrixXd unit_loads(const Job& job, int n_loads) {
   return MatrixXd(job.plan.S.bottomRows(n_loads)).transpose();
 }
@@ -116,7 +116,8 @@ Attachments ritz(const MatrixXd& V, const MatrixXd& X, const MatrixXd& M) {
 }  // namespace
 
 Attachments find_attachments(Job& job, const ElasticSystem* whole, const WaitingModes* modes) {
-  const int n_loads = 6 * static_cast<int>(job.options.markers.size());
+  int n_loads = 6 * static_cast<int>(job.plan.body.markers.size());  // on rank 0, which has the mesh
+  MPI_Bcast(&n_loads, 1, MPI_INT, 0, job.comm);
   MatrixXd f, V, rigid;
   fem::FieldMass mass;
   job.on_root([&] {
