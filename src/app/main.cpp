@@ -71,8 +71,8 @@ struct PetscWords {
 PetscWords petsc_words(int argc, char** argv) {
   try {
     return {words_of_petsc(argv[0], given_options(argc, argv))};
-  } catch (const Error& error) {
-    return {{argv[0]}, error.what()};
+  } catch (const std::exception& error) {
+    return {{argv[0]}, failure_text(error)};
   }
 }
 
@@ -84,10 +84,8 @@ std::string failure_of(const std::vector<Verb>& verbs, const CommandLine& line, 
     collectively(PETSC_COMM_WORLD, take_blas_memory);
     run(find_verb(verbs, line.verb), verbs, line, argc, argv);
     return "";
-  } catch (const std::bad_alloc&) {
-    return "out of memory";
   } catch (const std::exception& error) {
-    return error.what();
+    return failure_text(error);
   }
 }
 
@@ -117,8 +115,8 @@ int main_with_solvers(const std::vector<Verb>& verbs, const CommandLine& line, i
   try {
     Session session(n_words, first_word);
     return main_in_session(verbs, line, petsc.problem, argc, argv);
-  } catch (const Error& error) {  // on some ranks only, perhaps
-    std::fprintf(stderr, "elastogear: error: %s\n", error.what());
+  } catch (const std::exception& error) {  // on some ranks only, perhaps
+    std::fprintf(stderr, "elastogear: error: %s\n", failure_text(error).c_str());
     MPI_Abort(MPI_COMM_WORLD, 1);
     return 1;
   }

@@ -15,7 +15,7 @@ void collectively(MPI_Comm comm, const std::function<void()>& f) {
   try {
     f();
   } catch (const std::exception& error) {
-    message = error.what();
+    message = failure_text(error);
     failed = rank;
   }
   int first = size;

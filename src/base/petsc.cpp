@@ -4,6 +4,8 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <new>
+#include <string_view>
 
 #include "elastogear/base/error.h"
 
@@ -11,6 +13,7 @@ namespace elastogear {
 namespace {
 
 thread_local std::string last_message;
+constexpr std::string_view kAllocation = "PetscMalloc";  // begins the names of its functions
 std::string start_text;  // what PETSc says while it starts, before our handler is there
 
 PetscErrorCode keep_text(const char format[], ...) {
@@ -44,6 +47,7 @@ void check(PetscErrorCode code, const char* file, int line) {
   const char* text = nullptr;
   PetscErrorMessage(code, &text, nullptr);
   const std::string detail = std::exchange(last_message, {});
+  if (code == PETSC_ERR_MEM || detail.starts_with(kAllocation)) throw std::bad_alloc();
   fail("PETSc error ", static_cast<int>(code), " (", text ? text : "unknown", ")",
        detail.empty() ? "" : ": " + detail, " [", file, ":", line, "]");
 }

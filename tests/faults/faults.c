@@ -2,7 +2,8 @@
 // does, at a chosen call on a chosen file, so that a test does not depend on how fast the machine is.
 //
 //   FAULT_FILE   calls count when the file's path holds this text; ending in $: when the path ends so
-//   FAULT_CALL   write, rename (before it), renamed (after it) or fsync
+//   FAULT_CALL   write, rename (before it), renamed (after it), fsync, or alloc (of memory, for which FAULT_FILE does not count)
+//   FAULT_SIZE   alloc: the smallest that counts, bytes (default 65536)
 //   FAULT_AT     the call that is struck, from 1 (default 1)
 //   FAULT        kill (SIGKILL), term (SIGTERM), hup, xcpu, usr1, usr2, stop (SIGSTOP), full (this and all later calls fail with
 //   ENOSPC; writes to be struck take
@@ -15,6 +16,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,9 +56,8 @@ static int concerns(const char* call, const char* path) {
   return strcmp(setting("FAULT_CALL"), call) == 0 && fits(path, setting("FAULT_FILE"));
 }
 
-// Is this call struck? Of a disk that fills, `size` is cut to what still fits.
-static int strikes(const char* call, const char* path, size_t* size) {
-  if (!concerns(call, path)) return 0;
+// Is this call, which concerns us, struck? Of a disk that fills, `size` is cut to what still fits.
+static int strikes(size_t* size) {
   const char* space = setting("FAULT_SPACE");
   const int full = strcmp(setting("FAULT"), "full") == 0;
   pthread_mutex_lock(&lock);
@@ -88,7 +89,7 @@ static int fault(const char* call, const char* path) {
 }
 
 static int fails(const char* call, const char* path, size_t* size) {
-  const int error = strikes(call, path, size) ? fault(call, path) : 0;
+  const int error = concerns(call, path) && strikes(size) ? fault(call, path) : 0;
   if (error) errno = error;
   return error != 0;
 }
@@ -153,3 +154,43 @@ int fsync(int file) {
   if (concerns("fsync", path_of(file, path, sizeof path)) && fails("fsync", path, NULL)) return -1;
   return go_on(file);
 }
+
+#ifndef FAULTS_LEAVE_MEMORY  // to sanitizers, which have allocations of their own
+// glibc's own functions; dlsym allocates itself.
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t n, size_t size);
+void* __libc_realloc(void* old, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+static int alloc_fails(size_t size) {
+  static __thread int within = 0;
+  if (within || strcmp(setting("FAULT_CALL"), "alloc") != 0) return 0;
+  const char* least = setting("FAULT_SIZE");
+  if (size < (*least ? (size_t)atol(least) : 65536)) return 0;
+  within = 1;
+  char what[64];
+  snprintf(what, sizeof what, "%zu bytes", size);
+  const int error = strikes(NULL) ? fault("alloc", what) : 0;
+  within = 0;
+  if (error) errno = ENOMEM;
+  return error != 0;
+}
+
+void* malloc(size_t size) { return alloc_fails(size) ? NULL : __libc_malloc(size); }
+
+void* calloc(size_t n, size_t size) {
+  return n > 0 && size <= SIZE_MAX / n && alloc_fails(n * size) ? NULL : __libc_calloc(n, size);
+}
+
+void* realloc(void* old, size_t size) { return alloc_fails(size) ? NULL : __libc_realloc(old, size); }
+
+void* aligned_alloc(size_t alignment, size_t size) {
+  return alloc_fails(size) ? NULL : __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void** memory, size_t alignment, size_t size) {
+  if (alloc_fails(size)) return ENOMEM;
+  *memory = __libc_memalign(alignment, size);
+  return *memory ? 0 : ENOMEM;
+}
+#endif

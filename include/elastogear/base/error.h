@@ -1,6 +1,7 @@
 #pragma once
 // The one exception a user can cause, and the check that throws it.
 
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,13 @@ class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// What the exception says; where memory lacks, what helps.
+inline std::string failure_text(const std::exception& error) {
+  if (!dynamic_cast<const std::bad_alloc*>(&error)) return error.what();
+  return "out of memory; take a coarser mesh, fewer modes or nodes, fewer ranks, or a machine with more of "
+         "it";
+}
 
 /// Throws Error with the parts streamed into one message.
 template <class... Parts>

@@ -56,10 +56,10 @@ RunSummary write_run(Writing& run, const Computation& computation, const Checkpo
         checkpoints);
   } catch (const WriteFailure&) {
     throw;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // memory that lacks, too
     if (run.writer.n_times() == 0) throw;
     run.writer.finish(false);
-    const std::string why = error.what();
+    const std::string why = failure_text(error);
     fail(why, why.ends_with('?') ? "" : ".", " The result until t = ", run.time, " s is in ",
          run.settings.output, run.kept ? "; with changed options, -resume anyway goes on from there" : "");
   }

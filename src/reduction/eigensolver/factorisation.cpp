@@ -3,6 +3,7 @@
 #include <dmumps_c.h>
 
 #include <algorithm>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ constexpr int kMaxWorkspace = 1000;                       // per cent
 constexpr int kSharedFront = 9;         // KEEP: order from which a front's rows are shared among ranks
 constexpr int kSingular = -10;          // INFOG(1)
 constexpr int kWorkspaceTooSmall = -9;  // INFOG(1), and -8 for the integers
+constexpr int kOutOfMemory[] = {-5, -7, -13};
 
 }  // namespace
 
@@ -49,9 +51,12 @@ struct ShiftedFactor::Solver {
     return infog(1);
   }
 
-  void check_call(Job job) {
-    const int code = call(job);
-    require(code >= 0, "MUMPS error ", code, " (detail ", infog(2), ") in phase ", static_cast<int>(job));
+  void check_call(Job job) { require_success(call(job), "in phase ", static_cast<int>(job)); }
+
+  template <class... Where>
+  void require_success(int code, const Where&... where) const {
+    if (std::ranges::count(kOutOfMemory, code) > 0) throw std::bad_alloc();
+    require(code >= 0, "MUMPS error ", code, " (detail ", infog(2), ") ", where...);
   }
 
   void check_solve(double* B, int columns, Part part = Part::whole) {
@@ -178,8 +183,7 @@ int ShiftedFactor::factorise(double sigma) {
     code = s.call(Job::factorise);
   }
   if (code == kSingular) fail_singular("a pivot is zero");
-  require(code >= 0, "MUMPS error ", code, " (detail ", s.infog(2),
-          ") in the factorisation at sigma = ", sigma, " rad^2/s^2");
+  s.require_success(code, "in the factorisation at sigma = ", sigma, " rad^2/s^2");
   return s.infog(12);
 }
 

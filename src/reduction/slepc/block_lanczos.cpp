@@ -286,7 +286,7 @@ PetscErrorCode solve(EPS eps) {
     return 0;
   } catch (const std::exception& error) {
     m.pending = std::current_exception();
-    message = error.what();
+    message = failure_text(error);
   }
   SETERRQ(comm_of(eps), PETSC_ERR_LIB, "%s", message.c_str());
 }

@@ -89,7 +89,7 @@ PetscErrorCode coded(PC pc, F&& f) {
     f();
     return 0;
   } catch (const std::exception& error) {
-    message = error.what();
+    message = failure_text(error);
   }
   SETERRQ(PetscObjectComm(reinterpret_cast<PetscObject>(pc)), PETSC_ERR_LIB, "%s", message.c_str());
 }
