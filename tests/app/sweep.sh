@@ -50,6 +50,7 @@ cases=("$elastogear" simulate spur.yaml cases.yaml -sweep_positions 20)
 "${cases[@]}" -output one.h5 >run.log 2>&1 || fail "cases on one rank"
 mpirun -n 2 --oversubscribe "${cases[@]}" -output two.h5 >run.log 2>&1 || fail "cases on two ranks"
 killed_at 1 rename sweep.h5 "${cases[@]}" -output cut.h5
+killed_at 1 renamed sweep.h5 "${cases[@]}" -sweep_positions 21 -output cut.h5  # what has found nothing keeps no other from beginning
 killed_at 2 renamed unit_ "${cases[@]}" -output cut.h5
 struck term 2 rename unit_ "${cases[@]}" -output cut.h5 && fail "a stopped sweep ends as if all were well"
 grep -q "stopped by signal 15.*goes on from there" run.log || fail "a stopped sweep does not say so"

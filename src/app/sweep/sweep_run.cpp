@@ -128,12 +128,12 @@ std::string locked_file(const SweepJob& job) {
   return (fs::path(job.output) / "cases.csv").string();
 }
 
-// Units of an earlier sweep of equal input stay.
+// Units of an earlier sweep of equal input stay. One that has found nothing keeps no other from its name.
 void take_up(const SweepJob& job, const dynamics::ResumableSettings& settings,
              const dynamics::Provenance& input) {
   const auto earlier =
       settings.resume == dynamics::Resume::discard ? std::nullopt : job.store.earlier_input();
-  if (!earlier) return job.store.begin(input);
+  if (!earlier || !job.store.has_units()) return job.store.begin(input);
   const std::string other = differences(settings, input, *earlier);
   require(other.empty() || settings.resume == dynamics::Resume::anyway, job.store.folder(),
           " holds a sweep that did not end, with other input: ", other,

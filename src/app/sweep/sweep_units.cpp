@@ -31,6 +31,8 @@ void visit(UnitResult& result, Archive& archive) {
   archive.each(result.snapshots, [&](model::Snapshot& snapshot) { io::serialize(snapshot, archive); });
 }
 
+constexpr const char* kUnit = "unit_";  // file names begin so
+
 std::string why_key(std::size_t i) { return "why_" + std::to_string(i); }
 
 }  // namespace
@@ -55,7 +57,7 @@ UnitStore::UnitStore(const std::string& output) : folder_(output + ".partial") {
 
 std::string UnitStore::path(const SweepUnit& unit) const {
   char name[64];
-  std::snprintf(name, sizeof name, "unit_%07zu_%07zu.h5", unit.number + 1, unit.chunk + 1);
+  std::snprintf(name, sizeof name, "%s%07zu_%07zu.h5", kUnit, unit.number + 1, unit.chunk + 1);
   return (fs::path(folder_) / name).string();
 }
 
@@ -75,6 +77,14 @@ void UnitStore::begin(const std::map<std::string, std::string>& input) const {
 }
 
 bool UnitStore::has(const SweepUnit& unit) const { return fs::is_regular_file(path(unit)); }
+
+bool UnitStore::has_units() const {
+  std::error_code error;
+  const fs::directory_iterator files(folder_, error);
+  return std::any_of(fs::begin(files), fs::end(files), [](const fs::directory_entry& entry) {
+    return entry.path().extension() == ".h5" && entry.path().filename().string().starts_with(kUnit);
+  });
+}
 
 void UnitStore::write(const SweepUnit& unit, UnitResult& result) const {
   Archive archive;
@@ -101,7 +111,7 @@ void UnitStore::remove() const {
   std::vector<fs::path> doomed;
   for (const auto& entry : fs::directory_iterator(folder_, error)) {
     const std::string name = entry.path().filename().string();
-    const bool own = name.starts_with("unit_") || name.starts_with("sweep.h5");
+    const bool own = name.starts_with(kUnit) || name.starts_with("sweep.h5");
     if (own && name.find(".h5") != std::string::npos) doomed.push_back(entry.path());
   }
   for (const fs::path& file : doomed) fs::remove(file, error);

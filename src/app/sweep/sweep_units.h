@@ -43,6 +43,7 @@ class UnitStore {
   /// Removes what an earlier sweep has left, and keeps the input of this one.
   void begin(const std::map<std::string, std::string>& input) const;
   bool has(const SweepUnit& unit) const;
+  bool has_units() const;
   void write(const SweepUnit& unit, UnitResult& result) const;
   /// Error when the unit is missing or damaged.
   UnitResult read(const SweepUnit& unit) const;
