@@ -155,7 +155,7 @@ void warn_of_strain(const io::StressSet& set, const std::string& body_file) {
   print_item("warning",
              set.body + " " + set.set + ": " + with_unit(1e-6 * stress, "MPa") + " stretches it by " +
                  with_unit(100 * stress / E, "%") +
-                 "or more: the equations are linear in strains, which must be small; are loads and "
+                 " or more: the equations are linear in strains, which must be small; are loads and "
                  "moduli those that were meant?");
 }
 
