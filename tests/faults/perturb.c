@@ -1,6 +1,7 @@
-// A library to preload (LD_PRELOAD) into programs under test: it fills memory that is given out or given back, so that
-// what reads it before it is written, or after it is gone, finds no numbers there. MALLOC_PERTURB_ of the C library does
-// the same, but fills the 32 MB that MUMPS takes and gives back with every solution, too, which is half the time of tests.
+// A library to preload (LD_PRELOAD) into programs under test: it fills memory that is given out or given
+// back, so that what reads it before it is written, or after it is gone, finds no numbers there.
+// MALLOC_PERTURB_ of the C library does the same, but fills the 32 MB that MUMPS takes and gives back with
+// every solution, too, which is half the time of some tests.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>

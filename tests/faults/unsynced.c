@@ -1,5 +1,5 @@
-// A library to preload (LD_PRELOAD) into programs under test: files and folders are not written through to the disk. No
-// test cuts the power, and waiting for the disk is most of the time of some.
+// A library to preload (LD_PRELOAD) into programs under test: files and folders are not written through to
+// the disk. No test cuts the power, and waiting for the disk is most of the time of some.
 #include <errno.h>
 #include <sys/stat.h>
 #include <unistd.h>
