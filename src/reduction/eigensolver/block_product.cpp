@@ -15,7 +15,7 @@ typedef double Chunk
 
 // Part of a row times columns of X, whose rows have `stride` entries.
 struct Entries {
-  int n;
+  PetscInt n;
   const PetscInt* column;
   const PetscScalar* value;
   const double* X;
@@ -24,7 +24,7 @@ struct Entries {
 
 [[gnu::always_inline]] inline void add(const Entries& row, double* sums) {
   Chunk total = *reinterpret_cast<const Chunk*>(sums);
-  for (int k = 0; k < row.n; ++k)
+  for (PetscInt k = 0; k < row.n; ++k)
     total += row.value[k] * *reinterpret_cast<const Chunk*>(row.X + row.column[k] * row.stride);
   *reinterpret_cast<Chunk*>(sums) = total;
 }

@@ -19,7 +19,7 @@ namespace {
 using UniqueBV = Handle<BV, BVDestroy>;
 
 constexpr double kTolerance = 1e-10;
-constexpr PetscInt kNoLimit = std::numeric_limits<PetscInt>::max();
+constexpr PetscInt kNoLimit = std::numeric_limits<int>::max();  // counts of the search are int
 
 struct Method {
   BlockLanczosSettings settings = {};
