@@ -29,10 +29,10 @@ struct LoadSetup {
   MarkerName marker;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
-  double pressure = 0;   ///< Pa, on the face set of the marker, against its normals
-  bool follows = false;  ///< components in the marker's frame
+  bool follows = false;                              ///< components in the marker's frame
   Signal signal = constant_signal(1);
-  WrenchLaw law = {};  ///< beside these, in the same frame
+  WrenchLaw law = {};   ///< beside these, in the same frame
+  double pressure = 0;  ///< Pa, on the face set of the marker, against its normals
 };
 
 /// Unloaded in the initial state; a marker on the ground is then at the place of the other one.
