@@ -21,6 +21,13 @@ TEST(Spelling, TwoLettersSwappedAreOneEdit) {
   EXPECT_LT(misspelling("mdoes", "modes"), misspelling("mdoes", "dofs"));
 }
 
+TEST(Spelling, AFirstOrLastWordIsOneEdit) {
+  EXPECT_EQ(misspelling("helix", "helix_angle").edits, 1);
+  EXPECT_EQ(misspelling("angle", "helix_angle").edits, 1);
+  EXPECT_GT(misspelling("he", "he_angle").edits, 1);
+  EXPECT_LT(misspelling("helix", "helix_angle"), misspelling("helix", "files"));
+}
+
 TEST(Spelling, OfEquallyManyEditsCommonLettersDecide) {
   EXPECT_EQ(misspelling("sufrace_", "surface").edits, misspelling("sufrace_", "sufracxx").edits);
   EXPECT_LT(misspelling("sufrace_", "surface"), misspelling("sufrace_", "sufracxx"));

@@ -33,8 +33,16 @@ int strange(const std::string& a, const std::string& b) {
   return std::accumulate(count.begin(), count.end(), 0, [](int sum, int n) { return sum + std::abs(n); });
 }
 
+// Is a the first word of b, or its last one, as "helix" is of "helix_angle"?
+bool is_part(const std::string& a, const std::string& b) {
+  constexpr std::size_t kLeastLetters = 4;
+  return a.size() >= kLeastLetters && (b.starts_with(a + "_") || b.ends_with("_" + a));
+}
+
 }  // namespace
 
-Misspelling misspelling(const std::string& a, const std::string& b) { return {edits(a, b), strange(a, b)}; }
+Misspelling misspelling(const std::string& a, const std::string& b) {
+  return {is_part(a, b) ? 1 : edits(a, b), strange(a, b)};
+}
 
 }  // namespace elastogear::app

@@ -7,7 +7,8 @@ namespace elastogear::app {
 
 /// How far a word is from another one; smaller is nearer.
 struct Misspelling {
-  /// Letters inserted, left out, replaced, or two neighbours swapped (optimal string alignment).
+  /// Letters inserted, left out, replaced, or two neighbours swapped (optimal string alignment); 1 for the
+  /// first or the last of several words.
   int edits = 0;
   int strange = 0;  ///< letters that the two do not share
 
