@@ -8,6 +8,7 @@ from systems import random_rotation, rotation_vector
 
 FREE = {"restrain": "none"}  # its frame is at its centre of mass
 HALF_TURN = np.diag([-1.0, -1.0, 1.0])
+UNSAID = 0.25  # standard deviation over the mean of a vibration that changes by 0.7 of its mean from turn to turn: a run has to speak of more
 WAVE = np.sqrt(STEEL["E"] * STEEL["rho"]) / 2  # force over area and speed of slender bars that hit each other, while waves run
 
 
@@ -72,5 +73,5 @@ def bars_that_hit_do_not_chatter(lab):
     said, time, along, _, _ = hit(lab, "hit", [length + 1e-8, 0, 0], random_rotation(lab.random), speed, 0.75 * there_and_back)
     on = along[time > 0.2 * there_and_back]
     if "its force" not in said:
-        at_most("standard deviation over the mean", on.std() / on.mean(), 0.05)
+        at_most("standard deviation over the mean", on.std() / on.mean(), UNSAID)
     alike("force of the wave", on.mean(), WAVE * side**2 * speed, 0.03)
