@@ -26,6 +26,29 @@ def field(path):
     return vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetPointData().GetArray("displacement [m]"))
 
 
+SIDES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))  # of a hexahedron by its corners
+
+
+def weights(X, cells, members):
+    """Shares of the nodes of a set: of single nodes 1, of a set that outer sides of hexahedra hold those of the sides' areas, by the
+    shape functions of 4 nodes and Gauss's rule of 2 x 2 points."""
+    sides, weight, inside = {}, np.zeros(len(X)), set(members)
+    for cell in cells:
+        for side in (tuple(cell[list(s)]) for s in SIDES):
+            key = tuple(sorted(side))
+            sides[key] = None if key in sides else side  # inside the body two cells have it
+    for side in sides.values():
+        if len(members) == 1 or side is None or not inside.issuperset(side):
+            continue
+        x = X[list(side)]
+        for u, v in np.array(((-1, -1), (1, -1), (1, 1), (-1, 1))) / np.sqrt(3):
+            N = np.array([(1 - u) * (1 - v), (1 + u) * (1 - v), (1 + u) * (1 + v), (1 - u) * (1 + v)]) / 4
+            along = (np.array([v - 1, 1 - v, 1 + v, -1 - v]) @ x / 4, np.array([u - 1, -1 - u, 1 + u, 1 - u]) @ x / 4)
+            weight[list(side)] += N * np.linalg.norm(np.cross(*along))
+    share = weight[members] if weight[members].all() else np.ones(len(members))
+    return share / share.sum()
+
+
 def most_loaded(result, body):
     with h5py.File(result) as file:
         forces = file["bodies/pinion/contact_forces"]
@@ -59,12 +82,13 @@ def look(program, drive):
             X, u = field("spur_c14_result_pinion.vtu")
             with h5py.File("pinion.h5") as file:
                 members = {name: file[f"mesh/node_sets/{marker}"][:] for name, marker in markers.items()}
+                rest, cells = file["mesh/X"][:], file["mesh/cell_nodes"][:].reshape(-1, 8)
                 n_modes = q.size - file["modes"].attrs["attachments"]
                 by_modes = file[f"markers/{loaded + 1}/Phi"][:].reshape(6, -1)[:3, :n_modes] @ q[:n_modes]
             size = np.linalg.norm(u[loaded])
             what = f"{basis}, {analysis[0]}"
             for name, nodes in members.items():
-                off = np.linalg.norm(position[name] - (X + u)[nodes].mean(axis=0)) / size
+                off = np.linalg.norm(position[name] - weights(rest, cells, nodes) @ (X + u)[nodes]) / size
                 assert off < ROUNDOFF, f"{what}: sensor {name} is {off} of the displacement beside its nodes"
             left_out = np.linalg.norm(turn @ by_modes - u[loaded]) / size
             print(f"{what}: {1e6 * size:.4f} um at a loaded node, of which the modes leave out {left_out:.3f}")
