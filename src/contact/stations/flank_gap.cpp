@@ -6,7 +6,7 @@ namespace elastogear::contact {
 namespace {
 
 constexpr double kDifference = 1e-6;  // of the height of the flank, for slopes of deviations and edges
-constexpr double kBeside = 1e-4;      // of that height, more than a place moves by such a difference
+constexpr double kPlaceShift = 1e-4;  // of that height, more than a place moves by such a difference
 
 double beyond(double x, double from, double to) { return std::max({from - x, x - to, 0.}); }
 
@@ -47,7 +47,7 @@ double FlankGap::added(double v, double z, const Seen& seen) const {
 }
 
 bool FlankGap::mate_is_plain_around(const Seen& seen) const {
-  const double near = kBeside * (mate_.upper - mate_.lower), v = seen.mate.v, z = mate_z(seen);
+  const double near = kPlaceShift * (mate_.upper - mate_.lower), v = seen.mate.v, z = mate_z(seen);
   return added_by_mate(v, z) == 0 && added_by_mate(v + near, z) == 0 && added_by_mate(v - near, z) == 0 &&
          added_by_mate(v, z + near) == 0 && added_by_mate(v, z - near) == 0;
 }

@@ -17,10 +17,10 @@ Eigen::Matrix3d relative_curvature(const std::array<const Gear*, 2>& gear, const
                                    std::size_t step);
 
 struct HertzPressure {
-  Eigen::VectorXd largest;  ///< n_t, Pa; 0 where nothing bears
-  Eigen::Index step = 0;    ///< of it
-  model::HertzPatch patch;  ///< there
-  double left_out = 0;      ///< -, share of the pairs of teeth of all times that it does not tell of
+  Eigen::VectorXd largest;       ///< n_t, Pa; 0 where nothing bears
+  Eigen::Index step = 0;         ///< of it
+  model::HertzPatch patch = {};  ///< there
+  double left_out = 0;           ///< -, share of the pairs of teeth of all times that it does not tell of
 };
 /// Of parallel axes, line contact under the line load of each pair of teeth; of crossed ones, point contact
 /// under the force of each pair. It leaves out pairs on crossed axes that touch along lines, as those of
