@@ -351,7 +351,8 @@ MarkerMotion MarkerForces::sensor_motion(std::size_t i, const std::vector<Moving
   return motion(sensor_at_[i], bodies);
 }
 
-// Of a pressure the sum over its faces, about the undeformed place of the marker.
+// Force and moment that load i exerts, N and N m, in the world. Those of a pressure are summed up over its
+// faces, the moment about the undeformed place of the marker.
 Wrench MarkerForces::load_wrench(std::size_t i, double time, const MarkerMotion& marker) const {
   Wrench wrench = wrench_of(setups_.loads[i], time, marker);
   Wrench pressure = Wrench::Zero();

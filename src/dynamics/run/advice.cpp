@@ -184,12 +184,13 @@ ChatterWatch::ChatterWatch(const System& system) : system_(&system), force_(syst
 
 // Enters the force of a state. Returns what it did at the end of a window, or nothing.
 std::string ChatterWatch::unsteady(Force& force, double time, double now) {
+  if (force.states == 0) force.begin = time;
   const double change = now - std::exchange(force.last, now);
   if (change != 0 && std::exchange(force.change, change) * change < 0) ++force.turns;
   force.sum += now;
   force.changes += std::abs(change);
   if (++force.states < kStates || force.turns < kTurns) return {};
-  const Force window = std::exchange(force, {force.watched, force.highest_mode, time, now, change});
+  const Force window = std::exchange(force, {force.watched, force.highest_mode, 0, now, change});
   const double mean = window.sum / window.states, frequency = window.turns / 2.0 / (time - window.begin);
   if (window.changes > kChange * window.sum && window.turns > kTurns)
     return "chatters, its force rises and falls from output to output; neither it nor the energy is to be "
