@@ -163,11 +163,6 @@ std::string under(const OptionTable& table, const Topic* topic, const std::strin
 
 }  // namespace
 
-std::string topic_of(const std::string& option) {
-  const Topic* topic = find_topic(option);
-  return topic ? topic->title : kOthers;
-}
-
 std::string help_by_topic(const OptionTable& table, const std::string& about) {
   std::string text;
   for (const Topic& topic : kTopics) text += under(table, &topic, about);
@@ -176,7 +171,7 @@ std::string help_by_topic(const OptionTable& table, const std::string& about) {
     return !spec.help.empty() && !is_about(spec, find_topic(spec.name), about);
   });
   if (about.empty() && more > 0)
-    text += std::to_string(more) + " more options: '-help all', or '-help WORD' for those about a word.\n";
+    text += std::to_string(more) + " options more: '-help all', or '-help WORD' for those about a word.\n";
   return text;
 }
 

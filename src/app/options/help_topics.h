@@ -10,9 +10,7 @@ namespace elastogear::app {
 /// The options of a table under the headings of their topics. about: "" for those of first need, with what
 /// asks for the others; "all"; or a word that the name of an option, its meaning or its topic holds. Empty
 /// where no option holds the word.
+/// Options that no topic names stand under "other options".
 std::string help_by_topic(const OptionTable& table, const std::string& about);
-
-/// The heading of an option, "other options" for one that no topic names.
-std::string topic_of(const std::string& option);
 
 }  // namespace elastogear::app
