@@ -88,7 +88,7 @@ def steps(random):
     """Options of steps that the run chooses, or none: the default."""
     keys = {}
     if random.random() < 0.3:
-        keys["step_error"] = between(random, 3e-5, 1e-3)
+        keys["step_error"] = between(random, 3e-6, 1e-3)
     if random.random() < 0.5:
         keys["ts_alpha_radius"] = choice(random, 0.0, 0.3, 0.6, 0.9, 1.0)
     return keys

@@ -44,7 +44,7 @@ struct TimeSettings {
   /// the elastic state of each body, which bounds the stresses. The step in which bodies first touch
   /// is short, and surfaces of a pair go by less than the contact depth. velocity_tolerance, m/s, > 0:
   /// velocities too. docs/theory, section 8.3.
-  double step_error = 1e-4, step_tolerance = 0, velocity_tolerance = 0;
+  double step_error = 1e-5, step_tolerance = 0, velocity_tolerance = 0;
   std::function<void(const StepInfo&)> monitor = {};  ///< after every step
 };
 
