@@ -68,7 +68,8 @@ TEST(ChosenSteps, of_an_oscillator_never_make_energy) {
       }
 }
 
-// A mass of 1 kg on a spring of 1e8 N/m, started with 0.1 m/s: some 300 periods.
+// A mass of 1 kg on a spring of 1e8 N/m, started with 0.1 m/s: some 300 periods. Within a period the energy
+// of states swings by less than a local error; from period to period numerical damping takes some.
 TEST(ChosenSteps, of_a_mass_on_a_stiff_spring_keep_its_energy) {
   const auto mass = std::make_shared<model::ElasticBody>(
       body::rigid_body(1, Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(1e-3).asDiagonal()));
@@ -82,15 +83,17 @@ TEST(ChosenSteps, of_a_mass_on_a_stiff_spring_keep_its_energy) {
     TimeSettings settings{.end_time = 0.2, .rho_inf = 0.8};
     settings.output_dt = output;
     const double start = 0.5 * 0.1 * 0.1;
-    double most = 0, least = start;
+    double most = 0, late = 0, least = start;
     const RunSummary run = simulate(system, settings, [&](const model::Snapshot& s) {
       const double energy = s.energy.kinetic + s.energy.bushing;
       most = std::max(most, energy);
+      if (s.time > 0.1 * settings.end_time) late = std::max(late, energy);
       least = std::min(least, energy);
     });
-    EXPECT_LE(most, start * (1 + 1e-6));
-    EXPECT_GE(least, 0.9 * start);
-    EXPECT_LT(run.largest_imbalance, 0.1 * start);
+    EXPECT_LE(most, start * (1 + settings.step_error));
+    EXPECT_LT(late, start);
+    EXPECT_GE(least, 0.99 * start);
+    EXPECT_LT(run.largest_imbalance, 0.01 * start);
   }
 }
 
@@ -172,10 +175,10 @@ Outcome under_pulse(double step_error) {
 // The pulse excites modes of 10 kHz, whose phases errors of the second order shift for 10 ms.
 TEST(ChosenSteps, resolve_the_stress_of_a_bar_under_a_pulse) {
   constexpr double kHistory[2] = {0.15, 0.05};  // found: 0.135, 0.047
-  const Outcome chosen = under_pulse(TimeSettings().step_error), finer = under_pulse(1e-5);
+  const Outcome coarser = under_pulse(1e-4), chosen = under_pulse(TimeSettings().step_error);
   EXPECT_NEAR(chosen.found, chosen.exact, 0.01 * chosen.exact);
-  EXPECT_LT(chosen.error, kHistory[0] * chosen.exact) << chosen.steps << " steps";
-  EXPECT_LT(finer.error, kHistory[1] * finer.exact) << finer.steps << " steps";
+  EXPECT_LT(coarser.error, kHistory[0] * coarser.exact) << coarser.steps << " steps";
+  EXPECT_LT(chosen.error, kHistory[1] * chosen.exact) << chosen.steps << " steps";
 }
 
 }  // namespace

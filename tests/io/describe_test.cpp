@@ -16,6 +16,7 @@
 namespace elastogear::describe_test {
 using namespace io;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -97,7 +98,7 @@ TEST_F(Describe, body_files) {
   EXPECT_THAT(
       describe(path("worm.h5")),
       AllOf(HasSubstr("format: elastogear body, version 4"), HasSubstr("mass: 0.333333"),
-            HasSubstr("frequencies: 333.333 to 9000 Hz"), HasSubstr("3 elastic coordinates"),
+            ContainsRegex("frequencies: 333.333, [0-9.]+, 9000 Hz"), HasSubstr("3 elastic coordinates"),
             HasSubstr("tooth_01_left"), HasSubstr("material of even: E = 1.1e+11 Pa"), HasSubstr("root: 2")));
 }
 

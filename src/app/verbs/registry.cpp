@@ -1,5 +1,8 @@
 #include "app/verbs/registry.h"
 
+#include <algorithm>
+
+#include "app/options/spelling.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
 
@@ -35,7 +38,10 @@ std::vector<Verb> all_verbs() {
 const Verb& find_verb(const std::vector<Verb>& verbs, const std::string& name) {
   for (const Verb& verb : verbs)
     if (verb.name == name) return verb;
-  fail("unknown verb '", name, "'; the verbs are ", join(verbs, ", ", &Verb::name));
+  const auto nearest =
+      std::ranges::min_element(verbs, {}, [&](const Verb& verb) { return misspelling(name, verb.name); });
+  fail("unknown verb '", name, "'; the nearest one is ", nearest->name, " of ",
+       join(verbs, ", ", &Verb::name));
 }
 
 Options load_options(const Verb& verb, const std::vector<Verb>& verbs, const OptionSources& sources) {

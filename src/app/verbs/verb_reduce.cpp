@@ -215,12 +215,20 @@ void print_check(const model::Check& check) {
   }
 }
 
+// The lowest ones and the highest.
+std::string frequencies_text(const Eigen::VectorXd& f) {
+  constexpr Eigen::Index kLowest = 4;
+  std::string text;
+  for (Eigen::Index i = 0; i < std::min(kLowest, f.size()); ++i)
+    text += (i > 0 ? ", " : "") + with_unit(f[i], "Hz");
+  return f.size() > kLowest ? text + " to " + with_unit(f[f.size() - 1], "Hz") : text;
+}
+
 // Ritz vectors have no residuals here: they are no eigenmodes.
 void print_modes(const reduction::ReductionReport& report) {
   const bool eigenmodes = report.residual.size() > 0;
   print_item(eigenmodes ? "modes" : "Ritz vectors", std::to_string(report.frequency.size()));
-  print_item("frequency range", with_unit(report.frequency.minCoeff(), "Hz") + " to " +
-                                    with_unit(report.frequency.maxCoeff(), "Hz"));
+  print_item("frequencies", frequencies_text(report.frequency));
   if (const Eigen::VectorXd& f = report.attachment; f.size() > 0)
     print_item("attachment modes", std::to_string(f.size()) + " besides, by loads at markers, " +
                                        with_unit(f.minCoeff(), "Hz") + " to " +

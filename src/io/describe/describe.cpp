@@ -119,11 +119,19 @@ void describe_inertia(Out& out, const model::Inertia& inertia) {
   if (!inertia.S_2.empty()) line(out, "invariants: full");
 }
 
+// The lowest ones and the highest: "100, 120, 130 to 9000"
+std::string frequencies(const Eigen::VectorXd& f) {
+  constexpr Eigen::Index kLowest = 6;
+  std::ostringstream text;
+  for (Eigen::Index i = 0; i < std::min(kLowest, f.size()); ++i) text << (i > 0 ? ", " : "") << f[i];
+  if (f.size() > kLowest) text << " to " << f[f.size() - 1];
+  return text.str();
+}
+
 void describe_modes(Out& out, const std::string& path, const model::ElasticBody& body) {
   line(out, "basis: ", basis_name(body.basis), ", ", counted(body.n_q(), "elastic coordinate"));
   if (body.frequency.size() > 0)
-    line(out, "frequencies: ", body.frequency.minCoeff(), " to ",
-         body.frequency.head(body.n_modes()).maxCoeff(), " Hz");
+    line(out, "frequencies: ", frequencies(body.frequency.head(body.n_modes())), " Hz");
   if (body.n_attachments > 0)
     line(out, "attachment modes: the last ", counted(body.n_attachments, "coordinate"));
   if (body.basis == model::Basis::modal)
@@ -172,9 +180,10 @@ void describe_body(Out& out, const std::string& path) {
   describe_inertia(out, body.inertia);
   line(out, "restraint: ", body.floating ? "none, a free body" : describe_restraint(source));
   line(out, "body frame: origin at (", source.origin.transpose(), ") m of the mesh that was reduced");
-  line(out, "element of hex8 cells: ", element_name(source.element),
-       source.element_mass == model::ElementMass::condensed ? " (mass condensed), " : ", ",
-       counted(source.free_dof.size(), "free degree"), " of freedom");
+  if (std::ranges::count(source.mesh.cells.type, mesh::CellType::hex8) > 0)
+    line(out, "element of hex8 cells: ", element_name(source.element),
+         source.element_mass == model::ElementMass::condensed ? " (mass condensed)" : "");
+  line(out, counted(source.free_dof.size(), "free degree"), " of freedom");
   describe_materials(out, source.regions);
   std::string groups;
   for (const std::string& name : body.surface.group_name) groups += " " + name;
