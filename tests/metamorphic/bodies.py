@@ -104,6 +104,36 @@ def the_static_response_to_loads_at_markers_is_whole(lab):
     alike("displacement of the loaded node", *places, 0.01)
 
 
+def a_pressure_is_the_force_that_it_makes(lab):
+    """A pressure on the plane top of a bar is an even traction, as a force at the marker of that face set is, whose nodes weigh by their
+    area: sensors and stresses are equal at rest and in time, in every basis, to what the balance of forces leaves."""
+    random = lab.random
+    X = bar(lab)
+    seen = int(random.choice(np.flatnonzero(X[:, 0] > X[:, 0].min() + 1e-9))) + 1
+    size = X.max(axis=0) - X.min(axis=0)
+    p = between(random, 1e4, 1e6) * choice(random, -1, 1)
+    keys = {"mesh": "bar.inp", "material": STEEL, "restrain": ["FIX"], "surface": ["TOP"], "stress_nodes": ["FIX"],
+            "markers": ["TOP", seen], "modes": int(random.integers(3, 15)), "damping_ratio": 0.02, "output": "bar.h5"}
+    basis = choice(random, "modal", "modal_residual", "full")
+    lab.write("bar.yaml", {**keys, "basis": basis} if basis != "full" else {k: v for k, v in {**keys, "basis": basis}.items()
+                                                                           if k not in ("modes", "damping_ratio")})
+    lab.run("reduce", "bar.yaml")
+    analysis = {"analysis": "static", "static_steps": 1} if random.random() < 0.5 else {
+        "ts_dt": 1e-5, "ts_max_time": 1e-3, "output_dt": 1e-4, "push_signal": ["ramp", 1.0, 3e-4]}
+    stresses, places = [], []
+    for name, load in (("p", {"pressure": p}), ("f", {"force": [0.0, 0.0, -p * float(size[0] * size[1])]})):
+        lab.write(f"{name}.yaml", {
+            "bodies": ["bar"], "bar": {"file": "bar.h5", "joint": "fixed"}, **analysis, "loads": ["push"],
+            "push": {"marker": "bar.TOP", **load}, "sensors": {"seen": f"bar.{seen}"}, "output": f"{name}.h5"
+        })
+        lab.run("simulate", f"{name}.yaml")
+        lab.run("recover", "-result", f"{name}.h5", "-output", f"{name}_stress.h5", "-stress_bar", "FIX")
+        places.append(lab.read(f"{name}.h5", "sensors/seen/position") - X[seen - 1])
+        stresses.append(lab.read(f"{name}_stress.h5", "bar/FIX/stress"))
+    alike("displacement, by pressure and by force", *places, 1e-6)
+    alike("stress at the held end, by pressure and by force", *stresses, 1e-6)
+
+
 def a_sensor_on_a_flank_is_where_the_field_is(lab):
     """A sensor at the node of a flank that bears the largest force, and the field of the same run at that node, by its largest elastic
     displacement: equal to 1e-4."""

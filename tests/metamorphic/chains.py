@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 
-from drives import Chain, cylindrical, drive, same_chains
+from drives import SAME, Chain, cylindrical, drive, same_chains
 from lab import Broken, Unfit, alike, at_most, choice, near
 
 KHBETA = 1.15  # of an aligned pair: the pinion's twist over up to half its diameter takes some hundredths, meshes of size tiny as much
@@ -99,6 +99,25 @@ def an_aligned_pair_is_loaded_evenly(lab):
         at_most("load at an end, unequal over equal widths", load[end] / expected[end], END)
         at_most("load at an end, equal over unequal widths", expected[end] / load[end], 1 + EVEN)
     at_most("Hertz pressure, unequal over equal widths", wide.figures["pressure/hertz_peak"] / even.figures["pressure/hertz_peak"], PEAK**0.5)
+
+
+def an_own_mesh_is_that_of_the_data(lab):
+    """The program's own mesh of a gear, given back to it as a file, is that gear: contact, stresses, life and wear are the same."""
+    keys = drive(lab.random)
+    body = choice(lab.random, "pinion", "wheel")
+    keys.update(analysis="sweep", sweep_positions=3, wear={"coefficient": "1e-9 mm^3/(N m)", "revolutions": 1e4})
+    one = Chain(lab, "one", keys, first=True)
+    lab.run("mesh", "one.yaml", f"-{body}_mesh_output", f"own.{choice(lab.random, 'inp', 'msh')}")
+    keys[body]["mesh"] = next(name for name in os.listdir(lab.folder) if name.startswith("own."))
+    two = Chain(lab, "two", keys)
+    same_chains(one, two)
+    worn = []
+    for chain in (one, two):
+        lab.run("wear", f"{chain.name}.yaml", "-output", f"{chain.name}_wear.h5")
+        with open(lab.path(f"{chain.name}_wear.json")) as file:
+            worn.append([[gear["largest_depth_m"], gear["worn_mass_kg"]] for gear in json.load(file)["gears"]])
+    for i, what in enumerate(("worn depth", "worn mass")):
+        alike(what, *(np.array(gears)[:, i] for gears in worn), SAME)
 
 
 def two_meshes_differ_by_less_than_their_errors(lab):
