@@ -5,7 +5,7 @@ from misuse_reduce import REDUCE
 from misuse_simulate import SIMULATE
 
 VERBS = [
-    Case("unknown verb", r"'reduse'; the nearest one is reduce of", "{elastogear} reduse"),
+    Case("unknown verb", r"'reduse'; the nearest one is reduce; the verbs are", "{elastogear} reduse"),
     Case("info on a foreign file", r"times.txt", "{elastogear} info times.txt"),
     Case("info on nothing", r"no file given", "{elastogear} info"),
     Case("info on a missing file", r"nosuch.h5", "{elastogear} info nosuch.h5"),

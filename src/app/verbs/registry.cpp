@@ -40,7 +40,7 @@ const Verb& find_verb(const std::vector<Verb>& verbs, const std::string& name) {
     if (verb.name == name) return verb;
   const auto nearest =
       std::ranges::min_element(verbs, {}, [&](const Verb& verb) { return misspelling(name, verb.name); });
-  fail("unknown verb '", name, "'; the nearest one is ", nearest->name, " of ",
+  fail("unknown verb '", name, "'; the nearest one is ", nearest->name, "; the verbs are ",
        join(verbs, ", ", &Verb::name));
 }
 
