@@ -102,7 +102,7 @@ def an_aligned_pair_is_loaded_evenly(lab):
 
 
 def an_own_mesh_is_that_of_the_data(lab):
-    """The program's own mesh of a gear, given back to it as a file, is that gear: contact, stresses, life and wear are the same."""
+    """The program's own mesh of a gear, given back to it as a file, is that gear: contact, stresses and wear are the same."""
     keys = drive(lab.random)
     body = choice(lab.random, "pinion", "wheel")
     keys.update(analysis="sweep", sweep_positions=3, wear={"coefficient": "1e-9 mm^3/(N m)", "revolutions": 1e4})
