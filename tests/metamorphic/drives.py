@@ -208,6 +208,26 @@ def a_stiffer_drive_is_the_same(lab):
     same_chains(Chain(lab, "one", keys, first=True), Chain(lab, "other", other), force=by, share=EXACT)
 
 
+def a_rigid_gear_is_the_limit_of_a_stiff_one(lab):
+    """A gear without elastic coordinates does what one of a material a thousand million times as stiff as steel does, in contact and to
+    the stresses of its mate."""
+    keys = worm(lab.random) if lab.random.random() < 0.3 else drive(lab.random, friction=True)
+    if "sweep_positions" not in keys:
+        keys["roll"] = float(round(lab.random.uniform(-0.5, 0.5), 3))
+    gears = ("worm" if keys["drive"] == "worm" else "pinion", "wheel")
+    body = choice(lab.random, *gears)
+    stiff, rigid = copy.deepcopy(keys), copy.deepcopy(keys)
+    stiff[body]["material"] = {"E": 2e20, "nu": 0.3, "rho": 7850.0}
+    rigid[body]["rigid"] = True
+    one, other = Chain(lab, "one", stiff, first=True), Chain(lab, "other", rigid)
+    alike("transmission error", other.transmission_error(), one.transmission_error(), SAME)
+    alike("normal force", other.value("force/value"), one.value("force/value"), SAME)
+    alike("line load", other.value("line_load/value"), one.value("line_load/value"), SAME)
+    alike("pressure at the stations", *(chain.lab.read(f"{chain.name}.h5", f"contact/{chain.pair}/points/pressure") for chain in (other, one)), SAME)
+    elastic = 1 - gears.index(body)
+    alike("root stress of the elastic gear", other.stresses()[elastic], one.stresses()[elastic], SAME)
+
+
 def a_drive_does_not_depend_on_load_steps(lab):
     """Without friction an equilibrium has no history: loads in one step or in several lead to the same."""
     keys = drive(lab.random)

@@ -38,6 +38,7 @@ RELATIONS = {  # and how many cases of a hundred, by what they cost
     drives.units_of_a_drive_change_nothing: 8,
     drives.a_scaled_drive_is_the_same: 12,
     drives.a_stiffer_drive_is_the_same: 8,
+    drives.a_rigid_gear_is_the_limit_of_a_stiff_one: 4,
     drives.a_drive_does_not_depend_on_load_steps: 6,
     chains.tables_files_and_python_say_the_same: 4,
     chains.two_ranks_change_nothing: 4,

@@ -56,14 +56,17 @@ const Rows<Environment> kEnvironmentRows = {
      "its best affine field), or full (needs bodies reduced with -invariants full)"},
 };
 
-// Why flanks touch as the mesh has it, where nobody asks for that.
-void print_what_lacks(const Options& options, const dynamics::SystemModel& system,
-                      const dynamics::PairSetup& pair) {
-  if (options.text("contact_points") != "stations" || pair.settings.points == contact::SlavePoints::stations)
-    return;
-  print_item("contact at stations",
-             "not of " + pair.name + ", whose flanks are too stiff where they touch, as the mesh has it: " +
-                 dynamics::lacks_for_stations(system, pair));
+// Why flanks touch as the mesh has it, where nobody asks for that: what one pair lacks all of them lack.
+void print_what_lacks(const Options& options, const dynamics::SystemModel& system) {
+  if (options.text("contact_points") != "stations") return;
+  for (const dynamics::PairSetup& pair : system.pairs) {
+    if (pair.settings.points == contact::SlavePoints::stations) continue;
+    const std::string lacks = dynamics::lacks_for_stations(system, pair);
+    if (!lacks.empty())
+      print_item(
+          "contact at stations",
+          "not here, flanks are too stiff where they touch, as the mesh has it: " + pair.name + ": " + lacks);
+  }
 }
 
 std::string points_text(const contact::Settings& settings) {
@@ -109,9 +112,9 @@ void print_laws(const Options& options, const dynamics::SystemModel& system) {
     const bool unilateral = pair.settings.law != contact::ContactLaw::penalty;
     print_detail("law of contact", std::string(unilateral ? "unilateral" : "penalty") + ", " +
                                        points_text(pair.settings) + " (" + pair.name + ")");
-    print_what_lacks(options, system, pair);
     warn_of_facets(options, pair, options.list("bodies"));
   }
+  print_what_lacks(options, system);
 }
 
 }  // namespace elastogear::app

@@ -1,6 +1,7 @@
 #include "elastogear/dynamics/station_choice.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 
 namespace elastogear::dynamics {
@@ -8,8 +9,9 @@ namespace {
 
 constexpr double kParallel = 0.99;  // cosine of the angle between axes, which are misaligned by less
 
-// Of one elastic material at the surface, with static responses.
+// Rigid, or of one elastic material at the surface, with static responses.
 std::string lacks_of_body(const SystemModel::Body& body) {
+  if (is_rigid(body)) return {};
   if (body.eq.body->flexibility.empty())
     return "no residual flexibility; reduce it with -basis modal_residual";
   if (!(body.surface_compliance > 0) || !body.eq.body->relaxing.empty())
@@ -31,6 +33,10 @@ double cosine_of_axes(const SystemModel& model, const PairSetup& pair) {
 
 }  // namespace
 
+bool is_rigid(const SystemModel::Body& body) {
+  return body.eq.n_q() == 0 && body.eq.body->flexibility.empty();
+}
+
 std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) {
   for (int b : pair.body) {
     const SystemModel::Body& body = model.bodies[static_cast<std::size_t>(b)];
@@ -38,6 +44,9 @@ std::string lacks_for_stations(const SystemModel& model, const PairSetup& pair) 
     if (!body.true_surface || !body.true_surface->flanks) return who + "no exact flanks of gear data";
     if (const std::string lacks = lacks_of_body(body); !lacks.empty()) return who + lacks;
   }
+  if (std::ranges::all_of(pair.body,
+                          [&](int b) { return is_rigid(model.bodies[static_cast<std::size_t>(b)]); }))
+    return "both bodies are rigid";
   if (cosine_of_axes(model, pair) < -kParallel) return "axes run against each other";
   if (pair.settings.friction.mu > 0 && pair.settings.friction.law == contact::FrictionLaw::stick)
     return "friction sticks";

@@ -50,6 +50,7 @@ Sparse columns(const Sparse& S, const std::vector<int>& of) {
 // n_q x n: nodal forces on elastic coordinates.
 MatrixXd on_coordinates(const model::ElasticBody& body, const std::vector<int>& node, const Sparse& S) {
   MatrixXd Phi_S = MatrixXd::Zero(body.n_q(), S.cols());
+  if (body.n_q() == 0) return Phi_S;
   for (Index i = 0; i < S.cols(); ++i)
     for (Sparse::InnerIterator at(S, i); at; ++at) {
       const double* rows = model::node_rows(body.surface.Phi, node[static_cast<std::size_t>(at.row() / 3)]);
@@ -101,9 +102,10 @@ StationContact::StationContact(const SystemModel& model) : model_(&model) {
 void StationContact::add_body(const SystemModel::Body& body) {
   bodies_.emplace_back();
   if (!body.in_contact) return;
+  const double compliance = is_rigid(body) ? 0 : body.surface_compliance / std::numbers::pi;
   bodies_.back().toothed = std::make_unique<contact::ToothedBody>(
-      body.eq.body->surface, body.true_surface->flanks, body.surface_compliance / std::numbers::pi,
-      body.true_surface->deviation);
+      body.eq.body->surface, body.true_surface->flanks, compliance, body.true_surface->deviation);
+  if (is_rigid(body)) return;
   bodies_.back().tables = std::make_unique<ResponseTables>(*body.eq.body, *bodies_.back().toothed);
 }
 
@@ -216,6 +218,7 @@ StationContact::Loads StationContact::loads_on(std::size_t body, const std::vect
 MatrixXd StationContact::compliance(std::size_t body, const std::vector<Teeth>& teeth, const Loads& loads,
                                     bool of_friction, ResidualContact& responses) {
   MatrixXd C = MatrixXd::Zero(loads.S.cols(), loads.S.cols());
+  if (!bodies_[body].tables) return C;
   if (bodies_[body].by_nodes) {
     const Sparse& S = of_friction ? loads.S_t : loads.S;
     if (S.nonZeros() > 0) C = loads.S.transpose() * MatrixXd(responses.among(body, loads.node) * S);
@@ -292,6 +295,7 @@ contact::StationDisplacements StationContact::moved(const Part& part, std::size_
   const ToothContact::Side& side = part.side();
   contact::StationDisplacements moved =
       contact::displacements(*side.loads, side.at, node_displacements(part, body, q));
+  if (!bodies_[body].tables) return moved;
   for (const Part& other : parts_of(body, teeth)) {
     const ToothContact::Side& there = other.side();
     const VectorXd strip =
@@ -307,6 +311,7 @@ contact::StationDisplacements StationContact::moved(const Part& part, std::size_
 Matrix3Xd StationContact::moved_nodes(const Part& part, std::size_t body, const VectorXd& q,
                                       ResidualContact& responses) const {
   Matrix3Xd u = node_displacements(part, body, q);
+  if (!bodies_[body].tables) return u;
   for (Index a = 0; int node : contact::loaded_nodes(part.side()))
     u.col(a++) += responses.displacement(body, node);
   return u;

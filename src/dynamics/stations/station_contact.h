@@ -44,7 +44,7 @@ class StationContact {
   };
   struct Body {
     std::unique_ptr<contact::ToothedBody> toothed;  ///< null: it touches nothing
-    std::unique_ptr<ResponseTables> tables;
+    std::unique_ptr<ResponseTables> tables;         ///< null: it touches nothing or is rigid
     bool by_nodes = false;  ///< it touches at stations that move: static responses are those of nodes
   };
   struct Pair {
