@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/options/command_line.h"
 #include "app/options/spelling.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/text.h"
@@ -25,6 +26,25 @@ OptionTable all_options(const std::vector<Verb>& verbs) {
   return all;
 }
 
+// Verbs that make what the others read. Their options may describe a drive on any command line.
+const std::vector<std::string> kMakers = {"run", "mesh", "reduce", "simulate"};
+
+// Options of the command line that other verbs alone would read are mistakes. Files may serve several verbs.
+void require_read(const Verb& verb, const std::vector<Verb>& verbs, const OptionSources& sources) {
+  if (verb.name == "run") return;  // it calls all others
+  for (const GivenOption& option : given_options(sources.argc, sources.argv)) {
+    if (!option.place.empty()) continue;
+    std::vector<std::string> readers;
+    for (const Verb& each : verbs)
+      if (has(each.table, option.name)) readers.push_back(each.name);
+    const auto serves = [&](const std::string& reader) {
+      return reader == verb.name || std::ranges::find(kMakers, reader) != kMakers.end();
+    };
+    require(readers.empty() || std::ranges::any_of(readers, serves), "option -", option.name, " = '",
+            option.value, "' is one of ", join(readers, ", "), ": ", verb.name, " does not read it");
+  }
+}
+
 }  // namespace
 
 std::vector<Verb> all_verbs() {
@@ -45,6 +65,7 @@ const Verb& find_verb(const std::vector<Verb>& verbs, const std::string& name) {
 }
 
 Options load_options(const Verb& verb, const std::vector<Verb>& verbs, const OptionSources& sources) {
+  require_read(verb, verbs, sources);
   Options options(verb.name, verb.table, all_options(verbs));
   options.load(sources);
   return options;
