@@ -98,20 +98,29 @@ std::vector<SweptTorque> of_cases(const Options& options, const std::string& tab
   return all;
 }
 
+struct Stresses {
+  io::StressFile file;
+  std::set<std::string> rigid = {};  // bodies, which have none
+};
+
 // Stresses of the sets that are wanted, of a result.
-io::StressFile recovered(const LifeSettings& settings, const std::string& result) {
+Stresses recovered(const LifeSettings& settings, const std::string& result) {
   require(io::is_complete(result), result, ": is incomplete, its run did not reach the end; go on with it");
-  io::StressFile file{io::read_times(result), {}, {}};
+  Stresses stresses{{io::read_times(result), {}, {}}};
   for (recovery::BodyOfRun& body : recovery::read_bodies_of_run(result, settings.body_file)) {
     const auto sets = settings.sets.find(body.name);
     if (sets == settings.sets.end()) continue;
+    if (body.rigid) {
+      stresses.rigid.insert(body.name);
+      continue;
+    }
     recovery::RecoveredBody ready = recovery::prepare_recovery(
         std::move(body), recovery::Acceleration::automatic, true, finite_elements());
     const model::ElasticBody elastic = recovery::read_elastic_body(ready.run);
     for (const std::string& set : sets->second)
-      file.sets.push_back(recovery::recover_stress(ready, elastic, set, true));
+      stresses.file.sets.push_back(recovery::recover_stress(ready, elastic, set, true));
   }
-  return file;
+  return stresses;
 }
 
 // The sum of the estimates, as recover says it; empty where that of the mesh or of the reduction is missing.
@@ -145,10 +154,11 @@ std::vector<SweptTorque> swept_torques(const Options& options, const LifeSetting
 }
 
 std::vector<SweptStress> read_stresses(const LifeSettings& settings, const SweptTorque& at) {
-  const io::StressFile file = at.recovered ? io::read_stress(at.file) : recovered(settings, at.file);
+  const auto [file, rigid] = at.recovered ? Stresses{io::read_stress(at.file)} : recovered(settings, at.file);
   std::vector<SweptStress> all;
   for (const auto& [body, sets] : settings.sets)
     for (const std::string& name : sets) {
+      if (rigid.contains(body)) continue;
       const auto set =
           std::find_if(file.sets.begin(), file.sets.end(),
                        [&, &body = body](const io::StressSet& s) { return s.body == body && s.set == name; });

@@ -31,7 +31,8 @@ struct SweptStress {
   Eigen::MatrixXd error = {};  ///< n x n_t, Pa, estimated by reduction, mesh and contact; or empty
 };
 
-/// The node sets that are wanted, at one torque. Error when the file does not hold them.
+/// The node sets that are wanted of bodies that are not rigid in the run, at one torque. Error when the file
+/// does not hold them.
 std::vector<SweptStress> read_stresses(const LifeSettings& settings, const SweptTorque& at);
 
 /// The member's body file: that of the options, or of the result. Empty: there is none.
