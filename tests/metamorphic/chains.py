@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 from drives import SAME, Chain, cylindrical, drive, same_chains
-from lab import Broken, Unfit, alike, at_most, choice, near
+from lab import Broken, Unfit, alike, at_most, between, choice, near
 
 KHBETA = 1.15  # of an aligned pair: the pinion's twist over up to half its diameter takes some hundredths, meshes of size tiny as much
 EVEN = 0.1  # share: what wider teeth and bodies add in stiffness behind the ends of the narrower face; docs/validation/gears.md
@@ -132,6 +132,54 @@ def two_meshes_differ_by_less_than_their_errors(lab):
         errors = sum(chain.figures.get(f"{path}{kind}", 0) for chain in chains for kind in ("_error", "_mesh_error", "_contact_error", "_time_error"))
         at_most(f"tension at the roots of {body}, {stress[0] / 1e6:.1f} and {stress[1] / 1e6:.1f} MPa: difference over estimate",
                 abs(stress[0] - stress[1]) / errors, 1)
+
+
+def duty_cycle(keys):
+    """Keys of a life under the torque of a drive; that of the coast side is negative."""
+    torque = keys["torque"] * {"drive": 1, "coast": -1}[keys["side"]]
+    return {"duty_cycle": [torque, 1e6], "mean_stress": "none", "sn": {"knee_stress": 1e6, "knee_cycles": 1e18, "slope": 5}}
+
+
+def lives(lab, name):
+    """Life and damage of each gear at the stress, and the life at the stress and its estimated error: cycles of the duty cycle."""
+    with open(lab.path(f"{name}_life.json")) as file:
+        sets = json.load(file)["sets"]
+    return {of["body"]: (of["life"]["duty_cycles"], of["damage"], (of.get("life_with_error") or {}).get("duty_cycles", np.inf)) for of in sets}
+
+
+def the_life_of_a_finer_mesh_is_above_the_lower_life(lab):
+    """`life` says what the estimated errors of stresses make of it: elements of second order, whose stresses are those of the first
+    order within their errors, have no shorter life."""
+    keys = cylindrical(lab.random, (1,))
+    keys.update(analysis="sweep", sweep_positions=12, speed="100 rad/s", life=duty_cycle(keys))
+    chains = [Chain(lab, "one", keys, first=True), Chain(lab, "two", {**keys, "element_order": 2})]
+    for chain in chains:
+        lab.run("life", f"{chain.name}.yaml", "-files", f"{chain.name}.h5", "-output", f"{chain.name}_life.h5")
+    coarse, fine = (lives(lab, chain.name) for chain in chains)
+    for body, (life, _, lower) in coarse.items():
+        at_most(f"lower life of {body} over the life of a finer mesh", lower / fine[body][0], 1)
+        at_most(f"lower life of {body} over its life", lower / life, 0.99)
+
+
+def an_idler_bends_both_ways(lab):
+    """A planet between a sun of its number of teeth and a ring is bent by both: its range of stress and its damage are those of twice
+    the amplitude of the sun's, at nearly its tension."""
+    module, teeth = between(lab.random, 1e-3, 6e-3, 2), int(lab.random.integers(17, 22))
+    keys = {"drive": "cylindrical", "module": module, "face_width": float(f"{module * lab.random.uniform(3, 6):.3g}"), "gears": ["sun", "planet", "ring"],
+            "sun": {"teeth": teeth}, "planet": {"teeth": teeth, "mate": "sun"}, "element_order": choice(lab.random, 1, 2), "modes": 3,
+            "ring": {"teeth": 3 * teeth, "internal": True, "mate": "planet", "rigid": True}, "analysis": "sweep", "sweep_positions": 16,
+            "side": choice(lab.random, "drive", "coast"), "speed": "100 rad/s"}
+    keys["torque"] = float(f"{lab.random.uniform(0.3, 1) * 3e8 * module**2 * keys['face_width']:.3g}")
+    lab.write("idler.yaml", {**keys, "life": duty_cycle(keys)})
+    for verb in ("reduce", "simulate", "evaluate", "life"):
+        lab.run(verb, "idler.yaml")
+    with open(lab.path("idler_evaluation.json")) as file:
+        pairs = json.load(file)["cases"][0]["pairs"]
+    sun, planet = pairs["sun:planet"]["root"]["sun"], pairs["planet:ring"]["root"]["planet"]
+    alike("tension of the planet", planet["largest_tension"]["value"], sun["largest_tension"]["value"], 0.15)
+    at_most("range of the sun over that of the planet", sun["range"]["value"] / planet["range"]["value"], 0.7)
+    damage = {body: found[1] for body, found in lives(lab, "idler").items()}
+    at_most("damage of the sun over that of the planet", damage["sun"] / damage["planet"], 0.7**5)
 
 
 def times(path, by):
