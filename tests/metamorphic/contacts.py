@@ -3,7 +3,7 @@
 import numpy as np
 
 from bodies import STEEL, write_bar
-from lab import alike, at_most, between
+from lab import alike, at_most, between, choice
 from systems import random_rotation, rotation_vector
 
 FREE = {"restrain": "none"}  # its frame is at its centre of mass
@@ -60,6 +60,40 @@ def contact_that_starts_closed_is_that_of_a_small_gap(lab):
                 0.05)
         impulses.append(np.trapz(along, time))
     alike("impulse", *impulses, 0.02)
+
+
+def pressed(lab, name, place, world, force, keys):
+    """Bar a is pressed at rest against bar b, which stands held and turned by half a turn at `place`, m. Returns the force of contact, N,
+    and those of its points, ascending."""
+    axis = world @ [1, 0, 0]
+    lab.write(f"{name}.yaml", {
+        "bodies": ["a", "b"],
+        "a": {"file": "bar.h5", "joint": "prismatic", "axis": [1, 0, 0], "rotation": rotation_vector(world)},
+        "b": {"file": "bar.h5", "joint": "fixed", "rotation": rotation_vector(world @ HALF_TURN), "position": [float(x) for x in world @ place]},
+        "contact_pairs": ["a:b"], "contact": keys, "analysis": "static", "static_steps": 1, "loads": ["push"],
+        "push": {"marker": "a.frame", "force": [float(f) for f in force * axis]}, "output": f"{name}.h5"
+    })
+    lab.run("simulate", f"{name}.yaml")
+    points = lab.read(f"{name}.h5", "contact/a:b/points/force")[lab.read(f"{name}.h5", "contact/a:b/points/offset")[-2]:]
+    return lab.read(f"{name}.h5", "contact/a:b/force")[-1], np.sort(np.linalg.norm(points, axis=1))
+
+
+def bars_that_touch_are_pressed_along_their_axis(lab):
+    """The same at rest under a force: what a bar is pressed with goes along its axis, by points that are loaded alike whether they start
+    closed or a millionth of a cell apart, on facets and on smooth surfaces."""
+    random = lab.random
+    cells = [int(random.integers(2, 5)), int(random.integers(1, 4)), int(random.integers(1, 4))]
+    size = [between(random, 0.01, 0.03, 2) for _ in range(3)]
+    reduce_bar(lab, cells, size, {"restrain": ["FIX"], "basis": "full"})
+    force, world = between(random, 10, 1e4), random_rotation(random)
+    keys = {"surface": choice(random, "smooth", "facets")}
+    place = np.array([2 * cells[0] * size[0], cells[1] * size[1], 0.0])
+    of_points = []
+    for name, gap in (("closed", 0.0), ("gap", 1e-6 * size[0])):
+        total, points = pressed(lab, name, place + [gap, 0, 0], world, force, keys)
+        alike("force of contact", total / force, world @ [1, 0, 0] * np.sign(total @ world @ [1, 0, 0]), 1e-4)
+        of_points.append(points)
+    alike("forces of points", *of_points, 0.01)
 
 
 def bars_that_hit_do_not_chatter(lab):

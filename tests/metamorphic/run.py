@@ -57,6 +57,7 @@ RELATIONS = {  # and how many cases of a hundred, by what they cost
     bodies.a_spinning_bar_has_its_coriolis_forces: 4,
     bodies.a_cell_that_is_twice_there_is_named: 2,
     contacts.contact_that_starts_closed_is_that_of_a_small_gap: 4,
+    contacts.bars_that_touch_are_pressed_along_their_axis: 3,
     contacts.bars_that_hit_do_not_chatter: 2,
 }
 
