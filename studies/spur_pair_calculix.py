@@ -110,31 +110,37 @@ def pairs_of(meshes, X):
     return found
 
 
-def write_deck(path, meshes, X, state, pairs, stiffness):
+def areas_of(meshes, pairs):
+    """Slave and master of each pair of flanks: names, and sides of cells of the pinion and of the wheel."""
+    return [(f"p_{a}", "pinion", meshes["pinion"].sides[a], f"w_{b}", "wheel", meshes["wheel"].sides[b]) for a, b in pairs]
+
+
+def write_deck(path, meshes, X, state, areas, stiffness, element="C3D8"):
+    """areas: slave's name, gear and sides, master's name, gear and sides."""
     offset, first = {"pinion": 0, "wheel": len(X["pinion"])}, {"pinion": 1, "wheel": 1 + len(meshes["pinion"].cells)}
     with open(path, "w", encoding="utf-8") as file:
         for name in NAMES:
             file.write(f"*NODE, NSET=N{name}\n")
             file.writelines(f"{offset[name] + i + 1}, {x[0]:.12e}, {x[1]:.12e}, {x[2]:.12e}\n" for i, x in enumerate(X[name]))
-            file.write(f"*ELEMENT, TYPE=C3D8, ELSET=E{name}\n")
+            file.write(f"*ELEMENT, TYPE={element}, ELSET=E{name}\n")
             file.writelines(f"{first[name] + i}, " + ", ".join(str(offset[name] + n + 1) for n in cell) + "\n"
                             for i, cell in enumerate(meshes[name].cells))
             file.write(f"*MATERIAL, NAME=M{name}\n*ELASTIC\n{E:.9g}, {NU}\n*SOLID SECTION, ELSET=E{name}, MATERIAL=M{name}\n")
             file.write(f"*NSET, NSET=HUB{name}\n" + listed(offset[name] + np.array(meshes[name].nodes["hub"]) + 1))
-        for a, b in pairs:
-            for gear, flank in (("pinion", a), ("wheel", b)):
-                file.write(f"*SURFACE, NAME={gear[0]}_{flank}, TYPE=ELEMENT\n")
-                file.writelines(f"{first[gear] + cell}, S{side}\n" for cell, side in meshes[gear].sides[flank])
+        surfaces = {name: (gear, sides) for area in areas for name, gear, sides in (area[:3], area[3:])}
+        for name, (gear, sides) in surfaces.items():
+            file.write(f"*SURFACE, NAME={name}, TYPE=ELEMENT\n")
+            file.writelines(f"{first[gear] + cell}, S{side}\n" for cell, side in sides)
         file.write(f"*SURFACE INTERACTION, NAME=CONTACT\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{stiffness:.9g}\n")
-        for a, b in pairs:
-            file.write(f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\np_{a}, w_{b}\n")
+        for slave, _, _, master, _, _ in areas:
+            file.write(f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\n{slave}, {master}\n")
         file.write("*STEP, NLGEOM, INC=200\n*STATIC\n0.5, 1.\n*BOUNDARY\nHUBwheel, 1, 3\n")
         R = turn(state.turned)
         for n in meshes["pinion"].nodes["hub"]:
             arm = X["pinion"][n] - state.r["pinion"]
             file.writelines(f"{n + 1}, {i + 1}, {i + 1}, {u:.12e}\n" for i, u in enumerate(R @ arm - arm))
         file.write("*NODE PRINT, NSET=HUBpinion, FREQUENCY=1000\nRF\n")
-        file.writelines(f"*CONTACT PRINT, SLAVE=p_{a}, MASTER=w_{b}, FREQUENCY=1000\nCF\n" for a, b in pairs)
+        file.writelines(f"*CONTACT PRINT, SLAVE={slave}, MASTER={master}, FREQUENCY=1000\nCF\n" for slave, _, _, master, _, _ in areas)
         file.write("*END STEP\n")
 
 
@@ -162,7 +168,7 @@ def calculix(folder, meshes, state, name, stiffness):
     job = f"ccx_{name}_{stiffness:.3g}"
     pairs = pairs_of(meshes, X)
     if not os.path.exists(os.path.join(folder, job + ".frd.done")):
-        write_deck(os.path.join(folder, job + ".inp"), meshes, X, state, pairs, stiffness)
+        write_deck(os.path.join(folder, job + ".inp"), meshes, X, state, areas_of(meshes, pairs), stiffness)
         run(["ccx", job], folder, job + ".log")
         open(os.path.join(folder, job + ".frd.done"), "w", encoding="ascii").close()
     return read_prints(os.path.join(folder, job + ".dat"), X["pinion"] @ turn(state.turned).T - state.r["pinion"])

@@ -1,11 +1,12 @@
 // Meshes of some teeth of the test gears C14 (examples/drives/spur_c14.yaml) with fine flanks, for
 // spur_pair_calculix.py:
 //
-//   spur_pair_mesh FOLDER FLANK TOOTH LAYERS TEETH
+//   spur_pair_mesh FOLDER FLANK TOOTH LAYERS TEETH [PINION_LAYERS PINION_WIDTH]
 //
 // FLANK rows of faces up each flank, TOOTH columns across a tooth, LAYERS across the face, TEETH of each
-// gear, those nearest to the mate. Writes FOLDER/pinion.inp and FOLDER/wheel.inp, in the gears' body frames,
-// with the sets of whole gears, and the node set hub: the bore, and where the teeth are cut from the disc.
+// gear, those nearest to the mate. PINION_LAYERS and PINION_WIDTH, m, are the pinion's own. Writes
+// FOLDER/pinion.inp and FOLDER/wheel.inp, in the gears' body frames, with the sets of whole gears, and the
+// node set hub: the bore, and where the teeth are cut from the disc.
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +24,16 @@ namespace {
 using namespace elastogear;
 using std::numbers::pi;
 
-gear::CylindricalDrive c14() {
+constexpr double kWidth = 14e-3;  // m, of a face
+
+gear::CylindricalDrive c14(double pinion_width) {
   gear::CylindricalDrive drive;
   drive.m_n = 4.5e-3;
   drive.rack = gear::basic_rack("A");
   drive.gears = {{.name = "pinion", .z = 16, .x = 0.1817, .r_a = 82.635e-3 / 2},
                  {.name = "wheel", .z = 24, .x = 0.1715, .r_a = 118.544e-3 / 2}};
-  for (gear::CylindricalGear& each : drive.gears) each.blank.face_width = 14e-3;
+  for (gear::CylindricalGear& each : drive.gears) each.blank.face_width = kWidth;
+  drive.gears[0].blank.face_width = pinion_width;
   drive.pairs = {{.a = 91.5e-3}};
   return drive;
 }
@@ -82,12 +86,15 @@ mesh::Mesh sectors(const mesh::Mesh& whole, int z, int first, int teeth) {
   return part;
 }
 
-void write(const std::string& folder, const gear::WheelCounts& counts, int teeth) {
-  const gear::CylindricalDrive drive = c14();
+void write(const std::string& folder, gear::WheelCounts counts, int teeth, int pinion_layers,
+           double pinion_width) {
+  const int layers = counts.web_layers;
+  const gear::CylindricalDrive drive = c14(pinion_width);
   const gear::CylindricalGeometry g = gear::derive(drive);
   const std::vector<double> angle = gear::angles(drive, g, 0.5);
   for (int i = 0; i < 2; ++i) {
     const int first = nearest_tooth(g, angle, i) - teeth / 2 + g.gear[i].z;
+    counts.web_layers = i == 0 ? pinion_layers : layers;
     const mesh::Mesh part = sectors(gear::cylindrical_mesh(drive, g, i, counts), g.gear[i].z, first, teeth);
     mesh::write_mesh(folder + "/" + drive.gears[i].name + ".inp", part);
     std::printf("%s: %d nodes, %d cells\n", drive.gears[i].name.c_str(), part.n_nodes(), part.cells.size());
@@ -97,12 +104,17 @@ void write(const std::string& folder, const gear::WheelCounts& counts, int teeth
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6) return std::fprintf(stderr, "usage: spur_pair_mesh FOLDER FLANK TOOTH LAYERS TEETH\n"), 2;
+  if (argc != 6 && argc != 8) {
+    std::fprintf(stderr,
+                 "usage: spur_pair_mesh FOLDER FLANK TOOTH LAYERS TEETH [PINION_LAYERS PINION_WIDTH]\n");
+    return 2;
+  }
   gear::WheelCounts counts{
       .tooth = std::atoi(argv[3]), .space = 3, .flank = std::atoi(argv[2]), .fillet = 3, .rim = 2, .ring = 3};
   counts.web_layers = std::atoi(argv[4]);
   try {
-    write(argv[1], counts, std::atoi(argv[5]));
+    write(argv[1], counts, std::atoi(argv[5]), argc == 8 ? std::atoi(argv[6]) : counts.web_layers,
+          argc == 8 ? std::atof(argv[7]) : kWidth);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
