@@ -73,7 +73,7 @@ std::vector<SetHistory> read_histories(const Options& options, const Drive& driv
   }
   report(progress, "stresses", 1);
   for (const auto& [body, sets] : settings.sets)
-    if (std::ranges::none_of(all, [&](const SetHistory& h) { return h.member->name == body; }))
+    if (std::ranges::none_of(all, [&, &body = body](const SetHistory& h) { return h.member->name == body; }))
       print_item("note", body + ": no life, it is rigid in the run");
   require(!all.empty(), "all gears are rigid in the run: they have no stresses and no life");
   return all;
