@@ -3,7 +3,7 @@
 
     studies/face_ends_calculix.py --elastogear build/release/src/app/elastogear --mesh build/release/studies/spur_pair_mesh --out face_ends
 
-Test gears C14 (examples/drives/spur_c14.yaml) at a roll angle where one pair of teeth bears. elastogear takes its default contact and
+Test gears C14 (examples/drives/spur_c14.yaml) at a roll angle where one pair of teeth is loaded. elastogear takes its default contact and
 elements of size tiny. CalculiX has some teeth of each gear by spur_pair_mesh, the wheel's flank cut into its layers, each of which is a
 slave of its own on the pinion's flank: the force on each is printed. Loads are over their mean.
 """
