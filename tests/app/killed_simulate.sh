@@ -88,7 +88,7 @@ done
 grep -Eq "error: .*ts_dt 1e-6 \(was 2e-6\)" run.log || { cat run.log; fail "the message on another step"; }
 
 # Options of other verbs, as a shared file has them, are no other input.
-"${simulate[@]}" -output cut.h5 -stress_low FIX -recover_csv all >run.log 2>&1 || { cat run.log; fail "the last run"; }
+"${simulate[@]}" -output cut.h5 -recover_stress_low FIX -recover_csv all >run.log 2>&1 || { cat run.log; fail "the last run"; }
 [ -e cut.h5.partial ] && fail "the folder of parts stays"
 echo "killed 20 times, the last time in a run that continued after $reached s"
 compare whole.h5 cut.h5 || fail "the result files differ"

@@ -112,7 +112,7 @@ def main():
         assert made(run("drive.yaml", ranks=2)) == (True, True)
         assert made(run("drive.yaml")) == (False, False)
         # Bodies that were made anew by their own verb have another result.
-        run("reduce", "drive.yaml", "-modes", "5")
+        run("reduce", "drive.yaml", "-modes", "8")
         assert made(run("drive.yaml")) == (False, True)
         accurate()
         page()
