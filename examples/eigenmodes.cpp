@@ -107,7 +107,9 @@ int main(int argc, char** argv) {
   const Session session(argc, argv);
   try {
     Membrane membrane;
-    check(PetscOptionsGetInt(nullptr, nullptr, "-cells", &membrane.cells, nullptr));
+    PetscInt cells = membrane.cells;
+    check(PetscOptionsGetInt(nullptr, nullptr, "-cells", &cells, nullptr));
+    membrane.cells = static_cast<int>(cells);
     reduction::register_block_lanczos();
     return solve(membrane) ? 0 : 1;
   } catch (const std::exception& error) {
