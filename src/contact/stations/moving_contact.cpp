@@ -352,13 +352,15 @@ double change_of_potential(const ToothContact& contact, const Eigen::VectorXd& f
   const double time = rate_time(contact.flanks, contact.placement, twist);
   if (time == 0) return change;
   const NearestPlace& first = contact.places.front();
-  const RelativePlacement then = moved(contact.placement, twist, time);
-  const ToothContact there = make_contact(
-      *contact.pair, {contact.flanks, {contact.side[0].mesh, contact.side[1].mesh}, contact.ends}, then,
-      places_of(*contact.pair, contact.flanks, contact.ends, then, {first.v, first.face.centre()}),
-      contact.number, {&contact.side[0].moving.node, &contact.side[1].moving.node});
-  return change +
-         (potential_beside_flanks(there, f, of_nodes) - potential_beside_flanks(contact, f, of_nodes)) / time;
+  const auto potential_after = [&](double t) {
+    const RelativePlacement then = moved(contact.placement, twist, t);
+    const ToothContact there = make_contact(
+        *contact.pair, {contact.flanks, {contact.side[0].mesh, contact.side[1].mesh}, contact.ends}, then,
+        places_of(*contact.pair, contact.flanks, contact.ends, then, {first.v, first.face.centre()}),
+        contact.number, {&contact.side[0].moving.node, &contact.side[1].moving.node});
+    return potential_beside_flanks(there, f, of_nodes);
+  };
+  return change + (potential_after(time) - potential_after(-time)) / (2 * time);
 }
 
 }  // namespace elastogear::contact

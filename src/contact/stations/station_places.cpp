@@ -117,18 +117,18 @@ PlaceRates place_rates(const FlankPair& flanks, const RelativePlacement& placeme
   const FlankGap here(flanks, placement);
   const double small = kRateStep * here.height(), v = std::max(place.v, 2 * small);
   const double bend = here.slope_v(v + small, z) - here.slope_v(v - small, z);
-  const RelativePlacement then = moved(placement, twist, time);
-  const FlankGap there(flanks, then);
+  const RelativePlacement earlier = moved(placement, twist, -time), later = moved(placement, twist, time);
+  const FlankGap before(flanks, earlier), after(flanks, later);
   PlaceRates rates{};
   const bool is_free = place.v > here.low() && place.v < here.high();
-  if (is_free && bend > 0) rates.v = -(there.slope_v(v, z) - here.slope_v(v, z)) * 2 * small / bend / time;
-  const double to = v + time * rates.v;
-  const FlankGap::Seen seen_here = here.seen(v, z), seen_there = there.seen(to, z);
-  const Eigen::Vector3d n_here = here.mate_normal(seen_here), n_there = there.mate_normal(seen_there);
-  rates.mate_v = (seen_there.mate.v - seen_here.mate.v) / time;
-  rates.mate_n = (n_there - n_here) / time;
-  rates.n = (then.R * n_there - placement.R * n_here) / time;
-  rates.opening = (opens(there, to, z, h) - opens(here, v, z, h)) / time;
+  if (is_free && bend > 0) rates.v = -(after.slope_v(v, z) - before.slope_v(v, z)) * small / bend / time;
+  const double way = time * rates.v, span = 2 * time;
+  const FlankGap::Seen from = before.seen(v - way, z), to = after.seen(v + way, z);
+  const Eigen::Vector3d n_from = before.mate_normal(from), n_to = after.mate_normal(to);
+  rates.mate_v = (to.mate.v - from.mate.v) / span;
+  rates.mate_n = (n_to - n_from) / span;
+  rates.n = (later.R * n_to - earlier.R * n_from) / span;
+  rates.opening = (opens(after, v + way, z, h) - opens(before, v - way, z, h)) / span;
   return rates;
 }
 
