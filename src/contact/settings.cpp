@@ -44,7 +44,7 @@ void validate(const FrictionSettings& s) {
           ", on");
   require(std::isfinite(s.v_0) && s.v_0 >= 0, "contact: friction speed ", s.v_0, " m/s must not be negative");
   require(s.mu == 0 || s.law == FrictionLaw::stick || s.v_0 > 0,
-          "contact: regularised friction needs the speed below which it fades (m/s, > 0)");
+          "contact: regularised friction needs the speed below which it fades, friction_speed (m/s, > 0)");
   require(std::isfinite(s.stiffness) && s.stiffness > 0, "contact: tangential stiffness ", s.stiffness,
           " must be positive");
 }

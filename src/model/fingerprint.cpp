@@ -73,4 +73,6 @@ std::string fingerprint(const ElasticBody& body) {
 
 std::string identity_key(const std::string& body) { return "identity_" + body; }
 
+std::string rigid_key(const std::string& body) { return "rigid_" + body; }
+
 }  // namespace elastogear::model

@@ -17,9 +17,12 @@ bool says(const Provenance& provenance, const std::string& key, const std::strin
   return found != provenance.end() && found->second == value;
 }
 
-// A body of static responses alone has no elastic coordinates, either, and is not rigid.
+// A body of static responses alone has no elastic coordinates, either, and is not rigid. Results of version
+// 0.1.0 say it themselves; before, options did.
 bool is_rigid(const BodyOfRun& body, const Provenance& of_run) {
   if (body.history.q.rows() > 0) return false;
+  if (const auto said = of_run.find(model::rigid_key(body.name)); said != of_run.end())
+    return said->second == "true";
   if (says(of_run, "option_" + body.name + "_rigid", "true") || !std::filesystem::is_regular_file(body.file))
     return true;
   return !says(io::read_provenance(body.file), "option_modes", "0");
@@ -46,11 +49,11 @@ void require_body_of_run(const model::ElasticBody& elastic, const BodyOfRun& bod
   const Eigen::Index n_q = body.history.q.rows();
   const std::string remedy =
       "name the body file of the run by option -" + body.name + "_file, or run simulate with this one";
-  require(elastic.n_q() == n_q, body.file, ": ", elastic.n_q(), " elastic coordinates, body '", body.name,
-          "' of ", body.result, " has ", n_q, body.rigid ? " (it is rigid there)" : "", ": ", remedy);
-  require(body.history.w.rows() == n_q * static_cast<Eigen::Index>(elastic.relaxing.size()), body.file,
-          ": has ", elastic.relaxing.size(), " parts that relax, body '", body.name, "' of ", body.result,
-          " has others: ", remedy);
+  require(body.rigid || elastic.n_q() == n_q, body.file, ": ", elastic.n_q(), " elastic coordinates, body '",
+          body.name, "' of ", body.result, " has ", n_q, ": ", remedy);
+  require(body.rigid || body.history.w.rows() == n_q * static_cast<Eigen::Index>(elastic.relaxing.size()),
+          body.file, ": has ", elastic.relaxing.size(), " parts that relax, body '", body.name, "' of ",
+          body.result, " has others: ", remedy);
   require(body.identity.empty() || model::fingerprint(elastic) == body.identity, body.file,
           ": is not the body '", body.name, "' of ", body.result,
           ": mesh, material, restraint, surface, markers or basis differ, and its elastic coordinates mean "

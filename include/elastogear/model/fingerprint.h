@@ -13,5 +13,7 @@ std::string fingerprint(const ElasticBody& body);
 
 /// Key of the provenance of a result: fingerprint of what the file of this body held.
 std::string identity_key(const std::string& body);
+/// The same: "true" where the body is rigid in the run, whatever its file holds, and "false".
+std::string rigid_key(const std::string& body);
 
 }  // namespace elastogear::model

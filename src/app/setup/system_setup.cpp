@@ -11,6 +11,7 @@
 #include "app/tables/marker_options.h"
 #include "elastogear/base/error.h"
 #include "elastogear/dynamics/station_choice.h"
+#include "elastogear/model/fingerprint.h"
 
 namespace elastogear::app {
 namespace {
@@ -57,8 +58,10 @@ const Rows<Environment> kEnvironmentRows = {
 };
 
 // Why flanks touch as the mesh has it, where nobody asks for that: what one pair lacks all of them lack.
+// Flanks of rigid gears are never too stiff.
 void print_what_lacks(const Options& options, const dynamics::SystemModel& system) {
-  if (options.text("contact_points") != "stations") return;
+  if (options.text("contact_points") != "stations" || std::ranges::all_of(system.bodies, dynamics::is_rigid))
+    return;
   for (const dynamics::PairSetup& pair : system.pairs) {
     if (pair.settings.points == contact::SlavePoints::stations) continue;
     const std::string lacks = dynamics::lacks_for_stations(system, pair);
@@ -102,6 +105,8 @@ model::ResultHeader result_header(const Options& options, const dynamics::System
   header.provenance = options.provenance();
   std::map<std::string, std::string> identities;
   for (const auto& [name, body] : known) identities[name] = body.identity;
+  for (const dynamics::SystemModel::Body& body : system.bodies)
+    header.provenance[model::rigid_key(body.name)] = dynamics::is_rigid(body) ? "true" : "false";
   add_inputs(options, identities, header.provenance);
   return header;
 }

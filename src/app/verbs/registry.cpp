@@ -29,19 +29,26 @@ OptionTable all_options(const std::vector<Verb>& verbs) {
 // Verbs that make what the others read. Their options may describe a drive on any command line.
 const std::vector<std::string> kMakers = {"run", "mesh", "reduce", "simulate"};
 
-// Options of the command line that other verbs alone would read are mistakes. Files may serve several verbs.
+bool is_of_section(const std::vector<Verb>& verbs, const std::string& name) {
+  return std::ranges::any_of(verbs, [&](const Verb& verb) {
+    return name.starts_with(verb.name + "_") && has(verb.table, name.substr(verb.name.size() + 1));
+  });
+}
+
+// Options of the command line that other verbs alone would read are mistakes. Files may serve several verbs,
+// and so may options with the name of their verb, "-recover_csv".
 void require_read(const Verb& verb, const std::vector<Verb>& verbs, const OptionSources& sources) {
-  if (verb.name == "run") return;  // it calls all others
   for (const GivenOption& option : given_options(sources.argc, sources.argv)) {
-    if (!option.place.empty()) continue;
+    if (!option.place.empty() || is_of_section(verbs, option.name)) continue;
     std::vector<std::string> readers;
     for (const Verb& each : verbs)
       if (has(each.table, option.name)) readers.push_back(each.name);
     const auto serves = [&](const std::string& reader) {
-      return reader == verb.name || std::ranges::find(kMakers, reader) != kMakers.end();
+      return reader == verb.name || (verb.name == "run" && reader == "evaluate") ||
+             std::ranges::find(kMakers, reader) != kMakers.end();
     };
-    require(readers.empty() || std::ranges::any_of(readers, serves), "option -", option.name, " = '",
-            option.value, "' is one of ", join(readers, ", "), ": ", verb.name, " does not read it");
+    require(readers.empty() || std::ranges::any_of(readers, serves), "option -", option.name, " belongs to ",
+            join(readers, " and "), "; ", verb.name, " does not read it");
   }
 }
 

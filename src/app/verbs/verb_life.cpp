@@ -64,9 +64,12 @@ std::vector<SetHistory> read_histories(const Options& options, const Drive& driv
   for (const SweptTorque& at : swept) {
     report(progress, "stresses", static_cast<double>(&at - swept.data()) / static_cast<double>(swept.size()));
     std::vector<SweptStress> read = read_stresses(settings, at);
-    all.resize(read.size());
+    if (&at == swept.data()) all.resize(read.size());
+    require(read.size() == all.size(), at.file, ": other gears are rigid there than in ", swept.front().file);
     for (std::size_t i = 0; i < read.size(); ++i) {
       all[i].member = &member_of(options, drive, read[i].body);
+      require(all[i].at.empty() || all[i].place.body == read[i].body, at.file, ": ", read[i].body,
+              " is not rigid there as in ", swept.front().file);
       all[i].body_file = body_file_of(options, *all[i].member, at);
       add(all[i], drive, at.file, std::move(read[i]));
     }
@@ -75,7 +78,7 @@ std::vector<SetHistory> read_histories(const Options& options, const Drive& driv
   for (const auto& [body, sets] : settings.sets)
     if (std::ranges::none_of(all, [&, &body = body](const SetHistory& h) { return h.member->name == body; }))
       print_item("note", body + ": no life, it is rigid in the run");
-  require(!all.empty(), "all gears are rigid in the run: they have no stresses and no life");
+  require(!all.empty(), "all gears whose stresses are wanted are rigid in the run: they have no life");
   return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "app/console/console.h"
@@ -14,6 +15,8 @@
 #include "app/verbs/recover_tables.h"
 #include "elastogear/base/error.h"
 #include "elastogear/base/log_stage.h"
+#include "elastogear/base/text.h"
+#include "elastogear/io/body_file.h"
 #include "elastogear/io/describe.h"
 #include "elastogear/io/result_file.h"
 #include "elastogear/io/stress_file.h"
@@ -29,6 +32,7 @@ struct Run {
   std::string result;
   Eigen::VectorXd time;
   std::vector<RecoveredBody> bodies;
+  std::set<std::string> rigid = {};  // bodies, which have no stresses
 };
 
 // Share of a list that lies before an item, 0 .. 1.
@@ -58,6 +62,10 @@ Run read_run(const RecoverSettings& settings, const Progress& progress) {
   std::vector<recovery::BodyOfRun> bodies = recovery::read_bodies_of_run(run.result, settings.body_file);
   for (recovery::BodyOfRun& body : bodies) {
     report(progress, "static responses", share(bodies, body));
+    if (body.rigid) {
+      run.rigid.insert(body.name);
+      if (!body.file.empty() && io::read_body(body.file).n_q() > 0) continue;  // nor has it fields
+    }
     const bool with_error = needs_error(settings, body.name);
     run.bodies.push_back(recovery::prepare_recovery(std::move(body), settings.mode_acceleration, with_error,
                                                     finite_elements()));
@@ -100,6 +108,7 @@ void write_stresses(const Options& options, const RecoverSettings& settings, Run
   double done = 0;
   for (const auto& [name, sets] : settings.stress) {
     report(progress, "stresses", done++ / static_cast<double>(settings.stress.size()));
+    if (run.rigid.contains(name)) continue;
     RecoveredBody& body = find_body(run, name);
     const model::ElasticBody elastic = read_elastic_body(body.run);
     for (const std::string& set : sets) {
@@ -109,12 +118,14 @@ void write_stresses(const Options& options, const RecoverSettings& settings, Run
   }
   require(!file.sets.empty(),
           "option -stress_<body> is missing: node sets whose stress histories are wanted, e.g. "
-          "-stress_",
-          run.bodies.front().run.name, " root");
+          "-stress_<body> root; rigid bodies have none: ",
+          join(run.rigid));
   report(progress, "stresses", 1);
+  for (const std::string& name : run.rigid)
+    if (settings.stress.contains(name)) print_item("note", name + ": no stresses, it is rigid in the run");
   for (const auto& [body, response, reference, finite_elements] : run.bodies)
     if (const auto sets = settings.stress.find(body.name);
-        !body.file.empty() && (sets == settings.stress.end() || sets->second.empty()))
+        !body.file.empty() && !body.rigid && (sets == settings.stress.end() || sets->second.empty()))
       print_item("not recovered", body.name + ": -stress_" + body.name + " names no sets");
   io::write_stress(settings.output, file);
   print_item("written", settings.output);
