@@ -47,7 +47,7 @@ Forces tooth_load(const mesh::Mesh& mesh) {
 Eigen::VectorXd solve(const test::System& system, const Eigen::VectorXd& f) {
   UniqueVec y, x;
   check(MatCreateVecs(system.matrices.K, x.out(), y.out()));
-  for (int row = 0; row < static_cast<int>(system.rows.node.size()); ++row) {
+  for (PetscInt row = 0; row < static_cast<PetscInt>(system.rows.node.size()); ++row) {
     check(VecSetBlockSize(y, 3));
     check(VecSetValuesBlocked(y, 1, &row, f.data() + 3 * system.rows.node[row], INSERT_VALUES));
   }
