@@ -105,10 +105,14 @@ void write_stresses(const Options& options, const RecoverSettings& settings, Run
   const StressTimes times{run.time, io::time_axis(io::read_provenance(settings.result))};
   io::StressFile file{run.time, {}, provenance_of_stresses(options, settings.result)};
   std::vector<const RecoveredBody*> owner;
+  std::vector<std::string> without;
   double done = 0;
   for (const auto& [name, sets] : settings.stress) {
     report(progress, "stresses", done++ / static_cast<double>(settings.stress.size()));
-    if (run.rigid.contains(name)) continue;
+    if (run.rigid.contains(name)) {
+      without.push_back(name);
+      continue;
+    }
     RecoveredBody& body = find_body(run, name);
     const model::ElasticBody elastic = read_elastic_body(body.run);
     for (const std::string& set : sets) {
@@ -116,13 +120,14 @@ void write_stresses(const Options& options, const RecoverSettings& settings, Run
       owner.push_back(&body);
     }
   }
+  require(!file.sets.empty() || without.empty(), run.result, ": no stresses of ", join(without),
+          ", rigid in the run");
   require(!file.sets.empty(),
           "option -stress_<body> is missing: node sets whose stress histories are wanted, e.g. "
-          "-stress_<body> root; rigid bodies have none: ",
-          join(run.rigid));
+          "-stress_",
+          run.bodies.front().run.name, " root");
   report(progress, "stresses", 1);
-  for (const std::string& name : run.rigid)
-    if (settings.stress.contains(name)) print_item("note", name + ": no stresses, it is rigid in the run");
+  for (const std::string& name : without) print_item("note", name + ": no stresses, it is rigid in the run");
   for (const auto& [body, response, reference, finite_elements] : run.bodies)
     if (const auto sets = settings.stress.find(body.name);
         !body.file.empty() && !body.rigid && (sets == settings.stress.end() || sets->second.empty()))
