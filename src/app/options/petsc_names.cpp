@@ -44,9 +44,13 @@ bool is_name(std::string_view text) {
          std::all_of(text.begin(), text.end(), may_be_in_name);
 }
 
+// In small letters; numbers are "%d", which with 64-bit indices are "%lld" or "%ld".
 std::string folded(std::string_view name) {
   std::string small(name);
   std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const std::string_view number : {"%lld", "%ld"})
+    for (auto at = small.find(number); at != std::string::npos; at = small.find(number, at))
+      small.replace(at, number.size(), "%d");
   return small;
 }
 
