@@ -162,22 +162,18 @@ TEST_P(HobbedWheel, is_meshed_on_its_exact_flanks_with_good_cells) {
   }
 }
 
-// Where flank and fillet meet, a section's radius is that of both but for roundoff: in none of many designs
-// may the mesh take the wrong one.
-TEST(HobbedWheel, is_meshed_on_its_exact_flanks_in_many_designs) {
-  for (int k = 0; k < 60; ++k) {
-    const double module = 1e-3 + 0.05e-3 * k, quotient = 8 + 0.05 * (k * 7 % 60);
-    const int z2 = 28 + k % 14;
-    const double a = module / std::cos(std::atan(1 / quotient)) * (quotient + z2) / 2;
-    Design d = proportioned(module, pi / 9, 1, z2, a);
-    d.flank = k % 2 == 0 ? FlankForm::ZN : FlankForm::ZA, d.wheel_form = WheelForm::throated;
-    d.face_width = 7.5 * module;
-    const Geometry g = derive(d);
-    const mesh::Mesh mesh = wheel_mesh(d, wheel_counts(Size::tiny));
-    for (int side : {-1, 1})
-      EXPECT_LT(largest_distance(mesh, side > 0 ? "tooth_01_left" : "tooth_01_right", g.wheel, 0, side), 1e-9)
-          << k;
-  }
+// At the ends of this face the radius at which the mesh begins the flank is that of the fillet's end but for
+// roundoff, which put nodes 0.4 mm off both.
+TEST(HobbedWheel, is_meshed_on_its_flank_where_that_meets_the_fillet) {
+  constexpr double kModule = 1.9e-3, kQuotient = 8.2;
+  const double a = kModule / std::cos(std::atan(1 / kQuotient)) * (kQuotient + 40) / 2;
+  Design d = proportioned(kModule, pi / 9, 1, 40, a);
+  d.flank = FlankForm::ZN, d.wheel_form = WheelForm::throated;
+  d.face_width = 7.75 * kModule;
+  const Geometry g = derive(d);
+  const mesh::Mesh mesh = wheel_mesh(d, wheel_counts(Size::tiny));
+  for (int side : {-1, 1})
+    EXPECT_LT(largest_distance(mesh, side > 0 ? "tooth_01_left" : "tooth_01_right", g.wheel, 0, side), 1e-9);
 }
 
 // The gap between the worm's flank and the wheel's teeth, turned until they touch, is 0 at any angle in line

@@ -44,7 +44,8 @@ double left_angle(const Hob& h, const HobbedSection& s, double r) {
   if (r >= s.r_form) return hobbed_half_angle(h, r, s.z).psi;
   const double begin = arc_begin(h);
   if (r <= s.r_f) return cut(h, arc_point(h, pi / 2), s.z).angle;
-  // Where flank and arc meet their radii are equal but for roundoff, and r may lie between them.
+  // r_form is the radius of the flank's end. That of the arc's end differs from it by roundoff, and between
+  // both the arc has no point of radius r.
   if (const Cut end = cut(h, arc_point(h, begin), s.z); r >= end.r) return end.angle;
   const double b =
       bracketed_zero([&](double at) { return cut(h, arc_point(h, at), s.z).r - r; }, begin, pi / 2);
