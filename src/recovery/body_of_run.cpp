@@ -17,8 +17,8 @@ bool says(const Provenance& provenance, const std::string& key, const std::strin
   return found != provenance.end() && found->second == value;
 }
 
-// A body of static responses alone has no elastic coordinates, either, and is not rigid. Results of version
-// 0.1.0 say it themselves; before, options did.
+// A body of static responses alone has no elastic coordinates, either, and is not rigid. Results that do not
+// say which bodies are rigid have the options of their run.
 bool is_rigid(const BodyOfRun& body, const Provenance& of_run) {
   if (body.history.q.rows() > 0) return false;
   if (const auto said = of_run.find(model::rigid_key(body.name)); said != of_run.end())
